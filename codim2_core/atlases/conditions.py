@@ -19,7 +19,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bifurcations.implicit_curve import Condition
+from ..curves.newton import Condition
 from .family import Family
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bifurcations.implicit_curve import Traced, zero_between
+from ..curves.arclength import Traced, zero_between
 from . import conditions, plane_conditions, special, starts, tracing
 from .degenerate import Line
 from .family import Family

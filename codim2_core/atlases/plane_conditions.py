@@ -9,7 +9,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bifurcations.implicit_curve import Condition
+from ..curves.newton import Condition
 from .family import AXES, Family
 
 Array = NDArray[np.float64]

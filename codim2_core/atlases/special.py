@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bifurcations.implicit_curve import solved, zero_between
+from ..curves.arclength import zero_between
+from ..curves.newton import newton
 from ..words import say
 from . import conditions
 from .conditions import OnEquator, Within
@@ -169,7 +170,7 @@ def _met(one: Followed, other: Followed, j: int, k: int) -> Array | None:
         return np.append(first, second), slopes
 
     start = np.concatenate([one.points[j, : n - 2], other.points[k, : m - 2], one.plane[j]])
-    found = solved(both, start, REACH * 10.0)
+    found = newton(both, start, REACH * 10.0)
     if found is None or found[-2:].min() < -ASIDE or found[-2:].max() > 1.0 + ASIDE:
         return None
     if n == m and np.abs(_apart(found[: n - 2] - found[n - 2 : -2], n)).max(initial=0.0) < SAME and n > 2:
@@ -206,5 +207,5 @@ def each_once(found: Sequence[Special]) -> list[Special]:
 
 def polished_corner(family: Family, v: Array) -> Array:
     """Return a corner to all digits."""
-    found = solved(conditions.equator_corner(family), v, SAME * 1e3)
+    found = newton(conditions.equator_corner(family), v, SAME * 1e3)
     return v if found is None else found

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bifurcations.implicit_curve import Condition
+from ..curves.newton import Condition
 from ..diagrams.class_maps.families import classes_over
 from ..layer_problem.critical import critical_sets
 from ..numerics.root_between import root_between

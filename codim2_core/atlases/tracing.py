@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bifurcations.implicit_curve import Condition, Edge, Steps, Traced, solved, tangent, traced
+from ..curves.arclength import Edge, Steps, Traced, tangent, trace_curve
+from ..curves.newton import Condition, newton
 from . import conditions, starts
 from .family import NEAR, Family
 
@@ -171,7 +172,7 @@ def _beside(family: Family, corner: Array, level: float) -> Array | None:
         rows = [*at.U_slopes, at.trace_slopes(ratio.bend, 0.0, (0.0, 0.0)), (2.0 * v[0], 2.0 * v[1], 0.0, 0.0)]
         return np.array(value), np.array(rows)
 
-    return solved(condition, start, LAST)
+    return newton(condition, start, LAST)
 
 
 def in_the_plane(kind: str, condition: Condition, cells: Array) -> Found:
@@ -200,7 +201,7 @@ def _to_equator(family: Family, one: Followed) -> Followed:
     for end, i in zip(one.curve.ends, (0, -1), strict=True):
         if end == "equator":
             c, s, *place = points[i].tolist()
-            found = solved(corner, np.array([math.atan2(s, c), *place]), LAST)
+            found = newton(corner, np.array([math.atan2(s, c), *place]), LAST)
             if found is not None:
                 last = np.array([[math.cos(found[0]), math.sin(found[0]), *found[1:]]])
                 points = np.concatenate([last, points] if i == 0 else [points, last])
@@ -226,7 +227,7 @@ def _curves(
             return False
         if any(edge.of(at)[0] > 0.0 for edge in one.edges) or _lies_on([c for o, c in found if o is one], at, steps):
             return True
-        curve = traced(one.condition, at, one.edges, steps)
+        curve = trace_curve(one.condition, at, one.edges, steps)
         if curve is None or len(curve.points) < 2 or not all(one.true(v) for v in curve.points):
             return False
         found.append((one, Followed(one.kind, one.condition, curve)))
@@ -256,7 +257,7 @@ def _beside_curve(points: Array, cells: Array, reach: Array, steps: Steps) -> ND
 
 def _regular(one: Sought, start: Array, reach: float) -> Array | None:
     """Find a regular point of a kind of curve."""
-    found = solved(one.condition, start, reach)
+    found = newton(one.condition, start, reach)
     if found is None or tangent(one.condition, found) is None or not one.true(found):
         return None
     return found

@@ -3,24 +3,28 @@
 from __future__ import annotations
 
 import math
-from functools import cached_property
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..continuation.branches import folds_along
+from ..continuation.columns import AMPLITUDE, HEIGHT
 from ..continuation.varied_system import Straight
+from ..cycles.section import Section
+from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
-from .equator import neutral_loop
-from .fold import Fold, FoldGuess, null_vector
-from .fold_of_cycles import OUTWARD, SMALL, STEP, Asking, Folds
+from .equator import coefficients_at, neutral_loop
+from .fold_of_cycles import Folds
 from .geometry import Geometry
 from .trace import hopf
 
+SMALLEST = 2e-3  # amplitude of a cycle that is all but C
 SMALLER = 0.05  # amplitude below which a branch that breaks off beside a generalised Hopf point ends there
-FIRST = 0.02  # chi of the first point beside a generalised Hopf point
-ARRIVED, FLAT = 2e-3, 0.02  # in A^-1 f, ebar: a branch need not be followed closer to where it ends
+FIRST = 0.02, 0.006, 0.06  # of the reach: places on the section beside a generalised Hopf point that are tried
+BESIDE, SAME = 0.08, 1e-9  # in A^-1 f: a curve passes; points are one
 NEAR = 0.03  # in A^-1 f: a branch that breaks off this close to a corner ends there
 LINES = 6  # across the disc of critical sets, on which folds are looked for
 TOUCHING = say("fold ends, saddle-node")
@@ -61,66 +65,51 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     found = _Curves(a, b, d, psi, points)
     found.from_hopf()
     found.from_lines()
-    name = "folds of cycles" if found.branches else "folds of cycles: none"
-    sentence = say("two cycles meet") if found.branches else say("no fold of cycles", lines=LINES)
-    return BifurcationCurve(
-        "fold of cycles", name, label, frozen(found.branches), tuple(found.special), frozen(found.sizes), sentence
-    )
+    lines, sizes, special = found.result()
+    name = "folds of cycles" if lines else "folds of cycles: none"
+    sentence = say("two cycles meet") if lines else say("no fold of cycles", lines=LINES)
+    return BifurcationCurve("fold of cycles", name, label, frozen(lines), tuple(special), frozen(sizes), sentence)
+
+
+@dataclass(frozen=True, eq=False)
+class _Curve:
+    """A curve over e, and the generalised Hopf points at which it ends."""
+
+    e: Array
+    sizes: Array
+    special: list[tuple[str, Array, str]]
+    born: list[int]
 
 
 class _Curves:
-    """Curves found so far, with their mirror images at -f."""
+    """Curves found so far over e; at -e there are the same."""
 
     def __init__(self, a: float, b: float, d: float, psi: Psi, points: list[Array]) -> None:
-        self.plane, self.psi, self.points = (a, b, d), psi, points
+        self.plane, self.psi = (a, b, d), psi
         self.A = np.array([[a, -b], [b, d]])
-        self.branches: list[Array] = []
-        self.sizes: list[Array] = []
-        self.special: list[SpecialPoint] = []
-        self.used: list[Array] = []
+        self.points = [self._e(f) for f in points]  # generalised Hopf points
+        self.corners = [self._e(f) for f in map(Geometry(a, b, d).saddle_node_at, Geometry(a, b, d).touching)]
+        self.found: list[_Curve] = []
+        self.missed: list[tuple[str, Array, str]] = []
 
-    @cached_property
-    def touching(self) -> list[float]:
-        """Angles where the saddle-node curve touches the ellipse."""
-        return Geometry(*self.plane).touching
+    def _e(self, f: Sequence[float] | Array) -> Array:
+        return np.asarray(-np.linalg.solve(self.A, f), float)
 
-    @cached_property
-    def corners(self) -> list[Array]:
-        """Where the saddle-node curve touches the ellipse, in (f1, f2)."""
-        return [np.array(Geometry(*self.plane).saddle_node_at(t)) for t in self.touching]
-
-    def near(self, f: Array, g: Array) -> float:
-        """Distance in A^-1 f."""
-        return float(np.hypot(*np.linalg.solve(self.A, f - g)))
+    def result(self) -> tuple[list[Array], list[Array], list[SpecialPoint]]:
+        """Return lines in f, sizes of the cycles along them, and special points."""
+        both = [(one, sign) for one in self.found for sign in (1.0, -1.0)]
+        told = [*(point for one in self.found for point in one.special), *self.missed]
+        special = [SpecialPoint(k, place(-sign * self.A @ e), text) for k, e, text in told for sign in (1.0, -1.0)]
+        return [-sign * one.e @ self.A.T for one, sign in both], [one.sizes for one, _ in both], special
 
     def from_hopf(self) -> None:
-        """Begin beside the generalised Hopf points, of each pair at f and -f one, all side by side."""
-        starts: list[Array] = []
-        for f in self.points:
-            if not any(self.near(sign * f, g) < 1e-6 for g in starts for sign in (1.0, -1.0)):
-                starts.append(f)
-        ways = Folds(*self.plane, self.psi).together([self._beside(f) for f in starts])
-        for f, way in zip(starts, ways, strict=True):
-            if any(self.near(f, g) < 1e-6 for g in self.used):
-                continue  # a curve has ended there
-            self.used += [f, -f]
-            if way is None:
-                text = say("fold not caught")
-                self.special += [SpecialPoint("undecided", place(sign * f), text) for sign in (1.0, -1.0)]
-                continue
-            tail, special = self._end(*way)
-            self._add([(f, 0.0), *self._rows(way[0]), *tail], special + self._cusps(way[0]))
-
-    def _beside(self, f: Array) -> Asking[tuple[list[Fold], str] | None]:
-        """Follow the curve that begins at a generalised Hopf point, from a given place on the section."""
-        folds = Folds(*self.plane, self.psi)
-        e = np.asarray(-np.linalg.solve(self.A, f), float)
-        folds.settle(e)
-        for first in (FIRST, 0.3 * FIRST, 3.0 * FIRST):
-            found = yield from folds.corrected(FoldGuess(math.log(first), e, OUTWARD))
-            if found is not None:
-                return (yield from folds.followed(found, null_vector(found.jacobian, OUTWARD), self._arrived))
-        return None
+        """Begin beside the generalised Hopf points to which no curve has come."""
+        for k, e in enumerate(self.points):
+            alike = self._born(e) | self._born(-e)
+            if not any(alike & set(one.born) for one in self.found):
+                starts = (self._follow(e, math.log(first)) for first in FIRST)
+                if not any(starts) and k == min(alike):
+                    self.missed.append(("undecided", e, say("fold not caught")))
 
     def from_lines(self) -> None:
         """Begin at the folds on some lines across the disc that no curve has passed."""
@@ -128,78 +117,59 @@ class _Curves:
         units = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
         origin = np.array([*self.plane, 0.0, 0.0])
         lines = [Straight(origin, np.array([0.0, 0.0, 0.0, *(-self.A @ unit)]), self.psi) for unit in units]
-        for unit, turns in zip(units, folds_along(lines, 0.01, 0.995), strict=True):
-            for turn in turns:
-                if self._passed(-self.A @ (turn.value * unit), turn.amplitude):
-                    continue
-                folds = [Folds(*self.plane, self.psi) for _ in range(2)]
-                for one in folds:
-                    one.settle(turn.value * unit)
-                (ready,) = folds[0].together([folds[0].placed(turn, unit)])
-                if ready is None:
-                    continue
-                tangent = null_vector(ready.jacobian, OUTWARD)
-                (states, how), (back, how_back) = folds[0].together(
-                    [own.followed(ready, t, self._arrived) for own, t in zip(folds, (tangent, -tangent), strict=True)]
-                )
-                tail, special = self._end(states, how)
-                special += self._cusps(states)
-                if how == "closed":
-                    self._add([*self._rows(states), self._rows(states)[0]], special)
-                    continue
-                head, more = self._end(back, how_back)
-                special += more + self._cusps(back)
-                self._add([*head[::-1], *self._rows(back)[:0:-1], *self._rows(states), *tail], special)
+        for unit, found in zip(units, folds_along(lines, 0.01, 0.995), strict=True):
+            for ray, turn in found:
+                e = turn.value * unit
+                if not any(_passes(one, sign * e, turn.amplitude) for one in self.found for sign in (1.0, -1.0)):
+                    self._follow(e, turn.xi, ray)
 
-    def _passed(self, f: Array, amplitude: float) -> bool:
-        """Whether a curve passes near, with a cycle of about this size."""
-        for line, sizes in zip(self.branches, self.sizes, strict=True):
-            away = np.hypot(*np.linalg.solve(self.A, (line - f).T))
-            # of all that is near: the two arms beside a cusp all but coincide
-            if ((away < 2.0 * STEP) & (np.abs(sizes - amplitude) < 0.2)).any():
-                return True
-        return False
+    def _born(self, e: Array) -> set[int]:
+        return {k for k, other in enumerate(self.points) if math.dist(e, other) < SAME}
 
-    def _arrived(self, fold: Fold) -> bool:
-        """Whether a fold has come to a corner, to C, or to the equator, all but a distance that is not seen."""
-        f, size = self._rows([fold])[0]
-        if any(self.near(g, f) < ARRIVED for g in self.corners):
-            return True
-        if size < 3.0 * SMALL and any(self.near(g, f) < ARRIVED for g in self.points):
-            return True
-        return fold.turn.height < FLAT and neutral_loop(*self.plane, self.psi, f) is not None
+    def _follow(self, e: Array, xi: float, ray: int | None = None) -> bool:
+        """Add the curve through a fold beside a place on a ray, for any that was lost on it; whether there is one."""
+        at = coefficients_at(*self.plane, -self.A @ e)
+        folds = Folds(Section(at, self.psi, critical_sets(at, self.psi)[0], ray))
+        found = folds.trace(np.array([folds.x(xi), *e]), self.corners)
+        if found is None or len(found.points) < 3:
+            return False
+        cusps = folds.cusps(found.points)
+        places = np.insert(found.points, [i + 1 for i, _ in cusps], np.reshape([v for _, v in cusps], (-1, 3)), axis=0)
+        special = [("cusp of cycles", v[1:], CUSP) for _, v in cusps]
+        numbers = folds.turns(places)
+        seen = numbers[:, AMPLITUDE] > SMALLEST
+        places, numbers, born = places[seen], numbers[seen], set()
+        e, sizes = places[:, 1:], numbers[:, AMPLITUDE]
+        for i, how in ((0, found.ends[0]), (len(places) - 1, found.ends[1])) if not found.closed else ():
+            last, size, told = self._end(places[i, 1:], numbers[i, AMPLITUDE], numbers[i, HEIGHT], how)
+            e, sizes = np.insert(e, i and len(e), last, axis=0), np.insert(sizes, i and len(sizes), size)
+            special += [told] if told is not None else []
+            born |= self._born(last) | self._born(-last)
+        self.found = [one for one in self.found if not born & set(one.born)]
+        self.found.append(_Curve(e, sizes, special, sorted(born)))
+        return True
 
-    def _cusps(self, states: list[Fold]) -> list[SpecialPoint]:
-        return [SpecialPoint("cusp of cycles", place(-self.A @ s.e), CUSP) for s in states if s.cusp]
-
-    def _rows(self, states: list[Fold]) -> list[tuple[Array, float]]:
-        return [(-self.A @ s.e, s.turn.amplitude) for s in states]
-
-    def _add(self, rows: list[tuple[Array, float]], special: list[SpecialPoint]) -> None:
-        line, sizes = np.array([f for f, _ in rows]), np.array([size for _, size in rows])
-        for sign in (1.0, -1.0):
-            self.branches.append(sign * line)
-            self.sizes.append(sizes)
-            self.special += [SpecialPoint(s.type, place(sign * np.array(s.place)), s.sentence) for s in special]
-
-    def _end(self, states: list[Fold], how: str) -> tuple[list[tuple[Array, float]], list[SpecialPoint]]:
-        """Rows to add at the end of a curve, and what is to be said about it."""
-        f, size = self._rows(states[-1:])[0]
-        if how == "closed":
-            return [], []
-        other = min(self.points, key=lambda g: self.near(g, f), default=None)
-        if other is not None and (how == "C" or (self.near(other, f) < NEAR and size < SMALLER)):
-            self.used += [other, -other]
-            return [(other, 0.0)], []
-        for g in self.corners:
-            if self.near(g, f) < NEAR:
-                return [(g, size)], [SpecialPoint("touching", place(g), TOUCHING)]
-        if states[-1].turn.height < 0.1:
-            # towards a neutral loop the fold runs along the curve of loops, closer than any power
-            g = neutral_loop(*self.plane, self.psi, f)
-            if g is not None and self.near(g, f) < 5.0 * NEAR:
-                return [(g, size)], [SpecialPoint("resonant loop", place(g), RESONANT)]
+    def _end(
+        self, e: Array, size: float, height: float, how: str
+    ) -> tuple[Array, float, tuple[str, Array, str] | None]:
+        """Place and size at the very end of a curve, and what is to be said about it."""
+        other = min(self.points, key=lambda g: math.dist(g, e), default=None)
+        if other is not None and (how == "C" or (math.dist(other, e) < NEAR and size < SMALLER)):
+            return other, 0.0, None
+        corner = min(self.corners, key=lambda g: math.dist(g, e))
+        if math.dist(corner, e) < NEAR:
+            return corner, size, ("touching", corner, TOUCHING)
+        # towards a neutral loop the fold runs along the curve of loops, closer than any power
+        f = neutral_loop(*self.plane, self.psi, -self.A @ e) if height < 0.1 else None
+        if f is not None and math.dist(self._e(f), e) < 5.0 * NEAR:
+            return self._e(f), size, ("resonant loop", self._e(f), RESONANT)
         if how == "equator":
-            return [], [SpecialPoint("equator", place(f), say("fold reaches the equator"))]
-        text = say("fold followed no further")
-        return [], [SpecialPoint("undecided", place(f), text)]
+            return e, size, ("equator", e, say("fold reaches the equator"))
+        return e, size, ("undecided", e, say("fold followed no further"))
+
+
+def _passes(one: _Curve, e: Array, amplitude: float) -> bool:
+    """Whether a curve passes near, with a cycle of about this size."""
+    away = np.hypot(*(one.e - e).T)
+    # of all that is near: the two arms beside a cusp all but coincide
+    return bool(((away < BESIDE) & (np.abs(one.sizes - amplitude) < 0.2)).any())

@@ -15,6 +15,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
+from ..curves.arclength import Steps, trace_curve, zero_between
+from ..curves.newton import finite_differences
 from ..cycles.loop import gap, loops
 from ..layer_problem.equator import equator_cycle
 from ..layer_problem.linearisation import determinant_sign
@@ -24,7 +26,6 @@ from ..systems.coefficients import Coefficients
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
 from .geometry import Geometry
-from .implicit_curve import Steps, differenced, traced, zero_between
 
 BORDER, TURN = 1440, 256  # tangents to the border of closed equators, and angles at which Theta is looked at
 WIDE = (30, 10, 3, 0)  # tangents between which a chord of that border is drawn, on either side of a change of sign
@@ -140,7 +141,7 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
 
     sought = _sign_changes(missing(COARSE), missing(FINE))
     branches = _curves(missing(FINE), OF_LOOPS, sought, A, touching)
-    condition = differenced(missing(FINE), DIFFERENCE)
+    condition = finite_differences(missing(FINE), DIFFERENCE)
     values, special = [], []
     for branch in branches:
         e = -np.linalg.solve(A, branch.T).T
@@ -242,12 +243,12 @@ def _curves(
     The functions are of e = -A^-1 f: in the disc all directions count alike, however narrow the ellipse is.
     """
     ends = [np.asarray(-np.linalg.solve(A, f), float) for f in corners]
-    condition = differenced(function, DIFFERENCE)
+    condition = finite_differences(function, DIFFERENCE)
     found: list[Array] = []
     for e in starts:
         if any(_passes(curve, e) for curve in found):
             continue
-        curve = traced(condition, e, (), steps) if abs(function(e)) < 1e-3 else None
+        curve = trace_curve(condition, e, (), steps) if abs(function(e)) < 1e-3 else None
         if curve is not None:
             line = curve.points if curve.closed else _to_ends(curve.points, ends)
             found += [line] if _passes(line, -e) else [line, -line]

@@ -129,7 +129,7 @@ def continue_cycles(
     return found
 
 
-def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list[Turn]]:
+def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list[tuple[int, Turn]]]:
     """Find the folds on all branches of cycles along each of several lines.
 
     Parameters
@@ -139,7 +139,8 @@ def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list
 
     Returns
     -------
-    list of list of Turn
+    list of list of (int, Turn)
+        The ray of each section, and the turn.
     """
     searches = []
     for line in lines:
@@ -152,7 +153,9 @@ def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list
             searches.append(None)
     answered([search.run() for search in searches if search is not None], follow)
     return [
-        [] if search is None else [trace.points[i].turn for trace, *_ in search.found for i in trace.folds]
+        []
+        if search is None
+        else [(cast("int", search.family.ray), trace.points[i].turn) for trace, *_ in search.found for i in trace.folds]
         for search in searches
     ]
 

@@ -7,11 +7,10 @@ import math
 import numpy as np
 from numba import njit
 
+from .columns import AMPLITUDE, BY_XI, CHI, EXPONENT, HEIGHT, PARAMETERS, PERIOD, RATE, SHIFT
+
 MOST_EXPONENT = 600.0
 SMALLEST = 1e-280  # eigenvalue of D e_Psi
-
-#: Columns of what `measured` returns, those of the q parameters after them.
-SHIFT, BY_XI, EXPONENT, PERIOD, AMPLITUDE, HEIGHT, RATE, CHI, PARAMETERS = range(9)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -20,10 +20,11 @@ from numpy.typing import NDArray
 
 from ..cycles.many.sections import NODES, Indices, Sections
 from ..cycles.orbit import MOST_STEPS, gauss
+from .columns import PARAMETERS, SHIFT
 
 Array = NDArray[np.float64]
 
-RTOL, LOOSE = 1e-12, 1e-9  # of one turn; of one that only tells where others are
+RTOL = 1e-12  # of one turn
 
 
 @dataclass(frozen=True)
@@ -82,7 +83,7 @@ class Turns:
         Which these are.
     xi : ndarray (k,)
     numbers : ndarray (k, PARAMETERS + 2 q)
-        As `measured.measured` gives them for q parameters.
+        Those of `columns`.
     p : ndarray (k, 2)
     steps : ndarray of int (k,)
     """
@@ -106,19 +107,6 @@ class Turns:
             )  # fmt: skip
         return found
 
-    @property
-    def exponent(self) -> Array:
-        """Logarithms (k,) of the Floquet multipliers."""
-        from .measured import EXPONENT
-
-        return self.numbers[:, EXPONENT]
-
-    def parameters(self, row: int) -> Array:
-        """Return `by_value` and `drift`, (2, q), of the turn in a row."""
-        from .measured import PARAMETERS
-
-        return self.numbers[row, PARAMETERS:].reshape(2, -1)
-
 
 #: Change of |e_Psi| with a parameter, at given zeta (k,) of systems (k,).
 Swelling = Callable[[Array, Indices], Array]
@@ -131,7 +119,6 @@ def turns(
     changes: Array,
     swelling: Swelling | None = None,
     limit: int = MOST_STEPS,
-    rtol: float | Array = RTOL,
 ) -> Turns:
     """Follow one turn from each of n sections.
 
@@ -147,15 +134,13 @@ def turns(
         That of the one parameter, where Psi changes with it.
     limit : int
         Steps after which a turn is given up.
-    rtol : float, or ndarray (n,)
-        Of all, or of each.
     """
     from ..cycles.many import placing
-    from .measured import PARAMETERS, SHIFT, measured
+    from .measured import measured
 
     start, x2 = sections.starts(xi)
     states = placing.hemisphere(x2)
-    rows, ways = sections.turned(states, rtol, backward, limit)
+    rows, ways = sections.turned(states, RTOL, backward, limit)
     if ways is None:
         return Turns(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)), rows)
     if len(rows) < len(sections):

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...bifurcations.implicit_curve import Edge, Steps, solved, traced, zero_between
+from ...curves.arclength import Edge, Steps, trace_curve, zero_between
+from ...curves.newton import newton
 from .lines import Seed
 from .splitting import Pair, Splitting
 
@@ -73,10 +74,10 @@ class Curve:
 def through(seed: Seed) -> Curve | None:
     """Return the curve through a seed; None if it is not caught."""
     splitting = seed.splitting
-    first = solved(splitting.condition, seed.place, REACH)
+    first = newton(splitting.condition, seed.place, REACH)
     if first is None:
         return None
-    found = traced(splitting.condition, first, _edges(), STEPS)
+    found = trace_curve(splitting.condition, first, _edges(), STEPS)
     if found is None or len(found.points) < 2:
         return None
     pairs = [splitting.pair(place) for place in found.points]

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...bifurcations.implicit_curve import Edge, Steps, followed, solved, tangent
 from ...continuation.typed.foot import e_at
 from ...continuation.typed.ray import crossing, room
+from ...curves.arclength import Edge, Steps, tangent, trace_one_way
+from ...curves.newton import newton
 from ...layer_problem.critical import critical_sets
 from ..family import Family
 from .around import SCALE, Around
@@ -45,7 +46,7 @@ class Curve:
 
 def through(family: Family, start: Start) -> Curve | None:
     """Return the curve through a start; None if it is not caught."""
-    first = solved(start.around.fold, start.v, REACH)
+    first = newton(start.around.fold, start.v, REACH)
     along = None if first is None else tangent(start.around.fold, first)
     if first is None or along is None or not 0.0 <= min(first[1:]) <= max(first[1:]) <= 1.0:
         return None
@@ -64,7 +65,7 @@ def _one_way(family: Family, around: Around, here: Array, along: Array) -> tuple
     rows: list[tuple[Around, Array]] = []
     end = "lost"
     for _ in range(RAYS):
-        points, end = followed(around.fold, here, along, _edges(), STEPS)
+        points, end = trace_one_way(around.fold, here, along, _edges(), STEPS)
         rows += [(around, v) for v in points]
         if end != "lost" or len(points) < 2:
             break
@@ -92,7 +93,7 @@ def _again(family: Family, around: Around, last: Array, way: Array) -> tuple[Aro
     start = _on(best, last[1:], closed[index])
     if start is None:
         return None
-    found = solved(start.around.fold, start.v, REACH)
+    found = newton(start.around.fold, start.v, REACH)
     along = None if found is None else tangent(start.around.fold, found)
     if found is None or along is None:
         return None

@@ -182,7 +182,8 @@ def test_two_cusps_that_one_step_passes_are_both_named():
     cusps = [np.array(s.place) for s in curve.special if s.type == "cusp of cycles"]
     assert len(cusps) == 6
     for line, sizes in zip(curve.branches, curve.values, strict=True):
-        steps = np.diff(line[sizes != sizes[-1]], axis=0)  # a corner is added with the size of the fold before it
+        line = line[np.diff(sizes, append=math.nan) != 0.0]  # a corner is added with the size of the fold before it
+        steps = np.diff(line, axis=0)
         back = [line[i] for i in range(1, len(steps)) if steps[i] @ steps[i - 1] < 0.0]
         for place in back:
             assert min(np.hypot(*(cusp - place)) for cusp in cusps) < 1e-9

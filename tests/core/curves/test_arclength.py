@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core.bifurcations.implicit_curve import Edge, Steps, tangent, traced
+from codim2_core.curves.arclength import Edge, Steps, tangent, trace_curve
 
 STEPS = Steps(0.1, 0.2, 500)
 
@@ -21,7 +21,7 @@ def below(level):
 
 
 def test_a_closed_curve_ends_where_it_began():
-    found = traced(circle, np.array([1.0, 0.0]), (), STEPS)
+    found = trace_curve(circle, np.array([1.0, 0.0]), (), STEPS)
     assert found.closed
     assert found.ends == ("", "")
     assert np.allclose(np.hypot(*found.points.T), 1.0, rtol=0.0, atol=1e-12)
@@ -33,7 +33,7 @@ def test_a_closed_curve_ends_where_it_began():
 @settings(max_examples=20)
 @given(st.floats(-0.99, 0.99))
 def test_it_ends_on_an_edge(level):
-    found = traced(circle, np.array([0.0, -1.0]), [below(level)], STEPS)
+    found = trace_curve(circle, np.array([0.0, -1.0]), [below(level)], STEPS)
     assert not found.closed
     assert found.ends == ("top", "top")
     assert np.allclose(found.points[[0, -1], 1], level, rtol=0.0, atol=1e-12)
@@ -44,4 +44,4 @@ def test_a_crossing_is_no_regular_point():
         return np.array([v[0] * v[1]]), np.array([[v[1], v[0]]])
 
     assert tangent(cross, np.zeros(2)) is None
-    assert traced(cross, np.zeros(2), (), STEPS) is None
+    assert trace_curve(cross, np.zeros(2), (), STEPS) is None

@@ -10,22 +10,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..numerics.root_between import root_between
+from .newton import CLOSE, ENOUGH, MAX_ROUNDS, SLOW, Array, Condition, newton
 
-Array = NDArray[np.float64]
-Condition = Callable[[Array], tuple[Array, Array]]  # values (k,) and their derivatives (k, n)
-
-ROUNDS = 12  # of Newton's method
-CLOSE = 1e-12  # correction at which it stops,
-ENOUGH = 1e-9  # or, where rounding does not let it come so far, at which a point counts as found
-FAR = 1e3
-PATIENCE, SLOW = 3, 0.4  # rounds after which corrections that do not fall faster than this tell of no regular zero
 LEAST_STEP, FIRST_STEP = 1e-6, 0.2  # shortest step, and the first as a part of the longest
 GROWTH, SHRINKAGE = 1.5, 0.4
-QUICK = 4  # rounds within which a step was not too long
+QUICK = 2  # rounds within which a step was not too long
 PART = 0.6  # of the largest turn, that the next step is to make
+MAX_STRETCH = 2.5  # of the last step: a longer one is predicted by the tangent alone
 DULL = 1e-7  # a point is no regular one where the least singular value is so small a part of the largest
 WITHIN = 1e-12  # an edge is crossed beyond this
 SAME = 1e-12  # part of a step, of a place between two points
@@ -59,8 +52,9 @@ class Steps:
         Points each way.
     period : float
         Of the first coordinate; infinite where it has none.
-    close : float
-        Correction at which Newton's method stops.
+    close, enough : float
+        Correction at which Newton's method stops, or, where rounding does not let it come so far, at which a point
+        counts as found.
     least : float
         Shortest step.
     """
@@ -70,6 +64,7 @@ class Steps:
     most: int
     period: float = math.inf
     close: float = CLOSE
+    enough: float = ENOUGH
     least: float = LEAST_STEP
 
     def apart(self, one: Array, other: Array) -> Array:
@@ -99,53 +94,6 @@ class Traced:
     ends: tuple[str, str]
 
 
-def differenced(function: Callable[[Array], float], step: float) -> Condition:
-    """Return a condition of one function, whose derivatives are central differences."""
-
-    def condition(v: Array) -> tuple[Array, Array]:
-        value = function(v)
-        if not math.isfinite(value):
-            return np.full(1, math.nan), np.full((1, len(v)), math.nan)
-        ways = step * np.eye(len(v))
-        slope = [(function(v + way) - function(v - way)) / (2.0 * step) for way in ways]
-        return np.array([value]), np.array([slope])
-
-    return condition
-
-
-def solved(condition: Condition, start: Array, reach: float = math.inf) -> Array | None:
-    """Find a common zero of at most n functions of n numbers, by least changes; None if there is none within reach.
-
-    Parameters
-    ----------
-    condition : callable
-    start : ndarray (n,)
-    reach : float
-        How far from the start it may be.
-    """
-    v, size = start, math.inf
-    for rounds in range(ROUNDS):
-        value, slope = condition(v)
-        if not (np.isfinite(value).all() and np.isfinite(slope).all()):
-            return None
-        try:
-            if len(slope) == len(v):
-                change = np.linalg.solve(slope, -value)
-            else:
-                change = slope.T @ np.linalg.solve(slope @ slope.T, -value)
-        except np.linalg.LinAlgError:
-            return None
-        last, size = size, math.sqrt(change @ change)
-        v = v + change
-        if not size < FAR or math.dist(v, start) > reach:
-            return None
-        if size < CLOSE:
-            return v
-        if rounds > PATIENCE and size > SLOW * last:
-            break
-    return v if size < ENOUGH else None
-
-
 def tangent(condition: Condition, at: Array) -> Array | None:
     """Return the direction (n,) of the curve through a point on it; None where it is no regular one."""
     slope = condition(at)[1]
@@ -155,28 +103,33 @@ def tangent(condition: Condition, at: Array) -> Array | None:
     return rows[-1] if sizes[-1] > DULL * sizes[0] else None
 
 
-def between(condition: Condition, one: Array, other: Array, part: float) -> Array | None:
-    """Return the point of a curve on the plane across the chord of two neighbours at a part of it."""
+def zero_between(
+    condition: Condition, test: Callable[[Array], float], one: Array, other: Array, part: float = SAME
+) -> Array:
+    """Find the point of a curve between two neighbours at which a function changes its sign.
+
+    Parameters
+    ----------
+    condition, test : callable
+    one, other : ndarray (n,)
+    part : float
+        Of the step, to which it is found.
+    """
     chord = other - one
-    return _across(condition, one + part * chord, chord / max(math.sqrt(chord @ chord), 1e-300))
-
-
-def zero_between(condition: Condition, test: Callable[[Array], float], one: Array, other: Array) -> Array:
-    """Find the point of a curve between two neighbours at which a function changes its sign."""
+    normal = chord / max(math.sqrt(chord @ chord), 1e-300)
     found = [one]
 
-    def value(part: float) -> float:
-        at = between(condition, one, other, part)
-        if at is None:
-            at = one + part * (other - one)
-        found[0] = at
-        return test(at)
+    def value(t: float) -> float:
+        middle = one + t * chord
+        at = point_across(condition, middle, normal)
+        found[0] = middle if at is None else at
+        return test(found[0])
 
-    value(root_between(value, 0.0, 1.0, SAME))
+    value(root_between(value, 0.0, 1.0, part))
     return found[0]
 
 
-def traced(condition: Condition, start: Array, edges: Sequence[Edge], steps: Steps) -> Traced | None:
+def trace_curve(condition: Condition, start: Array, edges: Sequence[Edge], steps: Steps) -> Traced | None:
     """Follow a curve both ways from a point on it; None where that is no regular point.
 
     Parameters
@@ -189,21 +142,23 @@ def traced(condition: Condition, start: Array, edges: Sequence[Edge], steps: Ste
     along = tangent(condition, start)
     if along is None:
         return None
-    ahead, end = followed(condition, start, along, edges, steps)
+    ahead, end = trace_one_way(condition, start, along, edges, steps)
     if not end:
         return Traced(np.array([start, *ahead]), True, ("", ""))
-    behind, other = followed(condition, start, -along, edges, steps)
+    behind, other = trace_one_way(condition, start, -along, edges, steps)
     return Traced(np.array([*behind[::-1], start, *ahead]), False, (other or "many", end))
 
 
-def followed(
+def trace_one_way(
     condition: Condition, start: Array, first: Array, edges: Sequence[Edge], steps: Steps
 ) -> tuple[list[Array], str]:
     """Points along a curve from a start, and where it ends; "" where it has come round."""
     points: list[Array] = []
     here, along, step = start, first, FIRST_STEP * steps.longest
+    before: tuple[Array, Array] | None = None
     while len(points) < steps.most:
-        found = _stepped(condition, here, along, step, steps.close)
+        expected = here + step * along if before is None else _predicted(*before, here, along, step)
+        found = _stepped(condition, expected, along, step, steps)
         if found is None or float(found[1] @ along) < math.cos(steps.turn):
             step *= SHRINKAGE
             if step < steps.least:
@@ -223,23 +178,33 @@ def followed(
             return [*points, there + steps.apart(there, start)], ""
         points.append(there)
         bend = math.acos(min(max(float(onward @ along), -1.0), 1.0))
-        here, along = there, onward
+        before, here, along = (here, along), there, onward
         if quick:
             step = min(step * min(GROWTH, PART * steps.turn / max(bend, 1e-9)), steps.longest)
     return points, "many"
 
 
+def _predicted(before: Array, leaving: Array, here: Array, along: Array, step: float) -> Array:
+    """Predict the point a step further by the cubic through the last two points and their tangents."""
+    chord = here - before
+    length = math.sqrt(chord @ chord)
+    if step > MAX_STRETCH * length:
+        return here + step * along
+    part, away = step / length, length * (leaving + along) - 2.0 * chord
+    return here + step * along + part * part * (away + length * along - chord + part * away)
+
+
 def _stepped(
-    condition: Condition, here: Array, along: Array, step: float, close: float
+    condition: Condition, expected: Array, along: Array, step: float, steps: Steps
 ) -> tuple[Array, Array, bool] | None:
-    """Return the point a step further, the tangent there, and whether it was found quickly."""
-    expected = here + step * along
-    v, n = expected, len(here)
+    """Return the point of a curve across `along` from where it is expected, the tangent, and if that was quick."""
+    v, n = expected, len(expected)
     right = np.zeros((n, 2))
     right[-1, 1] = 1.0
     matrix = np.empty((n, n))
     matrix[-1] = along
-    for rounds in range(ROUNDS):
+    size = math.inf
+    for rounds in range(MAX_ROUNDS):
         value, slope = condition(v)
         if not (np.isfinite(value).all() and np.isfinite(slope).all()):
             return None
@@ -249,20 +214,25 @@ def _stepped(
             change, onward = np.linalg.solve(matrix, right).T
         except np.linalg.LinAlgError:
             return None
-        v, size = v + change, math.sqrt(change @ change)
+        last, size = size, math.sqrt(change @ change)
+        v = v + change
         if not size < step:
             return None
-        if size < close or (rounds == ROUNDS - 1 and size < ENOUGH):
+        left = size * (size / last) ** 2 if rounds else size  # of the next correction, about
+        stalled = rounds > 1 and size > SLOW * last
+        if left < steps.close or (size < steps.enough and (stalled or rounds == MAX_ROUNDS - 1)):
             return v, onward / math.sqrt(onward @ onward), rounds < QUICK
     return None
 
 
-def _across(condition: Condition, middle: Array, normal: Array) -> Array | None:
+def point_across(condition: Condition, middle: Array, normal: Array, reach: float = math.inf) -> Array | None:
+    """Find the point of a curve on the plane through a place across a direction; None if there is none within reach."""
+
     def both(v: Array) -> tuple[Array, Array]:
         value, slope = condition(v)
         return np.append(value, normal @ (v - middle)), np.vstack([slope, normal])
 
-    return solved(both, middle)
+    return newton(both, middle, reach)
 
 
 def _first_edge(condition: Condition, here: Array, there: Array, crossed: Sequence[Edge]) -> tuple[Array, str] | None:
@@ -278,7 +248,7 @@ def _first_edge(condition: Condition, here: Array, there: Array, crossed: Sequen
 
         low, high = edge.of(here)[0], edge.of(there)[0]
         part = min(max(-low / (high - low), 0.0), 1.0) if high != low else 0.0
-        found = solved(both, here + part * chord, 2.0 * math.sqrt(chord @ chord))
+        found = newton(both, here + part * chord, 2.0 * math.sqrt(chord @ chord))
         if found is not None:
             how = float(chord @ (found - here))
             if best is None or how < best[0]:
