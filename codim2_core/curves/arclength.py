@@ -218,7 +218,7 @@ def _stepped(
         v = v + change
         if not size < step:
             return None
-        left = size * (size / last) ** 2 if rounds else size  # of the next correction, about
+        left = size * min(size / last, 1.0) if rounds else size  # of the next correction, at most about
         stalled = rounds > 1 and size > SLOW * last
         if left < steps.close or (size < steps.enough and (stalled or rounds == MAX_ROUNDS - 1)):
             return v, onward / math.sqrt(onward @ onward), rounds < QUICK
