@@ -8,8 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..diagrams.class_maps.classes import Named
-from ..diagrams.class_maps.families import classes_over
+from ..diagrams.classes import Classes, classes_over
 from .faces import Face, middle, net_of, within
 from .family import Family
 from .result import AtlasRegion, Looked
@@ -70,7 +69,7 @@ def regions_of(
 
 
 def _unlike(
-    family: Family, classes: Named, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
+    family: Family, classes: Classes, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
 ) -> tuple[tuple[float, float], ...]:
     """Places of a net and along its edges, away from all curves, whose class is not that of their region."""
     codes = classes.decided(family.values(NET)).tolist()

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..curves.newton import Condition
-from ..diagrams.class_maps.families import classes_over
+from ..diagrams.classes import classes_over
 from ..layer_problem.critical import critical_sets
 from ..numerics.root_between import root_between
 from ..psi.constructors import many

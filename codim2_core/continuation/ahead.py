@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .hermite import hermite
+Array = NDArray[np.float64]
+
 
 APART = 0.25  # of a step: how far from one another they are, at least: a fold may lie beside one
 
@@ -83,8 +85,42 @@ def placed(
         slopes.append((by_rest, along.chi, *along.parameters))
     at, wanted = np.array(lengths) - lengths[0], np.array(where) - lengths[0]
     found = []
-    for rest, chi, *parameters in hermite(at, np.array(values), np.array(slopes), wanted).tolist():
+    for rest, chi, *parameters in _hermite(at, np.array(values), np.array(slopes), wanted).tolist():
         if not 0.0 < chi < 1.0:
             break
         found.append(Place(rest + math.log(chi) - outer * math.log(1.0 - chi), chi, tuple(parameters)))
+    return found
+
+
+def _hermite(at: Array, values: Array, slopes: Array, where: Array) -> Array:
+    """Evaluate the polynomial of degree 2 m - 1 with given values and slopes at m places, by Newton's differences.
+
+    Parameters
+    ----------
+    at : ndarray (m,)
+        The places, all different.
+    values, slopes : ndarray (m, q)
+    where : ndarray (k,)
+        Where it is wanted.
+
+    Returns
+    -------
+    ndarray (k, q)
+    """
+    x = np.repeat(at, 2)
+    column = np.repeat(values, 2, axis=0)
+    top = [column[0]]
+    for order in range(1, len(x)):
+        width = (x[order:] - x[:-order])[:, None]
+        if order == 1:
+            difference = np.diff(column, axis=0)
+            difference[1::2] /= width[1::2]
+            difference[::2] = slopes
+            column = difference
+        else:
+            column = np.diff(column, axis=0) / width
+        top.append(column[0])
+    found = np.broadcast_to(top[-1], (len(where), values.shape[1]))
+    for coefficient, place in zip(top[-2::-1], x[-2::-1], strict=True):
+        found = coefficient + (where - place)[:, None] * found
     return found

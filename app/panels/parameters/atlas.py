@@ -13,7 +13,7 @@ from typing import Any
 from codim2_core import bifurcations
 from codim2_core.atlases.atlas import Atlas, curves_over, with_bifurcations_of_cycles, with_regions
 from codim2_core.bifurcations import BifurcationCurve
-from codim2_core.diagrams.class_maps.line import Stretch, class_line
+from codim2_core.diagrams.class_line import Stretch, class_line
 from codim2_core.psi.function import Psi
 from codim2_core.systems.coefficients import Coefficients
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from codim2_core.atlases.connections.connection_curves import KINDS
 from codim2_core.atlases.result import Atlas
-from codim2_core.diagrams.class_maps.line import Stretch
+from codim2_core.diagrams.class_line import Stretch
 
 from ...draw import plane_curves
 from ...draw.glyphs import join

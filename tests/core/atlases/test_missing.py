@@ -5,7 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.atlases.faces import within
-from codim2_core.diagrams.class_maps.families import classes_over
+from codim2_core.diagrams.classes import classes_over
 
 ONE = c2.psi.constant()
 FOLDING = c2.System(U=("2*c**2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})

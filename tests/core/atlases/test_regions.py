@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.atlases.faces import middle, net_of, within
-from codim2_core.diagrams.class_maps.families import classes_over
+from codim2_core.diagrams.classes import classes_over
 
 QUADRATIC = c2.System(U=("mu*c**2 - c + s/3 - 0.2", "-s + k*c*s + 0.3*c"), parameters={"mu": 1.0, "k": 1.0})
 PLANES = {

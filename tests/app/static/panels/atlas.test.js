@@ -216,7 +216,7 @@ test("the panel atlas: a strip along the only parameter has one axis, and a hand
     atlas_of: ["z", "", false],
     map: {
       spans: [[-1, 3], [0, 1]], name: ["NCM2; 1 arrives, 1 leaves", "2CM6, saddle, stable node; 5 arrive, 1 leaves"], inside: [[0, 0.5], [2, 0.5]],
-      loops: [1, 1], curve: ["fold"], pieces: [1], note: "Along z.",
+      loops: [1, 1], curve: ["fold of critical sets"], pieces: [1], note: "Along z.",
     },
   }, {...lines("map", [[-1, -1], [0, -1], [0, 1], [-1, 1]], [[0, -1], [1, -1], [1, 1], [0, 1]]), ...lines("map_curves", [[0, -1], [0, 1]])})
   assert.equal(one.all(".pad .line.fold").length, 1)

@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...psi.function import Psi
-from ...tables import Tabled, number
-from ..critical import OFF_CENTRE
-from ..standing import standing
-from .families import classes_over
+from ..psi.function import Psi
+from ..tables import Tabled, number
+from .classes import classes_over
+from .critical import OFF_CENTRE
+from .standing import standing
 
 __all__ = ["Stretch", "class_line"]
 
@@ -31,7 +31,8 @@ class Stretch(Tabled):
         As `AtlasRegion.name`.
     low, high : float
     happening : tuple of str
-        What happens where it ends above; empty at the end of the span.
+        Kinds of the special values where it ends above, as `branches` tells them, or "undefined" where U has no value
+        on one side; empty at the end of the span.
     """
 
     _head_ = ("portrait", "from", "to", "what happens there")
@@ -85,7 +86,8 @@ def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: Array
     for i, (code, end) in enumerate(zip(codes, ends[1:], strict=True)):
         after = codes[i + 1] if i + 1 < len(codes) else None
         if after != code:
-            what = () if after is None else classes.happening(code, after)
+            near = {one.kind: None for one in found.special if abs(one.value - end) <= 2.0 * _APART * (high - low)}
+            what = () if after is None else tuple(near) or ("undefined",)
             stretches.append(Stretch(classes.name(code), start, end, what))
             start = end
     return tuple(stretches)

@@ -1,1 +1,0 @@
-"""The classes of portraits over one or two parameters, and their stretches along one."""

@@ -1,0 +1,182 @@
+"""The class of a portrait, all that stays as it is between bifurcations of what stands still, over any parameters.
+
+A class is a number, `sweep.UNDEFINED` where U has no value.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..layer_problem.vary import limits, names, varied
+from ..psi.function import Psi
+from ..systems.affine import as_elinear
+from .family import Sweep, family
+from .sweep import UNDEFINED, class_name, classes
+from .typed.state import State
+
+__all__ = ["AffineClasses", "Classes", "GeneralClasses", "classes_over"]
+
+Array = NDArray[np.float64]
+Codes = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class AffineClasses:
+    """Classes of an e-linear family: signs of smooth functions, many points at once, all proved.
+
+    Attributes
+    ----------
+    family : Sweep
+    """
+
+    family: Sweep
+    unproved = 0
+
+    def decided(self, at: Array) -> Codes:
+        """Return classes at points (k, n)."""
+        return classes(self.family(**dict(zip(self.family.names, at.T, strict=True))))
+
+    def name(self, code: int) -> str:
+        """Name a class."""
+        return class_name(code)
+
+
+class Portrait(NamedTuple):
+    """What makes a class of a general system.
+
+    Attributes
+    ----------
+    directions : tuple of (str, int)
+        Kinds of limit directions (`EquatorEquilibria.kind`), and how many there are of each.
+    arcs : int
+        Arcs of limit directions; -1 where every direction is one.
+    sets : tuple of str
+        Kinds of the critical sets, in order.
+    closed : int or None
+        Sign of the exponent of a closed equator.
+    """
+
+    directions: tuple[tuple[str, int], ...]
+    arcs: int
+    sets: tuple[str, ...]
+    closed: int | None
+
+    def radial(self, word: str) -> int:
+        """How many limit directions are radially so."""
+        return sum(many for kind, many in self.directions if kind.startswith(f"radially {word}"))
+
+
+class GeneralClasses:
+    """Classes of any system, one point after the other, numbered as they are met.
+
+    Parameters
+    ----------
+    system : System or Frozen
+    psi : Psi
+    z : (m,) floats
+    names : sequence of str
+        Of `layer_problem.vary.names`.
+
+    Attributes
+    ----------
+    unproved : int
+        Points at which it is not proved that no limit direction and no critical set is missed.
+    """
+
+    def __init__(self, system: Any, psi: Psi, z: Any, names: Sequence[str]) -> None:
+        self.unproved = 0
+        self._names, self._of = names, (system, psi, z)
+        self._classes: list[Portrait] = []
+
+    def decided(self, at: Array) -> Codes:
+        """Return classes at points (k, n)."""
+        return np.array([self._decided(place) for place in at.tolist()], np.int64)
+
+    def _decided(self, place: list[float]) -> int:
+        try:
+            of = self._of
+            for name, value in zip(self._names[:-1], place[:-1], strict=True):
+                of = varied(*of, name, value)
+            system, psi, z = of
+            state = State(system, psi, self._names[-1], place[-1], z)
+        except ValueError:  # U is not finite there
+            return UNDEFINED
+        arcs = -1 if state.equator.all_directions else len(state.equator.arcs)
+        sets = tuple(sorted(C.kind for C in state.critical))
+        portrait = Portrait(tuple(sorted(state.part(0).items())), arcs, sets, state.part(2))
+        self.unproved += not state.proven
+        if portrait not in self._classes:
+            self._classes.append(portrait)
+        return self._classes.index(portrait)
+
+    def name(self, code: int) -> str:
+        """Name a class, as `Classification.name` names e-linear portraits."""
+        return "undefined" if code == UNDEFINED else _name(self._classes[code])
+
+
+Classes = AffineClasses | GeneralClasses
+
+
+def classes_over(
+    system: Any, psi: Psi, z: ArrayLike, varying: Sequence[str], spans: Sequence[Sequence[float]]
+) -> Classes:
+    """Return the classes of a system over some names.
+
+    Parameters
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    z : (m,) floats
+    varying : sequence of str
+        Different ones of `layer_problem.vary.names`.
+    spans : sequence of (low, high)
+
+    Raises
+    ------
+    ValueError
+        A name cannot be varied, a value is beyond what it may be, or z does not fit.
+    """
+    linear = as_elinear(system)
+    if linear is not None:
+        return AffineClasses(family(linear, psi, z, *varying, spans=spans))
+    varying = ["z1" if name == "z" else name for name in varying]
+    there = names(system, psi, z)
+    for i, name in enumerate(varying):
+        if name not in there:
+            raise ValueError(f"{name!r} cannot be varied here; choose one of {', '.join(there)}.")
+        if name in varying[:i]:
+            raise ValueError(f"{name!r} is given twice; choose two different names.")
+        low, high = limits(system, psi, name)
+        if not all(np.isfinite(v) and low <= v <= high for v in spans[i]):
+            raise ValueError(f"values of {name} are beyond {low:g} to {high:g}; give values between these.")
+    return GeneralClasses(system, psi, z, varying)
+
+
+def _name(portrait: Portrait) -> str:
+    directions = "∞" if portrait.arcs < 0 else str(sum(many for _, many in portrait.directions))
+    kinds = Counter(portrait.sets)
+    counted = [kind if many == 1 else f"{many} {_several(kind)}" for kind, many in kinds.items()]
+    head = "NCM" if not portrait.sets else "CM" if len(portrait.sets) == 1 else f"{len(portrait.sets)}CM"
+    name = ", ".join([f"{head}{directions}", *counted])
+    arriving, leaving = portrait.radial("attracting"), portrait.radial("repelling")
+    if portrait.closed is not None:
+        way = {-1: "attracts", 0: "is neutral", 1: "repels"}[portrait.closed]
+        return f"{name}; the equator {way}"
+    if portrait.arcs > 0:
+        name = f"{name}; {portrait.arcs} arc{'s' if portrait.arcs > 1 else ''}"
+    words = [f"{arriving} arrive{'s' if arriving == 1 else ''}"] if arriving else []
+    words += [f"{leaving} leave{'s' if leaving == 1 else ''}"] if leaving else []
+    return f"{name}; {', '.join(words)}" if words else name
+
+
+def _several(kind: str) -> str:
+    for one, many in (("focus", "foci"), ("centre", "centres")):
+        if one in kind:
+            return kind.replace(one, many)
+    return kind if kind == "degenerate" else f"{kind}s"
