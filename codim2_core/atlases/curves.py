@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..curves.arclength import Traced, zero_between
+from ..curves.polyline import distance
 from . import conditions, plane_conditions, special, starts, tracing
 from .degenerate import Line
 from .family import Family
@@ -127,9 +128,5 @@ def _each_once(found: list[Followed]) -> list[Followed]:
 def _on(points: Array, line: Array) -> bool:
     """Whether all points lie on a line but for its bends."""
     few = points[np.linspace(0, len(points) - 1, 9).astype(int)]
-    start, along = line[:-1], np.diff(line, axis=0)
-    size = np.maximum((along**2).sum(axis=1), 1e-300)
-    away = few[:, None] - start
-    part = np.clip((away * along).sum(axis=2) / size, 0.0, 1.0)
-    gap = np.sqrt(((away - part[..., None] * along) ** 2).sum(axis=2)).min(axis=1)
-    return bool((gap < SAME + 0.02 * np.sqrt(size).max() ** 2).all())
+    bend = 0.02 * (np.diff(line, axis=0) ** 2).sum(axis=1).max()
+    return bool((distance(few, line) < SAME + bend).all())

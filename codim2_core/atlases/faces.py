@@ -10,6 +10,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ..curves.polyline import distance, feet
+
 Array = NDArray[np.float64]
 Edge = tuple[int, int]
 
@@ -128,10 +130,7 @@ def _onward(end: Array, before: Array, i: int, lines: Sequence[Array]) -> Array:
     for k, other in enumerate(lines):
         if k == i:
             continue
-        start, along = other[:-1], np.diff(other, axis=0)
-        part = np.clip(((end - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
-        foot = start + part[:, None] * along
-        gap = np.hypot(*(foot - end).T)
+        _, foot, gap = feet(end, other)
         j = int(gap.argmin())
         if gap[j] < least:
             least = float(gap[j])
@@ -233,10 +232,7 @@ def middle(face: Face) -> tuple[Array, float]:
         return face.rings[0].mean(axis=0), 0.0
     least = np.full(len(candidates), math.inf)
     for ring in face.rings:
-        along = np.roll(ring, -1, axis=0) - ring
-        away = candidates[:, None] - ring
-        part = np.clip((away * along).sum(axis=2) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
-        least = np.minimum(least, np.hypot(*np.moveaxis(away - part[..., None] * along, -1, 0)).min(axis=1))
+        least = np.minimum(least, distance(candidates, np.concatenate([ring, ring[:1]])))
     best = int(least.argmax())
     return candidates[best], float(least[best])
 

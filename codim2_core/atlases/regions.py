@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ..curves.polyline import distance, feet
 from ..diagrams.classes import Classes, classes_over
 from .faces import Face, middle, net_of, within
 from .family import Family
@@ -75,7 +76,7 @@ def _unlike(
     codes = classes.decided(family.values(NET)).tolist()
     near = np.zeros(len(NET), bool)
     for line in lines:
-        near |= _gaps(NET, line) < ASIDE
+        near |= distance(NET, line) < ASIDE
     owner = np.full(len(NET), -1)
     for i, face in enumerate(faces):
         owner[within(NET, face.rings)] = i
@@ -86,22 +87,11 @@ def _unlike(
     )
 
 
-def _gaps(points: Array, line: Array) -> Array:
-    """Distances of points (k, 2) from a polyline."""
-    start, along = line[:-1], np.diff(line, axis=0)
-    away = points[:, None] - start
-    part = np.clip((away * along).sum(axis=2) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
-    return np.asarray(np.sqrt(((away - part[..., None] * along) ** 2).sum(axis=2)).min(axis=1))
-
-
 def _through(line: Array, marks: Array) -> Array:
     """Put those of some points into a line on which they lie, but for its bends: also at a tip, between two of its."""
-    start, along = line[:-1], np.diff(line, axis=0)
-    square = np.maximum((along**2).sum(axis=1), 1e-300)
     added: list[tuple[float, Array]] = []
     for mark in marks:
-        part = np.clip(((mark - start) * along).sum(axis=1) / square, 0.0, 1.0)
-        gap = np.hypot(*(start + part[:, None] * along - mark).T)
+        part, _, gap = feet(mark, line)
         i = int(gap.argmin())
         if not gap[i] < BESIDE:
             continue

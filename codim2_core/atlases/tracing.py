@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..curves.arclength import Edge, Steps, Traced, tangent, trace_curve
+from ..curves.arclength import Edge, Steps, Traced, square_edges, tangent, trace_curve
 from ..curves.newton import Condition, newton
 from . import conditions, starts
 from .family import NEAR, Family
@@ -182,10 +182,7 @@ def in_the_plane(kind: str, condition: Condition, cells: Array) -> Found:
 
 def _edges(n: int, inner: float = math.inf) -> list[Edge]:
     """Edges of the unit square, the last two of n unknowns, and for the first two of |e|^2 up to `inner`."""
-    unit, found = np.eye(n), []
-    for axis, name in ((n - 2, "across"), (n - 1, "up")):
-        found.append(Edge(name, lambda v, k=axis: (-float(v[k]), -unit[k])))
-        found.append(Edge(name, lambda v, k=axis: (float(v[k]) - 1.0, unit[k])))
+    found = square_edges(n)
     if inner < math.inf:
         found.append(Edge("equator", lambda v: (float(v[:2] @ v[:2]) - inner, np.append(2.0 * v[:2], (0.0, 0.0)))))
     return found

@@ -16,7 +16,8 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from ..curves.arclength import Steps, trace_curve, zero_between
-from ..curves.newton import finite_differences
+from ..curves.newton import finite_differences, newton
+from ..curves.polyline import distance
 from ..cycles.loop import gap, loops
 from ..layer_problem.equator import equator_cycle
 from ..layer_problem.linearisation import determinant_sign
@@ -37,7 +38,7 @@ OF_EQUATORS = Steps(STEP, 0.12, 400, close=1e-10, least=1e-5)
 OF_LOOPS = Steps(STEP, 0.3, 400, close=1e-9, least=1e-3)
 NEAR = 0.03  # a curve that breaks off this close to a corner ends there
 
-ROUNDS, DIFFERENCE, CLOSE, REACH = 12, 1e-6, 1e-9, 0.15  # of the search for a neutral loop, in that disc
+DIFFERENCE, CLOSE, REACH = 1e-6, 1e-9, 0.15  # of the search for a neutral loop, in that disc
 FAILED = np.full(2, math.nan)
 
 _NONE = say("no cycles at all")
@@ -181,20 +182,12 @@ def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | No
         arcs = loops(coefficients) if float(e @ e) < 1.0 else ()
         return np.array([gap(coefficients, psi, arcs[0], FINE), math.log(arcs[0].ratio)]) if arcs else FAILED
 
-    e, last = np.asarray(-np.linalg.solve(A, f), float), math.inf
-    for _ in range(ROUNDS):
+    def both(e: Array) -> tuple[Array, Array]:
         here = misses(e)
-        slopes = np.stack([(misses(e + DIFFERENCE * v) - here) / DIFFERENCE for v in np.eye(2)], axis=1)
-        if not np.isfinite(slopes).all() or np.linalg.det(slopes) == 0.0:
-            return None
-        change = -np.asarray(np.linalg.solve(slopes, here), float)
-        size = float(np.abs(change).max())
-        if size > min(2.0 * last, REACH):
-            return None
-        e, last = e + change, size
-        if size < CLOSE:
-            return np.asarray(-A @ e, float)
-    return None
+        return here, np.stack([(misses(e + DIFFERENCE * v) - here) / DIFFERENCE for v in np.eye(2)], axis=1)
+
+    e = newton(both, np.asarray(-np.linalg.solve(A, f), float), REACH, CLOSE)
+    return None if e is None else np.asarray(-A @ e, float)
 
 
 def _ratio(a: float, b: float, d: float, f: Array) -> float:
@@ -265,6 +258,4 @@ def _to_ends(line: Array, ends: list[Array]) -> Array:
 
 
 def _passes(curve: Array, e: Array) -> bool:
-    start, along = curve[:-1], np.diff(curve, axis=0)
-    part = np.clip(((e - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
-    return float(np.hypot(*(start + part[:, None] * along - e).T).min()) < 0.2 * STEP
+    return bool(distance(e, curve) < 0.2 * STEP)

@@ -39,6 +39,15 @@ class Edge:
     of: Callable[[Array], tuple[float, Array]]
 
 
+def square_edges(n: int) -> list[Edge]:
+    """Return the edges of the unit square, of the last two of n unknowns."""
+    unit, found = np.eye(n), []
+    for axis, name in ((n - 2, "across"), (n - 1, "up")):
+        found.append(Edge(name, lambda v, k=axis: (-float(v[k]), -unit[k])))
+        found.append(Edge(name, lambda v, k=axis: (float(v[k]) - 1.0, unit[k])))
+    return found
+
+
 @dataclass(frozen=True)
 class Steps:
     """How long steps may be.

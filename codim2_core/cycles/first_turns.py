@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..curves.polyline import distance
 from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
@@ -153,10 +154,7 @@ def _narrowed(section: TurnSection, low: float, high: float, backward: bool) -> 
 def _on(section: TurnSection, crossing: FixedPoint, other: Orbit) -> bool:
     """Whether a fixed point lies on a cycle that is known."""
     p = section.states(np.array([crossing.xi]))[0][0, :2]
-    start, along = other.points[:-1], np.diff(other.points, axis=0)
-    length = np.maximum((along**2).sum(axis=1), 1e-300)
-    part = np.clip(((p - start) * along).sum(axis=1) / length, 0.0, 1.0)
-    return bool(np.hypot(*(start + part[:, None] * along - p).T).min() < ON)
+    return bool(distance(p, other.points) < ON)
 
 
 def _sense(points: Array) -> int:

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..curves.polyline import distance
 from ..cycles.limit_cycles import limit_cycles
 from ..initial_value.field import Field, field
 from ..numerics.dense import Dense
@@ -342,8 +343,4 @@ def _close(before: _Run, after: _Run) -> bool:
 
 def _distance(p: Array, points: Array) -> float:
     """Distance of a point to a closed polyline."""
-    closed = np.concatenate([points, points[:1]])
-    start, along = closed[:-1], np.diff(closed, axis=0)
-    length = np.maximum((along**2).sum(axis=1), 1e-300)
-    share = np.clip(((p - start) * along).sum(axis=1) / length, 0.0, 1.0)
-    return float(np.hypot(*(start + share[:, None] * along - p).T).min())
+    return float(distance(p, np.concatenate([points, points[:1]])))

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..curves.polyline import distance
 from ..cycles.foretold import ON_C
 from ..cycles.limit_cycles import LimitCycles
 from ..layer_problem.critical import CriticalSet
@@ -66,11 +67,7 @@ def _on_cycle(cycles: LimitCycles, p: Array, backward: bool) -> int | None:
     for i, cycle in enumerate(cycles):
         if cycle.kind != "semistable" and (cycle.kind == "unstable") != backward:
             continue
-        start = cycle.points[:-1]
-        along = np.diff(cycle.points, axis=0)
-        length = np.maximum((along**2).sum(axis=1), 1e-300)
-        part = np.clip(((p - start) * along).sum(axis=1) / length, 0.0, 1.0)
-        if np.hypot(*(start + part[:, None] * along - p).T).min() < ON_CYCLE:
+        if distance(p, cycle.points) < ON_CYCLE:
             return i
     return None
 

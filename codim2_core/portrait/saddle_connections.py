@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..curves.polyline import distance
 from ..words import say
 from .separatrix import Separatrix
 
@@ -17,9 +18,7 @@ def _gap(one: Array, other: Array) -> float:
     """Distance of the middle of `other`, by arc length, from the polyline `one`."""
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(other, axis=0).T))])
     at = np.array([np.interp(0.5 * length[-1], length, other[:, k]) for k in range(2)])
-    start, along = one[:-1], np.diff(one, axis=0)
-    part = np.clip(((at - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
-    return float(np.hypot(*(start + part[:, None] * along - at).T).min())
+    return float(distance(at, one))
 
 
 def gaps_between(branches: list[Separatrix]) -> dict[tuple[int, int], float]:

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...curves.arclength import Edge, Steps, trace_curve, zero_between
+from ...curves.arclength import Steps, square_edges, trace_curve, zero_between
 from ...curves.newton import newton
+from ...curves.polyline import feet
 from .lines import Seed
 from .splitting import Pair, Splitting
 
@@ -48,10 +49,7 @@ class Curve:
 
     def passes(self, place: Array, pair: Pair) -> bool:
         """Whether a place lies on it: the unstable branch tells of which connection."""
-        start, along = self.plane[:-1], np.diff(self.plane, axis=0)
-        length = np.maximum((along**2).sum(axis=1), 1e-300)
-        part = np.clip(((place - start) * along).sum(axis=1) / length, 0.0, 1.0)
-        away = np.hypot(*(start + part[:, None] * along - place).T)
+        away = feet(place, self.plane)[2]
         i = int(away.argmin())
         ways = [one.leaving.signature for one in self.pairs[i : i + 2]]
         near = np.array([np.abs(way - pair.leaving.signature).max() for way in ways]).min()
@@ -77,18 +75,9 @@ def through(seed: Seed) -> Curve | None:
     first = newton(splitting.condition, seed.place, REACH)
     if first is None:
         return None
-    found = trace_curve(splitting.condition, first, _edges(), STEPS)
+    found = trace_curve(splitting.condition, first, square_edges(2), STEPS)
     if found is None or len(found.points) < 2:
         return None
     pairs = [splitting.pair(place) for place in found.points]
     kept = [i for i, pair in enumerate(pairs) if pair is not None]
     return Curve(splitting, found.points[kept], [pair for pair in pairs if pair is not None], found.ends)
-
-
-def _edges() -> list[Edge]:
-    unit = np.eye(2)
-    found = []
-    for k in range(2):
-        found.append(Edge("frame", lambda v, k=k: (-float(v[k]), -unit[k])))
-        found.append(Edge("frame", lambda v, k=k: (float(v[k]) - 1.0, unit[k])))
-    return found

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...continuation.typed.foot import corrected
+from ...curves.polyline import feet
 from ...layer_problem.problem import LayerProblem
 from ...numerics.root_between import root_between
 from ..cycles.lines import marks
@@ -161,10 +162,8 @@ def beside(family: Family, takens: Sequence[Array], curves: Sequence[AtlasCurve]
 
 
 def _nearest(line: Array, place: Array) -> Array:
-    start, along = line[:-1], np.diff(line, axis=0)
-    part = np.clip(((place - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
-    met = start + part[:, None] * along
-    return np.asarray(met[int(np.hypot(*(met - place).T).argmin())])
+    _, met, gaps = feet(place, line)
+    return np.asarray(met[int(gaps.argmin())])
 
 
 class Search:

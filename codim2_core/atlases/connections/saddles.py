@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...continuation.typed.foot import corrected
+from ...curves.newton import newton
 from ...layer_problem.critical import CriticalSet, set_at
 from ...layer_problem.eigendirections import to_disc
 from ...layer_problem.problem import LayerProblem
@@ -32,7 +33,8 @@ FIRST = 1e-6  # in units of hypot(1, |x2|)
 LENGTH, LONGEST = 5.0, 1e4  # how far they are followed, in the disc and in T of 1/max |U|
 PIXEL, FINE, FINEST = 5e-4, 1e-3, 1e-8  # of their lines: the first, but finer for what is small, of its size
 SAME = 1e-6  # in the disc: found twice
-ROUNDS, CLOSE, FAR = 8, 1e-13, 0.1  # of Newton's method for theta; the way to a saddle's next place
+CLOSE = 3e-7  # last step of Newton's method for theta: its error is the square
+FAR = 0.1  # the way to a saddle's next place
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,17 +178,13 @@ def _branches_of(at: AtZ, psi: Psi, C: CriticalSet, backward: bool) -> list[Bran
 
 def _zero_of_theta(at: AtZ, start: float) -> float:
     """Newton's method for Theta = 0; NaN if it is not found nearby."""
-    theta = start
-    for _ in range(ROUNDS):
-        e, t, U, D = _on_equator(at, theta)
-        slope = float(t @ D @ t - e @ U)
-        step = float(t @ U) / slope if slope else math.inf
-        theta -= step
-        if not abs(theta - start) < FAR:
-            break
-        if abs(step) < CLOSE**0.5:  # its error is the square
-            return theta
-    return math.nan
+
+    def turning(v: Array) -> tuple[Array, Array]:
+        e, t, U, D = _on_equator(at, float(v[0]))
+        return np.array([t @ U]), np.array([[t @ D @ t - e @ U]])
+
+    found = newton(turning, np.array([start]), FAR, CLOSE)
+    return math.nan if found is None else float(found[0])
 
 
 def _on_equator(at: AtZ, theta: float) -> tuple[Array, Array, Array, Array]:

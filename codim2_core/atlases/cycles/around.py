@@ -8,46 +8,22 @@ from __future__ import annotations
 
 import math
 from copy import copy
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ...continuation.typed.foot import Place, corrected, placed
 from ...continuation.typed.ray import Ray
-from ...cycles.orbit import NODES, gauss, linearisation, path
+from ...continuation.typed.turn import Course, turn
 from ...systems.frozen import AtZ
 from ..family import Family
 
 Array = NDArray[np.float64]
 
 SCALE = 6.0  # of x: steps along curves are as long in it as in the unit square
-RTOL = 1e-12  # of a turn
 DIFFERENCE = 1e-6  # for derivatives, which tell the way and not the place
 FARTHEST = 40.0  # |x|
 KNOWN = 0.01  # of the square: so far from where it is known the critical set is kept
-
-
-@dataclass(frozen=True)
-class Turned:
-    """One turn.
-
-    Attributes
-    ----------
-    shift : float
-        ln of the place on the ray after the turn over that before; zero on a cycle.
-    exponent : float
-        ln of the Floquet multiplier.
-    line : ndarray (k, 2)
-        Points along it, in the projected disc.
-    amplitude : float
-        Their largest distance from the point it goes round.
-    """
-
-    shift: float
-    exponent: float
-    line: Array
-    amplitude: float
 
 
 class Around:
@@ -96,31 +72,13 @@ class Around:
             self._known.append((place.copy(), e))
         return placed(self.family.psi_at(place), e)
 
-    def turn(self, v: Array) -> Turned | None:
+    def turn(self, v: Array) -> Course | None:
         """Follow one turn; None if it does not return."""
         ray = self.ray(v[1:]) if abs(v[0]) < FARTHEST else None
         if ray is None:
             return None
-        xi = SCALE * float(v[0])
-        start, _ = ray.states(np.array([xi]))
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            way = path(ray, start[0], RTOL, False)
-            if way is None:
-                return None
-            _, weights, _ = gauss(NODES)
-            J = linearisation(ray, way.inner)[1]
-            rates = ((J[:, 0, 0] + J[:, 1, 1]) / way.inner[:, 2]).reshape(-1, NODES)
-        last = float((way.end[:2] - ray.critical.p) @ ray.u)
-        rest = float(way.end[2]) ** 2 / (last + ray.other)
-        if not (last > 0.0 and rest > 0.0):
-            return None
-        line = way.inner[:, :2]
-        return Turned(
-            math.log(last / rest) - xi,
-            float(way.h @ (rates @ weights)),
-            line,
-            float(np.hypot(*(line - ray.critical.p).T).max()),
-        )
+            return turn(ray, SCALE * float(v[0]), math.nan, None, ray.critical, False)
 
     def fold(self, v: Array) -> tuple[Array, Array]:
         """Shift and exponent, both zero on a fold, with their derivatives; NaN where there is no turn."""
@@ -130,5 +88,5 @@ class Around:
         return here, np.stack([(self._values(v + way) - here) / DIFFERENCE for way in DIFFERENCE * np.eye(3)], axis=1)
 
     def _values(self, v: Array) -> Array:
-        turned = self.turn(v)
-        return np.full(2, math.nan) if turned is None else np.array([turned.shift, turned.exponent])
+        found = self.turn(v)
+        return np.full(2, math.nan) if found is None else np.array([found.turn.shift, found.turn.exponent])

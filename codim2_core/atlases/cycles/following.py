@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +10,7 @@ from numpy.typing import NDArray
 
 from ...continuation.typed.foot import e_at
 from ...continuation.typed.ray import crossing, room
-from ...curves.arclength import Edge, Steps, tangent, trace_one_way
+from ...curves.arclength import Edge, Steps, square_edges, tangent, trace_one_way
 from ...curves.newton import newton
 from ...layer_problem.critical import critical_sets
 from ..family import Family
@@ -56,7 +55,7 @@ def through(family: Family, start: Start) -> Curve | None:
     else:
         behind, other = _one_way(family, start.around, first, -along)
     rows = [*behind[::-1], (start.around, first), *ahead]
-    sizes = [turned.amplitude if (turned := around.turn(v)) is not None else math.nan for around, v in rows]
+    sizes = [found.turn.amplitude if (found := around.turn(v)) is not None else math.nan for around, v in rows]
     return Curve(np.array([v[1:] for _, v in rows]), np.array(sizes), (other, end))
 
 
@@ -81,7 +80,7 @@ def _again(family: Family, around: Around, last: Array, way: Array) -> tuple[Aro
     turned, ray = around.turn(last), around.ray(last[1:])
     if turned is None or ray is None:
         return None
-    closed = np.concatenate([turned.line, turned.line[:1]])
+    closed = np.concatenate([turned.states, turned.states[:1]])[:, :2]
     arounds = [around, *_inside(family, last[1:], closed)]
     rays = [one.ray(last[1:]) for one in arounds]
     crossed = [(*crossing(closed, found.critical), one) for one, found in zip(arounds, rays, strict=True) if found]
@@ -124,13 +123,7 @@ def _on(around: Around, place: Array, point: Array) -> Start | None:
     return Start(turned, np.array([math.log(r / max(reach - r, 1e-300)) / SCALE, *place]))
 
 
-def _edges() -> Sequence[Edge]:
+def _edges() -> list[Edge]:
     unit = np.eye(3)
-    found = [
-        Edge(CENTRE, lambda v: (INNER - float(v[0]), -unit[0])),
-        Edge("equator", lambda v: (float(v[0]) - OUTER, unit[0])),
-    ]
-    for k in (1, 2):
-        found.append(Edge("frame", lambda v, k=k: (-float(v[k]), -unit[k])))
-        found.append(Edge("frame", lambda v, k=k: (float(v[k]) - 1.0, unit[k])))
-    return found
+    centre = Edge(CENTRE, lambda v: (INNER - float(v[0]), -unit[0]))
+    return [centre, Edge("equator", lambda v: (float(v[0]) - OUTER, unit[0])), *square_edges(3)]

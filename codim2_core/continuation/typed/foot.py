@@ -10,13 +10,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...curves.newton import newton
 from ...psi.function import Psi
 from ...systems.frozen import AtZ
 
 Array = NDArray[np.float64]
 At = Callable[[float], tuple[AtZ, Psi]]
 
-ROUNDS, CLOSE, FAR = 8, 1e-9, 0.1  # of Newton's method for e; its last step (its error is the square); all of its way
+CLOSE, FAR = 1e-9, 0.1  # of Newton's method for e: its last step (its error is the square), all of its way
 HALVINGS = 30  # of the way to a value at which it is not found at once: after these it is where it was last
 INSIDE = 1.0 - 1e-9  # |e| of a critical set
 
@@ -81,19 +82,8 @@ class Foot:
 
 def corrected(system: AtZ, start: Array) -> Array | None:
     """Newton's method for U = 0 from a place (c, s) nearby; None if it is not found."""
-    e = start
-    for _ in range(ROUNDS):
-        matrix = system.DU(e)
-        det = matrix[0, 0] * matrix[1, 1] - matrix[0, 1] * matrix[1, 0]
-        if det == 0.0 or not math.isfinite(det):
-            return None
-        step = np.linalg.solve(matrix, system.U(e))
-        e = e - step
-        if not (math.hypot(*e) < INSIDE and math.dist(e, start) < FAR):
-            return None
-        if math.hypot(*step) < CLOSE:
-            return e
-    return None
+    e = newton(lambda e: (system.U(e), system.DU(e)), start, FAR, CLOSE)
+    return e if e is not None and math.hypot(*e) < INSIDE else None
 
 
 def placed(psi: Psi, e: Array) -> Place:

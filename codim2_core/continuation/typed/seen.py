@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ...curves.polyline import distance
 from ...cycles.limit_cycles import LimitCycle
 from ..turns import Turn
 from .foot import Array
@@ -26,10 +27,7 @@ def same(turn: Turn, cycle: LimitCycle | Seen) -> bool:
     """Whether a closed turn is a cycle that was seen."""
     if abs(turn.period - cycle.period) > SAME * cycle.period:
         return False
-    start, along = cycle.points[:-1], np.diff(cycle.points, axis=0)
-    length = np.maximum((along**2).sum(axis=1), 1e-300)
-    part = np.clip(((turn.p - start) * along).sum(axis=1) / length, 0.0, 1.0)
-    return bool(np.hypot(*(start + part[:, None] * along - turn.p).T).min() < CLOSE)
+    return bool(distance(np.array(turn.p), cycle.points) < CLOSE)
 
 
 def met(points: Array, foot: Array, u: Array, near: float) -> float:

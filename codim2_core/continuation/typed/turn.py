@@ -40,7 +40,7 @@ class Course:
     states: Array
 
 
-def turn(ray: Ray, xi: float, value: float, beside: Beside, centre: Place, backward: bool) -> Course | None:
+def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place, backward: bool) -> Course | None:
     """Follow one turn from a place on a ray; None if it does not return.
 
     Parameters
@@ -48,7 +48,8 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside, centre: Place, backw
     ray : Ray
         At this value.
     xi, value : float
-    beside : Beside
+    beside : Beside, or None
+        Without it no derivative by the parameter is told.
     centre : Place
         From where the amplitude is measured.
     backward : bool
@@ -71,7 +72,6 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside, centre: Place, backw
     past = np.concatenate([[0.0], np.cumsum(whole)[:-1]])
     left = exponent - past[:, None] - way.h[:, None] * (rates @ matrix.T)
     growth = np.exp(np.minimum(left.ravel(), MOST_EXPONENT))
-    melnikov = float(way.weight @ (growth * _cross(sign * F[:-2], _change(way.inner, beside) / ray.rate)))
     multiplier = math.exp(exponent)
 
     def lifted(k: int, state: Array, v: Array) -> float:
@@ -88,8 +88,11 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside, centre: Place, backw
         return None
     steep = 1.0 / last + 1.0 / rest
     by_r = multiplier * lifted(-2, begin, ray.u) / across
-    came = multiplier * lifted(-2, begin, beside.moved + chi * beside.widened * ray.u) + melnikov
-    by_value = steep * (came - lifted(-1, end, beside.moved)) / across - beside.widened / rest
+    by_value = math.nan
+    if beside is not None:
+        melnikov = float(way.weight @ (growth * _cross(sign * F[:-2], _change(way.inner, beside) / ray.rate)))
+        came = multiplier * lifted(-2, begin, beside.moved + chi * beside.widened * ray.u) + melnikov
+        by_value = steep * (came - lifted(-1, end, beside.moved)) / across - beside.widened / rest
     found = Turn(
         xi=xi, value=value, shift=math.log(last / rest) - xi,
         by_xi=steep * by_r * r * (1.0 - chi) - 1.0, by_value=by_value,
