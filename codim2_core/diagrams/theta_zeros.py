@@ -1,7 +1,6 @@
 """Zeros of Theta at many parameter values at once, and where along the parameter they meet.
 
-``Theta = b + f2 cos - f1 sin + (d - a) sin cos`` (eq:equator_zeros) is a product of two factors
-``h cos(theta - nu) + g``, as in `numerics.line_pair`.
+``Theta = b + f2 cos - f1 sin + (d - a) sin cos`` (eq:equator_zeros).
 """
 
 from __future__ import annotations
@@ -18,6 +17,10 @@ from .sweep import Line, Plane
 __all__ = ["Meeting", "lambda_rho", "meetings", "theta_slope", "theta_value", "theta_zeros"]
 
 Array = NDArray[np.float64]
+
+_STEP = 2.0 * math.pi / 256
+_ANGLES = _STEP * (np.arange(256) + 0.2719)
+_NET = np.stack([np.ones(256), np.cos(_ANGLES), np.sin(_ANGLES), 0.5 * np.sin(2.0 * _ANGLES)], axis=1)
 
 
 class Meeting(NamedTuple):
@@ -69,74 +72,25 @@ def theta_zeros(plane: Plane, count: int) -> Array:
     k = len(plane)
     if not count or not k:
         return np.zeros((k, count))
+    values = _rows(plane) @ _NET.T
+    row, place = np.nonzero(values * np.roll(values, -1, axis=1) <= 0.0)
+    seen = (np.bincount(row, minlength=k) == count)[row]
+    theta = np.full((k, count), np.nan)
+    theta[np.unique(row[seen])] = _ANGLES[place[seen]].reshape(-1, count) + 0.5 * _STEP
     with np.errstate(all="ignore"):
-        theta = _factored(plane)
-        number = np.isfinite(theta).sum(axis=1)
-        theta = np.sort(theta, axis=1)[:, :count]  # those that do not exist are nan, and last
-        for _ in range(4):
-            theta = theta - theta_value(plane, theta) / theta_slope(plane, theta)
+        for _ in range(6):
+            theta = theta - np.clip(theta_value(plane, theta) / theta_slope(plane, theta), -_STEP, _STEP)
         size = np.sum([abs(v) for v in plane.arrays], axis=0)
         off = abs(theta_value(plane, theta)) > 1e-12 * size[:, None]
         theta = np.sort(theta % (2.0 * math.pi), axis=1)
         gaps = np.diff(theta, axis=1, append=theta[:, :1] + 2.0 * math.pi)
-        doubtful = (number != count) | off.any(axis=1) | ~np.isfinite(theta).all(axis=1) | (gaps < 1e-5).any(axis=1)
+        doubtful = off.any(axis=1) | ~np.isfinite(theta).all(axis=1) | (gaps < 1e-5).any(axis=1)
     for i in np.flatnonzero(doubtful):
         a, b, d, f1, f2 = (float(v[i]) for v in plane.arrays)
         exact = tangential_zeros(a, b, d, f1, f2)
         found = [t for t, m in zip(exact.theta, exact.multiplicity, strict=True) for _ in range(m)]
         theta[i] = np.resize(found or [0.0], count) if len(found) != count else found
     return theta
-
-
-def _factored(plane: Plane) -> Array:
-    """Approximate zeros, (k, 4), nan where there are fewer."""
-    a, m, d, f1, f2 = plane.arrays
-    c1, s1, s2 = f2, -f1, 0.5 * (d - a)
-    single = abs(s2) <= 1e-12 * (abs(m) + abs(c1) + abs(s1))
-    s2 = np.where(single, 1.0, s2)
-    r, turn = abs(s2), np.copysign(0.25 * math.pi, s2)
-    cp, sp = np.cos(turn), np.sin(turn)
-    alpha, beta = c1 * cp + s1 * sp, s1 * cp - c1 * sp
-    mu = 0.5 * (m - r) / r
-    p, q = (0.25 * alpha / r) ** 2, (0.25 * beta / r) ** 2
-    y = _pencil_root(mu - 1.0, p + q - mu, -q)
-    big_a, big_b = 2.0 * r * (1.0 - y), 2.0 * r * y
-    k = m - r + big_b
-    ra, rb = np.sqrt(big_a), np.sqrt(big_b)
-    low = y < 0.5
-    ga, gb = 0.5 * alpha / np.where(low, ra, 1.0), 0.5 * beta / np.where(low, 1.0, rb)
-    gb = np.where(low, np.copysign(np.sqrt(np.maximum(0.0, ga * ga - k)), beta), gb)
-    ga = np.where(low, ga, np.copysign(np.sqrt(np.maximum(0.0, gb * gb + k)), alpha))
-    g1, g2 = ga - gb, ga + gb
-    g1, g2 = (
-        np.where(abs(g1) < 0.1 * abs(g2), k / np.where(g2 != 0.0, g2, 1.0), g1),
-        np.where(abs(g2) < 0.1 * abs(g1), k / np.where(g1 != 0.0, g1, 1.0), g2),
-    )
-    nu, h = np.arctan2(rb, ra), np.sqrt(2.0 * r)
-    plain = np.hypot(c1, s1)
-    h1, g1 = np.where(single, plain, h), np.where(single, m, g1)
-    nu1 = np.where(single, np.arctan2(s1, c1), turn + nu)
-    half1, half2 = np.arccos(-g1 / h1), np.where(single, np.nan, np.arccos(-g2 / h))
-    return np.stack([nu1 + half1, nu1 - half1, turn - nu + half2, turn - nu - half2], axis=1)
-
-
-def _pencil_root(b: Array, c: Array, d: Array) -> Array:
-    """Return the steepest root in [0, 1] of y^3 + b y^2 + c y + d, as `numerics.line_pair` does for one."""
-    third = b / 3.0
-    p, q = third * third - c / 3.0, third * (third * third - 0.5 * c) + 0.5 * d
-    three = q * q < p * p * p
-    root = np.sqrt(np.where(three, p, 1.0))
-    angle = np.arccos(np.clip(-q / (root**3), -1.0, 1.0)) / 3.0
-    guesses = 2.0 * root * np.cos(angle + np.array([[0.0], [1.0], [2.0]]) * (2.0 * math.pi / 3.0)) - third
-    steep = abs((3.0 * guesses + 2.0 * b) * guesses + c)
-    steep = np.where((guesses >= -1e-9) & (guesses <= 1.0 + 1e-9), steep, -1.0)
-    best = np.take_along_axis(guesses, steep.argmax(axis=0)[None], axis=0)[0]
-    u = -np.copysign(np.cbrt(abs(q) + np.sqrt(np.where(three, 0.0, q * q - p * p * p))), q)
-    y = np.where(three, best, u + np.where(u != 0.0, p / np.where(u != 0.0, u, 1.0), 0.0) - third)
-    for _ in range(2):
-        slope = (3.0 * y + 2.0 * b) * y + c
-        y = y - np.where(slope != 0.0, (((y + b) * y + c) * y + d) / np.where(slope != 0.0, slope, 1.0), 0.0)
-    return np.clip(y, 0.0, 1.0)
 
 
 def meetings(path: Line, span: tuple[float, float], near: Array, step: float) -> list[Meeting]:
