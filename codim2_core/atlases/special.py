@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from ..curves.arclength import zero_between
 from ..curves.newton import newton
 from ..words import say
-from . import conditions
 from .conditions import OnEquator, Within
 from .family import Family
 from .numbers import lyapunov, trace
@@ -203,9 +202,3 @@ def each_once(found: Sequence[Special]) -> list[Special]:
                    np.abs(one.plane - other.plane).max() < SAME for other in kept):  # fmt: skip
             kept.append(one)
     return kept
-
-
-def polished_corner(family: Family, v: Array) -> Array:
-    """Return a corner to all digits."""
-    found = newton(conditions.equator_corner(family), v, SAME * 1e3)
-    return v if found is None else found

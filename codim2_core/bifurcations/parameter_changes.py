@@ -6,12 +6,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..layer_problem.linearisation import determinant_sign
 from ..layer_problem.location import locate
-from ..numerics.root_between import root_between
-from ..psi.constructors import hill, with_parameter
+from ..numerics.sign_changes import roots
+from ..psi.constructors import hill, many, with_parameter
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
@@ -104,9 +104,10 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
     # beta is formed from squares too: a + d - alpha would cancel
     alpha, beta = (a * c * c + d * s * s) / square, (a * s * s + d * c * c) / square
 
-    def sigma(n: float) -> float:
-        member = with_parameter(psi, n)
-        return location.complement * (1.0 + member.steepness(member.radius(modulus, location.complement)))
+    def sigma(n: NDArray[np.float64]) -> NDArray[np.float64]:
+        members = many(psi, n)
+        radius = members.radius(np.full(len(n), modulus), np.full(len(n), location.complement))
+        return location.complement * (1.0 + members.steepness(radius))
 
     wanted: list[tuple[str, float]] = []
     if alpha * beta < 0.0:
@@ -121,20 +122,18 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
         elif alpha == 0.0 and tau * beta > 0.0:
             wanted.append(("node-focus", (beta / (2.0 * root)) ** 2))
     spaced = np.geomspace if shape.low > 0.0 else np.linspace
-    grid = [shape.low, *spaced(shape.low, shape.high, STEPS)[1:-1].tolist(), shape.high]
-    values = [sigma(n) for n in grid]
+    grid = np.concatenate([[shape.low], spaced(shape.low, shape.high, STEPS)[1:-1], [shape.high]])
+    values = sigma(grid)
     found: list[tuple[float, str]] = []
     for kind, target in wanted:
-        for i in range(len(grid) - 1):
-            if (values[i] < target) != (values[i + 1] < target):
-                n = root_between(lambda n, t=target: sigma(n) / t - 1.0, grid[i], grid[i + 1])
-                found.append((n, kind))
+        zeros = roots(lambda n, t=target: sigma(n) / t - 1.0, [grid], [values / target - 1.0]).zeros[0]
+        found += [(n, kind) for n in zeros.tolist()]
     found.sort()
     changes = []
     for i, (n, kind) in enumerate(found):
         low = 0.5 * (n + (found[i - 1][0] if i else shape.low))
         high = 0.5 * (n + (found[i + 1][0] if i + 1 < len(found) else shape.high))
-        before, after = (_kind(alpha, beta, root, sigma(v)) for v in (low, high))
+        before, after = (_kind(alpha, beta, root, v) for v in sigma(np.array([low, high])).tolist())
         changes.append(
             ParameterChange(
                 kind, n, before, after, say("changes over Ψ", name=shape.name, value=n, before=before, after=after)

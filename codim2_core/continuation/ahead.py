@@ -16,11 +16,11 @@ APART = 0.25  # of a step: how far from one another they are, at least: a fold m
 
 
 class Place(NamedTuple):
-    """A place of the curve, or its derivative by the length: xi and chi of `turns.Turn`, and the parameters."""
+    """A place of the curve, or its derivative by the length: xi and chi of `turns.Turn`, and nu."""
 
     xi: float
     chi: float
-    parameters: tuple[float, ...]
+    nu: float
 
 
 def ahead(
@@ -81,14 +81,14 @@ def placed(
     for place, along in zip(places, tangents, strict=True):
         rest = place.xi - math.log(place.chi) + outer * math.log(1.0 - place.chi)
         by_rest = along.xi - (1.0 / place.chi + outer / (1.0 - place.chi)) * along.chi
-        values.append((rest, place.chi, *place.parameters))
-        slopes.append((by_rest, along.chi, *along.parameters))
+        values.append((rest, place.chi, place.nu))
+        slopes.append((by_rest, along.chi, along.nu))
     at, wanted = np.array(lengths) - lengths[0], np.array(where) - lengths[0]
     found = []
-    for rest, chi, *parameters in _hermite(at, np.array(values), np.array(slopes), wanted).tolist():
+    for rest, chi, nu in _hermite(at, np.array(values), np.array(slopes), wanted).tolist():
         if not 0.0 < chi < 1.0:
             break
-        found.append(Place(rest + math.log(chi) - outer * math.log(1.0 - chi), chi, tuple(parameters)))
+        found.append(Place(rest + math.log(chi) - outer * math.log(1.0 - chi), chi, nu))
     return found
 
 

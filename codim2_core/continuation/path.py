@@ -98,7 +98,7 @@ def _joined(tracer: Tracer, first: list[Point], other: list[Point]) -> list[Poin
         missed = math.inf, math.inf
         for _ in range(2):
             place, _ = course.between(length)
-            missed = last.turn.chi - place.chi, last.nu - place.parameters[0]
+            missed = last.turn.chi - place.chi, last.nu - place.nu
             length += missed[0] * last.tangent[0] + missed[1] * last.tangent[1]
         cosine = here.tangent[0] * last.tangent[0] + here.tangent[1] * last.tangent[1]
         if cosine > TURNED and math.hypot(*missed) < SAME * step:
@@ -206,7 +206,7 @@ class _Path:
     def _placed(self, first: int, end: int, length: float) -> Asking[Point | None]:
         """Find the point of the branch at a length of the course of some of its points."""
         place, near = Course(self.tracer, self.points[first:end]).between(length)
-        guess = Guess(place.xi, place.parameters[0], self.tracer.across(near), near.turn.exponent > 0.0)
+        guess = Guess(place.xi, place.nu, self.tracer.across(near), near.turn.exponent > 0.0)
         closed = yield from self.tracer.corrected(guess)
         return None if closed is None else self.tracer.point(*closed, near.tangent)
 
@@ -256,7 +256,7 @@ class _Path:
             step = GROWTH * steps[-1]
         course, line, before = Course(self.tracer, points), self.tracer.across(last), last.nu
         for number, place in enumerate(course.ahead(steps)):
-            (nu,) = place.parameters
+            nu = place.nu
             edge = not 0.0 < nu < 1.0
             if number >= len(waiting):
                 guess = Guess(place.xi, nu, line, self.backward)
@@ -335,13 +335,13 @@ class _Path:
             course = Course(self.tracer, around)
             place, near = course.between(course.neutral(k))
             nearby = NEARBY * 0.2**halved  # where the exponent changes fast, smaller ones tell
-            found = yield from self.tracer.fold(place.xi, place.parameters[0], near, nearby)
+            found = yield from self.tracer.fold(place.xi, place.nu, near, nearby)
             if found is not None and -FOLD_SLACK < _part(here, there, found) < 1.0 + FOLD_SLACK:
                 return found
             if _rounded(here, there):
                 return None
             place, near = course.between(0.5 * (course.lengths[k - 1] + course.lengths[k]))
-            guess = Guess(place.xi, place.parameters[0], self.tracer.across(near), near.turn.exponent > 0.0)
+            guess = Guess(place.xi, place.nu, self.tracer.across(near), near.turn.exponent > 0.0)
             closed = yield from self.tracer.corrected(guess)
             if closed is None:
                 return None
@@ -357,7 +357,7 @@ def _fits(here: Point, there: Point, sought: _Sought) -> bool:
     onward = tc * (there.turn.chi - here.turn.chi) + tn * (there.nu - here.nu)
     least = 0.0 if sought.edge else MISSED * step
     cosine = tc * there.tangent[0] + tn * there.tangent[1]
-    missed = math.hypot(there.turn.chi - expected.chi, there.nu - expected.parameters[0])
+    missed = math.hypot(there.turn.chi - expected.chi, there.nu - expected.nu)
     return missed < MISSED * (sought.number + 1) * step and least < onward < 3.0 * step and cosine > TURNED
 
 

@@ -84,7 +84,7 @@ class Tracer:
     def along(self, point: Point) -> Place:
         """Tangent of a point as the derivative of its place."""
         tc, tn = point.tangent
-        return Place((tc - point.turn.drift * self.width * tn) / point.turn.rate, tc, (tn,))
+        return Place((tc - point.turn.drift * self.width * tn) / point.turn.rate, tc, tn)
 
     def across(self, point: Point) -> tuple[float, float]:
         """Covector by (xi, nu) of the lengths along the tangent of a point."""
@@ -194,7 +194,7 @@ class Course:
     def __init__(self, tracer: Tracer, points: list[Point]) -> None:
         self.points = points
         self.lengths = [*accumulate((distance(one, two) for one, two in pairwise(points)), initial=0.0)]
-        self.places = [Place(point.turn.xi, point.turn.chi, (point.nu,)) for point in points]
+        self.places = [Place(point.turn.xi, point.turn.chi, point.nu) for point in points]
         self.tangents = [tracer.along(point) for point in points]
 
     def ahead(self, steps: list[float]) -> list[Place]:
