@@ -78,6 +78,33 @@ PRINTED: dict[str, tuple[str, str]] = {
     "fig:simNCM4": ("Figure 24(e)", ""),
     "fig:sim_5cases": ("Figure 24", "Case I, computed"),
 }
+#: What changes along a parameter and on curves of an atlas, each kind once: where the paper has it.
+CHANGES: dict[str, str] = {
+    "saddle-node": "fig:SNBIF, eq:tangencies",
+    "pitchfork": "fig:SNBIF",
+    "cusp": "fig:SNBIF, eq:tangencies",
+    "exchange of limit directions": "eq:equator_zeros",
+    "all directions": "eq:equator_zeros",
+    "transcritical": "fig:ellipse, fig:transcrit",
+    "touching the equator": "fig:transcrit",
+    "fold of critical sets": "eq:scjaco",
+    "pitchfork of critical sets": "eq:scjaco",
+    "change of critical sets": "eq:critical_set",
+    "det J = 0": "eq:scjaco",
+    "det A = 0": "thm:lineps1",
+    "line of equilibria": "thm:lineps1",
+    "Hopf": "sec:case3",
+    "tr J = 0": "sec:case3",
+    "node-focus": "fig:bads",
+    "neutral equator": "thm:geneps0",
+    "degenerate": "thm:geneps0",
+    "undefined": "U has no value",
+    "fold of cycles": "sec:case3",
+    "homoclinic loop": "sec:case3",
+    "heteroclinic cycle": "sec:case3",
+    "saddle connection": "sec:case3",
+}
+
 _LABEL = re.compile(r"((?:fig|sec|thm|prop|lem|tab|def|rem):\w+)(\(\w\))?")
 _EQUATION = re.compile(r"(?:, )?\(?eq:\w+\)?")
 

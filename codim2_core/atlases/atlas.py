@@ -33,19 +33,6 @@ __all__ = [
 
 Array = NDArray[np.float64]
 
-LABELS = {
-    "saddle-node": "fig:SNBIF, eq:tangencies",
-    "pitchfork": "fig:SNBIF",
-    "transcritical": "fig:ellipse, fig:transcrit",
-    "fold of critical sets": "eq:scjaco",
-    "pitchfork of critical sets": "eq:scjaco",
-    "Hopf": "sec:case3",
-    "node-focus": "fig:bads",
-    "det A = 0": "thm:lineps1",
-    "neutral equator": "thm:geneps0",
-    "degenerate": "thm:geneps0",
-    "undefined": "U has no value",
-}
 PLACES = (0.5, 0.5), (0.21, 0.33), (0.83, 0.27), (0.29, 0.79), (0.71, 0.89)  # where U is tried, in the unit square
 AROUND = 2.0  # range on either side of a parameter's value where none is given, or the value if that is more
 
@@ -115,7 +102,7 @@ def _curves_over(family: Family, seeds: Seeds = NO_SEEDS) -> Atlas:
     lines = degenerate_lines(family)
     found, special = curves_of(family, lines, seeds)
     curves = [
-        AtlasCurve(one.kind, read_only(family.values(one.plane)), LABELS[one.kind],
+        AtlasCurve(one.kind, read_only(family.values(one.plane)),
                    read_only(places(family, one)), read_only(numbers(family, one)))
         for one in found.curves
     ]  # fmt: skip
@@ -135,7 +122,7 @@ def _curves_over(family: Family, seeds: Seeds = NO_SEEDS) -> Atlas:
 def _nowhere(family: Family, kind: str, plane: Array) -> AtlasCurve:
     """Return a curve that belongs to no place of the portrait."""
     places = read_only(np.full((len(plane), 2), math.nan))
-    return AtlasCurve(kind, read_only(family.values(plane)), LABELS[kind], places, read_only(np.zeros(0)))
+    return AtlasCurve(kind, read_only(family.values(plane)), places, read_only(np.zeros(0)))
 
 
 def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
-from ..paper import cite
+from ..paper import CHANGES, cite
 from ..tables import Tabled, number, paragraphs, point, rows
 
 __all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "Looked"]
@@ -37,8 +37,6 @@ class AtlasCurve(Tabled):
         is a line on which every direction is a limit direction, "undefined" one beyond which U has no value.
     points : ndarray (m, 2)
         In order along it; a closed one repeats its first point.
-    label : str
-        The paper's label.
     places : ndarray (m, 2)
         Where on the projected hemisphere it happens, of connections the saddle they leave; NaNs where that is nowhere
         in particular.
@@ -55,9 +53,13 @@ class AtlasCurve(Tabled):
 
     kind: str
     points: Array = field(repr=False)
-    label: str
     places: Array = field(repr=False)
     numbers: Array = field(repr=False)
+
+    @property
+    def label(self) -> str:
+        """The paper's label."""
+        return CHANGES[self.kind]
 
     def _row_(self) -> tuple[str, ...]:
         return self.kind, point(self.points[0]), point(self.points[-1]), str(len(self.points))

@@ -180,17 +180,14 @@ def _border_points(path: Line, exponent: int, cuts: Borders) -> list[SpecialValu
         plane = path(values)
         for i, value in enumerate(values.tolist()):
             t = _direction(plane, i)
-            sentence = say(what, theta=t % math.tau)
-            special.append(SpecialValue(kind, value, (math.cos(t), math.sin(t)), sentence, "fig:transcrit"))
+            special.append(SpecialValue(kind, value, (math.cos(t), math.sin(t)), say(what, theta=t % math.tau)))
     for value, line in zip(cuts.singular.tolist(), cuts.line.tolist(), strict=True):
         if line:
             at = linearise(path(np.array([value + 1e-7 * max(1.0, abs(value))])), exponent)
             place = (float(at.p[0, 0]), float(at.p[0, 1]))
-            sentence = say("line at one value")
-            special.append(SpecialValue("line of equilibria", value, place, sentence, "thm:lineps1"))
+            special.append(SpecialValue("line of equilibria", value, place, say("line at one value")))
         else:
-            sentence = say("through infinity")
-            special.append(SpecialValue("det A = 0", value, (0.0, 0.0), sentence, "tab:cases"))
+            special.append(SpecialValue("det A = 0", value, (0.0, 0.0), say("through infinity")))
     return special
 
 
@@ -210,17 +207,14 @@ def _hopf_point(path: Line, value: float) -> SpecialValue:
     if not math.isfinite(number):
         number = 0.0
     born = "supercritical" if number < 0.0 else "subcritical" if number > 0.0 else "degenerate"
-    sentence = say(f"Hopf, {born}", number=number)
-    return SpecialValue("Hopf", value, place, sentence, "sec:case3", number)
+    return SpecialValue("Hopf", value, place, say(f"Hopf, {born}", number=number), number)
 
 
 def _neutral_point(path: Line, value: float) -> SpecialValue:
     place = _point(path, value)[2]
-    sentence = say("trace touches zero")
-    return SpecialValue("tr J = 0", value, place, sentence, "sec:case3")
+    return SpecialValue("tr J = 0", value, place, say("trace touches zero"))
 
 
 def _focus_point(path: Line, value: float) -> SpecialValue:
     place = _point(path, value)[2]
-    sentence = say("between node and focus")
-    return SpecialValue("node-focus", value, place, sentence, "fig:bads")
+    return SpecialValue("node-focus", value, place, say("between node and focus"))

@@ -136,21 +136,16 @@ def _special(path: Line, m: Meeting) -> SpecialValue:
     place = (math.cos(theta), math.sin(theta))
     at = f"θ = {theta:.4g}"
     if m.kind == "saddle-node":
-        text = say("meet at", at=at)
-        return SpecialValue("saddle-node", m.value, place, text, "fig:SNBIF, eq:tangencies")
+        return SpecialValue("saddle-node", m.value, place, say("meet at", at=at))
     if m.kind == "exchange":
-        text = say("pass through", at=at)
-        return SpecialValue("exchange of limit directions", m.value, place, text, "eq:equator_zeros")
+        return SpecialValue("exchange of limit directions", m.value, place, say("pass through", at=at))
     if m.kind == "touch":
-        text = say("touch", at=at)
-        return SpecialValue("saddle-node", m.value, place, text, "fig:SNBIF, eq:tangencies")
+        return SpecialValue("saddle-node", m.value, place, say("touch", at=at))
     q = path(np.array([m.value])).coefficients(0)
     size = 1e-10 * max(map(abs, q.plane))
     if abs(q.b) <= size and min(abs(q.f1), abs(q.f2)) <= size:
-        text = say("splits, D2", at=at)
-        return SpecialValue("pitchfork", m.value, place, text, "fig:SNBIF")
-    text = say("passes a cusp", at=at)
-    return SpecialValue("cusp", m.value, place, text, "fig:SNBIF, eq:tangencies")
+        return SpecialValue("pitchfork", m.value, place, say("splits, D2", at=at))
+    return SpecialValue("cusp", m.value, place, say("passes a cusp", at=at))
 
 
 def _sampled(path: Line, low: float, high: float, count: int) -> tuple[Array, Array]:
@@ -260,8 +255,7 @@ def _closed(path: Line, low: float, high: float) -> tuple[list[ClosedEquator], l
         return [_closed_branch(x, y)], []
     found = roots(lambda values: np.array([exponent(v) for v in values.tolist()]), [x], [y]).zeros[0]
     stops = [v for v in found.tolist() if low < v < high]
-    sentence = say("equator neutral, a cycle may leave")
-    special = [SpecialValue("neutral equator", v, (0.0, 0.0), sentence, "thm:geneps0") for v in stops]
+    special = [SpecialValue("neutral equator", v, (0.0, 0.0), say("equator neutral, a cycle may leave")) for v in stops]
     edges = [-math.inf, *stops, math.inf]
     out = []
     for u, v in pairwise(edges):
@@ -305,5 +299,4 @@ def _unchanging(
 
 
 def _directions(value: float) -> SpecialValue:
-    sentence = say("nothing turns at f = 0")
-    return SpecialValue("all directions", value, (0.0, 0.0), sentence, "eq:equator_zeros")
+    return SpecialValue("all directions", value, (0.0, 0.0), say("nothing turns at f = 0"))

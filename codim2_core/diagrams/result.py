@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from .. import drawing
 from ..continuation.result import CycleBranch, CycleBranches, CyclePoint
+from ..paper import CHANGES
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..tables import Tabled, frame, number, paragraphs, table, write
@@ -45,8 +46,6 @@ class SpecialValue(Tabled):
         In the projected disc; on its border for what happens on the equator. (0, 0) where it is nowhere in particular.
     sentence : str
         For people.
-    label : str
-        The paper's label.
     number : float
         For "Hopf" the first Lyapunov coefficient (negative: a stable cycle is born), else 0.
     """
@@ -57,8 +56,12 @@ class SpecialValue(Tabled):
     value: float
     place: tuple[float, float]
     sentence: str
-    label: str
     number: float = 0.0
+
+    @property
+    def label(self) -> str:
+        """The paper's label."""
+        return CHANGES[self.kind]
 
     def _row_(self) -> tuple[str, ...]:
         return self.kind, number(self.value), self.sentence

@@ -172,5 +172,5 @@ def test_over_the_parameter_of_psi(n):
     assert len(changes) > 1
     for one in changes:
         ((key, fields),) = recognise(one.sentence)
-        special = SpecialValue(one.type, one.n, (0.0, 0.0), one.sentence, "")
+        special = SpecialValue(one.type, one.n, (0.0, 0.0), one.sentence)
         AT_A_VALUE[key](Change(system, HILL, "n", special, 1e-3 * one.n), fields)

@@ -19,7 +19,6 @@ from .splitting import Pair
 Array = NDArray[np.float64]
 
 LOOP, CYCLE, CONNECTION = KINDS = "homoclinic loop", "heteroclinic cycle", "saddle connection"
-LABEL = "sec:case3"
 TAKENS = "Bogdanov–Takens"
 NEAR, SMALL = 0.05, 0.3  # of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size
 AT = 5e-3  # of the square: an end beside a curve of what stands still
@@ -69,7 +68,7 @@ def connection_curves(
             elif end in ("lost", "many"):
                 told.append(_ended(family, one.plane[i], kind, curves))
         numbers = ratios if kind != CONNECTION else np.zeros(0)
-        out.append(AtlasCurve(kind, read_only(family.values(plane)), LABEL, read_only(places), read_only(numbers)))
+        out.append(AtlasCurve(kind, read_only(family.values(plane)), read_only(places), read_only(numbers)))
         if kind != CONNECTION:
             told += [_point(family, "neutral loop", at, say("neutral connection", kind=kind)) for at in one.neutral()]
     lost = [_kind(seed.pair) for seed in missed if not known(seed.place, seed.pair)]

@@ -17,7 +17,7 @@ from .lines import Seed, along_lines, beside
 
 Array = NDArray[np.float64]
 
-KIND, LABEL = "fold of cycles", "sec:case3"
+KIND = "fold of cycles"
 BORN = "generalised Hopf"
 NEAR = 0.03  # of the square: a curve passes a start, or ends at a point of codimension two, so near to it
 SMALL = 0.02  # cycles that are all but a critical set
@@ -52,7 +52,7 @@ def cycle_curves(
     for one in found:
         plane, sizes, ends = _ended(one, born)
         places = np.full((len(plane), 2), math.nan)
-        out.append(AtlasCurve(KIND, read_only(family.values(plane)), LABEL, read_only(places), read_only(sizes)))
+        out.append(AtlasCurve(KIND, read_only(family.values(plane)), read_only(places), read_only(sizes)))
         for across, up in family.values(np.array(ends).reshape(-1, 2)).tolist():
             lost.append(AtlasPoint("undecided", (across, up), say("fold followed no further")))
     return out, lost

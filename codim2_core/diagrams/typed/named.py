@@ -35,8 +35,7 @@ def _on_equator(value: float, before: State, after: State) -> list[SpecialValue]
         gone, come = one[away.min(axis=1) > _TOGETHER], two[away.min(axis=0) > _TOGETHER]
         out += [_meeting(value, *met) for side in (gone, come) for met in _meetings(side, side[:0])]
     if before.exponent is not None and after.exponent is not None and before.part(2) != after.part(2):
-        sentence = say("equator neutral")
-        out.append(SpecialValue("neutral equator", value, (0.0, 0.0), sentence, "thm:geneps0"))
+        out.append(SpecialValue("neutral equator", value, (0.0, 0.0), say("equator neutral")))
     return out
 
 
@@ -51,8 +50,11 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
             away = abs(np.angle(np.exp(1j * (other.equator.theta - t)))).min(initial=math.inf)
             if 1.0 - float(np.hypot(*C.e)) < _NEAR_EQUATOR and away < _TOGETHER:
                 t %= 2.0 * math.pi
-                sentence = say("set reaches the equator", theta=t)
-                out.append(SpecialValue("transcritical", value, (math.cos(t), math.sin(t)), sentence, "fig:transcrit"))
+                out.append(
+                    SpecialValue(
+                        "transcritical", value, (math.cos(t), math.sin(t)), say("set reaches the equator", theta=t)
+                    )
+                )
             else:
                 inner.append(C)
         while len(inner) > 1:
@@ -62,28 +64,27 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
             if third is not None:  # it goes on, and turned where the two came to it
                 pairs.remove(third)
                 place = (float(third[1].p[0]), float(third[1].p[1]))
-                out.append(SpecialValue("det J = 0", value, place, say("set splits"), "eq:scjaco"))
+                out.append(SpecialValue("det J = 0", value, place, say("set splits")))
                 continue
             kinds = sorted("saddle" if C.kind == "saddle" else "node" for C in near)
-            sentence = say("two sets meet", one=kinds[1], other=kinds[0])
-            out.append(SpecialValue("fold of critical sets", value, _middle(near), sentence, "eq:critical_set"))
+            out.append(
+                SpecialValue(
+                    "fold of critical sets", value, _middle(near), say("two sets meet", one=kinds[1], other=kinds[0])
+                )
+            )
         for C in inner:
             place = (float(C.p[0]), float(C.p[1]))
-            sentence = say("one comes or goes")
-            out.append(SpecialValue("change of critical sets", value, place, sentence, "eq:critical_set"))
+            out.append(SpecialValue("change of critical sets", value, place, say("one comes or goes")))
     for C, D in pairs:
         if C.kind == D.kind:
             continue
         place = (float(D.p[0]), float(D.p[1]))
         if C.kind.split()[0] == D.kind.split()[0]:
-            sentence = say("between node and focus")
-            out.append(SpecialValue("node-focus", value, place, sentence, "fig:bads"))
+            out.append(SpecialValue("node-focus", value, place, say("between node and focus")))
         elif "saddle" in (C.kind, D.kind):
-            sentence = say("saddle turns")
-            out.append(SpecialValue("det J = 0", value, place, sentence, "eq:scjaco"))
+            out.append(SpecialValue("det J = 0", value, place, say("saddle turns")))
         else:
-            sentence = say("Hopf, typed")
-            out.append(SpecialValue("Hopf", value, place, sentence, "sec:case3"))
+            out.append(SpecialValue("Hopf", value, place, say("Hopf, typed")))
     return out
 
 
@@ -120,10 +121,8 @@ def _meetings(more: Array, fewer: Array) -> list[tuple[int, float]]:
 def _meeting(value: float, count: int, theta: float) -> SpecialValue:
     place, at = (math.cos(theta), math.sin(theta)), f"θ = {theta:.4g}"
     if count == 2:
-        sentence = say("meet at", at=at)
-        return SpecialValue("saddle-node", value, place, sentence, "fig:SNBIF")
-    sentence = say("splits", at=at)
-    return SpecialValue("pitchfork", value, place, sentence, "fig:SNBIF")
+        return SpecialValue("saddle-node", value, place, say("meet at", at=at))
+    return SpecialValue("pitchfork", value, place, say("splits", at=at))
 
 
 def _between(
