@@ -181,6 +181,7 @@ def test_two_cusps_that_one_step_passes_are_both_named():
     curve = bifurcations.cycle_folds(a, b, d, psi.hill(2))
     cusps = [np.array(s.place) for s in curve.special if s.type == "cusp of cycles"]
     assert len(cusps) == 6
+    assert len(curve.branches) == 2  # from one generalised Hopf point to the other, cut nowhere
     for line, sizes in zip(curve.branches, curve.values, strict=True):
         line = line[np.diff(sizes, append=math.nan) != 0.0]  # a corner is added with the size of the fold before it
         steps = np.diff(line, axis=0)
