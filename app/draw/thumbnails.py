@@ -23,19 +23,20 @@ def thumbnails(
     system: Any,
     psi: Psi,
     z: tuple[float, ...],
-    names: tuple[str, str],
-    places: Sequence[tuple[int, str, tuple[float, float]]],
+    names: tuple[str, ...],
+    places: Sequence[tuple[int, str, tuple[float, ...]]],
 ) -> list[list[Any]]:
-    """Draw the portrait at each place of a plane of two parameters.
+    """Draw the portrait at each place of a plane of two parameters, or of a line of one.
 
     Parameters
     ----------
     system : ELinear or Coefficients
     psi : Psi
     z : (m,) floats
-    names : (str, str)
+    names : tuple of str
         The parameters, by the core's names.
     places : sequence of (region, its name, (x, y))
+        A name that is "" is that of the portrait.
 
     Returns
     -------
@@ -46,10 +47,15 @@ def thumbnails(
         changed = system, psi, z
         for axis, value in zip(names, place, strict=True):
             changed = varied(*changed, axis, value)
-        drawn.append([region, name, [float(v) for v in place], thumbnail(*changed)])
+        scene = _scene(*changed)
+        drawn.append([region, name or scene["name"].name, [float(v) for v in place], small(scene, VIEW)])
     return drawn
 
 
 def thumbnail(system: Any, psi: Psi, z: tuple[float, ...], count: int = COUNT) -> str:
     """Draw one small portrait, as SVG."""
-    return small(Scene(system, psi, z, count=count, view=VIEW * 1.4, pixel=PIXEL), VIEW)
+    return small(_scene(system, psi, z, count), VIEW)
+
+
+def _scene(system: Any, psi: Psi, z: tuple[float, ...], count: int = COUNT) -> Scene:
+    return Scene(system, psi, z, count=count, view=VIEW * 1.4, pixel=PIXEL)

@@ -23,6 +23,7 @@ from ..draw.packing import pack, unpack
 from ..draw.theme import MEASURES, themes
 from ..state.chosen import parameters_of
 from ..state.controls import NUMBERS, ExplorerState
+from ..state.pace import paced
 from .describe import place_words, psi_words, system_words
 from .view import OWN, View
 
@@ -47,15 +48,20 @@ class Slider:
     name : str
         A control that is a number, or "own:" and a parameter of the system.
     low, high : float
+    events : tuple of float
+        Values between them at which something happens: a film goes slowly there.
     """
 
     name: str
     low: float
     high: float
+    events: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, view: View, text: str) -> Slider:
-        """Return the slider that ``NAME`` or ``NAME=LOW,HIGH`` names; its range is by default that of the explorer.
+        """Return the slider that ``NAME``, ``NAME=LOW,HIGH`` or ``NAME=LOW,HIGH;EVENT,...`` names.
+
+        Its range is by default that of the explorer.
 
         Raises
         ------
@@ -70,14 +76,17 @@ class Slider:
             known = ", ".join([*NUMBERS[:5], "z", "n", *parameters])
             raise ValueError(f"{name[:40]!r} is no slider of this system; give one such as {known}.")
         low, high = (-4.0, 4.0) if own in parameters and name not in NUMBERS else _softbounds(name)
+        events: tuple[float, ...] = ()
         if span:
+            span, _, at = span.partition(";")
             try:
                 low, high = (float(word) for word in span.split(","))
+                events = tuple(float(word) for word in at.split(",") if word)
             except ValueError:
                 raise ValueError(f"{text[:60]!r} given; give NAME=LOW,HIGH such as f1=-1,1.") from None
         if not low < high or not abs(low) + abs(high) < 1e9:
             raise ValueError(f"{name} from {low:g} to {high:g}; give a range such as f1=-1,1.")
-        return cls(name if name in NUMBERS else OWN + own, low, high)
+        return cls(name if name in NUMBERS else OWN + own, low, high, tuple(v for v in events if low < v < high))
 
     @property
     def symbol(self) -> str:
@@ -87,7 +96,9 @@ class Slider:
         return plain_symbol(self.name.removeprefix(OWN))
 
     def values(self, count: int, present: float) -> list[float]:
-        """Return so many positions, evenly over its range, the present value among them."""
+        """Return so many positions: evenly over its range, the present value among them; or slowly near its events."""
+        if self.events:
+            return paced(self.low, self.high, self.events, count)
         step = (self.high - self.low) / (count - 1)
         places = [self.low + step * k for k in range(count)]
         if self.low <= present <= self.high:

@@ -31,7 +31,7 @@ TYPES: Mapping[str, str] = MappingProxyType(
         "gif": "image/gif", "proof": "application/json", "motion": "application/json",
     }
 )  # fmt: skip
-LONGEST, LONGEST_LINK = 80, 2000  # characters of a slider, bytes of an address that a phone can read
+LONGEST, LONGEST_LINK = 200, 2000  # characters of a slider, bytes of an address that a phone can read
 PROOF = "proof"
 #: What the page itself shows, and is computed while files are taken.
 SHOWN = (PROOF, "motion")
@@ -131,4 +131,6 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
 def named(view: View, wish: Wish) -> str:
     """Return the name of a file: letters, figures and dashes, which no system and no command line minds."""
     name = view.values["preset"] or view.scene()["name"].name.lower()
-    return f"codim2-{'-'.join(re.findall('[a-z0-9]+', name)) or 'view'}.{wish.kind}"
+    moves = wish.slider.partition("=")[0] if wish.kind == "gif" else ""  # two films of one portrait are two files
+    words = re.findall("[a-z0-9]+", f"{name} {moves}".lower())
+    return f"codim2-{'-'.join(words) or 'view'}.{wish.kind}"

@@ -29,7 +29,7 @@ export function panelsOf(explorer) {
     rangeOf: (name) => (name.startsWith("own:") ? explorer.systems.sliders[name.slice(4)] : controls[name])?.range ?? config.ranges[name] ?? [-4, 4],
     valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
-    take: (wish) => explorer.takes.ask(wish), untake: (kind) => explorer.takes.stop(kind),
+    take: (wish, progress) => explorer.takes.ask({theme: explorer.theme.name, ...wish}, progress), film: config.film, untake: (kind) => explorer.takes.stop(kind),
     trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarged(explorer.picture.list, 1 / explorer.picture.times),
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),

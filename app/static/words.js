@@ -106,6 +106,7 @@ export const SAYS = {
   complex: "A complex pair has no eigenvectors in the plane.",
   idle: "Claims that do not apply here",
   nothingDrifts: "Nothing drifts along z: the slow flow is zero wherever Σ slides.",
+  nothingHappens: "Nothing that stands still changes in this range.",
   nothingSlides: "Nothing slides in this range: there is no critical set.",
   every: "Every direction is an eigenvector.",
   undecided: "The linearisation does not decide: no eigenvectors are drawn.",

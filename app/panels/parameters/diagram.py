@@ -1,7 +1,11 @@
-"""The panel "Diagram": limit directions, critical sets and cycles along one parameter, special points marked."""
+"""The panel "Diagram": limit directions, critical sets and cycles along one parameter, special points marked.
+
+Above it is a film strip: a small portrait at each special value, and one between each two.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from itertools import pairwise
 from typing import Any
 
@@ -11,13 +15,19 @@ from numpy.typing import NDArray
 from codim2_core.continuation.result import CycleBranches
 from codim2_core.diagrams.branches import Branches, branches
 
+from ...draw.thumbnails import MOST as MOST_FRAMES
+from ...draw.thumbnails import thumbnails
 from ...frame.draft import Draft
 from ...phrases import say
+from ...state.pace import NEAR, SLOWEST
 from ..panel import Panel
+from .atlas_columns import short
 from .axes import available, missing, spans_of, without
 
 #: Most points that the browser is sent of a branch: it is drawn some 320 px wide.
 MOST = 160
+#: Of the span: special values that are nearer have no portrait between them.
+APART = 1e-3
 #: Special points of branches of cycles that the diagram has already, or that are none of the system's.
 KNOWN = ("Hopf", "span", "closed")
 
@@ -46,6 +56,15 @@ def add(draft: Draft) -> None:
         cycles = draft.slow("cycles along", key, _cycles, stands)
         if cycles is not None:
             draft.header["cycles_along"] = cycles
+            draft.now["cycles are"] = key, cycles
+        if draft.now.get("cycles along") == key:  # they are there, or cannot be
+            of, cycles = draft.now.get("cycles are", (None, None))
+            events = [s.value for s in stands.standing] + [
+                s["value"] for s in (cycles if of == key else {}).get("special", ())
+            ]
+            film = draft.slow("film", key, thumbnails, system, psi, z, (axis.core,), frames_of(span, events))
+            if film is not None:
+                draft.header["film"] = [[place[0], short(portrait), drawn] for _, portrait, place, drawn in film]
 
 
 def _standing(*of: Any) -> tuple[dict[str, Any], Branches]:
@@ -55,6 +74,16 @@ def _standing(*of: Any) -> tuple[dict[str, Any], Branches]:
 
 def _cycles(standing: Branches) -> dict[str, Any]:
     return cycle_columns(standing.with_cycles().cycles)
+
+
+def frames_of(span: tuple[float, float], events: Iterable[float]) -> list[tuple[int, str, tuple[float, ...]]]:
+    """Return where a film strip has its portraits: at each special value, and before and after it."""
+    at = sorted(set(events))
+    ends = [span[0], *at, span[1]]
+    apart = APART * (span[1] - span[0])
+    between = [0.5 * (low + high) for low, high in pairwise(ends) if high - low > apart]
+    values = sorted([*at, *between] if len(at) + len(between) <= MOST_FRAMES else at)
+    return [(i, "", (value,)) for i, value in enumerate(values)]
 
 
 def columns(found: Branches) -> dict[str, Any]:
@@ -106,4 +135,7 @@ def _line(x: NDArray[np.float64], y: NDArray[np.float64]) -> dict[str, list[floa
     return {"x": [float(f"{v:.7g}") for v in x], "y": [float(f"{v:.4g}") for v in y]}
 
 
-PANEL = Panel("diagram", "Diagram", add, "All that stands still along one parameter, and where it changes.")
+PANEL = Panel(
+    "diagram", "Diagram", add, "All that stands still along one parameter, and where it changes.",
+    {"slow": SLOWEST, "near": NEAR},
+)  # fmt: skip

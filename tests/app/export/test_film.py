@@ -7,10 +7,12 @@ import pytest
 from codim2_app.export import film as films
 from codim2_app.export.figure import TITLE
 from codim2_app.export.film import POSITIONS, STYLE, film, joined, picture
+from codim2_app.export.live import Slider
 from codim2_app.export.play import CHART, PLAY, SCALE, scenery
 from codim2_app.export.small.chart import LEFT
 from codim2_app.export.view import view_of
 from codim2_app.server.cli import main
+from codim2_app.state.pace import SLOWEST
 from PIL import Image, ImageSequence
 
 VIEW = view_of("case1-cm4")
@@ -47,6 +49,20 @@ def test_each_picture_is_the_figure_there():
     assert np.abs(shown[0] - shown[1]).mean() > 1
     assert picture(VIEW, "f1=-1,1", -0.5) == made[0]
     assert picture(VIEW.changed({"f1": 0.75}), "f1=-1,1", 0.75) == made[1]
+
+
+def test_it_goes_slowly_where_something_happens_and_shows_it():
+    chosen = Slider.of(VIEW, "f1=-2,6;1,3,9")
+    assert chosen.events == (1.0, 3.0)  # the other is not passed
+    values = np.array(chosen.values(81, -0.5))
+    steps = np.diff(values)
+    assert (values[0], values[-1]) == (-2.0, 6.0)
+    assert {1.0, 3.0} <= set(values)
+    near = [steps[np.argmin(abs(values[:-1] - at))] for at in (1.0, 3.0)]
+    assert near == pytest.approx([SLOWEST * steps[0]] * 2, rel=0.5)
+    assert steps.min() > 0.0
+    with pytest.raises(ValueError, match="give NAME=LOW,HIGH"):
+        Slider.of(VIEW, "f1=-2,6;x")
 
 
 @pytest.mark.parametrize("value", [-1.5, -0.5])

@@ -20,6 +20,12 @@ def test_it_is_the_portrait_in_letters_figures_and_dashes(query, name):
     assert named(view_of(query), Wish("svg")) == name
 
 
+def test_films_of_one_portrait_are_named_by_what_moves():
+    view = view_of("case3-n2")
+    found = [named(view, Wish("gif", sliders=sliders)) for sliders in (("n=1,3;2",), ("play",), ("own:mu",))]
+    assert found == ["codim2-case3-n2-n.gif", "codim2-case3-n2-play.gif", "codim2-case3-n2-own-mu.gif"]
+
+
 def test_a_poster_has_a_title_a_caption_and_the_code_of_its_address():
     link = "https://h/?v=1&preset=case3-n2"
     view = view_of("case3-n2")

@@ -51,6 +51,31 @@ def test_cycles_along_n_are_born_at_the_hopf_point():
     assert header["cycles_along"]["special"] == []
 
 
+def test_film_strip_has_a_portrait_at_each_special_value_and_between_each_two():
+    """Also at those of cycles, and each is of the system there."""
+    _, header = opened("diagram", along="f1")
+    assert [(value, name) for value, name, _ in header["film"]] == [
+        (-2.5, "NCM2"), (-2.0, "NCM2"), (-1.5, "CM2"), (-1.0, "CM2"), (0.0, "CM4"), (1.0, "CM2"),
+        (1.5, "CM2"), (2.0, "NCM2"), (2.5, "NCM2"),
+    ]  # fmt: skip
+    drawn = [svg for _, _, svg in header["film"]]
+    assert all(svg.startswith("<svg ") for svg in drawn)
+    assert len(set(drawn)) == len(drawn)
+    frames, header = opened("diagram", along="f2", **CASE3)
+    events = [s["value"] for s in (*header["diagram"]["special"], *header["cycles_along"]["special"])]
+    assert header["cycles_along"]["special"]
+    assert set(events) <= {value for value, _, _ in header["film"]}
+    assert ask(frames, f1=-80.0)["late"] == ["diagram"]
+
+
+def test_special_values_at_one_place_or_too_many_have_no_portrait_between():
+    assert [place for _, _, place in diagram.frames_of((0.0, 4.0), [1.0, 1.00390625, 1.0])] == [
+        (0.5,), (1.0,), (1.00390625,), (2.501953125,),
+    ]  # fmt: skip
+    assert [place for _, _, place in diagram.frames_of((0.0, 4.0), [])] == [(2.0,)]
+    assert len(diagram.frames_of((0.0, 1.0), np.linspace(0.1, 0.9, 13))) == 13
+
+
 def test_cycles_of_a_general_system_are_followed_too():
     system = c2.System(
         U=("m*c - s + 0.3*c**2 - 2*c*(c**2 + s**2)", "c + m*s - 0.2*c*s - 2*s*(c**2 + s**2)"), parameters={"m": 0.1}
