@@ -3,7 +3,7 @@
 import {Panels} from "./beside/panels.js"
 import {slidersOf} from "./controls/controls.js"
 import {twoFingers} from "./hands/gestures.js"
-import {Grab} from "./hands/grab.js"
+import {Grab, KEYS, turnedTo} from "./hands/grab.js"
 import {Hands} from "./hands/hands.js"
 import {Pointing} from "./hands/pointing.js"
 import {Beamer, busy, enlarged} from "./page/beamer.js"
@@ -52,6 +52,17 @@ export function pointingOf(explorer) {
 /** @param {Explorer} explorer */
 export function handsOf(explorer) {
   const {values, picture, pointing, spoken} = explorer, place = explorer.find(".bokeh")
+  const turns = (one) => { // limit directions, where f decides
+    const from = {...values} // the nearest f to that with which it was taken
+    return explorer.eLinear && one.kind === "equator" ? (to) => explorer.move(turnedTo(from, to)) : null
+  }
+  pointing.list.addEventListener("keydown", (event) => {
+    const one = pointing.over, [across, up] = KEYS[event.key] ?? [], turn = across !== undefined && one && turns(one)
+    if (!turn) return
+    event.preventDefault()
+    const step = (event.shiftKey ? 0.1 : 0.02) * Math.sign(one.x * up - one.y * across) // along the equator, the way of the key
+    turn({x: one.x - step * one.y, y: one.y + step * one.x})
+  })
   const hands = new Hands(place, picture, {
     get: () => values.orbits,
     set: (launches) => {
@@ -61,7 +72,7 @@ export function handsOf(explorer) {
     },
     begin: (i) => { spoken.begin(i); explorer.change("orbit", i + 1) },
     end: () => spoken.end(),
-  }, pointing)
+  }, {under: (event) => pointing.under(event), toggle: (one) => pointing.toggle(one), turns})
   explorer.find(".home").addEventListener("click", () => picture.home())
   twoFingers(place, explorer.plot, () => hands.held !== null)
   return hands
