@@ -67,6 +67,8 @@ class Guest:
     look: Callable[[], Row]
     tell: Tell
     missed: float = 0.0
+    follows: bool = False
+    shown: Any = None  # of the lecturer's view
 
 
 class Rooms:
@@ -152,7 +154,7 @@ class Rooms:
         look : callable
             Returns the row that the room shows, but for its number.
         tell : callable
-            Told ``{"ended": code}`` when the room ends.
+            Told ``{"ended": code}`` when the room ends, and ``{"view": settings}`` while the guest follows.
 
         Raises
         ------
@@ -175,6 +177,17 @@ class Rooms:
         """Return what the lecturer of a room shows, as far as it was told; None where it was not."""
         told = self.board.read(time.monotonic() if now is None else now)
         return next((one["views"][code] for _, _, one in told if code in one["views"]), None)
+
+    def follow(self, guest: Guest, on: bool) -> None:
+        """Have somebody told of what his lecturer shows, now and whenever it changes, or no longer."""
+        guest.follows, guest.shown = on, None
+        self._show(guest, time.monotonic())
+
+    def _show(self, guest: Guest, now: float) -> None:
+        view = self.view(guest.code, now) if guest.follows else None
+        if view is not None and view != guest.shown:
+            guest.shown = view
+            guest.tell({"view": view})
 
     def leave(self, guest: Guest) -> None:
         """Take somebody out of his room."""
@@ -209,6 +222,7 @@ class Rooms:
             if state == "closed" or (guest.missed and now - guest.missed > MISSED):
                 self.leave(guest)
                 guest.tell({"ended": guest.code})
+            self._show(guest, now)
         for host in self.hosts.values():
             if host.tell is not None:
                 rows = self._rows(host.code, now)

@@ -61,11 +61,12 @@ class Visitor:
         Parameters
         ----------
         request : object
-            As a browser sent it: ``{"open": key}`` ("" for a new room), ``{"close": True}``, ``{"join": code}`` or
-            ``{"leave": True}``.
+            As a browser sent it: ``{"open": key}`` ("" for a new room), ``{"close": True}``, ``{"join": code}``,
+            ``{"follow": bool}`` or ``{"leave": True}``.
         reply : callable
             Sends ``{"open": code, "key": key}``, ``{"joined": code, "view": settings}``, ``{"ended": code}`` or
-            ``{"error": sentence}``; to a lecturer also ``{"rows": list}``, whenever they are others.
+            ``{"error": sentence}``; to a lecturer also ``{"rows": list}``, to who follows him ``{"view": settings}``,
+            whenever they are others.
         later : callable
             Has a function called by the thread that answers, with the document's lock.
         """
@@ -92,6 +93,8 @@ class Visitor:
                 self._opened = None
                 here().close(code)
                 reply({"ended": code})
+            elif isinstance(on := asked.get("follow"), bool) and self._guest is not None:
+                here().follow(self._guest, on)
             elif asked.get("leave") is True:
                 self._leave_guest()
         except RoomError as error:

@@ -161,6 +161,7 @@ export class Explorer {
     // what is no number goes to the server for its sentence; pad and address keep the last good value
     if (this.numbers.has(name) && typeof value !== "number") { requests.set(name, value); return }
     values[name] = value
+    if (this.setting.has(name) || name === "quiz") this.room?.stray()
     if (["texts", "parameters", "psi_text"].includes(name)) this.typed.add(name)
     requests.set(name, value)
     if (this.numbers.has(name)) this.panels.draw(values)

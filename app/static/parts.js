@@ -94,7 +94,7 @@ export function grabOf(explorer) {
   const {root, values, picture, pointing, requests} = explorer
   return new Grab(root, picture, {
     values, free: () => explorer.eLinear && values.layers.includes("critical") && !explorer.hidden.includes("critical"),
-    move: (place) => requests.set("grab", place), settle: () => requests.rest(),
+    move: (place) => { explorer.room?.stray(); requests.set("grab", place) }, settle: () => requests.rest(),
     point: (one) => pointing.show(one), pin: (one) => pointing.toggle(one),
     one: () => pointing.objects.find(({kind}) => kind === "critical") ?? null,
   })
@@ -120,6 +120,10 @@ export function roomOf(explorer) {
     query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: 0}}), // a phone is no beamer
     changed: () => explorer.panels.draw(explorer.values), opened: () => explorer.choose("panel", "atlas"),
     open: (view) => explorer.open(view),
+    follow: (view) => {
+      const {values} = explorer, now = {...config.defaults, beside: values.beside, ...view}
+      explorer.put(Object.fromEntries(Object.entries(now).filter(([name, value]) => JSON.stringify(values[name]) !== JSON.stringify(value))))
+    },
   })
 }
 

@@ -66,7 +66,7 @@ export const SAYS = {
   stop: "Stop",
   certificate: "Certificate",
   checker: "Program that checks it",
-  roomDots: "A full dot has all else as it is here, a hollow one has not. Click a dot, or a row, to open its settings; undo brings yours back.",
+  roomDots: "A dot has all else as it is here. Click it, or a row, to open its settings; undo brings yours back.",
   roomEmpty: "Each phone that enters is a dot on the chart.",
   roomLocal: "This page is open at localhost, which phones do not reach: open it at this machine’s own address (codim2 serve --address 0.0.0.0 --allow-origin ADDRESS:PORT).",
   grab: "C, the critical set: drag it, or use the arrow keys, and f follows",
