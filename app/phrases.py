@@ -125,6 +125,9 @@ SENTENCES: dict[str, Sentence] = {
         "a link",
     ),
     "controls of a frame": Sentence("controls: give at most {most} names of controls, such as 'f1,n'.", "a link"),
+    "views of a link": Sentence(
+        "The kept views of this address cannot be read: it was cut short or changed.", "a link"
+    ),
     "name of a box": Sentence(
         "{name} names a box, and is no parameter; write its formula here, or give the parameter another name.",
         "a typed name",

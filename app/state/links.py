@@ -51,7 +51,7 @@ SAID_BEFORE: Mapping[tuple[str, str], Mapping[str, str]] = MappingProxyType(
 )
 
 LONGEST_SQUEEZED, LONGEST_QUERY = 20_000, 60_000  # characters
-MOST_CONTROLS = 12
+MOST_CONTROLS, MOST_VIEWS, LONGEST_NAME = 12, 24, 200
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,39}")
 
 
@@ -70,12 +70,18 @@ class Look:
     beamer : int
         1, for the beamer: the picture fills the page, with large letters; 2: with a panel beside it. An embedded page
         has no such mode.
+    lift : bool
+        The picture is lifted onto the hemisphere.
+    views : tuple
+        Views to go through on a beamer: ``{"name", "set", "seen"}``, what is other than at first, and what is seen.
     """
 
     seen: tuple[float, ...] = ()
     embed: bool = False
     controls: tuple[str, ...] = ()
     beamer: int = 0
+    lift: bool = False
+    views: tuple[Mapping[str, Any], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,8 +100,8 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     ----------
     query : str or mapping
         ``v`` is the version; ``s`` holds a whole query squeezed (deflate, base64), over which the others stand;
-        ``seen``, ``embed``, ``controls``, ``beamer``, ``room`` and ``done`` are of the page; all else are values of
-        controls.
+        ``seen``, ``embed``, ``controls``, ``beamer``, ``lift``, ``views``, ``room`` and ``done`` are of the page; all
+        else are values of controls.
 
     Returns
     -------
@@ -149,6 +155,10 @@ def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:
             query["controls"] = ",".join(look.controls)
         if look.beamer:
             query["beamer"] = str(look.beamer)
+        if look.lift:
+            query["lift"] = "1"
+        if look.views:
+            query["views"] = json.dumps(look.views, separators=(",", ":"))
     return urlencode(query)
 
 
@@ -194,14 +204,33 @@ def _first(version: str, errors: list[InputError]) -> Mapping[str, Any]:
 
 def _look(given: dict[str, str], errors: list[InputError]) -> Look:
     """Take what is of the page out of the given texts."""
-    seen, embed, controls, beamer = (given.pop(name, "") for name in ("seen", "embed", "controls", "beamer"))
+    seen, embed, controls, beamer, lift, views = (
+        given.pop(name, "") for name in ("seen", "embed", "controls", "beamer", "lift", "views")
+    )
     names = [name for name in controls.split(",") if name]
     good = [name for name in names if _NAME.fullmatch(name)][:MOST_CONTROLS]
     if len(good) < len(names):
         errors.append(InputError("", say("controls of a frame", most=MOST_CONTROLS)))
     embedded = embed not in ("", "0")
     beamed = 0 if embedded or beamer in ("", "0") else 2 if beamer == "2" else 1
-    return Look(_rectangle(seen, errors), embedded, tuple(good), beamed)
+    kept = () if embedded else _views(views, errors)
+    return Look(_rectangle(seen, errors), embedded, tuple(good), beamed, lift not in ("", "0"), kept)
+
+
+def _views(text: str, errors: list[InputError]) -> tuple[Mapping[str, Any], ...]:
+    """Return kept views, each value cleaned as one of an address is."""
+    if not text:
+        return ()
+    try:
+        found = []
+        for view in json.loads(text)[:MOST_VIEWS]:
+            values = {name: clean(name, _to_text(value)) for name, value in view["set"].items() if name in NAMES}
+            seen = _rectangle(",".join(map(str, view["seen"] or ())), errors)
+            found.append({"name": str(view["name"])[:LONGEST_NAME], "set": values, "seen": list(seen) or None})
+        return tuple(found)
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        errors.append(InputError("", say("views of a link")))
+        return ()
 
 
 def _rectangle(text: str, errors: list[InputError]) -> tuple[float, ...]:

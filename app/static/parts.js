@@ -79,8 +79,9 @@ export function handsOf(explorer) {
 }
 
 /** The picture, lifted, and comets on it. @param {Explorer} explorer */
-export function liftOf({root, config, picture, rest}) {
-  const lift = new Lift(root, picture), comets = new Comets(picture, () => rest.under.size > 0)
+export function liftOf(explorer) {
+  const {root, config, picture, rest} = explorer
+  const lift = new Lift(root, picture, (on) => { config.look.lift = on; explorer.steps?.rewrite() }), comets = new Comets(picture, () => rest.under.size > 0)
   ;(config.page ? document : root).addEventListener("keydown", (event) => {
     if (busy(root, event)) return
     if (event.key === "l") { event.preventDefault(); lift.swing() }
@@ -131,7 +132,7 @@ export function roomOf(explorer) {
 export function addDialogs(explorer) {
   const {root, config, picture, theme} = explorer
   new Help(root, explorer.find("dialog.helping"))
-  const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer}})
+  const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer, lift: config.look.lift, views: explorer.views?.carried}})
   const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await squeezed(query(), config.link.version)}`}))
   explorer.find(".share").addEventListener("click", () => share.open())
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
@@ -154,8 +155,8 @@ export function besideOf(explorer) {
   })
   picture.viewed(() => beside.look())
   const beamer = new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
-  new Views(root, {
-    values, first: config.defaults, shown: () => beamer.on > 0, name: () => explorer.find(".portrait-name").textContent,
+  explorer.views = new Views(root, {
+    values, first: config.defaults, brought: (config.look.views ?? []).splice(0), shown: () => beamer.on > 0, name: () => explorer.find(".portrait-name").textContent,
     seen: () => picture.window && picture.seen, move: (wanted) => explorer.move(wanted),
     open: (view, seen) => { explorer.forget(); explorer.put(view); if (seen) picture.seen = seen; else picture.home() },
   })

@@ -251,6 +251,7 @@ CHECKS = {
     "address of a later version": later_version,
     "part of the picture": address("v=1&seen=3,1,0,0"),
     "controls of a frame": address("v=1&controls=a b,f1"),
+    "views of a link": address("v=1&views=[3"),
     "no such parameter": no_parameter,
     "no such box": no_box,
     "no such lesson": no_lesson,

@@ -5,6 +5,7 @@ Above it is a film strip: a small portrait at each special value, and one betwee
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from itertools import pairwise
 from typing import Any
@@ -59,7 +60,7 @@ def add(draft: Draft) -> None:
             draft.now["cycles are"] = key, cycles
         if draft.now.get("cycles along") == key:  # they are there, or cannot be
             of, cycles = draft.now.get("cycles are", (None, None))
-            events = [s.value for s in stands.standing] + [
+            events = [tidy(s.value) for s in stands.standing] + [
                 s["value"] for s in (cycles if of == key else {}).get("special", ())
             ]
             film = draft.slow("film", key, thumbnails, system, psi, z, (axis.core,), frames_of(span, events))
@@ -86,6 +87,12 @@ def frames_of(span: tuple[float, float], events: Iterable[float]) -> list[tuple[
     return [(i, "", (value,)) for i, value in enumerate(values)]
 
 
+def tidy(value: float) -> float:
+    """Return the decimal of twelve digits that a value is up to rounding, or else the value: addresses carry it."""
+    near = float(f"{value:.12g}")
+    return near if abs(near - value) <= 2.0 * math.ulp(value) else value
+
+
 def columns(found: Branches) -> dict[str, Any]:
     """Return what the browser draws: branches as x, y and kind, and the special values."""
     return {
@@ -98,7 +105,7 @@ def columns(found: Branches) -> dict[str, Any]:
         "critical": [{**_line(b.value, b.radius), "kind": b.kind} for b in found.critical],
         "closed": [[float(b.value[0]), float(b.value[-1])] for b in found.closed],
         "special": [
-            {"kind": s.kind, "value": s.value, "place": [float(v) for v in s.place], "sentence": s.sentence}
+            {"kind": s.kind, "value": tidy(s.value), "place": [float(v) for v in s.place], "sentence": s.sentence}
             for s in found.standing
         ],
     }  # fmt: skip
@@ -120,7 +127,7 @@ def cycle_columns(found: CycleBranches) -> dict[str, Any]:
                 line = _line(value[part], amplitude[part])
                 pieces.append({**line, "period": _line(value[part], period[part])["y"], "stable": bool(stable[start])})
     special = [
-        {"kind": p.kind, "value": p.value, "amplitude": float(p.amplitude), "sentence": p.sentence}
+        {"kind": p.kind, "value": tidy(p.value), "amplitude": float(p.amplitude), "sentence": p.sentence}
         for branch in found
         for p in branch.special
         if p.kind not in KNOWN and np.isfinite(p.amplitude)

@@ -68,6 +68,16 @@ def test_film_strip_has_a_portrait_at_each_special_value_and_between_each_two():
     assert ask(frames, f1=-80.0)["late"] == ["diagram"]
 
 
+def test_special_values_are_decimals_where_they_are_up_to_rounding():
+    assert [diagram.tidy(v) for v in (0.1 + 0.2, -1.0000000000000002, 284 / 129, 1e-17, 0.0)] == [
+        0.3,
+        -1.0,
+        284 / 129,
+        1e-17,
+        0.0,
+    ]
+
+
 def test_special_values_at_one_place_or_too_many_have_no_portrait_between():
     assert [place for _, _, place in diagram.frames_of((0.0, 4.0), [1.0, 1.00390625, 1.0])] == [
         (0.5,), (1.0,), (1.00390625,), (2.501953125,),

@@ -14,7 +14,7 @@ from codim2_app.draw.theme import NEAREST
 from codim2_app.frame.scenes import make_scene
 from codim2_app.state.chosen import BOXES, has_atlas, titles
 from codim2_app.state.controls import NUMBERS, ExplorerState, first_values, preset_values
-from codim2_app.state.links import FIRST, VERSION, Look, read_link, squeezed, unsqueezed, write_link
+from codim2_app.state.links import FIRST, MOST_VIEWS, VERSION, Look, read_link, squeezed, unsqueezed, write_link
 from codim2_app.state.portraits import portraits
 from codim2_app.view.markup import config
 from hypothesis import assume, given
@@ -125,6 +125,32 @@ def test_a_link_carries_what_is_seen(edges, embed, controls):
     assert link.errors == ()
     assert (link.look.embed, link.look.controls, link.look.beamer) == (embed, tuple(controls), 0 if embed else 2)
     assert all(math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-9) for a, b in zip(link.look.seen, look.seen, strict=True))
+
+
+def test_a_link_carries_kept_views_cleaned_and_that_the_picture_is_lifted():
+    view = {
+        "name": "CM2",
+        "set": {"f1": 1.25, "layers": ["inside"], "parameters": {"k": 2.0}},
+        "seen": [-1.0, 1.0, -0.5, 1.5],
+    }
+    link = read_link(write_link(first_values(), Look(lift=True, views=(view, {**view, "seen": None}))))
+    assert link.errors == ()
+    assert link.look.lift
+    assert link.look.views == (view, {**view, "seen": None})
+    odd = {"name": "<b>" * 200, "set": {"f1": "0.5", "unknown": 3}, "seen": None}
+    [found] = read_link({"views": json.dumps([odd])}).look.views
+    assert (found["set"], len(found["name"])) == ({"f1": 0.5}, 200)
+    assert len(read_link({"views": json.dumps([view] * 30)}).look.views) == MOST_VIEWS
+    assert read_link({"views": json.dumps([view]), "embed": "1"}).look.views == ()
+
+
+@pytest.mark.parametrize(
+    "text", ["[", "3", '{"set": {}}', "[3]", '[{"name": "a", "set": {"f1": "x"}, "seen": null}]', "[" * 3000]
+)
+def test_views_that_cannot_be_read_are_told(text):
+    link = read_link({"views": text, "f1": "0.5"})
+    assert (link.look.views, link.state.f1) == ((), 0.5)
+    assert "kept views" in str(link.errors[0])
 
 
 @given(st.text(max_size=300))
