@@ -19,6 +19,7 @@ from .files import DATA
 from .film import STYLE, film
 from .live import MOST_SLIDERS, live
 from .printing import pdf
+from .tex.picture import tikz
 from .view import WHOLE, View
 
 #: Bytes of a file; what holds more goes by the command line.
@@ -27,8 +28,8 @@ TOO_LARGE = "The file would hold {} MB; show fewer layers, or fewer starting poi
 TYPES: Mapping[str, str] = MappingProxyType(
     {
         "svg": "image/svg+xml", "pdf": "application/pdf", "zip": "application/zip", "json": "application/json",
-        "npz": "application/octet-stream", "py": "text/x-python", "tex": "text/x-tex", "html": "text/html",
-        "gif": "image/gif", "proof": "application/json", "motion": "application/json",
+        "npz": "application/octet-stream", "py": "text/x-python", "tex": "text/x-tex", "tikz": "text/x-tex",
+        "html": "text/html", "gif": "image/gif", "proof": "application/json", "motion": "application/json",
     }
 )  # fmt: skip
 LONGEST, LONGEST_LINK = 200, 2000  # characters of a slider, bytes of an address that a phone can read
@@ -117,6 +118,7 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
     make: Callable[[View], bytes] = {
         "svg": lambda one: figure(one, wish.style).encode(),
         "pdf": lambda one: pdf(figure(one, wish.style)),
+        "tikz": lambda one: tikz(figure(one, wish.style)).encode(),
         "html": lambda one: live(one, wish.sliders),
         "gif": lambda one: film(one, wish.slider, style=wish.moving),
         "proof": lambda one: proof(one.scene()),

@@ -13,9 +13,11 @@ VIEW = "a preset (`codim2 presets` lists them), an explorer's link, or the query
 
 def add_figure(commands: Any) -> None:
     """Add `codim2 figure`."""
-    command = commands.add_parser("figure", help="draw a preset or a link: SVG, PNG or PDF")
+    command = commands.add_parser("figure", help="draw a preset or a link: SVG, PNG, PDF or TikZ")
     command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
-    command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .svg, .png or .pdf")
+    command.add_argument(
+        "-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .svg, .png, .pdf or .tikz"
+    )
     command.add_argument("--size", type=float, default=120.0, metavar="MM", help="width of the picture; default 120")
     command.add_argument("--scale", type=float, default=3.0, help="of a PNG: 1 is 96 dots per inch; default 3")
     command.add_argument("--theme", default="light", help="light, dark or paper (black and white); default light")
@@ -58,7 +60,7 @@ def add_film(commands: Any) -> None:
         "film", help="write a film of a slider that moves, or of an orbit that is run along: an animated GIF or WebP"
     )
     command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
-    words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'"
+    words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'; with values where it goes slowly: 'f1=-1,1;0.5'"
     moves = command.add_mutually_exclusive_group(required=True)
     moves.add_argument("--slider", metavar="NAME[=LOW,HIGH]", help=words)
     moves.add_argument("--play", action="store_true", help="run along the chosen launched orbit of a link instead")
@@ -95,12 +97,17 @@ def _live(chosen: argparse.Namespace) -> bytes:
 def _figure(chosen: argparse.Namespace) -> bytes:
     from ..export.figure import Style, figure  # the kernels, and all that is drawn, are not needed for --help
     from ..export.printing import pdf, png
+    from ..export.tex.picture import tikz
     from ..export.view import suffix_of, view_of
 
-    suffix = suffix_of(chosen.output, (".svg", ".png", ".pdf"))
+    suffix = suffix_of(chosen.output, (".svg", ".png", ".pdf", ".tikz"))
     style = Style(chosen.size, chosen.theme, chosen.legend, chosen.labels, chosen.ticks, chosen.title, chosen.caption)
     svg = figure(view_of(chosen.view), style)
-    return svg.encode() if suffix == ".svg" else pdf(svg) if suffix == ".pdf" else png(svg, chosen.scale)
+    made: dict[str, Callable[[], bytes]] = {
+        ".svg": svg.encode, ".pdf": lambda: pdf(svg), ".tikz": lambda: tikz(svg).encode(),
+        ".png": lambda: png(svg, chosen.scale),
+    }  # fmt: skip
+    return made[suffix]()
 
 
 def _written(output: Path, make: Callable[[], bytes]) -> int:

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from codim2_core.scene import Scene
 from codim2_core.words import subscript
 
-from .describe import facts
-from .view import View
+from ..describe import facts
+from ..view import View
 
 _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "varepsilon", "θ": "theta", "λ": "lambda",
@@ -23,7 +23,8 @@ SIGNS = {
     **dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", (f"$^{{{k}}}$" for k in (*range(10), "-")), strict=True)),
     "−": "$-$", "·": r"$\cdot$", "×": r"$\times$", "′": "$'$", "≤": r"$\le$", "≥": r"$\ge$", "≠": r"$\ne$",
     "√": r"$\surd$", "°": r"$^\circ$", "±": r"$\pm$", "→": r"$\to$", "∞": r"$\infty$", "∈": r"$\in$",
-    "|": r"$|$", "–": "--", "’": "'", "“": "``", "”": "''", "…": r"\dots{}", "<": "$<$", ">": "$>$",
+    "⊙": r"$\odot$", "⊗": r"$\otimes$",
+    "ⁿ": "$^n$", "|": r"$|$", "–": "--", "’": "'", "“": "``", "”": "''", "…": r"\dots{}", "<": "$<$", ">": "$>$",
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "%": r"\%", "&": r"\&", "#": r"\#", "$": r"\$", "_": r"\_",
     "^": r"\^{}", "~": r"\~{}",
 }  # fmt: skip
