@@ -60,6 +60,7 @@ def test_a_panel_stands_beside_the_picture_and_kept_views_are_run_through(open_p
     assert panel["x"] > picture["x"] + picture["width"] - 1
     assert panel["width"] > 0.4 * 1920
     assert page.find(".panel-atlas text.name").first.evaluate("(it) => it.getBoundingClientRect().height") > 14
+    assert page.find(".controls").bounding_box()["y"] > picture["y"] + 0.9 * picture["height"]  # not over the picture
     keys = page.page.keyboard
     keys.press("k")
     page.type("f1", "-1.5")

@@ -60,7 +60,7 @@ export class Pad {
     }])
   }
 
-  // What moves with the sliders: the handle, where the portrait is, its region and the name of that.
+  // What moves with the sliders: the handle, where the portrait is, its region and the beginning of the name of that.
   drawMoving() {
     const {handle, here, path, regions, old} = this.chart
     const around = regions.map((region) => holds(region, here))
@@ -68,7 +68,7 @@ export class Pad {
     const moved = here[0] !== handle[0] || here[1] !== handle[1]
     const region = regions[around.indexOf(true)]
     this.plot.over([...(moved ? [{name: "here", x: here[0], y: here[1], r: 4.5}] : []), {name: "handle", x: handle[0], y: handle[1], r: 8}],
-      path, region && !old ? {text: this.short(region.name), at: here, name: "name tag"} : null)
+      path, region && !old ? {text: this.short(region.name).split(";")[0], at: here, name: "name tag"} : null)
   }
 }
 

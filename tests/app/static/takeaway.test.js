@@ -108,7 +108,7 @@ test("while a film is drawn it says how far it is, can be stopped, and nothing e
   assert.deepEqual([one.told(), one.find(".stop-making").hidden, one.disabled(), one.saved], ["The film was stopped.", true, [], []])
   assert.equal(one.document.activeElement, one.button("gif"))
   const file = one.press("tex")
-  assert.deepEqual([one.told(), one.find(".stop-making").hidden], ["Making LaTeX …", true]) // a table takes no time
+  assert.deepEqual([one.told(), one.find(".stop-making").hidden], ["Making LaTeX table …", true]) // a table takes no time
   done(FILE)
   await file
 })
