@@ -16,6 +16,7 @@ import {Lift} from "./picture/lift.js"
 import {Table} from "./page/table.js"
 import {Views} from "./page/views.js"
 import {Room} from "./room/room.js"
+import {SAYS} from "./words.js"
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
 
@@ -56,6 +57,7 @@ export function handsOf(explorer) {
     const from = {...values} // the nearest f to that with which it was taken
     return explorer.eLinear && one.kind === "equator" ? (to) => explorer.move(turnedTo(from, to)) : null
   }
+  pointing.hint = (one) => turns(one) ? SAYS.turns : ""
   pointing.list.addEventListener("keydown", (event) => {
     const one = pointing.over, [across, up] = KEYS[event.key] ?? [], turn = across !== undefined && one && turns(one)
     if (!turn) return
@@ -121,10 +123,7 @@ export function roomOf(explorer) {
     query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: 0}}), // a phone is no beamer
     changed: () => explorer.panels.draw(explorer.values), opened: () => explorer.choose("panel", "atlas"),
     open: (view) => explorer.open(view),
-    follow: (view) => {
-      const {values} = explorer, now = {...config.defaults, beside: values.beside, ...view}
-      explorer.put(Object.fromEntries(Object.entries(now).filter(([name, value]) => JSON.stringify(values[name]) !== JSON.stringify(value))))
-    },
+    follow: (view) => explorer.steps.put({values: {...config.defaults, beside: explorer.values.beside, ...view}, seen: explorer.picture.seen}), // no step of one's own
   })
 }
 

@@ -70,6 +70,7 @@ export const SAYS = {
   roomEmpty: "Each phone that enters is a dot on the chart.",
   roomLocal: "This page is open at localhost, which phones do not reach: open it at this machine’s own address (codim2 serve --address 0.0.0.0 --allow-origin ADDRESS:PORT).",
   grab: "C, the critical set: drag it, or use the arrow keys, and f follows",
+  turns: "Drag it, or use the arrow keys: f follows.",
   grabMe: "drag me out of the sphere",
   leftHere: "C has left: sliding ends here",
   lift: "Lift ⤴", flat: "Flat ⤵",

@@ -49,6 +49,7 @@ def test_a_limit_direction_is_turned_by_hand_and_by_keys(open_page):
 
     start, goal = drawn()[1], np.array([math.cos(1.7), math.sin(1.7)])
     page.mouse.move(*place(explorer, *start))
+    explorer.find(".card").filter(has_text="f follows").wait_for()
     page.mouse.down()
     for share in (0.3, 0.7, 1.0):
         page.mouse.move(*place(explorer, *(1.1 * (start + share * (goal - start)))))

@@ -119,7 +119,7 @@ def test_it_is_what_is_on_the_screen(executor):
         ({"kind": "svg", "theme": ["dark"]}, "light, dark, paper"),
         ({"kind": "svg", "theme": "red"}, "light, dark, paper"),
         ({"kind": "html", "sliders": ["a", "b", "d"]}, "at most 2 sliders"),
-        ({"kind": "html", "sliders": ["a" * 200]}, "NAME=LOW,HIGH"),
+        ({"kind": "html", "sliders": ["a" * 201]}, "NAME=LOW,HIGH"),
         ({"kind": "html", "sliders": [3]}, "NAME=LOW,HIGH"),
         ({"kind": "html", "sliders": ["q"]}, "no slider of this system"),
     ],
@@ -209,7 +209,7 @@ def test_a_film_is_drawn_in_parts_and_is_that_of_the_command_line(executor, monk
     monkeypatch.setattr(takings, "count_of", lambda slider: 6)
     *progress, film = conversation(executor, FILM)
     assert [(one["taken"], one["done"], one["all"]) for one in progress] == [(3, 4, 6), (3, 6, 6)]
-    assert (film["name"], film["type"]) == ("codim2-case1-cm4.gif", "image/gif")
+    assert (film["name"], film["type"]) == ("codim2-case1-cm4-f1.gif", "image/gif")
     assert film["file"] == films.film(
         view_of("case1-cm4"), "f1=-1,1", style=replace(films.STYLE, theme="dark"), positions=6
     )
