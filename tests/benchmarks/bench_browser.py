@@ -75,7 +75,7 @@ CASES = (
 QUICK = CASES[:2]
 #: Every slider of the e-linear system, and the addresses of those that the first page does not have.
 SLIDERS = ("a", "b", "d", "f1", "f2", "z", "k1", "k2", "B1", "B2", "g0", "n")
-QUERIES = {"n": "?psi=hill&n=3"}
+QUERIES = {"n": "?psi=hill&n=3", "k1": "?z=1", "k2": "?z=1"}
 SLOWER = 4
 
 

@@ -1,7 +1,7 @@
 // A plane of two parameters: regions of one portrait each, the curves between them, and a handle over them.
 
 import {Chart} from "../chart/chart.js"
-import {holds} from "../chart/regions.js"
+import {extent, holds} from "../chart/regions.js"
 import {rounded} from "../chart/scale.js"
 import {escape} from "../words.js"
 
@@ -56,7 +56,7 @@ export class Pad {
       lines: lines.filter(({line}) => !isPoint(line)).map(({name, line}) => ({name, title: names[name], silent: true, x: line.map(([x]) => x), y: line.map(([, y]) => y)})),
       dots: lines.filter(({line}) => isPoint(line)).map(({name, line: [[x, y]]}) => ({name: `point ${name}`, title: names[name], x, y, r: 3})),
       marks: points.map(([type, x, y, sentence]) => ({kind: "codimension two", x, y, title: `${type}. ${sentence}`})),
-      labels: regions.map((region) => ({text: short(region.name), name: "name", near: region.inside, allowed: (x, y) => holds(region, [x, y])})),
+      labels: regions.map((region) => ({text: short(region.name), name: "name", near: region.inside, within: extent(region), allowed: (x, y) => holds(region, [x, y])})),
     }])
   }
 
