@@ -1,4 +1,4 @@
-"""What the explorer itself says to a visitor: of what it leaves out, waits for or cannot show; each sentence once.
+"""Sentences of the explorer to a visitor: what it leaves out, waits for or cannot show, each written once.
 
 What is said of systems is the core's: `codim2_core.words`. What is said of a wrong value stands where that is checked.
 """

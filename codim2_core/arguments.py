@@ -1,4 +1,4 @@
-"""What a public function may be given: one check for each kind of argument, told by its name or its annotation.
+"""Checks of the arguments of public functions: one for each kind, found by the argument's name or annotation.
 
 The checks stand at the public door only (`guarded`, for the names of a package): inside, functions call one another
 without them. A function says itself what else it needs, such as how many slow variables its system has.

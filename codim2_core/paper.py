@@ -1,4 +1,4 @@
-"""Where the paper says it: what its labels are called in print.
+"""Printed names of the paper's labels.
 
 Docstrings and the attribute `label` of results give the labels of the paper's source, which outlive a renumbering; a
 person who reads is told "Figure 13" or "Theorem 3.1(b)". `tests/paper` numbers the labels by the class's rules.

@@ -1,4 +1,4 @@
-"""Where the built site lies: where `codim2 docs` writes it, and the server finds it."""
+"""The folder of the built documentation: `codim2 docs` writes it, and the server reads it."""
 
 from __future__ import annotations
 

@@ -62,7 +62,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Layer:
-    """What a user shows or hides as one.
+    """A group of curves or marks that a user shows or hides as one.
 
     Attributes
     ----------

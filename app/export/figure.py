@@ -44,7 +44,7 @@ CODE = 64.0  # of a QR code
 
 @dataclass(frozen=True)
 class Style:
-    """How a figure looks.
+    """The look of a figure: size, theme, letters, and what is written beside it.
 
     Attributes
     ----------

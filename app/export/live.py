@@ -81,7 +81,7 @@ class Slider:
 
     @property
     def symbol(self) -> str:
-        """What stands before it."""
+        """Return the symbol before the slider."""
         if self.name in NUMBERS:
             return str(ExplorerState.param[self.name].label)
         return plain_symbol(self.name.removeprefix(OWN))

@@ -33,7 +33,7 @@ SCALE, CHART = DPI * DENSITY / 72, 1.15
 
 @dataclass(frozen=True)
 class Scenery:
-    """What stands still in a film of play.
+    """The parts of a film that do not move.
 
     Attributes
     ----------

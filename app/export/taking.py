@@ -1,4 +1,4 @@
-"""What a browser may ask to take away of what it shows, and the file that it gets: one wish, read, bounded, made."""
+"""Requests of a browser for a file of what it shows: read, bounded, and made."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ SHOWN = (PROOF, "motion")
 
 @dataclass(frozen=True)
 class Wish:
-    """What is asked for.
+    """One request for a file.
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Wish:
 
     @property
     def job(self) -> str:
-        """What it is called among the jobs of a browser: of each name one at a time, a newer wish replaces an older."""
+        """Return the name of the job; of each name a browser has one at a time, and a newer one replaces an older."""
         return self.kind if self.kind in SHOWN else "take"
 
     @property
@@ -67,7 +67,7 @@ class Wish:
 
     @property
     def moving(self) -> Style:
-        """How a film looks."""
+        """Return the style of a film."""
         return replace(STYLE, theme=self.style.theme)
 
     @classmethod

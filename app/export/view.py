@@ -28,7 +28,7 @@ WHOLE: Rectangle = (-VIEW, VIEW, -VIEW, VIEW)
 
 @dataclass(frozen=True)
 class View:
-    """What is on one screen.
+    """The contents of one screen: a scene, the layers that are shown, and the part of the plane in view.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class View:
 
     @property
     def title(self) -> str:
-        """Of its portrait in the paper, if it is one; else empty."""
+        """Return the title of the portrait in the paper; empty if it is none of the paper's."""
         preset = presets.get(self.values["preset"])
         return preset.title if preset else ""
 
@@ -65,7 +65,7 @@ class View:
 
     @property
     def width(self) -> float:
-        """Of what is seen, in picture units."""
+        """Return the width of the part of the picture in view, in picture units."""
         return self.seen[1] - self.seen[0]
 
     def scene(self) -> Scene:

@@ -18,7 +18,7 @@ AGAIN = 0.05
 
 
 class Compiling(event.Listener):
-    """How long this thread compiled kernels: that is the installation's matter, and is not counted against a formula.
+    """A clock of the time in which this thread compiled kernels: it is not counted against a formula.
 
     Numba tells every listener of what any thread compiles.
     """

@@ -1,4 +1,4 @@
-"""What the thread that answers all visitors may compute itself, and what is computed beside it.
+"""The budget of the thread that answers all visitors: which layers it computes itself, and which go to a worker.
 
 Layers of an e-linear system are bounded: their frames take milliseconds, whatever the sliders say. Of typed formulas
 nobody knows beforehand. So the first picture of a formula is computed beside the frames, where its layers are timed;
@@ -146,7 +146,7 @@ def wildness(scene: Scene) -> int:
 
 
 class Budget:
-    """What of one browser's scenes may be computed by the thread that answers.
+    """The part of one browser's scenes that the answering thread may compute.
 
     Parameters
     ----------

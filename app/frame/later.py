@@ -1,4 +1,4 @@
-"""What is asked of a page from elsewhere is done by the thread that answers, in its turn.
+"""Run calls from other threads in the thread that answers a page, in order.
 
 Bokeh's own callbacks of a document hold it, and each other in a cycle: once called they are garbage, which a search
 must find before the document goes. What is made here is gone as soon as it was called.

@@ -1,4 +1,4 @@
-"""How busy this process is, which tells browsers far away whether a second request on its way would wait here."""
+"""The load of this process, by which far-away browsers decide whether to send a second request ahead."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a frame holds of a scene: the layers that are seen and have changed, as bytes, and what is said beside them."""
+"""The contents of a frame: layers that are visible and have changed, as bytes, and their notes."""
 
 from __future__ import annotations
 

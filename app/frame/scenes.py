@@ -1,4 +1,4 @@
-"""From the values of the controls to the scene that is drawn, and from changed values to the changed scene."""
+"""Build the scene that is drawn from the values of the controls, and evolve it when they change."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whose work comes next: browsers take turns, so that nobody waits for all that another has asked for.
+"""A fair queue for workers: browsers take turns, so that nobody waits for all that another has asked for.
 
 What several ask for is computed once, and stopped when none of them wants it any more. Where it is computed is an
 executor's affair: a thread in a notebook, processes on a server, or what the host brings (`Turns(executor, at_once)`).

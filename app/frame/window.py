@@ -1,4 +1,4 @@
-"""What is seen of the picture: the scene is sampled there, and as finely as the screen shows it."""
+"""The visible part of the picture: the scene is sampled there, as finely as the screen shows it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a lesson is: prose, and questions whose answers are conditions on the scene that the student sees."""
+"""A lesson: prose, and questions whose answers are conditions on the scene that the student sees."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a question may ask a student to mark on the picture: where it is in a scene, and how near a mark must come.
+"""Marks that a question may ask for on the picture: their places in a scene, and how near an answer must come.
 
 To add one is one entry of `MARKS`.
 """

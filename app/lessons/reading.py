@@ -1,4 +1,4 @@
-"""From a Markdown file to a lesson; what cannot be used is told with its file and line."""
+"""Read a lesson from a Markdown file; errors name their file and line."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ FAR = 4.0
 
 
 class Quiz(NamedTuple):
-    """Which question is open, the seed of its system, and the answer: an option, or the point that is marked."""
+    """The state of a quiz: the open question, the seed of its system, and the answer (an option or a marked point)."""
 
     question: int
     seed: int

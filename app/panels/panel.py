@@ -1,4 +1,4 @@
-"""What a panel beside the picture is."""
+"""The interface of a panel beside the picture."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all server processes of one port can read of each other: memory that they inherit, and nothing on disk.
+"""Memory shared by all server processes of one port: inherited, with nothing on disk.
 
 Each process writes a part of its own and reads all, so that none ever waits for another, nor for one that has died
 while it wrote: a part whose check sum is wrong is half written, and is read again later.

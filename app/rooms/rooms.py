@@ -41,7 +41,7 @@ class RoomError(ValueError):
 
 @dataclass(slots=True)
 class Host:
-    """Who has opened a room."""
+    """The page that has opened a room."""
 
     code: str
     mark: str
@@ -60,7 +60,7 @@ class Host:
 
 @dataclass(slots=True)
 class Guest:
-    """Who is in a room of any process."""
+    """A page in a room of any process."""
 
     number: int
     code: str
@@ -286,7 +286,7 @@ _served: list[Rooms] = []
 
 
 def serve_with(rooms: Rooms) -> None:
-    """From now on these are the rooms of this process."""
+    """Set the rooms of this process."""
     _served[:] = [rooms]
 
 

@@ -22,7 +22,7 @@ _first = cache(first_values)
 
 
 class Shown(Protocol):
-    """What a browser shows, as far as a room is concerned."""
+    """The view of a browser, as far as a room shows it."""
 
     values: dict[str, Any]
     scene: Scene

@@ -1,4 +1,4 @@
-"""What whoever operates a server watches: ``/metrics`` in Prometheus' text, of the process that answers.
+"""Metrics of the answering process for operators: ``/metrics`` in Prometheus' text format.
 
 Several processes that share a port each tell of themselves: the label ``process`` says which.
 """

@@ -1,4 +1,4 @@
-"""Whose turn it is: pages in a circle, with one request each; every fourth turn is that of one who comes in.
+"""A round robin of pages with one request each; every fourth turn goes to a page that opens.
 
 A page that asks for more than it is answered keeps its newest values only, and nobody else waits for it.
 """
@@ -53,7 +53,7 @@ class Rota:
 
     @property
     def waiting(self) -> int:
-        """How many wait for a turn."""
+        """Return the number of pages that wait for a turn."""
         return len(self._pages) + len(self._coming)
 
     def _begin(self) -> None:

@@ -1,4 +1,4 @@
-"""What a page asks for besides: scripts, each compressed once for all visitors, and links as QR codes."""
+"""Files that a page loads: scripts, each compressed once for all visitors, and QR codes of links."""
 
 from __future__ import annotations
 

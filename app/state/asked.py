@@ -1,4 +1,4 @@
-"""What a browser sends, before anything is done with it: of the right types, and no larger than a control can hold."""
+"""Read a request of a browser: every value of the right type, and no larger than a control can hold."""
 
 from __future__ import annotations
 

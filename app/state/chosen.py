@@ -1,4 +1,4 @@
-"""Which system is drawn: the e-linear normal form of the sliders, one of the examples, or one that the user types.
+"""The chosen system: the e-linear normal form of the sliders, an example, or typed equations.
 
 Pure functions from plain values to a system and to the controls that belong to it. Names that a typed formula uses
 and that nothing else explains become parameters, each with a slider.

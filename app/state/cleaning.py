@@ -1,4 +1,4 @@
-"""What a person, a link or a browser gives for a control, read and checked: the value, or what to give instead."""
+"""Clean a value for a control that a person, a link or a browser gives: the value, or its replacement."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ class Angle(param.Number):
 
 
 class ExplorerState(param.Parameterized):
-    """What the picture shows. Defaults are the paper's fig:simCM4 (preset case1-cm4)."""
+    """Values of all controls. The defaults are the paper's fig:simCM4 (preset case1-cm4)."""
 
     a = _number(-2.0, -4, 4, "a", "First entry of A = [[a, −b], [b, d]].")
     b = _number(0.0, -4, 4, "b", "Rotation in A = [[a, −b], [b, d]].")

@@ -57,7 +57,7 @@ _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,39}")
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """How a page looks at its state: the part of the picture that is seen, and what an embedded page shows.
+    """The view of a page: the part of the picture that is seen, and the parts that an embedded page shows.
 
     Attributes
     ----------
@@ -80,7 +80,7 @@ class Look:
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """What an address asks for; a value that cannot be used keeps what it was, and is one of the errors."""
+    """The state in an address; a value that cannot be used keeps its default, and is one of the errors."""
 
     state: ExplorerState
     errors: tuple[InputError, ...] = ()

@@ -1,4 +1,4 @@
-"""What a choice of system opens with: a place on Sigma, axes, a motion and a panel that show something of it."""
+"""First view of a chosen system: a place on Sigma, axes, a motion and a panel that show something of it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What one browser is answered with, message by message: a frame now or once its picture is there, a file, a room."""
+"""Answer the messages of one browser: a frame now or once its picture is ready, a file, a room."""
 
 from __future__ import annotations
 

@@ -37,7 +37,7 @@ REST = 1.0
 
 
 class CellView(Protocol):
-    """What a cell asks of an explorer."""
+    """The interface that a notebook cell needs of an explorer."""
 
     def still(self, patient: bool) -> tuple[str, str, bool]:
         """Return the picture of the present state as an SVG file, its sentence, and whether nothing is left out.

@@ -1,4 +1,4 @@
-"""Of several processes one compiles a kernel: the others wait for that one, and load it.
+"""Let one of several processes compile a kernel; the others wait for it, and load the result.
 
 Numba asks the disk before it compiles, but processes that begin together, as servers behind one port or those that
 share the tests, all find nothing, and each compiles everything.

@@ -1,4 +1,4 @@
-"""What the page says of itself: which paper it shows, the equations, and the words, each in a sentence."""
+"""The page's own texts: the paper that it shows, the equations, and its terms, a sentence each."""
 
 from __future__ import annotations
 

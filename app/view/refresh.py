@@ -1,4 +1,4 @@
-"""From a request of the browser to one frame: state, then scene, then only what is visible and has changed.
+"""Turn a request of the browser into a frame: state, then scene, then only what is visible and has changed.
 
 The browser decides when to ask: one request is out at a time and newer values replace older ones there, so that
 nothing ever queues here.
@@ -283,7 +283,7 @@ class Frames:
 
     @property
     def pending(self) -> Future[Any] | None:
-        """What the picture waits for, if it does: layers that are computed beside the frames."""
+        """Return the future of the layers that are computed beside the frames, if the picture waits for any."""
         return self.jobs.future("picture")
 
     def _tell_system(

@@ -1,4 +1,4 @@
-"""How many portraits of each name there are among systems drawn at random, on any executor, always the same."""
+"""Count portraits by name among random systems, on any executor, with equal results."""
 
 from __future__ import annotations
 

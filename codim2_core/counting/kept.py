@@ -45,7 +45,7 @@ class Kept:
 
     @property
     def systems(self) -> int:
-        """How many systems are counted."""
+        """Return the number of systems counted."""
         return sum(tally.systems for tally in (self.whole, *self.ahead.values()))
 
     def add(self, chunk: int, tally: Tally) -> None:

@@ -1,4 +1,4 @@
-"""What a census returns: for each portrait how many, which share, and examples."""
+"""The table of a census: for each portrait a count, a share, and examples."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What one chunk of a census gives: for each name how many, and which of its systems are typical and marginal."""
+"""The tally of one chunk of a census: counts by name, and its typical and marginal systems."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Tally:
 
     @property
     def systems(self) -> int:
-        """How many systems there are of all names."""
+        """Return the number of systems of all names."""
         return sum(entry.systems for entry in self.found.values())
 
     def joined(self, other: Tally) -> Tally:
@@ -70,7 +70,7 @@ class Tally:
 
 @dataclass(frozen=True)
 class Plan:
-    """What is drawn, under which Psi, from which seed, and whether names tell the outcomes too."""
+    """A plan of a census: distribution, Psi, seed, and whether names tell the outcomes too."""
 
     draw: Draw
     psi: Psi

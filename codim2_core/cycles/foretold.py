@@ -1,4 +1,4 @@
-"""Where orbits of the e-linear layer problem go, told by samples of the return map: they are not followed there.
+"""Predict limit sets of e-linear orbits from samples of the return map, without integrating them.
 
 The return map of the global section (`section`) increases. So an orbit on the section goes, turn by turn, to the first
 fixed point in the sense of its displacement, and along the section that sense changes at fixed points only: where

@@ -1,4 +1,4 @@
-"""What the two compiled maps do alike in a lane: begin, judge a step, find the length that ends on a section."""
+"""Steps in a lane that both compiled maps share: begin, judge a step, find the length that ends on a section."""
 
 from __future__ import annotations
 

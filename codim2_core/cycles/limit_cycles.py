@@ -146,7 +146,7 @@ def surrounds(line: Array, place: Array) -> bool:
 def reason_for_none(
     coefficients: Coefficients, critical: tuple[CriticalSet, ...], location: Location | None = None
 ) -> str | None:
-    """Why a theorem forbids limit cycles, or None where none does: then a, d differ in sign and det A > 0.
+    """Return the theorem that excludes limit cycles, or None; then a, d differ in sign and det A > 0.
 
     Parameters
     ----------

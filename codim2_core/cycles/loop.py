@@ -129,7 +129,7 @@ def _crossings(
     rtol: float,
     backward: bool,
 ) -> list[float]:
-    """Where the branch of a limit direction first crosses its section, in each system."""
+    """Return where the branch of a limit direction first crosses its section, in each system."""
     starts = [departures(q, psi, [angle], rtol, backward) for (q, psi, _), angle in zip(asked, angles, strict=True)]
     module, _ = sections[0].kernel
     values = {module.INWARD: -math.inf, module.OUTWARD: math.inf, module.UNDECIDED: math.nan}

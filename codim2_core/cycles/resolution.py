@@ -137,7 +137,7 @@ def _doubtful(values: Array, doubt: Array) -> NDArray[np.bool_]:
 
 
 def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], list[int], bool]:
-    """Where the displacement changes sign, and where it comes to zero and turns back, within resolution.
+    """Return where the displacement changes sign, and where it touches zero, within resolution.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ class Samples:
 
     @property
     def noise(self) -> Array:
-        """What the displacement is not known better than; near the critical set it is that of the distance from it."""
+        """Return the uncertainty of the displacement; near the critical set it is that of the distance from it."""
         return np.where(self.fine, FINE_NOISE, COARSE_NOISE) * (1.0 + np.exp(-self.q))
 
     def refine(self, xi: Array, also: NDArray[np.bool_], rtol: float = FINE) -> None:

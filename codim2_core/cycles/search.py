@@ -169,7 +169,7 @@ class Shown:
 
     @property
     def certain(self) -> int:
-        """How many of the changes of sign, from the first, are fixed points for certain, and all up to there."""
+        """Return how many sign changes, from the first, are surely fixed points, with none missed before them."""
         if self.notes or self.touching or self.newborn:
             return -1
         finite = np.isfinite(self.shift).tolist()

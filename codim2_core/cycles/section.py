@@ -184,7 +184,7 @@ class Section:
 
     @cached_property
     def pull(self) -> EquatorPull:
-        """What becomes of orbits that pass close to the equator."""
+        """Return the first-order return map of orbits close to the equator."""
         return equator_pull(self.coefficients, self.location)
 
     @property

@@ -68,7 +68,7 @@ class TurnSection:
 
     @cached_property
     def pull(self) -> EquatorPull:
-        """What becomes of orbits that pass close to the equator."""
+        """Return the first-order return map of orbits close to the equator."""
         return equator_pull(self.at, None)
 
     def shared(self, backward: bool) -> Array:

@@ -57,7 +57,7 @@ class InvariantLine:
         return float(self.n @ self.field.jacobian(c, s, 0.0, 0.0, z.tolist())[:2, :2] @ self.n)
 
     def onward(self, q: float, z: Array) -> float | None:
-        """Where the layer problem leads from q: the first zero of n.U that way; +-1, an end; None if it rests at q.
+        """Return the limit of the layer problem from q: the first zero of n.U, or +-1, an end; None if it rests.
 
         Parameters
         ----------

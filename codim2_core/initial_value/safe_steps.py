@@ -36,7 +36,7 @@ def _positive(values: Array) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class Safe:
-    """What is asked of steps.
+    """Requirements on the steps of a slide.
 
     Attributes
     ----------

@@ -75,7 +75,7 @@ class CriticalSet(Tabled):
 
     @property
     def index(self) -> int:
-        """How often U turns about it, read from its kind: -1 for a saddle, 0 for a saddle-node, else 1."""
+        """Return the index of U about it, read from its kind: -1 for a saddle, 0 for a saddle-node, else 1."""
         return {"saddle": -1, "saddle-node": 0}.get(self.kind, 1)
 
     def _row_(self) -> tuple[str, ...]:

@@ -1,4 +1,4 @@
-"""Where U(e) = 0 in the open disc |e| < 1, for a general system: all of the zeros, checked by the index.
+"""All zeros of U(e) in the open disc |e| < 1 of a general system, checked by the index.
 
 Independent of Psi, which only places them in the picture. `numerics.disc_search` proves the list complete; the sum of
 the indices, sign det D_e U, must in addition be the degree of U on the equator, found independently there.
@@ -171,7 +171,7 @@ def _size(run: Program) -> float:
 
 
 def _blur(DU: Array, degenerate: NDArray[np.bool_], size: float) -> Array:
-    """How far rounding of U moves each zero: 16 units over the smallest stretch of D_e U."""
+    """Return how far rounding of U moves each zero: 16 units over the smallest singular value of D_e U."""
     # the smaller singular value, to within a factor of sqrt 2
     spread = np.sqrt((DU * DU).sum(axis=(1, 2)))
     smallest = np.abs(DU[:, 0, 0] * DU[:, 1, 1] - DU[:, 0, 1] * DU[:, 1, 0]) / np.where(spread == 0.0, 1.0, spread)

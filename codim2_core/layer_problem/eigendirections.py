@@ -56,7 +56,7 @@ class Eigendirection:
 
 @dataclass(frozen=True, slots=True)
 class Linearised:
-    """What the linearisation at one object shows in the picture.
+    """Eigenvectors of the linearisation at one object, as lines of the picture.
 
     Attributes
     ----------

@@ -164,7 +164,7 @@ class EquatorEquilibria:
 
     @cached_property
     def turns(self) -> int | None:
-        """How often U turns along the equator, read from lambda_rho and Theta: the sum of the indices within.
+        """Return the index of U along the equator, read from lambda_rho and Theta: the sum of the indices within.
 
         Seen from the turning frame U is (lambda_rho, Theta): it crosses the radial axis where Theta changes sign. None
         where U vanishes on the equator, or every direction is a limit direction.
@@ -349,7 +349,7 @@ def _radial_exactly(a: float, b: float, d: float, f1: float, f2: float, theta: f
 
 
 def _radial_of_matrix(affine: Affine, harmonics: tuple[float, ...], theta: float) -> float:
-    """As `_radial_exactly`, for any matrix."""
+    """Return the sign of lambda_rho as `_radial_exactly` does, for any matrix."""
     found = solve_exactly(harmonics, GENERAL_PATTERNS).zeros
     (m11, m12, m21, m22, i1, i2), exponent = to_integers(affine)
     if not found:

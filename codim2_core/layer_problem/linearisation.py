@@ -141,7 +141,7 @@ def linearisation(
 def linearisation_of(
     M: tuple[float, float, float, float], psi: Psi, e: tuple[float, float], complement: float, sign: int
 ) -> Parts:
-    """As `linearisation`, for ``J = M . D e_Psi`` with any M = D_e U (rows first) whose determinant has that sign."""
+    """Return the `linearisation` of ``J = M . D e_Psi``, M = D_e U (rows first), whose determinant has that sign."""
     m11, m12, m21, m22 = M
     modulus = math.hypot(*e)
     zeta = float(psi.radius(modulus, complement)) if modulus > 0.0 else 0.0

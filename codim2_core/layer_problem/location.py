@@ -1,4 +1,4 @@
-"""Where A e + f = 0 holds, and whether there: the critical set of the e-linear system, thm:lineps1.
+"""Solve A e + f = 0 in the disc: the critical set of the e-linear system, thm:lineps1.
 
 The solution is ``e = -A^-1 f = -n/det A`` with ``n = adj(A) f``, and a critical set exists iff ``|n| < |det A|``. That
 form never divides by det A. Signs that rounding could blur are decided in exact rational arithmetic of the given
@@ -25,7 +25,7 @@ from .linearisation import (
 
 
 class Existence(Enum):
-    """How many critical sets there are, and why; the value is the sentence shown."""
+    """The number of critical sets and its reason; the value is the sentence shown."""
 
     INSIDE = say("exists once")
     NONE = say("exists not")
@@ -38,7 +38,7 @@ class Existence(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """Where ``A e = -f`` holds.
+    """The solution of ``A e = -f``.
 
     Attributes
     ----------

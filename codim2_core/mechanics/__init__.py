@@ -1,4 +1,4 @@
-"""From a mechanism to its system: mass matrix, contact point and coefficient of friction in, U and W out."""
+"""Derive the system of a mechanism: mass matrix, contact point and coefficient of friction in, U and W out."""
 
 from __future__ import annotations
 

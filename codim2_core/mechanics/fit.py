@@ -25,7 +25,7 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """What a measured slip says of a system: each value with the interval in which it lies, 95 % sure.
+    """A system estimated from a measured slip: each value with its 95 % confidence interval.
 
     Intervals are those of least squares: for errors that are independent and normal, of one size, and small.
 
@@ -75,7 +75,7 @@ class Fit:
 
     @property
     def sentence(self) -> str:
-        """What was found."""
+        """Return the estimates in a sentence."""
         found = ", ".join(
             f"{name} = {value:.4g} ({self.intervals[name][0]:.4g} to {self.intervals[name][1]:.4g})"
             for name, value in self.values.items()

@@ -85,7 +85,7 @@ class Mechanism(Parts):
 
     @cached_property
     def _meanings(self) -> dict[str, int]:
-        """What the user's names are in x, y, z1, z2, ..."""
+        """Return the indices of the user's names among x, y, z1, z2, ..."""
         algebra = self._algebra
         known = {word: algebra.name(z) for word, z in zip(self.slow, SLOW, strict=False)}
         known.update((word, algebra.name(word)) for word in ("c", "s", "x", "y"))

@@ -1,4 +1,4 @@
-"""How a regularised motion and its limit eps -> 0 agree: in their phases, and to which order in eps."""
+"""Compare a regularised motion with its limit eps -> 0: their phases, and the order in eps."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _VERB = {"slip": "slips", "slide": "slides", "cross": "crosses Σ"}
 
 @dataclass(frozen=True)
 class Agreement:
-    """How a motion for eps > 0 and the limit agree.
+    """Agreement of a motion for eps > 0 with the limit.
 
     Attributes
     ----------

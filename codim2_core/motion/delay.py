@@ -61,7 +61,7 @@ class Delay(Tabled):
 
     @property
     def reason(self) -> str:
-        """How it ends: a sentence."""
+        """Return the reason of its end as a sentence."""
         if self.t_out is None:
             return say("delay, open", C=self.onto, how=self.bifurcation)
         key = "Hopf, delayed until" if self.buffer is None else "Hopf, delayed until the buffer"

@@ -148,7 +148,7 @@ def simulate_nonsmooth(
 
 @dataclass(frozen=True, eq=False)
 class _Asked:
-    """What is asked of each motion."""
+    """Arguments common to all motions of one call."""
 
     system: AnySystem
     psi: Psi | None

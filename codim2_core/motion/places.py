@@ -1,4 +1,4 @@
-"""Where a phase of a motion lies: its e, and its p in the projected disc, at any time; and how it came there.
+"""Locate a phase of a motion: its e, and its p in the projected disc, at any time; and its origin.
 
 Regularised, both are those of the state. In the limit eps -> 0 they are those of the set that is followed, and what
 happens in no time, the orbit of the layer problem up the hemisphere (fig:side_of_sphere), is kept as a path.
@@ -32,7 +32,7 @@ NONE.flags.writeable = False
 
 
 class Place(Protocol):
-    """Where a phase lies."""
+    """The location of a phase."""
 
     def at(self, t: Array) -> tuple[Array, Array]:
         """Return e and p, each (k, 2), at times (k,)."""

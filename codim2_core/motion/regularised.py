@@ -147,7 +147,7 @@ def simulate(
 
 @dataclass(frozen=True, eq=False)
 class _Asked:
-    """What is asked of each motion; the phases are those of `system`, `formulas` are what is followed."""
+    """Arguments common to all motions of one call: `system` names the phases, `formulas` are integrated."""
 
     system: AnySystem
     formulas: Field

@@ -1,4 +1,4 @@
-"""What a simulation returns: states, times, dense output, and its phases with their reasons."""
+"""The result of a simulation: states, times, dense output, and its phases with their reasons."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 class SimulationStatus(Enum):
-    """Why a simulation ended; the value is the sentence shown."""
+    """The reason why a simulation ended; the value is the sentence shown."""
 
     T_END = say("end of span")
     EVENT = say("at an event")

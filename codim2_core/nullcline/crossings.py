@@ -1,4 +1,4 @@
-"""Where the branches of one nullcline cross each other, or come so close that it looks so.
+"""Find where the branches of one nullcline cross each other, or come so close that they seem to.
 
 At a crossing the component and its gradient vanish. On a small circle around it the component changes sign once for
 each half-branch; with 2 k of them, half-branch i goes straight on as i + k.

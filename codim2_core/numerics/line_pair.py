@@ -1,4 +1,4 @@
-"""Where a trigonometric polynomial of degree 2 nearly vanishes: a pair of lines meets the unit circle.
+"""Near-zeros of a trigonometric polynomial of degree 2: a pair of lines meets the unit circle.
 
 With (X, Y) = (cos theta, sin theta) the polynomial is a conic. Some member of its pencil with the unit circle is a pair
 of real lines; they meet the circle where the polynomial vanishes.

@@ -92,7 +92,7 @@ def shortened(step: Step, u: float) -> Step:
 
 @dataclass(frozen=True)
 class Problem:
-    """What is integrated.
+    """An initial value problem.
 
     Attributes
     ----------

@@ -75,7 +75,7 @@ def refined(function: Function, low: Array, high: Array) -> tuple[Array, NDArray
 
 
 class Roots(NamedTuple):
-    """What `roots` finds on each grid, increasing."""
+    """The roots found on each grid, increasing."""
 
     zeros: list[Array]
     poles: list[Array]

@@ -1,4 +1,4 @@
-"""How long trajectories are drawn: until they have ended at the slowest attractor, in T (dT = dt/rho)."""
+"""The duration of drawn trajectories: until they have ended at the slowest attractor, in T (dT = dt/rho)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How trajectories are followed: their eleven options, checked once."""
+"""The eleven options of an integration of trajectories, checked once."""
 
 from __future__ import annotations
 

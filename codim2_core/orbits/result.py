@@ -1,4 +1,4 @@
-"""What integrating trajectories returns: lines of the picture, their times, and why each one ended."""
+"""The result of integrating trajectories: lines of the picture, their times, and why each one ended."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 class Status(Enum):
-    """Why a trajectory ended; the value is the sentence shown."""
+    """The reason why a trajectory ended; the value is the sentence shown."""
 
     T_MAX = say("reached t_max")
     EQUILIBRIUM = say("reached an equilibrium")
@@ -91,7 +91,7 @@ class Trajectories:
 
     @cached_property
     def status(self) -> tuple[Status, ...]:
-        """Why each one ended."""
+        """Return the reason why each one ended."""
         return tuple(STATUSES[code] for code in self.codes.tolist())
 
 

@@ -164,7 +164,7 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
 
 
 def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Array]:
-    """Which trajectories have come to the step limit, in what time each, over what length, and how fast at last."""
+    """Return the trajectories that came to the step limit: indices, times, lengths, and last speeds."""
     which = np.flatnonzero(found.codes == STATUSES.index(Status.STEP_LIMIT))
     lines, times = found.points, found.times
     spent = np.array([abs(times[i][-1]) for i in which])

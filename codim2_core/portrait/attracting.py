@@ -1,4 +1,4 @@
-"""Which attracting set of the layer problem sliding follows: a stable critical set, or a stable limit cycle."""
+"""Find the attracting set of the layer problem along which a motion slides: a critical set, or a limit cycle."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class Basins:
-    """Where trajectories of the layer problem lead from each cell of the disc.
+    """Basins of attraction of the layer problem, as a class for each cell of the disc.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What the name of a portrait is made of, for e-linear and for general systems."""
+"""Name a portrait, of an e-linear or a general system."""
 
 from __future__ import annotations
 

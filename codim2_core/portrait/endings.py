@@ -1,4 +1,4 @@
-"""Where trajectories on the hemisphere end: at which equilibrium, on which cycle, and from which side."""
+"""Omega limit sets of trajectories on the hemisphere: an equilibrium, a cycle, and the side of approach."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ AT_NEUTRAL_Q = say("to a neutral direction")
 
 @dataclass(frozen=True, eq=False)
 class Ending:
-    """Where a trajectory ends: the label, the angle of arrival if it has one, and a sentence."""
+    """The omega limit set of a trajectory: its label, the angle of arrival if it has one, and a sentence."""
 
     label: str
     angle: float | None
@@ -112,7 +112,7 @@ def endings(
     backward: bool = False,
     foretold: Callable[[Array], list[int | None]] | None = None,
 ) -> list[Ending]:
-    """Where trajectories on the hemisphere end; those cut off by their time are followed further.
+    """Return the omega limit sets of trajectories on the hemisphere; those cut off by time are integrated on.
 
     Parameters
     ----------
@@ -205,7 +205,7 @@ def _followed(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backwa
 
 
 def _stopping(equator: EquatorEquilibria, i: int, w: float) -> str:
-    """Why an orbit that no attractor captured is at Q_{i+1}."""
+    """Return the reason why an orbit that no attractor captured is at Q_{i+1}."""
     if equator.multiplicity[i] > 1 or radially_neutral(equator, i):
         return say("to a degenerate equilibrium")
     if half_saddle(equator, i) and w > 0.0:

@@ -1,4 +1,4 @@
-"""What `approach` says of trajectories that reach the discontinuity set: an outcome for each limit direction."""
+"""Outcomes for trajectories that reach the discontinuity set: one for each limit direction."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ AT_ZERO = 1e-9  # angle to a limit direction that counts as that direction
 
 @dataclass(frozen=True, eq=False)
 class Outcome(Tabled):
-    """What becomes of trajectories that arrive along one limit direction (or spiral onto the closed equator).
+    """The outcome for trajectories that arrive along one limit direction (or spiral onto the closed equator).
 
     Attributes
     ----------

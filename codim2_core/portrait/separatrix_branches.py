@@ -153,7 +153,7 @@ def _along_equator(at: AtZ, p: Array, end: Array, backward: bool) -> Array:
 
 
 def outside_half_saddle(equator: EquatorEquilibria, i: int) -> bool:
-    """As `half_saddle`, for the side rho > 0, where the radial eigenvalue is lambda_rho."""
+    """Return whether Q is a `half_saddle` on the side rho > 0, where the radial eigenvalue is lambda_rho."""
     if radially_neutral(equator, i):
         return False
     return int(equator.multiplicity[i]) % 2 == 0 or not half_saddle(equator, i)

@@ -1,4 +1,4 @@
-"""What becomes of orbits of the layer problem: they slide, cross, or are undecided, by where they end."""
+"""Verdicts on orbits of the layer problem by their omega limit sets: slide, cross, or undecided."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 
 
 class Judged(NamedTuple):
-    """What becomes of some orbits, as `outcomes.Outcome` has it."""
+    """The verdict on some orbits, with the fields of `outcomes.Outcome`."""
 
     verdict: str
     onto: str | None = None

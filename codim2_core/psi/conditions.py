@@ -118,7 +118,7 @@ def _rough(s: float, order: int, what: str) -> Condition:
 
 
 def _jump(expression: Expression, values: Array, least: float) -> float | None:
-    """Where a function jumps, or None: the ten steepest cells are bisected towards the larger change."""
+    """Return where a function jumps, or None: the ten steepest cells are bisected towards the larger change."""
     keep = np.isfinite(values) & (values > NEGLIGIBLE * PROBES) & (least <= PROBES)
     s = PROBES[keep]
     if not len(s):  # where it matters at all is below the probes

@@ -1,4 +1,4 @@
-"""What makes a Psi: of a family by its name, or of a typed formula."""
+"""Construct a Psi: of a family by its name, or of a typed formula."""
 
 from __future__ import annotations
 

@@ -136,7 +136,7 @@ class Custom(Kernel):
         return lib.where(abs(polished - zeta) <= 1e-3 * zeta, polished, zeta)
 
     def polish(self, lib: Any, zeta: Any, w: Any) -> Any:
-        """As for every family, with Psi evaluated once."""
+        """Polish a root as every family does, with Psi evaluated once."""
         s = zeta * zeta
         values = self.expression.evaluate({"s": s})
         used = values > TINY_PSI

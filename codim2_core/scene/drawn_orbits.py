@@ -61,7 +61,7 @@ def _stepping(setting: SceneSetting, outside: bool = False) -> dict[str, Any]:
 
 
 def starts(setting: SceneSetting, outside: bool) -> np.ndarray:
-    """Where drawn orbits start: at the seeds, and around what they would not leave."""
+    """Return the starting points of drawn orbits: the seeds, and points around what they would not leave."""
     seeds = seeds_of(setting, outside)
     if outside or setting.seeds is not None or not setting.count:
         return seeds
@@ -89,7 +89,7 @@ def sketched(setting: SceneSetting, outside: bool) -> Sketch:
 
 
 def continuations(setting: SceneSetting) -> Trajectories:
-    """From each limit direction along which an open set of trajectories arrives, up the hemisphere."""
+    """Integrate up the hemisphere from each limit direction along which an open set of trajectories arrives."""
     equator = setting.problem.equator
     decided = ~np.array(radially_neutral_ones(equator), bool)  # where it is not, what rises does so for ever
     arriving = equator.theta[decided & (equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)]

@@ -34,7 +34,7 @@ LOST = 1e-9  # rho below which a drawn point |p| = 1 + rho does not tell it, and
 
 @dataclass(frozen=True)
 class Fate:
-    """Where an orbit goes, or where it comes from.
+    """The limit set of an orbit, forward or backward in time.
 
     Attributes
     ----------

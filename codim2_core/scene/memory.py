@@ -1,4 +1,4 @@
-"""What the scenes of one lineage have computed, kept under the values of the inputs that each layer reads."""
+"""The cache of a lineage of scenes: results under the values of the inputs that each layer reads."""
 
 from __future__ import annotations
 

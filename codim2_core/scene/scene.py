@@ -243,5 +243,5 @@ class Scene:
 
     @property
     def runs(self) -> Mapping[str, int]:
-        """How often each layer has been computed in this scene and those it evolved from or into."""
+        """Return how often each layer has been computed in this scene and those it evolved from or into."""
         return MappingProxyType(self._memory.runs)

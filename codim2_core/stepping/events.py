@@ -1,4 +1,4 @@
-"""Where a compiled trajectory ends before its time: at an attractor, at the equator, at the edge of the view."""
+"""Compiled events that end a trajectory: at an attractor, at the equator, at the edge of the view."""
 
 from __future__ import annotations
 

@@ -128,7 +128,7 @@ def _typed_gain(source: str, parameter: str) -> Any:
 
 @dataclass(frozen=True)
 class Variant:
-    """What is compiled for a Psi: one thing for a family, two with `Family.gain_whole`, or one for a typed formula.
+    """The compiled code of a Psi: one for a family, two with `Family.gain_whole`, or one for a typed formula.
 
     Attributes
     ----------

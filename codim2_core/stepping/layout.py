@@ -1,4 +1,4 @@
-"""Where the numbers of the compiled stepping lie, and how a right-hand side is called.
+"""The memory layout of the compiled stepping, and the call of a right-hand side.
 
 `LANES` trajectories step side by side. The workspace S is one array of rows of `WIDTH` numbers: px of every lane,
 then py, then w: one state (px, py, w) for both sides of the equator, w = ebar on the hemisphere and rho outside.

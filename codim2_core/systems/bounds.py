@@ -1,4 +1,4 @@
-"""How large numbers of a system may be, and what a z must be."""
+"""Bounds of the numbers of a system, and the check of a z."""
 
 from __future__ import annotations
 

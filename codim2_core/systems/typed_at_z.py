@@ -76,12 +76,12 @@ class Frozen:
 
     @cached_property
     def key(self) -> Hashable:
-        """What decides the portrait: the formulas of U and the numbers that they read."""
+        """Return the key of the portrait: the formulas of U and the numbers that they read."""
         return self.system.U, self.numbers
 
     @cached_property
     def slow_key(self) -> Hashable:
-        """What decides the slow flow on a given critical set: the formulas of W and the numbers that they read."""
+        """Return the key of the slow flow on a given critical set: the formulas of W and the numbers that they read."""
         return self.system.W, tuple(self.values[name] for name in number_names(self.system.W))
 
     def at(self, z: ArrayLike = ()) -> Frozen:  # noqa: ARG002 (z is already chosen)

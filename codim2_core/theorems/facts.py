@@ -1,4 +1,4 @@
-"""What a certificate is, and the facts about one system that all certificates read."""
+"""A certificate, and the facts about one system that all certificates read."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ UNCERTAIN = frozenset(
 
 
 class Verdict(Enum):
-    """What a certificate finds; the value is shown."""
+    """The verdict of a certificate; the value is shown."""
 
     HOLDS = "holds"
     DOES_NOT_APPLY = "does not apply"
@@ -122,7 +122,7 @@ class Facts:
 
     @property
     def uncertain(self) -> str | None:
-        """Why a count of this system is not certain, or None: then a claim that fails shows nothing."""
+        """Return why a count of this system is uncertain, or None: with a reason, a claim that fails shows nothing."""
         for degeneracy in self.portrait.degeneracies:
             if degeneracy.name in UNCERTAIN:
                 return degeneracy.sentence
@@ -145,7 +145,7 @@ class Facts:
 
     @property
     def location(self) -> Location | None:
-        """Where A e + f = 0; None where U is not e-linear."""
+        """Return the solution of A e + f = 0; None where U is not e-linear."""
         return self.problem.location
 
     @property

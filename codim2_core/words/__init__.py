@@ -1,4 +1,4 @@
-"""What is said of a system, a portrait, a motion: every sentence once, a module a room, with when it is said.
+"""Sentences about systems, portraits and motions: each written once, a module a topic, with its condition.
 
 The other rooms say them by `say`; `recognise` finds them again in a text, so that the tests can hold each against
 what motions do: a sentence without a check of its own is a failing test.

@@ -1,4 +1,4 @@
-"""Where arrowheads sit on curves: where there is room, so that curves that run together do not pile them up."""
+"""Place arrowheads on curves where there is room, so that curves that run together do not pile them up."""
 
 from __future__ import annotations
 

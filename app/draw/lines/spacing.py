@@ -84,7 +84,7 @@ def _order(count: int) -> NDArray[np.int64]:
 
 @njit(inline="always")
 def _steps(dx, dy, step):
-    """How many steps a stretch of a curve is walked in; what is far outside is not looked at closely."""
+    """Return the number of steps in which a piece of a curve is walked; pieces far outside the picture take few."""
     return 1 + int(min(math.hypot(dx, dy) / step, 1e4))
 
 

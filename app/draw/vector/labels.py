@@ -1,4 +1,4 @@
-"""Where labels stand: beside their marks, over no other label and no mark."""
+"""Place labels beside their marks, over no other label and no mark."""
 
 from __future__ import annotations
 

@@ -29,7 +29,7 @@ CORE = 0.8
 
 @dataclass(frozen=True)
 class Placement:
-    """How the picture lies in a drawing.
+    """Position and size of the picture in a drawing.
 
     Attributes
     ----------
@@ -59,12 +59,12 @@ class Placement:
 
     @property
     def scale(self) -> float:
-        """What is the disc's radius."""
+        """Return the radius of the disc in px."""
         return self.side / (self.seen[1] - self.seen[0])
 
     @property
     def height(self) -> float:
-        """Of the drawing."""
+        """Return the height of the drawing in px."""
         return self.scale * (self.seen[3] - self.seen[2])
 
     def points(self, values: Any) -> Any:

@@ -24,7 +24,7 @@ LETTER, ROW = 6.2, 13
 
 @dataclass(frozen=True)
 class Frame:
-    """Where values are in a chart: its lower left corner is (left, low), as far as (right, high) is (wide, tall) px."""
+    """The frame of a chart: its lower left corner is (left, low), as far as (right, high) is (wide, tall) px."""
 
     corner: tuple[float, float]
     foot: tuple[float, float]

@@ -1,4 +1,4 @@
-"""What follows an arrival at Sigma, compiled, where safe signs tell that it slides; all else is left to the caller.
+"""Compiled decisions after an arrival at Sigma where signs are safe; all else is left to the caller.
 
 It slides on C, whatever Psi is, where U = A (e - C) with A + A^T negative definite and |C| < 1 (thm:case1): at a limit
 direction (e - C).U = lambda_rho (1 - C.e) < 0, so that all of them lead inward, Bendixson's criterion forbids cycles,
@@ -46,7 +46,7 @@ def _size(S, m):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _on_the_only_set(S, m):
-    """Of U = A (e - C): whether all that arrives slides on C, by the symmetric part of A; C is in place."""
+    """Return whether all orbits of U = A (e - C) slide on C, by the symmetric part of A; C is in place."""
     write_at(S, m, 0.0, 0.0)
     width = 4 + m
     a, b, c, d = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]

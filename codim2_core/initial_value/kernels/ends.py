@@ -1,4 +1,4 @@
-"""Where a slide surely goes on, and where it ends at the equator, step by step, compiled: `safe_steps` at one step.
+"""Compiled test of each step of a slide: whether it surely goes on, and where it ends at the equator (`safe_steps`).
 
 What turns negative at an end is taken at the nodes of `safe_steps`, and bounded between them in the same way. Where
 only 1 - |e|^2 may turn negative, and that once, its zero is the end.

@@ -83,7 +83,7 @@ def _turned_implicit(motion, control, work, h, remaining):
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def _turned_explicit(motion, control, bound, reach):
-    """Where an implicit step begins: go on explicitly if as far an explicit way costs less."""
+    """Go on explicitly where an implicit step would cost more than explicit ones over the same span."""
     if motion.n > explicit.WIDTH or min(control[NEXT], bound) * reach > price(motion.n) * STABLE:
         control[COUNT] = 0.0
         return False

@@ -24,7 +24,7 @@ PLACES = SLOPES + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 
 class Motion(NamedTuple):
-    """What does not change along a motion.
+    """Constants of a motion.
 
     Attributes
     ----------

@@ -32,7 +32,7 @@ LONG = 100.0  # times as long as the ranges would take at the first rate is a mo
 
 
 def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLike = ()) -> Results[Delay]:
-    """Where motions that come to an attracting critical set at z lose its stability, and where they leave it.
+    """Return where motions on an attracting critical set at z lose its stability, and where they leave it.
 
     Each is followed with the slow flow, eq:RPCM, from z through a Hopf bifurcation (tr J = 0 < det J), or through an
     exchange of stability (transcritical, pitchfork; det J = 0) on a set that does not move. In the limit

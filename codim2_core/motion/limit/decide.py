@@ -1,4 +1,4 @@
-"""What follows on Sigma in the limit eps -> 0: decided by the hemisphere, sec:geneps1."""
+"""Decide what follows on Sigma in the limit eps -> 0, by the hemisphere: sec:geneps1."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ AROUND, BESIDE = 8, 1e-3  # orbits from around such a set that does not attract,
 
 @dataclass(frozen=True)
 class Decision:
-    """What follows.
+    """The decision at one state on Sigma.
 
     Attributes
     ----------

@@ -51,7 +51,7 @@ class NotAnalyticError(Exception):
 
 @dataclass(frozen=True)
 class WayOut:
-    """When a motion leaves an unstable critical set.
+    """The exit of a motion from an unstable critical set.
 
     Attributes
     ----------

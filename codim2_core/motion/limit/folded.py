@@ -1,4 +1,4 @@
-"""What a fold of critical sets is at which a slide ends: a jump point, or a folded singularity of the slow flow.
+"""Classify a fold of critical sets at which a slide ends: a jump point, or a folded singularity of the slow flow.
 
 With D = D_e U, the slow flow on U = 0 in the time that det D divides,
 

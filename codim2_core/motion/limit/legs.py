@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Legs:
-    """What was followed, of which system.
+    """Consecutive parts of a motion, and their system.
 
     Attributes
     ----------

@@ -206,7 +206,7 @@ def _closer(asked: Shooting, shot: Shot, rtol: float) -> Shot | None:
 
 
 def _extent(shot: Shot) -> float:
-    """How far a motion comes from its start, in units of its size."""
+    """Return the largest distance of a motion from its start, in units of its size."""
     return float((np.abs(shot.run.states - shot.run.states[0]) / shot.sizes).max())
 
 
@@ -264,7 +264,7 @@ def _verdict(values: NDArray[np.complex128], errors: Array, in_a_line: bool) -> 
 
 
 def _times(asked: Shooting, shot: Shot) -> int:
-    """How many times a motion repeats itself in its period."""
+    """Return how many times a motion repeats itself in its period."""
     motion, some = shot.run.dense, shot.run.states[:: max(1, len(shot.run.states) // LOOKED_AT)]
     for count in range(MOST_TIMES, 1, -1):
         part = asked.advance / count

@@ -43,7 +43,7 @@ class LostError(Exception):
 
 @dataclass(frozen=True, eq=False)
 class Shooting:
-    """What is asked of a periodic motion.
+    """A boundary value problem: the unknowns and conditions of a periodic motion.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Shooting:
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
-        """Which of (x, y, z) are sought."""
+        """Return which of (x, y, z) are unknown."""
         return np.concatenate([[True, True], ~self.clocks])
 
     def follow(self, state: Array, period: float, rtol: float) -> Simulation:
@@ -123,7 +123,7 @@ class Shot:
 
     @cached_property
     def sizes(self) -> Array:
-        """What small is measured by, (2 + m,)."""
+        """Return the scales (2 + m,) by which a difference counts as small."""
         found = np.abs(self.run.states).max(axis=0) + self.of.floor
         found[:2] = np.hypot(*self.run.states[:, :2].T).max() + self.of.eps
         found[:2] = found[:2] if found[0] > 0.0 else 1.0
@@ -131,7 +131,7 @@ class Shot:
 
     @cached_property
     def miss(self) -> Array:
-        """How far the end is from the start, (2 + m,)."""
+        """Return the difference (2 + m,) of end and start."""
         found = self.run.states[-1] - self.run.states[0]
         found[2:] -= self.of.advance
         found[~self.of.free] = 0.0

@@ -36,7 +36,7 @@ AT_REST = 1e-6  # |U| on a critical set, in units of its slopes: on a limit cycl
 
 
 class Phase(Protocol):
-    """What is read of a phase of the motion."""
+    """The data of one phase of the motion that its variation needs."""
 
     @property
     def kind(self) -> str: ...  # noqa: D102
@@ -124,7 +124,7 @@ class _Course:
 
     @property
     def size(self) -> int:
-        """Of the state, and of the numbers by which it is differentiated."""
+        """Return the length of the state together with that of the varied numbers."""
         return self.motion.states.shape[1] + len(self.slopes.kept)
 
     def along(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
@@ -223,7 +223,7 @@ class _Course:
         return found
 
     def leaves_line(self, n: Array) -> NDArray[np.bool_]:
-        """Which of z and the names (m + q,), changed, turn U out of the line along n, or move what does."""
+        """Return which of z and the names (m + q,), if changed, turn U out of the line along n, or move the line."""
         states = self.motion.states
         D = self.slopes.at(outside(states[:, :2], n)[0], states)
         across = np.abs(D[:, :2].swapaxes(1, 2) @ [-n[1], n[0]]).max(axis=0, initial=0.0)
@@ -307,7 +307,7 @@ class _Course:
         return start
 
     def later(self, leg: _Leg) -> Array:
-        """How much later it leaves, by a change of the state; where a slide ended, (x, y) has none."""
+        """Return the change of the time of leaving by a change of the state; where a slide ended, (x, y) has none."""
         found, onward = np.zeros(self.size), self.beginning(leg)[:2]
         if not leg.left:
             found[:2] = -onward / (onward @ onward)

@@ -25,7 +25,7 @@ AT_ONCE = 64  # parts whose stage equations are held at once
 
 @dataclass(frozen=True, eq=False)
 class Propagators:
-    """What the steps of a motion do to small changes.
+    """Propagators of the steps of a motion: their action on small changes.
 
     Attributes
     ----------

@@ -119,7 +119,7 @@ def gain_whole(r2, w, n):
 
 
 def broken(n: float, text: str) -> tuple[Condition, ...]:
-    """Of R1 to R5, those that fail: Psi is smooth at s = 0 and s = inf for whole n only."""
+    """Return those of R1 to R5 that fail: Psi is smooth at s = 0 and s = inf for whole n only."""
     if float(n).is_integer():
         return ()
     k = math.ceil(n)
