@@ -57,7 +57,7 @@ SETTINGS: Mapping[str, Any] = {
 def setup(site: Any) -> None:
     """Tell Sphinx, which calls this, how formulas are written and what the paper's labels are called in print."""
     site.add_html_math_renderer("mathml", (mathematics.inline, None), (mathematics.block, None))
-    site.connect("autodoc-process-docstring", reference.printed, priority=400)
+    site.connect("autodoc-process-docstring", reference.print_labels, priority=400)
 
 
 def build(target: Path, *, portraits: bool = True) -> list[str]:

@@ -27,11 +27,12 @@ COUNT = 14  # starting points of a small portrait of the strip
 def gallery() -> list[dict[str, str]]:
     """Return key, title, hook and drawing of each; the drawing is empty until its kernels are compiled."""
     return [
-        {"key": key, "title": presets[key].title, "hook": hook, "drawn": _drawn(key)} for key, hook in HOOKS.items()
+        {"key": key, "title": presets[key].title, "hook": hook, "drawn": _draw_thumbnail(key)}
+        for key, hook in HOOKS.items()
     ]
 
 
-def _drawn(key: str) -> str:
+def _draw_thumbnail(key: str) -> str:
     preset = presets[key]
     return _small(key) if is_warm(preset.psi, preset.system) else ""
 

@@ -103,14 +103,14 @@ def _times_pi(times: int) -> str:
     return "<mi>π</mi>" if times == 1 else f"<mn>{times}</mn><mo>&#8290;</mo><mi>π</mi>"
 
 
-def _closed(piece: Piece, least: int) -> str:
+def _parenthesise(piece: Piece, least: int) -> str:
     text, binding = piece
     return f"<mrow>{text}</mrow>" if binding >= least else f"<mrow><mo>(</mo>{text}<mo>)</mo></mrow>"
 
 
 def _after_minus(piece: Piece) -> str:
     """Close what is taken away: a second sign would stand behind the first."""
-    return _closed(piece, _POWER if piece[1] == _SIGN else _PRODUCT)
+    return _parenthesise(piece, _POWER if piece[1] == _SIGN else _PRODUCT)
 
 
 def _function(op: str, inside: Piece) -> Piece:
@@ -131,7 +131,7 @@ def _binary(op: str, left: Piece, right: Piece, left_number: bool, right_number:
     if op == "+":
         if right[0].startswith(_MINUS):  # u + -v
             return f"{left[0]}{right[0]}", _SUM
-        return f"{left[0]}<mo>+</mo>{_closed(right, _PRODUCT)}", _SUM
+        return f"{left[0]}<mo>+</mo>{_parenthesise(right, _PRODUCT)}", _SUM
     if op == "-":
         return f"{left[0]}{_MINUS}{_after_minus(right)}", _SUM
     if op == "/" and left[1] == _SIGN:
@@ -139,10 +139,10 @@ def _binary(op: str, left: Piece, right: Piece, left_number: bool, right_number:
     if op == "/":
         return f"<mfrac><mrow>{left[0]}</mrow><mrow>{right[0]}</mrow></mfrac>", _ATOM
     if op == "**":
-        return f"<msup>{_closed(left, _ATOM)}<mrow>{right[0]}</mrow></msup>", _POWER
+        return f"<msup>{_parenthesise(left, _ATOM)}<mrow>{right[0]}</mrow></msup>", _POWER
     times = "<mo>·</mo>" if right_number else "<mo>&#8290;</mo>"  # invisible times
-    first = left[0] if left_number or left[1] == _SIGN else _closed(left, _PRODUCT)
-    return f"{first}{times}{_closed(right, _POWER)}", _SIGN if left[1] == _SIGN else _PRODUCT
+    first = left[0] if left_number or left[1] == _SIGN else _parenthesise(left, _PRODUCT)
+    return f"{first}{times}{_parenthesise(right, _POWER)}", _SIGN if left[1] == _SIGN else _PRODUCT
 
 
 def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:

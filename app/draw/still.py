@@ -35,10 +35,10 @@ def still(buffer: bytes, layers: Collection[str], theme: str = "light", width: i
     ground = f'<rect width="{SIDE}" height="{SIDE}" fill="var(--page)"/>'
     clear = '<text paint-order="stroke" stroke="var(--page)" stroke-width="6" '  # of the lines behind it
     whole = inner.replace(">", f">{ground}", 1).replace("<text ", clear)
-    return coloured(whole, colours)
+    return fill_colours(whole, colours)
 
 
-def coloured(svg: str, colours: Mapping[str, str]) -> str:
+def fill_colours(svg: str, colours: Mapping[str, str]) -> str:
     """Return an SVG with colours by name in place of the style sheet's custom properties."""
     return _VARIABLE.sub(lambda name: colours[name[1]], svg)
 

@@ -12,7 +12,7 @@ import numpy as np
 from codim2_core.scene import Scene
 
 from . import glyphs
-from .layers import LAYERS, painted
+from .layers import LAYERS, layers_in_paint_order
 from .packing import unpack
 from .vector import parts as vector
 from .vector.parts import SIDE, Placement
@@ -53,7 +53,7 @@ def content(buffer: bytes, layers: Collection[str], place: Placement, labelled: 
     """
     header, blocks = unpack(buffer)
     parts = [vector.sphere(place)]
-    drawn = [part for layer in painted() if layer.name in layers for part in layer.parts]
+    drawn = [part for layer in layers_in_paint_order() if layer.name in layers for part in layer.parts]
     if "basins" in layers:
         parts += vector.basins(header.get("basins"), blocks, place)
     if "outcomes" in layers:

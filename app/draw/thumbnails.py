@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from codim2_core.layer_problem.vary import varied
+from codim2_core.layer_problem.vary import vary
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 
@@ -45,7 +45,7 @@ def thumbnails(
     for region, name, place in places[:MOST]:
         changed = system, psi, z
         for axis, value in zip(names, place, strict=True):
-            changed = varied(*changed, axis, value)
+            changed = vary(*changed, axis, value)
         drawn.append([region, name, [float(v) for v in place], thumbnail(*changed)])
     return drawn
 

@@ -13,7 +13,7 @@ from html import escape
 import segno
 
 from ..draw.packing import unpack
-from ..draw.still import coloured
+from ..draw.still import fill_colours
 from ..draw.svg import content
 from ..draw.theme import themes
 from ..draw.vector import parts as vector
@@ -111,7 +111,7 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
         y += 6.0 + LINE * max((len(column) for _, column in columns), default=0) + 4.0
     if style.caption:
         room = side - (CODE + GUTTER if style.link else 0.0)
-        lines = list(_wrapped(caption_of(view, header), room))
+        lines = list(_wrap_text(caption_of(view, header), room))
         parts += [
             vector.words(left, y + LINE * (i + 1), escape(line), SMALL, room=room) for i, line in enumerate(lines)
         ]
@@ -124,10 +124,10 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
         f'font-family="{FONTS}"><title>{escape(caption_of(view, header))}</title>'
         f'<rect width="{width:.2f}" height="{y:.2f}" fill="var(--page)"/>{"".join(parts)}</svg>\n'
     )
-    return coloured(whole, paper() if style.theme == "paper" else themes()[style.theme])
+    return fill_colours(whole, paper() if style.theme == "paper" else themes()[style.theme])
 
 
-def _wrapped(text: str, width: float) -> Iterator[str]:
+def _wrap_text(text: str, width: float) -> Iterator[str]:
     """Return a text in lines that are not wider."""
     line = ""
     for word in text.split():

@@ -64,7 +64,7 @@ def film(
         drawn += pictures(view, slider, style, positions, len(drawn), min(len(drawn) + part_of(slider), positions))
         if progress is not None:
             progress(len(drawn), positions)
-    return joined(drawn, kind, play=slider == PLAY)
+    return encode_film(drawn, kind, play=slider == PLAY)
 
 
 def count_of(slider: str) -> int:
@@ -97,7 +97,7 @@ def picture(view: View, slider: str, value: float, style: Style = STYLE) -> byte
     return png(drawn, DENSITY)
 
 
-def joined(pictures: Sequence[bytes], kind: str = ".gif", play: bool = False) -> bytes:
+def encode_film(pictures: Sequence[bytes], kind: str = ".gif", play: bool = False) -> bytes:
     """Return pictures of one size as a film without end: there and back, of play there alone.
 
     The pictures of play have the colours of the first: each then costs in a file what moves in it.
@@ -109,8 +109,8 @@ def joined(pictures: Sequence[bytes], kind: str = ".gif", play: bool = False) ->
     """
     shown = [Image.open(io.BytesIO(one)).convert("RGB") for one in pictures]
     if kind == ".gif":  # by what they cover of all colours: a small mark keeps its own, which the median cut mixes
-        palette = _quantized(shown[0])
-        shown = [one.quantize(palette=palette, dither=NO_DITHER) if play else _quantized(one) for one in shown]
+        palette = _reduce_palette(shown[0])
+        shown = [one.quantize(palette=palette, dither=NO_DITHER) if play else _reduce_palette(one) for one in shown]
     order = [*range(len(shown)), *(() if play else range(len(shown) - 2, 0, -1))]
     durations = [PACE * (REST if i in (0, len(shown) - 1) else 1) for i in order]
     film = io.BytesIO()
@@ -121,5 +121,5 @@ def joined(pictures: Sequence[bytes], kind: str = ".gif", play: bool = False) ->
     return film.getvalue()
 
 
-def _quantized(shown: Image.Image) -> Image.Image:
+def _reduce_palette(shown: Image.Image) -> Image.Image:
     return shown.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=NO_DITHER)

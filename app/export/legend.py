@@ -8,7 +8,7 @@ from typing import Any
 
 from codim2_core.words import named
 
-from ..draw.layers import Part, painted
+from ..draw.layers import Part, layers_in_paint_order
 from ..draw.vector import parts as vector
 from ..draw.vector.parts import Placement
 from ..slow_layers.outcomes import WORDS as OUTCOMES
@@ -65,7 +65,7 @@ class Entry:
 
 def entries(header: Mapping[str, Any], blocks: Mapping[str, Any], layers: Collection[str]) -> list[Entry]:
     """Return the entries for what one frame shows, lines first."""
-    found = [entry for layer in painted() if layer.name in layers for entry in _lines(layer, blocks)]
+    found = [entry for layer in layers_in_paint_order() if layer.name in layers for entry in _lines(layer, blocks)]
     for name in ("equator", "critical"):
         if name in layers and header.get(name):
             found += _marks(header[name], "Q" if name == "equator" else "C")

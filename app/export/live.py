@@ -120,7 +120,7 @@ def live(view: View, sliders: Sequence[str]) -> bytes:
     while True:
         places = [slider.values(count, view.number(slider.name)) for slider in chosen]
         budget = (MOST - AROUND) * 3 // 4
-        packed = _packed(view, chosen, places, budget)
+        packed = _pack_frames(view, chosen, places, budget)
         if packed is not None:
             break
         count = int(SHRINK * count)
@@ -129,7 +129,7 @@ def live(view: View, sliders: Sequence[str]) -> bytes:
     return _page(view, chosen, places, packed).encode()
 
 
-def _packed(
+def _pack_frames(
     view: View, chosen: Sequence[Slider], places: Sequence[Sequence[float]], budget: int
 ) -> tuple[list[int], bytes] | None:
     """Return the size of each frame and all of them packed, the first slider slowest; None if they are too large."""

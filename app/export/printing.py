@@ -17,7 +17,7 @@ PAGE = b'#set page(width: auto, height: auto, margin: 0pt, fill: none)\n#image("
 DPI, MOST = 96, 12.0
 
 
-def there() -> bool:
+def has_typst() -> bool:
     """Whether Typst is installed."""
     return find_spec("typst") is not None
 

@@ -106,7 +106,7 @@ def seen_by(request: Any, values: Mapping[str, Any], system: System_ | None) -> 
     return View(dict(values), seen, system)
 
 
-def taken(view: View, wish: Wish) -> tuple[str, bytes]:
+def make_file(view: View, wish: Wish) -> tuple[str, bytes]:
     """Return the file's name and what it holds.
 
     Raises
@@ -125,10 +125,10 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
     made = make(view)
     if len(made) > MOST:
         raise ValueError(TOO_LARGE.format(round(len(made) / 1e6)))
-    return named(view, wish), made
+    return file_name(view, wish), made
 
 
-def named(view: View, wish: Wish) -> str:
+def file_name(view: View, wish: Wish) -> str:
     """Return the name of a file: letters, figures and dashes, which no system and no command line minds."""
     name = view.values["preset"] or view.scene()["name"].name.lower()
     return f"codim2-{'-'.join(re.findall('[a-z0-9]+', name)) or 'view'}.{wish.kind}"

@@ -15,11 +15,11 @@ from ..draw.packing import Rectangle, pack
 from ..draw.theme import VIEW
 from ..frame.picture import make_frame
 from ..frame.scenes import make_scene
-from ..frame.window import Window, seen
+from ..frame.window import Window, resample_for_window
 from ..slow_layers import basins, outcomes
 from ..state.choices import OWN_AXIS as OWN
 from ..state.chosen import System_, parameters_of
-from ..state.links import Link, Look, read_link, squeezed, write_link
+from ..state.links import Link, Look, read_link, compress_query, write_link
 
 #: Of the whole picture's width: curves of a figure are sampled within a quarter of it.
 FINE = 1 / 1600
@@ -61,7 +61,7 @@ class View:
         """The query of the address that shows it; empty for a system from Python, which no address can carry."""
         if self.system is not None:
             return ""
-        return squeezed(write_link(self.values, Look(() if self.seen == WHOLE else self.seen)))
+        return compress_query(write_link(self.values, Look(() if self.seen == WHOLE else self.seen)))
 
     @property
     def width(self) -> float:
@@ -71,7 +71,7 @@ class View:
     def scene(self) -> Scene:
         """Return what is computed for the screen."""
         window = None if self.seen == WHOLE else Window(self.seen, self.width / 700)
-        return seen(make_scene(self.values, self.system), window, rest=True)
+        return resample_for_window(make_scene(self.values, self.system), window, rest=True)
 
     def number(self, name: str) -> float:
         """Return the value of a control, or, after "own:", of a parameter of the system."""

@@ -21,10 +21,10 @@ Later = Callable[[Callable[[], None]], Any]
 
 def later(document: Document) -> Later:
     """Return what has functions called for a document of Bokeh's, with its lock; none once its session is over."""
-    return partial(IOLoop.current().add_callback, _called, document)
+    return partial(IOLoop.current().add_callback, _call_next_tick, document)
 
 
-async def _called(document: Document, function: Callable[[], None]) -> None:
+async def _call_next_tick(document: Document, function: Callable[[], None]) -> None:
     async def call(its: Document) -> None:
         with patch_curdoc(its):
             try:

@@ -91,13 +91,13 @@ def make_frame(
     asked = Asked(scene) if asked is None else asked
     now = dict(sent)
     header: dict[str, Any] = {"ready": ready}
-    blocks = _drawn(values["layers"], now, ready, window, asked, header)
+    blocks = _changed_blocks(values["layers"], now, ready, window, asked, header)
     if "cycles" in blocks and now["cycles"] is not NOTHING:
         header["cycles"] = {**glyphs.cycle_columns(scene["closed_orbits"]), "proof": provable(scene.problem)}
     if "launched_1" in blocks and now["launched_1"] is not NOTHING:
         header["launched"] = {
             **glyphs.launched_columns(scene.launch, scene["launched"]),
-            **numbered(values["orbits"]),
+            **orbit_labels(values["orbits"]),
         }
     if "separatrices_stable" in blocks and isinstance(now["separatrices_stable"], Separatrices):
         branches = scene["separatrices"]
@@ -116,7 +116,7 @@ def _fresh(now: dict[str, Any], key: str, result: Any) -> bool:
     return True
 
 
-def _drawn(
+def _changed_blocks(
     layers: Sequence[str],
     now: dict[str, Any],
     ready: bool,
@@ -160,7 +160,7 @@ def _drawn(
     return blocks
 
 
-def numbered(orbits: str) -> dict[str, list[Any]]:
+def orbit_labels(orbits: str) -> dict[str, list[Any]]:
     """Return the number in the list, and the name, of each launched orbit that is shown."""
     rows = [(i + 1, orbit.name) for i, orbit in enumerate(read_launches(orbits)) if not orbit.hidden]
     return {"number": [number for number, _ in rows], "called": [name for _, name in rows]}

@@ -87,7 +87,7 @@ def inputs(window: Window | None, rest: bool) -> dict[str, Any]:
     }
 
 
-def seen(scene: Scene, window: Window | None, rest: bool) -> Scene:
+def resample_for_window(scene: Scene, window: Window | None, rest: bool) -> Scene:
     """Return the scene sampled where and as finely as it is seen."""
     wanted = inputs(window, rest)
     changes = {name: value for name, value in wanted.items() if getattr(scene, name) != value}

@@ -16,7 +16,7 @@ from ..state.controls import NAMES
 from .condition import FactCondition, condition
 from .facts import COMPILED, KNOWN
 from .lesson import Lesson, Option, Prose, Question, Vary, portrait_of
-from .markdown import LinkError, button, draggable, inline, live, parser, rendered
+from .markdown import LinkError, button, draggable, inline, live, parser, render_html
 from .marks import MARKS
 from .words import fields
 
@@ -155,7 +155,7 @@ def _question(path: Path, line: int, text: str) -> Question:
     hide = tuple(found.get("hide") or ())
     if unknown := [layer for layer in hide if layer not in LAYERS]:
         raise LessonError(path, line, f"hide: no layer {unknown[0]!r}; they are {', '.join(LAYERS)}.")
-    explain = _explained(path, line, "explain", found["explain"])
+    explain = _explanation_html(path, line, "explain", found["explain"])
     require = found.get("require")
     return Question(
         html=_line(path, line, found["ask"]),
@@ -172,11 +172,11 @@ def _question(path: Path, line: int, text: str) -> Question:
 
 def _option(path: Path, line: int, given: Any) -> Option:
     words = _keys(path, line, given, OF_OPTION, ("say", "when"))
-    wrong = _explained(path, line, "wrong", words.get("wrong") or "")
+    wrong = _explanation_html(path, line, "wrong", words.get("wrong") or "")
     return Option(_line(path, line, words["say"]), _condition(path, line, words["when"]), wrong)
 
 
-def _explained(path: Path, line: int, key: str, text: Any) -> str:
+def _explanation_html(path: Path, line: int, key: str, text: Any) -> str:
     """Return the HTML of words with facts in them."""
     html = _line(path, line, text)
     if unknown := [name for name in fields(html) if name not in KNOWN]:
@@ -199,7 +199,7 @@ def _condition(path: Path, line: int, text: Any) -> FactCondition:
 
 def _html(path: Path, line: int, tokens: list[Token]) -> str:
     try:
-        return rendered(tokens, _resolver(path, line))
+        return render_html(tokens, _resolver(path, line))
     except LinkError as error:
         raise LessonError(path, line, str(error)) from error
 

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codim2_core.motion.limit.ahead import delays
-from codim2_core.portrait.attracting import attracting
+from codim2_core.portrait.attracting import attracting_set
 from codim2_core.psi.function import Psi
 from codim2_core.sliding.along import slow_portrait
 from codim2_core.sliding.over import slow_plane
@@ -62,7 +62,7 @@ def _add_drift(draft: Draft) -> None:
     scene = draft.scene
     if not draft.ready:
         return  # limit cycles need the integrator
-    found = attracting(scene["critical"], lambda: scene["cycles"], draft.now.get("drifts on"))
+    found = attracting_set(scene["critical"], lambda: scene["cycles"], draft.now.get("drifts on"))
     draft.now["drifts on"] = None if found is None else found.e
     told = None if found is None else {"on": found.name, "flow": [float(v) for v in found.slow_flow]}
     if draft.now.get("drift", ()) != told:
@@ -92,7 +92,7 @@ def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
     return {
         "intervals": [{"low": i.low, "high": i.high, "kind": i.kind, "sentence": i.sentence} for i in found.intervals],
         "branches": [
-            {"z": short(b.z), "flow": _drawn(b.flow[:, axis], width), "kind": b.kind, "stable": b.stable}
+            {"z": short(b.z), "flow": _drawable_flow(b.flow[:, axis], width), "kind": b.kind, "stable": b.stable}
             for b in found.branches
         ],
         "points": [
@@ -108,7 +108,7 @@ def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
     }
 
 
-def _drawn(flow: NDArray[np.float64], width: float) -> list[float]:
+def _drawable_flow(flow: NDArray[np.float64], width: float) -> list[float]:
     """Return a slow flow as it is drawn: zero where it would take longer than any motion to be seen to move."""
     return short(np.where(np.abs(flow) < 1e-10 * width, 0.0, flow))
 

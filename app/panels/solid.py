@@ -46,12 +46,12 @@ def add(draft: Draft) -> None:
     others = tuple(0.0 if i == axis else v for i, v in enumerate(scene.z))
     if draft.ready:
         key = (system, scene.psi, others, axis, span)
-        stack = draft.slow("stack", key, stacked, system, scene.psi, others, axis, span)
+        stack = draft.slow("stack", key, stack_of_discs, system, scene.psi, others, axis, span)
         if stack is not None:
             draft.header["stack"] = {**stack, "control": SLOW_CONTROLS[axis]}
 
 
-def stacked(
+def stack_of_discs(
     system: System_, psi: Psi, others: tuple[float, ...], axis: int, span: tuple[float, float]
 ) -> dict[str, Any]:
     """Return discs at even values of z, the limit directions on the cylinder, and the critical sets inside it.
@@ -60,7 +60,7 @@ def stacked(
     """
     low, high = span
 
-    def at(value: float) -> tuple[float, ...]:
+    def z_at(value: float) -> tuple[float, ...]:
         return (*others[:axis], float(value), *others[axis + 1 :])
 
     def share(value: float) -> float:
@@ -68,7 +68,7 @@ def stacked(
 
     discs = []
     for value in np.linspace(low, high, SLICES):
-        scene = Scene(system, psi, at(value), count=SEEDS)
+        scene = Scene(system, psi, z_at(value), count=SEEDS)
         discs.append({"z": float(value), "lines": [_flat(line) for line in _lines(scene["inside"])]})
     found = directions_along(system, span, others, axis, ANGLES)
     columns = (found.z, found.theta, found.lambda_rho, found.lambda_theta)

@@ -290,7 +290,7 @@ def serve_with(rooms: Rooms) -> None:
     _served[:] = [rooms]
 
 
-def here() -> Rooms:
+def process_rooms() -> Rooms:
     """Return the rooms of this process."""
     if not _served:
         serve_with(Rooms())

@@ -51,7 +51,7 @@ def markup_of(query: Mapping[str, str]) -> str:
 
 
 @cache
-def _around() -> str:
+def _page_frame() -> str:
     """Return the page around the explorer."""
     return (
         Environment(autoescape=True)
@@ -87,7 +87,7 @@ class Page(RequestHandler):
             return
         app: Any = self.application
         here = f"{self.request.protocol}://{escape(self.request.host)}{app.prefix}"
-        text = _around().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
+        text = _page_frame().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
         text = text.replace(MARKUP, markup_of(query_of(self.request.arguments)))
         self.finish(text.replace(NOTICE, self._notice()))
 

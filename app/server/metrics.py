@@ -55,7 +55,7 @@ class Metrics:
             "codim2_rooms": ("Rooms that are open", self.rooms.count()),
             "codim2_compiled": ("Steps of the warm-up that are done", done),
             "codim2_to_compile": ("Steps of the warm-up", of),
-            "codim2_resident_bytes": ("Memory of the process", _resident()),
+            "codim2_resident_bytes": ("Memory of the process", _resident_memory()),
         }
         for name, (words, value) in gauges.items():
             family = GaugeMetricFamily(name, words, labels=["process"])
@@ -76,7 +76,7 @@ class Metrics:
         return generate_latest(self.registry)
 
 
-def _resident() -> float:
+def _resident_memory() -> float:
     """Return the bytes of memory that this process holds; 0 where the system does not tell."""
     try:
         return float(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")

@@ -31,7 +31,7 @@ from .headers import transform
 from .live import MOST_SENT, Live, Places
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
-from .process.ports import listen_by_own, shared
+from .process.ports import listen_by_own, share_port
 from .process.standing_back import stand_back
 from .scripts import routes
 
@@ -131,13 +131,13 @@ def make_server(
     turns = Turns(executor, at_once)
     serve_with(turns)
     warmup_now = processes == 1
-    begin = partial(warmup.start, partial(_told, told), patience=warmup.PATIENCE)
+    begin = partial(warmup.start, partial(_report_warm_up, told), patience=warmup.PATIENCE)
     if warmup_now:
         begin()
     parent = os.getpid()
     board = Board(processes)
     places = Places(sessions)
-    with shared(processes):
+    with share_port(processes):
         server = _server(port, address, allow_origin, processes, prefix, places, options)
     keep_steady(server.io_loop)
     listen_by_own(server, address)
@@ -157,7 +157,7 @@ def make_server(
     return server
 
 
-def _told(told: warmup.Told | None, what: str, seconds: float, done: int, of: int) -> None:
+def _report_warm_up(told: warmup.Told | None, what: str, seconds: float, done: int, of: int) -> None:
     """Tell what has been compiled; once it is all, it is no garbage: no search stops a visitor for it."""
     if told is not None:
         told(what, seconds, done, of)

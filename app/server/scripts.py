@@ -30,7 +30,7 @@ SCRIPTS = {"explorer.js": script, "takeaway.js": _take_away}
 
 
 @cache
-def _own(name: str) -> bytes:
+def _read_script(name: str) -> bytes:
     return gzip.compress(SCRIPTS[name]().encode(), 9, mtime=0)
 
 
@@ -54,7 +54,7 @@ class Script(RequestHandler):
         self.set_header("Cache-Control", kept)
         if _takes_packed(self):
             self.set_header("Content-Encoding", "gzip")
-            self.finish(_own(name))
+            self.finish(_read_script(name))
         else:
             self.finish(SCRIPTS[name]())
 

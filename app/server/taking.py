@@ -23,7 +23,7 @@ def add_figure(commands: Any) -> None:
     command.add_argument("--no-labels", dest="labels", action="store_false", help="leave out Q₁, Q₂, …, C")
     for name, words in (("ticks", "a frame with ticks"), ("title", "a title"), ("caption", "a caption")):
         command.add_argument(f"--{name}", action="store_true", help=f"draw {words} too")
-    command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _figure(chosen)))
+    command.set_defaults(run=lambda chosen: _write_output(chosen.output, lambda: _figure(chosen)))
 
 
 def add_data(commands: Any) -> None:
@@ -32,7 +32,7 @@ def add_data(commands: Any) -> None:
     command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
     endings = ".zip (CSV files), .json, .npz, .py (code that rebuilds the view) or .tex (equilibria and critical sets)"
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=f"ends in {endings}")
-    command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _data(chosen)))
+    command.set_defaults(run=lambda chosen: _write_output(chosen.output, lambda: _data(chosen)))
 
 
 def _data(chosen: argparse.Namespace) -> bytes:
@@ -49,7 +49,7 @@ def add_live(commands: Any) -> None:
     words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'; give it twice for two sliders"
     command.add_argument("--slider", action="append", required=True, metavar="NAME[=LOW,HIGH]", help=words)
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .html")
-    command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _live(chosen)))
+    command.set_defaults(run=lambda chosen: _write_output(chosen.output, lambda: _live(chosen)))
 
 
 def add_film(commands: Any) -> None:
@@ -66,7 +66,7 @@ def add_film(commands: Any) -> None:
     words = "pictures, 2 to 121; default 41 of a slider, 101 of play"
     command.add_argument("--positions", type=int, default=0, metavar="N", help=words)
     command.add_argument("--theme", default="light", help="light, dark or paper (black and white); default light")
-    command.set_defaults(run=lambda chosen: _written(chosen.output, lambda: _film(chosen)))
+    command.set_defaults(run=lambda chosen: _write_output(chosen.output, lambda: _film(chosen)))
 
 
 def _film(chosen: argparse.Namespace) -> bytes:
@@ -103,7 +103,7 @@ def _figure(chosen: argparse.Namespace) -> bytes:
     return svg.encode() if suffix == ".svg" else pdf(svg) if suffix == ".pdf" else png(svg, chosen.scale)
 
 
-def _written(output: Path, make: Callable[[], bytes]) -> int:
+def _write_output(output: Path, make: Callable[[], bytes]) -> int:
     """Write a file; print what is wrong in one sentence if it cannot be."""
     try:
         output.write_bytes(make())

@@ -37,13 +37,13 @@ def add(draft: Draft) -> None:
         if not draft.fresh("outcomes", found):
             return
     else:
-        found = draft.slow("outcomes", scene.key("plane", "slow", "psi"), _found, scene)
+        found = draft.slow("outcomes", scene.key("plane", "slow", "psi"), _scene_outcomes, scene)
         if found is None:
             return
     draft.header["outcomes"] = columns(found)
 
 
-def _found(scene: Scene) -> Outcomes:
+def _scene_outcomes(scene: Scene) -> Outcomes:
     if why := wild(scene):
         raise ValueError(f"{why}.")
     return scene["outcomes"]

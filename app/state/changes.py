@@ -12,7 +12,7 @@ from .controls import NAMES
 _TYPED_BOXES = frozenset(box.name for boxes in BOXES.values() for box in boxes)
 
 
-def together(
+def compatible_changes(
     good: Mapping[str, Any], attempt: Callable[[Mapping[str, Any]], Any]
 ) -> tuple[dict[str, Any], dict[str, Exception]]:
     """Return the changes that can be had together, and why not the others: one may need another to come first.

@@ -57,7 +57,7 @@ def clean(name: str, value: Any) -> Any:
     if name in NUMBERS:
         return _finite(name, declared.label, value)
     if type(declared) is param.Integer:
-        return _whole(name, declared, value)
+        return _whole_number(name, declared, value)
     if type(declared) is param.Selector:
         return _one_of(name, declared, value)
     if type(declared) is Angle:
@@ -65,7 +65,7 @@ def clean(name: str, value: Any) -> Any:
     return _READ.get(name, _short_text)(name, declared.label, value)
 
 
-def _whole(name: str, declared: Any, value: Any) -> int:
+def _whole_number(name: str, declared: Any, value: Any) -> int:
     """Return a whole number within the bounds of its declaration."""
     count = _finite(name, declared.label, value)
     low, high = declared.bounds  # all are declared with both
@@ -121,7 +121,7 @@ def _is_own(name: str) -> bool:
     return name.startswith(OWN_AXIS) and name.removeprefix(OWN_AXIS).isidentifier()
 
 
-def _pinned(name: str, _label: str | None, value: Any) -> str:
+def _pinned_name(name: str, _label: str | None, value: Any) -> str:
     """Return the name of an object of the picture, or ""."""
     if not isinstance(value, str) or not PINNED.fullmatch(value):
         raise InputError(name, f"Pinned: {str(value)[:40]!r} given; give an object such as Q2, C or L1.")
@@ -220,7 +220,7 @@ _READ: Mapping[str, Callable[[str, str | None, Any], Any]] = MappingProxyType(
         "along": _axis,
         "across": _axis,
         "up": _axis,
-        "pinned": _pinned,
+        "pinned": _pinned_name,
         "ranges": _ranges,
         "texts": _mapping,
         "parameters": _mapping,

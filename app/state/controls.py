@@ -15,11 +15,11 @@ import param
 
 from codim2_core import psi as psi_families
 
-from ..draw.layers import LAYERS, shown
+from ..draw.layers import LAYERS, default_layers
 from .choices import CENSUSES, MAX_TRAJECTORIES, MOST_CENSUS, PANELS, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, titles
 from .launches import MOST
-from .opening import opening
+from .opening import opening_values
 from .portraits import portrait_keys, portrait_values
 
 
@@ -67,7 +67,7 @@ class ExplorerState(param.Parameterized):
         64, bounds=(0, MAX_TRAJECTORIES), label="Starting points", doc="Number of trajectories."
     )
     layers = param.ListSelector(
-        default=shown(),
+        default=default_layers(),
         objects=list(LAYERS),
         check_on_set=False,  # `clean` looks at the table, which may have grown
         instantiate=True,
@@ -128,14 +128,14 @@ class ExplorerState(param.Parameterized):
         start = preset_values(values.get("preset")) or deepcopy(dict(first or {}))
         choice = values.get("system", start.get("system", NORMAL))
         if choice != start.get("system", NORMAL):
-            start |= opening(choice)
+            start |= opening_values(choice)
         return cls(**{**start, **values})
 
 
 @lru_cache(maxsize=256)
 def _complete(key: str) -> dict[str, Any]:
     own = portrait_values(key)
-    return {**first_values(), **opening(own["system"]), **own, "preset": key}
+    return {**first_values(), **opening_values(own["system"]), **own, "preset": key}
 
 
 def preset_values(key: str | None) -> dict[str, Any]:

@@ -61,7 +61,7 @@ def _read(entry: str) -> Launch:
     return Launch(x, y, hidden, name.strip())
 
 
-def chosen(launches: tuple[Launch, ...], number: int) -> int | None:
+def selected_place(launches: tuple[Launch, ...], number: int) -> int | None:
     """Return the place, among those that are shown, of the orbit of this number, counted from 1; the last if fewer.
 
     `TYPED` for 0, and where nothing was launched; None where it is hidden.

@@ -21,7 +21,7 @@ from ..phrases import say
 from .chosen import BOXES, NORMAL
 from .cleaning import LONGEST_TEXT, InputError, clean
 from .controls import NAMES, ExplorerState, preset_values
-from .opening import opening
+from .opening import opening_values
 
 VERSION = 1
 #: What a link of each version leaves out. A release that opens otherwise gets a new version beside these.
@@ -43,7 +43,7 @@ FIRST: Mapping[int, Mapping[str, Any]] = MappingProxyType(
     }
 )  # fmt: skip
 #: What another choice of system brings: always written where the system is not that of the portrait.
-BROUGHT = tuple(opening(NORMAL))
+BROUGHT = tuple(opening_values(NORMAL))
 
 #: What a link of an earlier release says otherwise, by name and value: the panel Time is now a part of Orbits.
 SAID_BEFORE: Mapping[tuple[str, str], Mapping[str, str]] = MappingProxyType(
@@ -106,7 +106,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     errors: list[InputError] = []
     if "s" in given:
         try:
-            given = {**dict(parse_qsl(unsqueezed(given.pop("s")), keep_blank_values=True)), **given}
+            given = {**dict(parse_qsl(decompress_query(given.pop("s")), keep_blank_values=True)), **given}
         except ValueError as error:
             errors.append(InputError("", str(error)))
     for name in ("room", "done"):  # of the page: see static/room, static/panels/lessons.js
@@ -152,7 +152,7 @@ def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:
     return urlencode(query)
 
 
-def squeezed(query: str) -> str:
+def compress_query(query: str) -> str:
     """Return a query as one that carries it compressed, where that is shorter."""
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)
     packed = packer.compress(query.encode()) + packer.flush()
@@ -160,7 +160,7 @@ def squeezed(query: str) -> str:
     return min(query, short, key=len)
 
 
-def unsqueezed(text: str) -> str:
+def decompress_query(text: str) -> str:
     """Return the query that a squeezed one carries.
 
     Raises

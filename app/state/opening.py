@@ -10,7 +10,7 @@ from .choices import OWN_AXIS, SLOW_CONTROLS
 from .chosen import NORMAL, has_atlas, starting_launch, starting_z
 
 
-def opening(choice: str) -> dict[str, Any]:
+def opening_values(choice: str) -> dict[str, Any]:
     """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing.
 
     And a panel that has something to show of it.

@@ -20,7 +20,7 @@ from ..draw.bundle import bundle
 from ..draw.gallery import FIRST, gallery
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
 from ..draw.theme import MEASURES, custom_properties, themes
-from ..export.printing import there
+from ..export.printing import has_typst
 from ..panels.registry import PANELS
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
@@ -53,7 +53,7 @@ def stylesheet() -> str:
     return "\n".join((custom_properties(), own, sharing, second, swatches(), charts, *panels, room, beamer, narrow))
 
 
-def _embedded(look: Look) -> str:
+def _embedded_rules(look: Look) -> str:
     """Return the rules of a page in a frame, which shows the controls that its link names."""
     rules = (STATIC / "embed.css").read_text(encoding="utf-8")
     for name in look.controls:
@@ -88,7 +88,7 @@ def address_of_script() -> str:
     return f"./explorer.js?v={digest()}"
 
 
-def offered() -> dict[str, Any]:
+def front_end_constants() -> dict[str, Any]:
     """Return what the front end must know whatever is open: presets by what is other than the defaults, colours."""
     first = first_values()
     return {
@@ -116,13 +116,13 @@ def offered() -> dict[str, Any]:
 
 
 @lru_cache(maxsize=4)
-def _offered(*_: Any) -> str:
-    return json.dumps(offered(), ensure_ascii=False, separators=(",", ":"))
+def _front_end_json(*_: Any) -> str:
+    return json.dumps(front_end_constants(), ensure_ascii=False, separators=(",", ":"))
 
 
 def offered_text() -> str:
-    """Return `offered` as JSON, written anew where something has been registered: its parts cost 10 ms a page."""
-    return _offered(tuple(PANELS), tuple(portrait_keys()), tuple(FAMILIES), tuple(LAYERS), tuple(BOXES))
+    """Return `front_end_constants` as JSON, written anew where something has been registered: its parts cost 10 ms a page."""
+    return _front_end_json(tuple(PANELS), tuple(portrait_keys()), tuple(FAMILIES), tuple(LAYERS), tuple(BOXES))
 
 
 def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
@@ -133,7 +133,7 @@ def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | No
         "docs": {name: state.param[name].doc for name in NUMBERS},
         "values": state.values(),
         "locked": list(locked),
-        "film": there(),
+        "film": has_typst(),
         "look": asdict(look or Look()),
         "edition": edition(),
     }
@@ -141,7 +141,7 @@ def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | No
 
 def config(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
     """Return all that the front end must know."""
-    return {**offered(), **settings(state, locked, look)}
+    return {**front_end_constants(), **settings(state, locked, look)}
 
 
 def _differences(first: Mapping[str, Any], key: str) -> dict[str, Any]:
@@ -179,7 +179,7 @@ def explorer_html(
 
     groups = groupby(portraits(), key=lambda item: item["group"])
     return _template("explorer.html").render(
-        css=stylesheet() + (_embedded(look) if look and look.embed else ""),
+        css=stylesheet() + (_embedded_rules(look) if look and look.embed else ""),
         groups={group: [control(name) for name in names] for group, names in GROUPS.items()},
         exponent=control("n"),
         portraits=[(group, list(items)) for group, items in groups],

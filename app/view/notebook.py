@@ -73,7 +73,7 @@ def explorer(
     linked = {name: value for name, value in state.items() if name in SHARED and resolve_ref(value)}
     state = {name: resolve_value(value) if name in linked else value for name, value in state.items()}
     if isinstance(system, Scene):
-        psi, state, system = psi or system.psi, {"z": system.z, **state}, _whole(system)
+        psi, state, system = psi or system.psi, {"z": system.z, **state}, _own_system(system)
     elif isinstance(system, str):
         name = "preset" if system in presets else "system"
         if system not in presets and system not in titles():
@@ -102,7 +102,7 @@ def explorer(
     return view
 
 
-def _whole(scene: Scene) -> System_:
+def _own_system(scene: Scene) -> System_:
     if not isinstance(scene.system, (ELinear, System)):
         raise ValueError("the scene was made of a system frozen at one z; make it of an ELinear or a System.")
     return scene.system

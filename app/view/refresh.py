@@ -28,14 +28,14 @@ from ..frame.faults import sentence_of
 from ..frame.jobs import Jobs
 from ..frame.load import load
 from ..frame.picture import Asked, Blocks, make_frame
-from ..frame.scenes import cut_after, evolved, locked_controls, make_scene, settled
+from ..frame.scenes import cut_after, evolve_scene, locked_controls, make_scene, complete_changes
 from ..frame.sides import sides
 from ..frame.turns import Failed
-from ..frame.window import Window, inputs, seen
+from ..frame.window import Window, inputs, resample_for_window
 from ..panels import registry
 from ..panels.parameters.axes import opening_axes
 from ..state.asked import read_request
-from ..state.changes import culprit, together
+from ..state.changes import culprit, compatible_changes
 from ..state.choices import AXES
 from ..state.chosen import GIVEN, System_, describe
 from ..state.cleaning import InputError, clean
@@ -184,11 +184,11 @@ class Frames:
             if not good:
                 errors[culprit(error, "")] = said
                 return None
-        had, failed = together(good, self._reach)
+        had, failed = compatible_changes(good, self._reach)
         try:
             drawn = self._draw(had, sent, rest)
         except Exception:  # a scene there is, but it cannot be drawn: so each is tried to the end
-            had, failed = together(good, lambda changes: self._draw(changes, sent, False))
+            had, failed = compatible_changes(good, lambda changes: self._draw(changes, sent, False))
             try:
                 drawn = self._draw({}, sent, rest)
             except Exception as error:  # what was drawn before cannot be drawn again: the browser keeps what it has
@@ -201,10 +201,10 @@ class Frames:
     def _reach(self, changes: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], Scene]:
         """Return the values after some changes, the names of those that are other than before, and their scene."""
         if self.given is None:
-            changes = settled(self.values, changes)
+            changes = complete_changes(self.values, changes)
         values = {**self.values, **changes}
         changed = [name for name in changes if values[name] != self.values[name]]
-        scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
+        scene = evolve_scene(self.scene, values, [name for name in changed if name not in self.locked], self.given)
         if "cut" not in changed:
             values["cut"] = cut_after(self.scene, scene, changed)
             scene = scene if scene.cut == values["cut"] else scene.evolve(cut=values["cut"])
@@ -214,7 +214,7 @@ class Frames:
 
     def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:
         values, changed, scene = self._reach(changes)
-        scene = seen(scene, self.window, rest)
+        scene = resample_for_window(scene, self.window, rest)
         ready = self.ready(scene.psi, scene.system)
         drawable = ready or scene.coefficients.typed is None  # all of a general system needs the compiler
         if "preset" in changes:  # a whole state: nothing was moved

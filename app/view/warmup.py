@@ -230,13 +230,13 @@ def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
     if not outcome and constant() in _threads:
         return False
     typed = None if system is None else system.typed
-    if typed is not None and not _done(GENERAL, _warm_general_alone):
+    if typed is not None and not _is_compiled(GENERAL, _warm_general_alone):
         return False
     if is_warm(psi, system):
         return True
     key = _formulas_of(psi, system)
     if key is not None:
-        return _done(key, warm, psi, system)
+        return _is_compiled(key, warm, psi, system)
     with _lock:
         return not any(thread.is_alive() for thread in _threads.values())
 
@@ -260,7 +260,7 @@ def is_ready_for_all(psi: Psi, system: AnySystem) -> bool:
     return elsewhere(psi, system) or is_ready(psi, system)
 
 
-def _done(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:
+def _is_compiled(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:
     """Whether a thread has compiled this; if there was none, begin one as soon as few others are at work."""
     with _lock:
         thread = _threads.get(key)

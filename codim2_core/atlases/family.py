@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..expressions.expression import Expression, parse
 from ..expressions.names import SLOW
 from ..initial_value.field import function_of, rows_of
-from ..layer_problem.vary import varied
+from ..layer_problem.vary import vary
 from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 
@@ -212,7 +212,7 @@ class Family:
         """
         of = self.system, self.psi, self.z
         for name, value in zip(self.names, self.values(u).tolist(), strict=True):
-            of = varied(*of, name, value)
+            of = vary(*of, name, value)
         return of
 
 

@@ -12,7 +12,7 @@ from ..psi import constructors
 from ..psi.function import Psi
 from .draws import DRAWS, Draw
 from .kept import Kept
-from .table import Census, tabulated
+from .table import Census, make_census
 from .tally import Plan, Tally, tally
 
 if TYPE_CHECKING:  # an import that takes as long as a tenth of this package
@@ -101,7 +101,7 @@ def census(
                 progress(kept.systems, count)
     finally:
         kept.save()
-    return tabulated(kept.all(), plan, chunk)
+    return make_census(kept.all(), plan, chunk)
 
 
 def _chunk_size(plan: Plan) -> int:
@@ -118,16 +118,16 @@ def _run(executor: Executor | None, plan: Plan, chunks: Iterator[tuple[int, int]
     try:
         for i, size in chunks:
             if len(waiting) >= AHEAD:
-                yield from _finished(waiting)
+                yield from _as_completed(waiting)
             waiting[executor.submit(tally, plan, i, size)] = i
         while waiting:
-            yield from _finished(waiting)
+            yield from _as_completed(waiting)
     finally:
         for future in waiting:
             future.cancel()
 
 
-def _finished(waiting: dict[Future[Tally], int]) -> Iterator[tuple[int, Tally]]:
+def _as_completed(waiting: dict[Future[Tally], int]) -> Iterator[tuple[int, Tally]]:
     from concurrent.futures import FIRST_COMPLETED, wait
 
     ready, _ = wait(waiting, return_when=FIRST_COMPLETED)

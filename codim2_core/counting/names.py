@@ -39,7 +39,7 @@ TINY = 1e-280  # below it products may have lost digits to underflow
 
 
 @njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
-def _located(a, b, d, f1, f2):
+def _critical_case(a, b, d, f1, f2):
     """Case (0, 1, 2; -1 undecided), whether there is a critical set, and how far both lie from a border."""
     det, det_size = a * d + b * b, abs(a * d) + b * b
     case = 0
@@ -58,7 +58,7 @@ def _located(a, b, d, f1, f2):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
-def _counted(a, b, d, f1, f2):
+def _half_direction_count(a, b, d, f1, f2):
     """Half the number of zeros of Theta (-1 undecided), and how far it lies from a border."""
     k = d - a
     c4, c3, c2, c1, c0 = b - f2, -2.0 * (f1 + k), 2.0 * b, -2.0 * (f1 - k), b + f2
@@ -101,10 +101,10 @@ def _filter(plane, codes, margins):  # (n, 5) a, b, d, f1, f2; codes (n,), margi
         size = max(abs(a), abs(b), abs(d), abs(f1), abs(f2))
         if not SMALLEST <= size <= LARGEST or a == 0.0 or d == 0.0:
             continue
-        case, exists, near = _located(a, b, d, f1, f2)
+        case, exists, near = _critical_case(a, b, d, f1, f2)
         if case < 0:
             continue
-        pairs, nearer = _counted(a, b, d, f1, f2)
+        pairs, nearer = _half_direction_count(a, b, d, f1, f2)
         if pairs >= 0:
             codes[i] = 1 + 6 * case + 3 * exists + pairs
             margins[i] = min(near, nearer, min(abs(a), abs(d)) / size)

@@ -18,7 +18,7 @@ from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..words import say
 from .orbit import Orbit, orbit
-from .resolution import NEAR_FOLD, UNRESOLVED, Samples, counted, near_fold, zeros
+from .resolution import NEAR_FOLD, UNRESOLVED, Samples, count_sentence, near_fold, zeros
 from .section import FINE, FixedPoint
 from .turn_section import Array, TurnSection
 
@@ -68,10 +68,10 @@ def find(
         feet = sorted(feet, key=lambda C: C.discriminant)[:MOST_FEET]  # where orbits turn fastest
     for C in feet:
         section = TurnSection(at, psi, C, critical)
-        crossings, said = _searched(section)
+        crossings, said = _search_ray(section)
         notes += said
         for crossing in crossings:
-            if any(_on(section, crossing, other) for _, other, _ in found):
+            if any(_lies_on_cycle(section, crossing, other) for _, other, _ in found):
                 continue
             closed = orbit(section, crossing)
             if closed is None or closed.closure > CLOSED:
@@ -81,10 +81,10 @@ def find(
             elif not any(_same(closed, other) for _, other, _ in found):
                 found.append((crossing, closed, _sense(closed.points)))
     names = "the critical set" if len(critical) == 1 else "the critical sets that are no saddles"
-    return found, counted(len(found), "turn", about=names), tuple(dict.fromkeys(notes))
+    return found, count_sentence(len(found), "turn", about=names), tuple(dict.fromkeys(notes))
 
 
-def _searched(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
+def _search_ray(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
     """Find fixed points on one ray, innermost first, and what is nearly degenerate."""
     notes: list[str] = []
     out: list[FixedPoint] = []
@@ -112,7 +112,10 @@ def _searched(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
             out += [FixedPoint(float(xi[i]), touching=True) for i in touching]
         for i, j in changes:
             if shift[i] > 0.0 and np.isfinite(shift[[i, j]]).all():  # attracting
-                out += [FixedPoint(at, backward) for at in _narrowed(section, float(xi[i]), float(xi[j]), backward)]
+                out += [
+                    FixedPoint(at, backward)
+                    for at in _narrow_fixed_points(section, float(xi[i]), float(xi[j]), backward)
+                ]
     return sorted(out, key=lambda crossing: crossing.xi), notes
 
 
@@ -128,7 +131,7 @@ def _ends(xi: Array, shift: Array) -> list[int]:
     return np.flatnonzero((finite[1:] != finite[:-1]) & (np.diff(xi) > NARROW)).tolist()
 
 
-def _narrowed(section: TurnSection, low: float, high: float, backward: bool) -> list[float]:
+def _narrow_fixed_points(section: TurnSection, low: float, high: float, backward: bool) -> list[float]:
     """Find the fixed points between two samples, apart from jumps of the displacement through zero."""
     found: list[float] = []
     width = high - low  # the two tolerances need not agree on where it is: look a little beyond
@@ -150,7 +153,7 @@ def _narrowed(section: TurnSection, low: float, high: float, backward: bool) -> 
     return found
 
 
-def _on(section: TurnSection, crossing: FixedPoint, other: Orbit) -> bool:
+def _lies_on_cycle(section: TurnSection, crossing: FixedPoint, other: Orbit) -> bool:
     """Whether a fixed point lies on a cycle that is known."""
     p = section.states(np.array([crossing.xi]))[0][0, :2]
     start, along = other.points[:-1], np.diff(other.points, axis=0)

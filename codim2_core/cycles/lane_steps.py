@@ -64,7 +64,7 @@ def to_sphere(S, k):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def judged(S, k, rtol):
+def step_error(S, k, rtol):
     """Error of the step tried in lane k, in units of what is allowed; puts NEW back on the sphere."""
     plane, height = 1.0 / rtol, 1.0 / (rtol * abs(S[NEW + 2 * LANES + k]) + 1e-300)
     five = (S[ERROR_5 + k] * plane) ** 2 + (S[ERROR_5 + LANES + k] * plane) ** 2
@@ -103,7 +103,7 @@ def next_length(k, low, at_low, high, at_high):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def noted(log, logged, S, k, h, i):
+def log_step(log, logged, S, k, h, i):
     """Write down where the step of lane k starts, its length and whose it is, if there is room; return how many are."""
     if logged >= log.shape[0]:
         return logged

@@ -134,7 +134,9 @@ def _crossings(
     module, _ = sections[0].kernel
     values = {module.INWARD: -math.inf, module.OUTWARD: math.inf, module.UNDECIDED: math.nan}
     found = []
-    for section, start, end, code in zip(sections, starts, *_turned(sections, starts, rtol, backward), strict=True):
+    for section, start, end, code in zip(
+        sections, starts, *_follow_to_sections(sections, starts, rtol, backward), strict=True
+    ):
         if code == module.OUTWARD:  # perhaps only for a while
             ends, _, codes, _ = section.turn(start, rtol, backward, elsewhere=True)
             end, code = ends[0], int(codes[0])
@@ -142,7 +144,7 @@ def _crossings(
     return found
 
 
-def _turned(
+def _follow_to_sections(
     sections: Sequence[Section], starts: Sequence[Array], rtol: float, backward: bool
 ) -> tuple[Array, list[int]]:
     """Follow an orbit to each section: where it ends, and the code of `return_map.returns`."""

@@ -91,7 +91,7 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Path
     rtol : float
     backward : bool
     """
-    from .return_map import RETURNED, reached
+    from .return_map import RETURNED, single_step
 
     ends, times, codes, steps = section.turn(start[None, :], rtol, backward, MOST_STEPS, MOST_STEPS)
     if codes[0] != RETURNED:
@@ -100,7 +100,7 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Path
     nodes, weights, _ = gauss(NODES)
     _, function = section.kernel
     places, whose = np.repeat(first, NODES, axis=0), np.zeros(NODES * len(h), np.intp)
-    inner = reached(places, np.outer(h, nodes).ravel(), section.shared(backward)[None], whose, function.address)
+    inner = single_step(places, np.outer(h, nodes).ravel(), section.shared(backward)[None], whose, function.address)
     return Path(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
 
 

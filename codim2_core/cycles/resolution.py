@@ -90,7 +90,7 @@ def cubics(q: Array, shift: Array) -> tuple[Array, Array]:
     return values, near[:, None] * np.abs(product)
 
 
-def unresolved(q: Array, shift: Array, noise: Array) -> list[int]:
+def unresolved_intervals(q: Array, shift: Array, noise: Array) -> list[int]:
     """Find the intervals i, between samples i and i + 1, on which zeros may be hidden.
 
     Parameters
@@ -142,7 +142,7 @@ def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], 
     Parameters
     ----------
     q, shift, noise : ndarray (n,)
-        As of `unresolved`; infinities have a sign as well.
+        As of `unresolved_intervals`; infinities have a sign as well.
 
     Returns
     -------
@@ -215,7 +215,9 @@ class Samples:
             Width in xi below which a steep interval, and so a jump, is left as it is.
         """
         for _ in range(ROUNDS):
-            doubtful = [i for i in unresolved(self.q, self.shift, self.noise) if not self._narrow(i, steepest)]
+            doubtful = [
+                i for i in unresolved_intervals(self.q, self.shift, self.noise) if not self._narrow(i, steepest)
+            ]
             stencil = np.zeros(len(self.xi), bool)
             for i in doubtful:
                 stencil[max(i - 1, 0) : i + 3] = True
@@ -239,7 +241,7 @@ class Samples:
         return bool(width < (NARROWEST if not steep else steepest * max(1.0, abs(self.xi[i]))))
 
 
-def counted(count: int, way: str, about: str = "") -> str:
+def count_sentence(count: int, way: str, about: str = "") -> str:
     """Say how many limit cycles were found, and by which way: "section" or "turn"."""
     found = "no cycle" if not count else "one cycle" if count == 1 else "cycles"
     return say(f"{found}, {way}", count=count, about=about)

@@ -18,12 +18,12 @@ from .lane_steps import (
     SHARE,
     TRIALS,
     growth,
-    judged,
+    step_error,
     load_state,
     load_system,
     narrow,
     next_length,
-    noted,
+    log_step,
     set_lengths,
     to_sphere,
     workspace,
@@ -121,7 +121,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
         for k in range(LANES):
             if phase[k] == DONE or phase[k] == REFINING:
                 continue
-            error = judged(S, k, allowed[k])
+            error = step_error(S, k, allowed[k])
             tries[k] = 1 if error <= 1.0 else 0
             low[k] = step[k]  # the length just tried
             step[k] *= growth(error)
@@ -143,7 +143,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                     step[k] = next_length(k, low, at_low, high, at_high)
                     continue
                 if record > 0:
-                    logged = noted(log, logged, S, k, h, who[k])
+                    logged = log_step(log, logged, S, k, h, who[k])
                 codes[who[k]], times[who[k]] = RETURNED, clock[k] + h
                 phase[k] = DONE
             elif tries[k] == 1:
@@ -160,7 +160,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                     phase[k], tries[k], side[k] = REFINING, 0, 0
                     continue
                 if record > 0:
-                    logged = noted(log, logged, S, k, h, who[k])
+                    logged = log_step(log, logged, S, k, h, who[k])
                 clock[k] += h
                 w = S[NEW + 2 * LANES + k]
                 dx, dy = S[NEW + k] / w - centre[m, 0], S[NEW + LANES + k] / w - centre[m, 1]
@@ -186,7 +186,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def reached(states, lengths, shared, whose, field):
+def single_step(states, lengths, shared, whose, field):
     """Take one step of given length (n,) from each state (n, 3): for short ones as accurate as the stepping.
 
     The parameters (m, SHARED) of the field are in the rows whose (n,).

@@ -25,11 +25,11 @@ NEAR_LOOP = 1e-3
 MEASURED, SMALLEST = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R
 
 
-def _between(low: float, high: float, count: int) -> Array:
+def _sample_between(low: float, high: float, count: int) -> Array:
     return low + (high - low) * np.arange(1, count + 1) / (count + 1)
 
 
-def _settled(shift: Array, inner: int, step: int) -> bool:
+def _has_converged(shift: Array, inner: int, step: int) -> bool:
     """Whether the displacement has all but reached its limit where orbits stop returning, well away from zero.
 
     Past a saddle it converges like a power of the distance; over the last samples that distance fell fourfold.
@@ -52,7 +52,7 @@ def _ends(xi: Array, shift: Array) -> list[int]:
         # Before the displacement jumps to +inf; to -inf, on C, it goes continuously.
         inner, outer, step = (i, i + 1, -1) if finite[i] else (i + 1, i, 1)
         hidden = shift[outer] > 0.0 or (np.isinf(shift[outer]) and shift[inner] > 0.0)
-        if hidden and not (width[i] < 0.05 and _settled(shift, inner, step)):
+        if hidden and not (width[i] < 0.05 and _has_converged(shift, inner, step)):
             new.append(i)
     return [*new, *np.flatnonzero(jumps).tolist()]
 
@@ -65,7 +65,9 @@ def _one_way(y: Array) -> bool:
     return bool((steps > 0.0).all() or (steps < 0.0).all())
 
 
-def _interpolated(section: Section, x: Array, y: Array, low: float, high: float, backward: bool) -> float | None:
+def _interpolate_fixed_point(
+    section: Section, x: Array, y: Array, low: float, high: float, backward: bool
+) -> float | None:
     """Find the fixed point between low and high by six samples about the zero of the cubic through those around.
 
     None if these do not show it: they do if their interpolant and that of the inner four agree.
@@ -81,10 +83,10 @@ def _interpolated(section: Section, x: Array, y: Array, low: float, high: float,
     return found if abs(found - root_through(x[1:-1], y[1:-1])) < AGREED else None
 
 
-def _bracketed(section: Section, low: float, high: float, backward: bool) -> float:
+def _bracket_fixed_point(section: Section, low: float, high: float, backward: bool) -> float:
     """Find the fixed point between low and high, where the displacement has opposite signs, by rounds of samples."""
     for _ in range(8):
-        x = np.concatenate([[low], _between(low, high, 30), [high]])
+        x = np.concatenate([[low], _sample_between(low, high, 30), [high]])
         y = section.displacement(x, COARSE, backward)
         changes = np.flatnonzero((y[1:] < 0.0) != (y[:-1] < 0.0))
         k = int(changes[0]) if len(changes) else len(x) // 2
@@ -100,12 +102,14 @@ def _bracketed(section: Section, low: float, high: float, backward: bool) -> flo
     return guess if low - width <= guess <= high + width else 0.5 * (low + high)
 
 
-def _polished(section: Section, xi: Array, shift: Array, i: int, j: int, backward: bool) -> float:
+def _polish_fixed_point(section: Section, xi: Array, shift: Array, i: int, j: int, backward: bool) -> float:
     """Find the fixed point between samples i and j of opposite sign."""
     low, high = float(xi[i]), float(xi[j])
     near = slice(max(i - 1, 0), j + 2)
-    found = _interpolated(section, xi[near], shift[near], low, high, backward) if _one_way(shift[near]) else None
-    return _bracketed(section, low, high, backward) if found is None else found
+    found = (
+        _interpolate_fixed_point(section, xi[near], shift[near], low, high, backward) if _one_way(shift[near]) else None
+    )
+    return _bracket_fixed_point(section, low, high, backward) if found is None else found
 
 
 def _newborn(section: Section) -> FixedPoint | None:
@@ -176,7 +180,7 @@ class Shown:
         return next((k for k, (i, j) in enumerate(self.changes) if not (finite[i] and finite[j])), len(self.changes))
 
 
-def shown(section: Section) -> Shown:
+def sample_return_map(section: Section) -> Shown:
     """Sample the return map of a section until the samples resolve it."""
     notes: list[str] = []
     samples = Samples(section, section.grid())
@@ -198,7 +202,7 @@ def shown(section: Section) -> Shown:
     return Shown(section, xi, q, shift, tuple(changes), meeting, tuple(notes))
 
 
-def crossed(samples: Shown, first: int = 0) -> list[FixedPoint]:
+def find_fixed_points(samples: Shown, first: int = 0) -> list[FixedPoint]:
     """Place the fixed points at the changes of sign of the displacement, from the first or a later one.
 
     One that repels attracts backward in time: it is found and followed backward. It may repel so strongly that forward
@@ -218,7 +222,7 @@ def crossed(samples: Shown, first: int = 0) -> list[FixedPoint]:
             back = section.displacement(xi[[i, j]], backward=True)
             known = bool(back[0] > 0.0 > back[1])
         if known:
-            found.append(FixedPoint(_polished(section, xi, shift, i, j, repelling), repelling))
+            found.append(FixedPoint(_polish_fixed_point(section, xi, shift, i, j, repelling), repelling))
     return found
 
 
@@ -230,7 +234,7 @@ def search(samples: Shown) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
     samples : Shown
     """
     section, xi, notes = samples.section, samples.xi, samples.notes
-    found = crossed(samples)
+    found = find_fixed_points(samples)
     found += [FixedPoint(float(xi[i]), touching=True) for i in samples.touching]
     if samples.newborn:
         newborn = _newborn(section)

@@ -127,7 +127,7 @@ class AnySection(Protocol):
         ...
 
 
-def followed(
+def integrate_turn(
     section: AnySection, follow: Callable[..., Any], states: Array, backward: bool, recorded: bool
 ) -> tuple[Array, Array, Any, Any]:
     """Follow one turn; those that the equator may not draw in are followed on, however close they come to it."""
@@ -274,7 +274,7 @@ class Section:
                 elsewhere,
             )
 
-        return followed(self, follow, states, backward, record > 0)
+        return integrate_turn(self, follow, states, backward, record > 0)
 
     def shared(self, backward: bool) -> Array:
         """Parameters of the compiled field."""

@@ -18,11 +18,11 @@ from .lane_steps import (
     SHARE,
     TRIALS,
     growth,
-    judged,
+    step_error,
     load,
     narrow,
     next_length,
-    noted,
+    log_step,
     set_lengths,
     to_sphere,
     workspace,
@@ -36,7 +36,7 @@ STILL = 3.0  # times the tolerance: a speed at which an orbit has come to rest
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def _swept(S, centre, k):
+def _swept_angle(S, centre, k):
     """Angle about the point from STATE to NEW."""
     ax, ay = S[STATE + k] - centre[0], S[STATE + LANES + k] - centre[1]
     bx, by = S[NEW + k] - centre[0], S[NEW + LANES + k] - centre[1]
@@ -96,12 +96,12 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                 if phase[k] == REFINING:
                     to_sphere(S, k)
                 elif phase[k] != DONE:
-                    errors[k] = judged(S, k, SHARE * rtol)
+                    errors[k] = step_error(S, k, SHARE * rtol)
             call_field(field, S, NEW, K12, P)
             for k in range(LANES):
                 if phase[k] == DONE:
                     continue
-                h, swept = step[k], _swept(S, centre, k)
+                h, swept = step[k], _swept_angle(S, centre, k)
                 finished, code = False, RETURNED
                 if phase[k] == REFINING:
                     tries[k] += 1
@@ -137,7 +137,7 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                         if still or clock[k] + h >= t_max:
                             finished, code = True, UNDECIDED
                 if base + k == 0:
-                    logged = noted(log, logged, S, k, h, 0)
+                    logged = log_step(log, logged, S, k, h, 0)
                 clock[k] += h
                 angle[k] += swept
                 for c in range(3):

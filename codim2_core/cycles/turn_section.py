@@ -13,7 +13,7 @@ from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from .equator_pull import EquatorPull, equator_pull
-from .section import COARSE, followed
+from .section import COARSE, integrate_turn
 
 Array = NDArray[np.float64]
 INNER, OUTER, SPACING = 1e-4, 1e-5, 0.2  # of the reach; ebar of the last sample; of samples in ln(r/(reach - r))
@@ -115,7 +115,7 @@ class TurnSection:
                 record,
             )
 
-        return followed(self, follow, states, backward, record > 0)
+        return integrate_turn(self, follow, states, backward, record > 0)
 
     def displacement(self, xi: Array, rtol: float = COARSE, backward: bool = False) -> Array:
         """Displacement of q over a turn (n,): -inf to the critical set, +inf elsewhere, NaN undecided."""

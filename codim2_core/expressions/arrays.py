@@ -92,7 +92,7 @@ class Program:
 
 
 @lru_cache(maxsize=64)
-def _encoded(rows: tuple[Expression, ...]) -> Program:
+def _encode(rows: tuple[Expression, ...]) -> Program:
     names = {name: slot for slot, name in enumerate(number_names(rows))}
     where: dict[tuple[Any, ...], int] = {}
     nodes: list[tuple[int, int, int, float]] = []
@@ -145,7 +145,7 @@ def program(key: Hashable) -> Program:
     from . import interpreter  # on first use: it loads the compiler
 
     rows, numbers = key  # type: ignore[misc]
-    template = _encoded(rows)
+    template = _encode(rows)
     op, right, number = template.op.copy(), template.right.copy(), template.number.copy()
     interpreter.specialise(op, template.left, right, number, np.array(numbers, float))
     return Program(op, template.left, right, number, template.roots)

@@ -66,7 +66,7 @@ def is_compiled(field: Field) -> bool:
     return field.rows in _fields
 
 
-def _made(field: Field) -> tuple[Any, Any]:
+def _compile_field(field: Field) -> tuple[Any, Any]:
     names = (*PLANE, *SLOW[: field.m])
     slopes = [row.derivative(name) for row in field.rows for name in names]
     return tuple(_function(rows, names) for rows in (field.rows, slopes))  # pyright: ignore[reportReturnType]
@@ -114,7 +114,7 @@ def functions_of(field: Field, psi: Psi) -> Functions:
     """Return the compiled functions of a field and a Psi; they are compiled when they are first asked for."""
 
     def make() -> Functions:
-        functions = (*_fields.get(field.rows, lambda: _made(field)), one_gain(psi))
+        functions = (*_fields.get(field.rows, lambda: _compile_field(field)), one_gain(psi))
         return Functions(functions, np.array([function.address for function in functions], np.int64))
 
     return _last.get((field.rows, psi), make)
@@ -157,7 +157,7 @@ class CompiledMotion:
     floor : float
         atol/rtol.
     farthest : float
-        The largest rho so far, of a nonsmooth motion: eps = 0. It ends where rho is `problem.arrived` of the largest.
+        The largest rho so far, of a nonsmooth motion: eps = 0. It ends where rho is `problem.arrival_radius` of the largest.
     """
 
     chunk = CHUNK
@@ -236,7 +236,7 @@ class Ended:
     evaluations: int
 
 
-def followed(
+def integrate_compiled(
     field: Field,
     psi: Psi,
     eps: float,
@@ -273,7 +273,7 @@ def followed(
 
     def part(cut: slice) -> list[Ended]:
         found = follow_all(made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))
-        return _apart(*found, first.shape[1])
+        return _split_motions(*found, first.shape[1])
 
     return shared_out(part, count)
 
@@ -291,7 +291,7 @@ def shared_out(part: Callable[[slice], list[Any]], count: int) -> list[Any]:
         return [one for found in pool.map(part, cuts) for one in found]
 
 
-def _apart(times: Array, lengths: Array, states: Array, polynomials: Array, told: Array, n: int) -> list[Ended]:
+def _split_motions(times: Array, lengths: Array, states: Array, polynomials: Array, told: Array, n: int) -> list[Ended]:
     """Cut what `follow_all` returns into motions, without copying."""
     states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DEGREE)
     for array in (times, lengths, states, polynomials):

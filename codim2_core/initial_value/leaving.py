@@ -63,7 +63,7 @@ def leave(
         The first, short step; or why there is none, as a sentence.
     """
     slow = z.tolist()
-    theta = _polished(field, theta, slow) if line is None else theta
+    theta = _polish_zero(field, theta, slow) if line is None else theta
     c, s = math.cos(theta), math.sin(theta)
     if line is not None:  # exactly
         c, s = (math.copysign(1.0, line.n[0] * c + line.n[1] * s) * line.n).tolist()
@@ -106,7 +106,7 @@ def leave(
     return Step(t, h, first, first + linear + square, polynomial_of(linear, square))
 
 
-def _polished(field: Field, theta: float, slow: list[float]) -> float:
+def _polish_zero(field: Field, theta: float, slow: list[float]) -> float:
     """Return the zero of Theta near theta, by Newton's method."""
     angle = theta
     for _ in range(NEWTON):

@@ -105,21 +105,21 @@ def invariant_line(field: Field, state: Array) -> InvariantLine | None:
 
 
 def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:
-    def at(q: float, r: float, z: Array) -> tuple[Array, Array]:
+    def state_at(q: float, r: float, z: Array) -> tuple[Array, Array]:
         found = np.array(field.value(*(q * n).tolist(), *(r * n).tolist(), *z.tolist()))
         return found[:2], found[2:]
 
     for q in QUICK:  # what is no line is mostly told at once
-        U = at(q, 0.0, z)[0]
+        U = state_at(q, 0.0, z)[0]
         left, right = float(n[0] * U[1]), float(n[1] * U[0])
         if abs(left - right) > EXACT * (abs(left) + abs(right) + float(np.abs(U).max())):
             return False
-    span = np.stack([z, *(at(q, 0.0, z)[1] for q in (-1.0, 0.0, 1.0))], axis=-1)
+    span = np.stack([z, *(state_at(q, 0.0, z)[1] for q in (-1.0, 0.0, 1.0))], axis=-1)
     if not np.isfinite(span).all():
         return False
     basis, sizes, _ = np.linalg.svd(span, full_matrices=False)
     basis = basis[:, sizes > EXACT * max(1e-300, float(sizes.max(initial=0.0)))]
-    V, places = _drawn(basis.shape[1])
+    V, places = _sample_places(basis.shape[1])
     moved = z + (1.0 + np.abs(z).max(initial=0.0)) * (V @ basis.T)
     n1, n2 = n.tolist()
     rows = [
@@ -137,7 +137,7 @@ def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:
 
 
 @cache
-def _drawn(width: int) -> tuple[Array, list[tuple[float, float]]]:
+def _sample_places(width: int) -> tuple[Array, list[tuple[float, float]]]:
     """Return where invariance is asked: (SAMPLES, width) places in the span of z and W, and (q, part of r) of each."""
     rng = np.random.default_rng(0)
     return rng.uniform(-1.0, 1.0, (SAMPLES, width)), rng.uniform(-1.0, 1.0, (SAMPLES, 2)).tolist()

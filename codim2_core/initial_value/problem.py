@@ -24,7 +24,7 @@ ARRIVED, ENOUGH = 1e-13, 5e-5  # of the largest rho of a slip; of that times rto
 GROWTH = 1.0  # longest step times a growth rate: an L-stable method damps faster growth away
 
 
-def arrived(rtol: float) -> float:
+def arrival_radius(rtol: float) -> float:
     """Part of the largest rho of a slip at which it has arrived at Sigma: the rest of the way is straight.
 
     What is left to turn on it, to a limit direction that attracts, is a small part of 1: rtol has room for it.
@@ -74,7 +74,7 @@ def direction(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, f
     return tangential * x, tangential * y, radial, tangential, n1, n2
 
 
-def smoothed(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, float]:
+def smoothed_direction(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, float]:
     """Return e alone, as `direction` does."""
     r = math.hypot(x, y)
     if eps == 0.0 or psi is None:
@@ -109,7 +109,7 @@ def plane_problem(
             along = n1 * x + n2 * y
             x, y = n1 * along, n2 * along
         try:
-            c, s = smoothed(psi, eps, x, y)
+            c, s = smoothed_direction(psi, eps, x, y)
         except ValueError:  # a stage of a step far too long is at infinity
             return np.full(len(state), math.nan)
         rate = value(c, s, x, y, *z)

@@ -13,14 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..psi.function import Psi
-from .events import interpolated
+from .events import chebyshev_coefficients
 
 Array = NDArray[np.float64]
 
 DEGREE = 4
 LEFT_OUT = 8.0
 NODES = 0.5 - 0.5 * np.cos(math.pi * np.arange(DEGREE + 1) / DEGREE)
-COEFFICIENTS = np.array([interpolated(row) for row in np.eye(DEGREE + 1)])
+COEFFICIENTS = np.array([chebyshev_coefficients(row) for row in np.eye(DEGREE + 1)])
 
 
 def _positive(values: Array) -> NDArray[np.bool_]:

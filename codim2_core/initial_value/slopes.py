@@ -107,7 +107,7 @@ def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
     return e, np.divide(across, r[:, :, None], out=np.zeros_like(across), where=r[:, :, None] > 0.0)
 
 
-def smoothed(psi: Psi, eps: float, xy: Array) -> tuple[Array, Array]:
+def smoothed_direction(psi: Psi, eps: float, xy: Array) -> tuple[Array, Array]:
     """Return e_Psi (k, 2), eq:ePsi, and its derivative (k, 2, 2), rem:jaco_properties.
 
     Parameters

@@ -180,7 +180,7 @@ def _fourier_of_reciprocal(b: float, f2: float, f1: float, a: float, d: float, d
         roots[i] = complex(r * math.cos(nu), r * math.sin(nu))
         gaps[i] = 2.0 * steep / (abs(g) + steep)  # 1 - r^2, without cancellation
         if distance < CLOSE and gaps[i] < 0.1:
-            roots[i], gaps[i] = _polished((b, f2, -f1, 0.5 * a, 0.5 * d), roots[i])
+            roots[i], gaps[i] = _polish_zero((b, f2, -f1, 0.5 * a, 0.5 * d), roots[i])
             close = True
     z1, z2 = roots
     total, product = z1 + z2, z1 * z2
@@ -226,7 +226,7 @@ def _integrals(K: float, total: complex, product: complex) -> tuple[float, float
     return g0, (total * g1).real  # and -product g0, which is imaginary
 
 
-def _polished(coefficients: tuple[float, float, float, float, float], start: complex) -> tuple[complex, float]:
+def _polish_zero(coefficients: tuple[float, float, float, float, float], start: complex) -> tuple[complex, float]:
     """Newton's method in 256-bit fixed point for a zero inside the circle; also 1 - |z|^2, to all digits.
 
     Close to a saddle-node it and its mirror image outside nearly meet, and doubles cannot tell them apart.

@@ -29,7 +29,7 @@ from .linearisation import (
     matrix_determinant,
     spectrum,
 )
-from .location import Location, locate, turned
+from .location import Location, locate, rotate_location
 
 SMALL_TRACE = 1e-9  # of the terms of tr J, below which it is asked whether rounding made it
 PLACED = 4 * 2.0**-52  # of |e|, to which the place of a zero is known
@@ -127,7 +127,7 @@ def _linear_set(at: AtZ, psi: Psi, affine: Affine, location: Location, e: tuple[
     if form is None or form.given is not None:  # by the matrix as given, whatever the rotation has rounded
         shift = math.frexp(max(map(abs, affine[:4])))[1]
         m11, m12, m21, m22 = (math.ldexp(v, -shift) for v in affine[:4])
-        given = turned(location, -at.turn).e or e
+        given = rotate_location(location, -at.turn).e or e
         parts = linearisation_of((m11, m12, m21, m22), psi, given, location.complement, sign)
         return _critical_set(e, _turned_parts(parts, at.turn), shift, slow_flow_at(at, e))
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.

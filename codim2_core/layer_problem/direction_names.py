@@ -49,11 +49,11 @@ def cut_that_keeps_names(before: EquatorEquilibria, after: EquatorEquilibria, cu
 def _first(before: NDArray[np.float64], theta: NDArray[np.float64]) -> int:
     """Index in `theta`, increasing from 0, of the direction that is the first one before."""
     if len(before) != len(theta):
-        return int(np.argmin(np.abs(_wrapped(theta - before[0]))))
-    sums = [float((_wrapped(np.roll(theta, -k) - before) ** 2).sum()) for k in range(len(theta))]
+        return int(np.argmin(np.abs(_wrap_angle(theta - before[0]))))
+    sums = [float((_wrap_angle(np.roll(theta, -k) - before) ** 2).sum()) for k in range(len(theta))]
     return int(np.argmin(sums))
 
 
-def _wrapped(angle: NDArray[np.float64]) -> NDArray[np.float64]:
+def _wrap_angle(angle: NDArray[np.float64]) -> NDArray[np.float64]:
     """Angles in [-pi, pi)."""
     return np.mod(angle + math.pi, TURN) - math.pi

@@ -90,10 +90,10 @@ def disc_zeros(key: Hashable) -> DiscZeros:
             None, True,
         )  # fmt: skip
     degree = equator_zeros(key).degree
-    first = _searched(program(key), size, degree, *EFFORTS[0])
+    first = _search_boxes(program(key), size, degree, *EFFORTS[0])
     if (first.consistent is not False and first.proven) or len(first.e) >= CROWDED:
         return first
-    return _searched(program(key), size, degree, *EFFORTS[1])
+    return _search_boxes(program(key), size, degree, *EFFORTS[1])
 
 
 _ANGLES = 2.0 * math.pi * (np.arange(256) + 0.5) / 256
@@ -101,7 +101,7 @@ _CIRCLE = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1)
 _NET = np.stack(np.meshgrid(np.linspace(-0.7, 0.7, 9), np.linspace(-0.7, 0.7, 9)), axis=-1).reshape(-1, 2)
 
 
-def _searched(run: Program, size: float, degree: int | None, levels: int, most: int, operations: int) -> DiscZeros:
+def _search_boxes(run: Program, size: float, degree: int | None, levels: int, most: int, operations: int) -> DiscZeros:
     from ..numerics.disc_search import CAPACITY, search  # on first use: it loads the compiler
 
     found, rest = np.empty((CAPACITY, 3)), np.empty((most, 2))
@@ -111,7 +111,7 @@ def _searched(run: Program, size: float, degree: int | None, levels: int, most: 
     degenerate = np.zeros(count, bool)
     curve, proven = False, complete and count < CAPACITY
     if undecided:
-        places, curve, left = _undecided(run, rest[:undecided], half, max(size, _size(run)))
+        places, curve, left = _classify_undecided(run, rest[:undecided], half, max(size, _size(run)))
         proven = curve or (proven and not left)
         # a place where a proven zero lies is that zero
         places = [p for p in places if not count or np.abs(points - p).max(axis=1).min() > TOGETHER]
@@ -179,7 +179,7 @@ def _blur(DU: Array, degenerate: NDArray[np.bool_], size: float) -> Array:
     return 16.0 * UNIT * np.maximum(1.0, size / np.where(least == 0.0, 1.0, least))
 
 
-def _undecided(run: Program, boxes: Array, half: float, size: float) -> tuple[list[Array], bool, bool]:
+def _classify_undecided(run: Program, boxes: Array, half: float, size: float) -> tuple[list[Array], bool, bool]:
     """Undecided boxes become degenerate zeros, a curve of zeros, or stay undecided: (zeros, curve, left over)."""
     sample = boxes[:: max(1, len(boxes) // CURVE)]
     if len(boxes) >= CURVE and np.ptp(boxes, axis=0).max() > LONG:

@@ -240,7 +240,7 @@ def equilibria_at(at: AtZ, location: Location | None) -> EquatorEquilibria:
         return _radial_exactly(a, b, d, f1, f2, theta) if abs(value) <= 1e-3 * size else value
 
     size = abs(a) + abs(d) + abs(f1) + abs(f2)
-    return _gathered(zeros, radial, size, location, b == 0.0 and (f1 == 0.0 or f2 == 0.0))
+    return _collect_equilibria(zeros, radial, size, location, b == 0.0 and (f1 == 0.0 or f2 == 0.0))
 
 
 def number_of_directions(q: Coefficients) -> int:
@@ -284,10 +284,10 @@ def _of_matrix(affine: Affine, turn: float, location: Location) -> EquatorEquili
     F11, F12, F21, F22, G1, G2 = map(Fraction, affine)
     shear = (F12 + F21) / 2
     along_axis = G1 * (shear * G1 + F22 * G2) == G2 * (F11 * G1 + shear * G2)  # f is an eigenvector
-    return _gathered(zeros, radial, size, location, a12 == a21 and along_axis)
+    return _collect_equilibria(zeros, radial, size, location, a12 == a21 and along_axis)
 
 
-def _gathered(
+def _collect_equilibria(
     zeros: TrigonometricZeros, radial: Callable[[float], float], size: float, location: Location, symmetric: bool
 ) -> EquatorEquilibria:
     """Put the equilibria together: zeros of Theta, lambda_rho there, and where it vanishes within rounding."""

@@ -19,7 +19,7 @@ from ..expressions.arrays import Program, polynomial_degree, program
 from ..expressions.kinks import kinks
 from ..expressions.names import number_names
 from ..numerics.fourier_zeros import UNIT, Series, series, turn, zeros
-from ..numerics.sign_changes import refined, roots
+from ..numerics.sign_changes import refine_roots, roots
 from ..words import say
 
 Array = NDArray[np.floating[Any]]
@@ -144,10 +144,10 @@ def equator_zeros(key: Hashable) -> EquatorZeros:
     blur = np.where(slope != 0.0, np.abs(radial_rate) / np.where(slope == 0.0, 1.0, np.abs(slope)), 4.0)
     flat = np.abs(radial) <= 16.0 * UNIT * f.size * (1.0 + np.minimum(blur, 1e6))
     rows = np.stack([theta, np.where(flat, 0.0, radial), slope, multiplicity.astype(float)])
-    return _result(key, rows, f, distance, proven, arcs=arcs, beyond=_beyond(run, theta, multiplicity, arcs))
+    return _result(key, rows, f, distance, proven, arcs=arcs, beyond=_signs_after_zeros(run, theta, multiplicity, arcs))
 
 
-def _beyond(run: Program, theta: Array, multiplicity: NDArray[np.int64], arcs: Array) -> tuple[int, ...]:
+def _signs_after_zeros(run: Program, theta: Array, multiplicity: NDArray[np.int64], arcs: Array) -> tuple[int, ...]:
     """Sign of Theta after each of its zeros, where some are odd and none is simple, so that no slope tells it."""
     if not (multiplicity % 2 == 1).any() or (multiplicity == 1).any():
         return ()
@@ -306,17 +306,17 @@ def _pieces(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.in
     between = roots(value, grids, samples)
     left, at, right = value(edges - BESIDE), value(edges), value(edges + BESIDE)
     through = (left > 0.0) != (right > 0.0)
-    across = refined(value, edges[through] - BESIDE, edges[through] + BESIDE)[0]
+    across = refine_roots(value, edges[through] - BESIDE, edges[through] + BESIDE)[0]
     touches = [*between.touches, edges[~through & (abs(at) <= 1e-13 * size)]]
     theta = np.concatenate([*between.zeros, across, *touches]) % (2.0 * math.pi)
     multiplicity = np.ones(len(theta), np.int64)
     multiplicity[len(theta) - sum(map(len, touches)) :] = 2
     order = np.argsort(theta)
-    order = order[~_on(theta[order], arcs)]
+    order = order[~_lies_on_arcs(theta[order], arcs)]
     return theta[order], multiplicity[order], arcs
 
 
-def _on(theta: Array, arcs: Array) -> NDArray[np.bool_]:
+def _lies_on_arcs(theta: Array, arcs: Array) -> NDArray[np.bool_]:
     """Tell which angles lie on some arcs, ends included."""
     after = np.remainder(theta[:, None] - arcs[:, 0] + 1e-6, 2.0 * math.pi)
     return np.asarray((after <= arcs[:, 1] - arcs[:, 0] + 2e-6).any(axis=1))

@@ -14,7 +14,7 @@ CANCELLATION = 1e-3
 NEUTRAL_TRACE = 16 * 2.0**-53  # of the terms of tr J: zero within rounding
 
 
-def scaled(values: tuple[float, ...]) -> tuple[float, ...]:
+def scale_by_power_of_two(values: tuple[float, ...]) -> tuple[float, ...]:
     """Values times one power of two that brings the largest near 1: exact, and no product over- or underflows."""
     size = max(map(abs, values))
     if size == 0.0:
@@ -33,7 +33,7 @@ def exact_determinant(a: float, b: float, d: float) -> float:
 
 def determinant_sign(a: float, b: float, d: float) -> int:
     """Sign of ``det A = a d + b^2``, 0 when it vanishes within the rounding of a, b, d."""
-    a, b, d = scaled((a, b, d))
+    a, b, d = scale_by_power_of_two((a, b, d))
     size = abs(a * d) + b * b
     det = a * d + b * b
     if size == 0.0:

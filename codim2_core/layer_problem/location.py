@@ -20,7 +20,7 @@ from .border import CANCELS, to_all_digits
 from .linearisation import (
     CANCELLATION,
     determinant_sign,
-    scaled,
+    scale_by_power_of_two,
 )
 
 
@@ -87,8 +87,8 @@ def locate(at: AtZ) -> Location:
     if coefficients is None or coefficients.given is not None:
         if at.affine is None:
             raise ValueError("U is not e-linear; give a system whose U is affine in (c, s).")
-        return turned(locate_affine(at.affine), at.turn)
-    a, b, d, f1, f2 = scaled(coefficients.plane)
+        return rotate_location(locate_affine(at.affine), at.turn)
+    a, b, d, f1, f2 = scale_by_power_of_two(coefficients.plane)
     if determinant_sign(a, b, d) == 0:
         return _locate_singular(a, b, d, f1, f2)
     det = a * d + b * b
@@ -149,7 +149,7 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
 
 def locate_affine(affine: Affine) -> Location:
     """Decide as `locate` for any matrix, ``affine = (A11, A12, A21, A22, f1, f2)``, exactly."""
-    M = tuple(map(Fraction, scaled(affine)))
+    M = tuple(map(Fraction, scale_by_power_of_two(affine)))
     m11, m12, m21, m22, f1, f2 = M
     det, n1, n2 = m11 * m22 - m12 * m21, m22 * f1 - m12 * f2, m11 * f2 - m21 * f1
     off = 2 * Fraction(ROUNDING)
@@ -194,7 +194,7 @@ def _line(M: tuple[Fraction, ...]) -> Location:
     )
 
 
-def turned(location: Location, angle: float) -> Location:
+def rotate_location(location: Location, angle: float) -> Location:
     """Rotate a location by an angle."""
     if angle == 0.0:
         return location

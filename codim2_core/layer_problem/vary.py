@@ -12,7 +12,7 @@ from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 from ..systems.bounds import LARGEST
 
-__all__ = ["check_name", "limits", "names", "usual_span", "value_of", "varied"]
+__all__ = ["check_name", "limits", "names", "usual_span", "value_of", "vary"]
 
 PLANE = ("a", "b", "d", "f1", "f2")
 
@@ -41,7 +41,7 @@ def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
     return tuple(found)
 
 
-def varied(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tuple[Any, Psi, tuple[float, ...]]:
+def vary(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tuple[Any, Psi, tuple[float, ...]]:
     """Return system, Psi and z with the one thing called `name` set to `value`.
 
     Parameters
@@ -70,7 +70,7 @@ def varied(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tupl
         return system, psi, (*slow[:index], _finite(name, value), *slow[index + 1 :])
     if _of_psi(psi, name):
         return system, with_parameter(psi, value), slow
-    raise _unknown(system, psi, z, name)
+    raise _unknown_name(system, psi, z, name)
 
 
 def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
@@ -79,7 +79,7 @@ def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
     Parameters
     ----------
     system, psi, z, name
-        As for `varied`.
+        As for `vary`.
 
     Returns
     -------
@@ -97,11 +97,11 @@ def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
         return slow[index]
     if _of_psi(psi, name):
         return psi.parameter
-    raise _unknown(system, psi, z, name)
+    raise _unknown_name(system, psi, z, name)
 
 
 def limits(system: Any, psi: Psi, name: str) -> tuple[float, float]:
-    """Return the smallest and the largest value that `varied` takes for a name."""
+    """Return the smallest and the largest value that `vary` takes for a name."""
     shape = psi.record.parameter
     if shape is not None and name == shape.name and name not in system.variable:
         return shape.low, shape.high
@@ -123,7 +123,7 @@ def usual_span(system: Any, psi: Psi, z: ArrayLike, name: str) -> tuple[float, f
     Parameters
     ----------
     system, psi, z, name
-        As for `varied`.
+        As for `vary`.
 
     Returns
     -------
@@ -175,7 +175,7 @@ def _finite(name: str, value: float) -> float:
     return number
 
 
-def _unknown(system: Any, psi: Psi, z: ArrayLike, name: str) -> ValueError:
+def _unknown_name(system: Any, psi: Psi, z: ArrayLike, name: str) -> ValueError:
     allowed = names(system, psi, z)
     return ValueError(
         f"{name!r} cannot be varied here; choose one of {', '.join(allowed)}."

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ..arguments import guarded
+from ..arguments import checked_functions
 from .contact import contact
 from .fit import Fit, fit
 from .grip import Grip
@@ -10,4 +10,4 @@ from .mechanism import Mechanism
 
 __all__ = ["Fit", "Grip", "Mechanism", "contact", "fit"]
 
-globals().update(guarded(__name__, globals(), ["fit"]))
+globals().update(checked_functions(__name__, globals(), ["fit"]))

@@ -54,7 +54,7 @@ class Slipping:
         return np.stack([r * np.cos(theta), r * np.sin(theta)], axis=-1)
 
 
-def slipping(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array, most: int) -> Slipping:
+def integrate_slip(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array, most: int) -> Slipping:
     """Follow the slip from a start at the first time until it stops, or until the last time.
 
     Raises

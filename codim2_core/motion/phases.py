@@ -1,7 +1,7 @@
 """Phases of a regularised motion: slip, slide, cross, by the set of the layer problem that its states follow.
 
 A motion is in contact with Sigma while r = |(x, y)| is of order eps: there, and only there, |p| < 1 in the limit. What
-it follows while in contact (see `followed`) makes it a slide, from the contact on; a contact that follows nothing is a
+it follows while in contact (see `followed_critical_set`) makes it a slide, from the contact on; a contact that follows nothing is a
 crossing. So, as eps goes to 0, the phases become those of the nonsmooth limit, where contact takes no time.
 """
 
@@ -20,7 +20,7 @@ from ..numerics.dense import Dense
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .followed import Followed, followed, place
+from .followed import Followed, followed_critical_set, place
 from .limit.decide import critical_name, from_hemisphere
 from .places import OfState
 from .result import Phase
@@ -75,7 +75,7 @@ class _ReadMotion:
         return math.hypot(state[0], state[1]) <= NEAR * self.eps
 
     def set_at(self, state: Array) -> Followed | None:
-        return followed(self.formulas, self.psi, self.eps, state)
+        return followed_critical_set(self.formulas, self.psi, self.eps, state)
 
     def boundary(self, i: int, holds: Callable[[Array], bool]) -> float:
         """Time within the step from end i to end i + 1 at which `holds` changes."""
@@ -128,7 +128,7 @@ class _ReadMotion:
             if self.is_followed(run, found[begin : i + 1]):
                 runs.append(run)
             i += 1
-        return _joined(self.with_cycles(first, last, runs))
+        return _join_runs(self.with_cycles(first, last, runs))
 
     def goes_on(self, here: Followed | None, there: Followed | None, i: int) -> bool:
         """Whether two step ends in a row follow the same set."""
@@ -236,7 +236,7 @@ class _ReadMotion:
                 yield Phase("slip", t, begins, reason)
             starts = [begins, *(run.t_end for run in runs[:-1])]
             for k, (run, start) in enumerate(zip(runs, starts, strict=True)):
-                why = _why(run, "goes on" if k else "starts, follows" if initial else "comes, follows")
+                why = _phase_reason(run, "goes on" if k else "starts, follows" if initial else "comes, follows")
                 turns = self.decided_by_errors(run)
                 if turns is None:
                     yield Phase("slide", start, run.t_end, why, run.onto)
@@ -309,12 +309,12 @@ def phases_of(system: AnySystem, psi: Psi, eps: float, rtol: float, motion: Dens
     return tuple(replace(one, _place=OfState(motion, psi, eps, one.t_start, one.t_end)) for one in phases)
 
 
-def _why(run: _Run, how: str) -> str:
+def _phase_reason(run: _Run, how: str) -> str:
     onto = f"limit {run.onto}" if run.onto.startswith("cycle") else f"the critical set {run.onto}"
     return say(how, onto=onto)
 
 
-def _joined(runs: list[_Run]) -> list[_Run]:
+def _join_runs(runs: list[_Run]) -> list[_Run]:
     """Join runs on one set that an excursion interrupts."""
     found: list[_Run] = []
     for run in runs:

@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..expressions.expression import Expression
-from ..initial_value.events import Event, Events, Watch, checked_events, reflected
+from ..initial_value.events import Event, Events, Watch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards, field
 from ..initial_value.line import invariant_line
 from ..initial_value.problem import plane_problem
-from ..numerics.dense import Dense, Steps, dense, gathered
-from ..numerics.growth import BlowUpError, bounded
+from ..numerics.dense import Dense, Steps, dense, gather_steps
+from ..numerics.growth import BlowUpError, until_blow_up
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
@@ -168,7 +168,7 @@ class _Asked:
     def one(self, first: Array) -> Simulation:
         """Follow one motion, in Python at first."""
         watch = Watch(self.events, self.span[0], first)
-        parts, status, detail, count = _followed(
+        parts, status, detail, count = _integrate(
             self.formulas, self.psi, self.eps, first, self.span, self.rtol, self.atol, self.max_steps, watch
         )
         return self.told(dense(self.span[0], first, parts), status, detail, count, watch.times)
@@ -190,12 +190,15 @@ class _Asked:
 
     def compiled(self, states: Array) -> tuple[Simulation, ...]:
         """Follow motions compiled from the start, in as few calls as there are cores."""
-        from ..initial_value.compiled import failure, followed  # loads the compiler
+        from ..initial_value.compiled import failure, integrate_compiled  # loads the compiler
         from ..initial_value.kernels.motion import UNDEFINED
 
         formulas, psi, eps, rtol, atol = self.formulas, self.psi, self.eps, self.rtol, self.atol
         lines = [invariant_line(formulas, first) for first in states]
-        found, runs = followed(formulas, psi, eps, lines, states, self.span, rtol, atol / rtol, self.max_steps), []
+        found, runs = (
+            integrate_compiled(formulas, psi, eps, lines, states, self.span, rtol, atol / rtol, self.max_steps),
+            [],
+        )
         for one, line, first in zip(found, lines, states, strict=True):
             status, detail = SimulationStatus.T_END, ""
             if one.code == UNDEFINED:
@@ -215,7 +218,7 @@ def _pasts(asked: _Asked, states: Array) -> tuple[Simulation, ...]:
         asked,
         formulas=backwards(asked.formulas),
         span=(-asked.span[0], -asked.span[1]),
-        events=tuple(map(reflected, asked.events)),
+        events=tuple(map(reverse_event, asked.events)),
     )
     problem = plane_problem(back.formulas, asked.psi, asked.eps, asked.rtol, asked.atol)
     pasts = [Past.of(run, problem, asked.rtol) for run in back.runs(states)]
@@ -227,7 +230,7 @@ def _refuse(rate: Array, first: Array) -> NoReturn:
     raise ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
 
 
-def _counting(problem: Problem, count: list[int]) -> Problem:
+def _count_evaluations(problem: Problem, count: list[int]) -> Problem:
     def F(state: Array) -> Array:
         count[0] += 1
         return problem.F(state)
@@ -241,7 +244,7 @@ def first_step(problem: Problem, state: Array, rate: Array) -> float:
     return FIRST / speed if speed > 0.0 else math.inf
 
 
-def _followed(
+def _integrate(
     formulas: Field,
     psi: Psi,
     eps: float,
@@ -256,7 +259,7 @@ def _followed(
     line = invariant_line(formulas, first)
     problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
     count = [0]
-    problem = _counting(problem, count)
+    problem = _count_evaluations(problem, count)
     rate = problem.F(first)
     if not np.isfinite(rate).all():
         _refuse(rate, first)
@@ -268,11 +271,11 @@ def _followed(
     status, detail = SimulationStatus.T_END, ""
     try:
         if patience > 0:
-            for step in bounded(problem, steps(problem, *span, first, rtol, h, max_steps)):
+            for step in until_blow_up(problem, steps(problem, *span, first, rtol, h, max_steps)):
                 last = watch.step(step)
                 taken.append(step if last is None else last)
                 if last is not None:
-                    return [gathered(taken, len(first))], SimulationStatus.EVENT, "", count[0]
+                    return [gather_steps(taken, len(first))], SimulationStatus.EVENT, "", count[0]
                 if len(taken) == patience:
                     t, state, h = step.end, step.last, step.h
                     break
@@ -283,7 +286,7 @@ def _followed(
                 problem, formulas, psi, eps, line, t, span[1], state, rtol, atol / rtol, h, max_steps - len(taken)
             )
             for part in motion.chunks():
-                ended = _ended(part, watch, len(first))
+                ended = _cut_at_event(part, watch, len(first))
                 parts.append(part if ended is None else ended)
                 if ended is not None:
                     status = SimulationStatus.EVENT
@@ -295,17 +298,17 @@ def _followed(
     finally:
         count_steps(formulas, len(taken))
     evaluations = count[0] + (0 if motion is None else motion.evaluations)
-    return [gathered(taken, len(first)), *parts], status, detail, evaluations
+    return [gather_steps(taken, len(first)), *parts], status, detail, evaluations
 
 
-def _ended(part: Steps, watch: Watch, n: int) -> Steps | None:
+def _cut_at_event(part: Steps, watch: Watch, n: int) -> Steps | None:
     """Return the steps of a part, of n variables, up to an event that ends the motion; None where there is none."""
     taken: list[Step] = []
     for step in part if watch.events else ():
         last = watch.step(step)
         taken.append(step if last is None else last)
         if last is not None:
-            return gathered(taken, n)
+            return gather_steps(taken, n)
     return None
 
 

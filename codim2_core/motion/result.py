@@ -17,7 +17,7 @@ from ..numerics.dense import Dense
 from ..tables import Tabled, frame, number, paragraphs, rows
 from ..words import say
 from .delay import Delay
-from .drawn import Drawn, drawn
+from .drawn import Drawn, drawn_curve
 from .places import NONE, Ascent, Place
 
 if TYPE_CHECKING:
@@ -279,7 +279,7 @@ class Simulation:
         In the limit the orbits up the hemisphere, which take no time, are put in where phases begin with one; a slide
         on a limit cycle is drawn by the orbit that winds onto it.
         """
-        return drawn(self.motion, self.phases, self.eps)
+        return drawn_curve(self.motion, self.phases, self.eps)
 
     def to_frame(self, t: ArrayLike | None = None) -> Any:
         """Return the motion as a pandas DataFrame: a row a time, columns t, x, y, z1, ..., zm, phase and onto.

@@ -96,7 +96,7 @@ def crossings(
         between = min((math.dist((X, Y), other.circle[:2]) for other in found), default=math.inf)
         if between < 1e-4:
             continue
-        crossing = _around(run, kind, outside, X, Y, value, size, min(RADIUS, 0.7 * away, 0.4 * between))
+        crossing = _crossing_at(run, kind, outside, X, Y, value, size, min(RADIUS, 0.7 * away, 0.4 * between))
         if crossing is not None:
             found.append(crossing)
             if len(found) >= MOST:
@@ -110,7 +110,7 @@ _UNIT = np.stack(
 )
 
 
-def _around(
+def _crossing_at(
     run: Program, kind: int, outside: bool, X: float, Y: float, value: float, size: float, r: float
 ) -> Crossing | None:
     """Return the crossing at a point where the gradient vanishes, or None if it is none."""

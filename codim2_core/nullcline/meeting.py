@@ -56,7 +56,7 @@ def conics_of(problem: LayerProblem, view: float = 2.0, pixel: float | None = No
         A system in other axes has the conic of its normal form, turned back (lem:normalform).
     """
     form, theta = problem.at.normal_form, problem.equator.theta
-    meeting = _fixed(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
+    meeting = _read_only(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
     if form is None:
         return Conics("", (), meeting)
     turned = problem.at.as_given is None
@@ -66,10 +66,10 @@ def conics_of(problem: LayerProblem, view: float = 2.0, pixel: float | None = No
     if turned:
         c, s = math.cos(form.rotation), math.sin(form.rotation)
         pieces = [piece @ np.array([[c, -s], [s, c]]) for piece in pieces]
-    return Conics(kind, tuple(_fixed(piece) for piece in pieces), meeting)
+    return Conics(kind, tuple(_read_only(piece) for piece in pieces), meeting)
 
 
-def _fixed(points: Array) -> Array:
+def _read_only(points: Array) -> Array:
     """Return the points, read-only."""
     points.setflags(write=False)
     return points

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..psi.function import Psi
 from .conics import Arc, Curve, Straight
-from .refining import Seen, placed, refined
+from .refining import Seen, to_picture, refine_curve
 from .typed import Traced
 
 Array = NDArray[np.floating[Any]]
@@ -49,7 +49,7 @@ def _onto_disc(psi: Psi, e: Array) -> Array:
     return e * factor[:, None]
 
 
-def drawn(curve: Curve, psi: Psi, seen: Seen | None = None, exactly: Exactly | None = None) -> Array:
+def picture_points(curve: Curve, psi: Psi, seen: Seen | None = None, exactly: Exactly | None = None) -> Array:
     """Picture points along a curve of the e-disc, spread so that no segment sags by more than SAG.
 
     At most POINTS, or for a traced curve so many for each half turn, and for a conic between its tips; closer where
@@ -58,15 +58,15 @@ def drawn(curve: Curve, psi: Psi, seen: Seen | None = None, exactly: Exactly | N
     if isinstance(curve, Straight) and (psi.record.identity or curve.is_diameter):
         return _onto_disc(psi, np.stack([curve.start, curve.end]))  # Psi moves points along their radius
     if isinstance(curve, Traced) and curve.straight:
-        return drawn(Straight(curve.points[0], curve.points[-1]), psi, seen)
-    t, points = _sampled(curve, psi)
+        return picture_points(Straight(curve.points[0], curve.points[-1]), psi, seen)
+    t, points = _sample_curve(curve, psi)
     if seen is None or not seen.near(points).any():
         return points
     onto = exactly or (lambda e: e)
-    return refined(curve, lambda e: placed(psi, onto(e)), t, points, seen)
+    return refine_curve(curve, lambda e: to_picture(psi, onto(e)), t, points, seen)
 
 
-def _sampled(curve: Curve, psi: Psi) -> tuple[Array, Array]:
+def _sample_curve(curve: Curve, psi: Psi) -> tuple[Array, Array]:
     """Parameters along a curve, and its picture points there."""
     if isinstance(curve, Arc) and not psi.record.identity:
         knots = [0.0, *curve.tips(), 1.0]

@@ -41,7 +41,7 @@ class Seen:
         return inside.all(axis=1)
 
 
-def placed(psi: Psi, e: Array) -> Array:
+def to_picture(psi: Psi, e: Array) -> Array:
     """Return the points of the picture at points of the closed e-disc, to rounding."""
     if psi.record.identity:
         return e
@@ -67,7 +67,7 @@ def on_component(at: AtZ, kind: Kind, inside: bool) -> Callable[[Array], Array]:
         c, s = e.T
         return c * U[:, 0] + s * U[:, 1] if kind == "rho" else c * U[:, 1] - s * U[:, 0]
 
-    def corrected(points: Array) -> Array:
+    def correct_points(points: Array) -> Array:
         first = points
         for _ in range(NEWTON):
             value = component(points)
@@ -78,10 +78,10 @@ def on_component(at: AtZ, kind: Kind, inside: bool) -> Callable[[Array], Array]:
             points = points - np.where(np.isfinite(step) & (np.abs(step) < 1e-3), step, 0.0)
         return np.where((np.hypot(*(points - first).T) < 1e-3)[:, None], points, first)
 
-    return corrected
+    return correct_points
 
 
-def refined(curve: Curve, place: Callable[[Array], Array], t: Array, points: Array, seen: Seen) -> Array:
+def refine_curve(curve: Curve, place: Callable[[Array], Array], t: Array, points: Array, seen: Seen) -> Array:
     """Return picture points along a curve of which t and points are a coarse sample, closer where they are seen.
 
     Parameters

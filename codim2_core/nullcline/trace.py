@@ -134,7 +134,7 @@ def stationary(op, left, right, number, roots, kind, outside, X, Y, reach):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _corrected(op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows):
+def _newton_along_gradient(op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows):
     """Newton's method along the gradient; (ok, X, Y, gradient), not ok farther than `reach` away.
 
     floor : size of the gradient below which a point is taken as a crossing of branches and left where it is.
@@ -162,7 +162,9 @@ def settle(op, left, right, number, roots, kind, outside, X, Y, reach, size):
     """Bring a point near a curve onto it; (ok, X, Y, tangent)."""
     seed, work, rows = np.zeros((4, 3)), np.empty((len(op), 3)), np.empty((2, 3))
     floor = 1e-9 * size
-    ok, X, Y, gx, gy = _corrected(op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows)
+    ok, X, Y, gx, gy = _newton_along_gradient(
+        op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows
+    )
     length = math.hypot(gx, gy)
     if length == 0.0:
         return False, X, Y, 0.0, 0.0
@@ -170,7 +172,7 @@ def settle(op, left, right, number, roots, kind, outside, X, Y, reach, size):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _entered(crossings, X, Y):
+def _entered_crossing(crossings, X, Y):
     """Return the crossing within whose circle a point lies, or -1."""
     for i in range(len(crossings)):
         if math.hypot(X - crossings[i, 0], Y - crossings[i, 1]) < crossings[i, 2]:
@@ -247,12 +249,12 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
     X, Y, tx, ty = start[0], start[1], start[2], start[3]
     out[0] = start
     _, slope_X, slope_Y = _component(op, left, right, number, roots, kind, outside, X, Y, seed, work, rows)
-    leaving = _entered(crossings, X, Y)  # by rounding, at its circle
+    leaving = _entered_crossing(crossings, X, Y)  # by rounding, at its circle
     count, h, bend = 1, 0.25 * LONGEST, 0.0
     from_home = home[0] == start[0] and home[1] == start[1]
     while count < len(out) - 1:
         h = _short_of(crossings, X, Y, h)
-        ok, nX, nY, gx, gy = _corrected(
+        ok, nX, nY, gx, gy = _newton_along_gradient(
             op, left, right, number, roots, kind, outside, X + h * tx, Y + h * ty, 0.3 * h, floor, seed, work, rows
         )
         nx, ny, turn = _tangent(gx, gy, tx, ty)
@@ -263,7 +265,7 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
                 return count, STUCK, -1
             continue
         r = math.hypot(nX, nY)
-        which = _entered(crossings, nX, nY)
+        which = _entered_crossing(crossings, nX, nY)
         if which >= 0 and which == leaving and count == 1:
             which = -1
         if r > most or (outside and r < 1.0) or which >= 0:
@@ -318,7 +320,7 @@ def _to_circle(op, left, right, number, roots, kind, outside, h, cX, cY, radius,
         pX, pY = X, Y
         for _ in range(40):
             middle = 0.5 * (low + high)
-            ok, nX, nY, ax, ay = _corrected(
+            ok, nX, nY, ax, ay = _newton_along_gradient(
                 op, left, right, number, roots, kind, outside, X + middle * tx, Y + middle * ty, 0.3 * h, floor, seed,
                 work, rows,
             )  # fmt: skip

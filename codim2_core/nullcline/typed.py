@@ -200,7 +200,7 @@ class _Tracer:
             if start is not None:
                 start[:2] = u
                 outwards = start[2] * u[0] + start[3] * u[1] > 0.0
-                self._add(self._followed(start if outwards == self.outside else _reversed(start))[0])
+                self._add(self._followed(start if outwards == self.outside else _reverse_tangents(start))[0])
         for which, crossing in enumerate(self.met):
             for i in range(len(crossing.angles)):
                 if self.unseen[which][i] and not self._enough():
@@ -248,7 +248,7 @@ class _Tracer:
     def _both_ways(self, start: Array) -> None:
         rows, closed = self._followed(start)
         if not closed:
-            back, _ = self._followed(_reversed(start))
+            back, _ = self._followed(_reverse_tangents(start))
             rows = np.concatenate([_backwards(back[1:]), rows])
         self._add(rows)
 
@@ -271,7 +271,7 @@ class _Tracer:
         settled = self._settled(guess[:2], 0.1 * crossing.circle[2])
         if settled is None:
             return None
-        return settled if settled[2:] @ guess[2:] > 0.0 else _reversed(settled)
+        return settled if settled[2:] @ guess[2:] > 0.0 else _reverse_tangents(settled)
 
     def _add(self, rows: Array) -> None:
         if len(rows) > 1:
@@ -320,9 +320,9 @@ class _Tracer:
             last[:2] = self.ends[nearest]
 
 
-def _reversed(start: Array) -> Array:
+def _reverse_tangents(start: Array) -> Array:
     return start * (1.0, 1.0, -1.0, -1.0)
 
 
 def _backwards(rows: Array) -> Array:
-    return _reversed(rows[::-1])
+    return _reverse_tangents(rows[::-1])

@@ -124,7 +124,7 @@ def series(values: Array, size: float, degree: int | None = None) -> Series:
 
 def zeros(f: Series) -> Zeros:
     """All zeros of f, by cutting arcs until each is decided; none if f vanishes identically."""
-    from .fourier_arcs import cut, lowest_extremum  # on first use: it loads the compiler
+    from .fourier_arcs import decide_arcs, lowest_extremum  # on first use: it loads the compiler
 
     none = Zeros(np.zeros(0), np.zeros(0, np.int64), True, math.inf)
     if f.vanishes:
@@ -139,7 +139,7 @@ def zeros(f: Series) -> Zeros:
     proven, least, most = True, COARSE, 16 * (f.degree + 32)
     while True:
         at = np.empty(2 * f.degree + 16)
-        theta, h = cut(f.c, theta, h, least, most, f.tolerance, first, fourth, at)
+        theta, h = decide_arcs(f.c, theta, h, least, most, f.tolerance, first, fourth, at)
         simple += at[~np.isnan(at)].tolist()
         if len(theta) and len(theta) <= most:
             least = h / 50.0  # by then what lies close together has come apart
@@ -153,7 +153,7 @@ def zeros(f: Series) -> Zeros:
             break
         h *= 0.25
         theta = (theta[:, None] + h * np.array([-3.0, -1.0, 1.0, 3.0])).ravel()
-    return _collected(f, simple, multiple, proven, distance)
+    return _collect_zeros(f, simple, multiple, proven, distance)
 
 
 def _add_multiple(f: Series, theta: Array, h: float, found: list[tuple[float, int, float]]) -> None:
@@ -189,7 +189,7 @@ def _add_multiple(f: Series, theta: Array, h: float, found: list[tuple[float, in
                 break
 
 
-def _collected(
+def _collect_zeros(
     f: Series, simple: list[float], multiple: list[tuple[float, int, float]], proven: bool, distance: float
 ) -> Zeros:
     # what lies as near to a multiple zero as its own rounding blurs it is that zero

@@ -22,7 +22,7 @@ class BlowUpError(TooManyStepsError):
     """The motion grows beyond all bounds; the message says near which time."""
 
 
-def bounded(problem: Problem, steps: Iterator[Step], shortest: float = 0.0) -> Iterator[Step]:
+def until_blow_up(problem: Problem, steps: Iterator[Step], shortest: float = 0.0) -> Iterator[Step]:
     """Hand on steps until the state grows beyond all bounds in no time.
 
     Close to Sigma steps are short too, but the state does not grow there. `shortest` is the step at which they stop.

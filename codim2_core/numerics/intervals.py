@@ -114,7 +114,7 @@ def _tangent(a, b):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _between(k, a, b, p, q):
+def _monotone_bounds(k, a, b, p, q):
     """Bounds between p and q, what is monotone at a and b, with the blur of the function k."""
     blur = BLUR[k - FIRST] * WIDER * (1.0 + max(abs(a), abs(b)))
     p, q = min(p, q), max(p, q)
@@ -155,7 +155,7 @@ def slope_of(k, a, b, v, w):
         return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)
     if not b <= UNTIL[k - FIRST]:
         return -math.inf, math.inf
-    return _between(k, a, b, kernels.slope(k, a, kernels.value(k, a)), kernels.slope(k, b, kernels.value(k, b)))
+    return _monotone_bounds(k, a, b, kernels.slope(k, a, kernels.value(k, a)), kernels.slope(k, b, kernels.value(k, b)))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -201,4 +201,4 @@ def range_of(k, a, b):
         return modulus(a, b)
     if not b <= UNTIL[k - FIRST]:
         return -math.inf, math.inf
-    return _between(k, a, b, kernels.value(k, a), kernels.value(k, b))
+    return _monotone_bounds(k, a, b, kernels.value(k, a), kernels.value(k, b))

@@ -84,7 +84,7 @@ class Step(NamedTuple):
         return self.first + self.polynomial @ (u ** np.arange(1, self.polynomial.shape[1] + 1))
 
 
-def shortened(step: Step, u: float) -> Step:
+def truncate_step(step: Step, u: float) -> Step:
     """Return the first part of a step, up to its fraction u."""
     powers = u ** np.arange(1, step.polynomial.shape[1] + 1)
     return Step(step.start, u * step.h, step.first, step.at(u), step.polynomial * powers)
@@ -152,7 +152,7 @@ def steps(
     y, t, lost = first, t_start, 0.0
     previous: Step | None = None
     eager, careful, tried = False, 0, 0
-    here = _linearised(problem, y)
+    here = _linearise(problem, y)
     while (remaining := (t_end - t) - lost) > 0.0:
         h = min(h, here.bound)
         if h >= 0.99 * remaining:
@@ -178,7 +178,7 @@ def steps(
         ahead = t + total
         lost = total - (ahead - t)
         t, y, previous = ahead, step.last, step
-        here = _linearised(problem, y)
+        here = _linearise(problem, y)
         most_growth = 1.0 if not eager and tried > 1 else GROWTH_AFTER_FAILURE if careful else GROW
         h, eager, careful = h * min(factor, most_growth), True, max(careful - 1, 0)
 
@@ -193,7 +193,7 @@ class _Linearised:
     bound: float
 
 
-def _linearised(problem: Problem, y: Array) -> _Linearised:
+def _linearise(problem: Problem, y: Array) -> _Linearised:
     with np.errstate(all="ignore"):
         rate, jacobian, size = problem.F(y), problem.J(y), problem.scale(y)
         bound = problem.limit(y, rate, jacobian)
@@ -208,13 +208,13 @@ def _attempt(
     with np.errstate(all="ignore"):
         scaled = h * here.jacobian
         kron = (table.A[:, None, :, None] * scaled[None, :, None, :]).reshape(n * STAGES, n * STAGES)
-        guess = np.zeros((STAGES, n)) if previous is None else _extrapolated(previous, h, y, table.nodes)
+        guess = np.zeros((STAGES, n)) if previous is None else _predict_stages(previous, h, y, table.nodes)
         try:
             inverse = np.asarray(np.linalg.inv(np.eye(n * STAGES) - kron), float)
             damping = np.linalg.inv(np.eye(n) - table.gamma * scaled)
         except np.linalg.LinAlgError:
             return None, FAILED
-        Z = _solved(problem.F, y, h, guess, inverse, size, rtol, table)
+        Z = _solve_stages(problem.F, y, h, guess, inverse, size, rtol, table)
         if Z is None:
             return None, 1.0 if guess.any() else FAILED
         small = np.minimum(size, problem.scale(y + Z[-1]))
@@ -232,7 +232,7 @@ def _attempt(
     return (Z, (table.fit @ Z).T), factor
 
 
-def _extrapolated(previous: Step, h: float, y: Array, nodes: Array) -> Array:
+def _predict_stages(previous: Step, h: float, y: Array, nodes: Array) -> Array:
     """Stage increments that the last step's polynomial predicts."""
     ratio = h / previous.h
     if ratio > 4.0:
@@ -242,7 +242,7 @@ def _extrapolated(previous: Step, h: float, y: Array, nodes: Array) -> Array:
     return ahead + (previous.first - y)
 
 
-def _solved(
+def _solve_stages(
     F: Callable[[Array], Array],
     y: Array,
     h: float,

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Roots", "lowest", "refined", "roots", "sign_changes", "vertex"]
+__all__ = ["Roots", "lowest", "refine_roots", "roots", "sign_changes", "vertex"]
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
@@ -26,7 +26,7 @@ def sign_changes(values: Array) -> NDArray[np.intp]:
     return np.flatnonzero(positive[1:] != positive[:-1])
 
 
-def refined(function: Function, low: Array, high: Array) -> tuple[Array, NDArray[np.bool_]]:
+def refine_roots(function: Function, low: Array, high: Array) -> tuple[Array, NDArray[np.bool_]]:
     """One sign change in each interval, to the last digits.
 
     Each interval is sampled evenly and, more and more densely, around the zero of the chord.
@@ -111,12 +111,12 @@ def roots(function: Function, grids: Sequence[Array], values: Sequence[Array]) -
         high += grid[changes + 1].tolist()
         owner += [k] * len(changes)
         tips += [(k, i) for i in lowest(grid, y)]
-    hidden, touching = _hidden(function, grids, values, tips)
+    hidden, touching = _hidden_pairs(function, grids, values, tips)
     for k, u, v in hidden:
         low.append(u)
         high.append(v)
         owner.append(k)
-    place, pole = refined(function, np.array(low), np.array(high)) if low else (np.zeros(0), np.zeros(0, bool))
+    place, pole = refine_roots(function, np.array(low), np.array(high)) if low else (np.zeros(0), np.zeros(0, bool))
     of = np.array(owner, int)
     each = range(len(grids))
     return Roots(
@@ -157,7 +157,7 @@ def vertex(grid: Array, y: Array, i: int) -> float:
     return float(grid[i] + min(max(-0.5 * slope / bend, 0.9 * u), 0.9 * w)) if bend else float(grid[i] + 0.5 * w)
 
 
-def _hidden(
+def _hidden_pairs(
     function: Function, grids: Sequence[Array], values: Sequence[Array], tips: list[tuple[int, int]]
 ) -> tuple[list[tuple[int, float, float]], list[tuple[int, float]]]:
     """Brackets (grid, low, high) of the zeros that minima of the size hide, two for each pair; and (grid, touch)."""

@@ -89,7 +89,7 @@ def solve_exactly(inputs: Sequence[float], patterns: Sequence[Sequence[int]]) ->
     while len(chain[-1]) > 2:
         chain.append([k * a for k, a in enumerate(chain[-1])][1:])
     levels = _real_zeros_of_chain(chain, bits)
-    found, distance = _named(chain, levels, doubtful, bits)
+    found, distance = _degenerate_zeros(chain, levels, doubtful, bits)
     count = len(levels[0]) if _discriminant(total) else _count_degenerate(quartic, levels, bits)
     zeros = tuple(_direction(p, m, chain[1], base, bits, exponent) for p, m in found)
     return ExactZeros(zeros, False, count, distance)
@@ -169,11 +169,13 @@ def _real_zeros_of_chain(chain: Sequence[Sequence[int]], bits: int) -> list[list
             if values[i] == 0:
                 levels[k].append(knots[i])
             elif values[i + 1] and (values[i] > 0) != (values[i + 1] > 0):
-                levels[k].append(_bracketed(polynomial, slope, knots[i], knots[i + 1], values[i] > 0, bits))
+                levels[k].append(_bracketed_newton(polynomial, slope, knots[i], knots[i + 1], values[i] > 0, bits))
     return levels
 
 
-def _bracketed(polynomial: Sequence[int], slope: Sequence[int], low: int, high: int, falls: bool, bits: int) -> int:
+def _bracketed_newton(
+    polynomial: Sequence[int], slope: Sequence[int], low: int, high: int, falls: bool, bits: int
+) -> int:
     """Newton's method kept inside a bracket, to the last of `bits` binary places."""
     p, last = (low + high) >> 1, high - low
     while high - low > 1:
@@ -247,7 +249,7 @@ def _double_distance(chain: Sequence[Sequence[int]], doubtful: Sequence[Sequence
     return _distance(chain, doubtful, p, 2, bits)
 
 
-def _named(
+def _degenerate_zeros(
     chain: Sequence[Sequence[int]],
     levels: Sequence[Sequence[int]],
     doubtful: Sequence[Sequence[int]],

@@ -113,7 +113,7 @@ def _on_hemisphere(at: AtZ, psi: Psi, start: Array, end: float) -> tuple[Array, 
         faster = math.hypot(1.0, y[0], y[1])
         return np.append(faster * at.U(e_psi(psi, disc_from_scaling(y[:2]))), faster)
 
-    y = _followed(rate, np.append(x2, 0.0), end, lambda y: math.hypot(y[0], y[1]) > far)
+    y = _integrate(rate, np.append(x2, 0.0), end, lambda y: math.hypot(y[0], y[1]) > far)
     left = np.flatnonzero(np.hypot(y[:, 0], y[:, 1]) > far)
     y = y[: left[0] if len(left) else None]
     p = disc_from_scaling(y[:, :2])
@@ -128,7 +128,7 @@ def _outside(at: AtZ, _: Psi, start: Array, end: float) -> tuple[Array, Array, A
         return np.array([radial, turning, math.exp(min(y[0], 700.0))])
 
     r = math.hypot(*start)
-    y = _followed(rate, np.array([math.log(r - 1.0), math.atan2(start[1], start[0]), 0.0]), end)
+    y = _integrate(rate, np.array([math.log(r - 1.0), math.atan2(start[1], start[0]), 0.0]), end)
     rho, e = np.exp(y[:, 0]), np.stack([np.cos(y[:, 1]), np.sin(y[:, 1])], axis=-1)
     return y[:, 2], (1.0 + rho)[:, None] * e, rho[:, None] * e, rho
 
@@ -137,7 +137,7 @@ def _nowhere(_: Array) -> bool:
     return False
 
 
-def _followed(
+def _integrate(
     rate: Callable[[float, Array], Array], start: Array, end: float, left: Callable[[Array], bool] = _nowhere
 ) -> Array:
     """Return the states from T = 0 to `end`, in `STEPS` steps at most, or until one has `left`: (k, n)."""

@@ -95,7 +95,7 @@ class Trajectories:
         return tuple(STATUSES[code] for code in self.codes.tolist())
 
 
-def joined(parts: Sequence[Trajectories]) -> Trajectories:
+def concatenate(parts: Sequence[Trajectories]) -> Trajectories:
     """Several results as one, in order."""
     if not parts:
         return Trajectories(
@@ -124,7 +124,7 @@ def cut_up(every: Trajectories, until: Sequence[int], evaluations: Sequence[int]
     return parts
 
 
-def continued(first: Trajectories, which: NDArray[np.int64], rest: Trajectories) -> Trajectories:
+def append_continuations(first: Trajectories, which: NDArray[np.int64], rest: Trajectories) -> Trajectories:
     """Return trajectories of which some, `which` of `first`, go on as `rest`, from where they ended there."""
     points, times = list(first.points), list(first.times)
     for i, more, later in zip(which.tolist(), rest.points, rest.times, strict=True):

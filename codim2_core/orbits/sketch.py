@@ -96,10 +96,10 @@ def _half(at: AtZ, psi: Psi, seeds: Array, end: float, length: float, view: floa
     if outside:
         r = 1.0 + np.exp(np.minimum(points[..., 0], math.log(10.0 * view)))
         points = np.stack([r * np.cos(points[..., 1]), r * np.sin(points[..., 1])], axis=-1)
-    return _thinned(points, length, view)
+    return _thin_out(points, length, view)
 
 
-def _thinned(points: Array, length: float, view: float) -> list[Array]:
+def _thin_out(points: Array, length: float, view: float) -> list[Array]:
     """Leave out points that are near the one before, and what is beyond the view or the length; (n, k, 2) to lines."""
     steps = np.hypot(*np.moveaxis(np.diff(points, axis=0), -1, 0))
     way = np.concatenate([np.zeros((1, points.shape[1])), np.cumsum(steps, axis=0)])

@@ -21,10 +21,10 @@ from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .departures import departures
 from .options import PIXEL, STEP_LIMIT, Stepping, stepping
-from .result import STATUSES, Status, Trajectories, continued, cut_up, joined
+from .result import STATUSES, Status, Trajectories, append_continuations, cut_up, concatenate
 from .seeds import checked_seeds
 
-__all__ = ["Status", "Trajectories", "continuation", "is_warm", "joined", "trajectories", "warm"]
+__all__ = ["Status", "Trajectories", "continuation", "is_warm", "concatenate", "trajectories", "warm"]
 
 Array = NDArray[np.float64]
 
@@ -142,16 +142,16 @@ def trajectories(
 
 def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     if len(states) == 0:
-        return joined([])
+        return concatenate([])
     if not options.stiff:
-        return stepped(at, psi, states, signs, options)
-    found = stepped(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
+        return integrate_explicitly(at, psi, states, signs, options)
+    found = integrate_explicitly(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
     which, spent, drawn, pace = _under_way(found)
     creeping = (drawn < ROUND) & (pace * spent < ROUND)
     if options.step_limit > EXPLICIT and creeping.any():
         which, spent, drawn = which[creeping], spent[creeping], drawn[creeping]
-        rest = _crept(at, psi, found.ends[which], signs[which], spent, drawn, options)
-        found = continued(found, which, rest)
+        rest = _integrate_implicitly(at, psi, found.ends[which], signs[which], spent, drawn, options)
+        found = append_continuations(found, which, rest)
         which, spent, drawn, _ = _under_way(found)
     more = options.step_limit - EXPLICIT - (int(IMPLICIT * options.step_limit) if creeping.any() else 0)
     if not len(which) or more <= 0:
@@ -160,7 +160,7 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
         options, t_max=max(options.t_max - spent.min(), 1e-300), length=max(options.length - drawn.max(), 1e-9),
         step_limit=more,
     )  # fmt: skip
-    return continued(found, which, stepped(at, psi, found.ends[which], signs[which], last))
+    return append_continuations(found, which, integrate_explicitly(at, psi, found.ends[which], signs[which], last))
 
 
 def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Array]:
@@ -173,7 +173,7 @@ def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Ar
     return which, spent, drawn, np.array([way / max(time, 1e-300) for way, time in last])
 
 
-def stepped(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
+def integrate_explicitly(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     """Follow trajectories explicitly."""
     found = in_lanes(at, _kernels().problem(at, psi, options.backward), states, signs, [len(states)], options)[0]
     _warm.add(psi.family if at.typed is None else GENERAL)
@@ -207,7 +207,7 @@ def in_lanes(
     return [found] if len(until) == 1 else cut_up(found, until, evaluations.tolist())
 
 
-def _crept(
+def _integrate_implicitly(
     at: AtZ, psi: Psi, states: Array, signs: Array, spent: Array, drawn: Array, options: Stepping
 ) -> Trajectories:
     """Follow trajectories implicitly, after a time that each has `spent` and a length that is `drawn`."""

@@ -31,7 +31,7 @@ class Attracting:
     slow_flow: NDArray[np.float64]
 
 
-def attracting(
+def attracting_set(
     critical: Sequence[CriticalSet], cycles: Callable[[], Iterable[LimitCycle]], last: ArrayLike | None = None
 ) -> Attracting | None:
     """Return the attracting set that sliding is on, or goes on with when z drifts.

@@ -45,7 +45,9 @@ class Degeneracy(Tabled):
 NEARER = SENTENCES["nearer"].says.partition(" {")[0]
 
 
-def undecided(name: str, sentence: str, within: float = ROUNDING, of: str = "each coefficient") -> Degeneracy:
+def undecided_degeneracy(
+    name: str, sentence: str, within: float = ROUNDING, of: str = "each coefficient"
+) -> Degeneracy:
     """Make a degeneracy whose sentence says within what it cannot be told from its neighbours."""
     return Degeneracy(name, f"{sentence} {say('nearer', within=power(within), of=of)}", within)
 
@@ -98,7 +100,7 @@ class Classification:
         return f"{name}{paragraphs([self.sentence])}{rows(self.degeneracies)}"
 
 
-NEUTRAL_CLOSED_EQUATOR = undecided(
+NEUTRAL_CLOSED_EQUATOR = undecided_degeneracy(
     "neutral equator",
     say("neutral closed equator"),
     NEUTRAL_EQUATOR,
@@ -142,7 +144,7 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
 
 def attracting_cycles(cycles: Sequence[LimitCycle], critical: tuple[CriticalSet, ...]) -> str:
     """Describe the limit cycles that attract, and which critical sets they surround; "" if there are none."""
-    around = Counter((cycle.stable, _surrounded(cycle, critical)) for cycle in cycles if cycle.kind != "unstable")
+    around = Counter((cycle.stable, _surrounded_sets(cycle, critical)) for cycle in cycles if cycle.kind != "unstable")
     said = []
     for (stable, sets), count in around.items():
         if count == 1:
@@ -152,7 +154,7 @@ def attracting_cycles(cycles: Sequence[LimitCycle], critical: tuple[CriticalSet,
     return " ".join(said)
 
 
-def _surrounded(cycle: LimitCycle, critical: tuple[CriticalSet, ...]) -> str:
+def _surrounded_sets(cycle: LimitCycle, critical: tuple[CriticalSet, ...]) -> str:
     """Name the critical sets about which a cycle winds."""
     labels = [named(critical_label(critical, i)) for i, C in enumerate(critical) if surrounds(cycle.points, C.p)]
     return " and ".join(filter(None, [", ".join(labels[:-1]), *labels[-1:]]))

@@ -141,14 +141,14 @@ def endings(
         follow = [i for i in open_ if states[i, 2] > TOLD] if more else []
         if follow:
             time, places = more * length, states[follow, :2]
-            on = _followed(at, psi, places, time, rtol, backward)
+            on = _integrate(at, psi, places, time, rtol, backward)
             for j, i in enumerate(follow):
                 statuses[i], states[i] = on.status[j], on.ends[j]
         elif foretold is not None:
             going = [i for i in open_ if not nears_end(critical, states[i, :2], backward)]
             labels = foretold(states[going]) if going else []
             for i, onto in zip(going, labels, strict=True):
-                found[i] = None if onto is None else _foretold(critical, onto)
+                found[i] = None if onto is None else _predicted_ending(critical, onto)
         for i in open_ if more else range(len(lines)):
             if found[i] is not None:
                 continue
@@ -168,7 +168,7 @@ def endings(
             elif (reached := _on_cycle(cycles(), p, backward)) is not None:
                 found[i] = Ending(f"cycle {reached + 1}", None, say("onto a cycle"))
             elif w < AT_SADDLE and gap < AT_SADDLE and more:
-                found[i] = Ending(label, float(equator.theta[near]), _stopping(equator, near, w))
+                found[i] = Ending(label, float(equator.theta[near]), _stopping_reason(equator, near, w))
             elif more and max(w, gap) < AT_NEUTRAL and radially_neutral(equator, near):
                 found[i] = Ending(label, float(equator.theta[near]), AT_NEUTRAL_Q)
             elif k is not None and critical[k].kind == "saddle" and more:
@@ -176,7 +176,7 @@ def endings(
     return [e if e is not None else Ending("undecided", None, s.value) for e, s in zip(found, statuses, strict=True)]
 
 
-def _foretold(critical: tuple[CriticalSet, ...], onto: int) -> Ending:
+def _predicted_ending(critical: tuple[CriticalSet, ...], onto: int) -> Ending:
     if onto == ON_C:
         return Ending(critical_label(critical, 0), None, Status.EQUILIBRIUM.value)
     return Ending(f"cycle {onto + 1}", None, say("onto a cycle"))
@@ -189,7 +189,7 @@ def drawn_time(at: AtZ, equator: EquatorEquilibria) -> float:
     return SPEEDS / unit + (SLOW / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
 
 
-def _followed(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backward: bool) -> Trajectories:
+def _integrate(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backward: bool) -> Trajectories:
     return trajectories(
         at,
         psi,
@@ -204,7 +204,7 @@ def _followed(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backwa
     )
 
 
-def _stopping(equator: EquatorEquilibria, i: int, w: float) -> str:
+def _stopping_reason(equator: EquatorEquilibria, i: int, w: float) -> str:
     """Return the reason why an orbit that no attractor captured is at Q_{i+1}."""
     if equator.multiplicity[i] > 1 or radially_neutral(equator, i):
         return say("to a degenerate equilibrium")

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
-from ..orbits.trajectories import Status, Trajectories, continuation, joined, trajectories
+from ..orbits.trajectories import Status, Trajectories, continuation, concatenate, trajectories
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..words import say
@@ -69,7 +69,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
             firsts += [C.p, C.p]
     if not parts:
         return []
-    lines = joined(parts)
+    lines = concatenate(parts)
     branches = []
     ends = endings(at, psi, lines, equator, critical, lambda: cycles_of(problem), rtol=rtol, backward=backward)
     places = {critical_label(critical, k): C.p for k, C in enumerate(critical)}
@@ -171,7 +171,7 @@ def ray(equator: EquatorEquilibria, i: int, view: float) -> Separatrix:
     return Separatrix(f"Q{i + 1}", direction, "outside", points, angle, angle, False, False, None, sentence)
 
 
-def bent(problem: LayerProblem, i: int, t_max: float, rtol: float, view: float, pixel: float) -> Separatrix:
+def bent_branch(problem: LayerProblem, i: int, t_max: float, rtol: float, view: float, pixel: float) -> Separatrix:
     """Follow the branch outside where U depends on x or y: ``theta = theta_i + k rho + ...``, rho' = rho lambda_rho."""
     at, psi, equator = problem.at, problem.psi, problem.equator
     angle, growth = float(equator.theta[i]), float(equator.lambda_rho[i])

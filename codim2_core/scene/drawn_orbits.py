@@ -25,7 +25,7 @@ def seeds_of(setting: SceneSetting, outside: bool) -> np.ndarray:
     """Seeds on the hemisphere, or outside: those that are given, or the usual ones and more in the window."""
     if setting.seeds is not None:
         return _sides(setting.seeds)[outside]
-    seeds = _structured(setting.count, setting.view)[outside]
+    seeds = _structured_seeds(setting.count, setting.view)[outside]
     if setting.window is None:
         return seeds
     return np.concatenate([seeds, _sides(window_seeds(setting.count // 2, setting.window))[outside]])
@@ -38,11 +38,11 @@ def _sides(seeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 @lru_cache(maxsize=32)
-def _structured(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
+def _structured_seeds(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
     return _sides(structured_seeds(count, view))
 
 
-def _stepping(setting: SceneSetting, outside: bool = False) -> dict[str, Any]:
+def _stepping_options(setting: SceneSetting, outside: bool = False) -> dict[str, Any]:
     longest, problem = setting.t_max, setting.problem
     critical = () if outside else problem.critical
     if longest is None:
@@ -73,7 +73,7 @@ def starts(setting: SceneSetting, outside: bool) -> np.ndarray:
 
 def orbits(setting: SceneSetting, outside: bool) -> Orbits:
     """Whole orbits through the seeds, on the hemisphere or outside."""
-    seeds, options = starts(setting, outside), _stepping(setting, outside)
+    seeds, options = starts(setting, outside), _stepping_options(setting, outside)
     # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
     cheapest = outside and setting.coefficients.typed is None
     psi = constructors.constant() if cheapest else setting.psi
@@ -81,9 +81,9 @@ def orbits(setting: SceneSetting, outside: bool) -> Orbits:
     return Orbits(*halves)
 
 
-def sketched(setting: SceneSetting, outside: bool) -> Sketch:
+def sketch_orbits(setting: SceneSetting, outside: bool) -> Sketch:
     """Sketch the same orbits, without the kernels."""
-    options = _stepping(setting, outside)
+    options = _stepping_options(setting, outside)
     wanted = {name: options[name] for name in ("t_max", "length", "view")}
     return sketch(setting.coefficients, setting.psi, starts(setting, outside), **wanted)
 
@@ -93,4 +93,4 @@ def continuations(setting: SceneSetting) -> Trajectories:
     equator = setting.problem.equator
     decided = ~np.array(radially_neutral_ones(equator), bool)  # where it is not, what rises does so for ever
     arriving = equator.theta[decided & (equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)]
-    return continuation(setting.coefficients, setting.psi, arriving, **_stepping(setting))
+    return continuation(setting.coefficients, setting.psi, arriving, **_stepping_options(setting))

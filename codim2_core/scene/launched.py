@@ -14,7 +14,7 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.hemisphere import outside_flow
 from ..layer_problem.problem import LayerProblem
 from ..orbits.result import Status, Trajectories
-from ..orbits.trajectories import joined, trajectories
+from ..orbits.trajectories import concatenate, trajectories
 from ..orbits.whole import Orbits
 from ..portrait.approach import outcomes_of
 from ..portrait.endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
@@ -85,10 +85,10 @@ class Launched:
         return len(self.goes)
 
 
-NOTHING = Launched(Orbits(joined([]), joined([])), (), ())
+NOTHING = Launched(Orbits(concatenate([]), concatenate([])), (), ())
 
 
-def launched(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0) -> Launched:
+def launched_orbits(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0) -> Launched:
     """Follow orbits through points of the picture, and say where they go and where they come from.
 
     Parameters
@@ -126,7 +126,7 @@ def launched(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: f
     inside = np.hypot(seeds[:, 0], seeds[:, 1]) < 1.0
     fates = []
     for line, backward in ((ahead, False), (back, True)):
-        half = _ended(problem, line, seeds, PATIENCE * time, view, backward)
+        half = _orbits_to_end(problem, line, seeds, PATIENCE * time, view, backward)
         found: list[Fate | None] = [None] * len(seeds)
         within = np.flatnonzero(inside).tolist()
         for i, end in zip(within, _endings(problem, half, within, backward), strict=True):
@@ -138,7 +138,7 @@ def launched(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: f
     return Launched(Orbits(back, ahead), *fates)
 
 
-def _ended(
+def _orbits_to_end(
     problem: LayerProblem, line: Trajectories, seeds: Array, time: float, view: float, backward: bool
 ) -> Trajectories:
     """Return the trajectories with the ends that those cut off would come to, were they drawn on."""
@@ -217,11 +217,11 @@ def _outside(problem: LayerProblem, half: Trajectories, i: int, after: float | N
     if backward:
         return Fate(label, None, after, say("left" + way, **known))
     found = outcomes_of(problem)
-    then, onto = _then(found.whole if k is None or found.whole is not None else found.directions[k])
+    then, onto = _what_follows(found.whole if k is None or found.whole is not None else found.directions[k])
     return Fate(label, onto, after, f"{say('reached' + way, **known)} {then}")
 
 
-def _then(outcome: Outcome | None) -> tuple[str, str | None]:
+def _what_follows(outcome: Outcome | None) -> tuple[str, str | None]:
     if outcome is None or outcome.verdict in ("undecided", "misses"):
         return say("then undecided"), None
     if outcome.verdict == "cross" and outcome.leaving is None:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import drawing
-from ..arguments import number, whole
+from ..arguments import number, whole_number
 from ..layer_problem.problem import Finding, LayerProblem, Result
 from ..orbits.options import LEAST_PIXEL
 from ..orbits.seeds import checked_seeds
@@ -124,7 +124,7 @@ class Scene:
             psi = constructors.constant()
         if not isinstance(psi, Psi):
             raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
-        view, pixel, count = number("view", view), number("pixel", pixel), whole("count", count, MOST_SEEDS)
+        view, pixel, count = number("view", view), number("pixel", pixel), whole_number("count", count, MOST_SEEDS)
         if not view > 1.0:
             raise ValueError(f"view is {view}; give a finite radius greater than 1 (the equator).")
         if not LEAST_PIXEL <= pixel < 1.0:

@@ -14,12 +14,12 @@ DIFFERENCE = 1e-5  # of central differences; their error, 1e-10 at unit scale, o
 NEUTRAL = 1e-8  # |det| below NEUTRAL tr^2: an eigenvalue that the differences cannot tell from 0
 STILL = 4e-16  # a speed that is rounding, at unit scale
 FAINT = 1e-150
-MIRROR = 2 * WIDTH + PARAMETERS  # room that `attracted` and `winding` need
+MIRROR = 2 * WIDTH + PARAMETERS  # room that `is_captured` and `winding` need
 ROUND = 8 * LANES  # points of the equator at which `winding` looks
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def attracted(S, P, field, lane, capture, scratch):
+def is_captured(S, P, field, lane, capture, scratch):
     """Whether the state NEW of a lane is within `capture` (arc on the sphere) of an attracting equilibrium.
 
     A Newton step in the tangent plane measures the distance, and the Jacobian's trace and determinant say whether it
@@ -27,14 +27,14 @@ def attracted(S, P, field, lane, capture, scratch):
     fast direction is still decaying, the slow rate there may be anything.
     """
     x, y, w = S[NEW + lane], S[NEW + LANES + lane], S[NEW + 2 * LANES + lane]
-    kind, x, y, w = _measured(x, y, w, P, field, lane, capture, scratch)
+    kind, x, y, w = _newton_distance(x, y, w, P, field, lane, capture, scratch)
     if kind == NOTHING or w < 0.0:
         return kind
-    return _measured(x, y, w, P, field, lane, capture, scratch)[0]
+    return _newton_distance(x, y, w, P, field, lane, capture, scratch)[0]
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _measured(x, y, w, P, field, lane, capture, scratch):
+def _newton_distance(x, y, w, P, field, lane, capture, scratch):
     """Return what is within `capture` by a Newton step, and where that leads: w is -1 where the answer is final."""
     sign = P[SIGN + lane]
     r = math.sqrt(x * x + y * y)

@@ -16,7 +16,7 @@ from ..expressions.functions import kernels
 from ..expressions.names import PLANE
 from ..expressions.source import program
 from ..systems.typed import System
-from .compiling import Kept, compiled
+from .compiling import Kept, compile_address
 from .layout import LANES, PARAMETERS, SIGN, WIDTH, call_at
 from .numbers import FACTOR, GAIN, OWN
 
@@ -62,7 +62,7 @@ def _source(system: System) -> tuple[str, bool]:
     return "\n".join([*lines, *(f"        {line}" for line in inside)]) + "\n", written.entire
 
 
-def _made(system: System) -> GeneralField:
+def _make_field(system: System) -> GeneralField:
     source, smooth = _source(system)
     scope: dict[str, Any] = {
         "math": math,
@@ -78,7 +78,7 @@ def _made(system: System) -> GeneralField:
         "OWN": OWN,
     }
     exec(source, scope)  # written by `program` from whitelisted formulas: numbers, our own names and math.* only
-    return GeneralField(compiled(scope["field"], cache=False), smooth)
+    return GeneralField(compile_address(scope["field"], cache=False), smooth)
 
 
 def is_compiled(system: System) -> bool:
@@ -99,4 +99,4 @@ def general_field(system: System) -> GeneralField:
         The `address` of its `function` enters the integrator. Compiled once for the formulas of U and the names of
         its parameters (below a second for formulas of usual length), whatever their values and Psi.
     """
-    return _fields.get(system.U, lambda: _made(system))
+    return _fields.get(system.U, lambda: _make_field(system))

@@ -24,7 +24,7 @@ from numba import (
 
 from ..expressions.functions import kernels
 from ..psi.function import Psi
-from .compiling import ARITHMETIC, Kept, compiled
+from .compiling import ARITHMETIC, Kept, compile_address
 from .layout import (
     BLOCK,
     BLOCKS,
@@ -100,12 +100,12 @@ def arguments(S, P, lane):
     return x * x + y * y, S[lane + 2 * LANES] * (0.5 - 0.5 * P[lane + SIGN])
 
 
-def _one(r2, w, parameter):  # noqa: ARG001 (a gain is called with all three)
+def _unit_gain(r2, w, parameter):  # noqa: ARG001 (a gain is called with all three)
     return 1.0
 
 
 # What a function of all lanes calls; `Variant.make` puts a family's own in their place.
-gain, kind = _one, float
+gain, kind = _unit_gain, float
 
 
 def _typed_gain(source: str, parameter: str) -> Any:
@@ -159,10 +159,10 @@ class Variant:
         written = repr((own.__code__.co_code, own.__code__.co_consts, own.__code__.co_names, self.whole))
         function.__module__ = lanes.__module__
         function.__qualname__ = f"{lanes.__name__}_{blake2b(written.encode(), digest_size=8).hexdigest()}"
-        return compiled(function, cache=self.cached)
+        return compile_address(function, cache=self.cached)
 
 
-ONE = Variant(_one, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
+ONE = Variant(_unit_gain, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
 
 
 def variant(psi: Psi, smooth: bool, whole: bool = True) -> Variant:
@@ -262,7 +262,7 @@ def gains_of_block(psi: Psi, smooth: bool) -> Any:
 @lru_cache(maxsize=1)
 def gains_of_blocks() -> Any:
     """Return the compiled gain of lanes that have a Psi of their own, block by block: see `layout.GAINS`."""
-    return compiled(_gains_of_blocks, cache=True)
+    return compile_address(_gains_of_blocks, cache=True)
 
 
 def _one_gain(state, out, parameters):

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from .dop853 import ARITHMETIC, advance, dense, interpolate
-from .events import INTERIOR, MIRROR, NOTHING, attracted, left_view, winding
+from .events import INTERIOR, MIRROR, NOTHING, is_captured, left_view, winding
 from .layout import (
     BLOCK,
     BLOCKS,
@@ -106,7 +106,7 @@ def _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _own(P, own):
+def _assign_gains(P, own):
     """Give each block of lanes its Psi of those in the rows of `own`: the address of its gain, and its parameter."""
     for k in range(LANES):
         j = k // BLOCK
@@ -150,7 +150,7 @@ def _event(S, P, field, k, flag, times, tried, t_max, capture, view, near, turn,
         return LEFT_VIEW, times[k] + fraction * tried[k], fraction
     t = times[LANES + k]
     if flag & SLOW != 0:
-        kind = attracted(S, P, field, k, capture, scratch)
+        kind = is_captured(S, P, field, k, capture, scratch)
         if kind != NOTHING:
             return EQUILIBRIUM if kind == INTERIOR else ARRIVED, t, 1.0
     if 0.0 < S[NEW + 2 * LANES + k] < near and S[K12 + 2 * LANES + k] < 0.0:
@@ -232,7 +232,7 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)
     for m in range(SIGN):
         P[m] = shared[m]
-    _own(P, own)
+    _assign_gains(P, own)
     cursor = np.zeros((CURSOR, LANES))
     times, steps, tried, accepted = np.zeros(2 * LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     flags = np.zeros(LANES, np.int64)

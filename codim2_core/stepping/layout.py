@@ -82,12 +82,12 @@ def _call_at(typing_context, address, state, out, parameters):  # noqa: ARG001
 call_at: Any = intrinsic(_call_at)
 
 
-def _ahead(typing_context, pointer, places):  # noqa: ARG001
+def _advance_pointer(typing_context, pointer, places):  # noqa: ARG001
     """Point some places further on."""
     return _POINTER(_POINTER, types.int64), lambda _c, builder, _s, a: builder.gep(a[0], [a[1]])
 
 
-ahead: Any = intrinsic(_ahead)
+ahead: Any = intrinsic(_advance_pointer)
 
 
 def _double_of_bits(typing_context, bits):  # noqa: ARG001

@@ -19,7 +19,7 @@ import numpy as np
 from numba import njit
 
 from .dop853 import ARITHMETIC, dense
-from .events import EQUATOR, INTERIOR, MIRROR, attracted, left_view
+from .events import EQUATOR, INTERIOR, MIRROR, is_captured, left_view
 from .layout import (
     DENSE,
     K0,
@@ -197,7 +197,7 @@ def _event(S, P, field, k, capture, view, scratch):
     if P[SIGN + k] > 0.0 and (1.0 + w) * max(abs(x), abs(y)) > view:
         return LEFT_VIEW, left_view(S, k, view)
     if ux * ux + uy * uy + uw * uw <= (4.0 * capture) ** 2:
-        kind = attracted(S, P, field, k, capture, scratch)
+        kind = is_captured(S, P, field, k, capture, scratch)
         return EQUILIBRIUM if kind == INTERIOR else ARRIVED if kind == EQUATOR else RUNNING, 1.0
     return RUNNING, 1.0
 

@@ -20,7 +20,7 @@ from ..expressions.expression import Expression, parse
 from ..expressions.names import MOST_SLOW_VARIABLES
 from .bounds import LARGEST, SMALLEST, at_place, slow_names, slow_values
 from .coefficients import Coefficients
-from .normal_form import in_normal_form, turned
+from .normal_form import in_normal_form, rotate_f
 
 Coefficient = float | Expression
 
@@ -302,7 +302,7 @@ class ELinear:
             )
             given = (a11, a12, a21, a22, f1, f2)
             a, b, d, phi, (c, s) = in_normal_form(a11, a12, a21, a22)
-            f1, f2 = turned(given, c, s)
+            f1, f2 = rotate_f(given, c, s)
             B = B @ np.array([[c, s], [-s, c]])
         size = max(abs(a), abs(b), abs(d), abs(f1), abs(f2))
         if 0.0 < size < SMALLEST:

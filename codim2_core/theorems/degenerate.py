@@ -31,7 +31,7 @@ def normal_form(facts: Facts) -> Certificate:
     )  # fmt: skip
 
 
-def _held(facts: Facts, theorem: str, statement: str, expected: list[float], sentence: str) -> Certificate:
+def _compare_angles(facts: Facts, theorem: str, statement: str, expected: list[float], sentence: str) -> Certificate:
     """Hold angles in the normal form's axes against the limit directions found."""
     form = facts.form
     assert form is not None
@@ -67,7 +67,7 @@ def equal_diagonal(facts: Facts) -> Certificate:
     if abs(form.b) <= length:
         turn, half = math.atan2(form.f2, form.f1), math.asin(form.b / length)
         expected = [turn + half] if abs(form.b) == length else [turn + half, turn + math.pi - half]
-    return _held(facts, theorem, statement, expected, say("D1, here", b=abs(form.b), f=length))
+    return _compare_angles(facts, theorem, statement, expected, say("D1, here", b=abs(form.b), f=length))
 
 
 def symmetric(facts: Facts) -> Certificate:
@@ -93,4 +93,4 @@ def symmetric(facts: Facts) -> Certificate:
             half = math.asin(-force / spread)
             expected += [half, math.pi - half]
     key = "D2, at the pitchfork" if abs(force) == abs(spread) else "D2, here"
-    return _held(facts, theorem, statement, expected, say(key, f=abs(force), spread=abs(spread)))
+    return _compare_angles(facts, theorem, statement, expected, say(key, f=abs(force), spread=abs(spread)))

@@ -22,7 +22,7 @@ APART, SHORTEST = 9.0, 44.0
 
 def is_warm() -> bool:
     """Whether orbits are spaced at once, without compiling or loading what does it."""
-    return bool(_left.signatures)
+    return bool(_kept_pieces.signatures)
 
 
 def evenly(
@@ -51,9 +51,9 @@ def evenly(
     offsets, points : ndarray
         Of the parts that are left.
     """
-    others = EQUATOR if guards is None else _both(guards)
+    others = EQUATOR if guards is None else _both_directions(guards)
     order = _order(len(offsets) - 1)
-    return _left(
+    return _kept_pieces(
         *of_one_type(offsets, points),
         *of_one_type(*others),
         order,
@@ -67,7 +67,7 @@ _TURN = np.linspace(0.0, 2.0 * np.pi, 361)
 EQUATOR: Pieces = np.array([0, len(_TURN)]), np.column_stack([np.cos(_TURN), np.sin(_TURN)])
 
 
-def _both(guards: Pieces) -> Pieces:
+def _both_directions(guards: Pieces) -> Pieces:
     offsets, points = guards
     return np.append(EQUATOR[0], EQUATOR[0][-1] + offsets[1:]), np.concatenate([EQUATOR[1], points])
 
@@ -100,7 +100,7 @@ def _store(x, y, stored, places, older, newest, left, bottom, apart, rows):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _left(offsets, points, guards, others, order, apart, shortest, left, right, bottom, top):
+def _kept_pieces(offsets, points, guards, others, order, apart, shortest, left, right, bottom, top):
     """Walk along each curve in steps of half the distance; a grid of cells of that distance tells what is near."""
     columns, rows = int((right - left) / apart) + 3, int((top - bottom) / apart) + 3
     newest = np.zeros(columns * rows, np.int64)  # of the places in a cell, from 1; `older` leads to the one before

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...draw.still import coloured
+from ...draw.still import fill_colours
 from ...draw.theme import themes
 from ...draw.vector.parts import Placement, stroke, words
 
@@ -37,11 +37,11 @@ class Frame:
 
 
 def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
-    """Return lines over a parameter or time, as `framed` does."""
-    return framed(lines, across, up)[0]
+    """Return lines over a parameter or time, as `line_chart` does."""
+    return line_chart(lines, across, up)[0]
 
 
-def framed(
+def line_chart(
     lines: Sequence[tuple[str, Any, Any]], across: str, up: str, colours: Mapping[str, str] | None = None
 ) -> tuple[str, Frame]:
     """Return lines over a parameter or time, with the ends of both axes and a word for each kind, and where values are.
@@ -55,7 +55,7 @@ def framed(
     colours : mapping, optional
         By name; by default those of the light theme.
     """
-    kept = [(name, thinned(np.column_stack([x, y]), max(2, POINTS // len(lines)))) for name, x, y in lines if len(x)]
+    kept = [(name, thin_out(np.column_stack([x, y]), max(2, POINTS // len(lines)))) for name, x, y in lines if len(x)]
     every = np.concatenate([points for _, points in kept]) if kept else np.zeros((1, 2))
     (left, low), (right, high) = every.min(axis=0), every.max(axis=0)
     kinds = dict(zip(dict.fromkeys(name for name, _ in kept), COLOURS * 9, strict=False))
@@ -82,7 +82,7 @@ def framed(
         words((LEFT + WIDTH) / 2, foot, across, 12.0, "middle"),
         words(LEFT - 12, (top + floor) / 2, up, 12.0, "end"),
     ]
-    return finished("".join(parts), WIDTH, foot + 8, WIDTH, foot + 8, colours), frame
+    return close_svg("".join(parts), WIDTH, foot + 8, WIDTH, foot + 8, colours), frame
 
 
 def regions(
@@ -105,7 +105,7 @@ def regions(
     each = POINTS // max(1, sum(len(polygons) for _, polygons in areas))
     parts, names = [], []
     for name, polygons in areas:
-        placed = [np.round((thinned(one, each) - (left, low)) * scale + (LEFT, floor), 1) for one in polygons]
+        placed = [np.round((thin_out(one, each) - (left, low)) * scale + (LEFT, floor), 1) for one in polygons]
         colour = name.partition(";")[0].partition(",")[0].lower()
         fill = f"r-{colour}" if f"r-{colour}" in themes()["light"] else "r-other"
         path = place.path(placed).replace("M", "ZM")[1:] + "Z"
@@ -120,7 +120,7 @@ def regions(
     parts += [words((LEFT + SQUARE) / 2, foot, across, 12.0, "middle"), words(LEFT - 12, 8 + tall / 2, up, 12.0, "end")]
     clip = f'<clipPath id="plane"><rect x="{LEFT}" y="8" width="{wide}" height="{tall}"/></clipPath>'
     inside = f'{clip}<g clip-path="url(#plane)">{"".join(parts[: len(areas)])}</g>{"".join(parts[len(areas) :])}'
-    return finished(inside, SQUARE, foot + 8, SQUARE, foot + 8)
+    return close_svg(inside, SQUARE, foot + 8, SQUARE, foot + 8)
 
 
 def _middle(polygons: Sequence[Any]) -> tuple[float, float, float]:
@@ -141,7 +141,7 @@ def _middle(polygons: Sequence[Any]) -> tuple[float, float, float]:
     return best
 
 
-def thinned(points: Any, most: int) -> Any:
+def thin_out(points: Any, most: int) -> Any:
     """Return points of a line, of many evenly left out, its ends kept."""
     if len(points) <= most:
         return points
@@ -152,7 +152,7 @@ def _short(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-12 else value:.3g}".replace("-", "−")
 
 
-def finished(
+def close_svg(
     inner: str, width: float, height: float, wide: float, high: float, colours: Mapping[str, str] | None = None
 ) -> str:
     """Return elements as an SVG that needs nothing else."""
@@ -161,4 +161,4 @@ def finished(
         f'height="{high:g}" fill="none" stroke-linejoin="round" font-family="sans-serif">'
         f'<rect width="{width:g}" height="{height:g}" fill="var(--page)"/>{inner}</svg>'
     )
-    return coloured(whole, themes()["light"] if colours is None else colours)
+    return fill_colours(whole, themes()["light"] if colours is None else colours)

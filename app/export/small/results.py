@@ -29,11 +29,11 @@ from codim2_core.scene.launched import Launched
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
 
 from ...draw import glyphs
-from ...draw.layers import painted
+from ...draw.layers import layers_in_paint_order
 from ...draw.packing import Polylines, pack
 from ...draw.svg import content
 from ...draw.vector.parts import Placement, rim, stroke, words
-from .chart import chart, finished, regions, thinned
+from .chart import chart, close_svg, regions, thin_out
 
 #: px of the screen.
 SIDE = 360
@@ -66,7 +66,11 @@ def portrait(result: Scene) -> str:
     for count, pixel in SKETCHED:
         seeds = result.seeds if count else np.zeros((0, 2))
         scene = result.evolve(count=min(count, result.count), seeds=seeds, pixel=pixel)
-        layers = [layer for layer in painted() if not layer.hidden and not (layer.optional and not len(result.launch))]
+        layers = [
+            layer
+            for layer in layers_in_paint_order()
+            if not layer.hidden and not (layer.optional and not len(result.launch))
+        ]
         blocks = {
             part.name: Polylines(*part.pieces(scene[part.scene]), part.arrows)
             for layer in layers
@@ -82,7 +86,7 @@ def portrait(result: Scene) -> str:
         made = content(pack(header, blocks), [layer.name for layer in layers], Placement(text=32.0))
         if len(made) < MOST:
             break
-    return finished(made, 1000, 1000, SIDE, SIDE)
+    return close_svg(made, 1000, 1000, SIDE, SIDE)
 
 
 @svg.register
@@ -177,17 +181,17 @@ def _regions(result: Regions) -> str:
 @svg.register
 def _nullclines(result: Nullclines) -> str:
     named = {"rho": "rho", "theta": "theta", "U1": "soft", "U2": "soft"}
-    return _pictured([(named[branch.kind], branch.points) for branch in result])
+    return _hemisphere_svg([(named[branch.kind], branch.points) for branch in result])
 
 
 @svg.register
-def _launched(result: Launched) -> str:
+def _launched_svg(result: Launched) -> str:
     halves = (result.orbits.backward.points, result.orbits.forward.points)
     seeds = "".join(
         f'<circle cx="{x}" cy="{y}" r="11" fill="var(--orbit)"/>'
         for x, y in Placement().points([line[0] for line in halves[1]]).tolist()
     )
-    return _pictured([("orbit", line) for half in halves for line in half], seeds)
+    return _hemisphere_svg([("orbit", line) for half in halves for line in half], seeds)
 
 
 @svg.register
@@ -213,7 +217,7 @@ def _basins(result: Basins) -> str:
     said = "".join(
         words(20, 50 + 44 * i, name, 36.0).replace("--ink", f"--{colour}") for i, (name, colour) in enumerate(names)
     )
-    return finished("".join(areas) + circle + said, 1000, 1000, SIDE, SIDE)
+    return close_svg("".join(areas) + circle + said, 1000, 1000, SIDE, SIDE)
 
 
 def _runs(values: Any) -> list[slice]:
@@ -223,16 +227,16 @@ def _runs(values: Any) -> list[slice]:
 
 
 def _curves(pieces: Sequence[Any], colour: str) -> str:
-    return _pictured([(colour, piece) for piece in pieces])
+    return _hemisphere_svg([(colour, piece) for piece in pieces])
 
 
-def _pictured(pieces: Sequence[tuple[str, Any]], over: str = "") -> str:
+def _hemisphere_svg(pieces: Sequence[tuple[str, Any]], over: str = "") -> str:
     """Return curves of the picture over the hemisphere, each in a colour, the first `PIECES` of them."""
     place = Placement()
     each = POINTS // min(max(1, len(pieces)), PIECES)
     lines = ""
     for colour in dict.fromkeys(colour for colour, _ in pieces):
-        kept = [thinned(np.asarray(piece), each) for own, piece in pieces[:PIECES] if own == colour]
+        kept = [thin_out(np.asarray(piece), each) for own, piece in pieces[:PIECES] if own == colour]
         lines += f'<path d="{place.path(map(place.points, kept))}" {stroke(colour, 1.4, (), place)}/>'
     circle = f"{rim(place)} {stroke('ink', 2, (), place)}/>"
-    return finished(lines + circle + over, 1000, 1000, SIDE, SIDE)
+    return close_svg(lines + circle + over, 1000, 1000, SIDE, SIDE)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from codim2_core.examples import catalogue
-from codim2_core.layer_problem.vary import names, varied
+from codim2_core.layer_problem.vary import names, vary
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
@@ -115,7 +115,7 @@ def opening_axes(scene: Scene, values: Mapping[str, Any], locked: Collection[str
     return found
 
 
-def missing(draft: Draft, there: dict[str, Axis], *wanted: str) -> str:
+def missing_axes(draft: Draft, there: dict[str, Axis], *wanted: str) -> str:
     """Say which of the wanted axes does not belong to the present system or Psi, or return nothing."""
     for name in wanted:
         if name in there:
@@ -145,7 +145,7 @@ def _well_inside(span: tuple[float, float], axis: Axis) -> bool:
     return 0.08 <= (axis.value - low) / (high - low) <= 0.92
 
 
-def without(scene: Scene, *along: Axis) -> tuple[Any, Psi, tuple[float, ...]]:
+def without_parameters(scene: Scene, *along: Axis) -> tuple[Any, Psi, tuple[float, ...]]:
     """Return system, Psi and z of a scene at a fixed value of some parameters, and without a slow flow.
 
     They say all that a diagram along these depends on: moving their sliders, or those of B and g, asks for no new one.
@@ -155,5 +155,5 @@ def without(scene: Scene, *along: Axis) -> tuple[Any, Psi, tuple[float, ...]]:
         given = dict(system.parameters)
         system = system.evolve(**{name: 0.0 for name in SLOW if name in given})
     for axis in along:
-        system, psi, z = varied(system, psi, z, axis.core, axis.high)
+        system, psi, z = vary(system, psi, z, axis.core, axis.high)
     return system, psi, tuple(z)

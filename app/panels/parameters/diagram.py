@@ -14,7 +14,7 @@ from codim2_core.diagrams.branches import Branches, branches
 from ...frame.draft import Draft
 from ...phrases import say
 from ..panel import Panel
-from .axes import available, missing, spans_of, without
+from .axes import available, missing_axes, spans_of, without_parameters
 
 #: Most points that the browser is sent of a branch: it is drawn some 320 px wide.
 MOST = 160
@@ -26,7 +26,7 @@ def add(draft: Draft) -> None:
     """Add the diagram along the chosen parameter, over a span around its value, once nothing moves; then the cycles."""
     name = draft.values["along"]
     there = available(draft)
-    reason = missing(draft, there, name) if there else say("no parameter")
+    reason = missing_axes(draft, there, name) if there else say("no parameter")
     if reason:
         if draft.now.get("diagram") != reason:
             draft.now["diagram"] = reason
@@ -34,9 +34,9 @@ def add(draft: Draft) -> None:
         return
     axis = there[name]
     (span,) = spans_of(draft, "diagram", (axis,), draft.values["zoom"])
-    system, psi, z = without(draft.scene, axis)
+    system, psi, z = without_parameters(draft.scene, axis)
     key = (system, psi, z, name, span)
-    found = draft.slow("diagram", key, _standing, system, psi, axis.core, span, z)
+    found = draft.slow("diagram", key, _diagram_columns, system, psi, axis.core, span, z)
     if found is not None:
         shown, stands = found
         draft.header["diagram"] = {**shown, "control": name}
@@ -48,7 +48,7 @@ def add(draft: Draft) -> None:
             draft.header["cycles_along"] = cycles
 
 
-def _standing(*of: Any) -> tuple[dict[str, Any], Branches]:
+def _diagram_columns(*of: Any) -> tuple[dict[str, Any], Branches]:
     found = branches(*of, with_cycles=False)
     return columns(found), found
 

@@ -20,17 +20,17 @@ bokeh_server: Any = server  # it says of no name that it may be replaced
 SHARED = sys.platform == "linux" and hasattr(socket, "SO_REUSEPORT")
 
 
-def _bound(address: str | None, port: int) -> tuple[list[socket.socket], int]:
+def _bind_sockets(address: str | None, port: int) -> tuple[list[socket.socket], int]:
     sockets = bind_sockets(port or 0, address, reuse_port=True)
     return sockets, sockets[0].getsockname()[1]
 
 
 @contextmanager
-def shared(processes: int) -> Iterator[None]:
+def share_port(processes: int) -> Iterator[None]:
     """Let a server of several processes that is made meanwhile bind a port that each of them can bind again."""
     kept = bokeh_server.bind_sockets
     if processes > 1 and SHARED:
-        bokeh_server.bind_sockets = _bound
+        bokeh_server.bind_sockets = _bind_sockets
     try:
         yield
     finally:

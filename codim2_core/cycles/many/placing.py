@@ -11,7 +11,7 @@ from ...layer_problem.border import CANCELS
 from ...numerics import double_double
 from ...stepping.numbers import PSI, SHARED
 from ..equator_pull import LEAST, LOST, SUNK
-from ..return_map import RETURNED, reached
+from ..return_map import RETURNED, single_step
 from ..section import INNER, SUNK_INWARD
 
 _add = njit(cache=True, error_model="numpy")(double_double.add)
@@ -25,7 +25,7 @@ def _square(pair):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def located(planes):
+def critical_points(planes):
     """Find ``e_C = -A^-1 f`` (n, 2) and ``1 - |e_C|^2`` (n,) of (a, b, d, f1, f2) (n, 5), of any size.
 
     The complement is positive just where no theorem forbids cycles: a, d differ in sign, and C exists with det A > 0.
@@ -71,7 +71,7 @@ def rays(planes, e, complement, signs):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def centred(e, sides, room, zeta, radial, tangential):
+def linearise_at_critical(e, sides, room, zeta, radial, tangential):
     """Return x2 of C (n, 2), the eigenvalues (n, 2) of D e_Psi there, and the distance (n,) of the innermost sample."""
     n = len(e)
     x2, factors, inner = np.empty((n, 2)), np.empty((n, 2)), np.empty(n)
@@ -85,7 +85,7 @@ def centred(e, sides, room, zeta, radial, tangential):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def started(e, u, room, xi):
+def section_points(e, u, room, xi):
     """Return r, reach - r, ``1 - |e|^2`` (n, 3), e (n, 2) and |e| (n,), at parameters (n,) of sections."""
     n = len(e)
     parts, place, modulus = np.empty((n, 3)), np.empty((n, 2)), np.empty(n)
@@ -125,7 +125,7 @@ def lanes(plane, parameters, backward, states, x2, inner):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def noded(steps, codes, shared, nodes, field):
+def collect_nodes(steps, codes, shared, nodes, field):
     """Return, of the turns that return: rows (k,), first node of each, h, and whose nodes are which and where.
 
     Steps (m, 5) as `return_map.returns` writes them, with its codes (n,); nodes (q,) of a step's length.
@@ -159,7 +159,7 @@ def noded(steps, codes, shared, nodes, field):
                 begin[q * at + m, c] = steps[j, c]
             length[q * at + m] = steps[j, 3] * nodes[m]
             own[q * at + m], whose[q * at + m] = i, number[i]
-    return rows[:k], first[: k + 1], h, whose, reached(begin, length, shared, own, field)
+    return rows[:k], first[: k + 1], h, whose, single_step(begin, length, shared, own, field)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

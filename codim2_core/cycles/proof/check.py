@@ -96,11 +96,11 @@ def halves(n):
 def check(certificate):
     """Return how many limit cycles there are, all hyperbolic, and that there is no other; (0, False): nothing shown."""
     with np.errstate(all="ignore"):
-        found = counted(certificate)
+        found = proved_count(certificate)
     return (0, False) if found is None else (found, True)
 
 
-def counted(certificate):
+def proved_count(certificate):
     """Return how many limit cycles there are; None: nothing is shown."""
     (family, power), (k, mu), known = certificate["psi"], map(Fraction, certificate["weight"]), ("constant", "hill")
     if family not in (*known, "rational", "exponential", "tanh") or (family == "hill" and not power >= 1):
@@ -150,11 +150,11 @@ def counted(certificate):
         return None
     lift, numbers = ((m / abs(m).max()).astype(float) for m in (L, np.array([[a, b, f], [c, d, g]], object)))
     center = np.array([float(Fraction(b * g - d * f, area)), float(Fraction(c * f - a * g, area))])
-    beyond = lambda sign: crossed(certificate["loop"], center, numbers, lines, sign)
+    beyond = lambda sign: loop_is_crossed(certificate["loop"], center, numbers, lines, sign)
     return ovals(P, certificate["way"], chart, lift, numbers, beyond)
 
 
-def crossed(loop, center, numbers, lines, sign):
+def loop_is_crossed(loop, center, numbers, lines, sign):
     """Return places about which a closed polygon goes, and whether it goes round C and all orbits cross it inwards (1).
 
     Or outwards (-1): that is, each from its right to its left, or each from its left to its right, if it meets itself.
@@ -273,17 +273,17 @@ def ovals(P, way, chart, lift, numbers, crossed):
     # where orbits may tend to the equator, in the sense of time in which they stay beyond the last closed curve
     turn, step = np.arange(2**15) * 2.0**-14 * np.pi, 2.0**-14 * np.pi
     e = np.array([np.cos(turn), np.sin(turn)])
-    other = held(signs == -sign, lift, e, step)
+    other = is_covered(signs == -sign, lift, e, step)
     U, error = numbers @ np.vstack([e, np.ones(len(turn))]), 3 * step * abs(numbers).sum()
     rest = (abs(e[0] * U[1] - e[1] * U[0]) <= error) & ~other
     kept = bool((sign * (e * U).sum(axis=0) < -error)[rest].all())
     if count == most and not kept:  # or may not come there for a polygon, not all of it within the last closed curve
         inside, kept = crossed(sign)
-        kept = kept and held(~inner, lift, inside.T, TINY).any()
+        kept = kept and is_covered(~inner, lift, inside.T, TINY).any()
     return count if count == most and kept else None
 
 
-def held(squares, lift, e, step):
+def is_covered(squares, lift, e, step):
     """Whether all that is as near as this to places e is in some of the squares."""
     lifted, spread, middle = lift @ np.vstack([e, np.ones(e.shape[1])]), abs(lift).sum() * step, len(squares) // 2
     eta, away = lifted[:2] / lifted[2], 3 * spread / np.maximum(lifted[2] - spread, 1e-99)

@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 from ...layer_problem.problem import LayerProblem
 from ...psi.kernel import VECTOR
 from ...words import say
-from .check import check, chords, crossed
+from .check import check, chords, loop_is_crossed
 from .result import Proof, covers
-from .search import LEAST_MARGIN, Layer, best_function, loops, written
+from .search import LEAST_MARGIN, Layer, best_function, loops, write_certificate
 
 Array = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ TRIED = (
 NONE = np.zeros((0, 2))
 
 
-def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) -> Proof:
+def prove_count(problem: LayerProblem, cycles: list[Array], forbidden: str | None) -> Proof:
     """Prove that a layer problem has just these limit cycles, as far as that can be done.
 
     Parameters
@@ -52,7 +52,7 @@ def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) ->
             margin, function = best_function(system, degree, k, mu)
             if margin < LEAST_MARGIN:
                 continue
-            certificate = written(problem, system, function, k, mu, loop)
+            certificate = write_certificate(problem, system, function, k, mu, loop)
             if check(certificate) == (len(cycles), True):
                 return Proof(True, tuple(True for _ in cycles), say("proved by a certificate"), json.dumps(certificate))
             why = "proof refused"
@@ -74,6 +74,6 @@ def _loop(problem: LayerProblem, system: Layer, cycles: list[Array]) -> Array:
     numbers, lines = np.column_stack([system.A, system.f]), chords(problem.psi.family, problem.psi.parameter)
     center = -np.linalg.solve(system.A, system.f)
     for loop in loops(system, x.T, stable):
-        if crossed(loop, center, numbers, lines, 1 if stable else -1)[1]:
+        if loop_is_crossed(loop, center, numbers, lines, 1 if stable else -1)[1]:
             return loop
     return NONE

@@ -135,10 +135,10 @@ def largest_margin(M: Array) -> tuple[float, Array]:
     m, n = M.shape
     rows, last = np.hstack([-M, np.ones((m, 1))]), np.arange(n + 1)
 
-    def mapped(y: Array) -> Array:
+    def map_coordinates(y: Array) -> Array:
         return np.concatenate([rows @ y, y[:n], -y[:n]])
 
-    def gathered(x: Array) -> Array:
+    def gather_columns(x: Array) -> Array:
         found = x[:m] @ rows
         found[:n] += x[m : m + n] - x[m + n :]
         return found
@@ -148,16 +148,16 @@ def largest_margin(M: Array) -> tuple[float, Array]:
         return min(1.0, 0.99 * float((-values[down] / by[down]).min(initial=2.0)))
 
     def direction(to: Array, x: Array, s: Array, short: Array, off: Array, factor: Any) -> tuple[Array, Array, Array]:
-        dy = cho_solve(factor, short - gathered((to - x * off) / s), check_finite=False)
-        ds = off - mapped(dy)
+        dy = cho_solve(factor, short - gather_columns((to - x * off) / s), check_finite=False)
+        ds = off - map_coordinates(dy)
         return (to - x * ds) / s, dy, ds
 
     bounds, wanted = np.concatenate([np.zeros(m), np.ones(2 * n)]), np.append(np.zeros(n), 1.0)
     y = -wanted
-    x, s = np.full(m + 2 * n, 1.0 / m), np.maximum(bounds - mapped(y), 1e-6)
+    x, s = np.full(m + 2 * n, 1.0 / m), np.maximum(bounds - map_coordinates(y), 1e-6)
     best, at_best = -math.inf, y[:n]
     for _ in range(MAX_ROUNDS):
-        short, off, gap = wanted - gathered(x), bounds - mapped(y) - s, float(x @ s) / len(x)
+        short, off, gap = wanted - gather_columns(x), bounds - map_coordinates(y) - s, float(x @ s) / len(x)
         scale = x / s
         normal = (rows * scale[:m, None]).T @ rows
         normal[last[:n], last[:n]] += scale[m : m + n] + scale[m + n :]
@@ -251,7 +251,9 @@ def round_C(system: Layer, start: complex, way: complex, forward: float, sense: 
     return []
 
 
-def written(problem: LayerProblem, system: Layer, function: Array, k: float, mu: float, loop: Array) -> dict[str, Any]:
+def write_certificate(
+    problem: LayerProblem, system: Layer, function: Array, k: float, mu: float, loop: Array
+) -> dict[str, Any]:
     """Write a certificate: numbers as they were given, not rounded."""
     a, b, d, e, f, g = problem.at.affine or (0.0,) * 6
     edge = np.arange(-8, 9)

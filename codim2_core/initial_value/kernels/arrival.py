@@ -60,7 +60,7 @@ def _on_the_only_set(S, m):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _along(S, m, n1, n2, q):
+def _radial_speed(S, m, n1, n2, q):
     """n.U at e = q n, and its derivative by q."""
     write_at(S, m, q * n1, q * n2)
     width = 4 + m
@@ -73,11 +73,11 @@ def _in_line(S, m, n1, n2, theta):
     """Whether an arrival in an invariant line slides; the set is in place."""
     q = math.copysign(1.0, n1 * math.cos(theta) + n2 * math.sin(theta))
     low, high, found = q, q, False
-    if not _along(S, m, n1, n2, q)[0] * q < -SIGNED * _size(S, m)[1]:
+    if not _radial_speed(S, m, n1, n2, q)[0] * q < -SIGNED * _size(S, m)[1]:
         return False
     for k in range(1, NET + 1):
         high = q - 2.0 * q * k / NET
-        if not _along(S, m, n1, n2, high)[0] * q < 0.0:
+        if not _radial_speed(S, m, n1, n2, high)[0] * q < 0.0:
             found = True
             break
         low = high
@@ -88,7 +88,7 @@ def _in_line(S, m, n1, n2, theta):
         middle = 0.5 * (low + high)
         if middle in (low, high):
             break
-        value, slope = _along(S, m, n1, n2, middle)
+        value, slope = _radial_speed(S, m, n1, n2, middle)
         if value * q < 0.0:
             low = middle
         else:
@@ -144,7 +144,7 @@ def _layer_rate(S, P, gain, p, q):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _captured(S, P, gain, m, p, q):
+def _is_captured(S, P, gain, m, p, q):
     """Whether a point is close to a set that attracts under every Psi, which is then in place."""
     _layer_rate(S, P, gain, p, q)
     c, s = S[PLACE], S[PLACE + 1]
@@ -185,7 +185,7 @@ def _ends_on_a_set(S, P, gain, m, angle):
         if error <= 1.0:
             p, q, a1, b1 = to_p, to_q, a4, b4
             taken += 1
-            if taken % EVERY == 0 and _captured(S, P, gain, m, p, q):
+            if taken % EVERY == 0 and _is_captured(S, P, gain, m, p, q):
                 return True
         h *= min(3.0, max(0.25, 0.8 * max(error, 1e-9) ** (-1.0 / 3.0)))
     return False

@@ -30,7 +30,7 @@ from .motion import (
     NEXT,
     follow,
     longer,
-    prepared,
+    prepare_motion,
 )
 from .rate import Motion, rate
 from .slow import EXTENT, PLACE, RATES, SLOPES, SLOW, VALUE, found_set
@@ -61,7 +61,7 @@ def _first_step(S, y, floor):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _cut(polynomial, u):
+def _truncate_polynomial(polynomial, u):
     """Make a step's polynomial that of its part up to u."""
     power = 1.0
     for k in range(polynomial.shape[1]):
@@ -93,7 +93,7 @@ def _on_sigma(S, sign, line1, line2, raw, values, lengths, ends, polynomials, se
         for i in range(n):
             raw[i] = ends[a, i]
         if what != SAFE:
-            _cut(polynomials[a], u)
+            _truncate_polynomial(polynomials[a], u)
             lengths[a] *= u
             for i in range(2, n):
                 ends[a, i] = S[PLACE + 2 + i]
@@ -232,7 +232,7 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                 row += 1
             motion = slow if sliding else slip
             if going:
-                going = prepared(motion, y, clock, control, times[row], t_end, left, work)
+                going = prepare_motion(motion, y, clock, control, times[row], t_end, left, work)
             if going and sliding:
                 going, sign = _begun_slide(S, y, floor, control, t_end - times[row])
                 for j in range(n):

@@ -33,7 +33,7 @@ SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
 AHEAD = 20.0  # implicit steps that a slide takes at least, about: as many have to be saved
 
 
-arrived = njit(cache=True, nogil=True, error_model="numpy")(problem.arrived)
+arrived = njit(cache=True, nogil=True, error_model="numpy")(problem.arrival_radius)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -127,7 +127,7 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
         if filled == len(starts):
             return FULL, filled
         if fresh and control[IMPLICIT] > 0.0:
-            bound, reach = radau.linearised(motion, y, control[NEXT], clock, work)
+            bound, reach = radau.linearise(motion, y, control[NEXT], clock, work)
             begun = False
             if _turned_explicit(motion, control, bound, reach):
                 before_h = 0.0
@@ -184,7 +184,7 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def prepared(motion, y, clock, control, t_start, t_end, most, work):
+def prepare_motion(motion, y, clock, control, t_start, t_end, most, work):
     """Set the clock and the control for a motion from its start; say whether the rate is finite there."""
     clock[0], clock[1], clock[2], clock[3] = t_start, 0.0, t_end, 1.0
     explicit_first = motion.n <= explicit.WIDTH
@@ -250,7 +250,7 @@ def follow_all(fields, numbers, coefficients, lines, first, most):
         motion = Motion(fields[0], fields[1], fields[2], n, numbers[0], numbers[1], numbers[2], line1, line2)
         for j in range(n):
             y[j] = first[i, j]
-        code = FULL if prepared(motion, y, clock, control, numbers[3], numbers[4], most, work) else UNDEFINED
+        code = FULL if prepare_motion(motion, y, clock, control, numbers[3], numbers[4], most, work) else UNDEFINED
         begun = row
         while True:
             if row + CHUNK >= room:

@@ -19,7 +19,7 @@ from numba import (
 )
 
 from ...expressions.names import MOST_SLOW_VARIABLES
-from ...stepping.compiling import compiled
+from ...stepping.compiling import compile_address
 from ...stepping.layout import bits_of_double, call_field
 from .explicit import ROOM
 
@@ -78,7 +78,7 @@ def found_set(S, m):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _along(S, m, u, v):
+def _critical_velocity(S, m, u, v):
     """Return how e moves where U moves by (u, v)."""
     width = 4 + m
     j11, j12, j21, j22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
@@ -103,7 +103,7 @@ def _slow(state, out, parameters):
         D[2 + i] = S[RATES + 2 + i]
         u += S[TABLE + 4 + i] * D[2 + i]
         v += S[TABLE + 8 + m + i] * D[2 + i]
-    D[0], D[1] = _along(S, m, u, v)
+    D[0], D[1] = _critical_velocity(S, m, u, v)
 
 
 def _slow_slopes(state, out, parameters):
@@ -121,14 +121,14 @@ def _slow_slopes(state, out, parameters):
     if not there:
         return
     for j in range(m):
-        c, s = _along(S, m, S[TABLE + 4 + j], S[TABLE + width + 4 + j])
+        c, s = _critical_velocity(S, m, S[TABLE + 4 + j], S[TABLE + width + 4 + j])
         u, v = 0.0, 0.0
         for i in range(2, 2 + m):
             row = TABLE + i * width
             D[i * width + 4 + j] = S[row + 4 + j] + S[row] * c + S[row + 1] * s
             u += S[TABLE + 2 + i] * D[i * width + 4 + j]
             v += S[TABLE + width + 2 + i] * D[i * width + 4 + j]
-        D[4 + j], D[width + 4 + j] = _along(S, m, u, v)
+        D[4 + j], D[width + 4 + j] = _critical_velocity(S, m, u, v)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -152,4 +152,4 @@ def sets(addresses, points):
 @lru_cache(maxsize=1)
 def flow() -> tuple[Any, Any]:
     """Return the slow flow and its slopes, the same for all systems."""
-    return compiled(_slow, cache=True), compiled(_slow_slopes, cache=True)
+    return compile_address(_slow, cache=True), compile_address(_slow_slopes, cache=True)

@@ -27,7 +27,7 @@ from ...words import say
 from ..followed import in_disc
 from ..places import Ascent
 from ..result import Phase
-from .decide import Decision, arriving, critical_name, from_hemisphere, starting
+from .decide import Decision, decide_arrival, critical_name, from_hemisphere, decide_start
 from .delay import STILL, NotAnalyticError
 from .folded import Fold, fold
 from .part import Delaying, MotionPart
@@ -148,7 +148,7 @@ class Course:
         """Decide what follows from a start on Sigma."""
         if self.line is not None:
             return self.in_line(0.0, say("starts in a line"))
-        decision = starting(self.system, self.psi, self.state[2:])
+        decision = decide_start(self.system, self.psi, self.state[2:])
         if self.psi is not None:
             self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
         return self.at_border(decision) if decision.kind == "border" else decision
@@ -191,7 +191,7 @@ class Course:
                 q = float(self.line.n @ [math.cos(part.theta), math.sin(part.theta)])
                 return self.crossed(self.in_line(math.copysign(1.0, q), say("arrives in a line")))
             z = part.taken[-1].last[2:]
-            decision = arriving(self.system, self.psi, z, part.theta)
+            decision = decide_arrival(self.system, self.psi, z, part.theta)
             if decision.kind != "away":
                 self.add("slip", taken + part.taken, reason)
                 self.ascent = Ascent(self.system, self.own, z, part.theta)

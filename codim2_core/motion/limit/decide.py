@@ -13,8 +13,8 @@ from ...layer_problem.critical import CriticalSet, critical_sets
 from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ...layer_problem.problem import LayerProblem
 from ...portrait.approach import outcome_towards
-from ...portrait.verdicts import ends, followed, judge
-from ...psi.constructors import compared, constant
+from ...portrait.verdicts import ends, orbits_to_end, judge
+from ...psi.constructors import comparison_families, constant
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
@@ -48,7 +48,7 @@ class Decision:
     onto: str | None = None
 
 
-def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Decision:
+def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Decision:
     """Decide what becomes of a trajectory that arrives at Sigma at angle theta.
 
     Parameters
@@ -65,7 +65,7 @@ def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Deci
         return Decision("stop", say("arrival depends", theta=theta))
     if outcome.verdict == "misses":
         return Decision("away", outcome.reason)
-    return _followed(own, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
+    return _decision_of_outcome(own, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
 
 
 def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
@@ -74,14 +74,14 @@ def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Dec
     Parameters
     ----------
     system, psi, z
-        As in `arriving`.
+        As in `decide_arrival`.
     points : ndarray (k, 2)
         In the projected disc, |p| < 1. Where they end at different places the decision is "stop".
     """
     hemisphere = LayerProblem(system.at(tuple(z.tolist())), psi)
-    found = ends(hemisphere, followed(hemisphere, points))
+    found = ends(hemisphere, orbits_to_end(hemisphere, points))
     verdict, onto, leaving, _, reason, _ = judge(hemisphere, found, "Orbits go on from there")
-    return _followed(hemisphere, verdict, onto, leaving, reason)
+    return _decision_of_outcome(hemisphere, verdict, onto, leaving, reason)
 
 
 def critical_name(system: AnySystem, psi: Psi, z: Array, e: Array) -> str:
@@ -92,7 +92,9 @@ def critical_name(system: AnySystem, psi: Psi, z: Array, e: Array) -> str:
     return f"C{1 + min(range(len(sets)), key=lambda k: float(np.hypot(*(sets[k].e - e))))}"
 
 
-def _followed(problem: LayerProblem, verdict: str, onto: str | None, leaving: float | None, reason: str) -> Decision:
+def _decision_of_outcome(
+    problem: LayerProblem, verdict: str, onto: str | None, leaving: float | None, reason: str
+) -> Decision:
     """Turn what approach outcomes say into what the course does next."""
     if verdict == "slide":
         chosen = problem.critical[_index(onto)]
@@ -119,7 +121,7 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
     Parameters
     ----------
     system, psi, z
-        As in `arriving`.
+        As in `decide_arrival`.
     """
     at = tuple(z.tolist())
     equator = equator_equilibria(system, at)
@@ -142,13 +144,13 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
     return replace(decision, reason=f"{say('middle')} {decision.reason}")
 
 
-def starting(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
+def decide_start(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
     """Decide what follows from a state on Sigma, when nothing is known of how it came there.
 
     Parameters
     ----------
     system, psi, z
-        As in `arriving`.
+        As in `decide_arrival`.
 
     Returns
     -------
@@ -159,7 +161,7 @@ def starting(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
     if psi is not None:
         return from_middle(system, psi, z)
     at = tuple(z.tolist())
-    asked = compared()
+    asked = comparison_families()
     stable = [tuple(i for i, C in enumerate(critical_sets(system, own, at)) if _stable(C)) for own in asked]
     if any(choice != stable[0] for choice in stable):
         return Decision("stop", say("stability depends"))

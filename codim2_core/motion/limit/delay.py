@@ -21,8 +21,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...initial_value.field import Field
 from ...initial_value.sheet import complement, solved
-from ...numerics.dense import Dense, dense, gathered
-from ...numerics.radau import Step, shortened
+from ...numerics.dense import Dense, dense, gather_steps
+from ...numerics.radau import Step, truncate_step
 from ...numerics.root_between import root_between
 from ...psi.function import Psi
 from .analytic import Complex, Rational, rational
@@ -64,7 +64,7 @@ class WayOut:
     buffer: complex | None
 
 
-def delayed(
+def cut_at_exit(
     field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array], part: Slide
 ) -> tuple[Slide, WayOut | None]:
     """Cut a slide on an unstable critical set where the motion leaves it.
@@ -92,7 +92,7 @@ def delayed(
         return part, None
     k = next(i for i, step in enumerate(part.taken) if step.end >= way.t)
     step, e = part.taken[k], growth.place(way.t)
-    last = shortened(step, (way.t - step.start) / step.h)
+    last = truncate_step(step, (way.t - step.start) / step.h)
     return replace(part, taken=[*part.taken[:k], last], end="left", e=e, places=[*part.places[: k + 1], e]), way
 
 
@@ -112,7 +112,7 @@ class Growth:
     def __init__(self, field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array]) -> None:
         first = taken[0].first
         self.field, self.psi, self.e = field, psi, np.array(places)
-        self.motion = dense(taken[0].start, first, [gathered(taken, len(first))])
+        self.motion = dense(taken[0].start, first, [gather_steps(taken, len(first))])
         self.J = self._along()
         times = self.J.times
         fine = np.unique(times[:-1, None] + np.diff(times)[:, None] * np.arange(PARTS + 1) / PARTS)
@@ -210,15 +210,15 @@ class Growth:
         span = last - start
         s = np.linspace(0.0, 1.0, SAMPLES)
         J = self.J(start + span * s) * [span, span * span]  # in a unit of time of its own
-        (trace, det), coarser = ([_continued(s, f, error) for f in J.T] for error in (FINER, COARSER))
-        other = _of(coarser[0], coarser[1])
-        for time in _of(trace, det).tolist():
+        (trace, det), coarser = ([_rational_interpolant(s, f, error) for f in J.T] for error in (FINER, COARSER))
+        other = _singularities(coarser[0], coarser[1])
+        for time in _singularities(trace, det).tolist():
             alike = np.abs(other - time).min(initial=math.inf) < ALIKE * time.imag
             if alike and 0.0 < time.real < 1.0 and (height := _height(trace, det, time)) is not None:
                 yield start + span * time, height
 
 
-def _continued(t: Array, f: Array, error: float) -> Rational:
+def _rational_interpolant(t: Array, f: Array, error: float) -> Rational:
     found = rational(t, f, error)
     if found is None:
         raise NotAnalyticError
@@ -229,7 +229,7 @@ def _continued(t: Array, f: Array, error: float) -> Rational:
     return found
 
 
-def _of(trace: Rational, det: Rational) -> Complex:
+def _singularities(trace: Rational, det: Rational) -> Complex:
     """Zeros of det J, and poles of both, in the upper half plane."""
     found = np.concatenate([det.zeros(), det.poles(), trace.poles()])
     return found[found.imag > 0.0]

@@ -68,7 +68,7 @@ def fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold
     """
     at = np.concatenate([e, z])
     D, Dz, W, We = _parts(formulas, at)
-    across, bends = _crossing(formulas, at, D, Dz)
+    across, bends = _transverse_slope(formulas, at, D, Dz)
     if float(np.abs(across).max()) <= SINGULAR * float(np.abs(D).max() + np.abs(Dz).max()):
         kind = "transcritical" if abs(bends) > STRAIGHT * float(np.abs(D).max()) else "pitchfork"
         return Fold(say(kind, C=C), exchange=kind)
@@ -87,7 +87,7 @@ def fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold
         return Fold(say("folded saddle", C=C), left_to_eps=True)
     if 0.25 * total**2 < product:
         return Fold(say(plain, C=C))  # a focus turns its canards away: all motions beside it come to jump points
-    return Fold(say("folded node", C=C), beyond=_beyond(formulas, at, D, Dz))
+    return Fold(say("folded node", C=C), beyond=_direction_past_fold(formulas, at, D, Dz))
 
 
 def _parts(formulas: Field, at: Array) -> tuple[Array, Array, Array, Array]:
@@ -107,7 +107,7 @@ def _flow(formulas: Field, at: Array) -> Array:
     return np.concatenate([-_adjugate(D) @ Dz @ W, (D[0, 0] * D[1, 1] - D[0, 1] * D[1, 0]) * W])
 
 
-def _crossing(formulas: Field, at: Array, D: Array, Dz: Array) -> tuple[Array, float]:
+def _transverse_slope(formulas: Field, at: Array, D: Array, Dz: Array) -> tuple[Array, float]:
     """Return D_z U along the left null vector of D, and how U bends that way along the kernel."""
     left, _, right = np.linalg.svd(D)
     null, r = left[:, 1], np.concatenate([right[1], np.zeros(Dz.shape[1])])
@@ -115,8 +115,8 @@ def _crossing(formulas: Field, at: Array, D: Array, Dz: Array) -> tuple[Array, f
     return null @ Dz, float(null @ change @ right[1]) / (2.0 * DIFFERENCE)
 
 
-def _beyond(formulas: Field, at: Array, D: Array, Dz: Array) -> Array:
+def _direction_past_fold(formulas: Field, at: Array, D: Array, Dz: Array) -> Array:
     """Direction in z in which U does not vanish near the fold: that in which U moves as it does along the kernel."""
-    across, bends = _crossing(formulas, at, D, Dz)
+    across, bends = _transverse_slope(formulas, at, D, Dz)
     way = np.sign(bends) * across
     return way / np.linalg.norm(way)

@@ -18,7 +18,7 @@ from ...psi.function import Psi
 from ...words import say
 from ..followed import in_disc, jacobian
 from .decide import AROUND, BESIDE
-from .delay import WayOut, delayed
+from .delay import WayOut, cut_at_exit
 from .slide import Slide
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ def stay(
     NotAnalyticError
     """
     taken, places = before
-    part, way = delayed(field, psi, taken, places, part)
+    part, way = cut_at_exit(field, psi, taken, places, part)
     key = "Hopf, delayed"
     if way is not None:
         key = "Hopf, delayed until" if way.buffer is None else "Hopf, delayed until the buffer"

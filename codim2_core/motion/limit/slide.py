@@ -22,7 +22,7 @@ from ...initial_value.problem import own_time
 from ...initial_value.safe_steps import NODES, Safe
 from ...initial_value.sheet import Resting, Sheet, complement, determinant, trace
 from ...numerics.dense import Steps
-from ...numerics.growth import bounded
+from ...numerics.growth import until_blow_up
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps
 from ...psi.function import Psi
 
@@ -126,10 +126,12 @@ def slide(
     pace = own_time(problem, z, rate)
     h, shortest = 1e-2 * pace, SHORTEST * min(pace, t_end - t)
     if compiled is None or lives is not None or resting:
-        ahead = _in_python(sheet, bounded(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest))
+        ahead = _in_python(
+            sheet, until_blow_up(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest)
+        )
     else:
         safe = Safe(psi, math.copysign(1.0, determinant(sheet, sheet.e, z)), None if line is None else line.n)
-        ahead = _compiled(sheet, compiled.slide(problem, sheet.e, t, t_end, z, h, most, shortest), safe)
+        ahead = _compiled_steps(sheet, compiled.slide(problem, sheet.e, t, t_end, z, h, most, shortest), safe)
     taken: list[Step] = []
     places = [sheet.e]
     try:
@@ -140,7 +142,7 @@ def slide(
             if found:
                 u, name = min(found)
                 last = step.at(u)
-                taken.append(_whole(step, u))
+                taken.append(_lift_step(step, u))
                 end = sheet.at(last)
                 places.append(after if end is None else end)
                 return Slide(taken, name, places[-1], places)
@@ -171,10 +173,10 @@ def _in_python(sheet: Sheet, ahead: Iterator[Step]) -> Iterator[_Ahead]:
         after = sheet.at(step.last)
         if after is None:
             raise StepsTooShortError
-        yield _Ahead(step, _whole(step, 1.0), after, isinstance(sheet, Resting))
+        yield _Ahead(step, _lift_step(step, 1.0), after, isinstance(sheet, Resting))
 
 
-def _compiled(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[_Ahead]:
+def _compiled_steps(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[_Ahead]:
     """Take the steps of a compiled slide; the sheet is moved to where an end may be near."""
     z = sheet.z
     try:
@@ -220,11 +222,11 @@ def _lost(sheet: Sheet, step: Step, before: Array, after: Array) -> tuple[float,
     At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
     """
     last = Sheet(sheet.field, after, step.last)
-    u, there = _followed(Sheet(sheet.field, before, step.first), step, 1.0, SHORTEST_PART, last)
+    u, there = _track_sheet(Sheet(sheet.field, before, step.first), step, 1.0, SHORTEST_PART, last)
     return None if there is last else (u, there)
 
 
-def _followed(here: Sheet, step: Step, to: float, least: float, last: Sheet | None = None) -> tuple[float, Sheet]:
+def _track_sheet(here: Sheet, step: Step, to: float, least: float, last: Sheet | None = None) -> tuple[float, Sheet]:
     """Follow a set to a fraction of a step, in parts not below the least one, or as far as it is there.
 
     A long step may move it farther than one search looks. The last set is searched for unless it is given.
@@ -232,7 +234,7 @@ def _followed(here: Sheet, step: Step, to: float, least: float, last: Sheet | No
     u, part = 0.0, to
     while part > least:
         at = min(u + part, to)
-        ahead = last if at == to and last is not None else _searched(here, step.at(at))
+        ahead = last if at == to and last is not None else _search_sheet(here, step.at(at))
         if ahead is not None and here.joined(ahead):
             if at == to:
                 return at, ahead
@@ -241,7 +243,7 @@ def _followed(here: Sheet, step: Step, to: float, least: float, last: Sheet | No
     return u, here
 
 
-def _searched(here: Sheet, z: Array) -> Sheet | None:
+def _search_sheet(here: Sheet, z: Array) -> Sheet | None:
     """Search the set at another z, close to one that is known."""
     e = here.at(z)
     return None if e is None else Sheet(here.field, e, z)
@@ -279,7 +281,7 @@ def _place(sheet: Sheet, step: Step, u: float) -> tuple[Array | None, Array]:
     z = step.at(u)
     e = sheet.at(z)
     if e is None:
-        at, there = _followed(Sheet(sheet.field, sheet.e, sheet.z), step, u, LEAST_PART * u)
+        at, there = _track_sheet(Sheet(sheet.field, sheet.e, sheet.z), step, u, LEAST_PART * u)
         return (there.e if at == u else None), z
     return e, z
 
@@ -317,7 +319,7 @@ def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:
     return low
 
 
-def _whole(step: Step, u: float) -> Step:
+def _lift_step(step: Step, u: float) -> Step:
     """Return the part of a step in z up to its fraction u, as a step of the whole state on Sigma."""
     degree = step.polynomial.shape[1]
     polynomial = np.zeros((2 + len(step.first), degree))

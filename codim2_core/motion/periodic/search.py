@@ -14,7 +14,7 @@ from ...words import say
 from ..checks import checked_state, checked_tolerances, with_time
 from ..regularised import LARGEST_EPS, MAX_STEPS, SMALLEST_EPS
 from ..result import Simulation
-from .multipliers import matched, multipliers
+from .multipliers import matching_distances, multipliers
 from .result import PeriodicMotion, PeriodicStatus
 from .shooting import LostError, Shooting, Shot
 
@@ -162,7 +162,7 @@ def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
     except _Stopped as stopped:
         shot = stopped.shot
         return _not_found(asked, stopped.status, stopped.reason, shot.run, shot.period, shot.residual)
-    return _found(asked, rough, fine)
+    return _make_result(asked, rough, fine)
 
 
 def _newton(asked: Shooting, shot: Shot, rtol: float) -> Shot:
@@ -220,13 +220,13 @@ def _not_found(
     )  # fmt: skip
 
 
-def _found(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
+def _make_result(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
     n = len(fine.state)
     (others, _, _), (values, conditions, lost) = (
         multipliers(asked.formulas, asked.psi, shot.run, shot.variation, asked.clocks) for shot in (rough, fine)
     )
     blur = float((fine.variation.error[:, :n] / fine.sizes[:, None] * fine.sizes).max(initial=0.0))
-    apart = matched(values, others) if len(others) == len(values) else np.ones(len(values))
+    apart = matching_distances(values, others) if len(others) == len(values) else np.ones(len(values))
     errors = conditions * max(blur, ROUNDING) + apart
     errors[len(values) - lost :] = 0.0
     change, later = fine.step

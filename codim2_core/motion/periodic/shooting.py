@@ -157,7 +157,7 @@ class Shot:
             ahead = self.variation.rate * self.period / sizes
             matrix = np.block([[matrix, ahead[:, None]], [behind[None], np.zeros((1, 1))]])
             right = np.append(right, 0.0)
-        found = _solved(matrix, right)
+        found = _least_solution(matrix, right)
         change = np.zeros(n)
         change[free] = found[: len(sizes)] * sizes
         return change, 0.0 if self.of.forced else float(found[-1]) * self.period
@@ -169,7 +169,7 @@ class Shot:
         return max(float(np.abs(change / self.sizes).max()), abs(later) / self.period)
 
 
-def _solved(matrix: Array, right: Array) -> Array:
+def _least_solution(matrix: Array, right: Array) -> Array:
     """Least solution of linear equations; exactly 0 in what is not coupled to any equation whose right side is not 0.
 
     So a start in an invariant line stays in it.

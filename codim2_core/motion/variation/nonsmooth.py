@@ -21,8 +21,8 @@ from ...initial_value.slopes import Slopes, outside, slopes_of
 from ...numerics.dense import Dense
 from ...systems.kinds import AnySystem
 from ...words import say
-from .chain import chained
-from .propagators import Propagators, along, padded, propagators
+from .chain import chain_propagators
+from .propagators import Propagators, states_along, pad_jacobians, propagators
 from .result import Variation
 
 Array = NDArray[np.float64]
@@ -87,7 +87,7 @@ def of_nonsmooth(
         first @= start
     end = len(matrices)
     times, rate = motion.times[: end + 1], course.rate(legs, end)
-    return chained(tuple(names), times, matrices, longer, rate, reason, course.within)
+    return chain_propagators(tuple(names), times, matrices, longer, rate, reason, course.within)
 
 
 @dataclass(frozen=True)
@@ -193,15 +193,15 @@ class _Course:
 
     def slip_slopes(self, steps: Steps, u: Array) -> Array:
         """Jacobian of the slip at fractions of steps."""
-        states = along(self.motion, steps, u)
-        found = padded(self.slopes.of_state(*outside(states[:, :2], self.n), states), u.shape)
+        states = states_along(self.motion, steps, u)
+        found = pad_jacobians(self.slopes.of_state(*outside(states[:, :2], self.n), states), u.shape)
         return found if self.n is None else self.kept @ found @ self.kept
 
     def slide_slopes(self, phase: Phase, steps: Steps, u: Array) -> Array:
         """Jacobian of the slow flow at fractions of steps; the critical set moves by ``D_e U de + D_z U dz = 0``."""
         times = self.motion.times[steps, None] + u * self.motion.lengths[steps, None]
         e = phase.e(np.clip(times.ravel(), phase.t_start, phase.t_end))
-        D = self.slopes.at(e, along(self.motion, steps, u))
+        D = self.slopes.at(e, states_along(self.motion, steps, u))
         De, Dz = D[:, :, :2], D[:, :, 4:]
         if self.n is None:
             moved = -np.linalg.solve(De[:, :2], Dz[:, :2])
@@ -209,7 +209,7 @@ class _Course:
             moved = -self.n[:, None] * ((self.n @ Dz[:, :2]) / (self.n @ De[:, :2] @ self.n)[:, None])[:, None]
         slopes = np.zeros((len(e), 2 + self.slopes.m, self.size))
         slopes[:, 2:, 2:] = Dz[:, 2:] + De[:, 2:] @ moved
-        found = padded(slopes, u.shape)
+        found = pad_jacobians(slopes, u.shape)
         return found if self.n is None else self.kept @ found @ self.kept
 
     @cached_property

@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from .record import Family, Parameter
 
-__all__ = ["FAMILIES", "Family", "Parameter", "listed", "register", "unregister"]
+__all__ = ["FAMILIES", "Family", "Parameter", "family_of_name", "register", "unregister"]
 
 NAMES = (
     "constant",
@@ -65,12 +65,12 @@ def unregister(name: str) -> None:
     ValueError
         There is no such family, or it is built in.
     """
-    if listed(name) in LISTED:
+    if family_of_name(name) in LISTED:
         raise ValueError(f"the family {name!r} is built in; only one that was registered can be taken off.")
     del _known[name]
 
 
-def listed(name: str) -> Family:
+def family_of_name(name: str) -> Family:
     """Return the family of a name.
 
     Raises

@@ -118,7 +118,7 @@ def gain_whole(r2, w, n):
     return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (3.0 + power), TINY))
 
 
-def broken(n: float, text: str) -> tuple[Condition, ...]:
+def failed_conditions(n: float, text: str) -> tuple[Condition, ...]:
     """Return those of R1 to R5 that fail: Psi is smooth at s = 0 and s = inf for whole n only."""
     if float(n).is_integer():
         return ()
@@ -139,7 +139,7 @@ def broken(n: float, text: str) -> tuple[Condition, ...]:
 
 FAMILY = Family(
     name="hill", title="3/(3 + (4s)ⁿ)", formula="3/(3+(4*s)**n)", kernel=Hill, batched=True,
-    gain=gain, gain_whole=gain_whole, derivatives=derivatives, broken=broken,
+    gain=gain, gain_whole=gain_whole, derivatives=derivatives, broken=failed_conditions,
     parameter=Parameter("n", 1e-2, 1000.0, shown=(0.5, 6.0), default=2.0, note="the paper uses 1 to 4"),
     compared=(1.0, 2.0, 3.0, 4.0),
 )  # fmt: skip

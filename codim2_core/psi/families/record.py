@@ -116,9 +116,9 @@ class Family:
         return f"Family({self.name!r})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        from . import listed  # a record stands for what is listed under its name, in another process too
+        from . import family_of_name  # a record stands for what is listed under its name, in another process too
 
-        return listed, (self.name,)
+        return family_of_name, (self.name,)
 
     @property
     def typed(self) -> bool:

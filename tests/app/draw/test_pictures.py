@@ -198,7 +198,7 @@ def test_holoviews_has_equal_axes_of_the_pictures_window_and_its_widths():
     circle = made["hemisphere"].array()
     assert np.hypot(*circle.T) == pytest.approx(np.ones(len(circle)))
     widths = {name: element.opts.get("style").kwargs["line_width"] for name, element in made.items()}
-    curves = {part.name: part.width for layer in layers.painted() for part in layer.parts}
+    curves = {part.name: part.width for layer in layers.layers_in_paint_order() for part in layer.parts}
     for name in ("rho", "theta", "inside", "outside", "lines_inside", "lines_outside"):
         assert widths[name] == (curves[name] if name in curves else curves[f"{name}_inside"])
     assert widths["hemisphere"] == widths["equator"] == widths["critical"] == 2  # as marks have in the page

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from codim2_app.export import film as films
 from codim2_app.export.figure import TITLE
-from codim2_app.export.film import POSITIONS, STYLE, film, joined, picture
+from codim2_app.export.film import POSITIONS, STYLE, film, encode_film, picture
 from codim2_app.export.play import CHART, PLAY, SCALE, scenery
 from codim2_app.export.small.chart import LEFT
 from codim2_app.export.view import view_of
@@ -33,7 +33,7 @@ def frames(made):
 @pytest.mark.parametrize("kind", [".gif", ".webp"])
 def test_it_goes_there_and_back_and_rests_at_the_ends(kind):
     colours = [(250, 10, 10), (10, 250, 10), (10, 10, 250)]
-    made = joined(solid(*colours), kind)
+    made = encode_film(solid(*colours), kind)
     seen = [np.asarray(frame.convert("RGB"))[15, 20].tolist() for frame in frames(made)]
     assert [colours[int(np.argmax(one))] for one in seen] == [colours[i] for i in (0, 1, 2, 1)]
     durations = [frame.info["duration"] for frame in frames(made)] if kind == ".gif" else None
@@ -52,7 +52,7 @@ def test_each_picture_is_the_figure_there():
 @pytest.mark.parametrize("value", [-1.5, -0.5])
 def test_small_marks_keep_their_colours(value):
     drawn = picture(VIEW, "f1=-2,2", value)
-    [shown] = frames(joined([drawn]))
+    [shown] = frames(encode_film([drawn]))
     apart = np.asarray(Image.open(io.BytesIO(drawn)).convert("RGB"), int) - np.asarray(shown.convert("RGB"), int)
     assert np.abs(apart).max() <= 24  # 8 bits; the median cut gives 71
 
@@ -84,7 +84,7 @@ def test_what_cannot_be_had_is_said_in_one_sentence(given, says):
 def test_one_that_is_too_large_is_refused(monkeypatch):
     monkeypatch.setattr(films, "MOST", 100)
     with pytest.raises(ValueError, match="fewer layers"):
-        joined(solid("red", "blue"))
+        encode_film(solid("red", "blue"))
 
 
 def test_the_command_writes_it_and_says_what_is_wrong(tmp_path, capsys, monkeypatch):

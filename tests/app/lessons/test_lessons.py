@@ -6,7 +6,7 @@ import re
 
 import pytest
 from codim2_app.frame.scenes import make_scene
-from codim2_app.lessons.asking import judge, pose, reached, right_option, stands
+from codim2_app.lessons.asking import judge, pose, goal_is_reached, right_option, stands
 from codim2_app.lessons.facts import facts_of
 from codim2_app.lessons.library import TEXT, built_in, from_folder
 from codim2_app.lessons.marks import MARKS, NEAR, gap
@@ -45,7 +45,7 @@ def test_exactly_one_answer_is_right_whatever_is_drawn(key, i):
         drawn = pose(question, values_of(lesson, {}), seed)
         assert drawn == pose(question, values_of(lesson, {}), seed)
         scene = make_scene(values_of(lesson, drawn))
-        assert not reached(question, scene)
+        assert not goal_is_reached(question, scene)
         answers = [*range(len(question.options)), *there(question, scene)]
         right = [answer for answer in answers if judge(question, scene, answer)["right"]]
         assert right, (seed, drawn)
@@ -129,8 +129,8 @@ def test_every_goal_can_be_reached():
         lesson = COURSE[key]
         question = next(question for question in lesson.questions if question.vary)
         drawn = pose(question, values_of(lesson, {}), seed=1)
-        assert not reached(question, make_scene(values_of(lesson, drawn)))
-        assert reached(question, make_scene(values_of(lesson, {**drawn, **solution}))), key
+        assert not goal_is_reached(question, make_scene(values_of(lesson, drawn)))
+        assert goal_is_reached(question, make_scene(values_of(lesson, {**drawn, **solution}))), key
 
 
 def test_what_a_lesson_shows_is_safe_and_complete():

@@ -55,8 +55,8 @@ def who(port):
 
 def test_one_process_binds_its_port_alone(monkeypatch):
     kept = ports.bokeh_server.bind_sockets
-    with ports.shared(1):
+    with ports.share_port(1):
         assert ports.bokeh_server.bind_sockets is kept
-    with ports.shared(2):
+    with ports.share_port(2):
         assert (ports.bokeh_server.bind_sockets is not kept) == ports.SHARED
     assert ports.bokeh_server.bind_sockets is kept

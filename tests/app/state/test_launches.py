@@ -4,7 +4,7 @@ import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.state.cleaning import InputError, clean
 from codim2_app.state.controls import ExplorerState
-from codim2_app.state.launches import MOST, TYPED, Launch, chosen, read_launches
+from codim2_app.state.launches import MOST, TYPED, Launch, selected_place, read_launches
 from codim2_app.view.refresh import Frames
 
 
@@ -69,4 +69,4 @@ def test_without_orbits_a_slider_sends_nothing_of_them():
     ],
 )
 def test_the_chosen_orbit_has_its_place_among_those_that_are_shown(text, number, place):
-    assert chosen(read_launches(text), number) == place
+    assert selected_place(read_launches(text), number) == place

@@ -7,7 +7,7 @@ from codim2_app.draw.lines.spacing import APART
 from codim2_app.draw.packing import PIXEL, STEP, unpack
 from codim2_app.frame.budget import Budget
 from codim2_app.frame.jobs import Jobs
-from codim2_app.frame.scenes import evolved, make_scene, settled
+from codim2_app.frame.scenes import evolve_scene, make_scene, complete_changes
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits
 from codim2_app.view.first_markup import Never
@@ -242,9 +242,9 @@ def test_a_portrait_does_not_depend_on_what_was_open_before():
     fresh[""] = first_values(), make_scene(first_values())
     for before, (values, scene) in fresh.items():
         for key, (wanted, as_it_is) in fresh.items():
-            then = {**values, **settled(values, wanted)}
+            then = {**values, **complete_changes(values, wanted)}
             changed = [name for name in then if then[name] != values[name]]
-            reached = evolved(scene, then, changed)
+            reached = evolve_scene(scene, then, changed)
             assert then == wanted, (before, key)
             assert reached.key(*INPUTS) == as_it_is.key(*INPUTS), (before, key)
             assert (reached.system, reached.z) == (as_it_is.system, as_it_is.z), (before, key)

@@ -8,7 +8,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.cycles import orbit
-from codim2_core.cycles.many.sections import NODES, Sections, located
+from codim2_core.cycles.many.sections import NODES, Sections, critical_points
 from codim2_core.cycles.orbit import path
 from codim2_core.cycles.section import FINE, Section
 
@@ -30,7 +30,7 @@ def _one(plane, psi, ray):
 
 
 def _all(psi, ray, own=None):
-    e, complement = located(PLANES)
+    e, complement = critical_points(PLANES)
     return Sections(PLANES, e, complement, psi, own, ray)
 
 
@@ -44,8 +44,8 @@ def _all(psi, ray, own=None):
     ],
 )
 def test_where_no_cycle_can_be_the_complement_is_not_positive(plane):
-    assert located(np.array([plane, PLANES[0]]))[1][0] <= 0.0
-    assert located(np.array([plane, PLANES[0]]))[1][1] > 0.0
+    assert critical_points(np.array([plane, PLANES[0]]))[1][0] <= 0.0
+    assert critical_points(np.array([plane, PLANES[0]]))[1][1] > 0.0
 
 
 @pytest.mark.parametrize("near", [1e-3, 1e-12, 1e-15])
@@ -57,7 +57,7 @@ def test_near_the_equator_and_near_a_double_zero_all_digits_are_kept(near):
         for a, b, d in ((1.0, 3.0, -2.0), (1.0, math.sqrt(2.0) * (1.0 + near), -2.0)):
             f = -np.array([[a, -b], [b, d]]) @ [r * math.cos(angle), r * math.sin(angle)]
             rows.append((a, b, d, *f))
-    e, complement = located(np.array(rows))
+    e, complement = critical_points(np.array(rows))
     for row, place, gap in zip(rows, e, complement, strict=True):
         a, b, d, f1, f2 = map(Fraction, row)
         det, n1, n2 = a * d + b * b, d * f1 + b * f2, a * f2 - b * f1

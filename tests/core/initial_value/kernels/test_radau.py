@@ -27,8 +27,8 @@ class Begun:
         self.motion = motion_of(system, TANH, eps, rtol)
         self.problem = plane_problem(field(system), TANH, eps, rtol, 0.01 * rtol)
         self.work, self.clock = workspace(n, 0.0), np.zeros(4)
-        radau.linearised(self.motion, self.y, h, self.clock, self.work)
-        self.here = in_python._linearised(self.problem, self.y)
+        radau.linearise(self.motion, self.y, h, self.clock, self.work)
+        self.here = in_python._linearise(self.problem, self.y)
 
     def tried(self, refine=False, previous=None):
         """Whether it is accepted, and the factor; the same in Python, and its stages."""
