@@ -17,7 +17,7 @@ from ..draw.theme import themes
 from ..draw.vector.paper import paper
 from ..draw.vector.parts import Placement
 from ..phrases import say
-from ..state.launches import TYPED, selected_place, read_launches
+from ..state.launches import TYPED, read_launches, selected_place
 from .figure import MM, PX, TITLE, Style, figure
 from .printing import DPI, png
 from .small.chart import Frame, line_chart

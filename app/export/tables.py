@@ -11,7 +11,7 @@ import numpy as np
 from codim2_core.scene import Scene
 
 from ..draw import glyphs
-from ..draw.layers import Part, layers_in_paint_order, default_layers
+from ..draw.layers import Part, default_layers, layers_in_paint_order
 from ..slow_layers import basins, outcomes
 
 #: Columns of a curve of the picture.

@@ -19,7 +19,7 @@ from ..frame.window import Window, resample_for_window
 from ..slow_layers import basins, outcomes
 from ..state.choices import OWN_AXIS as OWN
 from ..state.chosen import System_, parameters_of
-from ..state.links import Link, Look, read_link, compress_query, write_link
+from ..state.links import Link, Look, compress_query, read_link, write_link
 
 #: Of the whole picture's width: curves of a figure are sampled within a quarter of it.
 FINE = 1 / 1600

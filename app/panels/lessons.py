@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from codim2_core.scene import Scene
 
 from ..frame.draft import Draft
-from ..lessons.asking import judge, pose, goal_is_reached, stands
+from ..lessons.asking import goal_is_reached, judge, pose, stands
 from ..lessons.facts import COMPILED, facts_of
 from ..lessons.lesson import Lesson, Prose, Question, portrait_of
 from ..lessons.library import lessons

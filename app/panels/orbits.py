@@ -20,7 +20,7 @@ from ..slow_layers import typed_start
 from ..slow_layers.short import short
 from ..slow_layers.typed_start import RTOL
 from ..state.chosen import System_
-from ..state.launches import TYPED, selected_place, read_launches
+from ..state.launches import TYPED, read_launches, selected_place
 from .panel import Panel
 
 ON = 1.5  # times as long as it takes to Sigma is a motion for eps > 0 followed: what it does there is seen too

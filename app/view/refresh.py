@@ -28,14 +28,14 @@ from ..frame.faults import sentence_of
 from ..frame.jobs import Jobs
 from ..frame.load import load
 from ..frame.picture import Asked, Blocks, make_frame
-from ..frame.scenes import cut_after, evolve_scene, locked_controls, make_scene, complete_changes
+from ..frame.scenes import complete_changes, cut_after, evolve_scene, locked_controls, make_scene
 from ..frame.sides import sides
 from ..frame.turns import Failed
 from ..frame.window import Window, inputs, resample_for_window
 from ..panels import registry
 from ..panels.parameters.axes import opening_axes
 from ..state.asked import read_request
-from ..state.changes import culprit, compatible_changes
+from ..state.changes import compatible_changes, culprit
 from ..state.choices import AXES
 from ..state.chosen import GIVEN, System_, describe
 from ..state.cleaning import InputError, clean

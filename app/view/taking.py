@@ -9,7 +9,7 @@ from typing import Any
 
 from ..export.film import count_of, encode_film, part_of, pictures
 from ..export.play import PLAY
-from ..export.taking import PROOF, SHOWN, TYPES, Wish, file_name, seen_by, make_file
+from ..export.taking import PROOF, SHOWN, TYPES, Wish, file_name, make_file, seen_by
 from ..export.view import View
 from ..frame.later import Later
 from ..frame.turns import Failed

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..cycles.limit_cycles import reason_for_none
-from ..cycles.search import find_fixed_points, search, sample_return_map
+from ..cycles.search import find_fixed_points, sample_return_map, search
 from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import limits, vary
 from ..psi.function import Psi

@@ -33,7 +33,7 @@ from ..words import say
 from .orbit import Orbit, orbit
 from .proof.result import Proof, covers
 from .resolution import count_sentence
-from .search import Shown, search, sample_return_map
+from .search import Shown, sample_return_map, search
 from .section import FixedPoint, Section
 
 __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]

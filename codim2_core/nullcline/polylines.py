@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..psi.function import Psi
 from .conics import Arc, Curve, Straight
-from .refining import Seen, to_picture, refine_curve
+from .refining import Seen, refine_curve, to_picture
 from .typed import Traced
 
 Array = NDArray[np.floating[Any]]

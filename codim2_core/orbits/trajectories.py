@@ -21,10 +21,10 @@ from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .departures import departures
 from .options import PIXEL, STEP_LIMIT, Stepping, stepping
-from .result import STATUSES, Status, Trajectories, append_continuations, cut_up, concatenate
+from .result import STATUSES, Status, Trajectories, append_continuations, concatenate, cut_up
 from .seeds import checked_seeds
 
-__all__ = ["Status", "Trajectories", "continuation", "is_warm", "concatenate", "trajectories", "warm"]
+__all__ = ["Status", "Trajectories", "concatenate", "continuation", "is_warm", "trajectories", "warm"]
 
 Array = NDArray[np.float64]
 

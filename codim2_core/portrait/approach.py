@@ -26,7 +26,7 @@ from ..systems.kinds import AnySystem
 from ..words import named, say
 from .endings import angular_sign, radially_neutral
 from .outcomes import Outcome, Outcomes, on_arcs
-from .verdicts import ANGLES, OUTER, Array, Judged, judge_arrivals, arriving_begun, spiralling, with_flow
+from .verdicts import ANGLES, OUTER, Array, Judged, arriving_begun, judge_arrivals, spiralling, with_flow
 
 __all__ = ["approach_outcomes"]
 

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
-from ..orbits.trajectories import Status, Trajectories, continuation, concatenate, trajectories
+from ..orbits.trajectories import Status, Trajectories, concatenate, continuation, trajectories
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..words import say

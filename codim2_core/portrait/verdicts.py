@@ -17,7 +17,7 @@ from ..layer_problem.problem import LayerProblem
 from ..orbits.departures import departures_under
 from ..orbits.options import STEP_LIMIT, Stepping, stepping
 from ..orbits.result import Status, Trajectories
-from ..orbits.together import states_at, batch_by_psi
+from ..orbits.together import batch_by_psi, states_at
 from ..words import named, number, say
 from .endings import (
     CAPTURE,

@@ -8,8 +8,8 @@ from .registry import ROOMS as ROOMS
 from .registry import SENTENCES as SENTENCES
 from .registry import recognise as recognise
 from .registry import say as say
-from .written import written_label as named
 from .written import number as number
 from .written import power as power
 from .written import printed_sentence as printed
 from .written import subscript as subscript
+from .written import written_label as named

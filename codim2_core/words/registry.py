@@ -8,7 +8,7 @@ from string import Formatter
 
 from . import changes, claims, cycles, degenerate, equator, mechanics, motion, orbits, periodic, portrait, slow_flow
 from .sentence import Sentence
-from .written import written_label, number, power
+from .written import number, power, written_label
 
 #: The sentences of each room, by the room's name.
 ROOMS: dict[str, dict[str, Sentence]] = {

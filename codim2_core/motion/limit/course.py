@@ -27,7 +27,7 @@ from ...words import say
 from ..followed import in_disc
 from ..places import Ascent
 from ..result import Phase
-from .decide import Decision, decide_arrival, critical_name, from_hemisphere, decide_start
+from .decide import Decision, critical_name, decide_arrival, decide_start, from_hemisphere
 from .delay import STILL, NotAnalyticError
 from .folded import Fold, fold
 from .part import Delaying, MotionPart

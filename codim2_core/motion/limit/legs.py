@@ -20,7 +20,7 @@ from ...words import say
 from ..followed import in_disc
 from ..places import Ascent
 from ..result import Phase
-from .decide import Decision, decide_arrival, critical_name
+from .decide import Decision, critical_name, decide_arrival
 from .part import MotionPart
 
 Array = NDArray[np.float64]

@@ -22,7 +22,7 @@ from ...numerics.dense import Dense
 from ...systems.kinds import AnySystem
 from ...words import say
 from .chain import chain_propagators
-from .propagators import Propagators, states_along, pad_jacobians, propagators
+from .propagators import Propagators, pad_jacobians, propagators, states_along
 from .result import Variation
 
 Array = NDArray[np.float64]

@@ -12,7 +12,7 @@ from ...numerics.dense import Dense
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from .chain import chain_propagators
-from .propagators import states_along, pad_jacobians, propagators
+from .propagators import pad_jacobians, propagators, states_along
 from .result import Variation
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from bokeh.core.validation import check_integrity
 from codim2_app.draw.figure import make_figure
-from codim2_app.draw.layers import LAYERS, TRACES, layers_in_paint_order, default_layers, swatches, table
+from codim2_app.draw.layers import LAYERS, TRACES, default_layers, layers_in_paint_order, swatches, table
 from codim2_app.draw.shapes import OPEN, shape
 from codim2_app.draw.theme import HATCHES, NEAREST, REACH, RING, VIEW, WIDEST, custom_properties, themes
 from codim2_app.draw.vector.paper import DASHES, paper

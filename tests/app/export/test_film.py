@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from codim2_app.export import film as films
 from codim2_app.export.figure import TITLE
-from codim2_app.export.film import POSITIONS, STYLE, film, encode_film, picture
+from codim2_app.export.film import POSITIONS, STYLE, encode_film, film, picture
 from codim2_app.export.play import CHART, PLAY, SCALE, scenery
 from codim2_app.export.small.chart import LEFT
 from codim2_app.export.view import view_of

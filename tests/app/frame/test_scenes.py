@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from codim2_app.frame.scenes import chosen_system, evolve_scene, locked_controls, make_scene, complete_changes
+from codim2_app.frame.scenes import chosen_system, complete_changes, evolve_scene, locked_controls, make_scene
 from codim2_app.state.cleaning import InputError
 from codim2_app.state.controls import ExplorerState
 

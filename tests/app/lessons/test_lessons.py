@@ -6,7 +6,7 @@ import re
 
 import pytest
 from codim2_app.frame.scenes import make_scene
-from codim2_app.lessons.asking import judge, pose, goal_is_reached, right_option, stands
+from codim2_app.lessons.asking import goal_is_reached, judge, pose, right_option, stands
 from codim2_app.lessons.facts import facts_of
 from codim2_app.lessons.library import TEXT, built_in, from_folder
 from codim2_app.lessons.marks import MARKS, NEAR, gap

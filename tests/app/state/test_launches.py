@@ -4,7 +4,7 @@ import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.state.cleaning import InputError, clean
 from codim2_app.state.controls import ExplorerState
-from codim2_app.state.launches import MOST, TYPED, Launch, selected_place, read_launches
+from codim2_app.state.launches import MOST, TYPED, Launch, read_launches, selected_place
 from codim2_app.view.refresh import Frames
 
 

@@ -14,7 +14,7 @@ from codim2_app.draw.theme import NEAREST
 from codim2_app.frame.scenes import make_scene
 from codim2_app.state.chosen import BOXES, has_atlas, titles
 from codim2_app.state.controls import NUMBERS, ExplorerState, first_values, preset_values
-from codim2_app.state.links import FIRST, VERSION, Look, read_link, compress_query, decompress_query, write_link
+from codim2_app.state.links import FIRST, VERSION, Look, compress_query, decompress_query, read_link, write_link
 from codim2_app.state.portraits import portraits
 from codim2_app.view.markup import config
 from hypothesis import assume, given

@@ -7,7 +7,7 @@ from codim2_app.draw.lines.spacing import APART
 from codim2_app.draw.packing import PIXEL, STEP, unpack
 from codim2_app.frame.budget import Budget
 from codim2_app.frame.jobs import Jobs
-from codim2_app.frame.scenes import evolve_scene, make_scene, complete_changes
+from codim2_app.frame.scenes import complete_changes, evolve_scene, make_scene
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits
 from codim2_app.view.first_markup import Never

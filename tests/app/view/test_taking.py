@@ -15,7 +15,7 @@ from codim2_app.export import film as films
 from codim2_app.export import taking as made
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.files import DATA
-from codim2_app.export.taking import TYPES, Wish, seen_by, make_file
+from codim2_app.export.taking import TYPES, Wish, make_file, seen_by
 from codim2_app.export.view import WHOLE, view_of
 from codim2_app.frame.jobs import Jobs
 from codim2_app.state.links import read_link

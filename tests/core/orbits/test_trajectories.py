@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import psi
-from codim2_core.orbits.trajectories import Status, is_warm, concatenate, trajectories, warm
+from codim2_core.orbits.trajectories import Status, concatenate, is_warm, trajectories, warm
 from codim2_core.systems.elinear import ELinear
 
 from .seeds import CASE_I, FAMILIES, PIXEL, ends, only, ring, sunflower
