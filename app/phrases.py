@@ -24,7 +24,8 @@ SENTENCES: dict[str, Sentence] = {
     "memory": Sentence("This needs more memory than the server gives it.", "a worker at its bound"),
     "no such place": Sentence("There is none here.", "a place was marked where a question has none"),
     "mark away": Sentence(
-        "Your mark is {away} radii of the disc from it.", "a mark in a lesson, farther than lessons.marks.NEAR"
+        "Your mark is {away} radii of the disc from it.",
+        "a mark in a lesson, farther than lessons.marks.MARK_TOLERANCE",
     ),
     "nothing to play": Sentence(
         "A film of play follows the chosen launched orbit: click the picture to launch one, or choose one shown.",

@@ -1,7 +1,7 @@
 """Checks of the arguments of public functions: one for each kind, found by the argument's name or annotation.
 
-The checks stand at the public door only (`checked_functions`, for the names of a package): inside, functions call one another
-without them. A function says itself what else it needs, such as how many slow variables its system has.
+The checks stand at the public door only (`checked_functions`, for the names of a package): inside, functions call
+one another without them. A function says itself what else it needs, such as how many slow variables its system has.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ import numpy as np
 from .psi.function import Psi
 from .systems.coefficients import Coefficients
 from .systems.elinear import ELinear
-from .systems.kinds import KINDS
+from .systems.kinds import SYSTEM_KINDS
 
-LARGEST = 1e150  # of a number: its square is finite
+MAX_NUMBER = 1e150  # of a number: its square is finite
 MOST_VALUES = 1_000_000  # in an array
-MOST: Mapping[str, int] = {"count": 1_000_000_000, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
+MAX_COUNTS: Mapping[str, int] = {"count": 1_000_000_000, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
 MOST_HERE: Mapping[tuple[str, str], int] = {("slow_portrait", "count"): 20_001}
 ZERO_TOO = (("periodic_motion", "eps"),)  # stands for a limit there
 POSITIVE = ("period", "eps", "rtol", "atol", "t_max", "pixel", "tolerance", "length", "capture", "view")
@@ -50,7 +50,7 @@ def psi(name: str, value: Any) -> Psi:
 
 def system(name: str, value: Any) -> Any:
     """Check a system of any kind."""
-    if isinstance(value, KINDS):
+    if isinstance(value, SYSTEM_KINDS):
         return value
     if callable(value):
         raise ValueError(f"{name} is {short_repr(value)}, which is to be called; give the system that it makes.")
@@ -66,7 +66,7 @@ def e_linear(name: str, value: Any) -> Any:
 
 def at_z(name: str, value: Any) -> Any:
     """Check a system at one z."""
-    if isinstance(value, KINDS) and value.frozen:
+    if isinstance(value, SYSTEM_KINDS) and value.frozen:
         return value
     raise ValueError(f"{name} is {short_repr(value)}; give a system frozen at one z, such as ELinear(...).at(z).")
 
@@ -85,9 +85,11 @@ def _real(name: str, value: Any) -> float:
     try:
         found = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{name} is {short_repr(value)}; give a finite number, at most {LARGEST:g} in size.") from None
-    if not abs(found) <= LARGEST:
-        raise ValueError(f"{name} is {found!r}; give a finite number, at most {LARGEST:g} in size.")
+        raise ValueError(
+            f"{name} is {short_repr(value)}; give a finite number, at most {MAX_NUMBER:g} in size."
+        ) from None
+    if not abs(found) <= MAX_NUMBER:
+        raise ValueError(f"{name} is {found!r}; give a finite number, at most {MAX_NUMBER:g} in size.")
     return found
 
 
@@ -101,11 +103,11 @@ def whole_number(name: str, value: Any, most: int = 1_000_000) -> int:
 
 def numbers(name: str, value: Any) -> Any:
     """Check an array, or a list, of finite real numbers; what shape it must have, the function says."""
-    if type(value) is tuple and len(value) < 9 and all(type(v) is float and abs(v) <= LARGEST for v in value):
+    if type(value) is tuple and len(value) < 9 and all(type(v) is float and abs(v) <= MAX_NUMBER for v in value):
         return value  # a z, as it mostly comes
     if type(value) is np.ndarray and value.dtype == np.float64 and value.size <= MOST_VALUES:
         flat = value.ravel()
-        if flat.dot(flat) <= LARGEST**2:  # so none is larger, in one pass; else it is said below which
+        if flat.dot(flat) <= MAX_NUMBER**2:  # so none is larger, in one pass; else it is said below which
             return value
     if isinstance(value, str | bytes):
         raise ValueError(f"{name} is {short_repr(value)}; give numbers.")
@@ -118,8 +120,8 @@ def numbers(name: str, value: Any) -> Any:
         raise ValueError(f"{name} is {short_repr(value)}; give real numbers, all rows of one length.") from None
     if found.size > MOST_VALUES:
         raise ValueError(f"{name} has {found.size} values; give at most {MOST_VALUES}.")
-    if not (abs(found) <= LARGEST).all():
-        raise ValueError(f"{name} has a value that is not finite or beyond {LARGEST:g}; give finite numbers.")
+    if not (abs(found) <= MAX_NUMBER).all():
+        raise ValueError(f"{name} has a value that is not finite or beyond {MAX_NUMBER:g}; give finite numbers.")
     return value
 
 
@@ -229,7 +231,7 @@ def _check(owner: str, parameter: inspect.Parameter) -> Check:
     if (owner, name) in ZERO_TOO:
         return _real
     if annotation == "int":
-        most = MOST_HERE.get((owner, name), MOST.get(name, 1_000_000))
+        most = MOST_HERE.get((owner, name), MAX_COUNTS.get(name, 1_000_000))
         return lambda name, value: whole_number(name, value, most)
     return BY_ANNOTATION[annotation]
 

@@ -21,7 +21,7 @@ from codim2_core import __version__
 from ..lessons.library import built_in
 from . import gallery, mathematics, reference
 
-TEXT = Path(__file__).parent / "text"
+TEXT_FOLDER = Path(__file__).parent / "text"
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 MISSING = "The site is built by Sphinx, which is missing: pip install 'codim2[docs]'."
 
@@ -123,13 +123,13 @@ def _accessible(page: str) -> str:
 
 
 def _write_sources(source: Path, portraits: bool) -> None:
-    shutil.copytree(TEXT, source)
+    shutil.copytree(TEXT_FOLDER, source)
     if portraits:
         gallery.write(source)
         static = source / "_static"
         shutil.move(source / "portraits", static / "portraits")
     else:
-        (source / "gallery.md").write_text(gallery.HEAD, encoding="utf-8")
+        (source / "gallery.md").write_text(gallery.GALLERY_HEAD, encoding="utf-8")
     (source / "lessons.md").write_text(_lessons(), encoding="utf-8")
     reference.write(source)
 

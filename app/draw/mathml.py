@@ -9,7 +9,7 @@ from html import escape
 from types import MappingProxyType
 
 from codim2_core.expressions.expression import Expression, parse
-from codim2_core.expressions.names import PLANE, SLOW
+from codim2_core.expressions.names import FAST_NAMES, SLOW_NAMES
 from codim2_core.expressions.tape import FUNCTIONS_OF_TWO, compact
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
@@ -152,9 +152,9 @@ def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:
     """
     if isinstance(system, System):
         U, W = system.without_clock  # what is typed in t is written in t
-        left = ("x", "y", *SLOW[: len(W)])
+        left = ("x", "y", *SLOW_NAMES[: len(W)])
         return tuple(zip(left, (*U, *W), strict=True))
-    names = (*PLANE, "z", *SLOW, *dict(system.parameters), "A_", "B_", "C_")
+    names = (*FAST_NAMES, "z", *SLOW_NAMES, *dict(system.parameters), "A_", "B_", "C_")
     template = parse("A_*c + B_*s + C_", names)
 
     def row(c: object, s: object, constant: object) -> Expression:
@@ -168,7 +168,7 @@ def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:
     rows = [("x", row(a11, a12, system.f[0])), ("y", row(a21, a22, system.f[1]))]
     for i in range(system.m):
         B = (0.0, 0.0) if system.B is None else system.B[i]
-        rows.append((SLOW[i], row(B[0], B[1], 0.0 if system.g is None else system.g[i])))
+        rows.append((SLOW_NAMES[i], row(B[0], B[1], 0.0 if system.g is None else system.g[i])))
     return tuple(rows)
 
 

@@ -11,9 +11,9 @@ from codim2_core.scene import Scene
 
 from . import glyphs
 from .layers import layers_in_paint_order
-from .theme import VIEW, themes
+from .theme import HALF_VIEW, themes
 
-AXES = ["x̄", "ȳ"]
+AXIS_LABELS = ["x̄", "ȳ"]
 
 
 def elements(scene: Scene) -> dict[str, Any]:
@@ -63,8 +63,14 @@ def holoviews(scene: Scene) -> Any:
     11
     """
     overlay: Any = hv.Overlay(list(elements(scene).values()))
-    x, y = (str(hv.Dimension(axis).label) for axis in AXES)
-    common = {"xlim": (-VIEW, VIEW), "ylim": (-VIEW, VIEW), "show_legend": False, "xlabel": x, "ylabel": y}
+    x, y = (str(hv.Dimension(axis).label) for axis in AXIS_LABELS)
+    common = {
+        "xlim": (-HALF_VIEW, HALF_VIEW),
+        "ylim": (-HALF_VIEW, HALF_VIEW),
+        "show_legend": False,
+        "xlabel": x,
+        "ylabel": y,
+    }
     sized = {"bokeh": {"data_aspect": 1, "frame_width": 500}, "matplotlib": {"aspect": "equal", "fig_inches": 6}}
     for backend in sized.keys() & hv.Store.renderers.keys():
         overlay = overlay.opts(**common, **sized[backend], backend=backend)
@@ -84,7 +90,7 @@ def _circle() -> Any:
 
 
 def _paths(pieces: list[Any], label: str, colour: str, width: float) -> Any:
-    path = hv.Path([np.asarray(piece) for piece in pieces], kdims=AXES, label=label)
+    path = hv.Path([np.asarray(piece) for piece in pieces], kdims=AXIS_LABELS, label=label)
     return _apply_style(path, color=colour, line_width=width)
 
 
@@ -94,7 +100,7 @@ def _equator(scene: Scene) -> Any:
     columns = (q["x"], q["y"], q["label"], q["type"], q["theta"], q["lambda_rho"], q["lambda_theta"],
                q["shape"], colours, fills)  # fmt: skip
     names = ["label", "type", "theta", "lambda_rho", "lambda_theta", "marker", "colour", "fill"]
-    points = hv.Points(columns, kdims=AXES, vdims=names, label="equator")
+    points = hv.Points(columns, kdims=AXIS_LABELS, vdims=names, label="equator")
     return _apply_style(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
                    size=11, line_width=2, tools=["hover"])  # fmt: skip
 
@@ -105,7 +111,7 @@ def _critical(scene: Scene) -> Any:
     columns = (c["x"], c["y"], c["label"], c["kind"], c["trace"], c["determinant"], c["discriminant"],
                c["shape"], colours, fills)  # fmt: skip
     names = ["label", "kind", "trace", "determinant", "discriminant", "marker", "colour", "fill"]
-    points = hv.Points(columns, kdims=AXES, vdims=names, label="critical")
+    points = hv.Points(columns, kdims=AXIS_LABELS, vdims=names, label="critical")
     return _apply_style(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
                    size=12, line_width=2, tools=["hover"])  # fmt: skip
 

@@ -12,11 +12,11 @@ from codim2_core.scene import Scene
 from .svg import small
 
 #: Half the width of a small portrait, its pixel in picture units (it is shown some 80 px wide), its starting points.
-VIEW = 1.5
-PIXEL = 1 / 28
-COUNT = 22
+THUMBNAIL_HALF_VIEW = 1.5
+THUMBNAIL_PIXEL = 1 / 28
+THUMBNAIL_SEEDS = 22
 #: At most as many regions are given one.
-MOST = 24
+MAX_KEPT = 24
 
 
 def thumbnails(
@@ -42,7 +42,7 @@ def thumbnails(
     list of [region, its name, [x, y], svg]
     """
     drawn = []
-    for region, name, place in places[:MOST]:
+    for region, name, place in places[:MAX_KEPT]:
         changed = system, psi, z
         for axis, value in zip(names, place, strict=True):
             changed = vary(*changed, axis, value)
@@ -50,6 +50,8 @@ def thumbnails(
     return drawn
 
 
-def thumbnail(system: Any, psi: Psi, z: tuple[float, ...], count: int = COUNT) -> str:
+def thumbnail(system: Any, psi: Psi, z: tuple[float, ...], count: int = THUMBNAIL_SEEDS) -> str:
     """Draw one small portrait, as SVG."""
-    return small(Scene(system, psi, z, count=count, view=VIEW * 1.4, pixel=PIXEL), VIEW)
+    return small(
+        Scene(system, psi, z, count=count, view=THUMBNAIL_HALF_VIEW * 1.4, pixel=THUMBNAIL_PIXEL), THUMBNAIL_HALF_VIEW
+    )

@@ -17,14 +17,14 @@ from .play import pictures as played
 from .printing import png
 from .view import View
 
-KINDS = {".gif": "GIF", ".webp": "WEBP"}
+FILM_KINDS = {".gif": "GIF", ".webp": "WEBP"}
 #: Positions of the slider; milliseconds that each is seen; at the ends it rests so many times longer.
 POSITIONS, MOST_POSITIONS, PACE, REST = 41, 121, 60, 8
 #: Width of the picture in mm, and dots to those of the screen: 567 px.
 STYLE = Style(size=120.0, legend=False, title=True)
 DENSITY = 1.25
 NO_DITHER = Image.Dither.NONE
-COLOURS, MOST = 256, 24_000_000  # of a GIF's picture; bytes of a film
+COLOURS, MAX_FILM_BYTES = 256, 24_000_000  # of a GIF's picture; bytes of a film
 
 
 def film(
@@ -54,8 +54,8 @@ def film(
     ValueError
         The slider is none, a picture cannot be had, Typst is missing, or the film is too large.
     """
-    if kind not in KINDS:
-        raise ValueError(f"a film ends in {kind[:20]!r}; give one of {', '.join(KINDS)}.")
+    if kind not in FILM_KINDS:
+        raise ValueError(f"a film ends in {kind[:20]!r}; give one of {', '.join(FILM_KINDS)}.")
     positions = positions or count_of(slider)
     if not 2 <= positions <= MOST_POSITIONS:
         raise ValueError(f"{positions} positions given; allowed is 2 to {MOST_POSITIONS}.")
@@ -115,8 +115,8 @@ def encode_film(pictures: Sequence[bytes], kind: str = ".gif", play: bool = Fals
     durations = [PACE * (REST if i in (0, len(shown) - 1) else 1) for i in order]
     film = io.BytesIO()
     first, *others = (shown[i] for i in order)
-    first.save(film, KINDS[kind], save_all=True, append_images=others, duration=durations, loop=0)
-    if film.tell() > MOST:
+    first.save(film, FILM_KINDS[kind], save_all=True, append_images=others, duration=durations, loop=0)
+    if film.tell() > MAX_FILM_BYTES:
         raise ValueError(f"The film would hold {film.tell() / 1e6:.0f} MB; show fewer layers, or fewer positions.")
     return film.getvalue()
 

@@ -15,12 +15,12 @@ from ..draw.layers import Part, default_layers, layers_in_paint_order
 from ..slow_layers import basins, outcomes
 
 #: Columns of a curve of the picture.
-PLACE = {
+PLACE_COLUMNS = {
     "curve": ("", "number of the curve, from 0"),
     "px": ("1", "first coordinate in the picture: p₁ on the hemisphere, (1 + ρ) cos θ outside"),
     "py": ("1", "second coordinate in the picture: p₂ on the hemisphere, (1 + ρ) sin θ outside"),
 }
-DIRECTIONS = {
+DIRECTION_COLUMNS = {
     "label": ("", "name in the picture"),
     "theta": ("rad", "angle θ of the limit direction"),
     "lambda_rho": ("1/T", "eigenvalue λ_ρ along ρ, of the time T with dT = dt/|(x, y)|"),
@@ -62,7 +62,7 @@ ARCS = {
     "end": ("rad", "angle at which it ends"),
     "kind": ("", "what becomes of what approaches there"),
 }
-BASINS = {
+BASIN_COLUMNS = {
     "px": ("1", "first coordinate of the middle of a cell"),
     "py": ("1", "second coordinate of the middle of a cell"),
     "destination": ("", "where the orbits from there end; empty if undecided"),
@@ -99,7 +99,7 @@ def tables(scene: Scene, layers: Collection[str] | None = None) -> dict[str, Tab
     drawn = default_layers() if layers is None else layers
     found: dict[str, Table] = {}
     if "equator" in drawn:
-        found["limit_directions"] = _select_columns(DIRECTIONS, glyphs.equator_columns(scene["equator"]))
+        found["limit_directions"] = _select_columns(DIRECTION_COLUMNS, glyphs.equator_columns(scene["equator"]))
     if "critical" in drawn:
         found["critical_sets"] = _critical(scene)
     for layer in layers_in_paint_order():
@@ -137,7 +137,7 @@ def _curves(part: Part, scene: Scene) -> Table:
     offsets, points = part.pieces(scene[part.scene])
     sizes = np.diff(offsets)
     data = {"curve": np.repeat(np.arange(len(sizes)), sizes), "px": points[:, 0], "py": points[:, 1]}
-    return Table(PLACE, data)
+    return Table(PLACE_COLUMNS, data)
 
 
 def _critical(scene: Scene) -> Table:
@@ -164,7 +164,7 @@ def _basins(scene: Scene) -> Table:
     row, column = np.divmod(np.arange(cells * cells), cells)
     inside = which > 0
     px, py = (2 * np.stack((column, row))[:, inside] + 1) / cells - 1  # the middle of each cell
-    return Table(BASINS, {"px": px, "py": py, "destination": names[which[inside]]})
+    return Table(BASIN_COLUMNS, {"px": px, "py": py, "destination": names[which[inside]]})
 
 
 def rows(table: Table) -> Iterator[tuple[Any, ...]]:

@@ -22,7 +22,7 @@ from .printing import pdf
 from .view import WHOLE, View
 
 #: Bytes of a file; what holds more goes by the command line.
-MOST = 24_000_000
+MAX_FILE_BYTES = 24_000_000
 TOO_LARGE = "The file would hold {} MB; show fewer layers, or fewer starting points."
 TYPES: Mapping[str, str] = MappingProxyType(
     {
@@ -31,7 +31,7 @@ TYPES: Mapping[str, str] = MappingProxyType(
         "gif": "image/gif", "proof": "application/json", "motion": "application/json",
     }
 )  # fmt: skip
-LONGEST, LONGEST_LINK = 80, 2000  # characters of a slider, bytes of an address that a phone can read
+MAX_SLIDER_CHARACTERS, LONGEST_LINK = 80, 2000  # characters of a slider, bytes of an address that a phone can read
 PROOF = "proof"
 #: What the page itself shows, and is computed while files are taken.
 SHOWN = (PROOF, "motion")
@@ -84,7 +84,7 @@ class Wish:
         theme, sliders = request.get("theme", "light"), request.get("sliders", ())
         if theme not in THEMES or not isinstance(sliders, (list, tuple)) or len(sliders) > MOST_SLIDERS:
             raise ValueError(f"Give a theme ({', '.join(THEMES)}) and at most {MOST_SLIDERS} sliders.")
-        if not all(isinstance(one, str) and len(one) <= LONGEST for one in sliders):
+        if not all(isinstance(one, str) and len(one) <= MAX_SLIDER_CHARACTERS for one in sliders):
             raise ValueError("Give sliders as NAME or NAME=LOW,HIGH.")
         link = request.get("link", "")
         if not isinstance(link, str) or len(link.encode()) > LONGEST_LINK:
@@ -123,7 +123,7 @@ def make_file(view: View, wish: Wish) -> tuple[str, bytes]:
         "motion": lambda one: motion(one.scene(), one.values),
     }.get(wish.kind) or DATA[f".{wish.kind}"]
     made = make(view)
-    if len(made) > MOST:
+    if len(made) > MAX_FILE_BYTES:
         raise ValueError(TOO_LARGE.format(round(len(made) / 1e6)))
     return file_name(view, wish), made
 

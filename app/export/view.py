@@ -12,7 +12,7 @@ from codim2_core.figures.presets import presets
 from codim2_core.scene import Scene
 
 from ..draw.packing import Rectangle, pack
-from ..draw.theme import VIEW
+from ..draw.theme import HALF_VIEW
 from ..frame.picture import make_frame
 from ..frame.scenes import make_scene
 from ..frame.window import Window, resample_for_window
@@ -22,8 +22,8 @@ from ..state.chosen import System_, parameters_of
 from ..state.links import Link, Look, compress_query, read_link, write_link
 
 #: Of the whole picture's width: curves of a figure are sampled within a quarter of it.
-FINE = 1 / 1600
-WHOLE: Rectangle = (-VIEW, VIEW, -VIEW, VIEW)
+FINE_PIXEL = 1 / 1600
+WHOLE: Rectangle = (-HALF_VIEW, HALF_VIEW, -HALF_VIEW, HALF_VIEW)
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ class View:
         parameters = {**self.values["parameters"], **own}
         return replace(self, values={**self.values, **plain, "parameters": parameters})
 
-    def frame(self, share: float = FINE, whole: bool = False) -> bytes:
+    def frame(self, share: float = FINE_PIXEL, whole: bool = False) -> bytes:
         """Return all that is drawn as one packed frame, its curves sampled as finely as `share` of the width asks.
 
         `whole`: in whole steps, as frames of the whole picture travel, where the whole picture is seen.

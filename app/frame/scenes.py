@@ -10,7 +10,7 @@ from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
-from ..draw.theme import REACH
+from ..draw.theme import PICTURE_REACH
 from ..state.choices import COEFFICIENTS, SLOW_CONTROLS
 from ..state.chosen import NORMAL, System_, TextError, build, parameters_of
 from ..state.chosen_psi import build_psi
@@ -37,7 +37,7 @@ def make_scene(values: Mapping[str, Any], system: System_ | None = None) -> Scen
     system = chosen_system(values) if system is None else system
     psi, launch = build_psi(values), launch_points(values)
     place, cut = position(values, system.m), values["cut"]
-    return Scene(system, psi, place, count=values["trajectories"], launch=launch, view=REACH, cut=cut)
+    return Scene(system, psi, place, count=values["trajectories"], launch=launch, view=PICTURE_REACH, cut=cut)
 
 
 def launch_points(values: Mapping[str, Any]) -> list[tuple[float, float]]:

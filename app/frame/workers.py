@@ -22,7 +22,7 @@ from ..phrases import say
 
 #: Seconds of its own time after which a worker is stopped, whatever it is doing; and how many times that by the clock,
 #: where it gets little of a busy machine.
-SECONDS, PATIENCE = 60.0, 5.0
+SECONDS, SHUTDOWN_SECONDS = 60.0, 5.0
 #: Processes that answer visitors go first: they have three times the share of a worker where processors are short. At
 #: 10 it was ten times, and work of two seconds was stopped after 60 on a busy machine.
 NICE = 5
@@ -94,7 +94,7 @@ class Workers(Executor):
     count : int
         At most so many processes.
     seconds : float
-        After so much time of its own, or `PATIENCE` times that by the clock, a work is stopped: its future has
+        After so much time of its own, or `SHUTDOWN_SECONDS` times that by the clock, a work is stopped: its future has
         TimeoutError.
     preload : sequence of str
         Modules that a worker finds imported. They are imported once, in a process of its own from which the workers
@@ -231,7 +231,7 @@ class Workers(Executor):
 
 def _await_answer(pipe: Connection, process: Any, seconds: float) -> list[Any]:
     """Wait until a worker answers or ends; nothing is returned once it has worked for so long."""
-    begun, end = _own_time(process.pid), time.monotonic() + PATIENCE * seconds
+    begun, end = _own_time(process.pid), time.monotonic() + SHUTDOWN_SECONDS * seconds
     left = seconds
     while left > 0.0:
         there = wait([pipe, process.sentinel], max(left, 0.01))

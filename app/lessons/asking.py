@@ -13,11 +13,11 @@ from ..phrases import say
 from .condition import FactCondition
 from .facts import FACTS, Fact, facts_of
 from .lesson import Question, portrait_of
-from .marks import NEAR, Point, gap
+from .marks import MARK_TOLERANCE, Point, gap
 from .words import fill_facts
 
 MOST_DRAWN = 60  # tries to fulfil what a question requires
-DIGITS = 2  # of drawn numbers: what a slider shows
+DRAWN_DIGITS = 2  # of drawn numbers: what a slider shows
 
 
 def pose(question: Question, values: Mapping[str, Any], seed: int) -> dict[str, Any]:
@@ -69,7 +69,7 @@ def _varies(question: Question) -> bool:
 
 
 def _draw_value(chance: random.Random, value: Any) -> Any:
-    return round(chance.uniform(*value), DIGITS) if isinstance(value, tuple) else value
+    return round(chance.uniform(*value), DRAWN_DIGITS) if isinstance(value, tuple) else value
 
 
 def judge(question: Question, scene: Scene, answer: int | Point) -> dict[str, Any]:
@@ -95,7 +95,7 @@ def judge(question: Question, scene: Scene, answer: int | Point) -> dict[str, An
         why = "" if right else fill_facts(question.options[answer].wrong, facts)
     else:
         away = gap(question.mark, scene, answer)
-        right = away is not None and away <= NEAR
+        right = away is not None and away <= MARK_TOLERANCE
         why = say("no such place") if away is None else "" if right else say("mark away", away=f"{away:.2f}")
     return {"right": right, "truth": truth, "why": why, "explain": fill_facts(question.explain, facts)}
 

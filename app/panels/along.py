@@ -17,7 +17,7 @@ from codim2_core.psi.function import Psi
 from codim2_core.sliding.along import slow_portrait
 from codim2_core.sliding.over import slow_plane
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
-from codim2_core.words import named
+from codim2_core.words import written_label
 
 from ..frame.draft import Draft
 from ..phrases import say
@@ -27,16 +27,16 @@ from ..state.chosen import System_, slow_ranges
 from ..state.slider_range import edited_range, slider_range
 from .panel import Panel
 
-PLANE = 15  # arrows along each axis of the plane
-NONE = say("no slow variable")
+ARROWS_PER_AXIS = 15  # arrows along each axis of the plane
+NO_SLOW_VARIABLE = say("no slow variable")
 
 
 def add(draft: Draft) -> None:
     """Add the slow portrait along the chosen slow variable, once nothing moves."""
     system, values = draft.system, draft.values
     if system is None or not system.m:
-        if draft.fresh("along", NONE):
-            draft.header.setdefault("unable", {})["along"] = NONE
+        if draft.fresh("along", NO_SLOW_VARIABLE):
+            draft.header.setdefault("unable", {})["along"] = NO_SLOW_VARIABLE
         return
     z, psi = draft.scene.z, draft.scene.psi
     _add_drift(draft)
@@ -117,7 +117,7 @@ def ahead_of(system: System_, psi: Psi, z: tuple[float, ...], spans: tuple[tuple
     """Return the delayed losses of stability ahead of motions that come to Sigma at z, as the browser draws them."""
     found = [
         {
-            "onto": named(one.onto),
+            "onto": written_label(one.onto),
             "z_in": short(one.z_in),
             "z_hopf": short(one.z_hopf),
             "z_out": None if one.z_out is None else short(one.z_out),
@@ -134,7 +134,7 @@ def plane_of(
     system: System_, psi: Psi, rest: tuple[float, ...], spans: tuple[tuple[float, float], ...]
 ) -> dict[str, Any]:
     """Return the slow flow over a net in the plane of the first two slow variables, where there is sliding."""
-    found = slow_plane(system, psi, (spans[0], spans[1]), rest, PLANE)
+    found = slow_plane(system, psi, (spans[0], spans[1]), rest, ARROWS_PER_AXIS)
     arrows = [
         [float(z1), float(z2), *short(flow[:2]), int(stable)]
         for (z1, z2), flow, stable in zip(found.z, found.flow, found.stable, strict=True)

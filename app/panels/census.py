@@ -15,11 +15,11 @@ from codim2_core.systems.typed import System
 from ..draw.thumbnails import thumbnail
 from ..frame.draft import Draft
 from ..state.choices import CENSUSES, MOST_CENSUS
-from ..state.chosen import NORMAL, OWN
+from ..state.chosen import NORMAL, OWN_SYSTEM
 from .panel import Panel
 
 #: Coefficients of an example are brought below this, in the range of their sliders, by another unit of time.
-LARGEST = 2.5
+COEFFICIENT_RANGE = 2.5
 PSI = constructors.constant()  # a portrait's name is the same under every other
 
 
@@ -64,7 +64,7 @@ def _control_numbers(row: Row) -> tuple[float, ...]:
     They have three digits, or as many more as its name needs.
     """
     numbers = row.example if isinstance(row.example, tuple) else tuple(dict(row.example.parameters).values())
-    scale = max(1.0, max(map(abs, numbers)) / LARGEST)
+    scale = max(1.0, max(map(abs, numbers)) / COEFFICIENT_RANGE)
     for digits in (3, 6, 12):
         rounded = tuple(float(f"{value / scale:.{digits}g}") for value in numbers)
         if portrait_name(LayerProblem(_system_of_row(row, rounded).at(), PSI)).full_name == row.name:
@@ -86,7 +86,7 @@ def controls(row: Row) -> dict[str, Any]:
         return {"system": NORMAL, **dict(zip(("a", "b", "d", "f1", "f2"), numbers, strict=True)), "k1": 0.0, "k2": 0.0}
     half = len(numbers) // 2
     texts = {f"U{i + 1}": _polynomial(numbers[i * half : (i + 1) * half]) for i in range(2)}
-    return {"system": OWN, "texts": {**texts, "W": "1", "where": ""}}
+    return {"system": OWN_SYSTEM, "texts": {**texts, "W": "1", "where": ""}}
 
 
 def _polynomial(weights: tuple[float, ...]) -> str:

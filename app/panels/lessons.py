@@ -17,7 +17,7 @@ from ..state.controls import ExplorerState
 from .panel import Panel
 
 #: From the middle of the picture, as far as a mark may be.
-FAR = 4.0
+FAR_MARK = 4.0
 
 
 class Quiz(NamedTuple):
@@ -47,7 +47,7 @@ def add(draft: Draft) -> None:
 def read_quiz(text: str, lesson: Lesson) -> Quiz | None:
     """Return the quiz written as QUESTION.SEED, QUESTION.SEED.CHOICE or QUESTION.SEED.X.Y; None if there is none such.
 
-    X and Y are a point of the picture in thousandths, counted from (-`FAR`, -`FAR`): a link has no signs.
+    X and Y are a point of the picture in thousandths, counted from (-`FAR_MARK`, -`FAR_MARK`): a link has no signs.
     """
     parts = text.split(".")
     if not 2 <= len(parts) <= 4 or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
@@ -57,8 +57,8 @@ def read_quiz(text: str, lesson: Lesson) -> Quiz | None:
         return None
     asked = lesson.questions[question]
     if len(rest) == 2:
-        x, y = (v / 1000 - FAR for v in rest)
-        return Quiz(question, seed, (x, y)) if asked.mark and max(abs(x), abs(y)) <= FAR else None
+        x, y = (v / 1000 - FAR_MARK for v in rest)
+        return Quiz(question, seed, (x, y)) if asked.mark and max(abs(x), abs(y)) <= FAR_MARK else None
     if rest and rest[0] >= len(asked.options):
         return None
     return Quiz(question, seed, rest[0] if rest else None)

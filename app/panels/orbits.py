@@ -23,7 +23,9 @@ from ..state.chosen import System_
 from ..state.launches import TYPED, read_launches, selected_place
 from .panel import Panel
 
-ON = 1.5  # times as long as it takes to Sigma is a motion for eps > 0 followed: what it does there is seen too
+CONTINUATION_FACTOR = (
+    1.5  # times as long as it takes to Sigma is a motion for eps > 0 followed: what it does there is seen too
+)
 
 
 def add(draft: Draft) -> None:
@@ -57,7 +59,7 @@ def add(draft: Draft) -> None:
                 draft.late("orbit_motion")
             return
         eps = 10.0 ** draft.values["log_eps"]
-        lasts = end * (ON if launched.goes[i].after is not None else 1.0)
+        lasts = end * (CONTINUATION_FACTOR if launched.goes[i].after is not None else 1.0)
         wanted = (draft.system, scene.psi, eps, seed, scene.z, lasts)
         motion = draft.slow("orbit_motion", wanted, regularised_motion, *wanted)
         if motion is not None:

@@ -14,10 +14,10 @@ from ..lessons.library import lessons
 from ..phrases import say
 from ..state.choices import SETTING
 from ..state.chosen import NORMAL
-from ..state.controls import NAMES, first_values
+from ..state.controls import CONTROL_NAMES, first_values
 from .rooms import MOST_TRIES, Guest, RoomError, Row, code_of, process_rooms, settings_of
 
-LONGEST = 64  # characters of a key or a code
+MAX_KEY_CHARACTERS = 64  # characters of a key or a code
 _first = cache(first_values)
 
 
@@ -77,7 +77,7 @@ class Visitor:
         try:
             if isinstance(key := asked.get("open"), str):
                 self._leave_guest()
-                key = key if len(key) <= LONGEST else ""
+                key = key if len(key) <= MAX_KEY_CHARACTERS else ""
                 if self._opened is not None and self._opened[0] != code_of(key):  # a page has one room
                     process_rooms().close(self._opened[0])
                     self._opened = None
@@ -85,7 +85,7 @@ class Visitor:
                 self._opened = code, tell
                 reply({"open": code, "key": key})
             elif isinstance(code := asked.get("join"), str):
-                joined = self._join(code[:LONGEST], tell)
+                joined = self._join(code[:MAX_KEY_CHARACTERS], tell)
                 reply({"joined": joined, "view": process_rooms().view(joined)})
             elif asked.get("close") is True and self._opened is not None:
                 code, _ = self._opened
@@ -126,7 +126,7 @@ class Visitor:
 
     def _view(self) -> dict[str, Any]:
         """Return what this browser shows, as far as it is other than at first."""
-        return settings_of(self._values(), _first(), NAMES)
+        return settings_of(self._values(), _first(), CONTROL_NAMES)
 
     def _leave_guest(self) -> None:
         if self._guest is not None:

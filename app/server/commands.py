@@ -266,6 +266,6 @@ def notebooks(chosen: argparse.Namespace) -> int:
 def docs(chosen: argparse.Namespace) -> int:
     """Build the site."""
     from ..docs.build import main
-    from ..docs.place import OWN
+    from ..docs.place import PACKAGED_SITE
 
-    return main(OWN if chosen.folder is None else chosen.folder)
+    return main(PACKAGED_SITE if chosen.folder is None else chosen.folder)

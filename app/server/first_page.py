@@ -23,7 +23,7 @@ from .scripts import PREVIEW
 
 MARKUP, NOTICE = "<!-- codim2 markup -->", "<!-- codim2 notice -->"
 TITLE = "Isolated codimension-2 discontinuity: explorer"
-REMEMBERED = 64  # addresses
+KEPT_PAGES = 64  # addresses
 BUSY = (
     '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
     '<meta http-equiv="refresh" content="{0}"><meta name="color-scheme" content="light dark"><title>Busy</title>'
@@ -45,7 +45,7 @@ def markup_of(query: Mapping[str, str]) -> str:
     markup, complete = page_markup(link_of(query))
     if complete:
         _pages[key] = markup
-        if len(_pages) > REMEMBERED:
+        if len(_pages) > KEPT_PAGES:
             _pages.popitem(last=False)
     return markup
 

@@ -19,7 +19,7 @@ from ..rooms.rooms import Rooms
 from ..view import warmup
 from .live import Places
 
-TEXT = "text/plain; version=0.0.4; charset=utf-8"
+CONTENT_TYPE = "text/plain; version=0.0.4; charset=utf-8"
 #: Seconds.
 BUCKETS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 5.0)
 
@@ -90,6 +90,6 @@ class MetricsPage(RequestHandler):
     def get(self) -> None:
         """Send the text."""
         metrics: Metrics = self.settings["metrics"]
-        self.set_header("Content-Type", TEXT)
+        self.set_header("Content-Type", CONTENT_TYPE)
         self.set_header("Cache-Control", "no-store")
         self.finish(metrics.text())

@@ -22,7 +22,7 @@ from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
 from ..rooms.board import Board
-from ..rooms.rooms import EVERY, MOST_ROOMS, Rooms
+from ..rooms.rooms import MOST_ROOMS, SHARING_SECONDS, Rooms
 from ..rooms.rooms import serve_with as serve_rooms
 from ..view import warmup
 from ..view.markup import edition
@@ -131,7 +131,7 @@ def make_server(
     turns = Turns(executor, at_once)
     serve_with(turns)
     warmup_now = processes == 1
-    begin = partial(warmup.start, partial(_report_warm_up, told), patience=warmup.PATIENCE)
+    begin = partial(warmup.start, partial(_report_warm_up, told), patience=warmup.POLL_SECONDS)
     if warmup_now:
         begin()
     parent = os.getpid()
@@ -176,7 +176,7 @@ def _keep(rooms: Rooms) -> None:
         if not beat.is_running():
             beat.start()
 
-    beat = PeriodicCallback(look, 1000 * EVERY)
+    beat = PeriodicCallback(look, 1000 * SHARING_SECONDS)
     rooms.beat_with(begin)
     serve_rooms(rooms)
 

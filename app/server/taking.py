@@ -8,13 +8,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-VIEW = "a preset (`codim2 presets` lists them), an explorer's link, or the query of one"
+VIEW_HELP = "a preset (`codim2 presets` lists them), an explorer's link, or the query of one"
 
 
 def add_figure(commands: Any) -> None:
     """Add `codim2 figure`."""
     command = commands.add_parser("figure", help="draw a preset or a link: SVG, PNG or PDF")
-    command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
+    command.add_argument("view", metavar="PRESET|LINK", help=VIEW_HELP)
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .svg, .png or .pdf")
     command.add_argument("--size", type=float, default=120.0, metavar="MM", help="width of the picture; default 120")
     command.add_argument("--scale", type=float, default=3.0, help="of a PNG: 1 is 96 dots per inch; default 3")
@@ -29,7 +29,7 @@ def add_figure(commands: Any) -> None:
 def add_data(commands: Any) -> None:
     """Add `codim2 data`."""
     command = commands.add_parser("data", help="write what a preset or a link draws: data, Python code, a LaTeX table")
-    command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
+    command.add_argument("view", metavar="PRESET|LINK", help=VIEW_HELP)
     endings = ".zip (CSV files), .json, .npz, .py (code that rebuilds the view) or .tex (equilibria and critical sets)"
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help=f"ends in {endings}")
     command.set_defaults(run=lambda chosen: _write_output(chosen.output, lambda: _data(chosen)))
@@ -45,7 +45,7 @@ def _data(chosen: argparse.Namespace) -> bytes:
 def add_live(commands: Any) -> None:
     """Add `codim2 live`."""
     command = commands.add_parser("live", help="write one HTML file that moves a slider or two with no server")
-    command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
+    command.add_argument("view", metavar="PRESET|LINK", help=VIEW_HELP)
     words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'; give it twice for two sliders"
     command.add_argument("--slider", action="append", required=True, metavar="NAME[=LOW,HIGH]", help=words)
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .html")
@@ -57,7 +57,7 @@ def add_film(commands: Any) -> None:
     command = commands.add_parser(
         "film", help="write a film of a slider that moves, or of an orbit that is run along: an animated GIF or WebP"
     )
-    command.add_argument("view", metavar="PRESET|LINK", help=VIEW)
+    command.add_argument("view", metavar="PRESET|LINK", help=VIEW_HELP)
     words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'"
     moves = command.add_mutually_exclusive_group(required=True)
     moves.add_argument("--slider", metavar="NAME[=LOW,HIGH]", help=words)
@@ -72,7 +72,7 @@ def add_film(commands: Any) -> None:
 def _film(chosen: argparse.Namespace) -> bytes:
     from dataclasses import replace
 
-    from ..export.film import KINDS, STYLE, film
+    from ..export.film import FILM_KINDS, STYLE, film
     from ..export.play import PLAY
     from ..export.view import suffix_of, view_of
 
@@ -80,7 +80,7 @@ def _film(chosen: argparse.Namespace) -> bytes:
         if sys.stderr.isatty():
             print(f"\r{done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
 
-    kind, style = suffix_of(chosen.output, tuple(KINDS)), replace(STYLE, theme=chosen.theme)
+    kind, style = suffix_of(chosen.output, tuple(FILM_KINDS)), replace(STYLE, theme=chosen.theme)
     return film(view_of(chosen.view), PLAY if chosen.play else chosen.slider, kind, style, chosen.positions, progress)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from .chosen import BOXES
 from .cleaning import InputError
-from .controls import NAMES
+from .controls import CONTROL_NAMES
 
 _TYPED_BOXES = frozenset(box.name for boxes in BOXES.values() for box in boxes)
 
@@ -26,7 +26,7 @@ def compatible_changes(
     """
     had: dict[str, Any] = {}
     failed: dict[str, Exception] = {}
-    left = sorted(good, key=NAMES.index)
+    left = sorted(good, key=CONTROL_NAMES.index)
     while left:
         failed = {}
         for name in left:

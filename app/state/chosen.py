@@ -15,7 +15,7 @@ from typing import Any
 
 from codim2_core.examples import catalogue
 from codim2_core.expressions.expression import ExpressionError, parse
-from codim2_core.expressions.names import PLANE, TIME
+from codim2_core.expressions.names import FAST_NAMES, TIME
 from codim2_core.expressions.tape import CONSTANTS, FUNCTIONS
 from codim2_core.paper import cite
 from codim2_core.systems.elinear import ELinear
@@ -24,7 +24,7 @@ from codim2_core.systems.typed import System
 from ..draw.mathml import equations_mathml, plain_symbol
 from ..phrases import say
 
-NORMAL, TYPED, OWN = "normal", "typed", "own"
+NORMAL, TYPED, OWN_SYSTEM = "normal", "typed", "own"
 GIVEN = "given"  # the user's own system, from Python
 MOST_SLOW = 4  # slow variables that have a slider
 MOST_PARAMETERS = 12
@@ -73,7 +73,7 @@ BOXES: Mapping[str, tuple[Box, ...]] = MappingProxyType(
             Box("g", "g", "0"),
             Box("where", "where", ""),
         ),
-        OWN: (
+        OWN_SYSTEM: (
             Box("U1", "ẋ = U₁", "-c*(c - chi(z)/2)*(c + chi(z)/2)"),
             Box("U2", "ẏ = U₂", "-k*s"),
             Box("W", "ż = W", "-2*c + 1/4", 2),
@@ -89,7 +89,7 @@ def titles() -> dict[str, str]:
         NORMAL: "e-linear normal form",
         TYPED: "e-linear, coefficients as text",
         **{key: example.title for key, example in catalogue.items()},
-        OWN: "Your own",
+        OWN_SYSTEM: "Your own",
     }
 
 
@@ -137,9 +137,9 @@ def _typed_system(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     definitions = _definitions(rest)
     if choice == TYPED and definitions:
         raise TextError("where", "Coefficients take no definitions; write a line such as mu = 0.3 in [0, 1].")
-    known = {*PLANE, "z", *(f"z{i}" for i in range(1, 17)), *FUNCTIONS, *CONSTANTS}
+    known = {*FAST_NAMES, "z", *(f"z{i}" for i in range(1, 17)), *FUNCTIONS, *CONSTANTS}
     known |= {key.split("(")[0].strip() for key in definitions}
-    known |= {TIME} if choice == OWN else set()
+    known |= {TIME} if choice == OWN_SYSTEM else set()
     names: list[str] = []
     own = {box.name for box in BOXES[choice]}
     for box, text in (*boxes.items(), *(("where", formula) for formula in definitions.values())):

@@ -15,9 +15,9 @@ import param
 from codim2_core import psi as psi_families
 
 from ..draw.layers import LAYERS
-from .choices import AXES, OWN_AXIS, SETTING
+from .choices import OWN_AXIS, SETTING, SLIDER_AXES
 from .chosen import titles
-from .controls import NAMES, NUMBERS, Angle, ExplorerState
+from .controls import CONTROL_NAMES, NUMBERS, Angle, ExplorerState
 from .launches import read_launches
 from .portraits import portrait_keys
 
@@ -42,7 +42,7 @@ def clean(name: str, value: Any) -> Any:
     Parameters
     ----------
     name : str
-        One of `NAMES`.
+        One of `CONTROL_NAMES`.
     value : object
         A number, text or list; text is read as a URL writes it.
 
@@ -51,8 +51,8 @@ def clean(name: str, value: Any) -> Any:
     InputError
         With the name of the control.
     """
-    if name not in NAMES:
-        raise InputError(name, f"There is no control {name!r}; the controls are {', '.join(NAMES)}.")
+    if name not in CONTROL_NAMES:
+        raise InputError(name, f"There is no control {name!r}; the controls are {', '.join(CONTROL_NAMES)}.")
     declared = ExplorerState.param[name]
     if name in NUMBERS:
         return _finite(name, declared.label, value)
@@ -110,8 +110,8 @@ def _layers(name: str, _label: str | None, value: Any) -> list[str]:
 def _axis(name: str, label: str | None, value: Any) -> str:
     """Return what a diagram or the atlas runs along: a control's number, or a parameter of the system."""
     value = value if isinstance(value, str) else str(value)[:40]
-    if not _is_own(value) and value not in AXES:
-        known = ", ".join([*AXES, f"{OWN_AXIS}mu"])
+    if not _is_own(value) and value not in SLIDER_AXES:
+        known = ", ".join([*SLIDER_AXES, f"{OWN_AXIS}mu"])
         raise InputError(name, f"{label}: {str(value)[:40]!r} given; choose one such as {known}.")
     return str(value)
 

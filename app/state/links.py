@@ -16,16 +16,16 @@ from types import MappingProxyType
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from ..draw.theme import NEAREST, WIDEST
+from ..draw.theme import MAX_HALF_VIEW, NEAREST
 from ..phrases import say
 from .chosen import BOXES, NORMAL
 from .cleaning import LONGEST_TEXT, InputError, clean
-from .controls import NAMES, ExplorerState, preset_values
+from .controls import CONTROL_NAMES, ExplorerState, preset_values
 from .opening import opening_values
 
 VERSION = 1
 #: What a link of each version leaves out. A release that opens otherwise gets a new version beside these.
-FIRST: Mapping[int, Mapping[str, Any]] = MappingProxyType(
+DEFAULTS_BY_VERSION: Mapping[int, Mapping[str, Any]] = MappingProxyType(
     {
         1: {
             "a": -2.0, "b": 0.0, "d": -1.0, "f1": -0.5, "f2": 0.0, "system": "normal", "texts": {}, "parameters": {},
@@ -120,12 +120,12 @@ def read_link(query: str | Mapping[str, str]) -> Link:
             given |= now
     good: dict[str, Any] = {}
     for name, text in given.items():
-        if name in NAMES:
+        if name in CONTROL_NAMES:
             try:
                 good[name] = clean(name, text)
             except InputError as error:
                 errors.append(InputError(error.control, str(error), text[:LONGEST_TEXT]))
-    unknown = [name[:20] for name in given if name not in NAMES and not name.startswith("bokeh-")]
+    unknown = [name[:20] for name in given if name not in CONTROL_NAMES and not name.startswith("bokeh-")]
     if unknown:
         shown = ", ".join(map(repr, unknown[:3])) + (f" and {len(unknown) - 3} more" if len(unknown) > 3 else "")
         errors.append(InputError("", say("address names", names=shown)))
@@ -134,7 +134,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
 
 def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:
     """Return the query of an address that shows these values (all of them, as `ExplorerState.values`)."""
-    base = {**FIRST[VERSION], **preset_values(values["preset"]), "preset": ""}
+    base = {**DEFAULTS_BY_VERSION[VERSION], **preset_values(values["preset"]), "preset": ""}
     brought = BROUGHT if values["system"] != base["system"] else ()
     wanted = {name: value for name, value in values.items() if value != base[name] or name in brought}
     if values["system"] in BOXES:  # texts that one sees are part of a link, whatever a later release begins with
@@ -186,10 +186,10 @@ def _first(version: str, errors: list[InputError]) -> Mapping[str, Any]:
     """Return what a link of this version leaves out; one without a version, typed or old, leaves out nothing."""
     if version == "":
         return {}
-    if version.isdecimal() and int(version[:9]) in FIRST:
-        return FIRST[int(version[:9])]
+    if version.isdecimal() and int(version[:9]) in DEFAULTS_BY_VERSION:
+        return DEFAULTS_BY_VERSION[int(version[:9])]
     errors.append(InputError("", say("address of a later version", version=version[:9], newest=VERSION)))
-    return FIRST[VERSION]
+    return DEFAULTS_BY_VERSION[VERSION]
 
 
 def _look(given: dict[str, str], errors: list[InputError]) -> Look:
@@ -212,10 +212,17 @@ def _rectangle(text: str, errors: list[InputError]) -> tuple[float, ...]:
     except ValueError:
         left = right = bottom = top = 0.0
     far = max(map(abs, (left, right, bottom, top)))
-    if far <= 3 * WIDEST and all(1.9 * NEAREST <= size <= 2.1 * WIDEST for size in (right - left, top - bottom)):
+    if far <= 3 * MAX_HALF_VIEW and all(
+        1.9 * NEAREST <= size <= 2.1 * MAX_HALF_VIEW for size in (right - left, top - bottom)
+    ):
         return left, right, bottom, top  # as far as the picture's own tools go, and no closer: so far it is sampled
     errors.append(
-        InputError("", say("part of the picture", given=text[:40], least=2 * NEAREST, most=2 * WIDEST, far=3 * WIDEST))
+        InputError(
+            "",
+            say(
+                "part of the picture", given=text[:40], least=2 * NEAREST, most=2 * MAX_HALF_VIEW, far=3 * MAX_HALF_VIEW
+            ),
+        )
     )
     return ()
 

@@ -17,7 +17,7 @@ from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
-from codim2_core.words import printed
+from codim2_core.words import printed_sentence
 
 from ..draw import glyphs
 from ..draw.lines import arrowheads, spacing
@@ -36,7 +36,7 @@ from ..panels import registry
 from ..panels.parameters.axes import opening_axes
 from ..state.asked import read_request
 from ..state.changes import compatible_changes, culprit
-from ..state.choices import AXES
+from ..state.choices import SLIDER_AXES
 from ..state.chosen import GIVEN, System_, describe
 from ..state.cleaning import InputError, clean
 from ..state.controls import TYPED_IN, ExplorerState, first_values, preset_values
@@ -45,7 +45,7 @@ from . import warmup
 from .notices import left_out
 
 #: Controls that are axes of the picture's parameters.
-MOVED = frozenset(AXES)
+MOVED = frozenset(SLIDER_AXES)
 #: The control along which a degenerate setting is looked at from both sides, before one is moved.
 FIRST_MOVED = "f1"
 #: Controls that say which parameters there are.
@@ -153,7 +153,7 @@ class Frames:
             header["set"] = told
         if header.get("ready") is False and warmup.done is not None and warmup.done[0] < warmup.done[1]:
             header["compiled"] = warmup.done
-        errors = {name: printed(said) for name, said in errors.items()}
+        errors = {name: printed_sentence(said) for name, said in errors.items()}
         return self._packed({"id": request.get("id", 0), "errors": errors, "load": load.measured(), **header}, blocks)
 
     def keep(self) -> None:

@@ -19,7 +19,7 @@ from .refresh import Frames
 #: What the parts of a film are called among the jobs of a browser.
 JOB = "take"
 #: Pictures of a film that are drawn in one turn.
-PART = 4
+FILE_MESSAGE = 4
 
 Reply = Callable[[dict[str, Any]], None]
 
@@ -81,7 +81,7 @@ class Taking:
         view = seen_by(request, self.frames.values, self.frames.own)
         key = repr((view, wish))
         if wish.kind == "gif":
-            count, part = count_of(wish.slider), max(PART, part_of(wish.slider))
+            count, part = count_of(wish.slider), max(FILE_MESSAGE, part_of(wish.slider))
             self._film = _Film(about, view, wish, key, count, part)
             self._draw(self._film, (), reply, later)
             return

@@ -97,14 +97,14 @@ def tally(plan: Plan, chunk: int, size: int) -> Tally:
 
 
 def _of_coefficients(plane: NDArray[np.float64], chunk: int) -> Tally:
-    from .names import IMPOSSIBLE, NAMES, names  # on first use: it loads the compiler
+    from .names import IMPOSSIBLE, PORTRAIT_NAMES, names  # on first use: it loads the compiler
 
     codes, margins, others = names(plane)
     found: dict[str, Found] = {}
     for code in np.unique(codes[codes > 0]):
         where = np.flatnonzero(codes == code)
         most, least = int(where[np.argmax(margins[where])]), int(where[np.argmin(margins[where])])
-        name = " ".join(NAMES[code - 1])
+        name = " ".join(PORTRAIT_NAMES[code - 1])
         found[name] = Found(len(where), float(margins[most]), (chunk, most), float(margins[least]), (chunk, least))
     whole = Tally(found, int(np.isin(codes, IMPOSSIBLE).sum()))
     for i, (case, name) in others.items():

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ..layer_problem.problem import LayerProblem, found_once
 from .limit_cycles import shown_of
 from .search import Shown
-from .section import COARSE
+from .section import COARSE_RTOL
 
 Array = NDArray[np.float64]
 ON_C = -1
@@ -47,7 +47,7 @@ def _answer(problem: LayerProblem, states: Array) -> list[int | None]:
     if isinstance(samples, str) or certain < 0:
         return [None] * len(states)
     section = samples.section
-    ends, _, codes, _ = section.turn(np.ascontiguousarray(states), COARSE, elsewhere=True)
+    ends, _, codes, _ = section.turn(np.ascontiguousarray(states), COARSE_RTOL, elsewhere=True)
     returned = (codes == section.kernel[0].RETURNED).tolist()
     inmost = ON_C if section.critical.kind.startswith("stable") else None
     led = [_follow_signs(samples, q, inmost) for q in section.coordinate(ends).tolist()]

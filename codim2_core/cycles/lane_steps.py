@@ -8,10 +8,22 @@ import numpy as np
 from numba import njit
 
 from ..stepping.dop853 import ARITHMETIC
-from ..stepping.layout import EACH, ERROR_3, ERROR_5, GAINS, LANES, NEW, SIGN, STATE, STEP, WITH_EACH, WORKSPACE
+from ..stepping.layout import (
+    EACH,
+    ERROR_3,
+    ERROR_5,
+    GAINS,
+    LANES,
+    NEW,
+    SIDE_SIGN,
+    STATE,
+    STEP_ROW,
+    WITH_EACH,
+    WORKSPACE,
+)
 from ..stepping.numbers import PSI
 
-SHARE = 0.1  # of the tolerance, for one step
+STEP_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step
 TRIALS = 40
 
 
@@ -19,9 +31,9 @@ TRIALS = 40
 def workspace(shared):
     """Return the workspace and the parameters of a field whose lanes all lie on the hemisphere."""
     S, P = np.zeros(WORKSPACE), np.zeros(WITH_EACH)
-    for m in range(SIGN):
+    for m in range(SIDE_SIGN):
         P[m] = shared[m]
-    for m in range(SIGN, GAINS):
+    for m in range(SIDE_SIGN, GAINS):
         P[m] = -1.0
     return S, P
 
@@ -52,7 +64,7 @@ def set_lengths(S, step):
     """Let each lane step by its own length."""
     for k in range(LANES):
         for c in range(3):
-            S[STEP + c * LANES + k] = step[k]
+            S[STEP_ROW + c * LANES + k] = step[k]
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")

@@ -15,14 +15,14 @@ import numpy as np
 from ..numerics.root_between import root_through
 from ..words import say
 from .resolution import NEAR_FOLD, UNRESOLVED, Samples, near_fold, zeros
-from .section import COARSE, FINE, INNER, Array, FixedPoint, Section
+from .section import COARSE_RTOL, FINE_RTOL, INNER_RADIUS, Array, FixedPoint, Section
 
-TOUCHING = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
-CLOSE = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time
-CLOSER, AGREED = 0.02, 1e-10  # spacing of the samples about a fixed point; how far two interpolants may differ
+FOLD_NOISE = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
+MIN_JUMP_WIDTH = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time
+FINE_SPACING, AGREED = 0.02, 1e-10  # spacing of the samples about a fixed point; how far two interpolants may differ
 NOISE = 1e-8  # displacement that COARSE cannot tell from zero
 NEAR_LOOP = 1e-3
-MEASURED, SMALLEST = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R
+MEASURED, MIN_CYCLE_RADIUS = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R
 
 
 def _sample_between(low: float, high: float, count: int) -> Array:
@@ -46,7 +46,7 @@ def _ends(xi: Array, shift: Array) -> list[int]:
     finite = np.isfinite(shift)
     width = np.diff(xi)
     candidates = width > 1e-12 * np.maximum(1.0, np.abs(xi[:-1]))
-    jumps = candidates & (width > CLOSE) & np.isinf(shift[:-1]) & (shift[1:] == -shift[:-1])
+    jumps = candidates & (width > MIN_JUMP_WIDTH) & np.isinf(shift[:-1]) & (shift[1:] == -shift[:-1])
     new = []
     for i in np.flatnonzero(candidates & (finite[1:] != finite[:-1])).tolist():
         # Before the displacement jumps to +inf; to -inf, on C, it goes continuously.
@@ -75,8 +75,8 @@ def _interpolate_fixed_point(
     guess = root_through(x, y)
     if not low < guess < high:
         return None
-    x = guess + min(CLOSER, 0.1 * (high - low)) * np.array([-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
-    y = section.displacement(x, FINE, backward)
+    x = guess + min(FINE_SPACING, 0.1 * (high - low)) * np.array([-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
+    y = section.displacement(x, FINE_RTOL, backward)
     if not _one_way(y) or y[0] * y[-1] > 0.0:
         return None
     found = root_through(x, y)
@@ -87,7 +87,7 @@ def _bracket_fixed_point(section: Section, low: float, high: float, backward: bo
     """Find the fixed point between low and high, where the displacement has opposite signs, by rounds of samples."""
     for _ in range(8):
         x = np.concatenate([[low], _sample_between(low, high, 30), [high]])
-        y = section.displacement(x, COARSE, backward)
+        y = section.displacement(x, COARSE_RTOL, backward)
         changes = np.flatnonzero((y[1:] < 0.0) != (y[:-1] < 0.0))
         k = int(changes[0]) if len(changes) else len(x) // 2
         low, high = float(x[k]), float(x[k + 1])
@@ -95,7 +95,7 @@ def _bracket_fixed_point(section: Section, low: float, high: float, backward: bo
             break
     width = high - low
     x = low + width * np.array([-2.0, -1.0, 0.0, 1.0, 2.0, 3.0])
-    y = section.displacement(x, FINE, backward)
+    y = section.displacement(x, FINE_RTOL, backward)
     if not np.isfinite(y).all() or len(np.unique(y)) < len(y):
         return 0.5 * (low + high)
     guess = root_through(x, y)
@@ -116,17 +116,17 @@ def _newborn(section: Section) -> FixedPoint | None:
     """Place a cycle below the innermost sample: ``displacement = 2 pi mu/omega + c r^2``, its first term exact.
 
     c is measured well outside the cycle, where rounding (1e-16/r) does not matter yet; what is left is of order r^2.
-    None below `SMALLEST`, where the trace of J has lost its digits.
+    None below `MIN_CYCLE_RADIUS`, where the trace of J has lost its digits.
     """
     C = section.critical
     linear = 2.0 * math.pi * C.trace / math.sqrt(-C.discriminant)
-    r = INNER * MEASURED * np.array([1.0, 2.0, 4.0])
-    parts = (section.displacement(np.log(r / (1.0 - r)), FINE) - linear) / r**2
+    r = INNER_RADIUS * MEASURED * np.array([1.0, 2.0, 4.0])
+    parts = (section.displacement(np.log(r / (1.0 - r)), FINE_RTOL) - linear) / r**2
     square = float(parts @ (8.0, -6.0, 1.0)) / 3.0  # takes out the next two powers of r
     if not square * linear < 0.0:
         return None
     size = math.sqrt(-linear / square)
-    if not SMALLEST <= size < 2.0 * INNER:
+    if not MIN_CYCLE_RADIUS <= size < 2.0 * INNER_RADIUS:
         return None
     return FixedPoint(math.log(size / (1.0 - size)), square > 0.0, born=True)
 
@@ -198,7 +198,7 @@ def sample_return_map(section: Section) -> Shown:
     if band:
         notes.append(say("band"))
     notes += _nearly_degenerate(q, shift, noise)
-    meeting = tuple(i for i in touching if noise[i] < TOUCHING)
+    meeting = tuple(i for i in touching if noise[i] < FOLD_NOISE)
     return Shown(section, xi, q, shift, tuple(changes), meeting, tuple(notes))
 
 

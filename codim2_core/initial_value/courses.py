@@ -15,7 +15,7 @@ from ..psi.function import Psi
 from .compiled import functions_of, numbers_of_tableau, shared_out
 from .field import Field
 from .kernels.course import ROW, TOLD, follow_courses
-from .kernels.explicit import DEGREE
+from .kernels.explicit import DENSE_DEGREE
 from .kernels.slow import flow
 from .line import InvariantLine
 
@@ -117,7 +117,7 @@ def _split_motions(
     times: Array, lengths: Array, states: Array, polynomials: Array, sets: Array, phases: Array, told: Array, n: int
 ) -> list[Followed]:
     """Cut what `follow_courses` returns into motions, without copying."""
-    states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DEGREE)
+    states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DENSE_DEGREE)
     sets = sets.reshape(-1, 2)
     for array in (times, lengths, states, polynomials, sets):
         array.flags.writeable = False

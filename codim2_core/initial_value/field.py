@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..expressions.expression import Expression, parse
 from ..expressions.functions import called
-from ..expressions.names import PLANE, SLOW
+from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.source import program
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
@@ -27,7 +27,7 @@ from ..systems.typed_at_z import Frozen
 from ..systems.typed_formulas import Formulas
 
 Array = NDArray[np.float64]
-BESIDE = 1e-9
+ONE_SIDED_DISTANCE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,7 @@ class Field:
         arguments = (c, s, x, y, *z)
         slopes = np.array(self.slope(*arguments))
         if not np.isfinite(slopes).all():
-            slopes = np.array(self.slope(*(value + BESIDE * (1.0 + abs(value)) for value in arguments)))
+            slopes = np.array(self.slope(*(value + ONE_SIDED_DISTANCE * (1.0 + abs(value)) for value in arguments)))
             slopes = np.nan_to_num(slopes, posinf=0.0, neginf=0.0)
         return slopes.reshape(2 + self.m, 4 + self.m)
 
@@ -130,7 +130,7 @@ def rows_of(system: AnySystem, kept: Sequence[str] = ()) -> list[Expression]:
     if isinstance(system, ELinear):
         return _elinear_rows(system, kept)
     rows = _system_rows(system.typed, kept)
-    for name, value in zip(SLOW, getattr(system, "z", ()), strict=False):  # of one that is frozen
+    for name, value in zip(SLOW_NAMES, getattr(system, "z", ()), strict=False):  # of one that is frozen
         rows = [row.substitute(name, _number(value)) for row in rows]
     return rows
 
@@ -162,7 +162,7 @@ def _elinear_rows(system: ELinear, kept: Sequence[str] = ()) -> list[Expression]
             return parse(name, (name,))
         expression = value if isinstance(value, Expression) else _number(value)
         expression = _with_parameters([expression], values)[0]
-        return expression.substitute("z", parse("z1", SLOW)) if "z" in expression.names else expression
+        return expression.substitute("z", parse("z1", SLOW_NAMES)) if "z" in expression.names else expression
 
     f = [as_expression(value, name) for name, value in zip(("f1", "f2"), system.f, strict=True)]
     B = [[as_expression(value) for value in row] for row in system.B or [(0.0, 0.0)] * system.m]
@@ -207,14 +207,14 @@ def _fill_template(template: str, **values: Any) -> Expression:
     # Capitals: the values' own names c, s, z1 … must not be taken for placeholders.
     for name in values:
         template = template.replace(name, name.upper())
-    row = parse(template, (*PLANE, *(name.upper() for name in values)))
+    row = parse(template, (*FAST_NAMES, *(name.upper() for name in values)))
     for name, value in values.items():
         row = row.substitute(name.upper(), value if isinstance(value, Expression) else _number(value))
     return row
 
 
 def _field(rows: Sequence[Expression], m: int) -> Field:
-    names = (*PLANE, *SLOW[:m])
+    names = (*FAST_NAMES, *SLOW_NAMES[:m])
     slopes = [row.derivative(name) for row in rows for name in names]
     return Field(m, tuple(rows), function_of(rows, names), function_of(slopes, names))
 

@@ -19,10 +19,10 @@ from .field import Field
 
 Array = NDArray[np.float64]
 
-SAMPLES = 16  # points at which invariance is asked
+INVARIANCE_SAMPLES = 16  # points at which invariance is asked
 EXACT = 1e-13  # of both products in n x U: what counts as parallel
 QUICK = (0.37, -0.61)  # of q
-NET = 400  # of q, on which zeros are looked for
+ZERO_NET = 400  # of q, on which zeros are looked for
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +69,7 @@ class InvariantLine:
         if not rate:
             return None
         end = math.copysign(1.0, rate)
-        net = q + (end - q) * np.arange(1, NET + 1) / NET
+        net = q + (end - q) * np.arange(1, ZERO_NET + 1) / ZERO_NET
         before = q
         for after in net.tolist():
             if self.along(after, z) * end <= 0.0:
@@ -133,11 +133,11 @@ def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:
         return False
     left, right = n1 * U[:, 1], n2 * U[:, 0]
     across, size = np.abs(left - right).max(initial=0.0), (np.abs(left) + np.abs(right)).max(initial=0.0)
-    return len(found) > SAMPLES // 4 and bool(across <= EXACT * size)
+    return len(found) > INVARIANCE_SAMPLES // 4 and bool(across <= EXACT * size)
 
 
 @cache
 def _sample_places(width: int) -> tuple[Array, list[tuple[float, float]]]:
     """Return where invariance is asked: (SAMPLES, width) places in the span of z and W, and (q, part of r) of each."""
     rng = np.random.default_rng(0)
-    return rng.uniform(-1.0, 1.0, (SAMPLES, width)), rng.uniform(-1.0, 1.0, (SAMPLES, 2)).tolist()
+    return rng.uniform(-1.0, 1.0, (INVARIANCE_SAMPLES, width)), rng.uniform(-1.0, 1.0, (INVARIANCE_SAMPLES, 2)).tolist()

@@ -18,10 +18,10 @@ from .field import Field
 
 Array = NDArray[np.float64]
 
-INWARD = 0.9  # of rho: how far towards Sigma one step may go
+MAX_INWARD_SHARE = 0.9  # of rho: how far towards Sigma one step may go
 CONTACT = 20.0  # times eps: so near, what looks like a way inward may be the rounding of a slide, eps times 1/rtol
-ARRIVED, ENOUGH = 1e-13, 5e-5  # of the largest rho of a slip; of that times rtol
-GROWTH = 1.0  # longest step times a growth rate: an L-stable method damps faster growth away
+MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE = 1e-13, 5e-5  # of the largest rho of a slip; of that times rtol
+MAX_STEP_GROWTH = 1.0  # longest step times a growth rate: an L-stable method damps faster growth away
 
 
 def arrival_radius(rtol: float) -> float:
@@ -29,13 +29,13 @@ def arrival_radius(rtol: float) -> float:
 
     What is left to turn on it, to a limit direction that attracts, is a small part of 1: rtol has room for it.
     """
-    return max(ARRIVED, ENOUGH * rtol)
+    return max(MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE * rtol)
 
 
 def growth_bound(jacobian: Array) -> float:
     """Longest step in which an L-stable method follows growth away from an unstable state instead of damping it."""
     growth = float(np.linalg.eigvals(jacobian).real.max()) if jacobian.size else 0.0
-    return GROWTH / growth if growth > 0.0 else math.inf
+    return MAX_STEP_GROWTH / growth if growth > 0.0 else math.inf
 
 
 def own_time(problem: Problem, state: Array, rate: Array) -> float:
@@ -137,7 +137,7 @@ def plane_problem(
     def limit(state: Array, rate: Array, jacobian: Array) -> float:
         x, y, u, v = float(state[0]), float(state[1]), float(rate[0]), float(rate[1])
         inward, square = -(x * u + y * v), x * x + y * y + eps * eps
-        bound = INWARD * square / inward if inward > 0.0 and square > contact else math.inf
+        bound = MAX_INWARD_SHARE * square / inward if inward > 0.0 and square > contact else math.inf
         return min(bound, growth_bound(jacobian))
 
     return Problem(F, J, scale, limit)

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..expressions.arrays import AROUND, BESIDE, program
+from ..expressions.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, program
 from ..expressions.kinks import kinks
-from ..expressions.names import PLANE
+from ..expressions.names import FAST_NAMES
 from ..psi.function import Psi
 from ..systems.bounds import at_place
 from ..systems.coefficients import Affine
@@ -219,9 +219,9 @@ def _blur(at: AtZ, e: tuple[float, float], psi: Psi, frame: Frame, shift: int) -
 def _sides_agree(at: AtZ, psi: Psi, C: CriticalSet) -> bool:
     """Whether C attracts, repels or is a saddle by the linearisation on every side of a kink that it may lie on."""
     system = at.typed
-    if system is None or not kinks(system.U, PLANE):
+    if system is None or not kinks(system.U, FAST_NAMES):
         return True
-    sides = at.DU(C.e + BESIDE * AROUND)
+    sides = at.DU(C.e + ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS)
     middle = at.DU(C.e)
     if abs(sides - middle).max() <= 1e-3 * abs(middle).max():
         return True

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.fourier_zeros import turn as turned_angle
 from ..numerics.trigonometric import (
     GENERAL_PATTERNS,
-    ROUNDING,
+    INPUT_ROUNDING,
     THETA_PATTERNS,
     TrigonometricZeros,
     real_zeros,
@@ -37,7 +37,9 @@ from .location import Location, locate
 __all__ = ["EquatorCycle", "EquatorEquilibria", "equator_cycle", "equator_equilibria"]
 
 
-SINGULAR = 8 * ROUNDING  # of the terms of lambda_rho: zero, where det A = 0 leaves no isolated critical set to ask
+SINGULAR_ROUNDING = (
+    8 * INPUT_ROUNDING
+)  # of the terms of lambda_rho: zero, where det A = 0 leaves no isolated critical set to ask
 
 
 @dataclass(frozen=True, eq=False)
@@ -303,7 +305,7 @@ def _collect_equilibria(
             if reached is not None:  # U(e) = 0 on the equator, within rounding: at the nearest zero of Theta
                 degenerate = theta == nearest
             elif location.singular:
-                degenerate = abs(value) <= SINGULAR * size
+                degenerate = abs(value) <= SINGULAR_ROUNDING * size
         rho.append(0.0 if degenerate else value)
         flat.append(degenerate)
     arrays = (

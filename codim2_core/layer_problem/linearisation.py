@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..numerics.trigonometric import ROUNDING
+from ..numerics.trigonometric import INPUT_ROUNDING
 from ..psi.function import Psi
 
 # Below this fraction of its terms a sum of products is recomputed exactly (rounding then stays below 1e-12 of it).
@@ -41,7 +41,7 @@ def determinant_sign(a: float, b: float, d: float) -> int:
     if abs(det) < CANCELLATION * size or size < 1e-280:
         exact = Fraction(a) * Fraction(d) + Fraction(b) ** 2
         weight = abs(Fraction(a) * Fraction(d)) + Fraction(b) ** 2
-        if abs(exact) <= 2 * Fraction(ROUNDING) * weight:
+        if abs(exact) <= 2 * Fraction(INPUT_ROUNDING) * weight:
             return 0
         return 1 if exact > 0 else -1
     return 1 if det > 0 else -1
@@ -58,7 +58,7 @@ def matrix_determinant(m11: float, m12: float, m21: float, m22: float) -> tuple[
         return math.ldexp(det, -2 * shift), 1 if det > 0.0 else -1
     first, second = Fraction(m11) * Fraction(m22), Fraction(m12) * Fraction(m21)
     exact = first - second
-    within = abs(exact) <= 2 * Fraction(ROUNDING) * (abs(first) + abs(second))
+    within = abs(exact) <= 2 * Fraction(INPUT_ROUNDING) * (abs(first) + abs(second))
     return math.ldexp(float(exact), -2 * shift), 0 if within else 1 if exact > 0 else -1
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 
-from ..numerics.trigonometric import ROUNDING
+from ..numerics.trigonometric import INPUT_ROUNDING
 from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
 from ..words import say
@@ -124,7 +124,7 @@ def _locate_exactly(a: float, b: float, d: float, f1: float, f2: float) -> Locat
         + abs(n1 * D * F1 - n2 * B * F1)
         + abs(n1 * B * F2 + n2 * A * F2)
     )
-    off = 2 * Fraction(ROUNDING)
+    off = 2 * Fraction(INPUT_ROUNDING)
     # Near det A = 0 first order is not enough: |adj(A) f| and |det A| must be able to meet.
     parts = ((n1, abs(D * F1) + abs(B * F2)), (n2, abs(A * F2) + abs(B * F1)))
     least = sum(max(abs(n) - off * size, 0) ** 2 for n, size in parts)
@@ -140,7 +140,7 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
         return Location(Existence.EVERYTHING if f1 == f2 == 0.0 else Existence.SINGULAR_NONE)
     A, B, D, F1, F2 = map(Fraction, (a, b, d, f1, f2))
     n1, n2 = D * F1 + B * F2, A * F2 - B * F1
-    rounding = 2 * Fraction(ROUNDING)
+    rounding = 2 * Fraction(INPUT_ROUNDING)
     solvable = abs(n1) <= rounding * (abs(D * F1) + abs(B * F2)) and abs(n2) <= rounding * (abs(A * F2) + abs(B * F1))
     if not solvable:
         return Location(Existence.SINGULAR_NONE)
@@ -152,7 +152,7 @@ def locate_affine(affine: Affine) -> Location:
     M = tuple(map(Fraction, scale_by_power_of_two(affine)))
     m11, m12, m21, m22, f1, f2 = M
     det, n1, n2 = m11 * m22 - m12 * m21, m22 * f1 - m12 * f2, m11 * f2 - m21 * f1
-    off = 2 * Fraction(ROUNDING)
+    off = 2 * Fraction(INPUT_ROUNDING)
     w0 = abs(m11 * m22) + abs(m12 * m21)
     w1, w2 = abs(m22 * f1) + abs(m12 * f2), abs(m11 * f2) + abs(m21 * f1)
     if not any(M):

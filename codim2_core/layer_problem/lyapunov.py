@@ -13,7 +13,7 @@ from ..expressions.expression import parse
 from ..psi.function import Psi
 
 Array = NDArray[np.float64]
-ROUNDING = 2.0**-44  # of the terms that the coefficient is the sum of
+TERM_ROUNDING = 2.0**-44  # of the terms that the coefficient is the sum of
 
 
 def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
@@ -128,5 +128,5 @@ def first_lyapunov(A: Array, psi: Psi, x2: Array, second_U: Array | None = None,
     terms = np.stack([third(q, q, bar), -2.0 * second(q, still), second(bar, double)])
     value = (np.conj(p) * terms.sum(axis=0)).sum(axis=1).real
     # where the flow is linear or reversible the terms cancel: what rounding leaves of them is no sign
-    lost = ROUNDING * (abs(p) * abs(terms).sum(axis=0)).sum(axis=1)
+    lost = TERM_ROUNDING * (abs(p) * abs(terms).sum(axis=0)).sum(axis=1)
     return np.where(abs(value) <= lost, 0.0, value) / (2.0 * omega)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..expressions.expression import Expression, ExpressionError, parse
-from ..expressions.names import PLANE, SLOW
+from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.reader import check_names
 from ..systems.reading import mapping, parameter, short_repr
 
@@ -23,7 +23,7 @@ def words(values: Any, what: str) -> tuple[str, ...]:
     for word in found:
         if not isinstance(word, str) or len(word) > 40:
             raise ValueError(f"{what} has the name {short_repr(word)}; use at most 40 ASCII letters, digits and _.")
-        if word in PLANE:
+        if word in FAST_NAMES:
             raise ValueError(f"{what} has the name {word!r}; use names other than c, s, x, y, which are of the slip.")
         try:
             check_names((word,))
@@ -46,8 +46,8 @@ def velocities(values: Any) -> tuple[str, ...]:
 def slow(values: Any) -> tuple[str, ...]:
     """Check the names of the slow variables."""
     found = words(values, "slow")
-    if len(found) > len(SLOW):
-        raise ValueError(f"slow has {len(found)} names; at most {len(SLOW)} slow variables are allowed.")
+    if len(found) > len(SLOW_NAMES):
+        raise ValueError(f"slow has {len(found)} names; at most {len(SLOW_NAMES)} slow variables are allowed.")
     return found
 
 

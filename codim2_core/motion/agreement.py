@@ -14,7 +14,7 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .result import Phase, Simulation
 
-NEUTRAL = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (fig:transcrit)
+NEUTRAL_RATIO = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (fig:transcrit)
 FAR_OUT = 1e6  # zeta at which the power with which Psi falls is read off
 _VERB = {"slip": "slips", "slide": "slides", "cross": "crosses Σ"}
 
@@ -69,7 +69,7 @@ def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
         distance = np.abs(np.exp(1j * equator.theta) - complex(*e.tolist()))
         i = int(np.argmin(distance))
         radial, angular = float(equator.lambda_rho[i]), float(equator.lambda_theta[i])
-        if radial > NEUTRAL * abs(angular):
+        if radial > NEUTRAL_RATIO * abs(angular):
             if angular < 0.0 and not in_line:
                 order = min(order, -angular / radial)
         else:

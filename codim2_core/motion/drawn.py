@@ -13,7 +13,7 @@ from ..numerics.dense import Dense
 
 Array = NDArray[np.float64]
 
-SAMPLES = 240  # even times of a drawn motion, at least
+MIN_TIMES = 240  # even times of a drawn motion, at least
 CHORD_TOLERANCE = (
     0.002  # radii of the equator, outside of the distance from Sigma: how far a chord may be from the curve
 )
@@ -85,7 +85,7 @@ def _times(motion: Dense, eps: float) -> Array:
         rho = np.hypot(np.hypot(xy[:, 0], xy[:, 1]), eps)[:, None]
         return xy * np.divide(1.0 + rho, rho, out=np.zeros_like(rho), where=rho > 0.0)
 
-    even = np.linspace(first, last, SAMPLES)
+    even = np.linspace(first, last, MIN_TIMES)
     times = np.union1d(even, motion.times)
     for _ in range(MAX_HALVINGS):
         middle = 0.5 * (times[:-1] + times[1:])

@@ -19,9 +19,9 @@ from ..psi.function import Psi
 
 Array = NDArray[np.float64]
 
-MARGIN = 2.0  # times the first-order distance of the slow manifold
+MANIFOLD_MARGIN = 2.0  # times the first-order distance of the slow manifold
 FLOOR = 1e-3  # in p: what an orbit that runs into the set is given besides
-MOST = 0.25  # in p: near a fold, and near the equator, the expansion promises nothing
+MAX_DISTANCE = 0.25  # in p: near a fold, and near the equator, the expansion promises nothing
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> F
         return None
     p = in_disc(psi, e)
     distance = float(np.hypot(*(own_p - p)))
-    if not distance <= MOST:
+    if not distance <= MAX_DISTANCE:
         return None
     zeta, n, De = _inverse_gain(psi, e)
     along = np.outer(n, n)
@@ -117,6 +117,6 @@ def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> F
                 return None
         height = 1.0 / math.hypot(1.0, zeta)
         change = height * X1 + (height**3 - height) * (along @ X1)
-        if not distance <= FLOOR + MARGIN * eps * math.hypot(change[0], change[1]):
+        if not distance <= FLOOR + MANIFOLD_MARGIN * eps * math.hypot(change[0], change[1]):
             return None
     return Followed(e, p, determinant > 0.0 and trace < 0.0, rate, 0.5 * trace + math.sqrt(max(split, 0.0)))

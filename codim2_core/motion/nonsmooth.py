@@ -26,7 +26,7 @@ from .checks import checked_span, checked_states, checked_tolerances, with_time
 from .limit.course import AtEventError, Course, StopError
 from .past import Past
 from .places import OfState
-from .regularised import MANY, MAX_STEPS, count_steps, waited_for
+from .regularised import MANY_MOTIONS, MAX_STEPS, count_steps, waited_for
 from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
 
@@ -142,7 +142,11 @@ def simulate_nonsmooth(
     if t_end < t_start:
         pasts = tuple(_past(asked, first) for first in states)
         return pasts[0] if np.ndim(state0) < 2 else pasts
-    runs = _run_motions(asked, states) if len(states) >= MANY or not waited_for(formulas) else map(asked.one, states)
+    runs = (
+        _run_motions(asked, states)
+        if len(states) >= MANY_MOTIONS or not waited_for(formulas)
+        else map(asked.one, states)
+    )
     return next(iter(runs)) if np.ndim(state0) < 2 else tuple(runs)
 
 

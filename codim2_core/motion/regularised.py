@@ -39,11 +39,11 @@ Array = NDArray[np.float64]
 _stepped: dict[tuple[Expression, ...], int] = {}  # steps in Python so far, by the formulas of a system
 
 SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
-FIRST = 1e-2  # of rho/|U|: the first step tried
+FIRST_STEP_SHARE = 1e-2  # of rho/|U|: the first step tried
 MAX_STEPS = 20_000
-PATIENCE = 400  # steps in Python, of all motions of a system: they take about as long as compiling its formulas
-REMEMBERED = 64  # systems whose steps are counted
-MANY = 8  # motions at once for which that is not waited for
+PYTHON_STEPS = 400  # steps in Python, of all motions of a system: they take about as long as compiling its formulas
+COUNTED_SYSTEMS = 64  # systems whose steps are counted
+MANY_MOTIONS = 8  # motions at once for which that is not waited for
 
 
 @overload
@@ -161,7 +161,7 @@ class _Asked:
 
     def runs(self, states: Array) -> tuple[Simulation, ...]:
         """Follow all motions."""
-        if not self.events and (len(states) >= MANY or _is_compiled(self.formulas)):
+        if not self.events and (len(states) >= MANY_MOTIONS or _is_compiled(self.formulas)):
             return self.compiled(states)
         return tuple(self.one(first) for first in states)
 
@@ -241,7 +241,7 @@ def _count_evaluations(problem: Problem, count: list[int]) -> Problem:
 def first_step(problem: Problem, state: Array, rate: Array) -> float:
     """Return a short first step: a small part of the time in which the state changes by its own size."""
     speed = float(np.max(np.abs(rate) / problem.scale(state)))
-    return FIRST / speed if speed > 0.0 else math.inf
+    return FIRST_STEP_SHARE / speed if speed > 0.0 else math.inf
 
 
 def _integrate(
@@ -314,13 +314,13 @@ def _cut_at_event(part: Steps, watch: Watch, n: int) -> Steps | None:
 
 def waited_for(formulas: Field) -> int:
     """Say how many steps in Python are still taken before a system's motions are followed compiled."""
-    return 0 if _is_compiled(formulas) else max(0, PATIENCE - _stepped.get(formulas.rows, 0))
+    return 0 if _is_compiled(formulas) else max(0, PYTHON_STEPS - _stepped.get(formulas.rows, 0))
 
 
 def count_steps(formulas: Field, steps: int) -> None:
     """Count steps in Python: a system that comes again is compiled once its motions together are a long one."""
     before = _stepped.pop(formulas.rows, 0)
-    while len(_stepped) >= REMEMBERED:
+    while len(_stepped) >= COUNTED_SYSTEMS:
         _stepped.pop(next(iter(_stepped)), None)
     _stepped[formulas.rows] = before + steps
 

@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import drawing
-from ..expressions.names import SLOW
+from ..expressions.names import SLOW_NAMES
 from ..numerics.dense import Dense
 from ..tables import Tabled, frame, number, paragraphs, rows
 from ..words import say
 from .delay import Delay
 from .drawn import Drawn, drawn_curve
-from .places import NONE, Ascent, Place
+from .places import NO_POINTS, Ascent, Place
 
 if TYPE_CHECKING:
     from .variation.result import Variation
@@ -146,7 +146,7 @@ class Phase(Tabled):
     @cached_property
     def ascent(self) -> Array:
         """Orbit (k, 2) of the layer problem that it begins with, in p: in the limit that takes no time; else empty."""
-        return NONE if self._ascent is None else self._ascent.path(self.onto)
+        return NO_POINTS if self._ascent is None else self._ascent.path(self.onto)
 
 
 @dataclass(frozen=True, eq=False)
@@ -298,7 +298,7 @@ class Simulation:
         if when.ndim != 1:
             raise ValueError(f"t has shape {when.shape}; give a list of times.")
         states = self.states if t is None else self.dense(when)
-        named = dict(zip(("x", "y", *SLOW), states.T, strict=False))
+        named = dict(zip(("x", "y", *SLOW_NAMES), states.T, strict=False))
         starts = [phase.t_start for phase in self.phases]
         phases = [self.phases[i - 1] for i in np.searchsorted(starts, when, side="right") if i]  # as `phase_at`
         told = {"phase": [phase.kind for phase in phases], "onto": [phase.onto for phase in phases]} if starts else {}

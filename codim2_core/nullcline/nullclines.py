@@ -48,7 +48,7 @@ class NullclineBranch(Tabled):
 
     def _row_(self) -> tuple[str, ...]:
         ends = (point(self.points[i]) for i in (0, -1)) if len(self.points) else ("–", "–")
-        return _NAMES[self.kind], "hemisphere" if self.inside else "outside", *ends
+        return _NULLCLINE_NAMES[self.kind], "hemisphere" if self.inside else "outside", *ends
 
 
 class Nullclines(Results[NullclineBranch]):
@@ -63,7 +63,7 @@ class Nullclines(Results[NullclineBranch]):
         return (self._repr_svg_() or "") + super()._repr_html_()
 
 
-_NAMES: dict[Kind, str] = {"rho": "ρ′ = 0", "theta": "θ′ = 0", "U1": "U₁ = 0", "U2": "U₂ = 0"}
+_NULLCLINE_NAMES: dict[Kind, str] = {"rho": "ρ′ = 0", "theta": "θ′ = 0", "U1": "U₁ = 0", "U2": "U₂ = 0"}
 
 
 def inside_nullclines(

@@ -15,10 +15,10 @@ from numba import njit
 from ..expressions.interpreter import gradients
 
 RHO, THETA, U1, U2 = range(4)  # kinds
-LONGEST, SHORTEST = 0.04, 1e-6  # steps, in units of the disc
+MAX_STEP, MIN_STEP = 0.04, 1e-6  # steps, in units of the disc
 BEND = 0.12  # radians between neighbouring points
 UNEVEN = 1e-3  # a step times the radians by which it bends otherwise than the last: 100 errors of a cubic over it
-BORDER, CLOSED, CROSSING, STUCK = range(4)  # how a curve ends
+BORDER, CLOSED_CURVE, CROSSING, STUCK = range(4)  # how a curve ends
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -250,7 +250,7 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
     out[0] = start
     _, slope_X, slope_Y = _component(op, left, right, number, roots, kind, outside, X, Y, seed, work, rows)
     leaving = _entered_crossing(crossings, X, Y)  # by rounding, at its circle
-    count, h, bend = 1, 0.25 * LONGEST, 0.0
+    count, h, bend = 1, 0.25 * MAX_STEP, 0.0
     from_home = home[0] == start[0] and home[1] == start[1]
     while count < len(out) - 1:
         h = _short_of(crossings, X, Y, h)
@@ -261,7 +261,7 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
         uneven = count > 1 and abs(turn - bend * h) * h > UNEVEN
         if not ok or abs(turn) > BEND or _leaps(gx, gy, slope_X, slope_Y) or uneven:
             h *= 0.5
-            if h < SHORTEST:
+            if h < MIN_STEP:
                 return count, STUCK, -1
             continue
         r = math.hypot(nX, nY)
@@ -286,10 +286,10 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
             if ahead < 0.25 * h and count > 1:  # the last point is at home or past it
                 count -= 1
             out[count] = home
-            return count + 1, CLOSED, -1
+            return count + 1, CLOSED_CURVE, -1
         bend = turn / h
         if abs(turn) < 0.4 * BEND:
-            h = min(1.5 * h, LONGEST)
+            h = min(1.5 * h, MAX_STEP)
     return count, STUCK, -1
 
 

@@ -20,9 +20,9 @@ Array = NDArray[np.floating[Any]]
 
 UNIT = 2.0**-53
 ROUNDINGS = 16.0  # of the terms of f: what a zero's multiplicity is decided within
-COARSE = 2e-3  # half-width of an arc below which a multiple zero is asked for
+MIN_ARC = 2e-3  # half-width of an arc below which a multiple zero is asked for
 FINEST = 1e-11
-SAME = 1e-6  # a multiple zero found twice differs by less
+SAME_ZERO_DISTANCE = 1e-6  # a multiple zero found twice differs by less
 OFFSET = 0.1234567  # so that no arc of the first net ends at a multiple of pi/2, where zeros like to be
 HIGHEST = 8  # multiplicity
 
@@ -136,7 +136,7 @@ def zeros(f: Series) -> Zeros:
     distance = float(lowest_extremum(f.c, theta, h)) / f.size
     simple: list[float] = []
     multiple: list[tuple[float, int, float]] = []
-    proven, least, most = True, COARSE, 16 * (f.degree + 32)
+    proven, least, most = True, MIN_ARC, 16 * (f.degree + 32)
     while True:
         at = np.empty(2 * f.degree + 16)
         theta, h = decide_arcs(f.c, theta, h, least, most, f.tolerance, first, fourth, at)
@@ -184,7 +184,9 @@ def _add_multiple(f: Series, theta: Array, h: float, found: list[tuple[float, in
                 for j in range(m - 1)
             ):
                 radius = 0.5 * (m + 1) * abs(taylor[m]) / f.bound(m + 1)
-                if not any(abs(math.remainder(x - other, 2 * math.pi)) < max(r, SAME) for other, _, r in found):
+                if not any(
+                    abs(math.remainder(x - other, 2 * math.pi)) < max(r, SAME_ZERO_DISTANCE) for other, _, r in found
+                ):
                     found.append((x, m, radius))
                 break
 
@@ -234,7 +236,7 @@ def _same(f: Series, one: tuple[float, int, float], next_: tuple[float, int, flo
     if not m == n == 1 or (slope > 0.0) != (other > 0.0):
         return False
     blur = 4.0 * f.tolerance / max(min(abs(slope), abs(other)), 1e-300)
-    return u - t < max(1e-9, min(blur, SAME))
+    return u - t < max(1e-9, min(blur, SAME_ZERO_DISTANCE))
 
 
 def turn(theta: float) -> float:

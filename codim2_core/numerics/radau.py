@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 STAGES = 5
 ITERATIONS = 10  # of Newton's method in one step
-SAFETY, SHRINK, GROW, FAILED = 0.9, 0.2, 8.0, 0.3
+STEP_SAFETY, MAX_SHRINKAGE, MAX_GROWTH, FAILED_SHRINKAGE = 0.9, 0.2, 8.0, 0.3
 CAREFUL, GROWTH_AFTER_FAILURE = 6, 1.2  # so many steps after Newton's method failed, a step grows by so much at most
 
 
@@ -168,7 +168,7 @@ def steps(
         if found is None:
             previous = None  # a prediction may have misled
             h, eager = h * factor, False
-            careful = CAREFUL if factor == FAILED else careful
+            careful = CAREFUL if factor == FAILED_SHRINKAGE else careful
             continue
         Z, polynomial = found
         step = Step(t, h, y, y + Z[-1], polynomial)
@@ -179,7 +179,7 @@ def steps(
         lost = total - (ahead - t)
         t, y, previous = ahead, step.last, step
         here = _linearise(problem, y)
-        most_growth = 1.0 if not eager and tried > 1 else GROWTH_AFTER_FAILURE if careful else GROW
+        most_growth = 1.0 if not eager and tried > 1 else GROWTH_AFTER_FAILURE if careful else MAX_GROWTH
         h, eager, careful = h * min(factor, most_growth), True, max(careful - 1, 0)
 
 
@@ -213,10 +213,10 @@ def _attempt(
             inverse = np.asarray(np.linalg.inv(np.eye(n * STAGES) - kron), float)
             damping = np.linalg.inv(np.eye(n) - table.gamma * scaled)
         except np.linalg.LinAlgError:
-            return None, FAILED
+            return None, FAILED_SHRINKAGE
         Z = _solve_stages(problem.F, y, h, guess, inverse, size, rtol, table)
         if Z is None:
-            return None, 1.0 if guess.any() else FAILED
+            return None, 1.0 if guess.any() else FAILED_SHRINKAGE
         small = np.minimum(size, problem.scale(y + Z[-1]))
         error = damping @ ((table.gamma * h * here.rate + table.error @ Z) / size)
         norm = float(np.max(np.abs(error) * size / small)) / rtol
@@ -225,8 +225,8 @@ def _attempt(
             again = float(np.max(np.abs(error) * size / small)) / rtol
             norm = min(norm, again) if again == again else norm
     if not norm < math.inf:
-        return None, SHRINK
-    factor = min(max(SAFETY * max(norm, 1e-12) ** (-1.0 / (STAGES + 1)), SHRINK), GROW)
+        return None, MAX_SHRINKAGE
+    factor = min(max(STEP_SAFETY * max(norm, 1e-12) ** (-1.0 / (STAGES + 1)), MAX_SHRINKAGE), MAX_GROWTH)
     if norm > 1.0:
         return None, min(factor, 0.8)
     return (Z, (table.fit @ Z).T), factor

@@ -15,7 +15,7 @@ Function = Callable[[Array], Array]
 
 _UNIT = np.linspace(0.0, 1.0, 17)
 _OFFSETS = 10.0 ** -np.arange(1.0, 17.0, 1.5)
-_AROUND = np.concatenate([-_OFFSETS, _OFFSETS[::-1]])
+_BRACKET_OFFSETS = np.concatenate([-_OFFSETS, _OFFSETS[::-1]])
 _ROUNDS = 40
 _NOTHING = 1e-13  # of the largest size of a function: below it, its sign is rounding
 
@@ -53,7 +53,7 @@ def refine_roots(function: Function, low: Array, high: Array) -> tuple[Array, ND
         if not len(todo):
             break
         width = (high - low)[:, None]
-        near = guess[:, None] + width * _AROUND
+        near = guess[:, None] + width * _BRACKET_OFFSETS
         x = np.sort(np.concatenate([low[:, None] + width * _UNIT, np.clip(near, low[:, None], high[:, None])], axis=1))
         x[:, -1] = high
         y = function(x.ravel()).reshape(x.shape)

@@ -10,7 +10,7 @@ polishes them. The number of zeros is decided by the discriminant with a bound o
 bound does not decide, or a zero is ill-conditioned, `trigonometric_exact` starts again with integers.
 
 What "multiple" means for typed numbers: a zero is reported as double, triple or fourfold if coefficients exist
-that have it and differ from every given one by at most `ROUNDING` (1.4 half-units in the last place); the
+that have it and differ from every given one by at most `INPUT_ROUNDING` (1.4 half-units in the last place); the
 highest such multiplicity wins. `exact_count` is the number of distinct zeros of the doubles as given.
 """
 
@@ -21,11 +21,11 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from .line_pair import starts_of
-from .trigonometric_exact import ROUNDING, solve_exactly
+from .trigonometric_exact import INPUT_ROUNDING, solve_exactly
 
 __all__ = [
     "GENERAL_PATTERNS",
-    "ROUNDING",
+    "INPUT_ROUNDING",
     "THETA_PATTERNS",
     "TrigonometricZeros",
     "radial_zeros",
@@ -33,7 +33,7 @@ __all__ = [
     "tangential_zeros",
 ]
 
-_TAU = 2.0 * math.pi
+_FULL_TURN = 2.0 * math.pi
 _FILTER = 2.0**-49  # 16 half-ulps: covers the rounding of the discriminant and the inputs' own ROUNDING
 GENERAL_PATTERNS = ((2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (0, 0, 2, 0, 0), (0, 0, 0, 2, 0), (0, 0, 0, 0, 2))
 # Rows for b, f2, f1, a, d.
@@ -192,8 +192,8 @@ def _finish(
 def _wrap_angle(theta: float) -> float:
     """Bring an angle of (-2 pi, 2 pi) to [0, 2 pi); -1e-17 becomes 0.0."""
     if theta < 0.0:
-        theta += _TAU
-    return theta if 0.0 < theta < _TAU else 0.0
+        theta += _FULL_TURN
+    return theta if 0.0 < theta < _FULL_TURN else 0.0
 
 
 def _fast(

@@ -18,11 +18,13 @@ from .seeds import checked_seeds
 Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-7, 1e-9
-FAR = 10.0  # eps: how far from Sigma an orbit on the hemisphere is followed; it comes from or goes to infinity there …
-BEYOND = 3.0  # … or so many times as far as its seed, where that is farther
-PARTS = np.array([1.0, 2.0, 3.0]) / 3.0  # of each step, so that a curve drawn through them is smooth
-STEPS = 400  # of each half
-MOST = 300  # points of each half
+MAX_RADIUS = (
+    10.0  # eps: how far from Sigma an orbit on the hemisphere is followed; it comes from or goes to infinity there …
+)
+MAX_SEED_FACTOR = 3.0  # … or so many times as far as its seed, where that is farther
+STEP_PARTS = np.array([1.0, 2.0, 3.0]) / 3.0  # of each step, so that a curve drawn through them is smooth
+MAX_HALF_STEPS = 400  # of each half
+MAX_HALF_POINTS = 300  # points of each half
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +109,7 @@ def _on_hemisphere(at: AtZ, psi: Psi, start: Array, end: float) -> tuple[Array, 
     thousand times at 10 eps.
     """
     x2 = scaling_from_disc(start)
-    far = max(FAR, BEYOND * math.hypot(*x2))
+    far = max(MAX_RADIUS, MAX_SEED_FACTOR * math.hypot(*x2))
 
     def rate(_: float, y: Array) -> Array:
         faster = math.hypot(1.0, y[0], y[1])
@@ -140,14 +142,14 @@ def _nowhere(_: Array) -> bool:
 def _integrate(
     rate: Callable[[float, Array], Array], start: Array, end: float, left: Callable[[Array], bool] = _nowhere
 ) -> Array:
-    """Return the states from T = 0 to `end`, in `STEPS` steps at most, or until one has `left`: (k, n)."""
+    """Return the states from T = 0 to `end`, in `MAX_HALF_STEPS` steps at most, or until one has `left`: (k, n)."""
     from scipy.integrate import LSODA  # imported late: it takes longer than all of this package
 
     found = [start[None]]
     solver = LSODA(rate, 0.0, start, end, rtol=RTOL, atol=ATOL)
-    while end and solver.status == "running" and len(found) <= STEPS and not left(solver.y):
+    while end and solver.status == "running" and len(found) <= MAX_HALF_STEPS and not left(solver.y):
         before = solver.t
         solver.step()
-        found.append(solver.dense_output()(before + (solver.t - before) * PARTS).T)
+        found.append(solver.dense_output()(before + (solver.t - before) * STEP_PARTS).T)
     states = np.concatenate(found)
-    return states[np.unique(np.rint(np.linspace(0, len(states) - 1, MOST)).astype(int))]
+    return states[np.unique(np.rint(np.linspace(0, len(states) - 1, MAX_HALF_POINTS)).astype(int))]

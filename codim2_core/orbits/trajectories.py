@@ -20,7 +20,7 @@ from ..systems.elinear import ELinear
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .departures import departures
-from .options import PIXEL, STEP_LIMIT, Stepping, stepping
+from .options import DEFAULT_MAX_STEPS, PIXEL, Stepping, stepping
 from .result import STATUSES, Status, Trajectories, append_continuations, concatenate, cut_up
 from .seeds import checked_seeds
 
@@ -33,9 +33,9 @@ DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
 # A step of either costs about as much; one implicit step does for any number that stability would ask for. What is
 # longer than the disc is wide by then, or would be at its last pace in as much time again, goes round and round, and
 # does not creep.
-EXPLICIT, IMPLICIT, ROUND = 300, 1.0 / 3.0, 2.5  # IMPLICIT: of the step limit
+EXPLICIT, IMPLICIT, ROUND_FACTOR = 300, 1.0 / 3.0, 2.5  # IMPLICIT: of the step limit
 
-FARTHEST = (
+FARTHEST_PLACES = (
     1e6  # from Sigma, of a seed whose line is drawn: to a quarter of a pixel an arc has points without end beyond
 )
 
@@ -75,7 +75,7 @@ def trajectories(
     capture: float | None = None,
     samples: Literal["ends"] | None = None,
     length: float = math.inf,
-    step_limit: int = STEP_LIMIT,
+    step_limit: int = DEFAULT_MAX_STEPS,
     stiff: bool = False,
 ) -> Trajectories:
     """Follow trajectories from points of the picture: eq:LP on the hemisphere, eq:polar_gen_odes_desing outside.
@@ -131,10 +131,10 @@ def trajectories(
     states, signs, largest = _kernels().states_of(np.ascontiguousarray(points))
     if math.isnan(largest):
         checked_seeds(seeds)  # says which
-    if largest > FARTHEST and options.samples is None:
-        far = np.flatnonzero(np.abs(points).max(axis=1) > FARTHEST)
+    if largest > FARTHEST_PLACES and options.samples is None:
+        far = np.flatnonzero(np.abs(points).max(axis=1) > FARTHEST_PLACES)
         raise ValueError(
-            f"seed {far[0]} is {tuple(points[far[0]].tolist())}; give points at most {FARTHEST:g} away, "
+            f"seed {far[0]} is {tuple(points[far[0]].tolist())}; give points at most {FARTHEST_PLACES:g} away, "
             'or samples="ends".'
         )
     return _integrate(at, psi, states, signs, options)
@@ -147,7 +147,7 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
         return integrate_explicitly(at, psi, states, signs, options)
     found = integrate_explicitly(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
     which, spent, drawn, pace = _under_way(found)
-    creeping = (drawn < ROUND) & (pace * spent < ROUND)
+    creeping = (drawn < ROUND_FACTOR) & (pace * spent < ROUND_FACTOR)
     if options.step_limit > EXPLICIT and creeping.any():
         which, spent, drawn = which[creeping], spent[creeping], drawn[creeping]
         rest = _integrate_implicitly(at, psi, found.ends[which], signs[which], spent, drawn, options)
@@ -279,7 +279,7 @@ def continuation(
     capture: float | None = None,
     samples: Literal["ends"] | None = None,
     length: float = math.inf,
-    step_limit: int = STEP_LIMIT,
+    step_limit: int = DEFAULT_MAX_STEPS,
     stiff: bool = False,
     beside: Array | None = None,
 ) -> Trajectories:

@@ -23,10 +23,10 @@ from ..psi.constructors import comparison_families
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
-from ..words import named, say
+from ..words import say, written_label
 from .endings import angular_sign, radially_neutral
 from .outcomes import Outcome, Outcomes, on_arcs
-from .verdicts import ANGLES, OUTER, Array, Judged, arriving_begun, judge_arrivals, spiralling, with_flow
+from .verdicts import ARRIVAL_ANGLES, OUTER_ANGLES, Array, Judged, arriving_begun, judge_arrivals, spiralling, with_flow
 
 __all__ = ["approach_outcomes"]
 
@@ -133,7 +133,7 @@ def _directions(asked: _Asked, indices: Sequence[int]) -> tuple[Outcome, ...]:
     problems = {problem.psi: problem for problem in (own, *others)}  # the own Psi may be one of the others
     lines = arriving_begun(list(problems.values()), which)
     arrivals = {
-        problem.psi: judge_arrivals(problem, which, begun, ANGLES if problem is own else OUTER)
+        problem.psi: judge_arrivals(problem, which, begun, ARRIVAL_ANGLES if problem is own else OUTER_ANGLES)
         for problem, begun in zip(problems.values(), lines, strict=True)
     }
     judged = {i: [arrivals[problem.psi][k] for problem in (own, *others)] for k, i in enumerate(which)}
@@ -160,10 +160,10 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
     equator, label = own.equator, f"Q{i + 1}"
     theta = float(equator.theta[i])
     if radially_neutral(equator, i):
-        reason = say("neutral approach", Q=named(label))
+        reason = say("neutral approach", Q=written_label(label))
         return Outcome(theta, label, "nothing", "undecided", None, None, None, reason, why="neutral")
     if equator.lambda_rho[i] > 0.0:
-        reason = say("repels" if angular_sign(equator, i) > 0 else "leads away", Q=named(label))
+        reason = say("repels" if angular_sign(equator, i) > 0 else "leads away", Q=written_label(label))
         beside = equator.lambda_rho[[i - 1, (i + 1) % len(equator)]]
         if angular_sign(equator, i) < 0 and (beside < 0.0).any():
             reason = f"{reason} {say('turns away')}"
@@ -171,7 +171,7 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
     arrives = _arrival(equator, i)
     verdict, onto, leaving, slow, reason, why = with_flow(own, judged[0])
     # a single direction is an even zero of Theta
-    reason = f"{say('one side, all angles' if len(equator) == 1 else arrives, Q=named(label))} {reason}"
+    reason = f"{say('one side, all angles' if len(equator) == 1 else arrives, Q=written_label(label))} {reason}"
     outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason, why=why)
     verdicts = [(text, *other[:2]) for text, other in zip(texts, judged[1:], strict=True)]
     return _compare_families(outcome, verdicts, sensitive, own.at.normal_form is not None)

@@ -23,7 +23,7 @@ from ..tables import number, point, table
 from .endings import CAPTURE, critical_label, drawn_time, endings
 
 COARSEST = 32  # cells across the disc at first
-OUTSIDE, UNDECIDED = -2, -1
+OUTSIDE, UNDECIDED_CELL = -2, -1
 RTOL = 1e-5
 DISC = (-1.0, 1.0, -1.0, 1.0)
 
@@ -123,7 +123,7 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
         nonlocal evaluations
         lines = trajectories(at, psi, points, t_max=time, rtol=RTOL, atol=RTOL, capture=CAPTURE, samples="ends")
         evaluations += lines.evaluations
-        found = np.full(len(points), UNDECIDED, np.int8)
+        found = np.full(len(points), UNDECIDED_CELL, np.int8)
         for i, end in enumerate(endings(at, psi, lines, equator, critical, lambda: cycles, rtol=RTOL)):
             if end.label == "undecided":
                 continue

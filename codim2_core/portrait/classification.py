@@ -12,9 +12,9 @@ from ..cycles.limit_cycles import LimitCycle, surrounds
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
-from ..numerics.trigonometric import ROUNDING
+from ..numerics.trigonometric import INPUT_ROUNDING
 from ..tables import Tabled, paragraphs, rows
-from ..words import SENTENCES, named, power, say, subscript
+from ..words import SENTENCES, power, say, subscript, written_label
 from .endings import critical_label, radially_neutral_ones
 
 
@@ -46,7 +46,7 @@ NEARER = SENTENCES["nearer"].says.partition(" {")[0]
 
 
 def undecided_degeneracy(
-    name: str, sentence: str, within: float = ROUNDING, of: str = "each coefficient"
+    name: str, sentence: str, within: float = INPUT_ROUNDING, of: str = "each coefficient"
 ) -> Degeneracy:
     """Make a degeneracy whose sentence says within what it cannot be told from its neighbours."""
     return Degeneracy(name, f"{sentence} {say('nearer', within=power(within), of=of)}", within)
@@ -156,5 +156,7 @@ def attracting_cycles(cycles: Sequence[LimitCycle], critical: tuple[CriticalSet,
 
 def _surrounded_sets(cycle: LimitCycle, critical: tuple[CriticalSet, ...]) -> str:
     """Name the critical sets about which a cycle winds."""
-    labels = [named(critical_label(critical, i)) for i, C in enumerate(critical) if surrounds(cycle.points, C.p)]
+    labels = [
+        written_label(critical_label(critical, i)) for i, C in enumerate(critical) if surrounds(cycle.points, C.p)
+    ]
     return " and ".join(filter(None, [", ".join(labels[:-1]), *labels[-1:]]))

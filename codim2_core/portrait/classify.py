@@ -38,7 +38,7 @@ _MULTIPLE = {
     ),
     4: undecided_degeneracy("quadruple zero", say("four have met")),
 }
-_CUSP = undecided_degeneracy("cusp", say("cusp"))
+_CUSP_DEGENERACY = undecided_degeneracy("cusp", say("cusp"))
 
 
 def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
@@ -51,7 +51,7 @@ def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None
             )
         )
     multiple = sorted({int(k) for k in equator.multiplicity if k > 1})
-    found += [_CUSP if k == 3 and not equator.symmetric else _MULTIPLE[k] for k in multiple]
+    found += [_CUSP_DEGENERACY if k == 3 and not equator.symmetric else _MULTIPLE[k] for k in multiple]
     if cycle is not None and cycle.exponent == 0.0:
         found.append(NEUTRAL_CLOSED_EQUATOR)
     return found

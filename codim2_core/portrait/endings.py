@@ -22,13 +22,13 @@ from ..words import say
 Array = NDArray[np.float64]
 
 SPEEDS = 600.0  # length drawn of a branch that ends nowhere: T in units of 1/|(a, b, d, f1, f2)|, or 1/max |U|
-SLOW = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends
-PATIENCE = 30.0  # and how many times longer it is followed to see where it ends
+RISE_TIMES = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends
+EXTENSION_FACTOR = 30.0  # and how many times longer it is followed to see where it ends
 CAPTURE = 1e-6  # distance from an attractor at which a branch has reached it
 ON_CYCLE = 1e-4  # distance to a limit cycle at which a branch has reached it
 AT_CRITICAL = 1e-2  # distance beyond which an equilibrium that captures is none of the critical sets known
 AT_SADDLE = 1e-4  # distance at which a branch that stopped nowhere else is at a saddle
-NEUTRAL = 1e-13  # of the largest eigenvalue on the equator
+NEUTRAL_RATIO = 1e-13  # of the largest eigenvalue on the equator
 AT_NEUTRAL = 1e-2  # distance to a radially neutral Q, which is come to like 1/T, at which a branch is at it
 TOLD = 1e-7  # ebar of which a point of the disc says something: below it an orbit is not followed on
 CONNECTION = say("into a saddle")
@@ -136,7 +136,7 @@ def endings(
     statuses, states = list(lines.status), np.array(lines.ends)
     found: list[Ending | None] = [None] * len(lines)
     length = drawn_time(at, equator)
-    for more in (0.0, 1.0, PATIENCE):
+    for more in (0.0, 1.0, EXTENSION_FACTOR):
         open_ = [i for i, s in enumerate(statuses) if s in (Status.T_MAX, Status.STEP_LIMIT) and found[i] is None]
         follow = [i for i in open_ if states[i, 2] > TOLD] if more else []
         if follow:
@@ -186,7 +186,7 @@ def drawn_time(at: AtZ, equator: EquatorEquilibria) -> float:
     """T in which a branch shows where it goes: long for |U|, and for the slowest way up from the equator."""
     unit = at.speed
     slow = np.abs(equator.lambda_rho[~equator.radially_degenerate])
-    return SPEEDS / unit + (SLOW / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
+    return SPEEDS / unit + (RISE_TIMES / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
 
 
 def _integrate(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backward: bool) -> Trajectories:
@@ -221,7 +221,7 @@ def radially_neutral(equator: EquatorEquilibria, i: int) -> bool:
 def radially_neutral_ones(equator: EquatorEquilibria) -> list[bool]:
     """`radially_neutral` of all limit directions; in floats, for there are few, and NumPy's calls would cost more."""
     rho = equator.lambda_rho.tolist()
-    least = NEUTRAL * max(map(abs, (*rho, *equator.lambda_theta.tolist())), default=0.0)
+    least = NEUTRAL_RATIO * max(map(abs, (*rho, *equator.lambda_theta.tolist())), default=0.0)
     return [zero or abs(r) <= least for r, zero in zip(rho, equator.radially_degenerate.tolist(), strict=True)]
 
 

@@ -25,7 +25,7 @@ from ..words import say
 from .endings import (
     CAPTURE,
     CONNECTION,
-    SLOW,
+    RISE_TIMES,
     SPEEDS,
     critical_label,
     endings,
@@ -57,7 +57,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
     unit = at.speed
     parts = []
     for i in owners:
-        own = min(t_max, SPEEDS / unit + SLOW / abs(float(equator.lambda_rho[i])))
+        own = min(t_max, SPEEDS / unit + RISE_TIMES / abs(float(equator.lambda_rho[i])))
         parts.append(continuation(at, psi, equator.theta[i : i + 1], t_max=own, **fine))
     for k, C in enumerate(critical):
         if C.kind == "saddle":

@@ -15,10 +15,10 @@ from ..cycles.foretold import predicted_limit_sets
 from ..cycles.limit_cycles import cycles_of, reason_for_none
 from ..layer_problem.problem import LayerProblem
 from ..orbits.departures import departures_under
-from ..orbits.options import STEP_LIMIT, Stepping, stepping
+from ..orbits.options import DEFAULT_MAX_STEPS, Stepping, stepping
 from ..orbits.result import Status, Trajectories
 from ..orbits.together import batch_by_psi, states_at
-from ..words import named, number, say
+from ..words import number, say, written_label
 from .endings import (
     CAPTURE,
     CONNECTION,
@@ -51,8 +51,8 @@ RTOL = 1e-8
 # bound for it, and what comes to the equator had done so within 119 steps (5300 orbits of 150 random systems).
 EARLY, SOON = 700, 128
 FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
-ANGLES = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
-OUTER = ANGLES[
+ARRIVAL_ANGLES = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
+OUTER_ANGLES = ARRIVAL_ANGLES[
     [0, -1]
 ]  # where these two end apart, the others need not be followed to see that there is more than one end
 
@@ -86,7 +86,7 @@ def from_equator(
     which: Sequence[int],
     wide: Sequence[int] = (),
     lines: Trajectories | None = None,
-    angles: Array = ANGLES,
+    angles: Array = ARRIVAL_ANGLES,
 ) -> Trajectories:
     """Follow the orbits that leave some limit directions (from 0) up the hemisphere, and those around the wide ones.
 
@@ -109,7 +109,7 @@ def _leaving_states(
 
 def _options(problem: LayerProblem, early: bool) -> Stepping:
     """Say how orbits are followed: as long as it takes, or `early` to where samples may tell where they will end."""
-    limit = STEP_LIMIT
+    limit = DEFAULT_MAX_STEPS
     if early and _may_predict(problem):
         limit = SOON if problem.critical and all(C.kind.startswith("unstable") for C in problem.critical) else EARLY
     time = drawn_time(problem.at, problem.equator)
@@ -146,7 +146,7 @@ def _orbits_to_end(problem: LayerProblem, states: Callable[[], Array], lines: Tr
 
 def _place(end: Ending) -> str:
     if end.label != "undecided":
-        return named(end.label)
+        return written_label(end.label)
     return "an equilibrium that is not isolated" if end.sentence == Status.EQUILIBRIUM.value else "no end found"
 
 
@@ -158,18 +158,18 @@ def judge(problem: LayerProblem, found: Sequence[Ending], many: str) -> Judged:
     end = found[0]
     label = end.label
     if end.sentence == CONNECTION:
-        return Judged("undecided", reason=say("saddle ahead", label=named(label)), why="several")
+        return Judged("undecided", reason=say("saddle ahead", label=written_label(label)), why="several")
     if label.startswith("Q") and radially_neutral(problem.equator, int(label[1:]) - 1):
-        return Judged("undecided", reason=say("neutral ahead", label=named(label)), why="neutral")
+        return Judged("undecided", reason=say("neutral ahead", label=written_label(label)), why="neutral")
     for i, C in enumerate(problem.critical):
         if label == critical_label(problem.critical, i):
-            return Judged("slide", label, None, C.slow_flow, say("slides", label=named(label), kind=C.kind))
+            return Judged("slide", label, None, C.slow_flow, say("slides", label=written_label(label), kind=C.kind))
     if label.startswith("cycle"):
         reason = say("slides on a cycle" if problem.at.normal_form is None else "slides around")
         return Judged("cycle", label, reason=reason)
     if label.startswith("Q"):
         theta = number(end.angle) if end.angle is not None else "?"
-        return Judged("cross", label, end.angle, None, say("crosses", theta=theta, label=named(label)))
+        return Judged("cross", label, end.angle, None, say("crosses", theta=theta, label=written_label(label)))
     if label == "equator":
         return Judged("cross", label, reason=say("crosses spiralling"))
     if end.sentence == Status.EQUILIBRIUM.value:
@@ -205,7 +205,7 @@ def _wide(problem: LayerProblem, which: Sequence[int]) -> list[int]:
     return [i for i in which if not (equator.multiplicity[i] == 1 and equator.lambda_theta[i] < 0.0)]
 
 
-def _points_around(problem: LayerProblem, wide: Sequence[int], angles: Array = ANGLES) -> Array:
+def _points_around(problem: LayerProblem, wide: Sequence[int], angles: Array = ARRIVAL_ANGLES) -> Array:
     """Points around limit directions, at some angles from the equator."""
     theta, height = problem.equator.theta[list(wide)][:, None] + FAN * np.cos(angles), FAN * np.sin(angles)
     around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
@@ -213,32 +213,34 @@ def _points_around(problem: LayerProblem, wide: Sequence[int], angles: Array = A
 
 
 def arriving_begun(problems: Sequence[LayerProblem], which: Sequence[int]) -> list[Trajectories | None]:
-    """Follow the early part of what `judge_arrivals` follows, under several Psi side by side; None where it follows none.
+    """Integrate the early part of the orbits of `judge_arrivals`, under several Psi side by side; None without any.
 
-    Of all but the first, which are only compared with it, families are followed at their `OUTER` angles.
+    Of all but the first, which are only compared with it, families are followed at their `OUTER_ANGLES` angles.
     """
     if not which:
         return [None] * len(problems)
     follow = [not _all_end_on_C(problem) for problem in problems]
     some = list(itertools.compress(problems, follow))
-    angles = [ANGLES if problem is problems[0] else OUTER for problem in some]
+    angles = [ARRIVAL_ANGLES if problem is problems[0] else OUTER_ANGLES for problem in some]
     lines = iter(begin_orbits(some, _leaving_states(some, which, _wide(problems[0], which), angles)) if some else ())
     return [next(lines) if one else None for one in follow]
 
 
 def judge_arrivals(
-    problem: LayerProblem, which: Sequence[int], lines: Trajectories | None = None, angles: Array = ANGLES
+    problem: LayerProblem, which: Sequence[int], lines: Trajectories | None = None, angles: Array = ARRIVAL_ANGLES
 ) -> list[Judged]:
     """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side.
 
-    `lines` are those of `arriving_begun`, if they have been followed. With `OUTER` for angles the verdicts are the
-    same, but what they say of a whole family is not told of all of it.
+    `lines` are those of `arriving_begun`, if they have been integrated. With `OUTER_ANGLES` for angles the verdicts are
+    the same, but what they say of a whole family is not told of all of it.
     """
     if not which:
         return []
     if lines is None and _all_end_on_C(problem):
         C = problem.critical[0]
-        return [Judged("slide", "C", None, C.slow_flow, say("slides", label=named("C"), kind=C.kind))] * len(which)
+        return [Judged("slide", "C", None, C.slow_flow, say("slides", label=written_label("C"), kind=C.kind))] * len(
+            which
+        )
     wide, count = _wide(problem, which), len(angles)
     found = ends(problem, from_equator(problem, which, wide, lines, angles))
     mains, beside = found[: len(which)], found[len(which) :]
@@ -246,7 +248,7 @@ def judge_arrivals(
     judged = []
     for i, main in zip(which, mains, strict=True):
         fan = fans.get(i, [])
-        if fan and count < len(ANGLES) and len({main.label, *(end.label for end in fan)}) == 1:
+        if fan and count < len(ARRIVAL_ANGLES) and len({main.label, *(end.label for end in fan)}) == 1:
             fan = ends(problem, orbits_to_end(problem, _points_around(problem, [i])))
         judged.append(judge(problem, [main, *fan], "A whole family of orbits leaves Q" if i in fans else ""))
     return judged

@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-TINY = 1e-300
+UNDERFLOW_BOUND = 1e-300
 
 
 def _power(base: float, exponent: float) -> float:

@@ -16,8 +16,8 @@ from ..portrait.endings import radially_neutral_ones
 from ..psi import constructors
 from .setting import SceneSetting
 
-AROUND = 0.05  # radius of the seeds around an unstable critical set
-STEPS = 780  # of half a drawn orbit: one that goes round a weak focus for longer is not waited for
+SEED_RADIUS = 0.05  # radius of the seeds around an unstable critical set
+MAX_HALF_STEPS = 780  # of half a drawn orbit: one that goes round a weak focus for longer is not waited for
 CAPTURE = 0.25  # of a pixel: where a drawn trajectory ends, so near its equilibrium that nobody can see the rest
 
 
@@ -55,7 +55,7 @@ def _stepping_options(setting: SceneSetting, outside: bool = False) -> dict[str,
         "view": setting.view,
         "pixel": setting.pixel,
         "capture": CAPTURE * setting.pixel,
-        "step_limit": STEPS,
+        "step_limit": MAX_HALF_STEPS,
         "stiff": is_stiff(problem.equator, critical),
     }
 
@@ -67,7 +67,7 @@ def starts(setting: SceneSetting, outside: bool) -> np.ndarray:
         return seeds
     # What leaves an unstable critical set (to a limit cycle, in Case III) starts nearer to it than any fixed seed.
     unstable = [C for C in setting.problem.critical if C.kind.startswith(("unstable", "centre"))]
-    rings = [C.p + ring(AROUND, 6) for C in unstable]
+    rings = [C.p + ring(SEED_RADIUS, 6) for C in unstable]
     return np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
 
 

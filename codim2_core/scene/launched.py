@@ -26,8 +26,8 @@ from ..words import say
 Array = NDArray[np.float64]
 
 RTOL = 1e-9
-LONG = 40.0  # picture units drawn of an orbit that winds
-PATIENCE = 30.0  # how many times longer than it is drawn an orbit is followed to see where it ends
+MAX_WINDING_LENGTH = 40.0  # picture units drawn of an orbit that winds
+EXTENSION_FACTOR = 30.0  # how many times longer than it is drawn an orbit is followed to see where it ends
 CUT = (Status.LENGTH, Status.T_MAX)  # drawn lines that have not ended
 LOST = 1e-9  # rho below which a drawn point |p| = 1 + rho does not tell it, and that takes no time to speak of
 
@@ -85,7 +85,7 @@ class Launched:
         return len(self.goes)
 
 
-NOTHING = Launched(Orbits(concatenate([]), concatenate([])), (), ())
+NO_ORBITS = Launched(Orbits(concatenate([]), concatenate([])), (), ())
 
 
 def launched_orbits(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0) -> Launched:
@@ -104,7 +104,7 @@ def launched_orbits(problem: LayerProblem, seeds: Array, *, view: float = 2.0, p
     Launched
     """
     if not len(seeds):
-        return NOTHING
+        return NO_ORBITS
     at, psi = problem.at, problem.psi
     time = drawn_time(at, problem.equator)
     back, ahead = (
@@ -119,14 +119,14 @@ def launched_orbits(problem: LayerProblem, seeds: Array, *, view: float = 2.0, p
             view=view,
             pixel=pixel,
             capture=CAPTURE,
-            length=LONG,
+            length=MAX_WINDING_LENGTH,
         )
         for backward in (True, False)
     )
     inside = np.hypot(seeds[:, 0], seeds[:, 1]) < 1.0
     fates = []
     for line, backward in ((ahead, False), (back, True)):
-        half = _orbits_to_end(problem, line, seeds, PATIENCE * time, view, backward)
+        half = _orbits_to_end(problem, line, seeds, EXTENSION_FACTOR * time, view, backward)
         found: list[Fate | None] = [None] * len(seeds)
         within = np.flatnonzero(inside).tolist()
         for i, end in zip(within, _endings(problem, half, within, backward), strict=True):

@@ -18,7 +18,7 @@ from ..portrait.approach import outcomes_of
 from ..portrait.classify import portrait, portrait_name
 from ..portrait.separatrices import Separatrices, separatrices_of
 from ..sliding.flow import flow_on
-from ..systems.bounds import SMALLEST
+from ..systems.bounds import MIN_NUMBER
 from ..theorems.certificates import Certificate, certificates_of
 from .drawn_orbits import continuations, orbits, seeds_of, sketch_orbits
 from .launched import Launched, launched_orbits
@@ -74,7 +74,7 @@ def _matrix(setting: SceneSetting) -> tuple[float, float, float] | None:
     if at.typed is not None or at.as_given is None:
         return None
     a, b, d = at.as_given.plane[:3]
-    return (a, b, d) if max(abs(a), abs(b), abs(d)) >= SMALLEST else (0.0, 0.0, 0.0)
+    return (a, b, d) if max(abs(a), abs(b), abs(d)) >= MIN_NUMBER else (0.0, 0.0, 0.0)
 
 
 def _atlas_curves(setting: SceneSetting) -> tuple[BifurcationCurve, BifurcationCurve] | None:

@@ -24,7 +24,7 @@ from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.bounds import slow_values
 from ..systems.frozen import AtZ
-from ..systems.kinds import KINDS, AnySystem
+from ..systems.kinds import SYSTEM_KINDS, AnySystem
 from .layer_table import ELINEAR_ONLY, INPUTS, layers
 from .memory import Memory
 
@@ -118,7 +118,7 @@ class Scene:
         cut: float = 0.0,
         _memory: Memory | None = None,
     ) -> None:
-        if not isinstance(system, KINDS):
+        if not isinstance(system, SYSTEM_KINDS):
             raise ValueError(f"system is {system!r}; give an ELinear or a System.")
         if psi is None:
             psi = constructors.constant()

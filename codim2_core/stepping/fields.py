@@ -19,7 +19,7 @@ from numba import (
 from ..psi.function import Psi
 from .compiling import ARITHMETIC, compile_address
 from .gains import Variants, arguments, gain, kind, variant
-from .layout import EACH, LANES, PARAMETERS, SIGN, WIDTH, WITH_EACH, call_at
+from .layout import EACH, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, WITH_EACH, call_at
 from .numbers import GAIN, PSI
 
 
@@ -33,11 +33,11 @@ def write_lane(S, out, P, lane, gain, a, b, d, f1, f2):
     q = x * u + y * v
     out[lane] = u - x * q
     out[lane + LANES] = v - y * q
-    out[lane + 2 * LANES] = P[lane + SIGN] * w * q
+    out[lane + 2 * LANES] = P[lane + SIDE_SIGN] * w * q
 
 
 def _field(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
     parameter = kind(P[PSI])
     for lane in range(LANES):
         r2, w = arguments(S, P, lane)
@@ -45,7 +45,7 @@ def _field(state, out, parameters):
 
 
 def _field_of_each(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (WITH_EACH,))
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (WITH_EACH,))
     for lane in range(LANES):
         r2, w = arguments(S, P, lane)
         m = EACH + lane
@@ -55,7 +55,7 @@ def _field_of_each(state, out, parameters):
 
 def _field_of_gain(state, out, parameters):
     call_at(int(carray(parameters, (PARAMETERS,))[GAIN]), state, out, parameters)
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
     for lane in range(LANES):
         write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
 

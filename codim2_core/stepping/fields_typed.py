@@ -13,12 +13,12 @@ from typing import Any
 from numba import carray  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
 
 from ..expressions.functions import kernels
-from ..expressions.names import PLANE
+from ..expressions.names import FAST_NAMES
 from ..expressions.source import program
 from ..systems.typed import System
 from .compiling import Kept, compile_address
-from .layout import LANES, PARAMETERS, SIGN, WIDTH, call_at
-from .numbers import FACTOR, GAIN, OWN
+from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, call_at
+from .numbers import FACTOR, GAIN, OWN_NUMBERS
 
 MOST_SYSTEMS = 64  # compiled systems kept
 _fields = Kept(MOST_SYSTEMS)
@@ -35,7 +35,7 @@ class GeneralField:
 def _source(system: System) -> tuple[str, bool]:
     """Python source of the field, and whether U is smooth beyond |e| = 1."""
     numbers = {name: f"n{i}" for i, name in enumerate(system.numbers)}
-    written = program(system.U, {**{name: name for name in PLANE}, **numbers}, PLANE)
+    written = program(system.U, {**{name: name for name in FAST_NAMES}, **numbers}, FAST_NAMES)
     far = system.reads_position
     # x = rho p outside, 0 on the hemisphere.
     position = ["rho = w*(0.5 + 0.5*P[lane + SIGN])", "x, y = rho*px, rho*py"] if far else []
@@ -71,11 +71,11 @@ def _make_field(system: System) -> GeneralField:
         "call_at": call_at,
         "LANES": LANES,
         "PARAMETERS": PARAMETERS,
-        "SIGN": SIGN,
-        "WIDTH": WIDTH,
+        "SIGN": SIDE_SIGN,
+        "WIDTH": ROW_WIDTH,
         "FACTOR": FACTOR,
         "GAIN": GAIN,
-        "OWN": OWN,
+        "OWN": OWN_NUMBERS,
     }
     exec(source, scope)  # written by `program` from whitelisted formulas: numbers, our own names and math.* only
     return GeneralField(compile_address(scope["field"], cache=False), smooth)

@@ -9,9 +9,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..expressions.expression import Expression, ExpressionError, parse
-from ..expressions.names import MOST_SLOW_VARIABLES, PLANE, SLOW, TIME
+from ..expressions.names import FAST_NAMES, MOST_SLOW_VARIABLES, SLOW_NAMES, TIME
 from ..expressions.reader import MOST_CHARACTERS
-from .bounds import LARGEST
+from .bounds import MAX_NUMBER
 
 Text = str | float | int | Expression
 
@@ -38,15 +38,16 @@ def parameter(name: object, value: object) -> float:
     """Check the name and the value of a parameter."""
     if not isinstance(name, str) or len(name) > 40:
         raise ValueError(f"{short_repr(name)} cannot name a parameter; use at most 40 ASCII letters, digits and _.")
-    if name in PLANE or name == "z" or name in SLOW:
+    if name in FAST_NAMES or name == "z" or name in SLOW_NAMES:
         raise ValueError(f"{name!r} cannot name a parameter: c, s, x, y, z, z1 … z{MOST_SLOW_VARIABLES} are variables.")
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         number = math.nan
-    if not abs(number) <= LARGEST:
+    if not abs(number) <= MAX_NUMBER:
         raise ValueError(
-            f"parameter {short_repr(name)} is {short_repr(value)}; give a finite number, at most {LARGEST:g} in size."
+            f"parameter {short_repr(name)} is {short_repr(value)}; "
+            f"give a finite number, at most {MAX_NUMBER:g} in size."
         )
     return number
 
@@ -76,7 +77,13 @@ def definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[
         if match is None:
             raise ValueError(f"{short_repr(key)} cannot name a definition; write a name such as 'chi' or 'chi(z)'.")
         name, arguments = match[1], match[2] or ""
-        if name in PLANE or name in SLOW or name == "z" or name in parameters or name in [d[0] for d in found]:
+        if (
+            name in FAST_NAMES
+            or name in SLOW_NAMES
+            or name == "z"
+            or name in parameters
+            or name in [d[0] for d in found]
+        ):
             raise ValueError(f"the definition {short_repr(name)} has the name of something else; choose another name.")
         inside = r"\s*,\s*".join(re.escape(word.strip()) for word in arguments.split(","))
         call = re.compile(rf"(?<!\w){name}\s*\(\s*{inside or r'z'}\s*\)", re.ASCII)
@@ -88,7 +95,7 @@ def definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[
 def read(text: Text, what: str, parameters: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
     """Parse one formula; `z` becomes `z1` and definitions are put in."""
     given = (*parameters, *(definition[0] for definition in definitions))
-    names = (*PLANE, "z", *SLOW, *given, *(() if TIME in given else (TIME,)))
+    names = (*FAST_NAMES, "z", *SLOW_NAMES, *given, *(() if TIME in given else (TIME,)))
     if isinstance(text, Expression):
         foreign = [name for name in text.names if name not in names]
         if foreign:
@@ -125,7 +132,7 @@ def continuous(row: Expression, what: str) -> None:
         return op == "sqrt" and tape[args[0]][0] == "+" and {power_sign(j) for j in tape[args[0]][1:]} == {"x", "y"}
 
     for op, *args in tape:
-        moves.append(args[0] in PLANE if op == "name" else op != "num" and any(moves[i] for i in args))
+        moves.append(args[0] in FAST_NAMES if op == "name" else op != "num" and any(moves[i] for i in args))
         if op == "sign" and moves[-1]:
             raise ValueError(
                 f"{what} has the sign of a formula in c, s, x or y: it jumps there, on a discontinuity set of "
@@ -143,8 +150,10 @@ def _numeral(value: float, what: str) -> str:
         number = float(value)
     except OverflowError:
         number = math.inf
-    if not abs(number) <= LARGEST:
-        raise ValueError(f"{what} is {short_repr(value)}; give a finite number, at most {LARGEST:g} in size, or text.")
+    if not abs(number) <= MAX_NUMBER:
+        raise ValueError(
+            f"{what} is {short_repr(value)}; give a finite number, at most {MAX_NUMBER:g} in size, or text."
+        )
     return repr(number)
 
 

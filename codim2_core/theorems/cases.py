@@ -8,7 +8,7 @@ from ..layer_problem.location import Existence
 from ..psi.constructors import comparison_families
 from ..words import say
 from .degenerate import NOT_LINEAR
-from .facts import RAYS, Certificate, Facts, not_applicable, verdict_of
+from .facts import RAY_ANGLES, Certificate, Facts, not_applicable, verdict_of
 
 
 def _reason(facts: Facts) -> str:
@@ -39,7 +39,7 @@ def _case1a(facts: Facts, statement: str) -> Certificate:
     zeta = np.geomspace(1e-4, 1e4, 81)
     s = zeta**2
     P, slope = facts.psi(s), facts.psi.derivative(s)
-    x, y = zeta[:, None] * np.cos(RAYS), zeta[:, None] * np.sin(RAYS)
+    x, y = zeta[:, None] * np.cos(RAY_ANGLES), zeta[:, None] * np.sin(RAY_ANGLES)
     weight = (s + P)[:, None]
     top = (a + d) * P[:, None] - (a * x**2 + d * y**2) * slope[:, None] + a * y**2 + d * x**2
     divergence = top / weight**1.5

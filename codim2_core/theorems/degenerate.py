@@ -9,7 +9,7 @@ import numpy as np
 from ..words import say
 from .facts import Certificate, Facts, not_applicable, verdict_of
 
-TURNED = 4.0 * np.finfo(float).eps
+ANGLE_ROUNDING = 4.0 * np.finfo(float).eps
 NOT_LINEAR = say("U not e-linear")
 
 
@@ -60,7 +60,7 @@ def equal_diagonal(facts: Facts) -> Certificate:
         return not_applicable(theorem, statement, say("a and d differ"))
     length = math.hypot(form.f1, form.f2)
     # turning a matrix leaves a rounding of its entries, and with b = f = 0 nothing else
-    least = 0.0 if form.given is None else TURNED * max(abs(form.a), abs(form.d))
+    least = 0.0 if form.given is None else ANGLE_ROUNDING * max(abs(form.a), abs(form.d))
     if max(length, abs(form.b)) <= least:
         return not_applicable(theorem, statement, say("every direction, b = 0"))
     expected: list[float] = []

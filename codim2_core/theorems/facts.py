@@ -24,8 +24,8 @@ from ..systems.frozen import AtZ
 from ..tables import Tabled, number
 
 Array = NDArray[np.float64]
-CLOSE = 1e-9  # of the size of what is compared
-RAYS = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)
+RELATIVE_TOLERANCE = 1e-9  # of the size of what is compared
+RAY_ANGLES = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)
 
 
 UNCERTAIN = frozenset(
@@ -116,7 +116,7 @@ class Facts:
     @property
     def slow_size(self) -> float:
         """The largest |W| on the edge and in the middle (1 if W = 0): what slow flows are compared with."""
-        e = np.stack([np.cos(RAYS), np.sin(RAYS)], axis=-1)
+        e = np.stack([np.cos(RAY_ANGLES), np.sin(RAY_ANGLES)], axis=-1)
         values = np.abs(self.at.W(np.concatenate([e, np.zeros((1, 2))])))
         return float(values.max(initial=0.0)) or 1.0
 

@@ -14,8 +14,8 @@ from .psi_claims import e_psi
 
 NO_SET = say("no isolated critical set")
 FOLDED = ("saddle-node", "degenerate")
-STEPS = (1e-3, 1e-4)  # eps times the way to the slow manifold, of hypot(1, |x2|)
-AHEAD = 1e-5  # step along z, of 1 + |z|
+EPS_VALUES = (1e-3, 1e-4)  # eps times the way to the slow manifold, of hypot(1, |x2|)
+Z_STEP = 1e-5  # step along z, of 1 + |z|
 
 
 def sliding_claims(facts: Facts) -> tuple[Certificate, ...]:
@@ -108,7 +108,7 @@ def _slow_manifold(facts: Facts) -> Certificate:
         length = float(np.hypot(*shift))
         unit = float(np.hypot(1.0, np.hypot(*C.x2))) / length if length else 1.0
         left = []
-        for eps in (STEPS[0] * unit, STEPS[1] * unit):
+        for eps in (EPS_VALUES[0] * unit, EPS_VALUES[1] * unit):
             U = facts.at.U(e_psi(facts.psi, (C.x2 + eps * shift)[None], 1.0)[0])
             left.append(float(np.abs(U - eps * drift).max()))
         numbers += [(f"|x₂ − x₂*|/ε at {label}", length), (f"defect at {label}", left[0])]
@@ -131,7 +131,7 @@ def _finite_difference(facts: Facts) -> Beside | None:
     """Critical sets at z +- h in each slow variable, and h; None at the edge of where the formulas are defined."""
     found: Beside = []
     for k, value in enumerate(facts.z):
-        h = AHEAD * (1.0 + abs(value))
+        h = Z_STEP * (1.0 + abs(value))
         places = [(*facts.z[:k], value + side, *facts.z[k + 1 :]) for side in (h, -h)]
         try:
             found.append((h, [critical_sets(facts.system, facts.psi, z) for z in places]))

@@ -36,15 +36,15 @@ from ...draw.vector.parts import Placement, rim, stroke, words
 from .chart import chart, close_svg, regions, thin_out
 
 #: px of the screen.
-SIDE = 360
-MOST = 45_000  # bytes
+SKETCH_SIDE = 360
+MAX_SVG_BYTES = 45_000  # bytes
 #: Starting points and pixel of a small portrait; the next ones are tried where it is too large.
 SKETCHED = ((40, 1 / 90), (16, 1 / 50), (0, 1 / 50))
 #: Curves that are drawn, and points of all of them.
-PIECES, POINTS = 200, 4000
+PIECES, MAX_SKETCH_POINTS = 200, 4000
 #: Colours of basins; cells across a small picture of them.
-BASINS, MOST_CELLS = ("basin-1", "basin-2", "basin-3", "basin-4"), 64
-UNDECIDED = -1
+BASIN_COLOURS, MAX_BASIN_CELLS = ("basin-1", "basin-2", "basin-3", "basin-4"), 64
+UNDECIDED_CELL = -1
 
 
 @singledispatch
@@ -84,9 +84,9 @@ def portrait(result: Scene) -> str:
             "critical": glyphs.critical_columns(scene["critical"]),
         }
         made = content(pack(header, blocks), [layer.name for layer in layers], Placement(text=32.0))
-        if len(made) < MOST:
+        if len(made) < MAX_SVG_BYTES:
             break
-    return close_svg(made, 1000, 1000, SIDE, SIDE)
+    return close_svg(made, 1000, 1000, SKETCH_SIDE, SKETCH_SIDE)
 
 
 @svg.register
@@ -197,7 +197,7 @@ def _launched_svg(result: Launched) -> str:
 @svg.register
 def _basins(result: Basins) -> str:
     cells, (left, right, bottom, top) = result.cells, result.box
-    while len(cells) > MOST_CELLS:  # each of four stands for all: the picture is small
+    while len(cells) > MAX_BASIN_CELLS:  # each of four stands for all: the picture is small
         cells = cells[::2, ::2]
     place = Placement((left, right, bottom, top), decimals=1)
     side = place.side / len(cells)
@@ -206,7 +206,9 @@ def _basins(result: Basins) -> str:
         for part in _runs(line):
             x, y, wide = part.start * side, place.side - (row + 1) * side, (part.stop - part.start) * side
             paths.setdefault(int(line[part.start]), []).append(f"M{x:.0f} {y:.0f}h{wide:.0f}v{side:.1f}h-{wide:.0f}Z")
-    colours = {i: BASINS[i % len(BASINS)] for i in range(len(result.destinations))} | {UNDECIDED: "undecided"}
+    colours = {i: BASIN_COLOURS[i % len(BASIN_COLOURS)] for i in range(len(result.destinations))} | {
+        UNDECIDED_CELL: "undecided"
+    }
     areas = [
         f'<path d="{"".join(path)}" fill="var(--{colours[which]})" opacity=".45" shape-rendering="crispEdges"/>'
         for which, path in sorted(paths.items())
@@ -217,7 +219,7 @@ def _basins(result: Basins) -> str:
     said = "".join(
         words(20, 50 + 44 * i, name, 36.0).replace("--ink", f"--{colour}") for i, (name, colour) in enumerate(names)
     )
-    return close_svg("".join(areas) + circle + said, 1000, 1000, SIDE, SIDE)
+    return close_svg("".join(areas) + circle + said, 1000, 1000, SKETCH_SIDE, SKETCH_SIDE)
 
 
 def _runs(values: Any) -> list[slice]:
@@ -233,10 +235,10 @@ def _curves(pieces: Sequence[Any], colour: str) -> str:
 def _hemisphere_svg(pieces: Sequence[tuple[str, Any]], over: str = "") -> str:
     """Return curves of the picture over the hemisphere, each in a colour, the first `PIECES` of them."""
     place = Placement()
-    each = POINTS // min(max(1, len(pieces)), PIECES)
+    each = MAX_SKETCH_POINTS // min(max(1, len(pieces)), PIECES)
     lines = ""
     for colour in dict.fromkeys(colour for colour, _ in pieces):
         kept = [thin_out(np.asarray(piece), each) for own, piece in pieces[:PIECES] if own == colour]
         lines += f'<path d="{place.path(map(place.points, kept))}" {stroke(colour, 1.4, (), place)}/>'
     circle = f"{rim(place)} {stroke('ink', 2, (), place)}/>"
-    return close_svg(lines + circle + over, 1000, 1000, SIDE, SIDE)
+    return close_svg(lines + circle + over, 1000, 1000, SKETCH_SIDE, SKETCH_SIDE)

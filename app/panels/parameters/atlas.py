@@ -27,7 +27,7 @@ from .atlas_columns import atlas_columns, short, strip_columns
 from .axes import Axis, available, missing_axes, spans_of, without_parameters
 
 #: Controls of the plane of f: a system that lacks one of them has none.
-PLANE = ("a", "b", "d", "f1", "f2")
+MAP_PARAMETERS = ("a", "b", "d", "f1", "f2")
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
 #: A region of less area than the square of this, of the map's, gets no small portrait; nor a stretch shorter than this.
@@ -39,7 +39,7 @@ def add(draft: Draft) -> None:
     axes = draft.values["across"], draft.values["up"]
     there = available(draft)
     reason = missing_axes(draft, there, *axes)
-    closed_form = axes == ("f1", "f2") and set(PLANE) <= there.keys()
+    closed_form = axes == ("f1", "f2") and set(MAP_PARAMETERS) <= there.keys()
     plane = closed_form and draft.values["atlas_zoom"] == 0 and not {"f1", "f2"} & draft.values["ranges"].keys()
     shown = (next(iter(there)), "") if len(there) == 1 else axes
     if draft.now.get("atlas of") != (shown, plane):

@@ -17,9 +17,9 @@ from ..panel import Panel
 from .axes import available, missing_axes, spans_of, without_parameters
 
 #: Most points that the browser is sent of a branch: it is drawn some 320 px wide.
-MOST = 160
+MAX_BRANCH_POINTS = 160
 #: Special points of branches of cycles that the diagram has already, or that are none of the system's.
-KNOWN = ("Hopf", "span", "closed")
+KNOWN_ENDS = ("Hopf", "span", "closed")
 
 
 def add(draft: Draft) -> None:
@@ -94,14 +94,14 @@ def cycle_columns(found: CycleBranches) -> dict[str, Any]:
         {"kind": p.kind, "value": p.value, "amplitude": float(p.amplitude), "sentence": p.sentence}
         for branch in found
         for p in branch.special
-        if p.kind not in KNOWN and np.isfinite(p.amplitude)
+        if p.kind not in KNOWN_ENDS and np.isfinite(p.amplitude)
     ]
     return {"pieces": pieces, "special": special, "sentence": " ".join([found.reason, *found.notes])}
 
 
 def _line(x: NDArray[np.float64], y: NDArray[np.float64]) -> dict[str, list[float]]:
-    if len(x) > MOST:
-        kept = np.unique(np.rint(np.linspace(0, len(x) - 1, MOST)).astype(int))
+    if len(x) > MAX_BRANCH_POINTS:
+        kept = np.unique(np.rint(np.linspace(0, len(x) - 1, MAX_BRANCH_POINTS)).astype(int))
         x, y = x[kept], y[kept]
     return {"x": [float(f"{v:.7g}") for v in x], "y": [float(f"{v:.4g}") for v in y]}
 

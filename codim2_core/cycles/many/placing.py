@@ -9,10 +9,10 @@ from numba import njit
 
 from ...layer_problem.border import CANCELS
 from ...numerics import double_double
-from ...stepping.numbers import PSI, SHARED
-from ..equator_pull import LEAST, LOST, SUNK
+from ...stepping.numbers import PSI, SHARED_SIZE
+from ..equator_pull import LOST, MIN_HEIGHT, SUNK
 from ..return_map import RETURNED, single_step
-from ..section import INNER, SUNK_INWARD
+from ..section import INNER_RADIUS, SUNK_INWARD
 
 _add = njit(cache=True, error_model="numpy")(double_double.add)
 _product = njit(cache=True, error_model="numpy")(double_double.product)
@@ -80,7 +80,9 @@ def linearise_at_critical(e, sides, room, zeta, radial, tangential):
         x2[i, 0], x2[i, 1] = zeta[i] / modulus * e[i, 0], zeta[i] / modulus * e[i, 1]
         factors[i, 0], factors[i, 1] = radial[i], tangential[i]
         along = sides[i, 1] / modulus
-        inner[i] = INNER * room[i, 0] * (1.0 / tangential[i] + along * along * (1.0 / radial[i] - 1.0 / tangential[i]))
+        inner[i] = (
+            INNER_RADIUS * room[i, 0] * (1.0 / tangential[i] + along * along * (1.0 / radial[i] - 1.0 / tangential[i]))
+        )
     return x2, factors, inner
 
 
@@ -111,7 +113,7 @@ def hemisphere(x2):
 def lanes(plane, parameters, backward, states, x2, inner):
     """Return what `return_map.returns` is given of each: parameters of the field, sense, floor and sunk."""
     n = len(plane)
-    shared, sense, floor, sunk = np.zeros((n, SHARED)), np.empty(n), np.empty(n), np.empty(n)
+    shared, sense, floor, sunk = np.zeros((n, SHARED_SIZE)), np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
         for c in range(5):
             shared[i, c] = -plane[i, c] if backward[i] else plane[i, c]
@@ -120,7 +122,7 @@ def lanes(plane, parameters, backward, states, x2, inner):
         w = states[i, 2]
         away = math.hypot(states[i, 0] / w - x2[i, 0], states[i, 1] / w - x2[i, 1])
         floor[i] = SUNK_INWARD * min(inner[i], away)
-        sunk[i] = min(SUNK, max(LOST, LEAST / max(LEAST, min(w, 1.0))))
+        sunk[i] = min(SUNK, max(LOST, MIN_HEIGHT / max(MIN_HEIGHT, min(w, 1.0))))
     return shared, sense, floor, sunk
 
 

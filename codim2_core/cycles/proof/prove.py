@@ -18,13 +18,13 @@ from .search import LEAST_MARGIN, Layer, best_function, loops, write_certificate
 Array = NDArray[np.float64]
 
 # Of Psi the degree, and weights (k, mu), in the order in which they are tried
-TRIED = (
+ATTEMPTS = (
     (6, ((-1.0, 1.0),)),
     (10, ((-1.0, 1.5), (-1.0, 1.0), (-2.0, 1.0))),
     (14, ((-1.0, 1.5), (-1.0, 1.0), (-2.0, 1.0), (-0.5, 1.75))),
     (20, ((-1.0, 1.5), (-2.0, 1.0))),
 )
-NONE = np.zeros((0, 2))
+NO_POINTS = np.zeros((0, 2))
 
 
 def prove_count(problem: LayerProblem, cycles: list[Array], forbidden: str | None) -> Proof:
@@ -46,8 +46,8 @@ def prove_count(problem: LayerProblem, cycles: list[Array], forbidden: str | Non
     if not covers(problem.psi):
         return Proof(False, nothing, say("proof not for this Psi"))
     system, why = Layer(problem), "proof finds no function"
-    loop = _loop(problem, system, cycles) if cycles else NONE
-    for degree, weights in TRIED:
+    loop = _loop(problem, system, cycles) if cycles else NO_POINTS
+    for degree, weights in ATTEMPTS:
         for k, mu in weights:
             margin, function = best_function(system, degree, k, mu)
             if margin < LEAST_MARGIN:
@@ -66,7 +66,7 @@ def _loop(problem: LayerProblem, system: Layer, cycles: list[Array]) -> Array:
     U = system.A @ e + system.f[:, None]
     turning = e[0] * U[1] - e[1] * U[0]
     if turning.min() * turning.max() > 0.0:
-        return NONE
+        return NO_POINTS
     cycle, stable = cycles[-1], (system.trace > 0.0) == (len(cycles) % 2 == 1)  # they are so in turn, from C on
     x = (cycle / np.sqrt(1.0 - (cycle**2).sum(axis=1))[:, None]).T
     s = (x**2).sum(axis=0)
@@ -76,4 +76,4 @@ def _loop(problem: LayerProblem, system: Layer, cycles: list[Array]) -> Array:
     for loop in loops(system, x.T, stable):
         if loop_is_crossed(loop, center, numbers, lines, 1 if stable else -1)[1]:
             return loop
-    return NONE
+    return NO_POINTS

@@ -17,10 +17,10 @@ from ...psi.kernel import VECTOR
 
 Array = NDArray[np.float64]
 
-SHRINK = 1.0001  # the disc lies in the square of the chart
+CHART_SHRINKAGE = 1.0001  # the disc lies in the square of the chart
 MAX_ROUNDS = 40
 MAX_CORNERS = 4000
-MAX_CUTS, RINGS, RAYS = 12, 96, 320
+MAX_CUTS, RINGS, RAY_COUNT = 12, 96, 320
 LEAST_MARGIN = 1e-5  # of a function with coefficients up to 1: below it none is sought
 
 
@@ -33,7 +33,7 @@ def chart_at(e_C: Array) -> Array:
         found[:2, :2] += (gamma - 1.0) * np.outer(e_C, e_C) / square
     found[:2, 2] = found[2, :2] = gamma * e_C
     found[2, 2] = gamma
-    return found * (SHRINK, SHRINK, 1.0)
+    return found * (CHART_SHRINKAGE, CHART_SHRINKAGE, 1.0)
 
 
 def exponents(degree: int) -> NDArray[np.intp]:
@@ -51,8 +51,8 @@ def factors(place: Array, degree: int) -> tuple[Array, ...]:
 @lru_cache(maxsize=1)
 def net() -> Array:
     """Return places (2, rings, rays) of the disc."""
-    r, t = np.sin(0.5 * math.pi * np.arange(1, RINGS + 1) / RINGS), math.tau * np.arange(RAYS) / RAYS
-    return np.array([np.outer(r, wave(t)) for wave in (np.cos, np.sin)]) / SHRINK
+    r, t = np.sin(0.5 * math.pi * np.arange(1, RINGS + 1) / RINGS), math.tau * np.arange(RAY_COUNT) / RAY_COUNT
+    return np.array([np.outer(r, wave(t)) for wave in (np.cos, np.sin)]) / CHART_SHRINKAGE
 
 
 class Places:
@@ -102,15 +102,15 @@ def best_function(system: Layer, degree: int, k: float, mu: float) -> tuple[floa
     every = Places(system, net().reshape(2, -1), k, mu)
     step = max(1, every.place.shape[1] // (5 * math.comb(degree + 2, 2)))
     first = Places(
-        system, np.hstack([np.zeros((2, 1)), every.place[:, ::step], net()[:, -1, :: RAYS // (8 * degree)]]), k, mu
+        system, np.hstack([np.zeros((2, 1)), every.place[:, ::step], net()[:, -1, :: RAY_COUNT // (8 * degree)]]), k, mu
     )
     M, function = first.rows(degree), np.zeros((degree + 1, degree + 1))
-    patch = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 5)] * 2)).reshape(2, 1, 25) * (3.0 / RAYS)
+    patch = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 5)] * 2)).reshape(2, 1, 25) * (3.0 / RAY_COUNT)
     for _ in range(MAX_CUTS):
         margin, function[tuple(exponents(degree))] = largest_margin(M)
         if margin < LEAST_MARGIN:
             break
-        reached = every.values(function).reshape(RINGS, RAYS)
+        reached = every.values(function).reshape(RINGS, RAY_COUNT)
         around = [
             np.roll(reached, 1, axis=1),
             np.roll(reached, -1, axis=1),
@@ -120,7 +120,7 @@ def best_function(system: Layer, degree: int, k: float, mu: float) -> tuple[floa
         dips = np.flatnonzero((reached <= np.min(around, axis=0)) & (reached < 2.0 * margin))
         dips = dips[np.argsort(reached.ravel()[dips])[:300]]
         beside = (every.place[:, dips, None] + patch).reshape(2, -1)
-        near = Places(system, beside / np.maximum(1.0, SHRINK * np.hypot(*beside)), k, mu)
+        near = Places(system, beside / np.maximum(1.0, CHART_SHRINKAGE * np.hypot(*beside)), k, mu)
         lower = near.values(function).reshape(-1, 25)
         least = float(lower.min(initial=margin))
         if least > 0.3 * margin:
@@ -208,7 +208,7 @@ def loops(system: Layer, cycle: Array, stable: bool) -> Iterator[Array]:
             continue
         inner = float(turned.real[1:][crosses].max())
         for share, angle in ((0.3, 0.03), (0.1, 0.03), (0.6, 0.03), (0.03, 0.01), (0.3, 0.1)):
-            start = (inner + share * (1.0 / SHRINK - inner)) * way
+            start = (inner + share * (1.0 / CHART_SHRINKAGE - inner)) * way
             found = round_C(system, start, way, forward, sense, -sense * angle)
             if found and abs(found[-1]) < abs(start):
                 found = found if sense > 0.0 else found[::-1]
@@ -240,7 +240,7 @@ def round_C(system: Layer, start: complex, way: complex, forward: float, sense: 
         if turned > 0.5 * abs(angle) and h > 1e-6:
             h *= 0.5
             continue
-        if abs(there) > 1.0 / SHRINK:
+        if abs(there) > 1.0 / CHART_SHRINKAGE:
             return []
         before, side = sense * (z / way).imag, sense * (there / way).imag
         if left and before < 0.0 <= side and (there / way).real > 0.0:

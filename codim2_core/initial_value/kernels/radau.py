@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numba import njit
 
-from ...numerics.radau import FAILED, GROW, SAFETY, SHRINK, STAGES
+from ...numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE, STAGES, STEP_SAFETY
 from ..problem import CONTACT
 from .rate import inward_bound, jacobian, rate, sizes
 from .stages import factor, guess, matrices, solve, solve_stages
@@ -96,13 +96,13 @@ def attempt(motion, table, y, h, before_h, refine, clock, work):
     ratio = h / before_h if before_h > 0.0 else math.inf
     guessed = guess(table, work.before, work.first, ratio, y, work.Z)
     if not (factor(work.big, work.big_pivots, STAGES * n) and factor(work.small, work.small_pivots, n)):
-        return False, FAILED
+        return False, FAILED_SHRINKAGE
     if not solve_stages(motion, table, y, h, clock, work):
-        return False, 1.0 if guessed else FAILED
+        return False, 1.0 if guessed else FAILED_SHRINKAGE
     norm = _error_norm(motion, table, y, h, refine, clock, work)
     if not norm < math.inf:
-        return False, SHRINK
-    change = min(max(SAFETY * max(norm, 1e-12) ** (-1.0 / (STAGES + 1)), SHRINK), GROW)
+        return False, MAX_SHRINKAGE
+    change = min(max(STEP_SAFETY * max(norm, 1e-12) ** (-1.0 / (STAGES + 1)), MAX_SHRINKAGE), MAX_GROWTH)
     return (True, change) if norm <= 1.0 else (False, min(change, 0.8))
 
 

@@ -13,7 +13,7 @@ from ...stepping.numbers import PSI
 from .explicit import ROOM
 from .rate import rate
 
-FARTHEST = 4.0  # times the last step: how far its polynomial is continued
+MAX_EXTRAPOLATION = 4.0  # times the last step: how far its polynomial is continued
 
 
 class Work(NamedTuple):
@@ -114,7 +114,7 @@ def solve(A, pivots, b, n):
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def guess(table, before, first, ratio, y, Z):
     """Continue the last step's polynomial into a step `ratio` times as long, if that is not too far; say whether."""
-    nodes, guessed = table.nodes, ratio <= FARTHEST
+    nodes, guessed = table.nodes, ratio <= MAX_EXTRAPOLATION
     for a in range(STAGES):
         for i in range(len(y)):
             Z[a, i] = 0.0

@@ -18,7 +18,7 @@ from ...systems.elinear import ELinear
 from ...systems.typed import System
 from ...tables import Results
 from ..delay import Delay, delay
-from .delay import STILL, NotAnalyticError, cut_at_exit
+from .delay import REST_CHANGE, NotAnalyticError, cut_at_exit
 from .folded import fold
 from .slide import Slide, slide
 
@@ -27,8 +27,8 @@ __all__ = ["delays"]
 Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-10, 1e-12
-MOST = 4000  # steps of a slide
-LONG = 100.0  # times as long as the ranges would take at the first rate is a motion followed
+MAX_SLIDE_STEPS = 4000  # steps of a slide
+MAX_TIME_FACTOR = 100.0  # times as long as the ranges would take at the first rate is a motion followed
 
 
 def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLike = ()) -> Results[Delay]:
@@ -95,14 +95,14 @@ def _predict_delay(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Arra
     if not C.kind.startswith("stable") or not rate.any():
         return None
     width = np.where(np.isfinite(ranges).all(axis=1), ranges[:, 1] - ranges[:, 0], 1.0)
-    long = LONG * float(np.min(width[rate > 0.0] / rate[rate > 0.0]))
-    options = {"rtol": RTOL, "atol": ATOL, "most": MOST}
+    long = MAX_TIME_FACTOR * float(np.min(width[rate > 0.0] / rate[rate > 0.0]))
+    options = {"rtol": RTOL, "atol": ATOL, "most": MAX_SLIDE_STEPS}
     before = _restrict_slide(slide(formulas, psi, np.array(C.e), 0.0, z, long, **options), ranges)
     if before.end not in ("hopf", "fold"):
         return None
     hopf = before.taken[-1]
     how = "Hopf" if before.end == "hopf" else fold(formulas, before.e, hopf.last[2:], name, "fold").exchange
-    if not how or (how != "Hopf" and np.ptp(before.places, axis=0).max() > STILL):
+    if not how or (how != "Hopf" and np.ptp(before.places, axis=0).max() > REST_CHANGE):
         return None
     after = slide(
         formulas,

@@ -22,7 +22,10 @@ from ...words import say
 Array = NDArray[np.float64]
 
 AT_MIDDLE = 1e-12  # |p| of a critical set that x = y = 0 lies on
-AROUND, BESIDE = 8, 1e-3  # orbits from around such a set that does not attract, and how far from it they start
+ORBITS_AROUND, START_DISTANCE = (
+    8,
+    1e-3,
+)  # orbits from around such a set that does not attract, and how far from it they start
 
 
 @dataclass(frozen=True)
@@ -132,8 +135,8 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
         onto = "C" if len(sets) == 1 else f"C{i + 1}"
         if _stable(sets[i]):
             return Decision("slide", say("middle is stable", kind=sets[i].kind, onto=onto), sets[i].e, onto=onto)
-        angle = math.tau * np.arange(AROUND) / AROUND
-        ring = BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        angle = math.tau * np.arange(ORBITS_AROUND) / ORBITS_AROUND
+        ring = START_DISTANCE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         decision = from_hemisphere(system, psi, z, ring)
         return replace(decision, reason=f"{say('middle is a set', onto=onto)} {decision.reason}")
     border = np.flatnonzero(equator.radially_degenerate)

@@ -25,8 +25,8 @@ from ...words import say
 
 Array = NDArray[np.float64]
 
-SINGULAR = 1e-5  # |e'| in units of what it is made of, below which a fold is a folded singularity
-DIFFERENCE = 1e-5  # in e and z, for derivatives
+SINGULAR_SPEED = 1e-5  # |e'| in units of what it is made of, below which a fold is a folded singularity
+DIFFERENCE_STEP = 1e-5  # in e and z, for derivatives
 STRAIGHT = 1e-4  # second derivative along the kernel, in units of D_e U, below which a crossing is a pitchfork
 SINGLE = 1e-4  # product of the eigenvalues in units of their squares, below which one is taken for 0
 
@@ -69,16 +69,16 @@ def fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold
     at = np.concatenate([e, z])
     D, Dz, W, We = _parts(formulas, at)
     across, bends = _transverse_slope(formulas, at, D, Dz)
-    if float(np.abs(across).max()) <= SINGULAR * float(np.abs(D).max() + np.abs(Dz).max()):
+    if float(np.abs(across).max()) <= SINGULAR_SPEED * float(np.abs(D).max() + np.abs(Dz).max()):
         kind = "transcritical" if abs(bends) > STRAIGHT * float(np.abs(D).max()) else "pitchfork"
         return Fold(say(kind, C=C), exchange=kind)
     size = float(np.abs(D).max() * np.abs(Dz).max() * (np.abs(W).max() + np.abs(We).max()))
-    if not float(np.abs(_flow(formulas, at)[:2]).max()) < SINGULAR * size:
+    if not float(np.abs(_flow(formulas, at)[:2]).max()) < SINGULAR_SPEED * size:
         return Fold(say(plain, C=C))
     if len(z) == 1:
         return Fold(say("canard point", C=C), left_to_eps=True)
-    steps = DIFFERENCE * np.eye(len(at))
-    M = np.column_stack([(_flow(formulas, at + h) - _flow(formulas, at - h)) / (2.0 * DIFFERENCE) for h in steps])
+    steps = DIFFERENCE_STEP * np.eye(len(at))
+    M = np.column_stack([(_flow(formulas, at + h) - _flow(formulas, at - h)) / (2.0 * DIFFERENCE_STEP) for h in steps])
     total, squares = float(np.trace(M)), float(np.trace(M @ M))
     product, scale = 0.5 * (total**2 - squares), total**2 + abs(squares)
     if abs(product) < SINGLE * scale:
@@ -111,8 +111,8 @@ def _transverse_slope(formulas: Field, at: Array, D: Array, Dz: Array) -> tuple[
     """Return D_z U along the left null vector of D, and how U bends that way along the kernel."""
     left, _, right = np.linalg.svd(D)
     null, r = left[:, 1], np.concatenate([right[1], np.zeros(Dz.shape[1])])
-    change = _parts(formulas, at + DIFFERENCE * r)[0] - _parts(formulas, at - DIFFERENCE * r)[0]
-    return null @ Dz, float(null @ change @ right[1]) / (2.0 * DIFFERENCE)
+    change = _parts(formulas, at + DIFFERENCE_STEP * r)[0] - _parts(formulas, at - DIFFERENCE_STEP * r)[0]
+    return null @ Dz, float(null @ change @ right[1]) / (2.0 * DIFFERENCE_STEP)
 
 
 def _direction_past_fold(formulas: Field, at: Array, D: Array, Dz: Array) -> Array:

@@ -19,7 +19,7 @@ from ...initial_value.events import DEGREES, turns
 from ...initial_value.field import Field
 from ...initial_value.line import InvariantLine
 from ...initial_value.problem import own_time
-from ...initial_value.safe_steps import NODES, Safe
+from ...initial_value.safe_steps import SAFE_NODES, Safe
 from ...initial_value.sheet import Resting, Sheet, complement, determinant, trace
 from ...numerics.dense import Steps
 from ...numerics.growth import until_blow_up
@@ -31,12 +31,12 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-SHORTEST = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
-AT_EQUATOR = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
+MIN_STEP = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
+EQUATOR_DISTANCE = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
 SHORTEST_PART = 1e-13  # of a step: a set that is not followed so far has gone
 LEAST_PART = 1.0 / 64.0  # of a step, in which a set that has moved far is followed to a place within it
-INSIDE = (4, *DEGREES)  # of the polynomials that a gauge is taken for along a step: most are far from zero
+GAUGE_DEGREES = (4, *DEGREES)  # of the polynomials that a gauge is taken for along a step: most are far from zero
 NEAR_HOPF = 1e-2  # |tr J| in units of D_e U, below which a stable cycle may be too small to be found
 
 
@@ -124,7 +124,7 @@ def slide(
     problem = sheet.problem(atol / rtol)
     rate = np.array(field.value(*sheet.e.tolist(), 0.0, 0.0, *z.tolist())[2:])
     pace = own_time(problem, z, rate)
-    h, shortest = 1e-2 * pace, SHORTEST * min(pace, t_end - t)
+    h, shortest = 1e-2 * pace, MIN_STEP * min(pace, t_end - t)
     if compiled is None or lives is not None or resting:
         ahead = _in_python(
             sheet, until_blow_up(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest)
@@ -183,7 +183,7 @@ def _compiled_steps(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[
         for part in motion.chunks():
             if not len(part.starts):
                 continue
-            e, D = motion.sets(part, NODES)
+            e, D = motion.sets(part, SAFE_NODES)
             known = safe.steps(e, D)
             zs = Steps(part.first[2:], part.starts, part.lengths, part.ends[:, 2:], part.polynomials[:, 2:])
             wholes = Steps(*(of.copy() for of in (part.first, part.starts, part.lengths, part.ends, part.polynomials)))
@@ -270,7 +270,7 @@ def _gauges(
 
 def _end(sheet: Sheet) -> str:
     """Say what ends the set where steps become too short to go on."""
-    if complement(sheet.e) < AT_EQUATOR:
+    if complement(sheet.e) < EQUATOR_DISTANCE:
         return "equator"
     size = float(np.abs(sheet.slopes(sheet.e, sheet.z)[:2, :2]).max())
     return "fold" if abs(determinant(sheet, sheet.e, sheet.z)) < AT_FOLD * size**2 else "given up"
@@ -301,7 +301,7 @@ def _first(
         return missing if e is None else gauge(e, z)
 
     positive = None
-    for u, at in zip(*turns(value, start, end, INSIDE), strict=True):
+    for u, at in zip(*turns(value, start, end, GAUGE_DEGREES), strict=True):
         if at > 0.0:
             positive = u
         elif at < 0.0 and positive is not None:

@@ -21,7 +21,7 @@ from ...numerics.radau import Problem, Step, TooManyStepsError, steps
 
 Array = NDArray[np.float64]
 
-FIRST = 1e-2
+FIRST_STEP_SHARE = 1e-2
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ def slip(
     taken: list[Step] = []
     rate = problem.F(state)
     largest = max(largest, math.hypot(state[0], state[1]))
-    h = FIRST / float(np.max(np.abs(rate) / problem.scale(state))) if rate.any() else math.inf
+    h = FIRST_STEP_SHARE / float(np.max(np.abs(rate) / problem.scale(state))) if rate.any() else math.inf
     if compiled is None:
         ahead = until_blow_up(problem, steps(problem, t, t_end, state, rtol, h, most))
     else:

@@ -30,7 +30,9 @@ from .result import PeriodicStatus
 
 Array = NDArray[np.float64]
 
-SINGULAR = 1e-8  # singular values of M - 1, or of M if that is larger, that count as 0: nothing moves, as in a family
+NULL_SINGULAR_VALUE = (
+    1e-8  # singular values of M - 1, or of M if that is larger, that count as 0: nothing moves, as in a family
+)
 
 
 class LostError(Exception):
@@ -180,6 +182,6 @@ def _least_solution(matrix: Array, right: Array) -> Array:
         moved = moved | linked[:, moved].any(axis=1)
     found = np.zeros(len(right))
     left, values, along = np.linalg.svd(matrix[np.ix_(moved, moved)])
-    large = values > SINGULAR * max(1.0, values.max(initial=0.0))
+    large = values > NULL_SINGULAR_VALUE * max(1.0, values.max(initial=0.0))
     found[moved] = along.T[:, large] @ ((left.T @ right[moved])[large] / values[large])
     return found

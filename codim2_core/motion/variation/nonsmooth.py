@@ -29,9 +29,9 @@ Array = NDArray[np.float64]
 Steps = NDArray[np.intp]
 
 RTOL = 1e-10  # how far a part of a step and its halves may differ
-AT_EQUATOR = 1e-6  # 1 - |e| at which a slide has ended there
+EQUATOR_DISTANCE = 1e-6  # 1 - |e| at which a slide has ended there
 LEAVES = 1e-13  # of the largest slope: what turns U out of a line by more than rounding
-NEUTRAL = 1e-9  # lambda_theta, in units of U, up to which a line does not repel: all directions are alike
+NEUTRAL_RATE = 1e-9  # lambda_theta, in units of U, up to which a line does not repel: all directions are alike
 AT_REST = 1e-6  # |U| on a critical set, in units of its slopes: on a limit cycle e is a mean, where U is not zero
 
 
@@ -263,7 +263,7 @@ class _Course:
         e, _ = outside(states[:, :2])
         U, D = self.slopes.rates(e, states)[:, :2], self.slopes.at(e, states)[:, :2, :2]
         lambda_theta = across @ D @ across - (e * U).sum(axis=1)
-        return bool((lambda_theta > NEUTRAL * np.abs(U).max(axis=1, initial=0.0)).any())
+        return bool((lambda_theta > NEUTRAL_RATE * np.abs(U).max(axis=1, initial=0.0)).any())
 
     def beginning(self, leg: _Leg) -> Array:
         """Rate of the state as a leg begins on Sigma."""
@@ -332,4 +332,4 @@ class _Course:
 
 def _at_equator(phase: Phase) -> bool:
     """Whether the critical set has come to the equator at the end of a slide."""
-    return bool(1.0 - np.hypot(*phase.e(phase.t_end)) < AT_EQUATOR)
+    return bool(1.0 - np.hypot(*phase.e(phase.t_end)) < EQUATOR_DISTANCE)

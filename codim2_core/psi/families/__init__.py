@@ -11,7 +11,7 @@ from .record import Family, Parameter
 
 __all__ = ["FAMILIES", "Family", "Parameter", "family_of_name", "register", "unregister"]
 
-NAMES = (
+FAMILY_NAMES = (
     "constant",
     "rational",
     "exponential",
@@ -19,7 +19,7 @@ NAMES = (
     "hill",
     "custom",
 )
-LISTED: tuple[Family, ...] = tuple(import_module(f".{name}", __package__).FAMILY for name in NAMES)
+LISTED: tuple[Family, ...] = tuple(import_module(f".{name}", __package__).FAMILY for name in FAMILY_NAMES)
 
 _known: dict[str, Family] = {family.name: family for family in LISTED}
 FAMILIES: Mapping[str, Family] = MappingProxyType(_known)  # by name, in the order of menus; grows with `register`

@@ -10,7 +10,16 @@ from bokeh.core.validation import check_integrity
 from codim2_app.draw.figure import make_figure
 from codim2_app.draw.layers import LAYERS, TRACES, default_layers, layers_in_paint_order, swatches, table
 from codim2_app.draw.shapes import OPEN, shape
-from codim2_app.draw.theme import HATCHES, NEAREST, REACH, RING, VIEW, WIDEST, custom_properties, themes
+from codim2_app.draw.theme import (
+    HALF_VIEW,
+    HATCHES,
+    MAX_HALF_VIEW,
+    NEAREST,
+    PICTURE_REACH,
+    RING,
+    custom_properties,
+    themes,
+)
 from codim2_app.draw.vector.paper import DASHES, paper
 
 
@@ -102,7 +111,7 @@ def test_colours_of_light_and_dark(name, light, dark):
 def test_the_ring_is_told_apart_by_hatches_and_lies_just_outside_the_equator():
     assert HATCHES == {"slide": "", "cross": "/", "depends": "x", "undecided": ".", "misses": ""}
     assert RING == (1.03, 1.075)
-    assert pytest.approx(VIEW * math.sqrt(2.0), rel=0.02) == REACH  # to the corners of the square picture
+    assert pytest.approx(HALF_VIEW * math.sqrt(2.0), rel=0.02) == PICTURE_REACH  # to the corners of the square picture
 
 
 def test_bokeh_has_no_warning_for_the_hosts_log():
@@ -117,7 +126,7 @@ def test_the_figure_is_empty_and_sends_nothing_back():
     assert len(list(plot.references())) < 16
     assert not any(model.syncable for model in plot.references())
     for given in (plot.x_range, plot.y_range):
-        assert (given.start, given.end, given.min_interval, given.max_interval) == (-VIEW, VIEW, 0.1, 24.0)
+        assert (given.start, given.end, given.min_interval, given.max_interval) == (-HALF_VIEW, HALF_VIEW, 0.1, 24.0)
     wheel = next(tool for tool in plot.tools if type(tool).__name__ == "WheelZoomTool")
     assert wheel.modifiers == {"ctrl": True}
     assert next(tool for tool in plot.tools if type(tool).__name__ == "BoxZoomTool").match_aspect
@@ -127,9 +136,9 @@ def test_nothing_stands_around_the_picture():
     plot = make_figure()
     assert (plot.min_border, plot.title, plot.toolbar_location, plot.lod_threshold) == (0, None, None, None)
     assert (plot.outline_line_color, plot.background_fill_color, plot.border_fill_color) == (None, None, None)
-    assert [axis.end for axis in (plot.x_range, plot.y_range)] == [VIEW, VIEW]
-    assert [axis.start for axis in (plot.x_range, plot.y_range)] == [-VIEW, -VIEW]
-    assert (plot.x_range.min_interval, plot.x_range.max_interval) == (2 * NEAREST, 2 * WIDEST)
+    assert [axis.end for axis in (plot.x_range, plot.y_range)] == [HALF_VIEW, HALF_VIEW]
+    assert [axis.start for axis in (plot.x_range, plot.y_range)] == [-HALF_VIEW, -HALF_VIEW]
+    assert (plot.x_range.min_interval, plot.x_range.max_interval) == (2 * NEAREST, 2 * MAX_HALF_VIEW)
 
 
 def corners(name, size=12.0):

@@ -8,7 +8,7 @@ from codim2_app.export import film as films
 from codim2_app.export.figure import TITLE
 from codim2_app.export.film import POSITIONS, STYLE, encode_film, film, picture
 from codim2_app.export.play import CHART, PLAY, SCALE, scenery
-from codim2_app.export.small.chart import LEFT
+from codim2_app.export.small.chart import LEFT_MARGIN
 from codim2_app.export.view import view_of
 from codim2_app.server.cli import main
 from PIL import Image, ImageSequence
@@ -82,7 +82,7 @@ def test_what_cannot_be_had_is_said_in_one_sentence(given, says):
 
 
 def test_one_that_is_too_large_is_refused(monkeypatch):
-    monkeypatch.setattr(films, "MOST", 100)
+    monkeypatch.setattr(films, "MAX_FILM_BYTES", 100)
     with pytest.raises(ValueError, match="fewer layers"):
         encode_film(solid("red", "blue"))
 
@@ -133,7 +133,7 @@ def test_a_dot_beyond_the_picture_is_not_drawn_on_the_chart():
     still = scenery(PLAYED.changed({"orbit": 2}), STYLE)
     assert np.hypot(*still.orbit.points[0]) > 1.75
     apart = np.abs(np.asarray(Image.open(io.BytesIO(still.at(0.0))), int) - np.asarray(still.drawn, int)).sum(axis=2)
-    assert np.nonzero(apart)[1].min() > still.corner[0] + CHART * LEFT / 2
+    assert np.nonzero(apart)[1].min() > still.corner[0] + CHART * LEFT_MARGIN / 2
 
 
 def test_a_film_of_play_runs_once_and_begins_anew(tmp_path):

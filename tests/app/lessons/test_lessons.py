@@ -8,8 +8,8 @@ import pytest
 from codim2_app.frame.scenes import make_scene
 from codim2_app.lessons.asking import goal_is_reached, judge, pose, right_option, stands
 from codim2_app.lessons.facts import facts_of
-from codim2_app.lessons.library import TEXT, built_in, from_folder
-from codim2_app.lessons.marks import MARKS, NEAR, gap
+from codim2_app.lessons.library import LESSON_FOLDER, built_in, from_folder
+from codim2_app.lessons.marks import MARK_TOLERANCE, MARKS, gap
 from codim2_app.lessons.reading import LessonError, read_lesson
 from codim2_app.state.controls import ExplorerState, preset_values
 
@@ -63,7 +63,7 @@ def there(question, scene):
 def test_a_mark_is_right_near_its_place_and_told_how_far_it_is():
     question = COURSE["04-sliding"].questions[0]
     scene = make_scene(values_of(COURSE["04-sliding"], {"a": -1.0, "d": -1.0, "b": 0.0, "f1": 0.5, "f2": 0.0}))
-    assert judge(question, scene, (0.5 + NEAR - 0.01, 0.0))["right"]
+    assert judge(question, scene, (0.5 + MARK_TOLERANCE - 0.01, 0.0))["right"]
     far = judge(question, scene, (0.5, 0.41))
     assert (far["right"], far["why"]) == (False, "Your mark is 0.41 radii of the disc from it.")
     assert judge(question, scene, 0)["why"]  # there is one
@@ -203,4 +203,4 @@ def test_html_in_a_lesson_is_text(tmp_path):
 
 
 def test_every_file_of_the_folder_is_in_the_course():
-    assert {path.stem for path in TEXT.iterdir()} == set(COURSE)
+    assert {path.stem for path in LESSON_FOLDER.iterdir()} == set(COURSE)

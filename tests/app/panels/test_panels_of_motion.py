@@ -178,7 +178,7 @@ def test_the_filippov_view_has_the_whole_interval_and_what_is_selected():
     for vertex, ends in zip(header["candidates"], header["combined"], strict=True):
         heights = [end[2] for end in ends]
         assert min(heights) - 1e-3 <= vertex <= max(heights) + 1e-3
-    assert len(header["curve"]) == filippov.POINTS
+    assert len(header["curve"]) == filippov.CURVE_POINTS
 
 
 @pytest.mark.parametrize("family", ["constant", "tanh", "exponential"])

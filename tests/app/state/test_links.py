@@ -14,7 +14,15 @@ from codim2_app.draw.theme import NEAREST
 from codim2_app.frame.scenes import make_scene
 from codim2_app.state.chosen import BOXES, has_atlas, titles
 from codim2_app.state.controls import NUMBERS, ExplorerState, first_values, preset_values
-from codim2_app.state.links import FIRST, VERSION, Look, compress_query, decompress_query, read_link, write_link
+from codim2_app.state.links import (
+    DEFAULTS_BY_VERSION,
+    VERSION,
+    Look,
+    compress_query,
+    decompress_query,
+    read_link,
+    write_link,
+)
 from codim2_app.state.portraits import portraits
 from codim2_app.view.markup import config
 from hypothesis import assume, given
@@ -29,8 +37,8 @@ finite = st.floats(allow_nan=False, allow_infinity=False)
 
 
 def test_a_release_that_opens_otherwise_has_a_version_of_its_own():
-    assert dict(FIRST[VERSION]) == first_values()
-    assert max(FIRST) == VERSION
+    assert dict(DEFAULTS_BY_VERSION[VERSION]) == first_values()
+    assert max(DEFAULTS_BY_VERSION) == VERSION
 
 
 @given(st.fixed_dictionaries({}, optional={name: finite for name in NUMBERS}), st.sampled_from(["", *KEYS]))

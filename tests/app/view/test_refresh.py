@@ -3,8 +3,8 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw.layers import LAYERS
-from codim2_app.draw.lines.spacing import APART
-from codim2_app.draw.packing import PIXEL, STEP, unpack
+from codim2_app.draw.lines.spacing import SEPARATION
+from codim2_app.draw.packing import INT16_STEP, PIXEL, unpack
 from codim2_app.frame.budget import Budget
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import complete_changes, evolve_scene, make_scene
@@ -178,7 +178,7 @@ def test_cold_integrator_sends_closed_forms_then_the_rest():
         assert len(blocks[f"{name}.n"]) > 10
         sketch = frames.scene[f"{name}_sketch"]
         lines = np.split(sketch.buffer, sketch.offsets[1:-1])
-        assert gaps(STEP * blocks[f"{name}.xy"].reshape(-1, 2), lines).max() < STEP
+        assert gaps(INT16_STEP * blocks[f"{name}.xy"].reshape(-1, 2), lines).max() < INT16_STEP
     ready[0] = True
     header, sent = ask(frames)
     assert header["ready"] is True
@@ -287,10 +287,10 @@ def test_orbits_keep_away_from_the_cycles_that_are_drawn_and_from_no_others():
     frames, fresh = Frames(ExplorerState()), Frames(ExplorerState())
     _, blocks = unpack(frames.answer({"set": values, "all": True}))
     (cycle,) = frames.scene["closed_orbits"].cycles
-    assert gaps(STEP * blocks["inside.xy"].reshape(-1, 2), [cycle.points]).min() > 0.9 * APART * PIXEL
+    assert gaps(INT16_STEP * blocks["inside.xy"].reshape(-1, 2), [cycle.points]).min() > 0.9 * SEPARATION * PIXEL
     hidden = {"layers": ["inside"], "f1": values["f1"] + 0.02}
     _, after = unpack(frames.answer({"set": hidden}))
-    assert gaps(STEP * after["inside.xy"].reshape(-1, 2), [cycle.points]).min() < 0.5 * APART * PIXEL
+    assert gaps(INT16_STEP * after["inside.xy"].reshape(-1, 2), [cycle.points]).min() < 0.5 * SEPARATION * PIXEL
     _, alone = unpack(fresh.answer({"set": {**values, **hidden}, "all": True}))
     assert after["inside.n"].tolist() == alone["inside.n"].tolist()
 

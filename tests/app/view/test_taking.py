@@ -136,7 +136,7 @@ def test_a_window_that_is_none_is_the_whole_picture(window):
 
 
 def test_a_file_is_bounded(monkeypatch):
-    monkeypatch.setattr(made, "MOST", 1000)
+    monkeypatch.setattr(made, "MAX_FILE_BYTES", 1000)
     with pytest.raises(ValueError, match="show fewer layers"):
         make_file(view_of("v=1"), Wish("svg"))
 
@@ -230,7 +230,7 @@ def test_a_film_that_is_stopped_draws_no_more(executor, monkeypatch):
     answers = conversation(executor, {**FILM, "sliders": ["f2=-1,1"]}, stop_after=2)
     assert [set(one) for one in answers] == [{"taken", "done", "all"}] * 2 + [{"taken", "error"}]
     assert "stopped" in answers[-1]["error"]
-    assert len(drawn) <= 3 * takings.PART
+    assert len(drawn) <= 3 * takings.FILE_MESSAGE
 
 
 @pytest.mark.parametrize("sliders", [[], ["nothing"]])

@@ -7,14 +7,14 @@ import pytest
 
 from codim2_core.cycles import lane_steps
 from codim2_core.stepping.layout import ERROR_3, ERROR_5, LANES, NEW
-from codim2_core.stepping.numbers import SHARED
+from codim2_core.stepping.numbers import SHARED_SIZE
 
 LANE = 2
 
 
 def filled():
     """A workspace in which no two numbers are alike, and its parameters."""
-    S, P = lane_steps.workspace(np.arange(1.0, SHARED + 1.0))
+    S, P = lane_steps.workspace(np.arange(1.0, SHARED_SIZE + 1.0))
     S[:] = np.random.default_rng(1).uniform(0.5, 1.5, len(S))
     return S, P
 
