@@ -29,9 +29,7 @@ BISECTIONS = 44  # of one step of the net: to the rounding of z
 MIN_CHANGE_DISTANCE = 1e-7  # of the span: two changes this near, as where a double zero is lost in rounding, are one
 SLOPING = 0.75  # of the larger of its neighbours: the smallest distance of two sets that meet within a step of the net
 THIRDS = 48  # times that an interval around it is cut by a third
-EQUATOR_DISTANCE = (
-    1e-4  # 1 - |e| of a critical set that is about to reach the equator, one bisected step before it does
-)
+EQUATOR_DISTANCE = 1e-4  # 1 - |e| of a critical set about to reach the equator, one bisected step before it does
 STABLE, UNSTABLE, CROSSING = "sliding", "unstable", "crossing"
 _SENTENCES = {
     STABLE: say("along: sliding"),
