@@ -10,10 +10,10 @@ pytestmark = pytest.mark.browser
 
 def place(explorer, x, y):
     """The point of the window over a point of the picture, which shows [-VIEW, VIEW] across its shorter side."""
-    from codim2_app.draw.theme import VIEW
+    from codim2_app.draw.theme import HALF_VIEW
 
     box = explorer.find(".bokeh").bounding_box()
-    unit = min(box["width"], box["height"]) / (2 * VIEW)
+    unit = min(box["width"], box["height"]) / (2 * HALF_VIEW)
     return box["x"] + box["width"] / 2 + x * unit, box["y"] + box["height"] / 2 - y * unit
 
 

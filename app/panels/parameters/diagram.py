@@ -16,28 +16,28 @@ from numpy.typing import NDArray
 from codim2_core.continuation.result import CycleBranches
 from codim2_core.diagrams.branches import Branches, branches
 
-from ...draw.thumbnails import MOST as MOST_FRAMES
+from ...draw.thumbnails import MAX_KEPT as MAX_FRAMES
 from ...draw.thumbnails import thumbnails
 from ...frame.draft import Draft
 from ...phrases import say
-from ...state.pace import NEAR, SLOWEST
+from ...state.pace import MIN_PACE, SLOW_DISTANCE
 from ..panel import Panel
 from .atlas_columns import short
-from .axes import available, missing, spans_of, without
+from .axes import available, missing_axes, spans_of, without_parameters
 
 #: Most points that the browser is sent of a branch: it is drawn some 320 px wide.
-MOST = 160
+MAX_BRANCH_POINTS = 160
 #: Of the span: special values that are nearer have no portrait between them.
-APART = 1e-3
+MIN_FRAME_GAP = 1e-3
 #: Special points of branches of cycles that the diagram has already, or that are none of the system's.
-KNOWN = ("Hopf", "span", "closed")
+KNOWN_ENDS = ("Hopf", "span", "closed")
 
 
 def add(draft: Draft) -> None:
     """Add the diagram along the chosen parameter, over a span around its value, once nothing moves; then the cycles."""
     name = draft.values["along"]
     there = available(draft)
-    reason = missing(draft, there, name) if there else say("no parameter")
+    reason = missing_axes(draft, there, name) if there else say("no parameter")
     if reason:
         if draft.now.get("diagram") != reason:
             draft.now["diagram"] = reason
@@ -45,9 +45,9 @@ def add(draft: Draft) -> None:
         return
     axis = there[name]
     (span,) = spans_of(draft, "diagram", (axis,), draft.values["zoom"])
-    system, psi, z = without(draft.scene, axis)
+    system, psi, z = without_parameters(draft.scene, axis)
     key = (system, psi, z, name, span)
-    found = draft.slow("diagram", key, _standing, system, psi, axis.core, span, z)
+    found = draft.slow("diagram", key, _diagram_columns, system, psi, axis.core, span, z)
     if found is not None:
         shown, stands = found
         draft.header["diagram"] = {**shown, "control": name}
@@ -68,7 +68,7 @@ def add(draft: Draft) -> None:
                 draft.header["film"] = [[place[0], short(portrait), drawn] for _, portrait, place, drawn in film]
 
 
-def _standing(*of: Any) -> tuple[dict[str, Any], Branches]:
+def _diagram_columns(*of: Any) -> tuple[dict[str, Any], Branches]:
     found = branches(*of, with_cycles=False)
     return columns(found), found
 
@@ -81,9 +81,9 @@ def frames_of(span: tuple[float, float], events: Iterable[float]) -> list[tuple[
     """Return where a film strip has its portraits: at each special value, and before and after it."""
     at = sorted(set(events))
     ends = [span[0], *at, span[1]]
-    apart = APART * (span[1] - span[0])
+    apart = MIN_FRAME_GAP * (span[1] - span[0])
     between = [0.5 * (low + high) for low, high in pairwise(ends) if high - low > apart]
-    values = sorted([*at, *between] if len(at) + len(between) <= MOST_FRAMES else at)
+    values = sorted([*at, *between] if len(at) + len(between) <= MAX_FRAMES else at)
     return [(i, "", (value,)) for i, value in enumerate(values)]
 
 
@@ -130,19 +130,19 @@ def cycle_columns(found: CycleBranches) -> dict[str, Any]:
         {"kind": p.kind, "value": tidy(p.value), "amplitude": float(p.amplitude), "sentence": p.sentence}
         for branch in found
         for p in branch.special
-        if p.kind not in KNOWN and np.isfinite(p.amplitude)
+        if p.kind not in KNOWN_ENDS and np.isfinite(p.amplitude)
     ]
     return {"pieces": pieces, "special": special, "sentence": " ".join([found.reason, *found.notes])}
 
 
 def _line(x: NDArray[np.float64], y: NDArray[np.float64]) -> dict[str, list[float]]:
-    if len(x) > MOST:
-        kept = np.unique(np.rint(np.linspace(0, len(x) - 1, MOST)).astype(int))
+    if len(x) > MAX_BRANCH_POINTS:
+        kept = np.unique(np.rint(np.linspace(0, len(x) - 1, MAX_BRANCH_POINTS)).astype(int))
         x, y = x[kept], y[kept]
     return {"x": [float(f"{v:.7g}") for v in x], "y": [float(f"{v:.4g}") for v in y]}
 
 
 PANEL = Panel(
     "diagram", "Diagram", add, "All that stands still along one parameter, and where it changes.",
-    {"slow": SLOWEST, "near": NEAR},
+    {"slow": MIN_PACE, "near": SLOW_DISTANCE},
 )  # fmt: skip

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ...continuation.typed.foot import Place, corrected, placed
 from ...continuation.typed.ray import Ray
-from ...cycles.orbit import NODES, gauss, linearisation, path
+from ...cycles.orbit import STEP_NODES, gauss, linearisation, path
 from ...systems.frozen import AtZ
 from ..family import Family
 
@@ -107,9 +107,9 @@ class Around:
             way = path(ray, start[0], RTOL, False)
             if way is None:
                 return None
-            _, weights, _ = gauss(NODES)
+            _, weights, _ = gauss(STEP_NODES)
             J = linearisation(ray, way.inner)[1]
-            rates = ((J[:, 0, 0] + J[:, 1, 1]) / way.inner[:, 2]).reshape(-1, NODES)
+            rates = ((J[:, 0, 0] + J[:, 1, 1]) / way.inner[:, 2]).reshape(-1, STEP_NODES)
         last = float((way.end[:2] - ray.critical.p) @ ray.u)
         rest = float(way.end[2]) ** 2 / (last + ray.other)
         if not (last > 0.0 and rest > 0.0):

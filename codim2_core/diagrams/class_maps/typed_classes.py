@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...layer_problem.vary import varied
+from ...layer_problem.vary import vary
 from ...psi.function import Psi
 from ..sweep import UNDEFINED
 from ..typed.state import State
@@ -81,7 +81,7 @@ class TypedClasses:
     def _state(self, place: tuple[float, ...]) -> State:
         of = self._of
         for name, value in zip(self.names[:-1], place[:-1], strict=True):
-            of = varied(*of, name, value)
+            of = vary(*of, name, value)
         system, psi, z = of
         return State(system, psi, self.names[-1], place[-1], z)
 

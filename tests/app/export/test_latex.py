@@ -5,7 +5,7 @@ import shutil
 import subprocess
 
 import pytest
-from codim2_app.draw.theme import VIEW
+from codim2_app.draw.theme import HALF_VIEW
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.tex.picture import tikz
 from codim2_app.export.tex.table import in_latex, latex, number
@@ -91,7 +91,7 @@ def test_tikz_draws_what_the_figure_draws(key):
 def test_tikz_puts_a_mark_where_the_picture_has_it():
     _, text = drawn("?a=-2&d=-1&b=0&f1=-0.5&f2=0&layers=critical", legend=False)
     side = 120.0 * 72 / 25.4
-    scale = side / (2 * VIEW)
+    scale = side / (2 * HALF_VIEW)
     [(x, y)] = re.findall(r"shift=\{\(([\d.]+),([\d.]+)\)\}\] \(-", text)
     assert (float(x) - side / 2, float(y) - side / 2) == pytest.approx((-0.25 * scale, 0.0), abs=0.02)
     with pytest.raises(ValueError, match="'Q'"):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from codim2_app.panels.parameters import axes, diagram
-from codim2_app.state.choices import AXES
+from codim2_app.state.choices import SLIDER_AXES
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
@@ -123,7 +123,7 @@ def test_what_cannot_be_varied_is_said():
     assert "given by your system" in settled(frames, all=True)["unable"]["diagram"]
 
 
-@pytest.mark.parametrize("name", AXES)
+@pytest.mark.parametrize("name", SLIDER_AXES)
 def test_span_of_the_diagram_holds_the_value_and_rests_while_it_moves_a_little(name):
     low, high = ExplorerState.param[name].softbounds
 

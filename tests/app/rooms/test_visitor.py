@@ -33,7 +33,7 @@ class Page:
 def fresh():
     kept = list(rooms._served)
     rooms.serve_with(Rooms())
-    yield rooms.here()
+    yield rooms.process_rooms()
     rooms._served[:] = kept
 
 
