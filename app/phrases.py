@@ -1,4 +1,4 @@
-"""What the explorer itself says to a visitor: of what it leaves out, waits for or cannot show; each sentence once.
+"""Sentences of the explorer to a visitor: what it leaves out, waits for or cannot show, each written once.
 
 What is said of systems is the core's: `codim2_core.words`. What is said of a wrong value stands where that is checked.
 """
@@ -24,7 +24,8 @@ SENTENCES: dict[str, Sentence] = {
     "memory": Sentence("This needs more memory than the server gives it.", "a worker at its bound"),
     "no such place": Sentence("There is none here.", "a place was marked where a question has none"),
     "mark away": Sentence(
-        "Your mark is {away} radii of the disc from it.", "a mark in a lesson, farther than lessons.marks.NEAR"
+        "Your mark is {away} radii of the disc from it.",
+        "a mark in a lesson, farther than lessons.marks.MARK_TOLERANCE",
     ),
     "nothing to play": Sentence(
         "A film of play follows the chosen launched orbit: click the picture to launch one, or choose one shown.",
@@ -125,6 +126,9 @@ SENTENCES: dict[str, Sentence] = {
         "a link",
     ),
     "controls of a frame": Sentence("controls: give at most {most} names of controls, such as 'f1,n'.", "a link"),
+    "views of a link": Sentence(
+        "The kept views of this address cannot be read: it was cut short or changed.", "a link"
+    ),
     "name of a box": Sentence(
         "{name} names a box, and is no parameter; write its formula here, or give the parameter another name.",
         "a typed name",

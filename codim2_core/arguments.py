@@ -1,7 +1,7 @@
-"""What a public function may be given: one check for each kind of argument, told by its name or its annotation.
+"""Checks of the arguments of public functions: one for each kind, found by the argument's name or annotation.
 
-The checks stand at the public door only (`guarded`, for the names of a package): inside, functions call one another
-without them. A function says itself what else it needs, such as how many slow variables its system has.
+The checks stand at the public door only (`checked_functions`, for the names of a package): inside, functions call
+one another without them. A function says itself what else it needs, such as how many slow variables its system has.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ import numpy as np
 from .psi.function import Psi
 from .systems.coefficients import Coefficients
 from .systems.elinear import ELinear
-from .systems.kinds import KINDS
+from .systems.kinds import SYSTEM_KINDS
 
-LARGEST = 1e150  # of a number: its square is finite
+MAX_NUMBER = 1e150  # of a number: its square is finite
 MOST_VALUES = 1_000_000  # in an array
-MOST: Mapping[str, int] = {"count": 1_000_000_000, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
+MAX_COUNTS: Mapping[str, int] = {"count": 1_000_000_000, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
 MOST_HERE: Mapping[tuple[str, str], int] = {("slow_portrait", "count"): 20_001}
 ZERO_TOO = (("periodic_motion", "eps"),)  # stands for a limit there
 POSITIVE = ("period", "eps", "rtol", "atol", "t_max", "pixel", "tolerance", "length", "capture", "view")
@@ -33,7 +33,7 @@ _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
 Check = Callable[[str, Any], Any]
 
 
-def shown(value: object) -> str:
+def short_repr(value: object) -> str:
     """Return repr(value), of bounded length."""
     return _SHORT.repr(value)
 
@@ -45,16 +45,16 @@ def psi(name: str, value: Any) -> Psi:
     called = getattr(value, "__name__", "")
     if callable(value) and called:
         raise ValueError(f"{name} is the function {called}; give what it makes when it is called.")
-    raise ValueError(f"{name} is {shown(value)}; give a regularisation function such as psi.rational().")
+    raise ValueError(f"{name} is {short_repr(value)}; give a regularisation function such as psi.rational().")
 
 
 def system(name: str, value: Any) -> Any:
     """Check a system of any kind."""
-    if isinstance(value, KINDS):
+    if isinstance(value, SYSTEM_KINDS):
         return value
     if callable(value):
-        raise ValueError(f"{name} is {shown(value)}, which is to be called; give the system that it makes.")
-    raise ValueError(f"{name} is {shown(value)}; give an ELinear or a System, or one of them frozen by its at(z).")
+        raise ValueError(f"{name} is {short_repr(value)}, which is to be called; give the system that it makes.")
+    raise ValueError(f"{name} is {short_repr(value)}; give an ELinear or a System, or one of them frozen by its at(z).")
 
 
 def e_linear(name: str, value: Any) -> Any:
@@ -66,9 +66,9 @@ def e_linear(name: str, value: Any) -> Any:
 
 def at_z(name: str, value: Any) -> Any:
     """Check a system at one z."""
-    if isinstance(value, KINDS) and value.frozen:
+    if isinstance(value, SYSTEM_KINDS) and value.frozen:
         return value
-    raise ValueError(f"{name} is {shown(value)}; give a system frozen at one z, such as ELinear(...).at(z).")
+    raise ValueError(f"{name} is {short_repr(value)}; give a system frozen at one z, such as ELinear(...).at(z).")
 
 
 def number(name: str, value: Any) -> float:
@@ -81,45 +81,47 @@ def number(name: str, value: Any) -> float:
 
 def _real(name: str, value: Any) -> float:
     if isinstance(value, str | bytes | complex | np.complexfloating):
-        raise ValueError(f"{name} is {shown(value)}; give a real number.")
+        raise ValueError(f"{name} is {short_repr(value)}; give a real number.")
     try:
         found = float(value)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{name} is {shown(value)}; give a finite number, at most {LARGEST:g} in size.") from None
-    if not abs(found) <= LARGEST:
-        raise ValueError(f"{name} is {found!r}; give a finite number, at most {LARGEST:g} in size.")
+        raise ValueError(
+            f"{name} is {short_repr(value)}; give a finite number, at most {MAX_NUMBER:g} in size."
+        ) from None
+    if not abs(found) <= MAX_NUMBER:
+        raise ValueError(f"{name} is {found!r}; give a finite number, at most {MAX_NUMBER:g} in size.")
     return found
 
 
-def whole(name: str, value: Any, most: int = 1_000_000) -> int:
+def whole_number(name: str, value: Any, most: int = 1_000_000) -> int:
     """Check a whole number from 0 to `most`."""
     found = _real(name, value)
     if not found.is_integer() or not 0 <= found <= most:
-        raise ValueError(f"{name} is {shown(value)}; give a whole number from 0 to {most}.")
+        raise ValueError(f"{name} is {short_repr(value)}; give a whole number from 0 to {most}.")
     return int(found)
 
 
 def numbers(name: str, value: Any) -> Any:
     """Check an array, or a list, of finite real numbers; what shape it must have, the function says."""
-    if type(value) is tuple and len(value) < 9 and all(type(v) is float and abs(v) <= LARGEST for v in value):
+    if type(value) is tuple and len(value) < 9 and all(type(v) is float and abs(v) <= MAX_NUMBER for v in value):
         return value  # a z, as it mostly comes
     if type(value) is np.ndarray and value.dtype == np.float64 and value.size <= MOST_VALUES:
         flat = value.ravel()
-        if flat.dot(flat) <= LARGEST**2:  # so none is larger, in one pass; else it is said below which
+        if flat.dot(flat) <= MAX_NUMBER**2:  # so none is larger, in one pass; else it is said below which
             return value
     if isinstance(value, str | bytes):
-        raise ValueError(f"{name} is {shown(value)}; give numbers.")
+        raise ValueError(f"{name} is {short_repr(value)}; give numbers.")
     try:
         given = np.asarray(value)
         if given.dtype.kind == "c":
             raise TypeError
         found = np.asarray(given, float)
     except (TypeError, ValueError, OverflowError):
-        raise ValueError(f"{name} is {shown(value)}; give real numbers, all rows of one length.") from None
+        raise ValueError(f"{name} is {short_repr(value)}; give real numbers, all rows of one length.") from None
     if found.size > MOST_VALUES:
         raise ValueError(f"{name} has {found.size} values; give at most {MOST_VALUES}.")
-    if not (abs(found) <= LARGEST).all():
-        raise ValueError(f"{name} has a value that is not finite or beyond {LARGEST:g}; give finite numbers.")
+    if not (abs(found) <= MAX_NUMBER).all():
+        raise ValueError(f"{name} has a value that is not finite or beyond {MAX_NUMBER:g}; give finite numbers.")
     return value
 
 
@@ -132,7 +134,7 @@ def pair(name: str, value: Any) -> tuple[float, float]:
     """Check two numbers."""
     found = np.asarray(numbers(name, value), float)
     if found.shape != (2,):
-        raise ValueError(f"{name} is {shown(value)}; give two numbers.")
+        raise ValueError(f"{name} is {short_repr(value)}; give two numbers.")
     return float(found[0]), float(found[1])
 
 
@@ -147,49 +149,49 @@ def text(name: str, value: Any) -> str:
     """Check text."""
     if isinstance(value, str):
         return value
-    raise ValueError(f"{name} is {shown(value)}; give text.")
+    raise ValueError(f"{name} is {short_repr(value)}; give text.")
 
 
 def truth(name: str, value: Any) -> bool:
     """Check a truth value."""
     if isinstance(value, bool | np.bool_):
         return bool(value)
-    raise ValueError(f"{name} is {shown(value)}; give True or False.")
+    raise ValueError(f"{name} is {short_repr(value)}; give True or False.")
 
 
 def cycles(name: str, value: Any) -> Any:
     """Check limit cycles that are known already."""
     if isinstance(value, Iterable) and all(hasattr(one, "multiplier") for one in value):
         return value
-    raise ValueError(f"{name} is {shown(value)}; give what limit_cycles returned, or leave it out.")
+    raise ValueError(f"{name} is {short_repr(value)}; give what limit_cycles returned, or leave it out.")
 
 
 def regularisations(name: str, value: Any) -> Any:
     """Check several regularisation functions."""
     if isinstance(value, Iterable) and not isinstance(value, str):
         return tuple(psi(f"{name}[{i}]", one) for i, one in enumerate(value))
-    raise ValueError(f"{name} is {shown(value)}; give several regularisation functions, such as (psi.tanh(),).")
+    raise ValueError(f"{name} is {short_repr(value)}; give several regularisation functions, such as (psi.tanh(),).")
 
 
 def file(name: str, value: Any) -> Any:
     """Check the path of a file."""
     if isinstance(value, str | Path) and str(value) and not Path(value).is_dir():
         return value
-    raise ValueError(f"{name} is {shown(value)}; give the path of a file.")
+    raise ValueError(f"{name} is {short_repr(value)}; give the path of a file.")
 
 
 def function(name: str, value: Any) -> Any:
     """Check a function."""
     if callable(value):
         return value
-    raise ValueError(f"{name} is {shown(value)}; give a function.")
+    raise ValueError(f"{name} is {short_repr(value)}; give a function.")
 
 
 def executor(name: str, value: Any) -> Any:
     """Check an executor of `concurrent.futures`."""
     if hasattr(value, "submit"):
         return value
-    raise ValueError(f"{name} is {shown(value)}; give an executor of concurrent.futures.")
+    raise ValueError(f"{name} is {short_repr(value)}; give an executor of concurrent.futures.")
 
 
 def _as_given(_: str, value: Any) -> Any:
@@ -229,12 +231,12 @@ def _check(owner: str, parameter: inspect.Parameter) -> Check:
     if (owner, name) in ZERO_TOO:
         return _real
     if annotation == "int":
-        most = MOST_HERE.get((owner, name), MOST.get(name, 1_000_000))
-        return lambda name, value: whole(name, value, most)
+        most = MOST_HERE.get((owner, name), MAX_COUNTS.get(name, 1_000_000))
+        return lambda name, value: whole_number(name, value, most)
     return BY_ANNOTATION[annotation]
 
 
-def checked(function: Callable[..., Any], module: str) -> Callable[..., Any]:
+def with_checks(function: Callable[..., Any], module: str) -> Callable[..., Any]:
     """Return a function that checks what it is given, under the name by which a module offers it."""
     signature = inspect.signature(function)
     parameters = signature.parameters
@@ -270,7 +272,7 @@ def checked(function: Callable[..., Any], module: str) -> Callable[..., Any]:
     return door
 
 
-def guarded(module: str, names: Mapping[str, Any], public: Iterable[str]) -> dict[str, Any]:
+def checked_functions(module: str, names: Mapping[str, Any], public: Iterable[str]) -> dict[str, Any]:
     """Return the public functions among some names, each with its checks; for ``globals().update(...)``."""
     found = {name: names[name] for name in public}
-    return {name: checked(one, module) for name, one in found.items() if inspect.isfunction(one)}
+    return {name: with_checks(one, module) for name, one in found.items() if inspect.isfunction(one)}

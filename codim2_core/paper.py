@@ -1,4 +1,4 @@
-"""Where the paper says it: what its labels are called in print.
+"""Printed names of the paper's labels.
 
 Docstrings and the attribute `label` of results give the labels of the paper's source, which outlive a renumbering; a
 person who reads is told "Figure 13" or "Theorem 3.1(b)". `tests/paper` numbers the labels by the class's rules.
@@ -136,12 +136,12 @@ def cite(labels: str, *, titled: bool = False) -> str:
     'Section 5.1: Ball at bottom of a pool'
     """
 
-    def printed(match: re.Match[str]) -> str:
+    def print_label(match: re.Match[str]) -> str:
         if match[1] not in PRINTED:
             raise ValueError(f"{match[1]!r} is no label that is listed; choose one of {', '.join(PRINTED)}.")
         return PRINTED[match[1]][0] + (match[2] or "")
 
-    text = _LABEL.sub(printed, _EQUATION.sub("", labels))
+    text = _LABEL.sub(print_label, _EQUATION.sub("", labels))
     first = _LABEL.search(labels)
     title = PRINTED[first[1]][1] if titled and first else ""
     return f"{text}: {title}" if title else text

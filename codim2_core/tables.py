@@ -7,7 +7,7 @@ from html import escape
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
-MOST = 40  # rows that are shown
+MAX_ROWS = 40  # rows that are shown
 NEGLIGIBLE = 1e-14  # of the largest coordinate: smaller ones are told as 0
 
 
@@ -71,10 +71,10 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """
     if not rows:
         return ""
-    left = f"<p>and {len(rows) - MOST} more</p>" if len(rows) > MOST else ""
+    left = f"<p>and {len(rows) - MAX_ROWS} more</p>" if len(rows) > MAX_ROWS else ""
     return (
         f"<table><thead>{_row('th', head)}</thead>"
-        f"<tbody>{''.join(_row('td', row) for row in rows[:MOST])}</tbody></table>{left}"
+        f"<tbody>{''.join(_row('td', row) for row in rows[:MAX_ROWS])}</tbody></table>{left}"
     )
 
 

@@ -65,9 +65,9 @@ def in_python(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let motions take the same steps whatever was compiled for other tests."""
     from codim2_core.motion import nonsmooth, regularised
 
-    monkeypatch.setattr(regularised, "waited_for", lambda formulas: regularised.PATIENCE)
+    monkeypatch.setattr(regularised, "waited_for", lambda formulas: regularised.PYTHON_STEPS)
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: regularised.PATIENCE)
+    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: regularised.PYTHON_STEPS)
 
 
 @pytest.fixture(scope="session")

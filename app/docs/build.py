@@ -21,7 +21,7 @@ from codim2_core import __version__
 from ..lessons.library import built_in
 from . import gallery, mathematics, reference
 
-TEXT = Path(__file__).parent / "text"
+TEXT_FOLDER = Path(__file__).parent / "text"
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 MISSING = "The site is built by Sphinx, which is missing: pip install 'codim2[docs]'."
 
@@ -57,7 +57,7 @@ SETTINGS: Mapping[str, Any] = {
 def setup(site: Any) -> None:
     """Tell Sphinx, which calls this, how formulas are written and what the paper's labels are called in print."""
     site.add_html_math_renderer("mathml", (mathematics.inline, None), (mathematics.block, None))
-    site.connect("autodoc-process-docstring", reference.printed, priority=400)
+    site.connect("autodoc-process-docstring", reference.print_labels, priority=400)
 
 
 def build(target: Path, *, portraits: bool = True) -> list[str]:
@@ -123,13 +123,13 @@ def _accessible(page: str) -> str:
 
 
 def _write_sources(source: Path, portraits: bool) -> None:
-    shutil.copytree(TEXT, source)
+    shutil.copytree(TEXT_FOLDER, source)
     if portraits:
         gallery.write(source)
         static = source / "_static"
         shutil.move(source / "portraits", static / "portraits")
     else:
-        (source / "gallery.md").write_text(gallery.HEAD, encoding="utf-8")
+        (source / "gallery.md").write_text(gallery.GALLERY_HEAD, encoding="utf-8")
     (source / "lessons.md").write_text(_lessons(), encoding="utf-8")
     reference.write(source)
 

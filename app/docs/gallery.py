@@ -16,7 +16,7 @@ from ..export.view import view_of
 
 #: Width of a picture in mm; letters are of print's size.
 SIZE = 90.0
-HEAD = """# Gallery
+GALLERY_HEAD = """# Gallery
 
 Every portrait of the paper, drawn from its numbers when this page was made. A click opens it in the explorer that
 serves this page; `codim2 figure KEY -o FILE` draws it for print.
@@ -32,7 +32,7 @@ def write(folder: Path) -> None:
         for theme in ("light", "dark"):
             drawn = figure(view, Style(size=SIZE, theme=theme, legend=False))
             (pictures / f"{key}-{theme}.svg").write_text(drawn, encoding="utf-8")
-    (folder / "gallery.md").write_text(HEAD + "".join(_groups()), encoding="utf-8")
+    (folder / "gallery.md").write_text(GALLERY_HEAD + "".join(_groups()), encoding="utf-8")
 
 
 def _groups() -> Iterator[str]:

@@ -1,11 +1,11 @@
-"""Where the built site lies: where `codim2 docs` writes it, and the server finds it."""
+"""The folder of the built documentation: `codim2 docs` writes it, and the server reads it."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 #: Beside the package's own text: what is built there is served without a setting.
-OWN = Path(__file__).parent / "site"
+PACKAGED_SITE = Path(__file__).parent / "site"
 
 _offered: list[Path] = []
 
@@ -17,5 +17,5 @@ def offer(folder: Path | None) -> None:
 
 def site() -> Path | None:
     """Return the folder of the site that is served; None where none has been built."""
-    folder = _offered[0] if _offered else OWN
+    folder = _offered[0] if _offered else PACKAGED_SITE
     return folder if (folder / "index.html").is_file() else None

@@ -31,18 +31,18 @@ def write(folder: Path) -> None:
     core = [name for name in codim2_core.__all__ if not inspect.ismodule(getattr(codim2_core, name))]
     app = import_module(__name__.partition(".")[0])  # its face imports what is asked for: no circle
     pages = {
-        "core": _page("codim2_core", "Names of `codim2_core`", _named(codim2_core, core)),
-        "app": _page("codim2_app", "Names of `codim2_app`", _named(app, app.__all__)),
+        "core": _page("codim2_core", "Names of `codim2_core`", _public_members(codim2_core, core)),
+        "app": _page("codim2_app", "Names of `codim2_app`", _public_members(app, app.__all__)),
     }
     for name, title in MODULES.items():
         module = getattr(codim2_core, name)
         own = [one for one in module.__all__ if one not in codim2_core.__all__]
-        pages[name] = _page(module.__name__, f"{title}: `codim2_core.{name}`", _named(module, own))
+        pages[name] = _page(module.__name__, f"{title}: `codim2_core.{name}`", _public_members(module, own))
     for name, text in pages.items():
         (folder / f"api-{name}.rst").write_text(text, encoding="utf-8")
 
 
-def _named(module: ModuleType, names: Iterable[str]) -> list[tuple[str, Any]]:
+def _public_members(module: ModuleType, names: Iterable[str]) -> list[tuple[str, Any]]:
     return sorted(((name, getattr(module, name)) for name in names), key=lambda one: one[0].lower())
 
 
@@ -65,11 +65,11 @@ def _summary(value: Any) -> str:
     return f"``{type(value).__name__}``"
 
 
-def printed(_app: Any, _what: str, _name: str, _value: Any, _options: Any, lines: list[str]) -> None:
+def print_labels(_app: Any, _what: str, _name: str, _value: Any, _options: Any, lines: list[str]) -> None:
     """Put what the paper's labels are called in print into a docstring, whose |p| is a modulus; called by autodoc."""
-    lines[:] = [_escaped(_LABEL.sub(lambda found: PRINTED[found[1]][0], line)) for line in lines]
+    lines[:] = [_escape_bars(_LABEL.sub(lambda found: PRINTED[found[1]][0], line)) for line in lines]
 
 
-def _escaped(line: str) -> str:
+def _escape_bars(line: str) -> str:
     """Return a line in which bars outside of code stand for themselves."""
     return "".join(part if part.startswith("`") else part.replace("|", "\\|") for part in _CODE.split(line))

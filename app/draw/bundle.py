@@ -31,7 +31,7 @@ def bundle(*entries: Path) -> str:
         _follow(entry.resolve(), order, ())
     exported = {path: _EXPORT.findall(path.read_text(encoding="utf-8")) for path in order}
     names = {path: f"module{number}" for number, path in enumerate(order)}
-    return "\n".join(_joined(path, exported, names, path == order[-1]) for path in order)
+    return "\n".join(_wrap_module(path, exported, names, path == order[-1]) for path in order)
 
 
 def _follow(path: Path, order: list[Path], above: tuple[Path, ...]) -> None:
@@ -46,10 +46,10 @@ def _follow(path: Path, order: list[Path], above: tuple[Path, ...]) -> None:
     order.append(path)
 
 
-def _joined(path: Path, exported: dict[Path, list[str]], names: dict[Path, str], last: bool) -> str:
+def _wrap_module(path: Path, exported: dict[Path, list[str]], names: dict[Path, str], last: bool) -> str:
     """Return a module as a function that is called at once; the last one as it is, with its exports."""
 
-    def bound(match: re.Match[str]) -> str:
+    def bind_import(match: re.Match[str]) -> str:
         wanted = [name.strip() for name in (match[1] or "").split(",") if name.strip()]
         source = (path.parent / match[2]).resolve()
         for name in wanted:
@@ -57,7 +57,7 @@ def _joined(path: Path, exported: dict[Path, list[str]], names: dict[Path, str],
                 raise ValueError(f"{path.name} imports {name} from {source.name}, which exports no such name.")
         return f"const {{{', '.join(wanted)}}} = {names[source]}\n"
 
-    text = _IMPORT.sub(bound, path.read_text(encoding="utf-8"))
+    text = _IMPORT.sub(bind_import, path.read_text(encoding="utf-8"))
     inner = _EXPORT.sub("", text)
     if other := _OTHER_IMPORT.search(inner) or (None if last else _OTHER_EXPORT.search(inner)):
         raise ValueError(f"{path.name}: {other.group()!r} is not read; write import {{a, b}} or export before a name.")

@@ -17,7 +17,7 @@ from bokeh.models import (
     WheelZoomTool,
 )
 
-from .theme import NEAREST, VIEW, WIDEST
+from .theme import HALF_VIEW, MAX_HALF_VIEW, NEAREST
 
 
 def make_figure() -> Plot:
@@ -46,4 +46,4 @@ def make_figure() -> Plot:
 
 
 def _range() -> Range1d:
-    return Range1d(start=-VIEW, end=VIEW, min_interval=2 * NEAREST, max_interval=2 * WIDEST)
+    return Range1d(start=-HALF_VIEW, end=HALF_VIEW, min_interval=2 * NEAREST, max_interval=2 * MAX_HALF_VIEW)

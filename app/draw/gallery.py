@@ -20,18 +20,19 @@ HOOKS = {
     "nonunique-sliding": "Two answers at once",
     "spinning-disc": "A spinning disc",
 }
-FIRST = "case1-cm4"  # the one whose portrait the page opens with
-COUNT = 14  # starting points of a small portrait of the strip
+FIRST_PRESET = "case1-cm4"  # the one whose portrait the page opens with
+STRIP_SEEDS = 14  # starting points of a small portrait of the strip
 
 
 def gallery() -> list[dict[str, str]]:
     """Return key, title, hook and drawing of each; the drawing is empty until its kernels are compiled."""
     return [
-        {"key": key, "title": presets[key].title, "hook": hook, "drawn": _drawn(key)} for key, hook in HOOKS.items()
+        {"key": key, "title": presets[key].title, "hook": hook, "drawn": _draw_thumbnail(key)}
+        for key, hook in HOOKS.items()
     ]
 
 
-def _drawn(key: str) -> str:
+def _draw_thumbnail(key: str) -> str:
     preset = presets[key]
     return _small(key) if is_warm(preset.psi, preset.system) else ""
 
@@ -39,7 +40,7 @@ def _drawn(key: str) -> str:
 @lru_cache(maxsize=len(HOOKS))
 def _small(key: str) -> str:
     preset = presets[key]
-    return thumbnail(preset.system, preset.psi, preset.z, COUNT)
+    return thumbnail(preset.system, preset.psi, preset.z, STRIP_SEEDS)
 
 
 def draw_all() -> None:

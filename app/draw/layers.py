@@ -62,7 +62,7 @@ class Part:
 
 @dataclass(frozen=True)
 class Layer:
-    """What a user shows or hides as one.
+    """A group of curves or marks that a user shows or hides as one.
 
     Attributes
     ----------
@@ -104,7 +104,7 @@ def _orbits(result: Any) -> Pieces:
     return result.offsets, result.buffer
 
 
-def _closed(result: Any) -> Pieces:
+def _closed_curves(result: Any) -> Pieces:
     return glyphs.join([cycle.points for cycle in result.cycles])
 
 
@@ -133,7 +133,7 @@ def _nullcline(name: str, colours: tuple[str, str], widths: tuple[float, float],
     )
 
 
-def _launched(k: int) -> Callable[[Any], Pieces]:
+def _launched_orbits(k: int) -> Callable[[Any], Pieces]:
     """Return every orbit that has colour k: they take turns."""
     return lambda result: glyphs.join([line for i, line in enumerate(result.orbits.points) if i % LAUNCH_COLOURS == k])
 
@@ -172,7 +172,7 @@ _ROWS = (
     ),
     Layer(
         "cycles", "Limit cycles", 90, compiled=True, colours={"cycle": ("#e0121f", "#ff3b47")},
-        parts=(Part("cycles", "cycle", 2.8, "closed_orbits", _closed, arrows=True,
+        parts=(Part("cycles", "cycle", 2.8, "closed_orbits", _closed_curves, arrows=True,
                     owners=lambda result: [f"L{i + 1}" for i in range(len(result.cycles))]),),
         tip="Isolated closed orbits of the layer problem.",
     ),
@@ -204,7 +204,7 @@ _ROWS = (
                  "launch-3": ("#15803d", "#4ade80"), "launch-4": ("#a21caf", "#e879f9"),
                  "launch-5": ("#0f766e", "#2dd4bf"), "launch-6": ("#854d0e", "#facc15")},
         parts=tuple(
-            Part(f"launched_{k + 1}", f"launch-{k + 1}", 2.4, "launched", _launched(k), arrows=True,
+            Part(f"launched_{k + 1}", f"launch-{k + 1}", 2.4, "launched", _launched_orbits(k), arrows=True,
                  owners=_launched_owners(k))
             for k in range(LAUNCH_COLOURS)
         ),
@@ -246,19 +246,19 @@ TRACES = (Part("limit", "motion", 1.6), Part("motion", "motion", 2.4, dash=(5, 4
 TRACE_COLOURS = {"motion": ("#c026d3", "#f0abfc")}
 
 
-def painted() -> list[Layer]:
+def layers_in_paint_order() -> list[Layer]:
     """Return the layers from bottom to top."""
     return sorted(LAYERS.values(), key=lambda layer: layer.height)
 
 
-def shown() -> list[str]:
+def default_layers() -> list[str]:
     """Name the layers that are shown until a user chooses."""
     return [layer.name for layer in LAYERS.values() if not layer.hidden]
 
 
 def table() -> list[dict[str, Any]]:
     """Return what the browser must know of each layer, from bottom to top."""
-    return [{"name": layer.name, "parts": looks(layer.parts)} for layer in painted()]
+    return [{"name": layer.name, "parts": looks(layer.parts)} for layer in layers_in_paint_order()]
 
 
 def looks(parts: Iterable[Part]) -> list[dict[str, Any]]:

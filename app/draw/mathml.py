@@ -9,7 +9,7 @@ from html import escape
 from types import MappingProxyType
 
 from codim2_core.expressions.expression import Expression, parse
-from codim2_core.expressions.names import PLANE, SLOW
+from codim2_core.expressions.names import FAST_NAMES, SLOW_NAMES
 from codim2_core.expressions.tape import FUNCTIONS_OF_TWO, compact
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
@@ -103,14 +103,14 @@ def _times_pi(times: int) -> str:
     return "<mi>π</mi>" if times == 1 else f"<mn>{times}</mn><mo>&#8290;</mo><mi>π</mi>"
 
 
-def _closed(piece: Piece, least: int) -> str:
+def _parenthesise(piece: Piece, least: int) -> str:
     text, binding = piece
     return f"<mrow>{text}</mrow>" if binding >= least else f"<mrow><mo>(</mo>{text}<mo>)</mo></mrow>"
 
 
 def _after_minus(piece: Piece) -> str:
     """Close what is taken away: a second sign would stand behind the first."""
-    return _closed(piece, _POWER if piece[1] == _SIGN else _PRODUCT)
+    return _parenthesise(piece, _POWER if piece[1] == _SIGN else _PRODUCT)
 
 
 def _function(op: str, inside: Piece) -> Piece:
@@ -131,7 +131,7 @@ def _binary(op: str, left: Piece, right: Piece, left_number: bool, right_number:
     if op == "+":
         if right[0].startswith(_MINUS):  # u + -v
             return f"{left[0]}{right[0]}", _SUM
-        return f"{left[0]}<mo>+</mo>{_closed(right, _PRODUCT)}", _SUM
+        return f"{left[0]}<mo>+</mo>{_parenthesise(right, _PRODUCT)}", _SUM
     if op == "-":
         return f"{left[0]}{_MINUS}{_after_minus(right)}", _SUM
     if op == "/" and left[1] == _SIGN:
@@ -139,10 +139,10 @@ def _binary(op: str, left: Piece, right: Piece, left_number: bool, right_number:
     if op == "/":
         return f"<mfrac><mrow>{left[0]}</mrow><mrow>{right[0]}</mrow></mfrac>", _ATOM
     if op == "**":
-        return f"<msup>{_closed(left, _ATOM)}<mrow>{right[0]}</mrow></msup>", _POWER
+        return f"<msup>{_parenthesise(left, _ATOM)}<mrow>{right[0]}</mrow></msup>", _POWER
     times = "<mo>·</mo>" if right_number else "<mo>&#8290;</mo>"  # invisible times
-    first = left[0] if left_number or left[1] == _SIGN else _closed(left, _PRODUCT)
-    return f"{first}{times}{_closed(right, _POWER)}", _SIGN if left[1] == _SIGN else _PRODUCT
+    first = left[0] if left_number or left[1] == _SIGN else _parenthesise(left, _PRODUCT)
+    return f"{first}{times}{_parenthesise(right, _POWER)}", _SIGN if left[1] == _SIGN else _PRODUCT
 
 
 def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:
@@ -152,9 +152,9 @@ def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:
     """
     if isinstance(system, System):
         U, W = system.without_clock  # what is typed in t is written in t
-        left = ("x", "y", *SLOW[: len(W)])
+        left = ("x", "y", *SLOW_NAMES[: len(W)])
         return tuple(zip(left, (*U, *W), strict=True))
-    names = (*PLANE, "z", *SLOW, *dict(system.parameters), "A_", "B_", "C_")
+    names = (*FAST_NAMES, "z", *SLOW_NAMES, *dict(system.parameters), "A_", "B_", "C_")
     template = parse("A_*c + B_*s + C_", names)
 
     def row(c: object, s: object, constant: object) -> Expression:
@@ -168,7 +168,7 @@ def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:
     rows = [("x", row(a11, a12, system.f[0])), ("y", row(a21, a22, system.f[1]))]
     for i in range(system.m):
         B = (0.0, 0.0) if system.B is None else system.B[i]
-        rows.append((SLOW[i], row(B[0], B[1], 0.0 if system.g is None else system.g[i])))
+        rows.append((SLOW_NAMES[i], row(B[0], B[1], 0.0 if system.g is None else system.g[i])))
     return tuple(rows)
 
 

@@ -10,10 +10,10 @@ import numpy as np
 from codim2_core.scene import Scene
 
 from . import glyphs
-from .layers import painted
-from .theme import VIEW, themes
+from .layers import layers_in_paint_order
+from .theme import HALF_VIEW, themes
 
-AXES = ["x̄", "ȳ"]
+AXIS_LABELS = ["x̄", "ȳ"]
 
 
 def elements(scene: Scene) -> dict[str, Any]:
@@ -30,7 +30,7 @@ def elements(scene: Scene) -> dict[str, Any]:
         the names of its parts), "equator" and "critical" (points with the inspector's numbers as further dimensions).
     """
     made: dict[str, Any] = {"hemisphere": _circle()}
-    for layer in painted():
+    for layer in layers_in_paint_order():
         colours = dict.fromkeys(part.colour for part in layer.parts)
         asked = not layer.hidden and not (layer.optional and not any(len(scene[part.scene]) for part in layer.parts))
         for colour in colours if asked else ():
@@ -63,8 +63,14 @@ def holoviews(scene: Scene) -> Any:
     11
     """
     overlay: Any = hv.Overlay(list(elements(scene).values()))
-    x, y = (str(hv.Dimension(axis).label) for axis in AXES)
-    common = {"xlim": (-VIEW, VIEW), "ylim": (-VIEW, VIEW), "show_legend": False, "xlabel": x, "ylabel": y}
+    x, y = (str(hv.Dimension(axis).label) for axis in AXIS_LABELS)
+    common = {
+        "xlim": (-HALF_VIEW, HALF_VIEW),
+        "ylim": (-HALF_VIEW, HALF_VIEW),
+        "show_legend": False,
+        "xlabel": x,
+        "ylabel": y,
+    }
     sized = {"bokeh": {"data_aspect": 1, "frame_width": 500}, "matplotlib": {"aspect": "equal", "fig_inches": 6}}
     for backend in sized.keys() & hv.Store.renderers.keys():
         overlay = overlay.opts(**common, **sized[backend], backend=backend)
@@ -80,43 +86,43 @@ def _light(name: str) -> str:
 
 
 def _circle() -> Any:
-    return _styled(hv.Ellipse(0, 0, 2, label="hemisphere"), color=_light("ink"), line_width=2)
+    return _apply_style(hv.Ellipse(0, 0, 2, label="hemisphere"), color=_light("ink"), line_width=2)
 
 
 def _paths(pieces: list[Any], label: str, colour: str, width: float) -> Any:
-    path = hv.Path([np.asarray(piece) for piece in pieces], kdims=AXES, label=label)
-    return _styled(path, color=colour, line_width=width)
+    path = hv.Path([np.asarray(piece) for piece in pieces], kdims=AXIS_LABELS, label=label)
+    return _apply_style(path, color=colour, line_width=width)
 
 
 def _equator(scene: Scene) -> Any:
     q = glyphs.equator_columns(scene["equator"])
-    colours, fills = _coloured(q)
+    colours, fills = _mark_colours(q)
     columns = (q["x"], q["y"], q["label"], q["type"], q["theta"], q["lambda_rho"], q["lambda_theta"],
                q["shape"], colours, fills)  # fmt: skip
     names = ["label", "type", "theta", "lambda_rho", "lambda_theta", "marker", "colour", "fill"]
-    points = hv.Points(columns, kdims=AXES, vdims=names, label="equator")
-    return _styled(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
+    points = hv.Points(columns, kdims=AXIS_LABELS, vdims=names, label="equator")
+    return _apply_style(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
                    size=11, line_width=2, tools=["hover"])  # fmt: skip
 
 
 def _critical(scene: Scene) -> Any:
     c = glyphs.critical_columns(scene["critical"])
-    colours, fills = _coloured(c)
+    colours, fills = _mark_colours(c)
     columns = (c["x"], c["y"], c["label"], c["kind"], c["trace"], c["determinant"], c["discriminant"],
                c["shape"], colours, fills)  # fmt: skip
     names = ["label", "kind", "trace", "determinant", "discriminant", "marker", "colour", "fill"]
-    points = hv.Points(columns, kdims=AXES, vdims=names, label="critical")
-    return _styled(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
+    points = hv.Points(columns, kdims=AXIS_LABELS, vdims=names, label="critical")
+    return _apply_style(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
                    size=12, line_width=2, tools=["hover"])  # fmt: skip
 
 
-def _coloured(columns: Any) -> tuple[list[str], list[str]]:
+def _mark_colours(columns: Any) -> tuple[list[str], list[str]]:
     """Return the colours of the marks' outlines and of their insides."""
     colours = [_light(key) for key in columns["colour"]]
     return colours, [c if filled else _light("page") for c, filled in zip(colours, columns["filled"], strict=True)]
 
 
-def _styled(element: Any, **bokeh: Any) -> Any:
+def _apply_style(element: Any, **bokeh: Any) -> Any:
     """Style for the Bokeh backend, if it has been loaded."""
     if "bokeh" not in hv.Store.renderers:
         return element

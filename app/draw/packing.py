@@ -20,18 +20,18 @@ from numpy.typing import NDArray
 
 from .lines.arrowheads import arrowheads
 from .lines.spacing import Pieces, evenly
-from .theme import REACH, VIEW
+from .theme import HALF_VIEW, PICTURE_REACH
 
 #: Coordinates travel as int16 multiples of EXTENT / 32767, that is 1.2e-4 of the disc's radius: at 400 px
 #: for the radius this is 0.05 px, five times finer than the polylines are sampled.
-EXTENT = 4.0
-STEP = EXTENT / 32767
+INT16_RANGE = 4.0
+INT16_STEP = INT16_RANGE / 32767
 
 #: Left, right, bottom, top.
 Rectangle = tuple[float, float, float, float]
 
 #: Where arrowheads are placed in the whole picture: as it looks at 700 px.
-PIXEL, WINDOW = VIEW / 350, (-REACH, REACH, -REACH, REACH)
+PIXEL, WINDOW = HALF_VIEW / 350, (-PICTURE_REACH, PICTURE_REACH, -PICTURE_REACH, PICTURE_REACH)
 
 #: Angles of arrowheads travel as int16 multiples of this.
 ANGLE_STEP = np.pi / 32767
@@ -40,7 +40,7 @@ ANGLE_STEP = np.pi / 32767
 class Polylines(NamedTuple):
     """A layer of lines: piece i is ``points[offsets[i]:offsets[i + 1]]``.
 
-    `arrows` asks for arrowheads, `even` for curves that are nowhere nearer to one another than `spacing.APART`.
+    `arrows` asks for arrowheads, `even` for curves that are nowhere nearer to one another than `spacing.SEPARATION`.
     """
 
     offsets: NDArray[np.int64]
@@ -53,7 +53,7 @@ Blocks = Mapping[str, NDArray[Any] | Polylines]
 
 
 def quantise(points: NDArray[np.float64]) -> NDArray[np.int16]:
-    """Return coordinates as multiples of `STEP`; what lies beyond ±EXTENT is moved to its edge.
+    """Return coordinates as multiples of `INT16_STEP`; what lies beyond ±EXTENT is moved to its edge.
 
     Parameters
     ----------
@@ -63,16 +63,16 @@ def quantise(points: NDArray[np.float64]) -> NDArray[np.int16]:
     -------
     ndarray of int16, same shape
     """
-    scaled = points * (1 / STEP)
-    np.maximum(scaled, -EXTENT / STEP, out=scaled)
-    np.minimum(scaled, EXTENT / STEP, out=scaled)
+    scaled = points * (1 / INT16_STEP)
+    np.maximum(scaled, -INT16_RANGE / INT16_STEP, out=scaled)
+    np.minimum(scaled, INT16_RANGE / INT16_STEP, out=scaled)
     return np.rint(scaled, out=scaled).astype(np.int16)
 
 
 #: No arrowheads.
-NONE = np.zeros((0, 3))
+NO_POINTS = np.zeros((0, 3))
 #: Names of the types in use (`dtype.name` takes 3 µs).
-_NAMES = {np.dtype(name).char: name for name in ("int16", "uint16", "float32", "float64")}
+_DTYPE_NAMES = {np.dtype(name).char: name for name in ("int16", "uint16", "float32", "float64")}
 
 
 def pack(
@@ -113,7 +113,7 @@ def pack(
             listing["exact"] = True
         parts += (data, b"\0" * (-len(data) % 4))
     if arrays:
-        listing["blocks"] = [(name, _NAMES[array.dtype.char], array.size) for name, array in arrays.items()]
+        listing["blocks"] = [(name, _DTYPE_NAMES[array.dtype.char], array.size) for name, array in arrays.items()]
         for array in arrays.values():
             data = np.ascontiguousarray(array).tobytes()
             parts += (data, b"\0" * (-len(data) % 4))
@@ -138,11 +138,11 @@ def _run(
             for name, line in lines.items()
         }
     for name, (offsets, points, arrows, _) in lines.items():
-        placed = None if not arrows else arrowheads(offsets, points, pixel, seen) if may else NONE
+        placed = None if not arrows else arrowheads(offsets, points, pixel, seen) if may else NO_POINTS
         if placed is not None:
             heads.append(placed)
         rows.append((name, len(offsets) - 1, len(points), None if placed is None else len(placed)))
-    all_heads = np.concatenate(heads) if heads else NONE
+    all_heads = np.concatenate(heads) if heads else NO_POINTS
     places = np.concatenate([*(layer.points for layer in lines.values()), all_heads[:, :2]])
     counts = np.concatenate([np.diff(layer.offsets) for layer in lines.values()]).astype(np.uint16).tobytes()
     data = (

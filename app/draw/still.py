@@ -8,7 +8,7 @@ from html import escape
 
 from .svg import draw
 from .theme import themes
-from .vector.parts import SIDE
+from .vector.parts import VIEWBOX_SIDE
 
 _VARIABLE = re.compile(r"var\(--([\w-]+)\)")
 
@@ -32,13 +32,13 @@ def still(buffer: bytes, layers: Collection[str], theme: str = "light", width: i
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{width}" font-family="sans-serif" ',
         1,
     )
-    ground = f'<rect width="{SIDE}" height="{SIDE}" fill="var(--page)"/>'
+    ground = f'<rect width="{VIEWBOX_SIDE}" height="{VIEWBOX_SIDE}" fill="var(--page)"/>'
     clear = '<text paint-order="stroke" stroke="var(--page)" stroke-width="6" '  # of the lines behind it
     whole = inner.replace(">", f">{ground}", 1).replace("<text ", clear)
-    return coloured(whole, colours)
+    return fill_colours(whole, colours)
 
 
-def coloured(svg: str, colours: Mapping[str, str]) -> str:
+def fill_colours(svg: str, colours: Mapping[str, str]) -> str:
     """Return an SVG with colours by name in place of the style sheet's custom properties."""
     return _VARIABLE.sub(lambda name: colours[name[1]], svg)
 

@@ -12,13 +12,13 @@ import numpy as np
 from codim2_core.scene import Scene
 
 from . import glyphs
-from .layers import LAYERS, painted
+from .layers import LAYERS, layers_in_paint_order
 from .packing import unpack
 from .vector import parts as vector
-from .vector.parts import SIDE, Placement
+from .vector.parts import VIEWBOX_SIDE, Placement
 
 #: The whole picture; lines and marks have the size that they have in a picture of 700 px.
-FIRST = Placement()
+DEFAULT_PLACEMENT = Placement()
 
 
 def draw(buffer: bytes, layers: Collection[str]) -> str:
@@ -33,8 +33,10 @@ def draw(buffer: bytes, layers: Collection[str]) -> str:
     layers : collection of str
         Those that are shown.
     """
-    whole = f'<svg viewBox="0 0 {SIDE} {SIDE}" fill="none" stroke-linejoin="round" stroke-linecap="round">'
-    return whole + content(buffer, layers, FIRST) + "</svg>"
+    whole = (
+        f'<svg viewBox="0 0 {VIEWBOX_SIDE} {VIEWBOX_SIDE}" fill="none" stroke-linejoin="round" stroke-linecap="round">'
+    )
+    return whole + content(buffer, layers, DEFAULT_PLACEMENT) + "</svg>"
 
 
 def content(buffer: bytes, layers: Collection[str], place: Placement, labelled: bool = True) -> str:
@@ -53,7 +55,7 @@ def content(buffer: bytes, layers: Collection[str], place: Placement, labelled: 
     """
     header, blocks = unpack(buffer)
     parts = [vector.sphere(place)]
-    drawn = [part for layer in painted() if layer.name in layers for part in layer.parts]
+    drawn = [part for layer in layers_in_paint_order() if layer.name in layers for part in layer.parts]
     if "basins" in layers:
         parts += vector.basins(header.get("basins"), blocks, place)
     if "outcomes" in layers:
@@ -74,7 +76,7 @@ def content(buffer: bytes, layers: Collection[str], place: Placement, labelled: 
 
 
 #: Layers of a small portrait, from bottom to top, and their widths in px where it is 80 px wide.
-SMALL = {"outside": 0.5, "inside": 0.6, "continuations": 1.0, "cycles": 1.6}
+SMALL_WIDTHS = {"outside": 0.5, "inside": 0.6, "continuations": 1.0, "cycles": 1.6}
 SMALL_SIDE = 240
 
 
@@ -94,7 +96,7 @@ def small(scene: Scene, view: float) -> str:
     """
     place = Placement((-view, view, -view, view), SMALL_SIDE, SMALL_SIDE / 80)
     parts = [f'<svg viewBox="0 0 {SMALL_SIDE} {SMALL_SIDE}" fill="none" stroke-linejoin="round" aria-hidden="true">']
-    for name, width in SMALL.items():
+    for name, width in SMALL_WIDTHS.items():
         for part in LAYERS[name].parts:
             offsets, points = part.pieces(scene[part.scene])
             path = place.path(np.split(place.points(points), offsets[1:-1]))

@@ -46,11 +46,11 @@ PAGE: Mapping[str, tuple[str, str]] = {
 }
 
 #: Half the width of the picture: the disc has radius 1.
-VIEW = 1.75
+HALF_VIEW = 1.75
 #: Half the width of what is seen at the nearest and at the widest.
-NEAREST, WIDEST = 0.05, 12.0
+NEAREST, MAX_HALF_VIEW = 0.05, 12.0
 #: Radius up to which the scene is computed: the corners of the square picture.
-REACH = 2.45
+PICTURE_REACH = 2.45
 
 #: Where the light falls on the hemisphere, in radii from the centre, and how far from there to the middle shade.
 LIGHT, MIDDLE = (-0.36, 0.4), 0.5
@@ -59,7 +59,7 @@ LIGHT, MIDDLE = (-0.36, 0.4), 0.5
 RING = (1.03, 1.075)
 HATCHES = {"slide": "", "cross": "/", "depends": "x", "undecided": ".", "misses": ""}
 #: What the page and a live file draw by.
-MEASURES = {"light": LIGHT, "middle": MIDDLE, "ring": RING, "hatches": HATCHES, "view": VIEW}
+MEASURES = {"light": LIGHT, "middle": MIDDLE, "ring": RING, "hatches": HATCHES, "view": HALF_VIEW}
 
 
 def themes() -> dict[str, dict[str, str]]:

@@ -5,51 +5,58 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from codim2_core.layer_problem.vary import varied
+from codim2_core.layer_problem.vary import vary
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 
 from .svg import small
 
 #: Half the width of a small portrait, its pixel in picture units (it is shown some 80 px wide), its starting points.
-VIEW = 1.5
-PIXEL = 1 / 28
-COUNT = 22
+THUMBNAIL_HALF_VIEW = 1.5
+THUMBNAIL_PIXEL = 1 / 28
+THUMBNAIL_SEEDS = 22
 #: At most as many regions are given one.
-MOST = 24
+MAX_KEPT = 24
 
 
 def thumbnails(
     system: Any,
     psi: Psi,
     z: tuple[float, ...],
-    names: tuple[str, str],
-    places: Sequence[tuple[int, str, tuple[float, float]]],
+    names: tuple[str, ...],
+    places: Sequence[tuple[int, str, tuple[float, ...]]],
 ) -> list[list[Any]]:
-    """Draw the portrait at each place of a plane of two parameters.
+    """Draw the portrait at each place of a plane of two parameters, or of a line of one.
 
     Parameters
     ----------
     system : ELinear or Coefficients
     psi : Psi
     z : (m,) floats
-    names : (str, str)
+    names : tuple of str
         The parameters, by the core's names.
     places : sequence of (region, its name, (x, y))
+        A name that is "" is that of the portrait.
 
     Returns
     -------
     list of [region, its name, [x, y], svg]
     """
     drawn = []
-    for region, name, place in places[:MOST]:
+    for region, name, place in places[:MAX_KEPT]:
         changed = system, psi, z
         for axis, value in zip(names, place, strict=True):
-            changed = varied(*changed, axis, value)
-        drawn.append([region, name, [float(v) for v in place], thumbnail(*changed)])
+            changed = vary(*changed, axis, value)
+        scene = _scene(*changed)
+        title = name or scene["name"].name
+        drawn.append([region, title, [float(v) for v in place], small(scene, THUMBNAIL_HALF_VIEW)])
     return drawn
 
 
-def thumbnail(system: Any, psi: Psi, z: tuple[float, ...], count: int = COUNT) -> str:
+def thumbnail(system: Any, psi: Psi, z: tuple[float, ...], count: int = THUMBNAIL_SEEDS) -> str:
     """Draw one small portrait, as SVG."""
-    return small(Scene(system, psi, z, count=count, view=VIEW * 1.4, pixel=PIXEL), VIEW)
+    return small(_scene(system, psi, z, count), THUMBNAIL_HALF_VIEW)
+
+
+def _scene(system: Any, psi: Psi, z: tuple[float, ...], count: int = THUMBNAIL_SEEDS) -> Scene:
+    return Scene(system, psi, z, count=count, view=THUMBNAIL_HALF_VIEW * 1.4, pixel=THUMBNAIL_PIXEL)

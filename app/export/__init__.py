@@ -1,1 +1,1 @@
-"""What is taken away: figures, data, code, tables and live files of what is on the screen."""
+"""Exports of what is on the screen: figures, data, code, tables and live files."""

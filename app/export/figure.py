@@ -13,7 +13,7 @@ from html import escape
 import segno
 
 from ..draw.packing import unpack
-from ..draw.still import coloured
+from ..draw.still import fill_colours
 from ..draw.svg import content
 from ..draw.theme import themes
 from ..draw.vector import parts as vector
@@ -29,7 +29,7 @@ THEMES = ("light", "dark", "paper")
 FONTS = "Libertinus Serif, Linux Libertine O, STIX Two Text, Times New Roman, Liberation Serif, Nimbus Roman, serif"
 #: Points to a millimetre; to a px of the screen, for widths of lines and sizes of marks.
 MM, PX = 72 / 25.4, 0.55
-LABEL, SMALL = 11.0, 8.0
+LABEL_SIZE, SMALL_SIZE = 11.0, 8.0
 #: Height of a title.
 TITLE = 22.0
 #: The sample of a legend's entry, what is between it and the words, between columns, and between lines.
@@ -37,14 +37,14 @@ SAMPLE, GAP, GUTTER, LINE = 22.0, 5.0, 12.0, 12.0
 #: Between ticks: about so many on an axis.
 TICKS = 6
 #: Labels stand outside the ring of outcomes.
-BEYOND = 1.6
-LEAST, MOST = 40.0, 400.0  # mm
+CLIP_FACTOR = 1.6
+MIN_WIDTH_MM, MAX_WIDTH_MM = 40.0, 400.0  # mm
 CODE = 64.0  # of a QR code
 
 
 @dataclass(frozen=True)
 class Style:
-    """How a figure looks.
+    """The look of a figure: size, theme, letters, and what is written beside it.
 
     Attributes
     ----------
@@ -68,8 +68,10 @@ class Style:
     link: str = ""
 
     def __post_init__(self) -> None:
-        if not LEAST <= self.size <= MOST:
-            raise ValueError(f"size is {self.size:g}; give the width of the picture in mm, {LEAST:g} to {MOST:g}.")
+        if not MIN_WIDTH_MM <= self.size <= MAX_WIDTH_MM:
+            raise ValueError(
+                f"size is {self.size:g}; give the width of the picture in mm, {MIN_WIDTH_MM:g} to {MAX_WIDTH_MM:g}."
+            )
         if self.theme not in THEMES:
             raise ValueError(f"theme is {self.theme!r}; choose one of {', '.join(THEMES)}.")
 
@@ -88,7 +90,7 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
     buffer, layers = view.frame(), view.values["layers"]
     header, blocks = unpack(buffer)
     side = style.size * MM
-    place = Placement(view.seen, side, PX, LABEL, 2, DASHES if style.theme == "paper" else {}, BEYOND)
+    place = Placement(view.seen, side, PX, LABEL_SIZE, 2, DASHES if style.theme == "paper" else {}, CLIP_FACTOR)
     left, right = (30.0, 8.0) if style.ticks else (0.0, 0.0)
     parts: list[str] = []
     y = 0.0
@@ -111,9 +113,9 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
         y += 6.0 + LINE * max((len(column) for _, column in columns), default=0) + 4.0
     if style.caption:
         room = side - (CODE + GUTTER if style.link else 0.0)
-        lines = list(_wrapped(caption_of(view, header), room))
+        lines = list(_wrap_text(caption_of(view, header), room))
         parts += [
-            vector.words(left, y + LINE * (i + 1), escape(line), SMALL, room=room) for i, line in enumerate(lines)
+            vector.words(left, y + LINE * (i + 1), escape(line), SMALL_SIZE, room=room) for i, line in enumerate(lines)
         ]
         if style.link:
             parts.append(_code(style.link, left + side - CODE, y + 4.0))
@@ -124,15 +126,15 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
         f'font-family="{FONTS}"><title>{escape(caption_of(view, header))}</title>'
         f'<rect width="{width:.2f}" height="{y:.2f}" fill="var(--page)"/>{"".join(parts)}</svg>\n'
     )
-    return coloured(whole, paper() if style.theme == "paper" else themes()[style.theme])
+    return fill_colours(whole, paper() if style.theme == "paper" else themes()[style.theme])
 
 
-def _wrapped(text: str, width: float) -> Iterator[str]:
+def _wrap_text(text: str, width: float) -> Iterator[str]:
     """Return a text in lines that are not wider."""
     line = ""
     for word in text.split():
         longer = f"{line} {word}".lstrip()
-        if line and width_of(longer, SMALL) > width:
+        if line and width_of(longer, SMALL_SIZE) > width:
             yield line
             longer = word
         line = longer
@@ -166,7 +168,7 @@ def _columns(shown: list[Entry], side: float) -> list[tuple[float, list[Entry]]]
             column = shown[first:last]
             if column:
                 found.append((x, column))
-                x += SAMPLE + GAP + max(width_of(entry.words, SMALL) for entry in column) + GUTTER
+                x += SAMPLE + GAP + max(width_of(entry.words, SMALL_SIZE) for entry in column) + GUTTER
         if x - GUTTER <= side:
             break
     return found
@@ -178,12 +180,12 @@ def _legend(
     for k, (x, column) in enumerate(columns):
         end = columns[k + 1][0] - GUTTER if k + 1 < len(columns) else side
         begin = x + SAMPLE + GAP
-        tight = any(vector.WIDEST * width_of(entry.words, SMALL) > end - begin for entry in column)
+        tight = any(vector.MAX_LABEL_SCALE * width_of(entry.words, SMALL_SIZE) > end - begin for entry in column)
         for i, entry in enumerate(column):
             middle = y + LINE * (i + 0.5)
             yield entry.drawn(place, left + x, middle, SAMPLE)
-            foot = middle + 0.34 * SMALL
-            yield vector.words(left + begin, foot, escape(entry.words), SMALL, room=0.0 if tight else math.inf)
+            foot = middle + 0.34 * SMALL_SIZE
+            yield vector.words(left + begin, foot, escape(entry.words), SMALL_SIZE, room=0.0 if tight else math.inf)
 
 
 def _ticks(place: Placement) -> Iterator[str]:
@@ -194,13 +196,15 @@ def _ticks(place: Placement) -> Iterator[str]:
     for value in _round_steps(left, right):
         [[u, _]] = place.points((value, 0.0)).tolist()
         yield f'<path d="M{u} {place.height:.2f}v-4M{u} 0v4" {line}/>'
-        yield vector.words(u, place.height + 11.0, _number(value), SMALL, "middle")
+        yield vector.words(u, place.height + 11.0, _number(value), SMALL_SIZE, "middle")
     for value in _round_steps(bottom, top):
         [[_, v]] = place.points((0.0, value)).tolist()
         yield f'<path d="M0 {v}h4M{place.side:.2f} {v}h-4" {line}/>'
-        yield vector.words(-4.0, v + 0.34 * SMALL, _number(value), SMALL, "end")
-    yield vector.words(place.side / 2, place.height + 24.0, "x̄ = p₁ inside, (1 + ρ) cos θ outside", SMALL, "middle")
-    turned = vector.words(0.0, 0.0, "ȳ", SMALL, "middle")
+        yield vector.words(-4.0, v + 0.34 * SMALL_SIZE, _number(value), SMALL_SIZE, "end")
+    yield vector.words(
+        place.side / 2, place.height + 24.0, "x̄ = p₁ inside, (1 + ρ) cos θ outside", SMALL_SIZE, "middle"
+    )
+    turned = vector.words(0.0, 0.0, "ȳ", SMALL_SIZE, "middle")
     yield f'<g transform="translate(-22 {place.height / 2:.1f})">{turned}</g>'
 
 

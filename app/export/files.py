@@ -6,8 +6,8 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 from .data import csv_zip, json_text, npz
-from .latex import latex
 from .snippet import snippet
+from .tex.table import latex
 from .view import View
 
 DATA: Mapping[str, Callable[[View], bytes]] = MappingProxyType(

@@ -17,14 +17,14 @@ from .play import pictures as played
 from .printing import png
 from .view import View
 
-KINDS = {".gif": "GIF", ".webp": "WEBP"}
+FILM_KINDS = {".gif": "GIF", ".webp": "WEBP"}
 #: Positions of the slider; milliseconds that each is seen; at the ends it rests so many times longer.
 POSITIONS, MOST_POSITIONS, PACE, REST = 41, 121, 60, 8
 #: Width of the picture in mm, and dots to those of the screen: 567 px.
 STYLE = Style(size=120.0, legend=False, title=True)
 DENSITY = 1.25
 NO_DITHER = Image.Dither.NONE
-COLOURS, MOST = 256, 24_000_000  # of a GIF's picture; bytes of a film
+COLOURS, MAX_FILM_BYTES = 256, 24_000_000  # of a GIF's picture; bytes of a film
 
 
 def film(
@@ -54,8 +54,8 @@ def film(
     ValueError
         The slider is none, a picture cannot be had, Typst is missing, or the film is too large.
     """
-    if kind not in KINDS:
-        raise ValueError(f"a film ends in {kind[:20]!r}; give one of {', '.join(KINDS)}.")
+    if kind not in FILM_KINDS:
+        raise ValueError(f"a film ends in {kind[:20]!r}; give one of {', '.join(FILM_KINDS)}.")
     positions = positions or count_of(slider)
     if not 2 <= positions <= MOST_POSITIONS:
         raise ValueError(f"{positions} positions given; allowed is 2 to {MOST_POSITIONS}.")
@@ -64,7 +64,7 @@ def film(
         drawn += pictures(view, slider, style, positions, len(drawn), min(len(drawn) + part_of(slider), positions))
         if progress is not None:
             progress(len(drawn), positions)
-    return joined(drawn, kind, play=slider == PLAY)
+    return encode_film(drawn, kind, play=slider == PLAY)
 
 
 def count_of(slider: str) -> int:
@@ -97,7 +97,7 @@ def picture(view: View, slider: str, value: float, style: Style = STYLE) -> byte
     return png(drawn, DENSITY)
 
 
-def joined(pictures: Sequence[bytes], kind: str = ".gif", play: bool = False) -> bytes:
+def encode_film(pictures: Sequence[bytes], kind: str = ".gif", play: bool = False) -> bytes:
     """Return pictures of one size as a film without end: there and back, of play there alone.
 
     The pictures of play have the colours of the first: each then costs in a file what moves in it.
@@ -109,17 +109,17 @@ def joined(pictures: Sequence[bytes], kind: str = ".gif", play: bool = False) ->
     """
     shown = [Image.open(io.BytesIO(one)).convert("RGB") for one in pictures]
     if kind == ".gif":  # by what they cover of all colours: a small mark keeps its own, which the median cut mixes
-        palette = _quantized(shown[0])
-        shown = [one.quantize(palette=palette, dither=NO_DITHER) if play else _quantized(one) for one in shown]
+        palette = _reduce_palette(shown[0])
+        shown = [one.quantize(palette=palette, dither=NO_DITHER) if play else _reduce_palette(one) for one in shown]
     order = [*range(len(shown)), *(() if play else range(len(shown) - 2, 0, -1))]
     durations = [PACE * (REST if i in (0, len(shown) - 1) else 1) for i in order]
     film = io.BytesIO()
     first, *others = (shown[i] for i in order)
-    first.save(film, KINDS[kind], save_all=True, append_images=others, duration=durations, loop=0)
-    if film.tell() > MOST:
+    first.save(film, FILM_KINDS[kind], save_all=True, append_images=others, duration=durations, loop=0)
+    if film.tell() > MAX_FILM_BYTES:
         raise ValueError(f"The film would hold {film.tell() / 1e6:.0f} MB; show fewer layers, or fewer positions.")
     return film.getvalue()
 
 
-def _quantized(shown: Image.Image) -> Image.Image:
+def _reduce_palette(shown: Image.Image) -> Image.Image:
     return shown.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=NO_DITHER)

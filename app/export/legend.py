@@ -6,15 +6,15 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from codim2_core.words import named
+from codim2_core.words import written_label
 
-from ..draw.layers import Part, painted
+from ..draw.layers import Part, layers_in_paint_order
 from ..draw.vector import parts as vector
 from ..draw.vector.parts import Placement
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 
 #: What a part of a layer is, where it is not the whole layer.
-PARTS: Mapping[str, str] = {
+LEGEND_PARTS: Mapping[str, str] = {
     "lines_inside": "U₁ = 0, U₂ = 0 inside",
     "lines_outside": "U₁ = 0, U₂ = 0 outside",
     "separatrices_stable": "Stable separatrices",
@@ -65,7 +65,7 @@ class Entry:
 
 def entries(header: Mapping[str, Any], blocks: Mapping[str, Any], layers: Collection[str]) -> list[Entry]:
     """Return the entries for what one frame shows, lines first."""
-    found = [entry for layer in painted() if layer.name in layers for entry in _lines(layer, blocks)]
+    found = [entry for layer in layers_in_paint_order() if layer.name in layers for entry in _lines(layer, blocks)]
     for name in ("equator", "critical"):
         if name in layers and header.get(name):
             found += _marks(header[name], "Q" if name == "equator" else "C")
@@ -82,7 +82,7 @@ def entries(header: Mapping[str, Any], blocks: Mapping[str, Any], layers: Collec
 def _lines(layer: Any, blocks: Mapping[str, Any]) -> Iterator[Entry]:
     told = set()
     for part in layer.parts:
-        words = PARTS.get(part.name, layer.words)
+        words = LEGEND_PARTS.get(part.name, layer.words)
         if len(blocks.get(f"{part.name}.xy", ())) and words not in told:
             told.add(words)
             yield Entry(words, part=part)
@@ -97,5 +97,5 @@ def _marks(columns: Mapping[str, Any], letter: str) -> Iterator[Entry]:
 def _basins(found: Mapping[str, Any]) -> Iterator[Entry]:
     colours = found["colours"][2:]  # the first two are of what is outside the disc, and of what is undecided
     for colour in dict.fromkeys(colours):
-        names = [named(name) for name, its in zip(found["destinations"], colours, strict=True) if its == colour]
+        names = [written_label(name) for name, its in zip(found["destinations"], colours, strict=True) if its == colour]
         yield Entry(f"Basin of {', '.join(names)}", area=colour)

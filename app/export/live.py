@@ -23,18 +23,19 @@ from ..draw.packing import pack, unpack
 from ..draw.theme import MEASURES, themes
 from ..state.chosen import parameters_of
 from ..state.controls import NUMBERS, ExplorerState
+from ..state.pace import paced_values
 from .describe import place_words, psi_words, system_words
 from .view import OWN, View
 
-STATIC = Path(__file__).parents[1] / "static"
+SCRIPTS = Path(__file__).parents[1] / "static"
 #: Bytes of a file at most; of what is around the frames.
-MOST, AROUND = 2_000_000, 60_000
+MAX_BYTES, PAGE_BYTES = 2_000_000, 60_000
 #: Positions of one slider, of each of two; at least.
 ONE, TWO, FEWEST = 121, 13, 3
 #: Positions that are tried next, where so many are too large.
-SHRINK = 0.85
+GRID_SHRINKAGE = 0.85
 #: How finely frames are sampled, as a share of the picture's width, and where arrowheads are placed.
-SHARE = 1 / 700
+PRECISION_SHARE = 1 / 700
 MOST_SLIDERS = 2
 
 
@@ -47,15 +48,20 @@ class Slider:
     name : str
         A control that is a number, or "own:" and a parameter of the system.
     low, high : float
+    events : tuple of float
+        Values between them at which something happens: a film goes slowly there.
     """
 
     name: str
     low: float
     high: float
+    events: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, view: View, text: str) -> Slider:
-        """Return the slider that ``NAME`` or ``NAME=LOW,HIGH`` names; its range is by default that of the explorer.
+        """Return the slider that ``NAME``, ``NAME=LOW,HIGH`` or ``NAME=LOW,HIGH;EVENT,...`` names.
+
+        Its range is by default that of the explorer.
 
         Raises
         ------
@@ -70,24 +76,29 @@ class Slider:
             known = ", ".join([*NUMBERS[:5], "z", "n", *parameters])
             raise ValueError(f"{name[:40]!r} is no slider of this system; give one such as {known}.")
         low, high = (-4.0, 4.0) if own in parameters and name not in NUMBERS else _softbounds(name)
+        events: tuple[float, ...] = ()
         if span:
+            span, _, at = span.partition(";")
             try:
                 low, high = (float(word) for word in span.split(","))
+                events = tuple(float(word) for word in at.split(",") if word)
             except ValueError:
                 raise ValueError(f"{text[:60]!r} given; give NAME=LOW,HIGH such as f1=-1,1.") from None
         if not low < high or not abs(low) + abs(high) < 1e9:
             raise ValueError(f"{name} from {low:g} to {high:g}; give a range such as f1=-1,1.")
-        return cls(name if name in NUMBERS else OWN + own, low, high)
+        return cls(name if name in NUMBERS else OWN + own, low, high, tuple(v for v in events if low < v < high))
 
     @property
     def symbol(self) -> str:
-        """What stands before it."""
+        """Return the symbol before the slider."""
         if self.name in NUMBERS:
             return str(ExplorerState.param[self.name].label)
         return plain_symbol(self.name.removeprefix(OWN))
 
     def values(self, count: int, present: float) -> list[float]:
-        """Return so many positions, evenly over its range, the present value among them."""
+        """Return so many positions: evenly over its range, the present value among them; or slowly near its events."""
+        if self.events:
+            return paced_values(self.low, self.high, self.events, count)
         step = (self.high - self.low) / (count - 1)
         places = [self.low + step * k for k in range(count)]
         if self.low <= present <= self.high:
@@ -119,17 +130,17 @@ def live(view: View, sliders: Sequence[str]) -> bytes:
     count = ONE if len(chosen) == 1 else TWO
     while True:
         places = [slider.values(count, view.number(slider.name)) for slider in chosen]
-        budget = (MOST - AROUND) * 3 // 4
-        packed = _packed(view, chosen, places, budget)
+        budget = (MAX_BYTES - PAGE_BYTES) * 3 // 4
+        packed = _pack_frames(view, chosen, places, budget)
         if packed is not None:
             break
-        count = int(SHRINK * count)
+        count = int(GRID_SHRINKAGE * count)
         if count < FEWEST:
             raise ValueError("This view is too large for a live file; show fewer layers, or fewer starting points.")
     return _page(view, chosen, places, packed).encode()
 
 
-def _packed(
+def _pack_frames(
     view: View, chosen: Sequence[Slider], places: Sequence[Sequence[float]], budget: int
 ) -> tuple[list[int], bytes] | None:
     """Return the size of each frame and all of them packed, the first slider slowest; None if they are too large."""
@@ -152,7 +163,7 @@ def _packed(
 def _frame(view: View) -> bytes:
     """Return one frame; where there is nothing to be drawn, the sentence that says why."""
     try:
-        return view.frame(SHARE, whole=True)
+        return view.frame(PRECISION_SHARE, whole=True)
     except (ValueError, ArithmeticError) as error:
         return pack({"portrait": {"case": None, "name": "", "sentence": str(error), "degeneracies": []}}, {})
 
@@ -172,13 +183,13 @@ def _page(
         "measures": MEASURES,
     }  # fmt: skip
     data = json.dumps(settings, separators=(",", ":")).replace("<", "\\u003c")
-    script = bundle(STATIC / "live.js").replace("</script", "<\\/script")
+    script = bundle(SCRIPTS / "live.js").replace("</script", "<\\/script")
     told = "; ".join(filter(None, (system_words(view), psi_words(view), place_words(view))))
     at_first = f'<p class="note">At first: {escape(told)}. Made by codim2 {__version__}.</p>'
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" '
-        f'content="light dark">\n<style>{(STATIC / "live.css").read_text(encoding="utf-8")}</style></head>\n'
+        f'content="light dark">\n<style>{(SCRIPTS / "live.css").read_text(encoding="utf-8")}</style></head>\n'
         f'<body><h1>{escape(title)}</h1><canvas role="img" aria-label="The projected hemisphere: phase portrait">'
         f'</canvas><div class="sliders"></div><p class="sentence" aria-live="polite"></p>{at_first}\n'
         f'<script type="application/json" id="settings">{data}</script>\n'

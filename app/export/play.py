@@ -17,10 +17,10 @@ from ..draw.theme import themes
 from ..draw.vector.paper import paper
 from ..draw.vector.parts import Placement
 from ..phrases import say
-from ..state.launches import TYPED, chosen, read_launches
+from ..state.launches import TYPED, read_launches, selected_place
 from .figure import MM, PX, TITLE, Style, figure
 from .printing import DPI, png
-from .small.chart import Frame, framed
+from .small.chart import Frame, line_chart
 from .view import View
 
 #: What stands in the place of a slider's name.
@@ -33,7 +33,7 @@ SCALE, CHART = DPI * DENSITY / 72, 1.15
 
 @dataclass(frozen=True)
 class Scenery:
-    """What stands still in a film of play.
+    """The parts of a film that do not move.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class Scenery:
             dots.append((self.corner[0] + CHART * x, self.corner[1] + CHART * y))
         shown = self.drawn.copy()
         for dot in dots:
-            _put(shown, dot, self.colours)
+            _put_dot(shown, dot, self.colours)
         file = io.BytesIO()
         shown.save(file, "PNG", compress_level=1)
         return file.getvalue()
@@ -91,7 +91,7 @@ def pictures(view: View, style: Style, positions: int, first: int, last: int) ->
 
 def scenery(view: View, style: Style) -> Scenery:
     """Return what stands still in the film of a view."""
-    i = chosen(read_launches(view.values["orbits"]), view.values["orbit"])
+    i = selected_place(read_launches(view.values["orbits"]), view.values["orbit"])
     if i is None or i == TYPED:
         raise ValueError(say("nothing to play"))
     scene = view.scene()
@@ -99,12 +99,12 @@ def scenery(view: View, style: Style) -> Scenery:
     if np.hypot(*seed) == 1.0:
         raise ValueError(say("no time passes"))
     orbit = in_time(scene.coefficients, scene.psi, seed, (float(clock[0]), float(clock[-1])))
-    portrait = _opened(png(figure(view, style), DENSITY))
+    portrait = _open_png(png(figure(view, style), DENSITY))
     names, time = (("x/ε", "y/ε"), "τ = t/ε") if orbit.fast else (("x", "y"), "t")
     lines = [(name, orbit.time, values) for name, values in zip(names, orbit.xy.T, strict=True)]
     colours = paper() if style.theme == "paper" else themes()[style.theme]
-    over_time, frame = framed(lines, time, "", colours)
-    beside = _opened(png(over_time, CHART))
+    over_time, frame = line_chart(lines, time, "", colours)
+    beside = _open_png(png(over_time, CHART))
     drawn = Image.new("RGB", (portrait.width + beside.width, max(portrait.height, beside.height)), colours["page"])
     corner = portrait.width, (drawn.height - beside.height) // 2
     drawn.paste(portrait, (0, 0))
@@ -113,11 +113,11 @@ def scenery(view: View, style: Style) -> Scenery:
     return Scenery(drawn, orbit, place, frame, corner, (colours["motion"], colours["page"]))
 
 
-def _opened(drawn: bytes) -> Image.Image:
+def _open_png(drawn: bytes) -> Image.Image:
     return Image.open(io.BytesIO(drawn)).convert("RGB")
 
 
-def _put(shown: Image.Image, place: tuple[float, float], colours: tuple[str, str]) -> None:
+def _put_dot(shown: Image.Image, place: tuple[float, float], colours: tuple[str, str]) -> None:
     """Put a dot on a picture, where it is to parts of a px."""
     reach = int(DOT + RIM) + 2
     x, y = (round(v) for v in place)

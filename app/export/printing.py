@@ -14,10 +14,10 @@ MISSING = "PNG and PDF are made by Typst, which is missing: pip install 'codim2[
 #: No colour of its own: where the figure covers a part of the last pixels, a white one would be a line at a dark edge.
 PAGE = b'#set page(width: auto, height: auto, margin: 0pt, fill: none)\n#image("figure.svg")\n'
 #: Dots per inch of a PNG at scale 1, as a screen has them; largest scale.
-DPI, MOST = 96, 12.0
+DPI, MAX_SCALE = 96, 12.0
 
 
-def there() -> bool:
+def has_typst() -> bool:
     """Whether Typst is installed."""
     return find_spec("typst") is not None
 
@@ -36,8 +36,8 @@ def png(svg: str, scale: float = 3.0) -> bytes:
     ValueError
         The scale is out of range, or Typst is missing.
     """
-    if not 0 < scale <= MOST:
-        raise ValueError(f"scale is {scale:g}; give a number above 0, at most {MOST:g}.")
+    if not 0 < scale <= MAX_SCALE:
+        raise ValueError(f"scale is {scale:g}; give a number above 0, at most {MAX_SCALE:g}.")
     return _typst().compile(_input(svg), format="png", ppi=DPI * scale, font_paths=_fonts())
 
 

@@ -11,7 +11,7 @@ from codim2_core.psi.function import Psi
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
-from ..draw.layers import painted
+from ..draw.layers import layers_in_paint_order
 from .view import View
 
 #: Inputs of a scene that are told where they are other than at first.
@@ -32,9 +32,9 @@ def snippet(view: View) -> str:
     if len(scene.launch):
         inputs.append(f"launch={scene.launch.tolist()!r}")
     arguments = ", ".join(["system", "psi", *([f"z={scene.z!r}"] if scene.z else []), *inputs])
-    there = [layer for layer in painted() if len(scene.launch) or not layer.optional]
+    there = [layer for layer in layers_in_paint_order() if len(scene.launch) or not layer.optional]
     names = [part.scene for layer in there if layer.name in view.values["layers"] for part in layer.parts]
-    drawn = dict.fromkeys([*(name for name in names if name), *_standing(view.values["layers"])])
+    drawn = dict.fromkeys([*(name for name in names if name), *_equilibrium_lines(view.values["layers"])])
     where = f"# the same in a browser: the explorer's address with ?{view.query}\n" if view.query else ""
     return (
         f"# codim2 {__version__}\n{where}import codim2_core as c2\n\n"
@@ -46,7 +46,7 @@ def snippet(view: View) -> str:
     )
 
 
-def _standing(layers: list[str]) -> list[str]:
+def _equilibrium_lines(layers: list[str]) -> list[str]:
     return [name for name in ("equator", "critical", "outcomes") if name in layers]
 
 

@@ -11,16 +11,16 @@ import numpy as np
 from codim2_core.scene import Scene
 
 from ..draw import glyphs
-from ..draw.layers import Part, painted, shown
+from ..draw.layers import Part, default_layers, layers_in_paint_order
 from ..slow_layers import basins, outcomes
 
 #: Columns of a curve of the picture.
-PLACE = {
+PLACE_COLUMNS = {
     "curve": ("", "number of the curve, from 0"),
     "px": ("1", "first coordinate in the picture: p₁ on the hemisphere, (1 + ρ) cos θ outside"),
     "py": ("1", "second coordinate in the picture: p₂ on the hemisphere, (1 + ρ) sin θ outside"),
 }
-DIRECTIONS = {
+DIRECTION_COLUMNS = {
     "label": ("", "name in the picture"),
     "theta": ("rad", "angle θ of the limit direction"),
     "lambda_rho": ("1/T", "eigenvalue λ_ρ along ρ, of the time T with dT = dt/|(x, y)|"),
@@ -62,7 +62,7 @@ ARCS = {
     "end": ("rad", "angle at which it ends"),
     "kind": ("", "what becomes of what approaches there"),
 }
-BASINS = {
+BASIN_COLUMNS = {
     "px": ("1", "first coordinate of the middle of a cell"),
     "py": ("1", "second coordinate of the middle of a cell"),
     "destination": ("", "where the orbits from there end; empty if undecided"),
@@ -96,23 +96,23 @@ def tables(scene: Scene, layers: Collection[str] | None = None) -> dict[str, Tab
     layers : collection of str, optional
         Those that are drawn; default those that the explorer shows at first.
     """
-    drawn = shown() if layers is None else layers
+    drawn = default_layers() if layers is None else layers
     found: dict[str, Table] = {}
     if "equator" in drawn:
-        found["limit_directions"] = _picked(DIRECTIONS, glyphs.equator_columns(scene["equator"]))
+        found["limit_directions"] = _select_columns(DIRECTION_COLUMNS, glyphs.equator_columns(scene["equator"]))
     if "critical" in drawn:
         found["critical_sets"] = _critical(scene)
-    for layer in painted():
+    for layer in layers_in_paint_order():
         if layer.name in drawn and not (layer.optional and not len(scene.launch)):
             found |= {part.name: _curves(part, scene) for part in layer.parts}
     if "cycles" in drawn:
         cycles = glyphs.cycle_columns(scene["closed_orbits"])
-        found["limit_cycles"] = _picked(CYCLES, {**cycles, "curve": list(range(len(cycles["kind"])))})
+        found["limit_cycles"] = _select_columns(CYCLES, {**cycles, "curve": list(range(len(cycles["kind"])))})
     if "launched" in drawn and len(scene.launch):
         launched = glyphs.launched_columns(scene.launch, scene["launched"])
-        found["launched"] = _picked(LAUNCHED, {**launched, "px": launched["x"], "py": launched["y"]})
+        found["launched"] = _select_columns(LAUNCHED, {**launched, "px": launched["x"], "py": launched["y"]})
     if "outcomes" in drawn:
-        found["outcomes"] = _picked(ARCS, outcomes.columns(scene["outcomes"]))
+        found["outcomes"] = _select_columns(ARCS, outcomes.columns(scene["outcomes"]))
     if "basins" in drawn:
         found["basins"] = _basins(scene)
     return {name: table for name, table in found.items() if len(table)}
@@ -129,7 +129,7 @@ def data_frames(scene: Scene, layers: Collection[str] | None = None) -> dict[str
     return frames
 
 
-def _picked(columns: Mapping[str, tuple[str, str]], data: Mapping[str, Any]) -> Table:
+def _select_columns(columns: Mapping[str, tuple[str, str]], data: Mapping[str, Any]) -> Table:
     return Table(columns, {name: np.asarray(data[name]) for name in columns})
 
 
@@ -137,7 +137,7 @@ def _curves(part: Part, scene: Scene) -> Table:
     offsets, points = part.pieces(scene[part.scene])
     sizes = np.diff(offsets)
     data = {"curve": np.repeat(np.arange(len(sizes)), sizes), "px": points[:, 0], "py": points[:, 1]}
-    return Table(PLACE, data)
+    return Table(PLACE_COLUMNS, data)
 
 
 def _critical(scene: Scene) -> Table:
@@ -153,7 +153,7 @@ def _critical(scene: Scene) -> Table:
     flows = columns["slow_flow"]
     slow = {f"slow_flow{j + 1}": [flow[j] for flow in flows] for j in range(len(flows[0]) if flows else 0)}
     said = {name: ("1/t", f"z{name.removeprefix('slow_flow')}′ on the critical set") for name in slow}
-    return _picked({**CRITICAL, **said}, {**data, **slow})
+    return _select_columns({**CRITICAL, **said}, {**data, **slow})
 
 
 def _basins(scene: Scene) -> Table:
@@ -164,7 +164,7 @@ def _basins(scene: Scene) -> Table:
     row, column = np.divmod(np.arange(cells * cells), cells)
     inside = which > 0
     px, py = (2 * np.stack((column, row))[:, inside] + 1) / cells - 1  # the middle of each cell
-    return Table(BASINS, {"px": px, "py": py, "destination": names[which[inside]]})
+    return Table(BASIN_COLUMNS, {"px": px, "py": py, "destination": names[which[inside]]})
 
 
 def rows(table: Table) -> Iterator[tuple[Any, ...]]:

@@ -1,4 +1,4 @@
-"""What a browser may ask to take away of what it shows, and the file that it gets: one wish, read, bounded, made."""
+"""Requests of a browser for a file of what it shows: read, bounded, and made."""
 
 from __future__ import annotations
 
@@ -19,19 +19,20 @@ from .files import DATA
 from .film import STYLE, film
 from .live import MOST_SLIDERS, live
 from .printing import pdf
+from .tex.picture import tikz
 from .view import WHOLE, View
 
 #: Bytes of a file; what holds more goes by the command line.
-MOST = 24_000_000
+MAX_FILE_BYTES = 24_000_000
 TOO_LARGE = "The file would hold {} MB; show fewer layers, or fewer starting points."
 TYPES: Mapping[str, str] = MappingProxyType(
     {
         "svg": "image/svg+xml", "pdf": "application/pdf", "zip": "application/zip", "json": "application/json",
-        "npz": "application/octet-stream", "py": "text/x-python", "tex": "text/x-tex", "html": "text/html",
-        "gif": "image/gif", "proof": "application/json", "motion": "application/json",
+        "npz": "application/octet-stream", "py": "text/x-python", "tex": "text/x-tex", "tikz": "text/x-tex",
+        "html": "text/html", "gif": "image/gif", "proof": "application/json", "motion": "application/json",
     }
 )  # fmt: skip
-LONGEST, LONGEST_LINK = 80, 2000  # characters of a slider, bytes of an address that a phone can read
+MAX_SLIDER_CHARACTERS, LONGEST_LINK = 200, 2000  # characters of a slider, bytes of an address that a phone can read
 PROOF = "proof"
 #: What the page itself shows, and is computed while files are taken.
 SHOWN = (PROOF, "motion")
@@ -39,7 +40,7 @@ SHOWN = (PROOF, "motion")
 
 @dataclass(frozen=True)
 class Wish:
-    """What is asked for.
+    """One request for a file.
 
     Attributes
     ----------
@@ -57,7 +58,7 @@ class Wish:
 
     @property
     def job(self) -> str:
-        """What it is called among the jobs of a browser: of each name one at a time, a newer wish replaces an older."""
+        """Return the name of the job; of each name a browser has one at a time, and a newer one replaces an older."""
         return self.kind if self.kind in SHOWN else "take"
 
     @property
@@ -67,7 +68,7 @@ class Wish:
 
     @property
     def moving(self) -> Style:
-        """How a film looks."""
+        """Return the style of a film."""
         return replace(STYLE, theme=self.style.theme)
 
     @classmethod
@@ -84,7 +85,7 @@ class Wish:
         theme, sliders = request.get("theme", "light"), request.get("sliders", ())
         if theme not in THEMES or not isinstance(sliders, (list, tuple)) or len(sliders) > MOST_SLIDERS:
             raise ValueError(f"Give a theme ({', '.join(THEMES)}) and at most {MOST_SLIDERS} sliders.")
-        if not all(isinstance(one, str) and len(one) <= LONGEST for one in sliders):
+        if not all(isinstance(one, str) and len(one) <= MAX_SLIDER_CHARACTERS for one in sliders):
             raise ValueError("Give sliders as NAME or NAME=LOW,HIGH.")
         link = request.get("link", "")
         if not isinstance(link, str) or len(link.encode()) > LONGEST_LINK:
@@ -106,7 +107,7 @@ def seen_by(request: Any, values: Mapping[str, Any], system: System_ | None) -> 
     return View(dict(values), seen, system)
 
 
-def taken(view: View, wish: Wish) -> tuple[str, bytes]:
+def make_file(view: View, wish: Wish) -> tuple[str, bytes]:
     """Return the file's name and what it holds.
 
     Raises
@@ -117,18 +118,21 @@ def taken(view: View, wish: Wish) -> tuple[str, bytes]:
     make: Callable[[View], bytes] = {
         "svg": lambda one: figure(one, wish.style).encode(),
         "pdf": lambda one: pdf(figure(one, wish.style)),
+        "tikz": lambda one: tikz(figure(one, wish.style)).encode(),
         "html": lambda one: live(one, wish.sliders),
         "gif": lambda one: film(one, wish.slider, style=wish.moving),
         "proof": lambda one: proof(one.scene()),
         "motion": lambda one: motion(one.scene(), one.values),
     }.get(wish.kind) or DATA[f".{wish.kind}"]
     made = make(view)
-    if len(made) > MOST:
+    if len(made) > MAX_FILE_BYTES:
         raise ValueError(TOO_LARGE.format(round(len(made) / 1e6)))
-    return named(view, wish), made
+    return file_name(view, wish), made
 
 
-def named(view: View, wish: Wish) -> str:
+def file_name(view: View, wish: Wish) -> str:
     """Return the name of a file: letters, figures and dashes, which no system and no command line minds."""
     name = view.values["preset"] or view.scene()["name"].name.lower()
-    return f"codim2-{'-'.join(re.findall('[a-z0-9]+', name)) or 'view'}.{wish.kind}"
+    moves = wish.slider.partition("=")[0] if wish.kind == "gif" else ""  # two films of one portrait are two files
+    words = re.findall("[a-z0-9]+", f"{name} {moves}".lower())
+    return f"codim2-{'-'.join(words) or 'view'}.{wish.kind}"

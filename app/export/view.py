@@ -12,23 +12,23 @@ from codim2_core.figures.presets import presets
 from codim2_core.scene import Scene
 
 from ..draw.packing import Rectangle, pack
-from ..draw.theme import VIEW
+from ..draw.theme import HALF_VIEW
 from ..frame.picture import make_frame
 from ..frame.scenes import make_scene
-from ..frame.window import Window, seen
+from ..frame.window import Window, resample_for_window
 from ..slow_layers import basins, outcomes
 from ..state.choices import OWN_AXIS as OWN
 from ..state.chosen import System_, parameters_of
-from ..state.links import Link, Look, read_link, squeezed, write_link
+from ..state.links import Link, Look, compress_query, read_link, write_link
 
 #: Of the whole picture's width: curves of a figure are sampled within a quarter of it.
-FINE = 1 / 1600
-WHOLE: Rectangle = (-VIEW, VIEW, -VIEW, VIEW)
+FINE_PIXEL = 1 / 1600
+WHOLE: Rectangle = (-HALF_VIEW, HALF_VIEW, -HALF_VIEW, HALF_VIEW)
 
 
 @dataclass(frozen=True)
 class View:
-    """What is on one screen.
+    """The contents of one screen: a scene, the layers that are shown, and the part of the plane in view.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class View:
 
     @property
     def title(self) -> str:
-        """Of its portrait in the paper, if it is one; else empty."""
+        """Return the title of the portrait in the paper; empty if it is none of the paper's."""
         preset = presets.get(self.values["preset"])
         return preset.title if preset else ""
 
@@ -61,17 +61,17 @@ class View:
         """The query of the address that shows it; empty for a system from Python, which no address can carry."""
         if self.system is not None:
             return ""
-        return squeezed(write_link(self.values, Look(() if self.seen == WHOLE else self.seen)))
+        return compress_query(write_link(self.values, Look(() if self.seen == WHOLE else self.seen)))
 
     @property
     def width(self) -> float:
-        """Of what is seen, in picture units."""
+        """Return the width of the part of the picture in view, in picture units."""
         return self.seen[1] - self.seen[0]
 
     def scene(self) -> Scene:
         """Return what is computed for the screen."""
         window = None if self.seen == WHOLE else Window(self.seen, self.width / 700)
-        return seen(make_scene(self.values, self.system), window, rest=True)
+        return resample_for_window(make_scene(self.values, self.system), window, rest=True)
 
     def number(self, name: str) -> float:
         """Return the value of a control, or, after "own:", of a parameter of the system."""
@@ -88,7 +88,7 @@ class View:
         parameters = {**self.values["parameters"], **own}
         return replace(self, values={**self.values, **plain, "parameters": parameters})
 
-    def frame(self, share: float = FINE, whole: bool = False) -> bytes:
+    def frame(self, share: float = FINE_PIXEL, whole: bool = False) -> bytes:
         """Return all that is drawn as one packed frame, its curves sampled as finely as `share` of the width asks.
 
         `whole`: in whole steps, as frames of the whole picture travel, where the whole picture is seen.

@@ -18,7 +18,7 @@ AGAIN = 0.05
 
 
 class Compiling(event.Listener):
-    """How long this thread compiled kernels: that is the installation's matter, and is not counted against a formula.
+    """A clock of the time in which this thread compiled kernels: it is not counted against a formula.
 
     Numba tells every listener of what any thread compiles.
     """
@@ -63,12 +63,12 @@ def at_most(seconds: float) -> Iterator[None]:
         if not global_compiler_lock.is_locked() and time.thread_time() - began - compiling.seconds >= seconds:
             raise TimeoutError
 
-    def unraised(found: Any) -> None:
+    def report_unraisable(found: Any) -> None:
         # The interpreter drops what is raised in a callback of its garbage collector. That alarm is not a fault.
         if found.exc_type is not TimeoutError:
             told(found)
 
-    told, sys.unraisablehook = sys.unraisablehook, unraised
+    told, sys.unraisablehook = sys.unraisablehook, report_unraisable
     before = signal.signal(signal.SIGPROF, stop)  # processor time: a busy machine is not the formula's fault
     try:
         try:

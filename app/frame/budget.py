@@ -1,4 +1,4 @@
-"""What the thread that answers all visitors may compute itself, and what is computed beside it.
+"""The budget of the thread that answers all visitors: which layers it computes itself, and which go to a worker.
 
 Layers of an e-linear system are bounded: their frames take milliseconds, whatever the sliders say. Of typed formulas
 nobody knows beforehand. So the first picture of a formula is computed beside the frames, where its layers are timed;
@@ -26,7 +26,7 @@ from .faults import FAILURES
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
 LAYER, FRAME = 0.008, 0.02
 #: Seconds for one layer computed beside the frames: a wilder one is left out, and said to be.
-LONGEST = 6.0
+MAX_LAYER_SECONDS = 6.0
 #: Limit directions and critical sets together, beyond which the layers that follow each of them are not drawn.
 MOST_STANDING = 100
 #: Layers that start at each limit direction or critical set, or look for what is between them.
@@ -37,9 +37,9 @@ FOLLOWING = frozenset(
 #: Layers of e-linear systems that search for cycles: quick unless there may be some, in Case III.
 SEARCHING = frozenset({"outcomes", "certificates"})
 #: Directions on which a formula is looked at to see how wild it is.
-NET = 512
+COST_NET = 512
 #: Formulas whose layers have been timed, of one browser.
-REMEMBERED = 4
+REMEMBERED_SCENES = 4
 
 WORDS = {
     "nullclines_inside": "nullclines",
@@ -65,7 +65,7 @@ WORDS = {
     "certificates": "theorems",
 }
 
-_theta = np.arange(NET) * (2.0 * np.pi / NET)
+_theta = np.arange(COST_NET) * (2.0 * np.pi / COST_NET)
 _DIRECTIONS = np.stack([np.cos(_theta), np.sin(_theta)], axis=-1)
 
 
@@ -105,7 +105,9 @@ class Layers:
     left_out: Mapping[str, str]
 
 
-def layers_of(scene: Scene, names: Iterable[str], known: Mapping[str, Any], seconds: float = LONGEST) -> Layers:
+def layers_of(
+    scene: Scene, names: Iterable[str], known: Mapping[str, Any], seconds: float = MAX_LAYER_SECONDS
+) -> Layers:
     """Compute layers, one after the other, each for at most so long; what stands still comes first."""
     scene.give(known)
     took: dict[str, float] = {}
@@ -146,7 +148,7 @@ def wildness(scene: Scene) -> int:
 
 
 class Budget:
-    """What of one browser's scenes may be computed by the thread that answers.
+    """The part of one browser's scenes that the answering thread may compute.
 
     Parameters
     ----------
@@ -207,7 +209,7 @@ class Budget:
         self._timed[formula] = (3 * wildness(scene) // 2 + 8, {**before, **now})
         self._left_out[self.key(scene)] = found.left_out
         for kept in (self._timed, self._left_out):
-            while len(kept) > REMEMBERED:
+            while len(kept) > REMEMBERED_SCENES:
                 kept.popitem(last=False)
 
     @staticmethod

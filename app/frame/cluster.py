@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import Executor
 from typing import Any
 
-PATIENCE = 10  # seconds for a scheduler to answer
+SCHEDULER_TIMEOUT = 10  # seconds for a scheduler to answer
 
 
 class ClusterError(Exception):
@@ -30,7 +30,7 @@ def cluster(address: str) -> tuple[Executor, int]:
     except ImportError:
         raise ClusterError("--dask needs Dask: install codim2[dask].") from None
     try:
-        client = Client(address, timeout=PATIENCE, set_as_default=False)
+        client = Client(address, timeout=SCHEDULER_TIMEOUT, set_as_default=False)
     except (OSError, ValueError):
         raise ClusterError(f"no Dask scheduler answers at {address}; give its address as tcp://HOST:PORT.") from None
     threads: Any = client.nthreads()  # not a coroutine: this client has a thread for its own

@@ -9,7 +9,7 @@ from typing import Any
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
-from codim2_core.words import printed
+from codim2_core.words import printed_sentence
 
 from ..state.chosen import System_
 from .budget import LeftOut
@@ -73,7 +73,7 @@ class Draft:
 
     def unable(self, name: str, sentence: str) -> None:
         """Tell the browser why there is nothing of this name."""
-        self.header.setdefault("unable", {})[name] = printed(sentence)
+        self.header.setdefault("unable", {})[name] = printed_sentence(sentence)
 
     def slow(self, name: str, key: Hashable, make: Callable[..., Any], *arguments: Any) -> Any:
         """Return a slow result, ``make(*arguments)``, if the browser lacks it and it is there.

@@ -1,4 +1,4 @@
-"""What a person is told when something goes wrong: the core's sentence, or that the program is at fault.
+"""Sentences for errors: the core's own, or that the program is at fault.
 
 Nothing of the server's insides is in an answer; the host finds the traceback in the log, once for each place.
 """

@@ -1,4 +1,4 @@
-"""What one browser waits for: slow results, computed beside the frames so that no slider ever waits for one.
+"""Slow results of one browser, computed in workers so that no slider ever waits for them.
 
 A browser has at most one wish for each thing it shows; a newer one replaces it, and what nobody wants any more ends.
 What is found is shared: forty students who look at the same figure cost one computation.
@@ -18,7 +18,7 @@ _given: WeakKeyDictionary[Executor, Turns] = WeakKeyDictionary()
 
 
 def serve_with(turns: Turns) -> None:
-    """From now on the jobs of this process take these turns: a server has processes for them."""
+    """Give the jobs of this process these turns: a server shares its worker processes by them."""
     _served[:] = [turns]
 
 
@@ -37,7 +37,7 @@ class Jobs:
 
     @property
     def turns(self) -> Turns:
-        """Whose turn it is, among all browsers."""
+        """Return the turns that all browsers share."""
         if self._given is not None:
             return self._given
         return _served[0] if _served else in_a_thread()

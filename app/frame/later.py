@@ -1,4 +1,4 @@
-"""What is asked of a page from elsewhere is done by the thread that answers, in its turn.
+"""Run calls from other threads in the thread that answers a page, in order.
 
 Bokeh's own callbacks of a document hold it, and each other in a cycle: once called they are garbage, which a search
 must find before the document goes. What is made here is gone as soon as it was called.
@@ -21,10 +21,10 @@ Later = Callable[[Callable[[], None]], Any]
 
 def later(document: Document) -> Later:
     """Return what has functions called for a document of Bokeh's, with its lock; none once its session is over."""
-    return partial(IOLoop.current().add_callback, _called, document)
+    return partial(IOLoop.current().add_callback, _call_next_tick, document)
 
 
-async def _called(document: Document, function: Callable[[], None]) -> None:
+async def _call_next_tick(document: Document, function: Callable[[], None]) -> None:
     async def call(its: Document) -> None:
         with patch_curdoc(its):
             try:

@@ -1,4 +1,4 @@
-"""How busy this process is, which tells browsers far away whether a second request on its way would wait here."""
+"""The load of this process, by which far-away browsers decide whether to send a second request ahead."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ SPAN = 0.25
 _STATISTICS = Path("/proc/thread-self/schedstat")
 
 
-def taken() -> float:
+def processor_seconds() -> float:
     """Return the seconds that this thread has run or, where the system tells it, has waited for a processor to run."""
     try:
         running, waiting, _ = _STATISTICS.read_text().split()
@@ -25,14 +25,14 @@ class Load:
 
     def __init__(self) -> None:
         self.share = 0.0
-        self._since = time.perf_counter(), taken()
+        self._since = time.perf_counter(), processor_seconds()
 
     def measured(self) -> float:
         """Return the share, 0 to 1; called with every frame, by the thread that makes it."""
         now = time.perf_counter()
         passed = now - self._since[0]
         if passed >= SPAN:
-            work = taken()
+            work = processor_seconds()
             self.share = round(min(1.0, max(0.0, (work - self._since[1]) / passed)), 2)
             self._since = now, work
         return self.share

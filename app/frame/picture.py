@@ -1,4 +1,4 @@
-"""What a frame holds of a scene: the layers that are seen and have changed, as bytes, and what is said beside them."""
+"""The contents of a frame: layers that are visible and have changed, as bytes, and their notes."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from codim2_core.portrait.separatrix import Separatrices
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
-from codim2_core.words import named
+from codim2_core.words import written_label
 
 from ..draw import glyphs
 from ..draw.layers import LAYERS
@@ -28,7 +28,7 @@ from .window import Window
 Blocks = dict[str, NDArray[Any] | Polylines]
 
 #: In place of a layer: it is computed beside the frames; it is left out.
-LATER, NOTHING = object(), object()
+LATER, NOT_DRAWN = object(), object()
 
 
 def told_once(name: Classification) -> str:
@@ -56,7 +56,7 @@ class Asked:
         self.left_out: list[LeftOut] = []
 
     def get(self, name: str) -> Any:
-        """Return a layer, `LATER` if it is not to be had now, or `NOTHING` if it is left out."""
+        """Return a layer, `LATER` if it is not to be had now, or `NOT_DRAWN` if it is left out."""
         try:
             return self.scene[name]
         except NotYet:
@@ -64,7 +64,7 @@ class Asked:
             return LATER
         except LeftOut as why:
             self.left_out.append(why)
-            return NOTHING
+            return NOT_DRAWN
 
 
 @cache
@@ -91,18 +91,19 @@ def make_frame(
     asked = Asked(scene) if asked is None else asked
     now = dict(sent)
     header: dict[str, Any] = {"ready": ready}
-    blocks = _drawn(values["layers"], now, ready, window, asked, header)
-    if "cycles" in blocks and now["cycles"] is not NOTHING:
+    blocks = _changed_blocks(values["layers"], now, ready, window, asked, header)
+    if "cycles" in blocks and now["cycles"] is not NOT_DRAWN:
         header["cycles"] = {**glyphs.cycle_columns(scene["closed_orbits"]), "proof": provable(scene.problem)}
-    if "launched_1" in blocks and now["launched_1"] is not NOTHING:
+    if "launched_1" in blocks and now["launched_1"] is not NOT_DRAWN:
         header["launched"] = {
             **glyphs.launched_columns(scene.launch, scene["launched"]),
-            **numbered(values["orbits"]),
+            **orbit_labels(values["orbits"]),
         }
     if "separatrices_stable" in blocks and isinstance(now["separatrices_stable"], Separatrices):
         branches = scene["separatrices"]
         header["separatrices"] = [
-            [named(b.origin), named(b.end), b.status if b.connection or b.end == "undecided" else ""] for b in branches
+            [written_label(b.origin), written_label(b.end), b.status if b.connection or b.end == "undecided" else ""]
+            for b in branches
         ]
     _tell_facts(header, now, asked, ready)
     return header, blocks, now
@@ -116,7 +117,7 @@ def _fresh(now: dict[str, Any], key: str, result: Any) -> bool:
     return True
 
 
-def _drawn(
+def _changed_blocks(
     layers: Sequence[str],
     now: dict[str, Any],
     ready: bool,
@@ -142,8 +143,8 @@ def _drawn(
             result = asked.get(source)
             if result is LATER:
                 continue
-            if result is NOTHING:
-                if _fresh(now, part.name, NOTHING):
+            if result is NOT_DRAWN:
+                if _fresh(now, part.name, NOT_DRAWN):
                     blocks[part.name] = Polylines(*glyphs.join([]), part.arrows)
                 continue
             if layer.optional and part.name not in now and not len(result):
@@ -160,7 +161,7 @@ def _drawn(
     return blocks
 
 
-def numbered(orbits: str) -> dict[str, list[Any]]:
+def orbit_labels(orbits: str) -> dict[str, list[Any]]:
     """Return the number in the list, and the name, of each launched orbit that is shown."""
     rows = [(i + 1, orbit.name) for i, orbit in enumerate(read_launches(orbits)) if not orbit.hidden]
     return {"number": [number for number, _ in rows], "called": [name for _, name in rows]}
@@ -173,7 +174,7 @@ def _portrait(asked: Asked, ready: bool) -> Any:
         if not ready and name.case not in ("I", "II"):
             return LATER  # whether there is a limit cycle is not known before its search is compiled
         found = asked.get("classification")
-        return name if found is NOTHING else found
+        return name if found is NOT_DRAWN else found
     return name
 
 
@@ -182,27 +183,27 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked, ready
     equator, cycle, critical = (asked.get(name) for name in ("equator", "equator_cycle", "critical"))
     eigen = asked.get("eigendirections")
     name, flow = _portrait(asked, ready), asked.get("slow_flow")
-    if equator is NOTHING:
+    if equator is NOT_DRAWN:
         equator, cycle = no_directions(), None
     if equator is not LATER and cycle is not LATER and _fresh(now, "equator", equator):
-        cycle = None if cycle is NOTHING else cycle
+        cycle = None if cycle is NOT_DRAWN else cycle
         header["equator"] = {**glyphs.equator_columns(equator), "proved": equator.exact}
         header["sense"] = glyphs.equator_arrows(equator, 0 if cycle is None else int(cycle.direction))
         header["all_directions"] = bool(equator.all_directions)
         header["cycle"] = None if cycle is None else float(cycle.exponent)
     if _fresh(now, "psi", asked.scene.psi):
         header["psi_note"] = breaks(asked.scene.psi)
-    critical = () if critical is NOTHING else critical
+    critical = () if critical is NOT_DRAWN else critical
     if critical is not LATER and _fresh(now, "critical", critical):
         where = asked.scene.problem.location
         header["critical"] = {**glyphs.critical_columns(critical), "proved": where is not None and where.exact}
     # what stands still comes with its eigenvectors, or without any: never with those of another setting
     if _fresh(now, "eigendirections", eigen) or "equator" in header or "critical" in header:
-        there = eigen is not LATER and eigen is not NOTHING
+        there = eigen is not LATER and eigen is not NOT_DRAWN
         header["eigen"] = (
             dict(zip(("equator", "critical"), map(glyphs.eigen_columns, eigen), strict=True)) if there else None
         )
-    if name is NOTHING and _fresh(now, "classification", name):
+    if name is NOT_DRAWN and _fresh(now, "classification", name):
         header["portrait"] = {"case": None, "name": "", "sentence": "", "degeneracies": []}
     elif isinstance(name, Classification | PortraitName) and _fresh(now, "classification", name):
         header["portrait"] = {
@@ -211,7 +212,7 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked, ready
             "sentence": told_once(name) if isinstance(name, Classification) else "",
             "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
         }
-    flow = None if flow is LATER or flow is NOTHING else flow
+    flow = None if flow is LATER or flow is NOT_DRAWN else flow
     if flow is not None and flow.ndim > 1:  # a general system has a slow flow for each critical set
         flow = flow[0] if len(flow) == 1 else None
     header["slow_flow"] = None if flow is None else [float(v) for v in flow]

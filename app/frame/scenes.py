@@ -1,4 +1,4 @@
-"""From the values of the controls to the scene that is drawn, and from changed values to the changed scene."""
+"""Build the scene that is drawn from the values of the controls, and evolve it when they change."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
-from ..draw.theme import REACH
+from ..draw.theme import PICTURE_REACH
 from ..state.choices import COEFFICIENTS, SLOW_CONTROLS
 from ..state.chosen import NORMAL, System_, TextError, build, parameters_of
 from ..state.chosen_psi import build_psi
 from ..state.cleaning import InputError
 from ..state.launches import read_launches
-from ..state.opening import opening
+from ..state.opening import opening_values
 from .budget import LeftOut, NotYet
 
 #: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:
@@ -35,12 +35,12 @@ def make_scene(values: Mapping[str, Any], system: System_ | None = None) -> Scen
         A text or a value cannot be used.
     """
     system = chosen_system(values) if system is None else system
-    psi, launch = build_psi(values), launched(values)
+    psi, launch = build_psi(values), launch_points(values)
     place, cut = position(values, system.m), values["cut"]
-    return Scene(system, psi, place, count=values["trajectories"], launch=launch, view=REACH, cut=cut)
+    return Scene(system, psi, place, count=values["trajectories"], launch=launch, view=PICTURE_REACH, cut=cut)
 
 
-def launched(values: Mapping[str, Any]) -> list[tuple[float, float]]:
+def launch_points(values: Mapping[str, Any]) -> list[tuple[float, float]]:
     """Return where the launched orbits that are shown start."""
     return [(orbit.x, orbit.y) for orbit in read_launches(values["orbits"]) if not orbit.hidden]
 
@@ -74,7 +74,7 @@ def position(values: Mapping[str, Any], m: int) -> tuple[float, ...]:
     return tuple(values[name] for name in SLOW_CONTROLS[:m]) + (0.0,) * (m - len(SLOW_CONTROLS))
 
 
-def settled(values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def complete_changes(values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the changes with what another choice of system brings: its first place on Sigma, its own parameters.
 
     The panel stays open unless it is the atlas and the new system has none.
@@ -83,13 +83,13 @@ def settled(values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, 
     choice = wanted.get("system")
     if choice is None or choice == values["system"]:
         return wanted
-    brought = opening(choice)
+    brought = opening_values(choice)
     if values["panel"] != "atlas":
         del brought["panel"]
     return {**brought, **wanted}
 
 
-def evolved(
+def evolve_scene(
     scene: Scene, values: Mapping[str, Any], changed: Collection[str], given: Mapping[str, float] | None = None
 ) -> Scene:
     """Return the scene after some values have changed; it shares all that they do not reach.
@@ -116,7 +116,7 @@ def evolved(
     if {"psi", "n", "psi_text"} & set(changed):
         changes["psi"] = build_psi(values)
     if "orbits" in changed:
-        changes["launch"] = launched(values)
+        changes["launch"] = launch_points(values)
     if "trajectories" in changed:
         changes["count"] = values["trajectories"]
     if "cut" in changed:

@@ -1,4 +1,4 @@
-"""What lies on either side of a degenerate setting, along the control that was moved last."""
+"""Portraits on either side of a degenerate setting, along the control that was moved last."""
 
 from __future__ import annotations
 

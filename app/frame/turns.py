@@ -1,4 +1,4 @@
-"""Whose work comes next: browsers take turns, so that nobody waits for all that another has asked for.
+"""A fair queue for workers: browsers take turns, so that nobody waits for all that another has asked for.
 
 What several ask for is computed once, and stopped when none of them wants it any more. Where it is computed is an
 executor's affair: a thread in a notebook, processes on a server, or what the host brings (`Turns(executor, at_once)`).
@@ -24,7 +24,7 @@ from ..phrases import say
 from .faults import FAULT, sentence_of
 
 #: KeptResults kept for all browsers of a process, and what they may hold together, in bytes.
-KEPT = 128
+MAX_KEPT_RESULTS = 128
 KEPT_BYTES = 64_000_000
 
 
@@ -38,7 +38,7 @@ class Failed:
 class KeptResults:
     """Results by key, the most recently used last; bounded in number and in size."""
 
-    def __init__(self, most: int = KEPT, most_bytes: int = KEPT_BYTES) -> None:
+    def __init__(self, most: int = MAX_KEPT_RESULTS, most_bytes: int = KEPT_BYTES) -> None:
         self.most, self.most_bytes = most, most_bytes
         self.size = 0
         self._kept: OrderedDict[Hashable, tuple[Any, int]] = OrderedDict()

@@ -1,4 +1,4 @@
-"""What is seen of the picture: the scene is sampled there, and as finely as the screen shows it."""
+"""The visible part of the picture: the scene is sampled there, as finely as the screen shows it."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from codim2_core.scene import Scene
 
 from ..draw.packing import Rectangle
-from ..draw.theme import NEAREST, REACH, VIEW, WIDEST
+from ..draw.theme import HALF_VIEW, MAX_HALF_VIEW, NEAREST, PICTURE_REACH
 
-PIXEL = 1 / 180  # of the whole picture, while something moves
-LENGTH = 9.0  # of each half of an orbit in the whole picture
-MARGIN = 0.25  # of its size, around a window: what a small pan shows at once
+MOVING_PIXEL = 1 / 180  # of the whole picture, while something moves
+WINDOW_ORBIT_LENGTH = 9.0  # of each half of an orbit in the whole picture
+WINDOW_MARGIN = 0.25  # of its size, around a window: what a small pan shows at once
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,9 @@ class Window:
         sizes = right - left, top - bottom
         far = max(map(abs, (left, right, bottom, top)))
         if not (
-            math.isfinite(pixel) and all(1.9 * NEAREST <= size <= 2.1 * WIDEST for size in sizes) and far <= 3 * WIDEST
+            math.isfinite(pixel)
+            and all(1.9 * NEAREST <= size <= 2.1 * MAX_HALF_VIEW for size in sizes)
+            and far <= 3 * MAX_HALF_VIEW
         ):
             return None
         return cls((left, right, bottom, top), min(max(pixel, sizes[0] / 4000), sizes[0] / 100))
@@ -50,7 +52,7 @@ class Window:
     def around(self) -> Rectangle:
         """The rectangle with its margin."""
         left, right, bottom, top = self.rectangle
-        x, y = MARGIN * (right - left), MARGIN * (top - bottom)
+        x, y = WINDOW_MARGIN * (right - left), WINDOW_MARGIN * (top - bottom)
         return left - x, right + x, bottom - y, top + y
 
     def cut(
@@ -75,19 +77,19 @@ class Window:
 def inputs(window: Window | None, rest: bool) -> dict[str, Any]:
     """Return the inputs of the scene for what is seen; what moves is drawn as finely as the whole picture is."""
     if window is None:
-        return {"view": REACH, "pixel": PIXEL, "window": None, "length": LENGTH}
+        return {"view": PICTURE_REACH, "pixel": MOVING_PIXEL, "window": None, "length": WINDOW_ORBIT_LENGTH}
     left, right, bottom, top = window.rectangle
-    reach = max(REACH, 1.02 * math.hypot(max(-left, right), max(-bottom, top)))
-    pixel = window.pixel * PIXEL * 350 / VIEW
+    reach = max(PICTURE_REACH, 1.02 * math.hypot(max(-left, right), max(-bottom, top)))
+    pixel = window.pixel * MOVING_PIXEL * 350 / HALF_VIEW
     return {
         "view": reach,
-        "pixel": pixel if rest else max(PIXEL, pixel),
+        "pixel": pixel if rest else max(MOVING_PIXEL, pixel),
         "window": window.rectangle,
-        "length": LENGTH * reach / REACH,
+        "length": WINDOW_ORBIT_LENGTH * reach / PICTURE_REACH,
     }
 
 
-def seen(scene: Scene, window: Window | None, rest: bool) -> Scene:
+def resample_for_window(scene: Scene, window: Window | None, rest: bool) -> Scene:
     """Return the scene sampled where and as finely as it is seen."""
     wanted = inputs(window, rest)
     changes = {name: value for name, value in wanted.items() if getattr(scene, name) != value}

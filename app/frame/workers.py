@@ -22,7 +22,7 @@ from ..phrases import say
 
 #: Seconds of its own time after which a worker is stopped, whatever it is doing; and how many times that by the clock,
 #: where it gets little of a busy machine.
-SECONDS, PATIENCE = 60.0, 5.0
+SECONDS, SHUTDOWN_SECONDS = 60.0, 5.0
 #: Processes that answer visitors go first: they have three times the share of a worker where processors are short. At
 #: 10 it was ten times, and work of two seconds was stopped after 60 on a busy machine.
 NICE = 5
@@ -94,7 +94,7 @@ class Workers(Executor):
     count : int
         At most so many processes.
     seconds : float
-        After so much time of its own, or `PATIENCE` times that by the clock, a work is stopped: its future has
+        After so much time of its own, or `SHUTDOWN_SECONDS` times that by the clock, a work is stopped: its future has
         TimeoutError.
     preload : sequence of str
         Modules that a worker finds imported. They are imported once, in a process of its own from which the workers
@@ -206,7 +206,7 @@ class Workers(Executor):
             raise CancelledError
         try:
             pipe.send_bytes(call)
-            there = _awaited(pipe, process, self.seconds)
+            there = _await_answer(pipe, process, self.seconds)
             answer = pipe.recv_bytes() if pipe in there else None
         except (OSError, EOFError):  # it died in mid-sentence
             there, answer = [process.sentinel], None
@@ -229,9 +229,9 @@ class Workers(Executor):
         return result
 
 
-def _awaited(pipe: Connection, process: Any, seconds: float) -> list[Any]:
+def _await_answer(pipe: Connection, process: Any, seconds: float) -> list[Any]:
     """Wait until a worker answers or ends; nothing is returned once it has worked for so long."""
-    begun, end = _own_time(process.pid), time.monotonic() + PATIENCE * seconds
+    begun, end = _own_time(process.pid), time.monotonic() + SHUTDOWN_SECONDS * seconds
     left = seconds
     while left > 0.0:
         there = wait([pipe, process.sentinel], max(left, 0.01))
@@ -257,7 +257,7 @@ def _work(pipe: Connection, most_grown: int, most_asked: int) -> None:
         os.nice(max(0, NICE - os.nice(0)))
     threading.Thread(target=_end_with_parent, daemon=True).start()
     _bound_memory(most_asked)
-    before, last = held(), False
+    before, last = memory_in_use(), False
     while not last:
         try:
             function, args, named = pickle.loads(pipe.recv_bytes())
@@ -267,7 +267,7 @@ def _work(pipe: Connection, most_grown: int, most_asked: int) -> None:
             answer = True, function(*args, **named)
         except Exception as error:  # whoever asked has it as the future's; the worker goes on
             answer = False, error
-        last = held() - before > most_grown
+        last = memory_in_use() - before > most_grown
         try:
             data = pickle.dumps((*answer, last))
         except Exception as error:  # of any kind: a result's own __reduce__ may raise whatever it likes
@@ -291,7 +291,7 @@ def _bound_memory(most_asked: int) -> None:
         )
 
 
-def held() -> int:
+def memory_in_use() -> int:
     """Return how many bytes this process holds; 0 where the system does not tell."""
     try:
         return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGESIZE")

@@ -13,11 +13,11 @@ from ..phrases import say
 from .condition import FactCondition
 from .facts import FACTS, Fact, facts_of
 from .lesson import Question, portrait_of
-from .marks import NEAR, Point, gap
-from .words import filled
+from .marks import MARK_TOLERANCE, Point, gap
+from .words import fill_facts
 
 MOST_DRAWN = 60  # tries to fulfil what a question requires
-DIGITS = 2  # of drawn numbers: what a slider shows
+DRAWN_DIGITS = 2  # of drawn numbers: what a slider shows
 
 
 def pose(question: Question, values: Mapping[str, Any], seed: int) -> dict[str, Any]:
@@ -42,9 +42,9 @@ def pose(question: Question, values: Mapping[str, Any], seed: int) -> dict[str, 
     wanted = chance.randrange(len(question.options) + bool(question.mark))  # the last: there is a place to mark
     admitted: dict[str, Any] | None = None
     for _ in range(MOST_DRAWN):
-        drawn = {name: _drawn(chance, value) for name, value in question.draw.items()}
+        drawn = {name: _draw_value(chance, value) for name, value in question.draw.items()}
         scene = make_scene({**values, **portrait_of(drawn.get("preset")), **drawn})
-        if _holds(question.require, scene, default=True) and not reached(question, scene):
+        if _holds(question.require, scene, default=True) and not goal_is_reached(question, scene):
             admitted = drawn
             if not _varies(question) or wanted == _answer(question, scene):
                 return drawn
@@ -68,8 +68,8 @@ def _varies(question: Question) -> bool:
     return any(isinstance(value, tuple) for value in question.draw.values())
 
 
-def _drawn(chance: random.Random, value: Any) -> Any:
-    return round(chance.uniform(*value), DIGITS) if isinstance(value, tuple) else value
+def _draw_value(chance: random.Random, value: Any) -> Any:
+    return round(chance.uniform(*value), DRAWN_DIGITS) if isinstance(value, tuple) else value
 
 
 def judge(question: Question, scene: Scene, answer: int | Point) -> dict[str, Any]:
@@ -92,12 +92,12 @@ def judge(question: Question, scene: Scene, answer: int | Point) -> dict[str, An
     truth = right_option(question, facts)
     if isinstance(answer, int):
         right = answer == truth
-        why = "" if right else filled(question.options[answer].wrong, facts)
+        why = "" if right else fill_facts(question.options[answer].wrong, facts)
     else:
         away = gap(question.mark, scene, answer)
-        right = away is not None and away <= NEAR
+        right = away is not None and away <= MARK_TOLERANCE
         why = say("no such place") if away is None else "" if right else say("mark away", away=f"{away:.2f}")
-    return {"right": right, "truth": truth, "why": why, "explain": filled(question.explain, facts)}
+    return {"right": right, "truth": truth, "why": why, "explain": fill_facts(question.explain, facts)}
 
 
 def right_option(question: Question, facts: Mapping[str, Fact]) -> int | None:
@@ -106,7 +106,7 @@ def right_option(question: Question, facts: Mapping[str, Fact]) -> int | None:
     return holding[0] if len(holding) == 1 else None
 
 
-def reached(question: Question, scene: Scene) -> bool:
+def goal_is_reached(question: Question, scene: Scene) -> bool:
     """Say whether the present scene reaches the goal of `vary`."""
     return question.vary is not None and _holds(question.vary.goal, scene)
 
@@ -115,4 +115,4 @@ def stands(question: Question, scene: Scene) -> str:
     """Return where the present scene stands with what the goal of `vary` reads."""
     names = sorted(question.vary.goal.names) if question.vary else []
     facts = facts_of(scene, names)
-    return ", ".join(f"{FACTS[name][0]}: {filled(f'{{{name}}}', facts)}" for name in names)
+    return ", ".join(f"{FACTS[name][0]}: {fill_facts(f'{{{name}}}', facts)}" for name in names)

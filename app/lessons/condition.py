@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-LONGEST = 300
+MAX_CONDITION_CHARACTERS = 300
 _COMPARE: dict[type[ast.cmpop], Callable[[Any, Any], bool]] = {
     ast.Eq: operator.eq, ast.NotEq: operator.ne, ast.Lt: operator.lt, ast.LtE: operator.le, ast.Gt: operator.gt,
     ast.GtE: operator.ge, ast.In: lambda a, b: a in b, ast.NotIn: lambda a, b: a not in b,
@@ -56,7 +56,7 @@ def condition(text: str, known: frozenset[str]) -> FactCondition:
     ValueError
         It cannot be read, or uses something that is not known.
     """
-    if not isinstance(text, str) or not text.strip() or len(text) > LONGEST:
+    if not isinstance(text, str) or not text.strip() or len(text) > MAX_CONDITION_CHARACTERS:
         raise ValueError(f"a condition is {text!r}; give text such as 'stable >= 1 and limit_directions == 4'.")
     try:
         tree = ast.parse(text.strip(), mode="eval").body

@@ -125,7 +125,7 @@ FACTS: dict[str, tuple[str, str, Callable[[Scene], Fact]]] = {
     ),
     "verdicts": ("approaches", "what becomes of approaches: slide, cycle, cross, misses, undecided", _verdicts),
 }
-KNOWN = frozenset(FACTS)
+FACT_NAMES = frozenset(FACTS)
 #: Facts that need compiled trajectories.
 COMPILED = frozenset({"cycles", "stable_cycles", "verdicts"})
 

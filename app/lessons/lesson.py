@@ -1,4 +1,4 @@
-"""What a lesson is: prose, and questions whose answers are conditions on the scene that the student sees."""
+"""A lesson: prose, and questions whose answers are conditions on the scene that the student sees."""
 
 from __future__ import annotations
 
@@ -93,12 +93,12 @@ class Question:
 
 
 #: Values that say where in the course somebody is: no portrait that a lesson shows may move them.
-PLACE = frozenset({"panel", "lesson", "quiz"})
+PLACE_CONTROLS = frozenset({"panel", "lesson", "quiz"})
 
 
 def portrait_of(key: str | None) -> dict[str, Any]:
     """Return the values of a portrait as a lesson shows it; none if there is no such portrait."""
-    return {name: value for name, value in preset_values(key).items() if name not in PLACE}
+    return {name: value for name, value in preset_values(key).items() if name not in PLACE_CONTROLS}
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from .lesson import Lesson
 from .reading import LessonError, read_lesson
 
 #: A lesson is one file here; its name's number gives the order.
-TEXT = Path(__file__).parent / "text"
+LESSON_FOLDER = Path(__file__).parent / "text"
 
 _own: dict[str, Lesson] = {}
 
@@ -31,7 +31,7 @@ def offer(found: Mapping[str, Lesson]) -> None:
 @lru_cache(maxsize=1)
 def built_in() -> Mapping[str, Lesson]:
     """Return the package's own lessons by key, in order; a broken one raises LessonError."""
-    return MappingProxyType({path.stem: read_lesson(path) for path in sorted(TEXT.glob("*.md"))})
+    return MappingProxyType({path.stem: read_lesson(path) for path in sorted(LESSON_FOLDER.glob("*.md"))})
 
 
 def from_folder(folder: Path) -> tuple[dict[str, Lesson], list[LessonError]]:

@@ -45,7 +45,7 @@ def formula(text: str, display: bool = False) -> str:
     return convert(text, display="block" if display else "inline")
 
 
-def rendered(tokens: Sequence[Token], resolve: Resolve) -> str:
+def render_html(tokens: Sequence[Token], resolve: Resolve) -> str:
     """Return the HTML of tokens of `parser`.
 
     Parameters
@@ -105,4 +105,4 @@ def live(name: str) -> str:
 
 def inline(text: str, resolve: Resolve) -> str:
     """Return a line of Markdown as HTML, without a paragraph around it."""
-    return rendered(parser().parseInline(text), resolve)
+    return render_html(parser().parseInline(text), resolve)

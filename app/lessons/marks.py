@@ -1,4 +1,4 @@
-"""What a question may ask a student to mark on the picture: where it is in a scene, and how near a mark must come.
+"""Marks that a question may ask for on the picture: their places in a scene, and how near an answer must come.
 
 To add one is one entry of `MARKS`.
 """
@@ -16,7 +16,7 @@ from codim2_core.scene import Scene
 Point = tuple[float, float]
 
 #: As far from the place, in radii of the disc, a mark is right: twice the size of a fingertip on a phone's picture.
-NEAR = 0.2
+MARK_TOLERANCE = 0.2
 
 
 def _critical(*kinds: str) -> Callable[[Scene], list[Point]]:
@@ -47,7 +47,7 @@ MARKS: dict[str, tuple[str, Callable[[Scene], list[Point]]]] = {
     ),
 }
 #: Those that lie on the equator: a mark beside it counts by its angle.
-ON_EQUATOR = frozenset({"limit_directions", "arriving", "leaving", "along_an_open_set"})
+EQUATOR_MARKS = frozenset({"limit_directions", "arriving", "leaving", "along_an_open_set"})
 
 
 def gap(what: str, scene: Scene, place: Point) -> float | None:
@@ -66,6 +66,6 @@ def gap(what: str, scene: Scene, place: Point) -> float | None:
         return None
     x, y = place
     radius = math.hypot(x, y)
-    if what in ON_EQUATOR:  # the middle of the disc has no angle
-        x, y = (x / radius, y / radius) if radius > NEAR else (0.0, 0.0)
+    if what in EQUATOR_MARKS:  # the middle of the disc has no angle
+        x, y = (x / radius, y / radius) if radius > MARK_TOLERANCE else (0.0, 0.0)
     return min(math.hypot(x - u, y - v) for u, v in there)

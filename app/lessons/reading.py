@@ -1,4 +1,4 @@
-"""From a Markdown file to a lesson; what cannot be used is told with its file and line."""
+"""Read a lesson from a Markdown file; errors name their file and line."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from markdown_it.token import Token
 
 from ..draw.layers import LAYERS
 from ..state.cleaning import InputError, clean
-from ..state.controls import NAMES
+from ..state.controls import CONTROL_NAMES
 from .condition import FactCondition, condition
-from .facts import COMPILED, KNOWN
+from .facts import COMPILED, FACT_NAMES
 from .lesson import Lesson, Option, Prose, Question, Vary, portrait_of
-from .markdown import LinkError, button, draggable, inline, live, parser, rendered
+from .markdown import LinkError, button, draggable, inline, live, parser, render_html
 from .marks import MARKS
 from .words import fields
 
-HEAD = frozenset({"title", "summary", "portrait", "set"})
+HEAD_FIELDS = frozenset({"title", "summary", "portrait", "set"})
 OF_QUESTION = frozenset({"ask", "options", "mark", "explain", "draw", "require", "hide", "hint", "vary"})
 OF_OPTION = frozenset({"say", "when", "wrong"})
 OF_VARY = frozenset({"say", "goal", "hint"})
@@ -54,7 +54,7 @@ def read_lesson(path: Path) -> Lesson:
     tokens = parser().parse(text)
     if not tokens or tokens[0].type != "front_matter":
         raise LessonError(path, 1, "a lesson begins with a line ---, then title: and summary:, then a line ---.")
-    head = _mapping(path, 1, tokens[0].content, HEAD, needed=("title", "summary"))
+    head = _mapping(path, 1, tokens[0].content, HEAD_FIELDS, needed=("title", "summary"))
     values = _start(path, head)
     parts: list[Prose | Question] = []
     gathered: list[Token] = []
@@ -98,8 +98,8 @@ def _values(path: Path, line: int, wanted: Any) -> dict[str, Any]:
         raise LessonError(path, line, f"values are {wanted!r}; give names and values of controls.")
     found = {}
     for name, value in wanted.items():
-        if name not in NAMES:
-            raise LessonError(path, line, f"there is no control {name!r}; there are {', '.join(NAMES)}.")
+        if name not in CONTROL_NAMES:
+            raise LessonError(path, line, f"there is no control {name!r}; there are {', '.join(CONTROL_NAMES)}.")
         try:
             found[name] = clean(name, value)
         except InputError as error:
@@ -155,7 +155,7 @@ def _question(path: Path, line: int, text: str) -> Question:
     hide = tuple(found.get("hide") or ())
     if unknown := [layer for layer in hide if layer not in LAYERS]:
         raise LessonError(path, line, f"hide: no layer {unknown[0]!r}; they are {', '.join(LAYERS)}.")
-    explain = _explained(path, line, "explain", found["explain"])
+    explain = _explanation_html(path, line, "explain", found["explain"])
     require = found.get("require")
     return Question(
         html=_line(path, line, found["ask"]),
@@ -172,15 +172,15 @@ def _question(path: Path, line: int, text: str) -> Question:
 
 def _option(path: Path, line: int, given: Any) -> Option:
     words = _keys(path, line, given, OF_OPTION, ("say", "when"))
-    wrong = _explained(path, line, "wrong", words.get("wrong") or "")
+    wrong = _explanation_html(path, line, "wrong", words.get("wrong") or "")
     return Option(_line(path, line, words["say"]), _condition(path, line, words["when"]), wrong)
 
 
-def _explained(path: Path, line: int, key: str, text: Any) -> str:
+def _explanation_html(path: Path, line: int, key: str, text: Any) -> str:
     """Return the HTML of words with facts in them."""
     html = _line(path, line, text)
-    if unknown := [name for name in fields(html) if name not in KNOWN]:
-        raise LessonError(path, line, f"{key}: no fact {unknown[0]!r}; facts are {', '.join(sorted(KNOWN))}.")
+    if unknown := [name for name in fields(html) if name not in FACT_NAMES]:
+        raise LessonError(path, line, f"{key}: no fact {unknown[0]!r}; facts are {', '.join(sorted(FACT_NAMES))}.")
     return html
 
 
@@ -192,14 +192,14 @@ def _vary(path: Path, line: int, found: Any) -> Vary:
 
 def _condition(path: Path, line: int, text: Any) -> FactCondition:
     try:
-        return condition(str(text), KNOWN)
+        return condition(str(text), FACT_NAMES)
     except ValueError as error:
         raise LessonError(path, line, str(error)) from error
 
 
 def _html(path: Path, line: int, tokens: list[Token]) -> str:
     try:
-        return rendered(tokens, _resolver(path, line))
+        return render_html(tokens, _resolver(path, line))
     except LinkError as error:
         raise LessonError(path, line, str(error)) from error
 
@@ -222,9 +222,9 @@ def _resolver(path: Path, line: int):
                 if "layers" in pairs:  # commas stand between controls: layers are joined by +
                     pairs["layers"] = pairs["layers"].replace("+", ",")
                 return button(_values(path, line, pairs), words)
-            case "drag" if target in NAMES:
+            case "drag" if target in CONTROL_NAMES:
                 return draggable(target, words or target)
-            case "fact" if target in KNOWN - COMPILED:  # shown in every frame of a drag
+            case "fact" if target in FACT_NAMES - COMPILED:  # shown in every frame of a drag
                 return live(target)
             case "lesson":
                 return button({"lesson": target, "quiz": ""}, words)

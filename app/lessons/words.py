@@ -14,10 +14,10 @@ def fields(text: str) -> tuple[str, ...]:
     return tuple(match[1] for match in FIELD.finditer(text))
 
 
-def filled(text: str, facts: Mapping[str, Any]) -> str:
+def fill_facts(text: str, facts: Mapping[str, Any]) -> str:
     """Return the text with the facts put in; ``:.3f`` and ``:.3g`` say how a number is written."""
 
-    def put(match: re.Match[str]) -> str:
+    def format_fact(match: re.Match[str]) -> str:
         value = facts[match[1]]
         if value is None:
             return "–"
@@ -27,4 +27,4 @@ def filled(text: str, facts: Mapping[str, Any]) -> str:
             return f"{value + 0.0:.{match[2] or 4}{match[3] or 'g'}}".replace("-", "−")
         return str(value)
 
-    return FIELD.sub(put, text)
+    return FIELD.sub(format_fact, text)

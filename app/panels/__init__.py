@@ -1,1 +1,1 @@
-"""What is beside the picture: one module a panel."""
+"""Panels beside the picture, a module each."""

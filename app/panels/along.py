@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codim2_core.motion.limit.ahead import delays
-from codim2_core.portrait.attracting import attracting
+from codim2_core.portrait.attracting import attracting_set
 from codim2_core.psi.function import Psi
 from codim2_core.sliding.along import slow_portrait
 from codim2_core.sliding.over import slow_plane
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
-from codim2_core.words import named
+from codim2_core.words import written_label
 
 from ..frame.draft import Draft
 from ..phrases import say
@@ -27,16 +27,16 @@ from ..state.chosen import System_, slow_ranges
 from ..state.slider_range import edited_range, slider_range
 from .panel import Panel
 
-PLANE = 15  # arrows along each axis of the plane
-NONE = say("no slow variable")
+ARROWS_PER_AXIS = 15  # arrows along each axis of the plane
+NO_SLOW_VARIABLE = say("no slow variable")
 
 
 def add(draft: Draft) -> None:
     """Add the slow portrait along the chosen slow variable, once nothing moves."""
     system, values = draft.system, draft.values
     if system is None or not system.m:
-        if draft.fresh("along", NONE):
-            draft.header.setdefault("unable", {})["along"] = NONE
+        if draft.fresh("along", NO_SLOW_VARIABLE):
+            draft.header.setdefault("unable", {})["along"] = NO_SLOW_VARIABLE
         return
     z, psi = draft.scene.z, draft.scene.psi
     _add_drift(draft)
@@ -62,7 +62,7 @@ def _add_drift(draft: Draft) -> None:
     scene = draft.scene
     if not draft.ready:
         return  # limit cycles need the integrator
-    found = attracting(scene["critical"], lambda: scene["cycles"], draft.now.get("drifts on"))
+    found = attracting_set(scene["critical"], lambda: scene["cycles"], draft.now.get("drifts on"))
     draft.now["drifts on"] = None if found is None else found.e
     told = None if found is None else {"on": found.name, "flow": [float(v) for v in found.slow_flow]}
     if draft.now.get("drift", ()) != told:
@@ -92,7 +92,7 @@ def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
     return {
         "intervals": [{"low": i.low, "high": i.high, "kind": i.kind, "sentence": i.sentence} for i in found.intervals],
         "branches": [
-            {"z": short(b.z), "flow": _drawn(b.flow[:, axis], width), "kind": b.kind, "stable": b.stable}
+            {"z": short(b.z), "flow": _drawable_flow(b.flow[:, axis], width), "kind": b.kind, "stable": b.stable}
             for b in found.branches
         ],
         "points": [
@@ -108,7 +108,7 @@ def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
     }
 
 
-def _drawn(flow: NDArray[np.float64], width: float) -> list[float]:
+def _drawable_flow(flow: NDArray[np.float64], width: float) -> list[float]:
     """Return a slow flow as it is drawn: zero where it would take longer than any motion to be seen to move."""
     return short(np.where(np.abs(flow) < 1e-10 * width, 0.0, flow))
 
@@ -117,7 +117,7 @@ def ahead_of(system: System_, psi: Psi, z: tuple[float, ...], spans: tuple[tuple
     """Return the delayed losses of stability ahead of motions that come to Sigma at z, as the browser draws them."""
     found = [
         {
-            "onto": named(one.onto),
+            "onto": written_label(one.onto),
             "z_in": short(one.z_in),
             "z_hopf": short(one.z_hopf),
             "z_out": None if one.z_out is None else short(one.z_out),
@@ -134,7 +134,7 @@ def plane_of(
     system: System_, psi: Psi, rest: tuple[float, ...], spans: tuple[tuple[float, float], ...]
 ) -> dict[str, Any]:
     """Return the slow flow over a net in the plane of the first two slow variables, where there is sliding."""
-    found = slow_plane(system, psi, (spans[0], spans[1]), rest, PLANE)
+    found = slow_plane(system, psi, (spans[0], spans[1]), rest, ARROWS_PER_AXIS)
     arrows = [
         [float(z1), float(z2), *short(flow[:2]), int(stable)]
         for (z1, z2), flow, stable in zip(found.z, found.flow, found.stable, strict=True)

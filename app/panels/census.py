@@ -15,18 +15,18 @@ from codim2_core.systems.typed import System
 from ..draw.thumbnails import thumbnail
 from ..frame.draft import Draft
 from ..state.choices import CENSUSES, MOST_CENSUS
-from ..state.chosen import NORMAL, OWN
+from ..state.chosen import NORMAL, OWN_SYSTEM
 from .panel import Panel
 
 #: Coefficients of an example are brought below this, in the range of their sliders, by another unit of time.
-LARGEST = 2.5
+COEFFICIENT_RANGE = 2.5
 PSI = constructors.constant()  # a portrait's name is the same under every other
 
 
 def add(draft: Draft) -> None:
     """Add the census that is asked for, then the portraits of its examples, once nothing moves."""
     key = draft.values["census"], draft.values["census_size"]
-    found = draft.slow("census", key, _counted, *key)
+    found = draft.slow("census", key, _census_rows, *key)
     if found is not None:
         shown, rows = found
         draft.header["census"] = {"draw": key[0], "rows": shown}
@@ -42,7 +42,7 @@ def add(draft: Draft) -> None:
         draft.header["census_here"] = here
 
 
-def _counted(draw: str, size: int) -> tuple[list[list[Any]], tuple[Row, ...]]:
+def _census_rows(draw: str, size: int) -> tuple[list[list[Any]], tuple[Row, ...]]:
     """Return each portrait's name, count, share, ends of its interval and controls of its example; and the rows."""
     table = census(draw, count=CENSUSES[draw][1] * 10**size).table
     shown = [[row.name, row.count, *map(_six, (row.share, row.low, row.high)), controls(row)] for row in table]
@@ -55,24 +55,24 @@ def _six(value: float) -> float:
 
 def _portraits(rows: tuple[Row, ...]) -> dict[str, str]:
     """Return a small portrait of each example, by name, as SVG."""
-    return {row.name: thumbnail(_with(row, _rounded(row)), PSI, ()) for row in rows}
+    return {row.name: thumbnail(_system_of_row(row, _control_numbers(row)), PSI, ()) for row in rows}
 
 
-def _rounded(row: Row) -> tuple[float, ...]:
+def _control_numbers(row: Row) -> tuple[float, ...]:
     """Return the numbers of an example as its controls have them: a, b, d, f1, f2 or all twelve.
 
     They have three digits, or as many more as its name needs.
     """
     numbers = row.example if isinstance(row.example, tuple) else tuple(dict(row.example.parameters).values())
-    scale = max(1.0, max(map(abs, numbers)) / LARGEST)
+    scale = max(1.0, max(map(abs, numbers)) / COEFFICIENT_RANGE)
     for digits in (3, 6, 12):
         rounded = tuple(float(f"{value / scale:.{digits}g}") for value in numbers)
-        if portrait_name(LayerProblem(_with(row, rounded).at(), PSI)).full_name == row.name:
+        if portrait_name(LayerProblem(_system_of_row(row, rounded).at(), PSI)).full_name == row.name:
             return rounded
     return tuple(value / scale for value in numbers)
 
 
-def _with(row: Row, numbers: tuple[float, ...]) -> ELinear | System:
+def _system_of_row(row: Row, numbers: tuple[float, ...]) -> ELinear | System:
     if isinstance(row.example, tuple):
         a, b, d, f1, f2 = numbers
         return ELinear(a, b, d, (f1, f2))
@@ -81,12 +81,12 @@ def _with(row: Row, numbers: tuple[float, ...]) -> ELinear | System:
 
 def controls(row: Row) -> dict[str, Any]:
     """Return the controls with which the example of a portrait opens."""
-    numbers = _rounded(row)
+    numbers = _control_numbers(row)
     if isinstance(row.example, tuple):
         return {"system": NORMAL, **dict(zip(("a", "b", "d", "f1", "f2"), numbers, strict=True)), "k1": 0.0, "k2": 0.0}
     half = len(numbers) // 2
     texts = {f"U{i + 1}": _polynomial(numbers[i * half : (i + 1) * half]) for i in range(2)}
-    return {"system": OWN, "texts": {**texts, "W": "1", "where": ""}}
+    return {"system": OWN_SYSTEM, "texts": {**texts, "W": "1", "where": ""}}
 
 
 def _polynomial(weights: tuple[float, ...]) -> str:

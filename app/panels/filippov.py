@@ -20,8 +20,10 @@ from ..frame.draft import Draft
 from ..slow_layers.short import short
 from ..state.chosen import System_
 
-POINTS = 97  # of the curve
-WIDEST = 6.0  # half the side of the plane's square, in (lambda1, lambda2): a cross farther out is beside the view
+CURVE_POINTS = 97  # of the curve
+MAX_HALF_SIDE = (
+    6.0  # half the side of the plane's square, in (lambda1, lambda2): a cross farther out is beside the view
+)
 
 
 def add(draft: Draft, system: System_) -> None:
@@ -36,7 +38,7 @@ def add(draft: Draft, system: System_) -> None:
 def vectors(system: System_, psi: Psi, z: tuple[float, ...]) -> dict[str, Any]:
     """Return the curve, the plane, the candidates with what they combine, and the selected slow flows."""
     at = system.at(z)
-    theta = np.linspace(0.0, 2.0 * np.pi, POINTS)
+    theta = np.linspace(0.0, 2.0 * np.pi, CURVE_POINTS)
 
     def limit(angles: np.ndarray) -> list[list[float]]:
         e = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
@@ -57,5 +59,5 @@ def vectors(system: System_, psi: Psi, z: tuple[float, ...]) -> dict[str, Any]:
 
 def _square(plane: AffinePlane, vertex: tuple[int, int]) -> list[float]:
     """Return the combination at a corner of a square in (lambda1, lambda2) that holds the unit disc and the cross."""
-    reach = 1.15 if plane.place is None else min(WIDEST, max(1.15, 1.15 * float(np.abs(plane.place).max())))
+    reach = 1.15 if plane.place is None else min(MAX_HALF_SIDE, max(1.15, 1.15 * float(np.abs(plane.place).max())))
     return short((plane.matrix @ (reach * np.array(vertex)) + plane.offset)[:3], 4)

@@ -7,21 +7,21 @@ from typing import Any, NamedTuple
 from codim2_core.scene import Scene
 
 from ..frame.draft import Draft
-from ..lessons.asking import judge, pose, reached, stands
+from ..lessons.asking import goal_is_reached, judge, pose, stands
 from ..lessons.facts import COMPILED, facts_of
 from ..lessons.lesson import Lesson, Prose, Question, portrait_of
 from ..lessons.library import lessons
 from ..lessons.marks import Point
-from ..lessons.words import filled
+from ..lessons.words import fill_facts
 from ..state.controls import ExplorerState
 from .panel import Panel
 
 #: From the middle of the picture, as far as a mark may be.
-FAR = 4.0
+FAR_MARK = 4.0
 
 
 class Quiz(NamedTuple):
-    """Which question is open, the seed of its system, and the answer: an option, or the point that is marked."""
+    """The state of a quiz: the open question, the seed of its system, and the answer (an option or a marked point)."""
 
     question: int
     seed: int
@@ -47,7 +47,7 @@ def add(draft: Draft) -> None:
 def read_quiz(text: str, lesson: Lesson) -> Quiz | None:
     """Return the quiz written as QUESTION.SEED, QUESTION.SEED.CHOICE or QUESTION.SEED.X.Y; None if there is none such.
 
-    X and Y are a point of the picture in thousandths, counted from (-`FAR`, -`FAR`): a link has no signs.
+    X and Y are a point of the picture in thousandths, counted from (-`FAR_MARK`, -`FAR_MARK`): a link has no signs.
     """
     parts = text.split(".")
     if not 2 <= len(parts) <= 4 or not all(part.isascii() and part.isdigit() and len(part) < 10 for part in parts):
@@ -57,8 +57,8 @@ def read_quiz(text: str, lesson: Lesson) -> Quiz | None:
         return None
     asked = lesson.questions[question]
     if len(rest) == 2:
-        x, y = (v / 1000 - FAR for v in rest)
-        return Quiz(question, seed, (x, y)) if asked.mark and max(abs(x), abs(y)) <= FAR else None
+        x, y = (v / 1000 - FAR_MARK for v in rest)
+        return Quiz(question, seed, (x, y)) if asked.mark and max(abs(x), abs(y)) <= FAR_MARK else None
     if rest and rest[0] >= len(asked.options):
         return None
     return Quiz(question, seed, rest[0] if rest else None)
@@ -94,7 +94,7 @@ def _part(part: Prose | Question) -> dict[str, Any]:
 
 def _add_facts(draft: Draft, lesson: Lesson) -> None:
     facts = facts_of(draft.scene, lesson.live)
-    words = {name: filled(f"{{{name}}}", facts) for name in facts}
+    words = {name: fill_facts(f"{{{name}}}", facts) for name in facts}
     if draft.now.get("facts") != words:
         draft.now["facts"] = words
         draft.header["facts"] = words
@@ -105,31 +105,35 @@ def _add_quiz(draft: Draft, lesson: Lesson, quiz: Quiz) -> None:
     key = (lesson.key, *quiz)
     answer = quiz.answer
     if answer is None:
-        drawn = draft.slow("pose", key, _posed, lesson, question, quiz.seed)
+        drawn = draft.slow("pose", key, _question_values, lesson, question, quiz.seed)
         if drawn is not None:
             draft.header["pose"] = {"question": quiz.question, "values": drawn}
         return
     if draft.now.get("judged") != key:  # an answer is judged once; what moves after it is another system
         scene = draft.scene
         there = (*key, *scene.key("plane", "slow", "psi"))
-        said = draft.slow("judgement", there, _judged, question, scene, answer)
+        said = draft.slow("judgement", there, _judge_answer, question, scene, answer)
         if said is not None:
             draft.now["judged"] = key
             draft.now["answered"] = (lesson.key, quiz.question, said["right"])
             draft.header["judged"] = {"question": quiz.question, **said}
     if question.vary is not None and (draft.ready or not question.vary.goal.names & COMPILED):
         now = stands(question, draft.scene)
-        draft.header["goal"] = {"question": quiz.question, "reached": reached(question, draft.scene), "now": now}
+        draft.header["goal"] = {
+            "question": quiz.question,
+            "reached": goal_is_reached(question, draft.scene),
+            "now": now,
+        }
 
 
-def _posed(lesson: Lesson, question: Question, seed: int) -> dict[str, Any]:
+def _question_values(lesson: Lesson, question: Question, seed: int) -> dict[str, Any]:
     """Return the values about which a question is asked: those of the lesson, and what is drawn over them."""
     start = ExplorerState.of(lesson.values).values()
     drawn = pose(question, start, seed)
     return {**lesson.values, **portrait_of(drawn.get("preset")), **drawn}
 
 
-def _judged(question: Question, scene: Scene, answer: int | Point) -> dict[str, Any]:
+def _judge_answer(question: Question, scene: Scene, answer: int | Point) -> dict[str, Any]:
     """Judge an answer in a scene of its own, without what others compute meanwhile: jobs run beside the frames."""
     return judge(question, Scene(scene.system, scene.psi, scene.z), answer)
 

@@ -20,15 +20,17 @@ from ..slow_layers import typed_start
 from ..slow_layers.short import short
 from ..slow_layers.typed_start import RTOL
 from ..state.chosen import System_
-from ..state.launches import TYPED, chosen, read_launches
+from ..state.launches import TYPED, read_launches, selected_place
 from .panel import Panel
 
-ON = 1.5  # times as long as it takes to Sigma is a motion for eps > 0 followed: what it does there is seen too
+CONTINUATION_FACTOR = (
+    1.5  # times as long as it takes to Sigma is a motion for eps > 0 followed: what it does there is seen too
+)
 
 
 def add(draft: Draft) -> None:
     """Add the chosen orbit over time, and its motion for eps > 0 if it is wanted, once nothing moves."""
-    i = chosen(read_launches(draft.values["orbits"]), draft.values["orbit"])
+    i = selected_place(read_launches(draft.values["orbits"]), draft.values["orbit"])
     if i is None:
         return
     if i == TYPED:
@@ -57,9 +59,9 @@ def add(draft: Draft) -> None:
                 draft.late("orbit_motion")
             return
         eps = 10.0 ** draft.values["log_eps"]
-        lasts = end * (ON if launched.goes[i].after is not None else 1.0)
+        lasts = end * (CONTINUATION_FACTOR if launched.goes[i].after is not None else 1.0)
         wanted = (draft.system, scene.psi, eps, seed, scene.z, lasts)
-        motion = draft.slow("orbit_motion", wanted, regularised, *wanted)
+        motion = draft.slow("orbit_motion", wanted, regularised_motion, *wanted)
         if motion is not None:
             draft.header["orbit_motion"] = {"index": i, **motion}
 
@@ -75,7 +77,7 @@ def over_time(at: AtZ, psi: Psi, seed: tuple[float, float], span: tuple[float, f
     }
 
 
-def regularised(
+def regularised_motion(
     system: System_,
     psi: Psi,
     eps: float,

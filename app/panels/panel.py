@@ -1,4 +1,4 @@
-"""What a panel beside the picture is."""
+"""The interface of a panel beside the picture."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 from ..frame.draft import Draft
 
-STATIC = Path(__file__).parents[1] / "static" / "panels"
+PANEL_SCRIPTS = Path(__file__).parents[1] / "static" / "panels"
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Panel:
     add: Callable[[Draft], None]
     tip: str = ""
     settings: Mapping[str, Any] = field(default_factory=dict)
-    folder: Path = STATIC
+    folder: Path = PANEL_SCRIPTS
 
     @property
     def script(self) -> Path:

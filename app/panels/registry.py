@@ -21,7 +21,7 @@ MODULES = (
     "psi", "census", "lessons",
 )  # fmt: skip
 #: By key.
-PANELS: dict[str, Panel] = {}
+PANELS_BY_NAME: dict[str, Panel] = {}
 #: Layers of the picture that are computed as panels are, by name.
 LAYERS = {"basins": basins.add, "outcomes": outcomes.add}
 
@@ -34,12 +34,12 @@ def register(panel: Panel) -> None:
     ValueError
         There is a panel of this key, or its script is missing.
     """
-    if panel.key in PANELS:
+    if panel.key in PANELS_BY_NAME:
         raise ValueError(f"There is a panel {panel.key!r} already; choose another key.")
     if not panel.script.is_file():
         raise ValueError(f"The panel {panel.key!r} has no script: write {panel.script.name} in its folder.")
-    PANELS[panel.key] = panel
-    offer("panel", PANELS)
+    PANELS_BY_NAME[panel.key] = panel
+    offer("panel", PANELS_BY_NAME)
 
 
 def add(draft: Draft) -> None:
@@ -47,7 +47,10 @@ def add(draft: Draft) -> None:
 
     What one has noted as sent before it ends early may not have been: the browser is sent it again.
     """
-    wanted = [PANELS[draft.values["panel"]].add, *(LAYERS[name] for name in LAYERS if name in draft.values["layers"])]
+    wanted = [
+        PANELS_BY_NAME[draft.values["panel"]].add,
+        *(LAYERS[name] for name in LAYERS if name in draft.values["layers"]),
+    ]
     for each in dict.fromkeys(wanted):
         had = dict(draft.now)
         try:

@@ -22,13 +22,13 @@ from ..frame.draft import Draft
 from ..state.choices import SLOW_CONTROLS, SOLIDS
 from ..state.chosen import System_
 from . import filippov
-from .along import NONE, slow_spans
+from .along import NO_SLOW_VARIABLE, slow_spans
 from .panel import Panel
 
 SLICES = 5  # hemispheres along z
 SEEDS = 20  # trajectories of each
-ANGLES = 121  # values of z at which limit directions are followed
-STEP = 6e-3  # of the disc: points of a line nearer than this are left out
+Z_VALUES = 121  # values of z at which limit directions are followed
+MIN_SPACING = 6e-3  # of the disc: points of a line nearer than this are left out
 
 
 def add(draft: Draft) -> None:
@@ -36,8 +36,8 @@ def add(draft: Draft) -> None:
     scene = draft.scene
     system = draft.system
     if system is None or not system.m:
-        if draft.fresh("stack", NONE):
-            draft.header.setdefault("unable", {}).update(stack=NONE, filippov=NONE)
+        if draft.fresh("stack", NO_SLOW_VARIABLE):
+            draft.header.setdefault("unable", {}).update(stack=NO_SLOW_VARIABLE, filippov=NO_SLOW_VARIABLE)
         return
     if draft.values["solid"] == "filippov":
         filippov.add(draft, system)
@@ -46,12 +46,12 @@ def add(draft: Draft) -> None:
     others = tuple(0.0 if i == axis else v for i, v in enumerate(scene.z))
     if draft.ready:
         key = (system, scene.psi, others, axis, span)
-        stack = draft.slow("stack", key, stacked, system, scene.psi, others, axis, span)
+        stack = draft.slow("stack", key, stack_of_discs, system, scene.psi, others, axis, span)
         if stack is not None:
             draft.header["stack"] = {**stack, "control": SLOW_CONTROLS[axis]}
 
 
-def stacked(
+def stack_of_discs(
     system: System_, psi: Psi, others: tuple[float, ...], axis: int, span: tuple[float, float]
 ) -> dict[str, Any]:
     """Return discs at even values of z, the limit directions on the cylinder, and the critical sets inside it.
@@ -60,7 +60,7 @@ def stacked(
     """
     low, high = span
 
-    def at(value: float) -> tuple[float, ...]:
+    def z_at(value: float) -> tuple[float, ...]:
         return (*others[:axis], float(value), *others[axis + 1 :])
 
     def share(value: float) -> float:
@@ -68,9 +68,9 @@ def stacked(
 
     discs = []
     for value in np.linspace(low, high, SLICES):
-        scene = Scene(system, psi, at(value), count=SEEDS)
+        scene = Scene(system, psi, z_at(value), count=SEEDS)
         discs.append({"z": float(value), "lines": [_flat(line) for line in _lines(scene["inside"])]})
-    found = directions_along(system, span, others, axis, ANGLES)
+    found = directions_along(system, span, others, axis, Z_VALUES)
     columns = (found.z, found.theta, found.lambda_rho, found.lambda_theta)
     directions = [
         [share(z), round(float(theta), 4), int(rho < 0.0), int(turn < 0.0)]
@@ -94,9 +94,9 @@ def _lines(orbits: Any) -> list[NDArray[np.float64]]:
 
 
 def _thin(line: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Leave out points that lie within `STEP` of the one before along the line; both ends stay."""
+    """Leave out points that lie within `MIN_SPACING` of the one before along the line; both ends stay."""
     steps = np.hypot(*np.diff(line, axis=0).T)
-    along = np.floor(np.cumsum(steps) / STEP)
+    along = np.floor(np.cumsum(steps) / MIN_SPACING)
     kept = np.ones(len(line), bool)
     kept[1:-1] = np.diff(along[:-1], prepend=0.0)[: len(line) - 2] > 0 if len(line) > 2 else True
     return line[kept]

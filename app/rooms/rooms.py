@@ -20,15 +20,15 @@ from ..phrases import say
 from .board import Board
 
 #: Without vowels no code is a word, and none of these is taken for another, or for a figure.
-LETTERS, LENGTH = "BCDFGHJKLMNPQRSTVWXZ", 4
+LETTERS, CODE_LENGTH = "BCDFGHJKLMNPQRSTVWXZ", 4
 HOURS = 4.0  # that a room lasts
 LINGERS = 600.0  # seconds for which it waits for its lecturer to come back
-REMEMBERED = 120.0  # seconds for which it is known that it was closed
-MISSED = 60.0  # seconds for which a process that holds it may be gone
+CLOSED_SECONDS = 120.0  # seconds for which it is known that it was closed
+LOST_SECONDS = 60.0  # seconds for which a process that holds it may be gone
 # (They are counted by the clock of the machine's start, which all its processes share and nobody sets.)
 MOST_ROOMS, MOST_GUESTS, LONGEST_ROW = 20, 300, 2000
 MOST_TRIES = 20  # of one page: codes are not to be guessed
-EVERY = 0.5  # seconds
+SHARING_SECONDS = 0.5  # seconds
 
 #: ``[number, name of the portrait, settings or None, [lesson, question, right] or None]``
 Row = list[Any]
@@ -41,7 +41,7 @@ class RoomError(ValueError):
 
 @dataclass(slots=True)
 class Host:
-    """Who has opened a room."""
+    """The page that has opened a room."""
 
     code: str
     mark: str
@@ -60,13 +60,15 @@ class Host:
 
 @dataclass(slots=True)
 class Guest:
-    """Who is in a room of any process."""
+    """A page in a room of any process."""
 
     number: int
     code: str
     look: Callable[[], Row]
     tell: Tell
     missed: float = 0.0
+    follows: bool = False
+    shown: Any = None  # of the lecturer's view
 
 
 class Rooms:
@@ -89,7 +91,7 @@ class Rooms:
         self._ticks: Callable[[], None] | None = None
 
     def beat_with(self, begin: Callable[[], None]) -> None:
-        """Have `begin` called when somebody is here whom `tick` is to serve, every `EVERY` seconds while it is True."""
+        """Have `begin` called when somebody comes in; it calls `tick` every `SHARING_SECONDS` while that is True."""
         self._ticks = begin
 
     def count(self, now: float | None = None) -> int:
@@ -152,7 +154,7 @@ class Rooms:
         look : callable
             Returns the row that the room shows, but for its number.
         tell : callable
-            Told ``{"ended": code}`` when the room ends.
+            Told ``{"ended": code}`` when the room ends, and ``{"view": settings}`` while the guest follows.
 
         Raises
         ------
@@ -176,6 +178,17 @@ class Rooms:
         told = self.board.read(time.monotonic() if now is None else now)
         return next((one["views"][code] for _, _, one in told if code in one["views"]), None)
 
+    def follow(self, guest: Guest, on: bool) -> None:
+        """Have somebody told of what his lecturer shows, now and whenever it changes, or no longer."""
+        guest.follows, guest.shown = on, None
+        self._show(guest, time.monotonic())
+
+    def _show(self, guest: Guest, now: float) -> None:
+        view = self.view(guest.code, now) if guest.follows else None
+        if view is not None and view != guest.shown:
+            guest.shown = view
+            guest.tell({"view": view})
+
     def leave(self, guest: Guest) -> None:
         """Take somebody out of his room."""
         self.guests.pop(guest.number, None)
@@ -196,7 +209,7 @@ class Rooms:
                 tell, host.closed, host.tell = host.tell, now, None
                 if tell is not None:
                     tell({"ended": code})
-            if host.closed and now - host.closed > REMEMBERED:
+            if host.closed and now - host.closed > CLOSED_SECONDS:
                 del self.hosts[code]
         self._write(now)
         states = self._states(now)
@@ -206,9 +219,10 @@ class Rooms:
         for guest in list(self.guests.values()):
             state = states.get(guest.code)
             guest.missed = 0.0 if state == "open" else guest.missed or now
-            if state == "closed" or (guest.missed and now - guest.missed > MISSED):
+            if state == "closed" or (guest.missed and now - guest.missed > LOST_SECONDS):
                 self.leave(guest)
                 guest.tell({"ended": guest.code})
+            self._show(guest, now)
         for host in self.hosts.values():
             if host.tell is not None:
                 rows = self._rows(host.code, now)
@@ -256,7 +270,7 @@ def code_of(key: str) -> str:
     """Return the code of the room of a key."""
     number = int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big")
     letters = []
-    for _ in range(LENGTH):
+    for _ in range(CODE_LENGTH):
         number, at = divmod(number, len(LETTERS))
         letters.append(LETTERS[at])
     return "".join(letters)
@@ -286,11 +300,11 @@ _served: list[Rooms] = []
 
 
 def serve_with(rooms: Rooms) -> None:
-    """From now on these are the rooms of this process."""
+    """Set the rooms of this process."""
     _served[:] = [rooms]
 
 
-def here() -> Rooms:
+def process_rooms() -> Rooms:
     """Return the rooms of this process."""
     if not _served:
         serve_with(Rooms())

@@ -14,15 +14,15 @@ from ..lessons.library import lessons
 from ..phrases import say
 from ..state.choices import SETTING
 from ..state.chosen import NORMAL
-from ..state.controls import NAMES, first_values
-from .rooms import MOST_TRIES, Guest, RoomError, Row, code_of, here, settings_of
+from ..state.controls import CONTROL_NAMES, first_values
+from .rooms import MOST_TRIES, Guest, RoomError, Row, code_of, process_rooms, settings_of
 
-LONGEST = 64  # characters of a key or a code
+MAX_KEY_CHARACTERS = 64  # characters of a key or a code
 _first = cache(first_values)
 
 
 class Shown(Protocol):
-    """What a browser shows, as far as a room is concerned."""
+    """The view of a browser, as far as a room shows it."""
 
     values: dict[str, Any]
     scene: Scene
@@ -61,11 +61,12 @@ class Visitor:
         Parameters
         ----------
         request : object
-            As a browser sent it: ``{"open": key}`` ("" for a new room), ``{"close": True}``, ``{"join": code}`` or
-            ``{"leave": True}``.
+            As a browser sent it: ``{"open": key}`` ("" for a new room), ``{"close": True}``, ``{"join": code}``,
+            ``{"follow": bool}`` or ``{"leave": True}``.
         reply : callable
             Sends ``{"open": code, "key": key}``, ``{"joined": code, "view": settings}``, ``{"ended": code}`` or
-            ``{"error": sentence}``; to a lecturer also ``{"rows": list}``, whenever they are others.
+            ``{"error": sentence}``; to a lecturer also ``{"rows": list}``, to who follows him ``{"view": settings}``,
+            whenever they are others.
         later : callable
             Has a function called by the thread that answers, with the document's lock.
         """
@@ -77,21 +78,23 @@ class Visitor:
         try:
             if isinstance(key := asked.get("open"), str):
                 self._leave_guest()
-                key = key if len(key) <= LONGEST else ""
+                key = key if len(key) <= MAX_KEY_CHARACTERS else ""
                 if self._opened is not None and self._opened[0] != code_of(key):  # a page has one room
-                    here().close(self._opened[0])
+                    process_rooms().close(self._opened[0])
                     self._opened = None
-                code, key = here().open(key, tell, view=self._view)
+                code, key = process_rooms().open(key, tell, view=self._view)
                 self._opened = code, tell
                 reply({"open": code, "key": key})
             elif isinstance(code := asked.get("join"), str):
-                joined = self._join(code[:LONGEST], tell)
-                reply({"joined": joined, "view": here().view(joined)})
+                joined = self._join(code[:MAX_KEY_CHARACTERS], tell)
+                reply({"joined": joined, "view": process_rooms().view(joined)})
             elif asked.get("close") is True and self._opened is not None:
                 code, _ = self._opened
                 self._opened = None
-                here().close(code)
+                process_rooms().close(code)
                 reply({"ended": code})
+            elif isinstance(on := asked.get("follow"), bool) and self._guest is not None:
+                process_rooms().follow(self._guest, on)
             elif asked.get("leave") is True:
                 self._leave_guest()
         except RoomError as error:
@@ -101,7 +104,7 @@ class Visitor:
         self._tries += 1
         if self._tries > MOST_TRIES:
             raise RoomError(say("too many codes"))
-        guest = here().join(code, self._row, tell)
+        guest = process_rooms().join(code, self._row, tell)
         self._leave_guest()
         self._guest = guest
         return guest.code
@@ -126,16 +129,16 @@ class Visitor:
 
     def _view(self) -> dict[str, Any]:
         """Return what this browser shows, as far as it is other than at first."""
-        return settings_of(self._values(), _first(), NAMES)
+        return settings_of(self._values(), _first(), CONTROL_NAMES)
 
     def _leave_guest(self) -> None:
         if self._guest is not None:
-            here().leave(self._guest)
+            process_rooms().leave(self._guest)
             self._guest = None
 
     def leave(self) -> None:
         """Its browser has gone."""
         self._leave_guest()
         if self._opened is not None:
-            here().leave_open(*self._opened)
+            process_rooms().leave_open(*self._opened)
             self._opened = None

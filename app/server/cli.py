@@ -19,7 +19,7 @@ from .commands import add_census, add_classify, add_docs, add_notebooks, add_pre
 from .process.files import many_files
 from .process.logs import log_to_stderr
 from .process.stopping import stop_when_asked
-from .settings import add_settings, unknown
+from .settings import add_settings, unknown_settings
 from .taking import add_data, add_figure, add_film, add_live
 
 
@@ -67,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         raise RuntimeError('a worker imports the script that serves; put the call under if __name__ == "__main__":')
     if chosen.lessons is not None and not _offer_lessons(chosen.lessons):
         return 1
-    for sentence in unknown():
+    for sentence in unknown_settings():
         print(f"codim2: {sentence}", file=sys.stderr)
     place.offer(chosen.docs)
     log_to_stderr(chosen.log_json, chosen.log_level)

@@ -70,7 +70,7 @@ def add_census(commands: Any) -> None:
         "normal (default): e-linear ones, of standard normal a, b, d, f₁, f₂; quadratic: in e, of twelve such numbers"
     )
     command.add_argument("--draw", choices=tuple(DRAWS), default="normal", help=told)
-    command.add_argument("--count", type=_whole, default=1_000_000, help="default a million")
+    command.add_argument("--count", type=_whole_number, default=1_000_000, help="default a million")
     command.add_argument("--seed", type=int, default=0)
     command.add_argument("--outcomes", action="store_true", help="name what becomes of arriving orbits too, under Ψ")
     _add_psi(command)
@@ -98,7 +98,7 @@ def add_docs(commands: Any) -> None:
     command.set_defaults(run=docs)
 
 
-def _whole(text: str) -> int:
+def _whole_number(text: str) -> int:
     value = float(text)
     if not value.is_integer():
         raise argparse.ArgumentTypeError(f"{text} is no whole number")
@@ -266,6 +266,6 @@ def notebooks(chosen: argparse.Namespace) -> int:
 def docs(chosen: argparse.Namespace) -> int:
     """Build the site."""
     from ..docs.build import main
-    from ..docs.place import OWN
+    from ..docs.place import PACKAGED_SITE
 
-    return main(OWN if chosen.folder is None else chosen.folder)
+    return main(PACKAGED_SITE if chosen.folder is None else chosen.folder)

@@ -23,7 +23,7 @@ from .scripts import PREVIEW
 
 MARKUP, NOTICE = "<!-- codim2 markup -->", "<!-- codim2 notice -->"
 TITLE = "Isolated codimension-2 discontinuity: explorer"
-REMEMBERED = 64  # addresses
+KEPT_PAGES = 64  # addresses
 BUSY = (
     '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
     '<meta http-equiv="refresh" content="{0}"><meta name="color-scheme" content="light dark"><title>Busy</title>'
@@ -45,13 +45,13 @@ def markup_of(query: Mapping[str, str]) -> str:
     markup, complete = page_markup(link_of(query))
     if complete:
         _pages[key] = markup
-        if len(_pages) > REMEMBERED:
+        if len(_pages) > KEPT_PAGES:
             _pages.popitem(last=False)
     return markup
 
 
 @cache
-def _around() -> str:
+def _page_frame() -> str:
     """Return the page around the explorer."""
     return (
         Environment(autoescape=True)
@@ -87,7 +87,7 @@ class Page(RequestHandler):
             return
         app: Any = self.application
         here = f"{self.request.protocol}://{escape(self.request.host)}{app.prefix}"
-        text = _around().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
+        text = _page_frame().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
         text = text.replace(MARKUP, markup_of(query_of(self.request.arguments)))
         self.finish(text.replace(NOTICE, self._notice()))
 

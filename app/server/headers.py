@@ -1,4 +1,4 @@
-"""What every answer says to the browser about itself: whom it may ask, who may embed it, and nothing about the server.
+"""Security headers of every answer: which hosts a page may ask, who may embed it, and nothing about the server.
 
 A page runs two kinds of script: files of this server, and its own inline scripts, allowed one by one by their hashes.
 Styles are inline: BokehJS writes a style sheet into each shadow root. Nothing is evaluated from text, and nobody else

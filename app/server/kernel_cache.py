@@ -33,7 +33,7 @@ class AsGiven(caching.UserProvidedCacheLocator):
 
 
 class AsItIs(caching.InTreeCacheLocator):
-    """What lies beside the modules as it is, where nothing can be written: read, and never made."""
+    """A cache locator for read-only installations: it reads the index beside the modules, and never writes."""
 
     def ensure_cache_path(self) -> None:
         """Leave the folder alone."""

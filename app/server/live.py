@@ -34,7 +34,7 @@ MOST_SENT = 200_000
 #: What else a page may ask for at once: files, and a room.
 MOST_ERRANDS = 8
 #: Why a connection is closed before its page has begun, as codes of websockets: all places are taken; a fault here.
-FULL, FAILED, REFUSED = 1013, 1011, 1008
+CLOSE_FULL, CLOSE_FAILED, REFUSED = 1013, 1011, 1008
 
 _log = logging.getLogger(__name__)
 
@@ -119,7 +119,7 @@ class Live(WebSocketHandler):
         self._loop = IOLoop.current()
         if self.places.full:
             self.places.refused += 1
-            self.close(FULL, "all places are taken")
+            self.close(CLOSE_FULL, "all places are taken")
             return
         self.places.open.add(self)
         self.places.rota.come_in(self._begin)
@@ -131,7 +131,7 @@ class Live(WebSocketHandler):
             frames, config, first = open_page(link_of(query_of(self.request.arguments)))
         except Exception:  # the page says so; the log has the rest
             _log.exception("a page could not be opened")
-            self.close(FAILED, "a page could not be opened")
+            self.close(CLOSE_FAILED, "a page could not be opened")
             return
         self.places.openings += 1
         self.answers = Answers(frames, self._send, self._later)

@@ -1,4 +1,4 @@
-"""What whoever operates a server watches: ``/metrics`` in Prometheus' text, of the process that answers.
+"""Metrics of the answering process for operators: ``/metrics`` in Prometheus' text format.
 
 Several processes that share a port each tell of themselves: the label ``process`` says which.
 """
@@ -19,7 +19,7 @@ from ..rooms.rooms import Rooms
 from ..view import warmup
 from .live import Places
 
-TEXT = "text/plain; version=0.0.4; charset=utf-8"
+CONTENT_TYPE = "text/plain; version=0.0.4; charset=utf-8"
 #: Seconds.
 BUCKETS = (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 5.0)
 
@@ -55,7 +55,7 @@ class Metrics:
             "codim2_rooms": ("Rooms that are open", self.rooms.count()),
             "codim2_compiled": ("Steps of the warm-up that are done", done),
             "codim2_to_compile": ("Steps of the warm-up", of),
-            "codim2_resident_bytes": ("Memory of the process", _resident()),
+            "codim2_resident_bytes": ("Memory of the process", _resident_memory()),
         }
         for name, (words, value) in gauges.items():
             family = GaugeMetricFamily(name, words, labels=["process"])
@@ -76,7 +76,7 @@ class Metrics:
         return generate_latest(self.registry)
 
 
-def _resident() -> float:
+def _resident_memory() -> float:
     """Return the bytes of memory that this process holds; 0 where the system does not tell."""
     try:
         return float(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
@@ -90,6 +90,6 @@ class MetricsPage(RequestHandler):
     def get(self) -> None:
         """Send the text."""
         metrics: Metrics = self.settings["metrics"]
-        self.set_header("Content-Type", TEXT)
+        self.set_header("Content-Type", CONTENT_TYPE)
         self.set_header("Cache-Control", "no-store")
         self.finish(metrics.text())

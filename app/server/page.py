@@ -22,7 +22,7 @@ from ..frame.jobs import serve_with
 from ..frame.turns import Turns
 from ..frame.workers import Workers, processors
 from ..rooms.board import Board
-from ..rooms.rooms import EVERY, MOST_ROOMS, Rooms
+from ..rooms.rooms import MOST_ROOMS, SHARING_SECONDS, Rooms
 from ..rooms.rooms import serve_with as serve_rooms
 from ..view import warmup
 from ..view.markup import edition
@@ -31,7 +31,7 @@ from .headers import transform
 from .live import MOST_SENT, Live, Places
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
-from .process.ports import listen_by_own, shared
+from .process.ports import listen_by_own, share_port
 from .process.standing_back import stand_back
 from .scripts import routes
 
@@ -131,13 +131,13 @@ def make_server(
     turns = Turns(executor, at_once)
     serve_with(turns)
     warmup_now = processes == 1
-    begin = partial(warmup.start, partial(_told, told), patience=warmup.PATIENCE)
+    begin = partial(warmup.start, partial(_report_warm_up, told), patience=warmup.POLL_SECONDS)
     if warmup_now:
         begin()
     parent = os.getpid()
     board = Board(processes)
     places = Places(sessions)
-    with shared(processes):
+    with share_port(processes):
         server = _server(port, address, allow_origin, processes, prefix, places, options)
     keep_steady(server.io_loop)
     listen_by_own(server, address)
@@ -157,7 +157,7 @@ def make_server(
     return server
 
 
-def _told(told: warmup.Told | None, what: str, seconds: float, done: int, of: int) -> None:
+def _report_warm_up(told: warmup.Told | None, what: str, seconds: float, done: int, of: int) -> None:
     """Tell what has been compiled; once it is all, it is no garbage: no search stops a visitor for it."""
     if told is not None:
         told(what, seconds, done, of)
@@ -176,7 +176,7 @@ def _keep(rooms: Rooms) -> None:
         if not beat.is_running():
             beat.start()
 
-    beat = PeriodicCallback(look, 1000 * EVERY)
+    beat = PeriodicCallback(look, 1000 * SHARING_SECONDS)
     rooms.beat_with(begin)
     serve_rooms(rooms)
 

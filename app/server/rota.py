@@ -1,4 +1,4 @@
-"""Whose turn it is: pages in a circle, with one request each; every fourth turn is that of one who comes in.
+"""A round robin of pages with one request each; every fourth turn goes to a page that opens.
 
 A page that asks for more than it is answered keeps its newest values only, and nobody else waits for it.
 """
@@ -17,7 +17,7 @@ from .process.standing_back import answering
 #: Of so many turns one is that of somebody who opens a page, if there is one.
 FOURTH = 4
 #: Turns of the loop between two turns: so what has come over any line meanwhile is in the circle.
-BETWEEN = 4
+TURNS_PER_OPENING = 4
 
 
 class Page(Protocol):
@@ -53,7 +53,7 @@ class Rota:
 
     @property
     def waiting(self) -> int:
-        """How many wait for a turn."""
+        """Return the number of pages that wait for a turn."""
         return len(self._pages) + len(self._coming)
 
     def _begin(self) -> None:
@@ -62,7 +62,7 @@ class Rota:
 
     async def _run(self) -> None:
         while self._pages or self._coming:
-            for _ in range(BETWEEN):
+            for _ in range(TURNS_PER_OPENING):
                 await asyncio.sleep(0)
             self._turns += 1
             if self._coming and (self._turns % FOURTH == 0 or not self._pages):

@@ -1,4 +1,4 @@
-"""What a page asks for besides: scripts, each compressed once for all visitors, and links as QR codes."""
+"""Files that a page loads: scripts, each compressed once for all visitors, and QR codes of links."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from bokeh.server.views.static_handler import StaticHandler
 from tornado.web import HTTPError, RequestHandler, StaticFileHandler
 
 from ..draw.bundle import bundle
-from ..view.markup import STATIC, digest, script
+from ..view.markup import SCRIPT_FOLDER, digest, script
 
 PREVIEW = "preview.jpg"  # what a link looks like where it is pasted; `python -m tests.browser.picture` makes it
 YEAR = 365 * 86400  # seconds
-LONGEST = 2000  # bytes; beyond it phones no longer read the code from a beamer
+MAX_QR_BYTES = 2000  # bytes; beyond it phones no longer read the code from a beamer
 
 
 @cache
 def _take_away() -> str:
-    return bundle(STATIC / "takeaway.js")
+    return bundle(SCRIPT_FOLDER / "takeaway.js")
 
 
 #: The explorer's own, by name. The menu "Take away" is loaded when it is first opened.
@@ -30,7 +30,7 @@ SCRIPTS = {"explorer.js": script, "takeaway.js": _take_away}
 
 
 @cache
-def _own(name: str) -> bytes:
+def _read_script(name: str) -> bytes:
     return gzip.compress(SCRIPTS[name]().encode(), 9, mtime=0)
 
 
@@ -54,7 +54,7 @@ class Script(RequestHandler):
         self.set_header("Cache-Control", kept)
         if _takes_packed(self):
             self.set_header("Content-Encoding", "gzip")
-            self.finish(_own(name))
+            self.finish(_read_script(name))
         else:
             self.finish(SCRIPTS[name]())
 
@@ -95,7 +95,7 @@ class QrCode(RequestHandler):
     def get(self) -> None:
         """Send the code; 400 if the text is empty or too long for a phone to read."""
         text = self.get_query_argument("text", "")
-        if not 0 < len(text.encode()) <= LONGEST:
+        if not 0 < len(text.encode()) <= MAX_QR_BYTES:
             raise HTTPError(400, reason="give a text of 1 to 2000 bytes")
         picture = io.BytesIO()
         segno.make_qr(text, error="l").save(picture, kind="svg", border=3, light="#fff", xmldecl=False, omitsize=True)
@@ -110,6 +110,6 @@ def routes(prefix: str) -> list[tuple[Any, ...]]:
     return [
         (rf"{prefix}/({own})", Script),
         (rf"{prefix}/qr\.svg", QrCode),
-        (rf"{prefix}/({PREVIEW})", StaticFileHandler, {"path": STATIC}),
+        (rf"{prefix}/({PREVIEW})", StaticFileHandler, {"path": SCRIPT_FOLDER}),
         (rf"{prefix}/static/(js/.*\.js)", BokehScript),
     ]

@@ -16,7 +16,7 @@ LEVELS = ("debug", "info", "warning", "error")
 OTHERS = frozenset({"CODIM2_CHROMIUM", "CODIM2_PAPER", "CODIM2_NGINX", "CODIM2_TEST_RUN", "CODIM2_BEFORE"})
 
 
-def whole(least: int) -> Callable[[str], int]:
+def whole_number(least: int) -> Callable[[str], int]:
     """Return what reads a whole number that is not smaller."""
 
     def number(text: str) -> int:
@@ -73,17 +73,17 @@ class Setting:
 
 
 SETTINGS = (
-    Setting("port", 5006, "0 takes any free port", whole(0), "PORT", second="PORT"),
+    Setting("port", 5006, "0 takes any free port", whole_number(0), "PORT", second="PORT"),
     Setting("address", "localhost", "0.0.0.0 for all interfaces", str, "HOST"),
     Setting("allow-origin", (), "a host under which browsers reach this server; may be repeated", host, "HOST[:PORT]",
             "CODIM2_ORIGINS"),
     Setting("prefix", "", "the path below which a proxy shows this server", str, "/PATH"),
     Setting("frame-ancestors", "'self'", "who else may embed the pages, as in Content-Security-Policy", str, "SOURCES"),
-    Setting("processes", 1, "server processes that share the port", whole(1), "N"),
-    Setting("workers", 0, "processes for long work, of each of these; 0 shares the processors", whole(0), "N"),
+    Setting("processes", 1, "server processes that share the port", whole_number(1), "N"),
+    Setting("workers", 0, "processes for long work, of each of these; 0 shares the processors", whole_number(0), "N"),
     Setting("dask", "", "the scheduler of a Dask cluster that does the long work in place of these", str, "ADDRESS"),
-    Setting("sessions", 400, "open pages of a server process, beyond which a new one is asked to wait", whole(1), "N"),
-    Setting("rooms", 20, "rooms that lecturers have open at once, of a server process; 0 for none", whole(0), "N"),
+    Setting("sessions", 400, "open pages of a server process; one more is asked to wait", whole_number(1), "N"),
+    Setting("rooms", 20, "rooms open at once, of a server process; 0 for none", whole_number(0), "N"),
     Setting("lessons", None, "a folder of your own lessons, after the course; /?lesson=NAME opens one", Path, "DIR"),
     Setting("docs", None, "a folder with the site that `codim2 docs DIR` built; else the package's own", Path, "DIR"),
     Setting("log-level", "warning", "what is logged to standard error", str, "LEVEL", choices=LEVELS),
@@ -125,7 +125,7 @@ def _switch(setting: Setting, given: str | None) -> bool | None:
     return setting.default if not given else given.lower() not in ("0", "no", "false", "off")
 
 
-def unknown(environment: Mapping[str, str] = os.environ) -> list[str]:
+def unknown_settings(environment: Mapping[str, str] = os.environ) -> list[str]:
     """Return a sentence for each variable that looks like a setting and is none."""
     known = {setting.env for setting in SETTINGS}
     found = []

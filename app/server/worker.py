@@ -1,4 +1,4 @@
-"""What the processes beside the frames are forked from: all that they may be asked for, imported and loaded once.
+"""The process from which workers are forked: it imports and loads all that they need, once.
 
 The kernels of a picture of typed formulas take a second of a processor to load. What a visitor no longer wants is
 stopped with its worker, so that while he moved something each worker began anew, and none ever had time for a picture.

@@ -13,10 +13,10 @@ from codim2_core.scene import Scene
 
 from ..frame.draft import Draft
 
-BASINS = 4  # colours of the theme
-CELLS = 128  # across the disc: smoothed, five pixels of a picture of 640
-CLOSER = 256  # across a part of it, of which between three and six eighths are seen: as fine
-NEAR = 1.5  # a window narrower than this, in radii, is near
+BASIN_COLOUR_COUNT = 4  # colours of the theme
+CELLS_ACROSS = 128  # across the disc: smoothed, five pixels of a picture of 640
+FINE_CELLS_ACROSS = 256  # across a part of it, of which between three and six eighths are seen: as fine
+NEAR_WINDOW = 1.5  # a window narrower than this, in radii, is near
 
 
 def add(draft: Draft) -> None:
@@ -42,21 +42,21 @@ def part_of(window: tuple[float, ...] | None) -> tuple[Box, int]:
     It is the whole square around the disc, or one of a net on which a small pan stays: its side is 2 over a power of
     two, its corner a multiple of a quarter of that.
     """
-    if window is None or max(window[1] - window[0], window[3] - window[2]) >= NEAR:
-        return DISC, CELLS
+    if window is None or max(window[1] - window[0], window[3] - window[2]) >= NEAR_WINDOW:
+        return DISC, CELLS_ACROSS
     left, right, bottom, top = (max(-1.0, min(1.0, v)) for v in window)
     if left >= right or bottom >= top:  # nothing of the disc is seen
-        return DISC, CELLS
+        return DISC, CELLS_ACROSS
     side, size = 2.0, max(right - left, top - bottom)
     while 0.75 * side / 2.0 >= size:
         side /= 2.0
     if side == 2.0:
-        return DISC, CLOSER
+        return DISC, FINE_CELLS_ACROSS
     x, y = (math.floor(low / (side / 4.0)) * (side / 4.0) for low in (left, bottom))
-    return (x, x + side, y, y + side), CLOSER
+    return (x, x + side, y, y + side), FINE_CELLS_ACROSS
 
 
-def columns(scene: Scene, box: Box = DISC, cells: int = CELLS) -> tuple[dict[str, Any], NDArray[np.uint16]]:
+def columns(scene: Scene, box: Box = DISC, cells: int = CELLS_ACROSS) -> tuple[dict[str, Any], NDArray[np.uint16]]:
     """Return words and colours of the basins, and the cells of a box row by row as runs: how many, of which.
 
     Rows rise with y. The colours are keys of the themes, "" for none: outside the disc, undecided, each destination.
@@ -71,7 +71,7 @@ def columns(scene: Scene, box: Box = DISC, cells: int = CELLS) -> tuple[dict[str
     flows = [None if flow is None else [float(f"{v:.4g}") for v in flow] for flow in found.slow_flow]
     named = list(found.destinations)
     colours = [
-        "cross" if name.startswith("Q") or name == "equator" else f"basin-{i % BASINS + 1}"
+        "cross" if name.startswith("Q") or name == "equator" else f"basin-{i % BASIN_COLOUR_COUNT + 1}"
         for i, name in enumerate(named)
     ]
     colours = ["", "undecided", *colours]

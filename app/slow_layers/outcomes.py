@@ -6,7 +6,7 @@ from typing import Any
 
 from codim2_core.portrait.outcomes import Outcome, Outcomes
 from codim2_core.scene import Scene
-from codim2_core.words import named
+from codim2_core.words import written_label
 
 from ..frame.budget import wild
 from ..frame.draft import Draft
@@ -20,7 +20,7 @@ WORDS = {
     "misses": "never reach Σ",
 }
 #: The three ways to be undecided, each by its name in `Outcome.why`.
-UNDECIDED = {
+UNDECIDED_TEXTS = {
     "several": "more than one ending",
     "neutral": "neutral to first order",
     "unfollowed": "not followed to an end",
@@ -37,13 +37,13 @@ def add(draft: Draft) -> None:
         if not draft.fresh("outcomes", found):
             return
     else:
-        found = draft.slow("outcomes", scene.key("plane", "slow", "psi"), _found, scene)
+        found = draft.slow("outcomes", scene.key("plane", "slow", "psi"), _scene_outcomes, scene)
         if found is None:
             return
     draft.header["outcomes"] = columns(found)
 
 
-def _found(scene: Scene) -> Outcomes:
+def _scene_outcomes(scene: Scene) -> Outcomes:
     if why := wild(scene):
         raise ValueError(f"{why}.")
     return scene["outcomes"]
@@ -81,11 +81,11 @@ def columns(outcomes: Outcomes) -> dict[str, Any]:
 
 
 def _row(outcome: Outcome) -> list[Any]:
-    label = named(outcome.label)
+    label = written_label(outcome.label)
     by_verdict: dict[str, list[str]] = {}
     for text, verdict, onto in outcome.families if outcome.depends_on_psi else ():
         by_verdict.setdefault(_verdict(verdict, onto), []).append(text)
-    words = UNDECIDED.get(outcome.why) if kind(outcome) == "undecided" else None
+    words = UNDECIDED_TEXTS.get(outcome.why) if kind(outcome) == "undecided" else None
     return [
         label,
         kind(outcome),
@@ -97,4 +97,4 @@ def _row(outcome: Outcome) -> list[Any]:
 
 def _verdict(verdict: str, onto: str | None) -> str:
     words = {"slide": "slides on", "cycle": "slides around", "cross": "crosses to"}.get(verdict)
-    return verdict if words is None or onto is None else f"{words} {named(onto)}"
+    return verdict if words is None or onto is None else f"{words} {written_label(onto)}"

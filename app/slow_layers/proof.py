@@ -7,7 +7,7 @@ from pathlib import Path
 
 from codim2_core.cycles.limit_cycles import proof_of
 from codim2_core.scene import Scene
-from codim2_core.words import printed
+from codim2_core.words import printed_sentence
 
 
 def proof(scene: Scene) -> bytes:
@@ -18,7 +18,7 @@ def proof(scene: Scene) -> bytes:
         {
             "whole": found.whole,
             "cycles": found.cycles,
-            "sentence": printed(found.reason),
+            "sentence": printed_sentence(found.reason),
             "certificate": found.certificate,
             "checker": checker,
         }

@@ -46,7 +46,7 @@ def add(draft: Draft) -> None:
     eps = 10.0 ** values["log_eps"] if values["orbit_eps"] == "show" else 0.0
     example = catalogue.get(values["system"])
     asked = (system, draft.scene.psi, eps, start, t_end, None if example is None else example.ball)
-    found = draft.slow("orbit", (TYPED, *asked), followed, *asked)
+    found = draft.slow("orbit", (TYPED, *asked), motion_from_start, *asked)
     if found is not None:
         draft.header.update(found)
         draft.now["orbit_motion"] = TYPED  # what was there of a launched orbit is gone
@@ -79,7 +79,7 @@ def launch_of(values: Mapping[str, Any], system: System_) -> tuple[tuple[float, 
     return start, t_end
 
 
-def followed(
+def motion_from_start(
     system: System_, psi: Psi, eps: float, start: tuple[float, ...], t_end: float, ball: Ball | None = None
 ) -> dict[str, Any]:
     """Return the motion in the limit as the browser draws it and how a ball rolls; with eps also the one for eps > 0.

@@ -1,1 +1,1 @@
-"""What a user can set."""
+"""Everything that a user can set."""

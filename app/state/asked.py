@@ -1,4 +1,4 @@
-"""What a browser sends, before anything is done with it: of the right types, and no larger than a control can hold."""
+"""Read a request of a browser: every value of the right type, and no larger than a control can hold."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 from ..phrases import say
 
 #: Characters of one text, entries of one list or mapping, and controls that one request sets.
-LONGEST, MOST_ENTRIES, MOST_CONTROLS = 4000, 64, 64
+MAX_TEXT_CHARACTERS, MOST_ENTRIES, MOST_CONTROLS = 4000, 64, 64
 #: Numbers of requests are whole numbers that a browser counts without rounding.
 LARGEST_NUMBER = 2**53
 
@@ -47,7 +47,7 @@ def read_request(given: Any) -> tuple[dict[str, Any], dict[str, Any], str]:
     refused: list[str] = []
     for name, value in asked.items():
         why = _too_large(value)
-        if not isinstance(name, str) or len(name) > LONGEST:
+        if not isinstance(name, str) or len(name) > MAX_TEXT_CHARACTERS:
             why = "its name is none"
         if why:
             refused.append(f"{str(name)[:20]} ({why})")
@@ -67,7 +67,11 @@ def _too_large(value: Any, depth: int = 0) -> str:
     if isinstance(value, int):
         return "" if abs(value) < 10**300 else "the number is too large"
     if isinstance(value, str):
-        return "" if len(value) <= LONGEST else f"{len(value)} characters, at most {LONGEST} are read"
+        return (
+            ""
+            if len(value) <= MAX_TEXT_CHARACTERS
+            else f"{len(value)} characters, at most {MAX_TEXT_CHARACTERS} are read"
+        )
     if depth == 0 and isinstance(value, (list, tuple, Mapping)):
         if len(value) > MOST_ENTRIES:
             return f"{len(value)} entries, at most {MOST_ENTRIES} are read"

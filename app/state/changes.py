@@ -7,12 +7,12 @@ from typing import Any
 
 from .chosen import BOXES
 from .cleaning import InputError
-from .controls import NAMES
+from .controls import CONTROL_NAMES
 
 _TYPED_BOXES = frozenset(box.name for boxes in BOXES.values() for box in boxes)
 
 
-def together(
+def compatible_changes(
     good: Mapping[str, Any], attempt: Callable[[Mapping[str, Any]], Any]
 ) -> tuple[dict[str, Any], dict[str, Exception]]:
     """Return the changes that can be had together, and why not the others: one may need another to come first.
@@ -26,7 +26,7 @@ def together(
     """
     had: dict[str, Any] = {}
     failed: dict[str, Exception] = {}
-    left = sorted(good, key=NAMES.index)
+    left = sorted(good, key=CONTROL_NAMES.index)
     while left:
         failed = {}
         for name in left:

@@ -1,4 +1,4 @@
-"""Which system is drawn: the e-linear normal form of the sliders, one of the examples, or one that the user types.
+"""The chosen system: the e-linear normal form of the sliders, an example, or typed equations.
 
 Pure functions from plain values to a system and to the controls that belong to it. Names that a typed formula uses
 and that nothing else explains become parameters, each with a slider.
@@ -15,7 +15,7 @@ from typing import Any
 
 from codim2_core.examples import catalogue
 from codim2_core.expressions.expression import ExpressionError, parse
-from codim2_core.expressions.names import PLANE, TIME
+from codim2_core.expressions.names import FAST_NAMES, TIME
 from codim2_core.expressions.tape import CONSTANTS, FUNCTIONS
 from codim2_core.paper import cite
 from codim2_core.systems.elinear import ELinear
@@ -24,7 +24,7 @@ from codim2_core.systems.typed import System
 from ..draw.mathml import equations_mathml, plain_symbol
 from ..phrases import say
 
-NORMAL, TYPED, OWN = "normal", "typed", "own"
+NORMAL, TYPED, OWN_SYSTEM = "normal", "typed", "own"
 GIVEN = "given"  # the user's own system, from Python
 MOST_SLOW = 4  # slow variables that have a slider
 MOST_PARAMETERS = 12
@@ -73,7 +73,7 @@ BOXES: Mapping[str, tuple[Box, ...]] = MappingProxyType(
             Box("g", "g", "0"),
             Box("where", "where", ""),
         ),
-        OWN: (
+        OWN_SYSTEM: (
             Box("U1", "ẋ = U₁", "-c*(c - chi(z)/2)*(c + chi(z)/2)"),
             Box("U2", "ẏ = U₂", "-k*s"),
             Box("W", "ż = W", "-2*c + 1/4", 2),
@@ -89,7 +89,7 @@ def titles() -> dict[str, str]:
         NORMAL: "e-linear normal form",
         TYPED: "e-linear, coefficients as text",
         **{key: example.title for key, example in catalogue.items()},
-        OWN: "Your own",
+        OWN_SYSTEM: "Your own",
     }
 
 
@@ -118,7 +118,7 @@ def build(choice: str, texts: Mapping[str, str], parameters: Mapping[str, float]
     if choice in catalogue:
         ranges = catalogue[choice].ranges
         return _example(choice, tuple((name, value) for name, value in parameters.items() if name in ranges))
-    made = _typed(choice, tuple(texts_of(choice, texts).items()))
+    made = _typed_system(choice, tuple(texts_of(choice, texts).items()))
     return made.evolve(**{name: value for name, value in parameters.items() if name in dict(made.parameters)})
 
 
@@ -128,24 +128,24 @@ def _example(choice: str, parameters: tuple[tuple[str, float], ...]) -> System_:
 
 
 @lru_cache(maxsize=64)
-def _typed(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
+def _typed_system(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     boxes = dict(texts)
     for box, text in texts:
         if len(text) > LONGEST_TEXT:
             raise TextError(box, f"The text has {len(text)} characters; write at most {LONGEST_TEXT}.", LONGEST_TEXT)
-    declared, rest = _declared(boxes.pop("where", ""))
+    declared, rest = _read_declarations(boxes.pop("where", ""))
     definitions = _definitions(rest)
     if choice == TYPED and definitions:
         raise TextError("where", "Coefficients take no definitions; write a line such as mu = 0.3 in [0, 1].")
-    known = {*PLANE, "z", *(f"z{i}" for i in range(1, 17)), *FUNCTIONS, *CONSTANTS}
+    known = {*FAST_NAMES, "z", *(f"z{i}" for i in range(1, 17)), *FUNCTIONS, *CONSTANTS}
     known |= {key.split("(")[0].strip() for key in definitions}
-    known |= {TIME} if choice == OWN else set()
+    known |= {TIME} if choice == OWN_SYSTEM else set()
     names: list[str] = []
     own = {box.name for box in BOXES[choice]}
     for box, text in (*boxes.items(), *(("where", formula) for formula in definitions.values())):
         for found in _WORD.finditer(text):
             word = found.group()
-            if word not in known and (why := _taken(word, own)):
+            if word not in known and (why := _name_conflict(word, own)):
                 raise TextError(box, why, found.start() + 1)
             if word not in known and word not in names and word.lower() != "theta":  # the reader says: write c
                 names.append(word)
@@ -155,11 +155,11 @@ def _typed(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     if unused := [name for name in declared if name not in names]:
         raise TextError("where", f"{unused[0]} is in no formula: use it, or take its line away.")
     parameters = {name: declared[name][0] if name in declared else PARAMETER for name in names}
-    make = _elinear if choice == TYPED else _own
+    make = _elinear if choice == TYPED else _own_system
     return make(boxes, definitions, parameters)
 
 
-def _taken(word: str, boxes: Collection[str]) -> str:
+def _name_conflict(word: str, boxes: Collection[str]) -> str:
     """Say why a name is none of a parameter, which would get a slider; "" if it may be one."""
     if word in boxes:
         return say("name of a box", name=word)
@@ -170,7 +170,7 @@ def _taken(word: str, boxes: Collection[str]) -> str:
     return ""
 
 
-def _declared(text: str) -> tuple[dict[str, tuple[float, float, float]], str]:
+def _read_declarations(text: str) -> tuple[dict[str, tuple[float, float, float]], str]:
     """Return the parameters that are declared with a value and a range, as (value, low, high), and the other lines."""
     found: dict[str, tuple[float, float, float]] = {}
     rest: list[str] = []
@@ -215,7 +215,7 @@ def _elinear(boxes: Mapping[str, str], _: Mapping[str, str], parameters: dict[st
     )
 
 
-def _own(boxes: Mapping[str, str], definitions: dict[str, str], parameters: dict[str, float]) -> System:
+def _own_system(boxes: Mapping[str, str], definitions: dict[str, str], parameters: dict[str, float]) -> System:
     rows = [row.strip() for row in boxes["W"].splitlines() if row.strip()]
     if len(rows) > MOST_SLOW:
         raise TextError("W", f"There are {len(rows)} slow equations; write at most {MOST_SLOW}, one a line.")
@@ -274,7 +274,7 @@ def parameter_ranges(choice: str, texts: Mapping[str, str]) -> dict[str, tuple[f
     """Return the range of the slider of each parameter that an example, or a typed line, gives one."""
     if choice in catalogue:
         return dict(catalogue[choice].ranges)
-    declared, _ = _declared(texts_of(choice, texts).get("where", ""))
+    declared, _ = _read_declarations(texts_of(choice, texts).get("where", ""))
     return {name: (low, high) for name, (_, low, high) in declared.items()}
 
 

@@ -1,4 +1,4 @@
-"""Which regularisation function is chosen: one of the families, or one that the user types."""
+"""The chosen regularisation function: one of the families, or a typed formula."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a person, a link or a browser gives for a control, read and checked: the value, or what to give instead."""
+"""Clean a value for a control that a person, a link or a browser gives: the value, or its replacement."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ import param
 from codim2_core import psi as psi_families
 
 from ..draw.layers import LAYERS
-from .choices import AXES, OWN_AXIS, SETTING
+from .choices import OWN_AXIS, SETTING, SLIDER_AXES
 from .chosen import titles
-from .controls import NAMES, NUMBERS, Angle, ExplorerState
+from .controls import CONTROL_NAMES, NUMBERS, Angle, ExplorerState
 from .launches import read_launches
 from .portraits import portrait_keys
 
@@ -42,7 +42,7 @@ def clean(name: str, value: Any) -> Any:
     Parameters
     ----------
     name : str
-        One of `NAMES`.
+        One of `CONTROL_NAMES`.
     value : object
         A number, text or list; text is read as a URL writes it.
 
@@ -51,13 +51,13 @@ def clean(name: str, value: Any) -> Any:
     InputError
         With the name of the control.
     """
-    if name not in NAMES:
-        raise InputError(name, f"There is no control {name!r}; the controls are {', '.join(NAMES)}.")
+    if name not in CONTROL_NAMES:
+        raise InputError(name, f"There is no control {name!r}; the controls are {', '.join(CONTROL_NAMES)}.")
     declared = ExplorerState.param[name]
     if name in NUMBERS:
         return _finite(name, declared.label, value)
     if type(declared) is param.Integer:
-        return _whole(name, declared, value)
+        return _whole_number(name, declared, value)
     if type(declared) is param.Selector:
         return _one_of(name, declared, value)
     if type(declared) is Angle:
@@ -65,7 +65,7 @@ def clean(name: str, value: Any) -> Any:
     return _READ.get(name, _short_text)(name, declared.label, value)
 
 
-def _whole(name: str, declared: Any, value: Any) -> int:
+def _whole_number(name: str, declared: Any, value: Any) -> int:
     """Return a whole number within the bounds of its declaration."""
     count = _finite(name, declared.label, value)
     low, high = declared.bounds  # all are declared with both
@@ -110,8 +110,8 @@ def _layers(name: str, _label: str | None, value: Any) -> list[str]:
 def _axis(name: str, label: str | None, value: Any) -> str:
     """Return what a diagram or the atlas runs along: a control's number, or a parameter of the system."""
     value = value if isinstance(value, str) else str(value)[:40]
-    if not _is_own(value) and value not in AXES:
-        known = ", ".join([*AXES, f"{OWN_AXIS}mu"])
+    if not _is_own(value) and value not in SLIDER_AXES:
+        known = ", ".join([*SLIDER_AXES, f"{OWN_AXIS}mu"])
         raise InputError(name, f"{label}: {str(value)[:40]!r} given; choose one such as {known}.")
     return str(value)
 
@@ -121,7 +121,7 @@ def _is_own(name: str) -> bool:
     return name.startswith(OWN_AXIS) and name.removeprefix(OWN_AXIS).isidentifier()
 
 
-def _pinned(name: str, _label: str | None, value: Any) -> str:
+def _pinned_name(name: str, _label: str | None, value: Any) -> str:
     """Return the name of an object of the picture, or ""."""
     if not isinstance(value, str) or not PINNED.fullmatch(value):
         raise InputError(name, f"Pinned: {str(value)[:40]!r} given; give an object such as Q2, C or L1.")
@@ -220,7 +220,7 @@ _READ: Mapping[str, Callable[[str, str | None, Any], Any]] = MappingProxyType(
         "along": _axis,
         "across": _axis,
         "up": _axis,
-        "pinned": _pinned,
+        "pinned": _pinned_name,
         "ranges": _ranges,
         "texts": _mapping,
         "parameters": _mapping,

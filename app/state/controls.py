@@ -15,11 +15,11 @@ import param
 
 from codim2_core import psi as psi_families
 
-from ..draw.layers import LAYERS, shown
-from .choices import CENSUSES, MAX_TRAJECTORIES, MOST_CENSUS, PANELS, SLOW_CONTROLS, SOLIDS
+from ..draw.layers import LAYERS, default_layers
+from .choices import CENSUSES, MAX_TRAJECTORIES, MOST_CENSUS, PANEL_NAMES, SLOW_CONTROLS, SOLIDS
 from .chosen import NORMAL, titles
-from .launches import MOST
-from .opening import opening
+from .launches import MAX_LAUNCHES
+from .opening import opening_values
 from .portraits import portrait_keys, portrait_values
 
 
@@ -33,7 +33,7 @@ class Angle(param.Number):
 
 
 class ExplorerState(param.Parameterized):
-    """What the picture shows. Defaults are the paper's fig:simCM4 (preset case1-cm4)."""
+    """Values of all controls. The defaults are the paper's fig:simCM4 (preset case1-cm4)."""
 
     a = _number(-2.0, -4, 4, "a", "First entry of A = [[a, −b], [b, d]].")
     b = _number(0.0, -4, 4, "b", "Rotation in A = [[a, −b], [b, d]].")
@@ -67,7 +67,7 @@ class ExplorerState(param.Parameterized):
         64, bounds=(0, MAX_TRAJECTORIES), label="Starting points", doc="Number of trajectories."
     )
     layers = param.ListSelector(
-        default=shown(),
+        default=default_layers(),
         objects=list(LAYERS),
         check_on_set=False,  # `clean` looks at the table, which may have grown
         instantiate=True,
@@ -75,7 +75,9 @@ class ExplorerState(param.Parameterized):
         doc="What is drawn.",
     )
     preset = param.String("", label="Portrait", doc="A figure of the paper; the values start from it.")
-    panel = param.Selector(default="atlas", objects=list(PANELS), label="Panel", doc="What is open beside the picture.")
+    panel = param.Selector(
+        default="atlas", objects=list(PANEL_NAMES), label="Panel", doc="What is open beside the picture."
+    )
     along = param.String("f1", label="Along", doc="Parameter of the bifurcation diagram.")
     zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The diagram shows a 4^zoom-th of the slider's range.")
     across = param.String("f1", label="Across", doc="Horizontal axis of the atlas.")
@@ -96,7 +98,7 @@ class ExplorerState(param.Parameterized):
     orbits = param.String("", label="Orbits", doc="Launched orbits: x,y of each, joined by semicolons.")
     orbit = param.Integer(
         1,
-        bounds=(0, MOST),
+        bounds=(0, MAX_LAUNCHES),
         label="Orbit",
         doc="Number of the launched orbit that is shown in time; 0 is the typed start.",
     )
@@ -117,7 +119,7 @@ class ExplorerState(param.Parameterized):
 
     def values(self) -> dict[str, Any]:
         """Return every value by name, in the order of declaration."""
-        return {name: getattr(self, name) for name in NAMES}
+        return {name: getattr(self, name) for name in CONTROL_NAMES}
 
     @classmethod
     def of(cls, values: Mapping[str, Any], first: Mapping[str, Any] | None = None) -> ExplorerState:
@@ -128,14 +130,14 @@ class ExplorerState(param.Parameterized):
         start = preset_values(values.get("preset")) or deepcopy(dict(first or {}))
         choice = values.get("system", start.get("system", NORMAL))
         if choice != start.get("system", NORMAL):
-            start |= opening(choice)
+            start |= opening_values(choice)
         return cls(**{**start, **values})
 
 
 @lru_cache(maxsize=256)
 def _complete(key: str) -> dict[str, Any]:
     own = portrait_values(key)
-    return {**first_values(), **opening(own["system"]), **own, "preset": key}
+    return {**first_values(), **opening_values(own["system"]), **own, "preset": key}
 
 
 def preset_values(key: str | None) -> dict[str, Any]:
@@ -156,12 +158,12 @@ def offer(name: str, options: Iterable[str]) -> None:
     ExplorerState.param[name].objects = list(options)
 
 
-NAMES: tuple[str, ...] = tuple(
+CONTROL_NAMES: tuple[str, ...] = tuple(
     name
     for name in ExplorerState.param
     if name != "name"  # declaration order; `name` is param's own
 )
-NUMBERS: tuple[str, ...] = tuple(name for name in NAMES if type(ExplorerState.param[name]) is param.Number)
+NUMBERS: tuple[str, ...] = tuple(name for name in CONTROL_NAMES if type(ExplorerState.param[name]) is param.Number)
 
 #: Controls that keep what was typed into them, also where it cannot be used.
 TYPED_IN = frozenset({*NUMBERS, "trajectories", "texts", "psi_text", "launch"})

@@ -10,8 +10,8 @@ from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 
 #: The request's name for it, and how far from the centre it can be held: as far as the picture goes.
-GRAB, FARTHEST = "grab", 2.5
-DIGITS, MOST = 4, 12  # of f: finer than a pixel; where 1 - |e|^2 is small, as many more as that has zeros
+GRAB, MAX_GRAB_RADIUS = "grab", 2.5
+F_DIGITS, MAX_F_DIGITS = 4, 12  # of f: finer than a pixel; where 1 - |e|^2 is small, as many more as that has zeros
 
 
 def push_for(scene: Scene, values: Mapping[str, Any], place: Any) -> dict[str, float]:
@@ -36,13 +36,13 @@ def push_for(scene: Scene, values: Mapping[str, Any], place: Any) -> dict[str, f
     if values["system"] != "normal" or not isinstance(scene.system, ELinear):
         return {}
     r = math.hypot(*held)
-    if r > FARTHEST:
-        held, r = tuple(v * FARTHEST / r for v in held), FARTHEST
-    stretch, digits = 1.0, DIGITS
+    if r > MAX_GRAB_RADIUS:
+        held, r = tuple(v * MAX_GRAB_RADIUS / r for v in held), MAX_GRAB_RADIUS
+    stretch, digits = 1.0, F_DIGITS
     if 0.0 < r < 1.0:
         zeta = r / math.sqrt((1.0 - r) * (1.0 + r))
         stretch = float(scene.psi.modulus(zeta)) / r
-        digits = min(MOST, DIGITS - math.floor(math.log10(max(float(scene.psi.complement(zeta)), 1e-300))))
+        digits = min(MAX_F_DIGITS, F_DIGITS - math.floor(math.log10(max(float(scene.psi.complement(zeta)), 1e-300))))
     c, s = (stretch * v for v in held)
     a, b, d = values["a"], values["b"], values["d"]
     f1, f2 = b * s - a * c - values["z"] * values["k1"], -b * c - d * s - values["z"] * values["k2"]

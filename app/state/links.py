@@ -16,16 +16,16 @@ from types import MappingProxyType
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from ..draw.theme import NEAREST, WIDEST
+from ..draw.theme import MAX_HALF_VIEW, NEAREST
 from ..phrases import say
 from .chosen import BOXES, NORMAL
 from .cleaning import LONGEST_TEXT, InputError, clean
-from .controls import NAMES, ExplorerState, preset_values
-from .opening import opening
+from .controls import CONTROL_NAMES, ExplorerState, preset_values
+from .opening import opening_values
 
 VERSION = 1
 #: What a link of each version leaves out. A release that opens otherwise gets a new version beside these.
-FIRST: Mapping[int, Mapping[str, Any]] = MappingProxyType(
+DEFAULTS_BY_VERSION: Mapping[int, Mapping[str, Any]] = MappingProxyType(
     {
         1: {
             "a": -2.0, "b": 0.0, "d": -1.0, "f1": -0.5, "f2": 0.0, "system": "normal", "texts": {}, "parameters": {},
@@ -43,7 +43,7 @@ FIRST: Mapping[int, Mapping[str, Any]] = MappingProxyType(
     }
 )  # fmt: skip
 #: What another choice of system brings: always written where the system is not that of the portrait.
-BROUGHT = tuple(opening(NORMAL))
+BROUGHT = tuple(opening_values(NORMAL))
 
 #: What a link of an earlier release says otherwise, by name and value: the panel Time is now a part of Orbits.
 SAID_BEFORE: Mapping[tuple[str, str], Mapping[str, str]] = MappingProxyType(
@@ -51,13 +51,13 @@ SAID_BEFORE: Mapping[tuple[str, str], Mapping[str, str]] = MappingProxyType(
 )
 
 LONGEST_SQUEEZED, LONGEST_QUERY = 20_000, 60_000  # characters
-MOST_CONTROLS = 12
+MOST_CONTROLS, MAX_VIEWS, MAX_NAME_CHARACTERS = 12, 24, 200
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,39}")
 
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """How a page looks at its state: the part of the picture that is seen, and what an embedded page shows.
+    """The view of a page: the part of the picture that is seen, and the parts that an embedded page shows.
 
     Attributes
     ----------
@@ -70,17 +70,23 @@ class Look:
     beamer : int
         1, for the beamer: the picture fills the page, with large letters; 2: with a panel beside it. An embedded page
         has no such mode.
+    lift : bool
+        The picture is lifted onto the hemisphere.
+    views : tuple
+        Views to go through on a beamer: ``{"name", "set", "seen"}``, what is other than at first, and what is seen.
     """
 
     seen: tuple[float, ...] = ()
     embed: bool = False
     controls: tuple[str, ...] = ()
     beamer: int = 0
+    lift: bool = False
+    views: tuple[Mapping[str, Any], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Link:
-    """What an address asks for; a value that cannot be used keeps what it was, and is one of the errors."""
+    """The state in an address; a value that cannot be used keeps its default, and is one of the errors."""
 
     state: ExplorerState
     errors: tuple[InputError, ...] = ()
@@ -94,8 +100,8 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     ----------
     query : str or mapping
         ``v`` is the version; ``s`` holds a whole query squeezed (deflate, base64), over which the others stand;
-        ``seen``, ``embed``, ``controls``, ``beamer``, ``room`` and ``done`` are of the page; all else are values of
-        controls.
+        ``seen``, ``embed``, ``controls``, ``beamer``, ``lift``, ``views``, ``room`` and ``done`` are of the page; all
+        else are values of controls.
 
     Returns
     -------
@@ -106,7 +112,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     errors: list[InputError] = []
     if "s" in given:
         try:
-            given = {**dict(parse_qsl(unsqueezed(given.pop("s")), keep_blank_values=True)), **given}
+            given = {**dict(parse_qsl(decompress_query(given.pop("s")), keep_blank_values=True)), **given}
         except ValueError as error:
             errors.append(InputError("", str(error)))
     for name in ("room", "done"):  # of the page: see static/room, static/panels/lessons.js
@@ -120,12 +126,12 @@ def read_link(query: str | Mapping[str, str]) -> Link:
             given |= now
     good: dict[str, Any] = {}
     for name, text in given.items():
-        if name in NAMES:
+        if name in CONTROL_NAMES:
             try:
                 good[name] = clean(name, text)
             except InputError as error:
                 errors.append(InputError(error.control, str(error), text[:LONGEST_TEXT]))
-    unknown = [name[:20] for name in given if name not in NAMES and not name.startswith("bokeh-")]
+    unknown = [name[:20] for name in given if name not in CONTROL_NAMES and not name.startswith("bokeh-")]
     if unknown:
         shown = ", ".join(map(repr, unknown[:3])) + (f" and {len(unknown) - 3} more" if len(unknown) > 3 else "")
         errors.append(InputError("", say("address names", names=shown)))
@@ -134,7 +140,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
 
 def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:
     """Return the query of an address that shows these values (all of them, as `ExplorerState.values`)."""
-    base = {**FIRST[VERSION], **preset_values(values["preset"]), "preset": ""}
+    base = {**DEFAULTS_BY_VERSION[VERSION], **preset_values(values["preset"]), "preset": ""}
     brought = BROUGHT if values["system"] != base["system"] else ()
     wanted = {name: value for name, value in values.items() if value != base[name] or name in brought}
     if values["system"] in BOXES:  # texts that one sees are part of a link, whatever a later release begins with
@@ -149,10 +155,14 @@ def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:
             query["controls"] = ",".join(look.controls)
         if look.beamer:
             query["beamer"] = str(look.beamer)
+        if look.lift:
+            query["lift"] = "1"
+        if look.views:
+            query["views"] = json.dumps(look.views, separators=(",", ":"))
     return urlencode(query)
 
 
-def squeezed(query: str) -> str:
+def compress_query(query: str) -> str:
     """Return a query as one that carries it compressed, where that is shorter."""
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)
     packed = packer.compress(query.encode()) + packer.flush()
@@ -160,7 +170,7 @@ def squeezed(query: str) -> str:
     return min(query, short, key=len)
 
 
-def unsqueezed(text: str) -> str:
+def decompress_query(text: str) -> str:
     """Return the query that a squeezed one carries.
 
     Raises
@@ -186,22 +196,43 @@ def _first(version: str, errors: list[InputError]) -> Mapping[str, Any]:
     """Return what a link of this version leaves out; one without a version, typed or old, leaves out nothing."""
     if version == "":
         return {}
-    if version.isdecimal() and int(version[:9]) in FIRST:
-        return FIRST[int(version[:9])]
+    if version.isdecimal() and int(version[:9]) in DEFAULTS_BY_VERSION:
+        return DEFAULTS_BY_VERSION[int(version[:9])]
     errors.append(InputError("", say("address of a later version", version=version[:9], newest=VERSION)))
-    return FIRST[VERSION]
+    return DEFAULTS_BY_VERSION[VERSION]
 
 
 def _look(given: dict[str, str], errors: list[InputError]) -> Look:
     """Take what is of the page out of the given texts."""
-    seen, embed, controls, beamer = (given.pop(name, "") for name in ("seen", "embed", "controls", "beamer"))
+    seen, embed, controls, beamer, lift, views = (
+        given.pop(name, "") for name in ("seen", "embed", "controls", "beamer", "lift", "views")
+    )
     names = [name for name in controls.split(",") if name]
     good = [name for name in names if _NAME.fullmatch(name)][:MOST_CONTROLS]
     if len(good) < len(names):
         errors.append(InputError("", say("controls of a frame", most=MOST_CONTROLS)))
     embedded = embed not in ("", "0")
     beamed = 0 if embedded or beamer in ("", "0") else 2 if beamer == "2" else 1
-    return Look(_rectangle(seen, errors), embedded, tuple(good), beamed)
+    kept = () if embedded else _views(views, errors)
+    return Look(_rectangle(seen, errors), embedded, tuple(good), beamed, lift not in ("", "0"), kept)
+
+
+def _views(text: str, errors: list[InputError]) -> tuple[Mapping[str, Any], ...]:
+    """Return kept views, each value cleaned as one of an address is."""
+    if not text:
+        return ()
+    try:
+        found = []
+        for view in json.loads(text)[:MAX_VIEWS]:
+            values = {
+                name: clean(name, _to_text(value)) for name, value in view["set"].items() if name in CONTROL_NAMES
+            }
+            seen = _rectangle(",".join(map(str, view["seen"] or ())), errors)
+            found.append({"name": str(view["name"])[:MAX_NAME_CHARACTERS], "set": values, "seen": list(seen) or None})
+        return tuple(found)
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError):
+        errors.append(InputError("", say("views of a link")))
+        return ()
 
 
 def _rectangle(text: str, errors: list[InputError]) -> tuple[float, ...]:
@@ -212,10 +243,17 @@ def _rectangle(text: str, errors: list[InputError]) -> tuple[float, ...]:
     except ValueError:
         left = right = bottom = top = 0.0
     far = max(map(abs, (left, right, bottom, top)))
-    if far <= 3 * WIDEST and all(1.9 * NEAREST <= size <= 2.1 * WIDEST for size in (right - left, top - bottom)):
+    if far <= 3 * MAX_HALF_VIEW and all(
+        1.9 * NEAREST <= size <= 2.1 * MAX_HALF_VIEW for size in (right - left, top - bottom)
+    ):
         return left, right, bottom, top  # as far as the picture's own tools go, and no closer: so far it is sampled
     errors.append(
-        InputError("", say("part of the picture", given=text[:40], least=2 * NEAREST, most=2 * WIDEST, far=3 * WIDEST))
+        InputError(
+            "",
+            say(
+                "part of the picture", given=text[:40], least=2 * NEAREST, most=2 * MAX_HALF_VIEW, far=3 * MAX_HALF_VIEW
+            ),
+        )
     )
     return ()
 

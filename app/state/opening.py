@@ -1,4 +1,4 @@
-"""What a choice of system opens with: a place on Sigma, axes, a motion and a panel that show something of it."""
+"""First view of a chosen system: a place on Sigma, axes, a motion and a panel that show something of it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .choices import OWN_AXIS, SLOW_CONTROLS
 from .chosen import NORMAL, has_atlas, starting_launch, starting_z
 
 
-def opening(choice: str) -> dict[str, Any]:
+def opening_values(choice: str) -> dict[str, Any]:
     """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing.
 
     And a panel that has something to show of it.

@@ -10,7 +10,7 @@ from codim2_core.figures.preset import Preset
 from codim2_core.figures.presets import presets
 from codim2_core.paper import cite
 
-from ..draw.layers import shown
+from ..draw.layers import default_layers
 
 #: Layers of a figure that shows where approaches lead.
 WITH_OUTCOMES = [
@@ -25,7 +25,7 @@ VIEWS: dict[str, dict[str, Any]] = {
     "stack": {"panel": "solid", "solid": "stack"},
     "filippov": {"panel": "solid", "solid": "filippov"},
     "outcomes": {"panel": "numbers", "layers": WITH_OUTCOMES},
-    "connections": {"layers": [*shown(), "separatrices"]},
+    "connections": {"layers": [*default_layers(), "separatrices"]},
     "conics": {"panel": "numbers", "layers": CONICS},
     "psi": {"panel": "psi"},
     "planes": {"panel": "planes"},

@@ -45,6 +45,7 @@ export class Explorer {
     this.changed = false
     this.hidden = [] // layers that a question hides until it is answered
     this.typed = new Set() // names of what was typed and is not noted yet
+    this.views = /** @type {import("./page/views.js").Views | null} */ (null)
     this.beside = /** @type {any} */ (null) // the second portrait, or in it the first
     this.alone = config.page && !config.look.embed
     this.inside = config.page && config.look.embed && window.parent !== window && window.name === SECOND
@@ -145,6 +146,7 @@ export class Explorer {
       this.beside?.sync?.()
       this.beside?.started?.()
       this.room?.begin(this.asked)
+      if (this.config.look.lift) this.picture.lift?.swing(true)
       rest.note("opening", false)
       root.dataset.ready = "true"
     }, 0))
@@ -161,6 +163,7 @@ export class Explorer {
     // what is no number goes to the server for its sentence; pad and address keep the last good value
     if (this.numbers.has(name) && typeof value !== "number") { requests.set(name, value); return }
     values[name] = value
+    if (this.setting.has(name) || name === "quiz") this.room?.stray()
     if (["texts", "parameters", "psi_text"].includes(name)) this.typed.add(name)
     requests.set(name, value)
     if (this.numbers.has(name)) this.panels.draw(values)

@@ -3,7 +3,7 @@
 import {Panels} from "./beside/panels.js"
 import {slidersOf} from "./controls/controls.js"
 import {twoFingers} from "./hands/gestures.js"
-import {Grab} from "./hands/grab.js"
+import {Grab, KEYS, turnedTo} from "./hands/grab.js"
 import {Hands} from "./hands/hands.js"
 import {Pointing} from "./hands/pointing.js"
 import {Beamer, busy, enlarged} from "./page/beamer.js"
@@ -16,6 +16,7 @@ import {Lift} from "./picture/lift.js"
 import {Table} from "./page/table.js"
 import {Views} from "./page/views.js"
 import {Room} from "./room/room.js"
+import {SAYS} from "./words.js"
 
 /** @typedef {import("./explorer.js").Explorer} Explorer */
 
@@ -29,7 +30,7 @@ export function panelsOf(explorer) {
     rangeOf: (name) => (name.startsWith("own:") ? explorer.systems.sliders[name.slice(4)] : controls[name])?.range ?? config.ranges[name] ?? [-4, 4],
     valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
-    take: (wish) => explorer.takes.ask(wish), untake: (kind) => explorer.takes.stop(kind),
+    take: (wish, progress) => explorer.takes.ask({theme: explorer.theme.name, ...wish}, progress), film: config.film, untake: (kind) => explorer.takes.stop(kind),
     trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarged(explorer.picture.list, 1 / explorer.picture.times),
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),
@@ -52,6 +53,18 @@ export function pointingOf(explorer) {
 /** @param {Explorer} explorer */
 export function handsOf(explorer) {
   const {values, picture, pointing, spoken} = explorer, place = explorer.find(".bokeh")
+  const turns = (one) => { // limit directions, where f decides
+    const from = {...values} // the nearest f to that with which it was taken
+    return explorer.eLinear && one.kind === "equator" ? (to) => explorer.move(turnedTo(from, to)) : null
+  }
+  pointing.hint = (one) => turns(one) ? SAYS.turns : ""
+  pointing.list.addEventListener("keydown", (event) => {
+    const one = pointing.over, [across, up] = KEYS[event.key] ?? [], turn = across !== undefined && one && turns(one)
+    if (!turn) return
+    event.preventDefault()
+    const step = (event.shiftKey ? 0.1 : 0.02) * Math.sign(one.x * up - one.y * across) // along the equator, the way of the key
+    turn({x: one.x - step * one.y, y: one.y + step * one.x})
+  })
   const hands = new Hands(place, picture, {
     get: () => values.orbits,
     set: (launches) => {
@@ -61,15 +74,16 @@ export function handsOf(explorer) {
     },
     begin: (i) => { spoken.begin(i); explorer.change("orbit", i + 1) },
     end: () => spoken.end(),
-  }, pointing)
+  }, {under: (event) => pointing.under(event), toggle: (one) => pointing.toggle(one), turns})
   explorer.find(".home").addEventListener("click", () => picture.home())
   twoFingers(place, explorer.plot, () => hands.held !== null)
   return hands
 }
 
 /** The picture, lifted, and comets on it. @param {Explorer} explorer */
-export function liftOf({root, config, picture, rest}) {
-  const lift = new Lift(root, picture), comets = new Comets(picture, () => rest.under.size > 0)
+export function liftOf(explorer) {
+  const {root, config, picture, rest} = explorer
+  const lift = new Lift(root, picture, (on) => { config.look.lift = on; explorer.steps?.rewrite() }), comets = new Comets(picture, () => rest.under.size > 0)
   ;(config.page ? document : root).addEventListener("keydown", (event) => {
     if (busy(root, event)) return
     if (event.key === "l") { event.preventDefault(); lift.swing() }
@@ -83,7 +97,7 @@ export function grabOf(explorer) {
   const {root, values, picture, pointing, requests} = explorer
   return new Grab(root, picture, {
     values, free: () => explorer.eLinear && values.layers.includes("critical") && !explorer.hidden.includes("critical"),
-    move: (place) => requests.set("grab", place), settle: () => requests.rest(),
+    move: (place) => { explorer.room?.stray(); requests.set("grab", place) }, settle: () => requests.rest(),
     point: (one) => pointing.show(one), pin: (one) => pointing.toggle(one),
     one: () => pointing.objects.find(({kind}) => kind === "critical") ?? null,
   })
@@ -109,6 +123,7 @@ export function roomOf(explorer) {
     query: () => writeLink(explorer.values, null, {...config, look: {embed: false, controls: [], beamer: 0}}), // a phone is no beamer
     changed: () => explorer.panels.draw(explorer.values), opened: () => explorer.choose("panel", "atlas"),
     open: (view) => explorer.open(view),
+    follow: (view) => explorer.steps.put({values: {...config.defaults, beside: explorer.values.beside, ...view}, seen: explorer.picture.seen}), // no step of one's own
   })
 }
 
@@ -116,7 +131,7 @@ export function roomOf(explorer) {
 export function addDialogs(explorer) {
   const {root, config, picture, theme} = explorer
   new Help(root, explorer.find("dialog.helping"))
-  const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer}})
+  const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer, lift: config.look.lift, views: explorer.views?.carried}})
   const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await squeezed(query(), config.link.version)}`}))
   explorer.find(".share").addEventListener("click", () => share.open())
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
@@ -139,8 +154,8 @@ export function besideOf(explorer) {
   })
   picture.viewed(() => beside.look())
   const beamer = new Beamer(root, picture, config.look.beamer, (on) => { config.look.beamer = on; beside.look(); explorer.steps.rewrite() })
-  new Views(root, {
-    values, first: config.defaults, shown: () => beamer.on > 0, name: () => explorer.find(".portrait-name").textContent,
+  explorer.views = new Views(root, {
+    values, first: config.defaults, brought: (config.look.views ?? []).splice(0), shown: () => beamer.on > 0, name: () => explorer.find(".portrait-name").textContent,
     seen: () => picture.window && picture.seen, move: (wanted) => explorer.move(wanted),
     open: (view, seen) => { explorer.forget(); explorer.put(view); if (seen) picture.seen = seen; else picture.home() },
   })

@@ -1,4 +1,4 @@
-"""What one browser is answered with, message by message: a frame now or once its picture is there, a file, a room."""
+"""Answer the messages of one browser: a frame now or once its picture is ready, a file, a room."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .refresh import Frames
 from .taking import Reply, Taking
 
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
-PATIENCE = 0.25
+PICTURE_WAIT_SECONDS = 0.25
 
 
 class _Held:
@@ -105,7 +105,7 @@ class Answers:
             self.frames.publish()
 
         held = self._held = _Held(self._later, answer)
-        IOLoop.current().call_later(PATIENCE, held.come)
+        IOLoop.current().call_later(PICTURE_WAIT_SECONDS, held.come)
         pending.add_done_callback(held.come)
 
     def leave(self) -> None:

@@ -37,7 +37,7 @@ REST = 1.0
 
 
 class CellView(Protocol):
-    """What a cell asks of an explorer."""
+    """The interface that a notebook cell needs of an explorer."""
 
     def still(self, patient: bool) -> tuple[str, str, bool]:
         """Return the picture of the present state as an SVG file, its sentence, and whether nothing is left out.
@@ -145,10 +145,10 @@ def _listen() -> None:
     """Let pages talk with this kernel: to ask for a view, and then as Panel's own outputs do."""
     settings.simple_ids.set_value(False)  # p1001 could be of a kernel before this one
     pn.state._comm_manager = JupyterCommManagerBinary  # noqa: SLF001 (what pn.extension() does)
-    kernel().comm_manager.register_target(TARGET, _opened)
+    kernel().comm_manager.register_target(TARGET, _answer_opening)
 
 
-def _opened(comm: Any, opening: dict[str, Any]) -> None:
+def _answer_opening(comm: Any, opening: dict[str, Any]) -> None:
     """Answer a page that shows a cell; one whose view is of an earlier kernel hears nothing, and keeps its picture."""
     cell = _cells.get(opening["content"]["data"].get("view"))
     if cell is None:

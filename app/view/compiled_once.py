@@ -1,4 +1,4 @@
-"""Of several processes one compiles a kernel: the others wait for that one, and load it.
+"""Let one of several processes compile a kernel; the others wait for it, and load the result.
 
 Numba asks the disk before it compiles, but processes that begin together, as servers behind one port or those that
 share the tests, all find nothing, and each compiles everything.
@@ -38,17 +38,17 @@ def once(compile_: Callable[..., Any]) -> Callable[..., Any]:
     """
 
     @wraps(compile_)
-    def compiled(self: Any, *signature: Any) -> Any:
+    def compile_once(self: Any, *signature: Any) -> Any:
         if not isinstance(self._cache, caching.FunctionCache):  # nothing of it is kept
             return compile_(self, *signature)
-        with _one_thread, held(f"{self._cache.cache_path} {self.__qualname__}"):
+        with _one_thread, hold_name(f"{self._cache.cache_path} {self.__qualname__}"):
             return compile_(self, *signature)
 
-    return compiled
+    return compile_once
 
 
 @contextmanager
-def held(name: str) -> Iterator[None]:
+def hold_name(name: str) -> Iterator[None]:
     """Wait for other processes that hold this name, and let them wait; where that cannot be, go on.
 
     A name is a byte of one file: what two names share by chance is compiled one after the other.
@@ -56,7 +56,7 @@ def held(name: str) -> Iterator[None]:
     try:
         import fcntl
 
-        file, byte = _opened(place().with_suffix(".kernels")), zlib.crc32(name.encode())
+        file, byte = _open_lock(place().with_suffix(".kernels")), zlib.crc32(name.encode())
         fcntl.lockf(file, fcntl.LOCK_EX, 1, byte)
     except (ImportError, OSError):  # Windows; no folder for such files; a file system without locks
         yield
@@ -68,6 +68,6 @@ def held(name: str) -> Iterator[None]:
 
 
 @cache
-def _opened(path: Path) -> int:
+def _open_lock(path: Path) -> int:
     """Return the file, open for as long as the process lives: closing it would give up all that is held of it."""
     return os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)

@@ -33,13 +33,13 @@ from ..frame.later import later
 from ..frame.picture import make_frame
 from ..phrases import say
 from ..state.chosen import System_
-from ..state.controls import NAMES, ExplorerState
+from ..state.controls import CONTROL_NAMES, ExplorerState
 from .answers import Answers
 from .cell import Cell, kernel
 from .first_markup import first_words
-from .markup import STATIC, digest, explorer_html, offered_text, script, settings
+from .markup import SCRIPT_FOLDER, digest, explorer_html, offered_text, script, settings
 from .refresh import Frames
-from .shared import SHARED, declare, join
+from .shared import SHARED_CONTROLS, declare, join
 from .warmup import is_ready
 
 COMPILING = say("compiling")
@@ -66,7 +66,7 @@ class ExplorerView(JSComponent):
     """
 
     #: They are the state's, and go to the browser as frames.
-    _rename: ClassVar[Mapping[str, str | None]] = dict.fromkeys(SHARED)
+    _rename: ClassVar[Mapping[str, str | None]] = dict.fromkeys(SHARED_CONTROLS)
 
     picture = Child()
     config = param.Dict({})
@@ -87,7 +87,7 @@ class ExplorerView(JSComponent):
         system: System_ | None = None,
         **params: Any,
     ) -> None:
-        given = {name: params.pop(name) for name in SHARED if name in params}
+        given = {name: params.pop(name) for name in SHARED_CONTROLS if name in params}
         values = {name: resolve_value(value) for name, value in given.items()}
         self.state = ExplorerState.of(values) if state is None else state
         if state is not None:
@@ -99,16 +99,16 @@ class ExplorerView(JSComponent):
         self._answers: Answers | None = None
         self._cell: Cell | None = None
         self._first_values = self.state.values()
-        own = (STATIC / "notebook.css").read_text(encoding="utf-8")
+        own = (SCRIPT_FOLDER / "notebook.css").read_text(encoding="utf-8")
         layout = {**params, "stylesheets": [own, *params.get("stylesheets", ())]}
         if not {"sizing_mode", "width"} & params.keys():
             layout["sizing_mode"] = "stretch_width"
         picture = pn.pane.Bokeh(make_figure(), sizing_mode="stretch_both")
         opening = self._opening()
-        drawn = {name: value for name, value in self.state.values().items() if name in SHARED}
+        drawn = {name: value for name, value in self.state.values().items() if name in SHARED_CONTROLS}
         linked = {name: value for name, value in given.items() if value is not values[name]}
         super().__init__(picture=picture, **opening, **layout, **{**drawn, **linked})
-        self.state.param.watch(self._follow, list(NAMES))
+        self.state.param.watch(self._follow, list(CONTROL_NAMES))
         join(self, self.state)
 
     @property

@@ -1,4 +1,4 @@
-"""What a page says and shows before any script runs."""
+"""Markup of a page before any script runs."""
 
 from __future__ import annotations
 

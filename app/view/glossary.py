@@ -1,4 +1,4 @@
-"""What the page says of itself: which paper it shows, the equations, and the words, each in a sentence."""
+"""The page's own texts: the paper that it shows, the equations, and its terms, a sentence each."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ PAPER = (
 )
 _SLOW = '<mo>,</mo><mspace width="1em"/>'
 _OPEN, _CLOSE, _BAR = (f'<mo stretchy="false">{c}</mo>' for c in "()|")
+_PRIME = '<mo lspace="0" rspace="0.2em">′</mo>'
 _XY = f"{_OPEN}<mi>x</mi><mo>,</mo><mi>y</mi>{_CLOSE}"
 _E = f'<mi class="of-psi">e</mi><mo>=</mo>{_XY}<mo>/</mo>{_BAR}{_XY}{_BAR}'
 #: The equation of motion, for the page's head: of the e-linear system, and of any other. Colours are of the controls.
 EQUATION = (
-    f'<math class="equation normal-only" aria-label="(x, y)′ = A e + f + z k, e = (x, y)/|(x, y)|"><msup>'
-    f'<mrow>{_XY}</mrow><mo>′</mo></msup><mo>=</mo><mi class="of-A">A</mi><mi class="of-psi">e</mi><mo>+</mo>'
+    f'<math class="equation normal-only" aria-label="(x, y)′ = A e + f + z k, e = (x, y)/|(x, y)|"><mrow>'
+    f'{_XY}{_PRIME}</mrow><mo>=</mo><mi class="of-A">A</mi><mi class="of-psi">e</mi><mo>+</mo>'
     f'<mi class="of-f">f</mi><mo>+</mo><mi class="of-z">z</mi><mi class="of-f">k</mi>{_SLOW}{_E}</math>'
-    f'<math class="equation other-only" aria-label="(x, y)′ = U(e, z), z′ = W(e, z), e = (x, y)/|(x, y)|"><msup>'
-    f'<mrow>{_XY}</mrow><mo>′</mo></msup><mo>=</mo><mi>U</mi>{_OPEN}<mi class="of-psi">e</mi><mo>,</mo>'
+    f'<math class="equation other-only" aria-label="(x, y)′ = U(e, z), z′ = W(e, z), e = (x, y)/|(x, y)|"><mrow>'
+    f'{_XY}{_PRIME}</mrow><mo>=</mo><mi>U</mi>{_OPEN}<mi class="of-psi">e</mi><mo>,</mo>'
     f'<mi class="of-z">z</mi>{_CLOSE}{_SLOW}{_E}</math>'
 )
 #: Term and meaning, in the paper's words, in the order in which a reader of the picture meets them.

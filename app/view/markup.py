@@ -17,11 +17,11 @@ from jinja2 import Environment, FileSystemLoader, Template, select_autoescape
 from codim2_core.psi import FAMILIES
 
 from ..draw.bundle import bundle
-from ..draw.gallery import FIRST, gallery
+from ..draw.gallery import FIRST_PRESET, gallery
 from ..draw.layers import LAYERS, TRACES, looks, swatches, table
 from ..draw.theme import MEASURES, custom_properties, themes
-from ..export.printing import there
-from ..panels.registry import PANELS
+from ..export.printing import has_typst
+from ..panels.registry import PANELS_BY_NAME
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
 from ..state.chosen import BOXES, titles
@@ -31,7 +31,7 @@ from ..state.portraits import portrait_keys, portraits
 from ..state.slider_range import edited_range, slider_range
 from .glossary import EQUATION, GLOSSARY, MARKS, OPENING, PAPER
 
-STATIC = Path(__file__).parents[1] / "static"
+SCRIPT_FOLDER = Path(__file__).parents[1] / "static"
 
 #: Controls by group: the matrix A, f, the slow variable, how f drifts with it, the slow flow.
 GROUPS = {"A": ("a", "b", "d"), "f": ("f1", "f2"), "z": ("z",), "drift": ("k1", "k2"), "slow": ("B1", "B2", "g0")}
@@ -39,7 +39,7 @@ GROUPS = {"A": ("a", "b", "d"), "f": ("f1", "f2"), "z": ("z",), "drift": ("k1", 
 
 @cache
 def _template(name: str) -> Template:
-    loader = FileSystemLoader(STATIC)
+    loader = FileSystemLoader(SCRIPT_FOLDER)
     return Environment(loader=loader, autoescape=select_autoescape(), trim_blocks=True).get_template(name)
 
 
@@ -47,15 +47,15 @@ def stylesheet() -> str:
     """Return all rules; they are scoped to `.codim2`, their colours are the table's, and small screens come last."""
     names = ("explorer", "sharing", "second", "room/room", "chart/chart", "beamer", "narrow")
     own, sharing, second, room, charts, beamer, narrow = (
-        (STATIC / f"{name}.css").read_text(encoding="utf-8") for name in names
+        (SCRIPT_FOLDER / f"{name}.css").read_text(encoding="utf-8") for name in names
     )
-    panels = (panel.style for panel in PANELS.values())
+    panels = (panel.style for panel in PANELS_BY_NAME.values())
     return "\n".join((custom_properties(), own, sharing, second, swatches(), charts, *panels, room, beamer, narrow))
 
 
-def _embedded(look: Look) -> str:
+def _embedded_rules(look: Look) -> str:
     """Return the rules of a page in a frame, which shows the controls that its link names."""
-    rules = (STATIC / "embed.css").read_text(encoding="utf-8")
+    rules = (SCRIPT_FOLDER / "embed.css").read_text(encoding="utf-8")
     for name in look.controls:
         boxes = ", ".join(f'[data-control="{box}"]' for box in (name, f"slow-{name}", f"parameter-{name}"))
         chosen = f".codim2.embed.embed.embed:not(.notebook) .controls :is({boxes}):not(.row, .parameters)"
@@ -66,7 +66,7 @@ def _embedded(look: Look) -> str:
 @cache
 def script() -> str:
     """Return the front end as one ES module."""
-    return bundle(*(panel.script for panel in PANELS.values()), STATIC / "explorer.js")
+    return bundle(*(panel.script for panel in PANELS_BY_NAME.values()), SCRIPT_FOLDER / "explorer.js")
 
 
 @cache
@@ -78,7 +78,7 @@ def digest() -> str:
 @cache
 def edition() -> str:
     """Return what stands for the explorer as a page has it: a page of one is not driven by a server of another."""
-    written = [(STATIC / name).read_text(encoding="utf-8") for name in ("explorer.html", "page.html")]
+    written = [(SCRIPT_FOLDER / name).read_text(encoding="utf-8") for name in ("explorer.html", "page.html")]
     versions = [version(name) for name in ("codim2", "bokeh", "panel")]
     return hashlib.sha256("\n".join((*versions, digest(), stylesheet(), *written)).encode()).hexdigest()[:16]
 
@@ -88,16 +88,16 @@ def address_of_script() -> str:
     return f"./explorer.js?v={digest()}"
 
 
-def offered() -> dict[str, Any]:
+def front_end_constants() -> dict[str, Any]:
     """Return what the front end must know whatever is open: presets by what is other than the defaults, colours."""
     first = first_values()
     return {
         "numbers": list(NUMBERS),
-        "panels": {key: dict(panel.settings) for key, panel in PANELS.items()},
+        "panels": {key: dict(panel.settings) for key, panel in PANELS_BY_NAME.items()},
         "defaults": first,
         "setting": list(SETTING),
         "opening": OPENING,
-        "first": FIRST,
+        "first": FIRST_PRESET,
         "layers": table(),
         "traces": looks(TRACES),
         "families": {
@@ -116,13 +116,13 @@ def offered() -> dict[str, Any]:
 
 
 @lru_cache(maxsize=4)
-def _offered(*_: Any) -> str:
-    return json.dumps(offered(), ensure_ascii=False, separators=(",", ":"))
+def _front_end_json(*_: Any) -> str:
+    return json.dumps(front_end_constants(), ensure_ascii=False, separators=(",", ":"))
 
 
 def offered_text() -> str:
-    """Return `offered` as JSON, written anew where something has been registered: its parts cost 10 ms a page."""
-    return _offered(tuple(PANELS), tuple(portrait_keys()), tuple(FAMILIES), tuple(LAYERS), tuple(BOXES))
+    """Return `front_end_constants` as JSON, written anew when something is registered: it costs 10 ms."""
+    return _front_end_json(tuple(PANELS_BY_NAME), tuple(portrait_keys()), tuple(FAMILIES), tuple(LAYERS), tuple(BOXES))
 
 
 def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
@@ -133,7 +133,7 @@ def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | No
         "docs": {name: state.param[name].doc for name in NUMBERS},
         "values": state.values(),
         "locked": list(locked),
-        "film": there(),
+        "film": has_typst(),
         "look": asdict(look or Look()),
         "edition": edition(),
     }
@@ -141,7 +141,7 @@ def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | No
 
 def config(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
     """Return all that the front end must know."""
-    return {**offered(), **settings(state, locked, look)}
+    return {**front_end_constants(), **settings(state, locked, look)}
 
 
 def _differences(first: Mapping[str, Any], key: str) -> dict[str, Any]:
@@ -179,7 +179,7 @@ def explorer_html(
 
     groups = groupby(portraits(), key=lambda item: item["group"])
     return _template("explorer.html").render(
-        css=stylesheet() + (_embedded(look) if look and look.embed else ""),
+        css=stylesheet() + (_embedded_rules(look) if look and look.embed else ""),
         groups={group: [control(name) for name in names] for group, names in GROUPS.items()},
         exponent=control("n"),
         portraits=[(group, list(items)) for group, items in groups],
@@ -188,7 +188,7 @@ def explorer_html(
         equation=EQUATION,
         families=FAMILIES,
         layers=LAYERS,
-        panels=PANELS,
+        panels=PANELS_BY_NAME,
         outcomes=OUTCOMES,
         systems=titles(),
         slow_controls=SLOW_CONTROLS,
@@ -207,4 +207,4 @@ def explorer_html(
 
 def page_template() -> str:
     """Return the page around the explorer, for Bokeh's server; it asks no other host for anything."""
-    return (STATIC / "page.html").read_text(encoding="utf-8")
+    return (SCRIPT_FOLDER / "page.html").read_text(encoding="utf-8")

@@ -22,10 +22,10 @@ from ..panels.parameters.axes import axes_there
 from ..state.choices import SLOW_CONTROLS
 from ..state.chosen import System_, titles
 from ..state.cleaning import InputError, clean
-from ..state.controls import NAMES, ExplorerState
+from ..state.controls import CONTROL_NAMES, ExplorerState
 from .cell import kernel
 from .explorer import ExplorerView
-from .shared import SHARED
+from .shared import SHARED_CONTROLS
 
 LAYOUT = frozenset({"sizing_mode", "width", "height", "margin", "styles", "stylesheets"})
 
@@ -70,10 +70,10 @@ def explorer(
     from . import warmup
 
     layout = {name: state.pop(name) for name in LAYOUT & state.keys()}
-    linked = {name: value for name, value in state.items() if name in SHARED and resolve_ref(value)}
+    linked = {name: value for name, value in state.items() if name in SHARED_CONTROLS and resolve_ref(value)}
     state = {name: resolve_value(value) if name in linked else value for name, value in state.items()}
     if isinstance(system, Scene):
-        psi, state, system = psi or system.psi, {"z": system.z, **state}, _whole(system)
+        psi, state, system = psi or system.psi, {"z": system.z, **state}, _own_system(system)
     elif isinstance(system, str):
         name = "preset" if system in presets else "system"
         if system not in presets and system not in titles():
@@ -102,7 +102,7 @@ def explorer(
     return view
 
 
-def _whole(scene: Scene) -> System_:
+def _own_system(scene: Scene) -> System_:
     if not isinstance(scene.system, (ELinear, System)):
         raise ValueError("the scene was made of a system frozen at one z; make it of an ELinear or a System.")
     return scene.system
@@ -143,8 +143,8 @@ def _numbers(name: str, given: Any, count: int) -> list[float]:
 def _clean(state: Mapping[str, Any]) -> dict[str, Any]:
     values: dict[str, Any] = {}
     for name, value in state.items():
-        if name not in NAMES:
-            raise ValueError(f"{name!r} is no control of the explorer; there are f, B, g, {', '.join(NAMES)}.")
+        if name not in CONTROL_NAMES:
+            raise ValueError(f"{name!r} is no control of the explorer; there are f, B, g, {', '.join(CONTROL_NAMES)}.")
         try:
             values[name] = clean(name, value)
         except InputError as error:

@@ -1,4 +1,4 @@
-"""What an address asked for in vain, said with the first frame."""
+"""Notices about values of an address that cannot be used, sent with the first frame."""
 
 from __future__ import annotations
 

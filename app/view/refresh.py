@@ -1,4 +1,4 @@
-"""From a request of the browser to one frame: state, then scene, then only what is visible and has changed.
+"""Turn a request of the browser into a frame: state, then scene, then only what is visible and has changed.
 
 The browser decides when to ask: one request is out at a time and newer values replace older ones there, so that
 nothing ever queues here.
@@ -17,7 +17,7 @@ from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
-from codim2_core.words import printed
+from codim2_core.words import printed_sentence
 
 from ..draw import glyphs
 from ..draw.lines import arrowheads, spacing
@@ -28,15 +28,15 @@ from ..frame.faults import sentence_of
 from ..frame.jobs import Jobs
 from ..frame.load import load
 from ..frame.picture import Asked, Blocks, make_frame
-from ..frame.scenes import cut_after, evolved, locked_controls, make_scene, settled
+from ..frame.scenes import complete_changes, cut_after, evolve_scene, locked_controls, make_scene
 from ..frame.sides import sides
 from ..frame.turns import Failed
-from ..frame.window import Window, inputs, seen
+from ..frame.window import Window, inputs, resample_for_window
 from ..panels import registry
 from ..panels.parameters.axes import opening_axes
 from ..state.asked import read_request
-from ..state.changes import culprit, together
-from ..state.choices import AXES
+from ..state.changes import compatible_changes, culprit
+from ..state.choices import SLIDER_AXES
 from ..state.chosen import GIVEN, System_, describe
 from ..state.cleaning import InputError, clean
 from ..state.controls import TYPED_IN, ExplorerState, first_values, preset_values
@@ -45,7 +45,7 @@ from . import warmup
 from .notices import left_out
 
 #: Controls that are axes of the picture's parameters.
-MOVED = frozenset(AXES)
+MOVED = frozenset(SLIDER_AXES)
 #: The control along which a degenerate setting is looked at from both sides, before one is moved.
 FIRST_MOVED = "f1"
 #: Controls that say which parameters there are.
@@ -153,7 +153,7 @@ class Frames:
             header["set"] = told
         if header.get("ready") is False and warmup.done is not None and warmup.done[0] < warmup.done[1]:
             header["compiled"] = warmup.done
-        errors = {name: printed(said) for name, said in errors.items()}
+        errors = {name: printed_sentence(said) for name, said in errors.items()}
         return self._packed({"id": request.get("id", 0), "errors": errors, "load": load.measured(), **header}, blocks)
 
     def keep(self) -> None:
@@ -184,11 +184,11 @@ class Frames:
             if not good:
                 errors[culprit(error, "")] = said
                 return None
-        had, failed = together(good, self._reach)
+        had, failed = compatible_changes(good, self._reach)
         try:
             drawn = self._draw(had, sent, rest)
         except Exception:  # a scene there is, but it cannot be drawn: so each is tried to the end
-            had, failed = together(good, lambda changes: self._draw(changes, sent, False))
+            had, failed = compatible_changes(good, lambda changes: self._draw(changes, sent, False))
             try:
                 drawn = self._draw({}, sent, rest)
             except Exception as error:  # what was drawn before cannot be drawn again: the browser keeps what it has
@@ -201,10 +201,10 @@ class Frames:
     def _reach(self, changes: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], Scene]:
         """Return the values after some changes, the names of those that are other than before, and their scene."""
         if self.given is None:
-            changes = settled(self.values, changes)
+            changes = complete_changes(self.values, changes)
         values = {**self.values, **changes}
         changed = [name for name in changes if values[name] != self.values[name]]
-        scene = evolved(self.scene, values, [name for name in changed if name not in self.locked], self.given)
+        scene = evolve_scene(self.scene, values, [name for name in changed if name not in self.locked], self.given)
         if "cut" not in changed:
             values["cut"] = cut_after(self.scene, scene, changed)
             scene = scene if scene.cut == values["cut"] else scene.evolve(cut=values["cut"])
@@ -214,7 +214,7 @@ class Frames:
 
     def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:
         values, changed, scene = self._reach(changes)
-        scene = seen(scene, self.window, rest)
+        scene = resample_for_window(scene, self.window, rest)
         ready = self.ready(scene.psi, scene.system)
         drawable = ready or scene.coefficients.typed is None  # all of a general system needs the compiler
         if "preset" in changes:  # a whole state: nothing was moved
@@ -283,7 +283,7 @@ class Frames:
 
     @property
     def pending(self) -> Future[Any] | None:
-        """What the picture waits for, if it does: layers that are computed beside the frames."""
+        """Return the future of the layers that are computed beside the frames, if the picture waits for any."""
         return self.jobs.future("picture")
 
     def _tell_system(

@@ -7,16 +7,16 @@ from typing import Any
 
 import param
 
-from ..state.controls import NAMES, ExplorerState
+from ..state.controls import CONTROL_NAMES, ExplorerState
 
 #: All values but the text of the launched orbits, as ``view.orbits`` are the orbits themselves, and a page's second
 #: portrait.
-SHARED = tuple(name for name in NAMES if name not in ("orbits", "beside"))
+SHARED_CONTROLS = tuple(name for name in CONTROL_NAMES if name not in ("orbits", "beside"))
 
 
 def declare(view: type[param.Parameterized]) -> None:
     """Give a class of views a parameter for each shared value; a widget or another reference may be its value."""
-    for name in SHARED:
+    for name in SHARED_CONTROLS:
         parameter = copy(ExplorerState.param[name])
         parameter.allow_refs = True
         view.param.add_parameter(name, parameter)
@@ -29,7 +29,7 @@ def join(view: Any, state: ExplorerState) -> None:
     """
 
     def follow(*_: Any) -> None:
-        new = {name: getattr(state, name) for name in SHARED}
+        new = {name: getattr(state, name) for name in SHARED_CONTROLS}
         view.param.update(**{name: value for name, value in new.items() if value != getattr(view, name)})
 
     def hand_on(*changes: param.parameterized.Event) -> None:
@@ -38,5 +38,5 @@ def join(view: Any, state: ExplorerState) -> None:
         finally:
             follow()
 
-    state.param.watch(follow, list(SHARED))
-    view.param.watch(hand_on, list(SHARED))
+    state.param.watch(follow, list(SHARED_CONTROLS))
+    view.param.watch(hand_on, list(SHARED_CONTROLS))

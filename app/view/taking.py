@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from ..export.film import count_of, joined, part_of, pictures
+from ..export.film import count_of, encode_film, part_of, pictures
 from ..export.play import PLAY
-from ..export.taking import PROOF, SHOWN, TYPES, Wish, named, seen_by, taken
+from ..export.taking import PROOF, SHOWN, TYPES, Wish, file_name, make_file, seen_by
 from ..export.view import View
 from ..frame.later import Later
 from ..frame.turns import Failed
@@ -19,7 +19,7 @@ from .refresh import Frames
 #: What the parts of a film are called among the jobs of a browser.
 JOB = "take"
 #: Pictures of a film that are drawn in one turn.
-PART = 4
+FILE_MESSAGE = 4
 
 Reply = Callable[[dict[str, Any]], None]
 
@@ -81,7 +81,7 @@ class Taking:
         view = seen_by(request, self.frames.values, self.frames.own)
         key = repr((view, wish))
         if wish.kind == "gif":
-            count, part = count_of(wish.slider), max(PART, part_of(wish.slider))
+            count, part = count_of(wish.slider), max(FILE_MESSAGE, part_of(wish.slider))
             self._film = _Film(about, view, wish, key, count, part)
             self._draw(self._film, (), reply, later)
             return
@@ -89,7 +89,7 @@ class Taking:
 
     def _make(self, about: dict[str, Any], view: View, wish: Wish, key: str, reply: Reply, later: Later) -> None:
         """Answer with a file, once it is made."""
-        result = self.frames.jobs.ask(wish.job, key, taken, view, wish)
+        result = self.frames.jobs.ask(wish.job, key, make_file, view, wish)
         if isinstance(result, Failed):
             reply({**about, "error": result.sentence})
         elif result is not None:
@@ -118,7 +118,7 @@ class Taking:
             which = view, wish.slider, wish.moving, film.count, first, last
             result = jobs.ask(JOB, (film.key, first), pictures, *which)
         else:
-            result = jobs.ask(JOB, (film.key, "film"), joined, drawn, ".gif", wish.slider == PLAY)
+            result = jobs.ask(JOB, (film.key, "film"), encode_film, drawn, ".gif", wish.slider == PLAY)
         if isinstance(result, Failed):
             reply({**film.about, "error": result.sentence})
         elif result is None:
@@ -128,4 +128,4 @@ class Taking:
             reply({**film.about, "done": len(drawn), "all": film.count})
             later(partial(self._draw, film, drawn, reply, later))
         else:
-            reply({**film.about, "name": named(view, wish), "type": TYPES[wish.kind], "file": result})
+            reply({**film.about, "name": file_name(view, wish), "type": TYPES[wish.kind], "file": result})

@@ -38,7 +38,7 @@ MOST_COMPILED = 48
 
 #: Seconds for which a server's kernels wait for somebody to ask for the first page, and, if so, at most for it to be
 #: sent: it needs none of them, and is half as fast beside them.
-PATIENCE, LONGEST = 1.0, 20.0
+POLL_SECONDS, MAX_WAIT_SECONDS = 1.0, 20.0
 
 #: Is told what has been compiled, in how many seconds, and how many steps are done of how many.
 Told = Callable[[str, float, int, int], None]
@@ -65,7 +65,7 @@ def _steps() -> list[tuple[str, Callable[[], object]]]:
 
 
 #: Of `_steps`, those after which the first scene is drawn, and those that pictures need: all but the last.
-FIRST, PICTURES = 3, -2
+FIRST_PRIORITY, PICTURES = 3, -2
 
 
 def _nobody(*_: object) -> None:
@@ -115,13 +115,13 @@ def _first_scene(told: Told, patience: float) -> None:
     """Compile what the scene needs that the explorer opens with, and compute it; then compile the rest."""
     global outcome
     if patience and _page_asked.wait(patience):
-        _page_sent.wait(LONGEST)
+        _page_sent.wait(MAX_WAIT_SECONDS)
 
     def draw(number: int) -> None:
         global outcome
         if number == len(_steps()) + PICTURES:
             _pictures.set()
-        if number != FIRST:
+        if number != FIRST_PRIORITY:
             return
         scene = make_scene(first_values())
         for layer in ("equator", "critical", "inside", "outside", "nullclines_inside"):
@@ -230,13 +230,13 @@ def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
     if not outcome and constant() in _threads:
         return False
     typed = None if system is None else system.typed
-    if typed is not None and not _done(GENERAL, _warm_general_alone):
+    if typed is not None and not _is_compiled(GENERAL, _warm_general_alone):
         return False
     if is_warm(psi, system):
         return True
     key = _formulas_of(psi, system)
     if key is not None:
-        return _done(key, warm, psi, system)
+        return _is_compiled(key, warm, psi, system)
     with _lock:
         return not any(thread.is_alive() for thread in _threads.values())
 
@@ -260,7 +260,7 @@ def is_ready_for_all(psi: Psi, system: AnySystem) -> bool:
     return elsewhere(psi, system) or is_ready(psi, system)
 
 
-def _done(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:
+def _is_compiled(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:
     """Whether a thread has compiled this; if there was none, begin one as soon as few others are at work."""
     with _lock:
         thread = _threads.get(key)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arguments import shown
+from ..arguments import short_repr
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
@@ -208,7 +208,7 @@ def _check_somewhere(family: Family) -> None:
 def _ranges(system: Any, psi: Psi, z: Sequence[float], names: Sequence[str], given: Any) -> Ranges:
     found = []
     if given is not None and (not isinstance(given, Sequence | np.ndarray) or len(given) != 2):
-        raise ValueError(f"ranges are {shown(given)}; give ((low, high), (low, high)), or leave them out.")
+        raise ValueError(f"ranges are {short_repr(given)}; give ((low, high), (low, high)), or leave them out.")
     for i, name in enumerate(names):
         least, most = limits(system, psi, name)
         if given is None:
@@ -219,10 +219,10 @@ def _ranges(system: Any, psi: Psi, z: Sequence[float], names: Sequence[str], giv
         try:
             low, high = (float(v) for v in given[i])
         except (TypeError, ValueError, OverflowError):
-            raise ValueError(f"ranges are {shown(given)}; give two numbers (low, high) for {name}.") from None
+            raise ValueError(f"ranges are {short_repr(given)}; give two numbers (low, high) for {name}.") from None
         if not (math.isfinite(low) and math.isfinite(high) and low < high):
-            raise ValueError(f"ranges are {shown(given)}; give (low, high) with low < high for {name}.")
+            raise ValueError(f"ranges are {short_repr(given)}; give (low, high) with low < high for {name}.")
         if not least <= low < high <= most:
-            raise ValueError(f"ranges are {shown(given)}; of {name} from {least:g} to {most:g} is allowed.")
+            raise ValueError(f"ranges are {short_repr(given)}; of {name} from {least:g} to {most:g} is allowed.")
         found.append((low, high))
     return found[0], found[1]

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..expressions.expression import Expression, parse
-from ..expressions.names import SLOW
+from ..expressions.names import SLOW_NAMES
 from ..initial_value.field import function_of, rows_of
-from ..layer_problem.vary import varied
+from ..layer_problem.vary import vary
 from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 
@@ -74,7 +74,7 @@ class Family:
         return first, second
 
     def _on_sigma(self, row: Expression) -> Expression:
-        values = {"x": 0.0, "y": 0.0, **dict(zip(SLOW, self.z, strict=False))}
+        values = {"x": 0.0, "y": 0.0, **dict(zip(SLOW_NAMES, self.z, strict=False))}
         for name, value in values.items():
             if name in row.names and name not in self.names:
                 row = row.substitute(name, parse(repr(value), ()))
@@ -212,7 +212,7 @@ class Family:
         """
         of = self.system, self.psi, self.z
         for name, value in zip(self.names, self.values(u).tolist(), strict=True):
-            of = varied(*of, name, value)
+            of = vary(*of, name, value)
         return of
 
 
@@ -238,7 +238,7 @@ def _rows(system: Any, names: Sequence[str]) -> list[Expression]:
         if name in kept:
             return parse(name, (name,))
         row = value if isinstance(value, Expression) else parse(repr(value), ())
-        row = row.substitute("z", parse("z1", SLOW)) if "z" in row.names else row
+        row = row.substitute("z", parse("z1", SLOW_NAMES)) if "z" in row.names else row
         for parameter, number in own:
             row = row.substitute(parameter, parse(repr(number), ()))
         return row

@@ -19,9 +19,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..cycles.limit_cycles import reason_for_none
-from ..cycles.search import crossed, search, shown
+from ..cycles.search import find_fixed_points, sample_return_map, search
 from ..layer_problem.critical import critical_sets
-from ..layer_problem.vary import limits, varied
+from ..layer_problem.vary import limits, vary
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
@@ -101,7 +101,7 @@ def continue_cycles(
         system, z = cast("Coefficients", system.at(z)), ()  # only Psi varies
 
     def inside(value: float) -> tuple[Coefficients, Psi]:
-        changed, family_psi, place = varied(system, psi, z, name, value)
+        changed, family_psi, place = vary(system, psi, z, name, value)
         return changed.at(place).by_rotation_near(axes), family_psi
 
     def at(value: float) -> tuple[Coefficients, Psi]:
@@ -268,13 +268,13 @@ class _Search:
         problem = self.family.problem(value)
         if reason_for_none(self.family.at(value)[0], problem.critical, problem.location) is not None:
             return []
-        samples, nu = shown(self.family.section(value)), self._nu(value)
+        samples, nu = sample_return_map(self.family.section(value)), self._nu(value)
         expected = sorted(guess.xi for trace, *_ in self.found for _, guess in passing(trace, nu, self.tracer.width))
         places = [(samples.xi[i], samples.xi[j]) for i, j in samples.changes]
         explained = samples.certain == len(expected) and all(
             low < xi < high for xi, (low, high) in zip(expected, places, strict=False)
         )
-        crossings = crossed(samples, samples.certain) if explained else search(samples)[0]
+        crossings = find_fixed_points(samples, samples.certain) if explained else search(samples)[0]
         return [Guess(crossing.xi, nu, (0.0, 1.0), crossing.repelling) for crossing in crossings]
 
     def _known(self, first: tuple[Turn, float], entries: Sequence[Entry]) -> Asking[bool]:

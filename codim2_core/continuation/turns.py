@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.many.sections import NODES, Indices, Sections
+from ..cycles.many.sections import STEP_NODES, Indices, Sections
 from ..cycles.orbit import MOST_STEPS, gauss
 from .columns import PARAMETERS, SHIFT
 
@@ -152,12 +152,12 @@ def turns(
     swell = np.zeros((len(changes), 0))
     if swelling is not None:
         swell = swelling(places, rows[whose])[None]
-    _, weights, matrix = gauss(NODES)
+    _, weights, matrix = gauss(STEP_NODES)
     numbers = measured(
         sections.plane, changes / sections.rate[:, None], sections.rate, sections.e, sections.u, sections.room,
         sections.x2, x2, start, ways.ends, ways.first, ways.h, ways.inner, radial, tangential, swell,
         np.where(backward[rows], -1.0, 1.0), weights, matrix,
     )  # fmt: skip
     good = np.flatnonzero(~np.isnan(numbers[:, SHIFT]))
-    steps = np.diff(ways.first) // NODES
+    steps = np.diff(ways.first) // STEP_NODES
     return Turns(rows[good], xi[rows[good]], numbers[good], states[rows[good], :2], steps[good])

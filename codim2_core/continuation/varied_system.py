@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..cycles.many.sections import Indices, Sections, located
+from ..cycles.many.sections import Indices, Sections, critical_points
 from ..cycles.orbit import MOST_STEPS
 from ..cycles.section import Section
 from ..layer_problem.location import Existence
@@ -203,7 +203,7 @@ class VariedSystem:
     def room(self, value: float) -> float:
         """``1 - |e_C|^2``, or a negative number: positive where `allows` is true, within rounding."""
         within = self.bounds[0] <= value <= self.bounds[1]
-        return float(located(self.planes([value]))[1][0]) if within else -1.0
+        return float(critical_points(self.planes([value]))[1][0]) if within else -1.0
 
     def placed(self, values: Sequence[float]) -> Placed | None:
         """Say at which values there is a section, and where C is; None if at none of them."""
@@ -211,7 +211,7 @@ class VariedSystem:
         if not within:
             return None
         planes = self.planes([values[i] for i in within])
-        e, complement = located(planes)
+        e, complement = critical_points(planes)
         inside = np.flatnonzero(complement > 0.0)
         if not len(inside):
             return None

@@ -1,4 +1,4 @@
-"""How many portraits of each name there are among systems drawn at random, on any executor, always the same."""
+"""Count portraits by name among random systems, on any executor, with equal results."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from ..psi import constructors
 from ..psi.function import Psi
 from .draws import DRAWS, Draw
 from .kept import Kept
-from .table import Census, tabulated
+from .table import Census, make_census
 from .tally import Plan, Tally, tally
 
 if TYPE_CHECKING:  # an import that takes as long as a tenth of this package
     from concurrent.futures import Executor, Future
 
-CHUNK, FEW = 100_000, 200  # systems in a chunk: of coefficients, and of systems that are classified one by one
-AHEAD = 64  # chunks handed to an executor at a time
-MOST = 10**12
+CHUNK_SYSTEMS, FEW = 100_000, 200  # systems in a chunk: of coefficients, and of systems that are classified one by one
+CHUNKS_IN_FLIGHT = 64  # chunks handed to an executor at a time
+MAX_SYSTEMS = 10**12
 
 
 def census(
@@ -80,7 +80,7 @@ def census(
     draw = DRAWS.get(draw, draw) if isinstance(draw, str) else draw
     if not callable(draw):
         raise ValueError(f"draw is {draw!r:.80}; give {', '.join(DRAWS)}, or a function (generator, n) to n systems.")
-    if not isinstance(count, (int, np.integer)) or not 1 <= count <= MOST:
+    if not isinstance(count, (int, np.integer)) or not 1 <= count <= MAX_SYSTEMS:
         raise ValueError(f"count is {count!r}; give a whole number from 1 to 1e12.")
     if not isinstance(seed, (int, np.integer)) or seed < 0:
         raise ValueError(f"seed is {seed!r}; give a whole number, 0 or larger.")
@@ -101,12 +101,12 @@ def census(
                 progress(kept.systems, count)
     finally:
         kept.save()
-    return tabulated(kept.all(), plan, chunk)
+    return make_census(kept.all(), plan, chunk)
 
 
 def _chunk_size(plan: Plan) -> int:
     """Return how many systems go into a chunk; it follows from what is asked alone, so that tables agree."""
-    return CHUNK if isinstance(plan.drawn(0, 1), np.ndarray) and not plan.outcomes else FEW
+    return CHUNK_SYSTEMS if isinstance(plan.drawn(0, 1), np.ndarray) and not plan.outcomes else FEW
 
 
 def _run(executor: Executor | None, plan: Plan, chunks: Iterator[tuple[int, int]]) -> Iterator[tuple[int, Tally]]:
@@ -117,17 +117,17 @@ def _run(executor: Executor | None, plan: Plan, chunks: Iterator[tuple[int, int]
     waiting: dict[Future[Tally], int] = {}
     try:
         for i, size in chunks:
-            if len(waiting) >= AHEAD:
-                yield from _finished(waiting)
+            if len(waiting) >= CHUNKS_IN_FLIGHT:
+                yield from _as_completed(waiting)
             waiting[executor.submit(tally, plan, i, size)] = i
         while waiting:
-            yield from _finished(waiting)
+            yield from _as_completed(waiting)
     finally:
         for future in waiting:
             future.cancel()
 
 
-def _finished(waiting: dict[Future[Tally], int]) -> Iterator[tuple[int, Tally]]:
+def _as_completed(waiting: dict[Future[Tally], int]) -> Iterator[tuple[int, Tally]]:
     from concurrent.futures import FIRST_COMPLETED, wait
 
     ready, _ = wait(waiting, return_when=FIRST_COMPLETED)

@@ -14,7 +14,7 @@ from ..systems.typed import System
 Draw = Callable[[np.random.Generator, int], "NDArray[np.float64] | Sequence[AnySystem]"]
 
 _MONOMIALS = ("1", "c", "s", "c^2", "c*s", "s^2")
-_NAMES = tuple(f"{row}{i}" for row in "uv" for i in range(len(_MONOMIALS)))
+_COEFFICIENT_NAMES = tuple(f"{row}{i}" for row in "uv" for i in range(len(_MONOMIALS)))
 _U = tuple(" + ".join(f"{row}{i}*{term}" for i, term in enumerate(_MONOMIALS)) for row in "uv")
 
 
@@ -25,9 +25,9 @@ def normal(rng: np.random.Generator, count: int) -> NDArray[np.float64]:
 
 def quadratic(rng: np.random.Generator, count: int) -> list[AnySystem]:
     """Draw systems quadratic in e, whose twelve coefficients (of 1, c, s, c^2, c s, s^2) are standard normal."""
-    empty = System(U=_U, parameters=dict.fromkeys(_NAMES, 0.0))
-    drawn = rng.standard_normal((count, len(_NAMES)))
-    return [empty.evolve(parameters=dict(zip(_NAMES, row, strict=True))) for row in drawn.tolist()]
+    empty = System(U=_U, parameters=dict.fromkeys(_COEFFICIENT_NAMES, 0.0))
+    drawn = rng.standard_normal((count, len(_COEFFICIENT_NAMES)))
+    return [empty.evolve(parameters=dict(zip(_COEFFICIENT_NAMES, row, strict=True))) for row in drawn.tolist()]
 
 
 DRAWS: dict[str, Draw] = {"normal": normal, "quadratic": quadratic}

@@ -12,7 +12,7 @@ from typing import Any
 
 from .tally import Found, Place, Plan, Tally
 
-EVERY = 2.0  # seconds between two savings
+SAVING_SECONDS = 2.0  # seconds between two savings
 
 
 @dataclass
@@ -45,7 +45,7 @@ class Kept:
 
     @property
     def systems(self) -> int:
-        """How many systems are counted."""
+        """Return the number of systems counted."""
         return sum(tally.systems for tally in (self.whole, *self.ahead.values()))
 
     def add(self, chunk: int, tally: Tally) -> None:
@@ -56,7 +56,7 @@ class Kept:
                 break
             self.whole = self.whole.joined(self.ahead.pop(self.upto))
             self.upto += 1
-        if self.path is not None and time.monotonic() - self.saved > EVERY:
+        if self.path is not None and time.monotonic() - self.saved > SAVING_SECONDS:
             self.save()
 
     def all(self) -> Tally:

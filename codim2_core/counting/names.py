@@ -21,25 +21,25 @@ from ..psi import constructors
 from ..systems.elinear import ELinear
 
 #: Case I, II, III, each with its portraits: index of a name + 1 is its code; 0 is undecided.
-NAMES: tuple[tuple[str, str], ...] = tuple(
+PORTRAIT_NAMES: tuple[tuple[str, str], ...] = tuple(
     (case, f"{exists}{count}") for case in ("I", "II", "III") for exists in ("NCM", "CM") for count in (0, 2, 4)
 )
 #: Codes of names that index theory excludes: U turns w times along the equator, w is the sum of the indices of the
 #: critical sets (a saddle's in Case II), and n limit directions allow |w - 1| <= n/2 (sec:geneps0).
 IMPOSSIBLE = tuple(
     code
-    for code, (case, name) in enumerate(NAMES, 1)
+    for code, (case, name) in enumerate(PORTRAIT_NAMES, 1)
     if 2 * abs((0 if name.startswith("N") else -1 if case == "II" else 1) - 1) > int(name[-1])
 )
 #: Relative error allowed for each of the polynomials below: they have fewer than 60 roundings of 2^-53, and `classify`
 #: names as degenerate what is within a few roundings of it.
 ERROR = 2.0**-46
-LARGEST, SMALLEST = 1e40, 1e-40  # of the coefficients: the discriminant has degree 6 in them
-TINY = 1e-280  # below it products may have lost digits to underflow
+MAX_COEFFICIENT, MIN_COEFFICIENT = 1e40, 1e-40  # of the coefficients: the discriminant has degree 6 in them
+UNDERFLOW_BOUND = 1e-280  # below it products may have lost digits to underflow
 
 
 @njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
-def _located(a, b, d, f1, f2):
+def _critical_case(a, b, d, f1, f2):
     """Case (0, 1, 2; -1 undecided), whether there is a critical set, and how far both lie from a border."""
     det, det_size = a * d + b * b, abs(a * d) + b * b
     case = 0
@@ -52,13 +52,13 @@ def _located(a, b, d, f1, f2):
     n1_size, n2_size = abs(d * f1) + abs(b * f2), abs(a * f2) + abs(b * f1)
     reach, needed = n1 * n1 + n2 * n2, det * det
     gap, gap_size = needed - reach, n1_size * n1_size + n2_size * n2_size + det_size * det_size
-    if abs(gap) <= ERROR * gap_size or gap_size < TINY:
+    if abs(gap) <= ERROR * gap_size or gap_size < UNDERFLOW_BOUND:
         return -1, 0, 0.0
     return case, 1 if gap > 0.0 else 0, min(abs(gap) / (needed + reach), abs(det) / det_size)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
-def _counted(a, b, d, f1, f2):
+def _half_direction_count(a, b, d, f1, f2):
     """Half the number of zeros of Theta (-1 undecided), and how far it lies from a border."""
     k = d - a
     c4, c3, c2, c1, c0 = b - f2, -2.0 * (f1 + k), 2.0 * b, -2.0 * (f1 - k), b + f2
@@ -73,7 +73,7 @@ def _counted(a, b, d, f1, f2):
     )
     disc = 4.0 * first * first * first - second * second
     disc_size = 4.0 * first_size * first_size * first_size + second_size * second_size
-    if abs(disc) <= ERROR * disc_size or disc_size < TINY:
+    if abs(disc) <= ERROR * disc_size or disc_size < UNDERFLOW_BOUND:
         return -1, 0.0
     margin = abs(disc) / (4.0 * abs(first) ** 3 + second * second)
     if disc < 0.0:
@@ -99,12 +99,12 @@ def _filter(plane, codes, margins):  # (n, 5) a, b, d, f1, f2; codes (n,), margi
         a, b, d, f1, f2 = plane[i, 0], plane[i, 1], plane[i, 2], plane[i, 3], plane[i, 4]
         codes[i], margins[i] = 0, 0.0
         size = max(abs(a), abs(b), abs(d), abs(f1), abs(f2))
-        if not SMALLEST <= size <= LARGEST or a == 0.0 or d == 0.0:
+        if not MIN_COEFFICIENT <= size <= MAX_COEFFICIENT or a == 0.0 or d == 0.0:
             continue
-        case, exists, near = _located(a, b, d, f1, f2)
+        case, exists, near = _critical_case(a, b, d, f1, f2)
         if case < 0:
             continue
-        pairs, nearer = _counted(a, b, d, f1, f2)
+        pairs, nearer = _half_direction_count(a, b, d, f1, f2)
         if pairs >= 0:
             codes[i] = 1 + 6 * case + 3 * exists + pairs
             margins[i] = min(near, nearer, min(abs(a), abs(d)) / size)
@@ -121,11 +121,11 @@ def names(plane: ArrayLike) -> tuple[NDArray[np.int8], NDArray[np.float64], dict
     Returns
     -------
     codes : ndarray (n,) of int8
-        Index in `NAMES` plus 1; 0 for systems with another name (see the third result).
+        Index in `PORTRAIT_NAMES` plus 1; 0 for systems with another name (see the third result).
     margins : ndarray (n,)
         How far from its nearest border each lies, 0 to 1; 0.0 where the exact path decided.
     others : dict
-        By index: (case, name) of what is degenerate, and so in no row of `NAMES`.
+        By index: (case, name) of what is degenerate, and so in no row of `PORTRAIT_NAMES`.
 
     Raises
     ------
@@ -144,8 +144,8 @@ def names(plane: ArrayLike) -> tuple[NDArray[np.int8], NDArray[np.float64], dict
         a, b, d, f1, f2 = values[i].tolist()
         found = portrait_name(LayerProblem(ELinear(a, b, d, (f1, f2)).at(), psi))
         pair = (found.case, found.name)
-        if found.case is not None and pair in NAMES:
-            codes[i] = 1 + NAMES.index((found.case, found.name))
+        if found.case is not None and pair in PORTRAIT_NAMES:
+            codes[i] = 1 + PORTRAIT_NAMES.index((found.case, found.name))
         else:
             others[int(i)] = pair
     return codes, margins, others

@@ -1,4 +1,4 @@
-"""What a census returns: for each portrait how many, which share, and examples."""
+"""The table of a census: for each portrait a count, a share, and examples."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class Census:
         return frame(map(vars, self.table))
 
 
-def tabulated(tally: Tally, plan: Plan, chunk: int) -> Census:
+def make_census(tally: Tally, plan: Plan, chunk: int) -> Census:
     """Return the census of what is counted; its examples are drawn again, `chunk` systems at a time."""
     total = tally.systems
     places = {place for entry in tally.found.values() for place in (entry.typical, entry.marginal)}

@@ -1,4 +1,4 @@
-"""What one chunk of a census gives: for each name how many, and which of its systems are typical and marginal."""
+"""The tally of one chunk of a census: counts by name, and its typical and marginal systems."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Tally:
 
     @property
     def systems(self) -> int:
-        """How many systems there are of all names."""
+        """Return the number of systems of all names."""
         return sum(entry.systems for entry in self.found.values())
 
     def joined(self, other: Tally) -> Tally:
@@ -70,7 +70,7 @@ class Tally:
 
 @dataclass(frozen=True)
 class Plan:
-    """What is drawn, under which Psi, from which seed, and whether names tell the outcomes too."""
+    """A plan of a census: distribution, Psi, seed, and whether names tell the outcomes too."""
 
     draw: Draw
     psi: Psi
@@ -97,14 +97,14 @@ def tally(plan: Plan, chunk: int, size: int) -> Tally:
 
 
 def _of_coefficients(plane: NDArray[np.float64], chunk: int) -> Tally:
-    from .names import IMPOSSIBLE, NAMES, names  # on first use: it loads the compiler
+    from .names import IMPOSSIBLE, PORTRAIT_NAMES, names  # on first use: it loads the compiler
 
     codes, margins, others = names(plane)
     found: dict[str, Found] = {}
     for code in np.unique(codes[codes > 0]):
         where = np.flatnonzero(codes == code)
         most, least = int(where[np.argmax(margins[where])]), int(where[np.argmin(margins[where])])
-        name = " ".join(NAMES[code - 1])
+        name = " ".join(PORTRAIT_NAMES[code - 1])
         found[name] = Found(len(where), float(margins[most]), (chunk, most), float(margins[least]), (chunk, least))
     whole = Tally(found, int(np.isin(codes, IMPOSSIBLE).sum()))
     for i, (case, name) in others.items():

@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 #: Fractions of the first ebar. Below the first an orbit is so close that the equator decides what becomes of it: it is
 #: gone, or it comes back however near it passes (cycles of ordinary systems do at ebar = exp(-33)), down to the second.
 SUNK, LOST = 1e-9, 1e-250
-FULL = 2.0 * np.pi
-LEAST = 1e-290  # ebar: its reciprocal, |x2|, is finite
+FULL_TURN = 2.0 * np.pi
+MIN_HEIGHT = 1e-290  # ebar: its reciprocal, |x2|, is finite
 
 
 ON_THE_WAY = np.linspace(0.0, 1.0, 17)  # where lambda_rho is looked at between a direction and the next equilibrium
@@ -26,7 +26,7 @@ ON_THE_WAY = np.linspace(0.0, 1.0, 17)  # where lambda_rho is looked at between 
 
 @dataclass(frozen=True)
 class EquatorPull:
-    """What becomes of orbits just above the equator.
+    """The first-order return map just above the equator.
 
     There theta turns as on the equator, and ``ebar' = -lambda_rho ebar`` (eq:LP): an orbit comes to the next
     equilibrium on its way, which draws it in where lambda_rho > 0; but first ebar grows where lambda_rho < 0. A closed
@@ -61,12 +61,12 @@ class EquatorPull:
         draws, sign = self.draws[backward], -1.0 if backward else 1.0
         if self.everywhere or not draws.any():
             return np.full(len(states), not self.everywhere)
-        theta = np.arctan2(states[:, 1], states[:, 0]) % FULL
+        theta = np.arctan2(states[:, 1], states[:, 0]) % FULL_TURN
         U = sign * field(states[:, :2])
         onward = states[:, 0] * U[:, 1] > states[:, 1] * U[:, 0]
         ahead = np.searchsorted(self.theta, theta)
         end = np.where(onward, ahead, ahead - 1) % len(draws)
-        way = np.where(onward, (self.theta[end] - theta) % FULL, -((theta - self.theta[end]) % FULL))
+        way = np.where(onward, (self.theta[end] - theta) % FULL_TURN, -((theta - self.theta[end]) % FULL_TURN))
         passed = theta[:, None] + way[:, None] * ON_THE_WAY
         e = np.stack([np.cos(passed), np.sin(passed)], axis=-1)
         radial = sign * (e * field(e.reshape(-1, 2)).reshape(e.shape)).sum(axis=-1)

@@ -19,15 +19,15 @@ from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..words import say
 from .orbit import Orbit, orbit
-from .resolution import NEAR_FOLD, UNRESOLVED, Samples, counted, near_fold, zeros
-from .section import FINE, FixedPoint
+from .resolution import NEAR_FOLD, UNRESOLVED, Samples, count_sentence, near_fold, zeros
+from .section import FINE_RTOL, FixedPoint
 from .turn_section import Array, TurnSection
 
 BAND = 1e-9  # |ln multiplier| at which a closed orbit is one of a band
-CLOSED = 1e-7  # distance on the sphere between start and end at which an orbit is closed
-SAME = 1e-5  # distance in the disc between cycles found twice
-ON = 1e-7  # distance in the disc from a cycle of a fixed point that belongs to it
-NARROW = 1e-7  # width at which looking closer at a jump ends
+CLOSURE_DISTANCE = 1e-7  # distance on the sphere between start and end at which an orbit is closed
+SAME_CYCLE_DISTANCE = 1e-5  # distance in the disc between cycles found twice
+ON_CYCLE_DISTANCE = 1e-7  # distance in the disc from a cycle of a fixed point that belongs to it
+MIN_JUMP_WIDTH = 1e-7  # width at which looking closer at a jump ends
 MOST_ROUNDS = 40  # of narrowing one place
 SMOOTH = 1e-6  # displacement left at a fixed point that is none but a jump
 MOST_FEET = 12
@@ -69,23 +69,23 @@ def find(
         feet = sorted(feet, key=lambda C: C.discriminant)[:MOST_FEET]  # where orbits turn fastest
     for C in feet:
         section = TurnSection(at, psi, C, critical)
-        crossings, said = _searched(section)
+        crossings, said = _search_ray(section)
         notes += said
         for crossing in crossings:
-            if any(_on(section, crossing, other) for _, other, _ in found):
+            if any(_lies_on_cycle(section, crossing, other) for _, other, _ in found):
                 continue
             closed = orbit(section, crossing)
-            if closed is None or closed.closure > CLOSED:
+            if closed is None or closed.closure > CLOSURE_DISTANCE:
                 notes.append(say("turn not closed"))
             elif abs(closed.divergence) < BAND and not crossing.touching:
                 notes.append(BAND_NOTE)
             elif not any(_same(closed, other) for _, other, _ in found):
                 found.append((crossing, closed, _sense(closed.points)))
     names = "the critical set" if len(critical) == 1 else "the critical sets that are no saddles"
-    return found, counted(len(found), "turn", about=names), tuple(dict.fromkeys(notes))
+    return found, count_sentence(len(found), "turn", about=names), tuple(dict.fromkeys(notes))
 
 
-def _searched(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
+def _search_ray(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
     """Find fixed points on one ray, innermost first, and what is nearly degenerate."""
     notes: list[str] = []
     out: list[FixedPoint] = []
@@ -94,7 +94,7 @@ def _searched(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
         finite = np.isfinite(samples.shift)
         if not backward and finite.sum() >= 8 and not samples.shift[finite].any():
             return [], [BAND_NOTE]
-        if not samples.resolve(_ends, NARROW):
+        if not samples.resolve(_ends, MIN_JUMP_WIDTH):
             notes.append(UNRESOLVED)
         xi, shift = samples.xi, samples.shift
         if not backward:
@@ -113,7 +113,10 @@ def _searched(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
             out += [FixedPoint(float(xi[i]), touching=True) for i in touching]
         for i, j in changes:
             if shift[i] > 0.0 and np.isfinite(shift[[i, j]]).all():  # attracting
-                out += [FixedPoint(at, backward) for at in _narrowed(section, float(xi[i]), float(xi[j]), backward)]
+                out += [
+                    FixedPoint(at, backward)
+                    for at in _narrow_fixed_points(section, float(xi[i]), float(xi[j]), backward)
+                ]
     return sorted(out, key=lambda crossing: crossing.xi), notes
 
 
@@ -126,10 +129,10 @@ def _brackets(shift: Array) -> list[int]:
 def _ends(xi: Array, shift: Array) -> list[int]:
     """Places i where the displacement ends between samples i and i + 1."""
     finite = np.isfinite(shift)
-    return np.flatnonzero((finite[1:] != finite[:-1]) & (np.diff(xi) > NARROW)).tolist()
+    return np.flatnonzero((finite[1:] != finite[:-1]) & (np.diff(xi) > MIN_JUMP_WIDTH)).tolist()
 
 
-def _narrowed(section: TurnSection, low: float, high: float, backward: bool) -> list[float]:
+def _narrow_fixed_points(section: TurnSection, low: float, high: float, backward: bool) -> list[float]:
     """Find the fixed points between two samples, apart from jumps of the displacement through zero."""
     found: list[float] = []
     width = high - low  # the two tolerances need not agree on where it is: look a little beyond
@@ -139,7 +142,7 @@ def _narrowed(section: TurnSection, low: float, high: float, backward: bool) -> 
             break
         low, high = open_.pop()
         xi = np.linspace(low, high, 32)
-        shift = section.displacement(xi, FINE, backward)
+        shift = section.displacement(xi, FINE_RTOL, backward)
         for i in _brackets(shift):
             left, right = float(shift[i]), float(shift[i + 1])
             if right == 0.0:
@@ -151,10 +154,10 @@ def _narrowed(section: TurnSection, low: float, high: float, backward: bool) -> 
     return found
 
 
-def _on(section: TurnSection, crossing: FixedPoint, other: Orbit) -> bool:
+def _lies_on_cycle(section: TurnSection, crossing: FixedPoint, other: Orbit) -> bool:
     """Whether a fixed point lies on a cycle that is known."""
     p = section.states(np.array([crossing.xi]))[0][0, :2]
-    return bool(distance(p, other.points) < ON)
+    return bool(distance(p, other.points) < ON_CYCLE_DISTANCE)
 
 
 def _sense(points: Array) -> int:
@@ -169,4 +172,4 @@ def _same(one: Orbit, other: Orbit) -> bool:
         return False  # the other of a pair beside a fold
     gaps = np.hypot(*(one.points[:1] - other.points).T)
     spacing = np.hypot(*np.diff(other.points, axis=0).T).max()
-    return bool(gaps.min() < SAME + spacing)
+    return bool(gaps.min() < SAME_CYCLE_DISTANCE + spacing)

@@ -1,4 +1,4 @@
-"""Where orbits of the e-linear layer problem go, told by samples of the return map: they are not followed there.
+"""Predict limit sets of e-linear orbits from samples of the return map, without integrating them.
 
 The return map of the global section (`section`) increases. So an orbit on the section goes, turn by turn, to the first
 fixed point in the sense of its displacement, and along the section that sense changes at fixed points only: where
@@ -13,13 +13,13 @@ from numpy.typing import NDArray
 from ..layer_problem.problem import LayerProblem, found_once
 from .limit_cycles import shown_of
 from .search import Shown
-from .section import COARSE
+from .section import COARSE_RTOL
 
 Array = NDArray[np.float64]
 ON_C = -1
 
 
-def foretold(problem: LayerProblem, states: Array) -> list[int | None]:
+def predicted_limit_sets(problem: LayerProblem, states: Array) -> list[int | None]:
     """Say to which cycle (from 0, innermost first) orbits go, or `ON_C`; None where the samples do not decide it.
 
     Parameters
@@ -28,14 +28,14 @@ def foretold(problem: LayerProblem, states: Array) -> list[int | None]:
     states : ndarray (n, 3)
         (p_x, p_y, ebar) on the hemisphere.
     """
-    told, question = _told(problem), states.tobytes()
+    told, question = _predictions(problem), states.tobytes()
     if question not in told:
         told[question] = _answer(problem, states)
     return told[question]
 
 
 @found_once()
-def _told(_: LayerProblem) -> dict[bytes, list[int | None]]:
+def _predictions(_: LayerProblem) -> dict[bytes, list[int | None]]:
     """Begin to note what has been said of a problem, by the states asked for: the same are asked for again."""
     return {}
 
@@ -47,14 +47,14 @@ def _answer(problem: LayerProblem, states: Array) -> list[int | None]:
     if isinstance(samples, str) or certain < 0:
         return [None] * len(states)
     section = samples.section
-    ends, _, codes, _ = section.turn(np.ascontiguousarray(states), COARSE, elsewhere=True)
+    ends, _, codes, _ = section.turn(np.ascontiguousarray(states), COARSE_RTOL, elsewhere=True)
     returned = (codes == section.kernel[0].RETURNED).tolist()
     inmost = ON_C if section.critical.kind.startswith("stable") else None
-    led = [_led(samples, q, inmost) for q in section.coordinate(ends).tolist()]
+    led = [_follow_signs(samples, q, inmost) for q in section.coordinate(ends).tolist()]
     return [k if back and k is not None and k < certain else None for k, back in zip(led, returned, strict=True)]
 
 
-def _led(samples: Shown, q: float, inmost: int | None) -> int | None:
+def _follow_signs(samples: Shown, q: float, inmost: int | None) -> int | None:
     """Follow the signs of the samples from q on the section to a change of sign, or to the `inmost` place."""
     after = int(np.searchsorted(samples.q, q))
     if not 0 < after < len(samples.q):

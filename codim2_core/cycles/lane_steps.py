@@ -1,4 +1,4 @@
-"""What the two compiled maps do alike in a lane: begin, judge a step, find the length that ends on a section."""
+"""Steps in a lane that both compiled maps share: begin, judge a step, find the length that ends on a section."""
 
 from __future__ import annotations
 
@@ -8,10 +8,22 @@ import numpy as np
 from numba import njit
 
 from ..stepping.dop853 import ARITHMETIC
-from ..stepping.layout import EACH, ERROR_3, ERROR_5, GAINS, LANES, NEW, SIGN, STATE, STEP, WITH_EACH, WORKSPACE
+from ..stepping.layout import (
+    EACH,
+    ERROR_3,
+    ERROR_5,
+    GAINS,
+    LANES,
+    NEW,
+    SIDE_SIGN,
+    STATE,
+    STEP_ROW,
+    WITH_EACH,
+    WORKSPACE,
+)
 from ..stepping.numbers import PSI
 
-SHARE = 0.1  # of the tolerance, for one step
+STEP_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step
 TRIALS = 40
 
 
@@ -19,9 +31,9 @@ TRIALS = 40
 def workspace(shared):
     """Return the workspace and the parameters of a field whose lanes all lie on the hemisphere."""
     S, P = np.zeros(WORKSPACE), np.zeros(WITH_EACH)
-    for m in range(SIGN):
+    for m in range(SIDE_SIGN):
         P[m] = shared[m]
-    for m in range(SIGN, GAINS):
+    for m in range(SIDE_SIGN, GAINS):
         P[m] = -1.0
     return S, P
 
@@ -52,7 +64,7 @@ def set_lengths(S, step):
     """Let each lane step by its own length."""
     for k in range(LANES):
         for c in range(3):
-            S[STEP + c * LANES + k] = step[k]
+            S[STEP_ROW + c * LANES + k] = step[k]
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -64,7 +76,7 @@ def to_sphere(S, k):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def judged(S, k, rtol):
+def step_error(S, k, rtol):
     """Error of the step tried in lane k, in units of what is allowed; puts NEW back on the sphere."""
     plane, height = 1.0 / rtol, 1.0 / (rtol * abs(S[NEW + 2 * LANES + k]) + 1e-300)
     five = (S[ERROR_5 + k] * plane) ** 2 + (S[ERROR_5 + LANES + k] * plane) ** 2
@@ -103,7 +115,7 @@ def next_length(k, low, at_low, high, at_high):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def noted(log, logged, S, k, h, i):
+def log_step(log, logged, S, k, h, i):
     """Write down where the step of lane k starts, its length and whose it is, if there is room; return how many are."""
     if logged >= log.shape[0]:
         return logged

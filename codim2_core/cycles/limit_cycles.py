@@ -32,8 +32,8 @@ from ..tables import Tabled, number, paragraphs, point, rows
 from ..words import say
 from .orbit import Orbit, orbit
 from .proof.result import Proof, covers
-from .resolution import counted
-from .search import Shown, search, shown
+from .resolution import count_sentence
+from .search import Shown, sample_return_map, search
 from .section import FixedPoint, Section
 
 __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
@@ -146,7 +146,7 @@ def surrounds(line: Array, place: Array) -> bool:
 def reason_for_none(
     coefficients: Coefficients, critical: tuple[CriticalSet, ...], location: Location | None = None
 ) -> str | None:
-    """Why a theorem forbids limit cycles, or None where none does: then a, d differ in sign and det A > 0.
+    """Return the theorem that excludes limit cycles, or None; then a, d differ in sign and det A > 0.
 
     Parameters
     ----------
@@ -214,11 +214,11 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool 
 @found_once()
 def proof_of(problem: LayerProblem) -> Proof:
     """Prove how many limit cycles a layer problem has, as far as that can be done."""
-    from .proof.prove import proved
+    from .proof.prove import prove_count
 
     found, form = closed_orbits(problem), problem.at.normal_form
     forbidden = None if form is None else reason_for_none(form, problem.critical, problem.location)
-    return proved(problem, [cycle.points for cycle in found.cycles], forbidden)
+    return prove_count(problem, [cycle.points for cycle in found.cycles], forbidden)
 
 
 def provable(problem: LayerProblem) -> str:
@@ -262,7 +262,7 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     if coefficients is None:
         return _general(problem)
     if at.as_given is None:  # found in the axes of the normal form, and turned back
-        return _turned(closed_orbits(LayerProblem(coefficients, psi)), -coefficients.rotation)
+        return _rotate_cycles(closed_orbits(LayerProblem(coefficients, psi)), -coefficients.rotation)
     samples = shown_of(problem)
     if isinstance(samples, str):
         return ClosedOrbits((), (), samples)
@@ -276,7 +276,7 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
         notes = (*notes, say("too many steps to close"))
     if any(cycle.kind == "semistable" for cycle in cycles):
         notes = (*notes, SEMISTABLE_NOTE)
-    return ClosedOrbits(cycles, tuple(found for _, found in kept), counted(len(cycles), "section"), notes)
+    return ClosedOrbits(cycles, tuple(found for _, found in kept), count_sentence(len(cycles), "section"), notes)
 
 
 @found_once()
@@ -285,21 +285,25 @@ def shown_of(problem: LayerProblem) -> Shown | str:
     coefficients, critical, location = problem.at.normal_form, problem.critical, problem.location
     assert coefficients is not None
     reason = reason_for_none(coefficients, critical, location)
-    return shown(Section(coefficients, problem.psi, critical[0], location=location)) if reason is None else reason
+    return (
+        sample_return_map(Section(coefficients, problem.psi, critical[0], location=location))
+        if reason is None
+        else reason
+    )
 
 
-def _turned(found: ClosedOrbits, angle: float) -> ClosedOrbits:
+def _rotate_cycles(found: ClosedOrbits, angle: float) -> ClosedOrbits:
     """Rotate closed orbits by an angle."""
     c, s = math.cos(angle), math.sin(angle)
     turn = np.array([[c, s], [-s, c]])  # from the right
 
-    def rotated(vectors: Array) -> Array:
+    def rotate(vectors: Array) -> Array:
         result = vectors @ turn
         result.flags.writeable = False
         return result
 
-    cycles = tuple(replace(C, points=rotated(C.points), mean_e=rotated(C.mean_e)) for C in found.cycles)
-    orbits = tuple(replace(o, points=rotated(o.points), mean_e=rotated(o.mean_e), e=rotated(o.e)) for o in found.orbits)
+    cycles = tuple(replace(C, points=rotate(C.points), mean_e=rotate(C.mean_e)) for C in found.cycles)
+    orbits = tuple(replace(o, points=rotate(o.points), mean_e=rotate(o.mean_e), e=rotate(o.e)) for o in found.orbits)
     return ClosedOrbits(cycles, orbits, found.reason, found.notes)
 
 

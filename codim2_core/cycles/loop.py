@@ -26,10 +26,10 @@ from ..orbits.departures import departures
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from .equator_pull import SUNK
-from .section import LONGEST, STEPS, SUNK_INWARD, Array, Section, rays
+from .section import MAX_STEPS, MAX_TURN_TIME, SUNK_INWARD, Array, Section, rays
 
 RTOL = 1e-12
-TURN = 2.0 * math.pi
+FULL_TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,8 @@ def loops(coefficients: Coefficients) -> tuple[Loop, ...]:
         if not (rho[j] > 0.0 and theta[j] > 0.0 and rho[i] < 0.0):  # theta[i] < 0 then: simple zeros alternate
             continue
         P, Q = float(equator.theta[j]), float(equator.theta[i])
-        width = (sense * (Q - P)) % TURN
-        outside = [k for k in range(4) if (sense * (ends[k] - P)) % TURN > width]
+        width = (sense * (Q - P)) % FULL_TURN
+        outside = [k for k in range(4) if (sense * (ends[k] - P)) % FULL_TURN > width]
         if outside:
             ratio = float(rho[j] / theta[j] * theta[i] / rho[i])
             arcs.append(Loop(P, Q, ratio, max(outside, key=lambda k: found[k][0])))
@@ -129,12 +129,14 @@ def _crossings(
     rtol: float,
     backward: bool,
 ) -> list[float]:
-    """Where the branch of a limit direction first crosses its section, in each system."""
+    """Return where the branch of a limit direction first crosses its section, in each system."""
     starts = [departures(q, psi, [angle], rtol, backward) for (q, psi, _), angle in zip(asked, angles, strict=True)]
     module, _ = sections[0].kernel
-    values = {module.INWARD: -math.inf, module.OUTWARD: math.inf, module.UNDECIDED: math.nan}
+    values = {module.TO_CRITICAL_SET: -math.inf, module.OUTWARD: math.inf, module.NO_RETURN_YET: math.nan}
     found = []
-    for section, start, end, code in zip(sections, starts, *_turned(sections, starts, rtol, backward), strict=True):
+    for section, start, end, code in zip(
+        sections, starts, *_follow_to_sections(sections, starts, rtol, backward), strict=True
+    ):
         if code == module.OUTWARD:  # perhaps only for a while
             ends, _, codes, _ = section.turn(start, rtol, backward, elsewhere=True)
             end, code = ends[0], int(codes[0])
@@ -142,7 +144,7 @@ def _crossings(
     return found
 
 
-def _turned(
+def _follow_to_sections(
     sections: Sequence[Section], starts: Sequence[Array], rtol: float, backward: bool
 ) -> tuple[Array, list[int]]:
     """Follow an orbit to each section: where it ends, and the code of `return_map.returns`."""
@@ -158,6 +160,6 @@ def _turned(
     ends, _, codes, _ = sections[0].kernel[0].returns(
         states, np.array([section.shared(backward) for section in sections]), field.address,
         np.array([section.u for section in sections]), centres, sense, near, np.full(count, SUNK),
-        LONGEST, np.array([rtol]), STEPS, 0, True,
+        MAX_TURN_TIME, np.array([rtol]), MAX_STEPS, 0, True,
     )  # fmt: skip
     return ends, codes.tolist()

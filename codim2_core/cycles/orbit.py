@@ -14,14 +14,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from .section import FINE, AnySection, FixedPoint
+from .section import FINE_RTOL, AnySection, FixedPoint
 
 Array = NDArray[np.float64]
 
-NODES = 6
+STEP_NODES = 6
 MOST_STEPS = 8000
-CLOSED = 1e-11  # on the sphere
-LEAST = 1e-300  # multiplier of a relaxation cycle: one that repels more strongly is reported with its inverse
+CLOSURE_DISTANCE = 1e-11  # on the sphere
+MIN_MULTIPLIER = 1e-300  # multiplier of a relaxation cycle: one that repels more strongly is reported with its inverse
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Orbit:
 
 
 @lru_cache(maxsize=2)
-def gauss(count: int = NODES) -> tuple[Array, Array, Array]:
+def gauss(count: int = STEP_NODES) -> tuple[Array, Array, Array]:
     """Nodes, weights on [0, 1] and the collocation matrix ``a_ij``, the integral of l_j from 0 to c_i."""
     nodes, weights = np.polynomial.legendre.leggauss(count)
     c, w = 0.5 * (nodes + 1.0), 0.5 * weights
@@ -91,16 +91,16 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Path
     rtol : float
     backward : bool
     """
-    from .return_map import RETURNED, reached
+    from .return_map import RETURNED, single_step
 
     ends, times, codes, steps = section.turn(start[None, :], rtol, backward, MOST_STEPS, MOST_STEPS)
     if codes[0] != RETURNED:
         return None
     first, h = np.ascontiguousarray(steps[:, :3]), np.ascontiguousarray(steps[:, 3])
-    nodes, weights, _ = gauss(NODES)
+    nodes, weights, _ = gauss(STEP_NODES)
     _, function = section.kernel
-    places, whose = np.repeat(first, NODES, axis=0), np.zeros(NODES * len(h), np.intp)
-    inner = reached(places, np.outer(h, nodes).ravel(), section.shared(backward)[None], whose, function.address)
+    places, whose = np.repeat(first, STEP_NODES, axis=0), np.zeros(STEP_NODES * len(h), np.intp)
+    inner = single_step(places, np.outer(h, nodes).ravel(), section.shared(backward)[None], whose, function.address)
     return Path(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
 
 
@@ -124,13 +124,13 @@ def _normal_growth(J: Array, h: Array, across: Array) -> float:
     flow direction is carried into itself, so in frames along and across the orbit the fundamental matrix of each step
     is triangular, and the multiplier is the product of its entries across: to full relative accuracy.
     """
-    _, weights, matrix = gauss(NODES)
-    k, size = len(h), 2 * NODES
+    _, weights, matrix = gauss(STEP_NODES)
+    k, size = len(h), 2 * STEP_NODES
     # Stage slopes K_i solve K_i = J_i (1 + h sum_j a_ij K_j).
     coupling = h[:, None, None, None, None] * J[:, :, :, None, :] * matrix[None, :, None, :, None]
     left = np.eye(size) - coupling.reshape(k, size, size)
     first = (J @ across[:, None, :, None]).reshape(k, size, 1)
-    slopes = np.linalg.solve(left, first).reshape(k, NODES, 2)
+    slopes = np.linalg.solve(left, first).reshape(k, STEP_NODES, 2)
     after = across + h[:, None] * np.einsum("i,kim->km", weights, slopes)
     return float(np.prod(np.sum(np.roll(across, -1, axis=0) * after, axis=1)))
 
@@ -152,11 +152,11 @@ def orbit(section: AnySection, crossing: FixedPoint) -> Orbit | None:
     backward = crossing.repelling  # so that errors fade
     sign = -1.0 if backward else 1.0
     begin = start[0]
-    way = path(section, begin, FINE, backward)
-    if way is not None and math.dist(way.end, begin) > CLOSED:
+    way = path(section, begin, FINE_RTOL, backward)
+    if way is not None and math.dist(way.end, begin) > CLOSURE_DISTANCE:
         # The way it is followed the orbit attracts: once more round, from where it came.
         begin = way.end
-        way = path(section, begin, FINE, backward)
+        way = path(section, begin, FINE_RTOL, backward)
     if way is None:
         return None
     first, h, inner, weight = way.first, way.h, way.inner, way.weight
@@ -169,10 +169,10 @@ def orbit(section: AnySection, crossing: FixedPoint) -> Orbit | None:
     divergence = float(weight @ (J[:, 0, 0] + J[:, 1, 1]))
     velocity = section.field(every[:k])
     across = velocity[:, ::-1] * (-1.0, 1.0) / np.linalg.norm(velocity, axis=1)[:, None]
-    multiplier = _normal_growth((sign * J * per_T[:, None, None]).reshape(-1, NODES, 2, 2), h, across)
+    multiplier = _normal_growth((sign * J * per_T[:, None, None]).reshape(-1, STEP_NODES, 2, 2), h, across)
     if backward:
-        multiplier = 1.0 / max(multiplier, LEAST)
-    line = np.concatenate([first[:, None, :], inner.reshape(-1, NODES, 3)], axis=1).reshape(-1, 3)[:, :2]
+        multiplier = 1.0 / max(multiplier, MIN_MULTIPLIER)
+    line = np.concatenate([first[:, None, :], inner.reshape(-1, STEP_NODES, 3)], axis=1).reshape(-1, 3)[:, :2]
     closed, share = np.concatenate([line, line[:1]])[:: int(sign)].copy(), weight / period
     for array in (closed, mean_e, e, share):
         array.flags.writeable = False

@@ -19,23 +19,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..words import say
-from .section import COARSE, FINE
+from .section import COARSE_RTOL, FINE_RTOL
 
 Array = NDArray[np.float64]
 
 COARSE_NOISE, FINE_NOISE = 1e-8, 1e-11  # of a displacement at COARSE and FINE
-SAFETY = 8.0  # times the estimated error of the cubic
-PARTS = 16  # of an interval, where its cubic is evaluated
+ERROR_SAFETY = 8.0  # times the estimated error of the cubic
+INTERVAL_PARTS = 16  # of an interval, where its cubic is evaluated
 BATCH, FEWEST = 32, 3  # samples in a round, at least in one interval: lanes step side by side
-NARROWEST, ROUNDING = 2e-6, 1e-12  # widths in xi below which an interval is left as it is: flat, and steep
+NARROWEST, NARROWEST_STEEP = 2e-6, 1e-12  # widths in xi below which an interval is left as it is: flat, and steep
 UNRESOLVED = say("too steep")
 BAND = 0.05  # width in q of an interval of fixed points that is no fold
 STEEP = 1e-3  # change of the displacement
-MOST, ROUNDS = 900, 24  # samples in all; rounds
-UNDECIDED = 0.25  # share of undecided samples at which looking closer is in vain
+MAX_SAMPLES, MAX_ROUNDS = 900, 24  # samples in all; rounds
+MAX_UNDECIDED_SHARE = 0.25  # share of undecided samples at which looking closer is in vain
 NEAR_FOLD = 1e-6  # displacement at an extremum: a pair of cycles there is not told from none with certainty
 RISE = 10.0  # times its noise, by which a sample differs from another
-_INSIDE = np.linspace(0.0, 1.0, PARTS + 1)
+_INSIDE = np.linspace(0.0, 1.0, INTERVAL_PARTS + 1)
 
 
 class ReturnSection(Protocol):
@@ -90,7 +90,7 @@ def cubics(q: Array, shift: Array) -> tuple[Array, Array]:
     return values, near[:, None] * np.abs(product)
 
 
-def unresolved(q: Array, shift: Array, noise: Array) -> list[int]:
+def unresolved_intervals(q: Array, shift: Array, noise: Array) -> list[int]:
     """Find the intervals i, between samples i and i + 1, on which zeros may be hidden.
 
     Parameters
@@ -113,7 +113,7 @@ def unresolved(q: Array, shift: Array, noise: Array) -> list[int]:
         values, error = cubics(q[part], shift[part])
         # between its places a cubic leaves the line through them by an eighth of its second difference at most
         bend = np.abs(np.diff(values, 2)).max(axis=1, keepdims=True) / 8.0
-        doubt = SAFETY * error + bend + np.maximum(noise[part][:-1], noise[part][1:])[:, None]
+        doubt = ERROR_SAFETY * error + bend + np.maximum(noise[part][:-1], noise[part][1:])[:, None]
         hidden = _doubtful(values, doubt)
         # where few samples show a dip, its depth is known no better than to the height it fell from
         size = np.abs(shift[part])
@@ -137,12 +137,12 @@ def _doubtful(values: Array, doubt: Array) -> NDArray[np.bool_]:
 
 
 def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], list[int], bool]:
-    """Where the displacement changes sign, and where it comes to zero and turns back, within resolution.
+    """Return where the displacement changes sign, and where it touches zero, within resolution.
 
     Parameters
     ----------
     q, shift, noise : ndarray (n,)
-        As of `unresolved`; infinities have a sign as well.
+        As of `unresolved_intervals`; infinities have a sign as well.
 
     Returns
     -------
@@ -182,15 +182,15 @@ class Samples:
     def __init__(self, section: ReturnSection, xi: Array, backward: bool = False) -> None:
         self.section, self.backward = section, backward
         self.xi, self.q = xi, section.states(xi)[1]
-        self.shift = section.displacement(xi, COARSE, backward)
+        self.shift = section.displacement(xi, COARSE_RTOL, backward)
         self.fine = np.zeros(len(xi), bool)
 
     @property
     def noise(self) -> Array:
-        """What the displacement is not known better than; near the critical set it is that of the distance from it."""
+        """Return the uncertainty of the displacement; near the critical set it is that of the distance from it."""
         return np.where(self.fine, FINE_NOISE, COARSE_NOISE) * (1.0 + np.exp(-self.q))
 
-    def refine(self, xi: Array, also: NDArray[np.bool_], rtol: float = FINE) -> None:
+    def refine(self, xi: Array, also: NDArray[np.bool_], rtol: float = FINE_RTOL) -> None:
         """Add samples, by default at the fine tolerance, and repeat those marked that are not fine yet."""
         also = also & ~self.fine
         every = np.concatenate([xi, self.xi[also]])
@@ -202,9 +202,9 @@ class Samples:
         self.xi = np.concatenate([self.xi, xi])[order]
         self.q = np.concatenate([self.q, q[: len(xi)]])[order]
         self.shift = np.concatenate([self.shift, shift[: len(xi)]])[order]
-        self.fine = np.concatenate([self.fine, np.full(len(xi), rtol == FINE)])[order]
+        self.fine = np.concatenate([self.fine, np.full(len(xi), rtol == FINE_RTOL)])[order]
 
-    def resolve(self, ends: Callable[[Array, Array], list[int]], steepest: float = ROUNDING) -> bool:
+    def resolve(self, ends: Callable[[Array, Array], list[int]], steepest: float = NARROWEST_STEEP) -> bool:
         """Sample closer until every interval is resolved; whether that came about.
 
         Parameters
@@ -214,21 +214,23 @@ class Samples:
         steepest : float
             Width in xi below which a steep interval, and so a jump, is left as it is.
         """
-        for _ in range(ROUNDS):
-            doubtful = [i for i in unresolved(self.q, self.shift, self.noise) if not self._narrow(i, steepest)]
+        for _ in range(MAX_ROUNDS):
+            doubtful = [
+                i for i in unresolved_intervals(self.q, self.shift, self.noise) if not self._narrow(i, steepest)
+            ]
             stencil = np.zeros(len(self.xi), bool)
             for i in doubtful:
                 stencil[max(i - 1, 0) : i + 3] = True
             open_ = sorted({*doubtful, *ends(self.xi, self.shift)})
             if not open_:
                 return True
-            if len(self.xi) > MOST or np.isnan(self.shift).mean() > UNDECIDED:
+            if len(self.xi) > MAX_SAMPLES or np.isnan(self.shift).mean() > MAX_UNDECIDED_SHARE:
                 return False
             each = max(BATCH // len(open_), FEWEST)
             part = np.arange(1, each + 1) / (each + 1)
             left, right = self.xi[open_], self.xi[np.array(open_) + 1]
             # where the displacement ends, a first look is for its sign
-            rtol = FINE if doubtful else COARSE
+            rtol = FINE_RTOL if doubtful else COARSE_RTOL
             self.refine((left[:, None] + (right - left)[:, None] * part).ravel(), stencil, rtol)
         return False
 
@@ -239,7 +241,7 @@ class Samples:
         return bool(width < (NARROWEST if not steep else steepest * max(1.0, abs(self.xi[i]))))
 
 
-def counted(count: int, way: str, about: str = "") -> str:
+def count_sentence(count: int, way: str, about: str = "") -> str:
     """Say how many limit cycles were found, and by which way: "section" or "turn"."""
     found = "no cycle" if not count else "one cycle" if count == 1 else "cycles"
     return say(f"{found}, {way}", count=count, about=about)

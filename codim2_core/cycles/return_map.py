@@ -13,24 +13,24 @@ import numpy as np
 from numba import njit
 
 from ..stepping.dop853 import ARITHMETIC, advance
-from ..stepping.layout import K0, K12, LANES, NEW, STATE, STEP, call_field
+from ..stepping.layout import K0, K12, LANES, NEW, STATE, STEP_ROW, call_field
 from .lane_steps import (
-    SHARE,
+    STEP_TOLERANCE_SHARE,
     TRIALS,
     growth,
-    judged,
     load_state,
     load_system,
+    log_step,
     narrow,
     next_length,
-    noted,
     set_lengths,
+    step_error,
     to_sphere,
     workspace,
 )
 
-RETURNED, INWARD, OUTWARD, UNDECIDED = range(4)  # inward: onto C; outward: onto the equator
-DONE, FIRST_HALF, TURNED, SECOND_HALF, REFINING = range(5)
+RETURNED, TO_CRITICAL_SET, OUTWARD, NO_RETURN_YET = range(4)  # inward: onto C; outward: onto the equator
+DONE, FIRST_HALF, AT_HALF_TURN, SECOND_HALF, REFINING = range(5)
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
@@ -78,7 +78,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
         Where a step starts, its length and whose it is: those of one state in order, several among one another.
     """
     n = states.shape[0]
-    ends, times, codes = states.copy(), np.zeros(n), np.full(n, UNDECIDED)
+    ends, times, codes = states.copy(), np.zeros(n), np.full(n, NO_RETURN_YET)
     log, logged = np.empty((record, 5)), 0
     S, P = workspace(shared[0])
     # times the index: where a state's own numbers are
@@ -103,7 +103,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                     load_system(P, shared[own * following], k)
                     who[k], fresh[k], phase[k], spent[k] = following, 1, FIRST_HALF, 0
                     tolerance = rtol[each * following]
-                    clock[k], step[k], allowed[k] = 0.0, 0.5 * tolerance**0.125, SHARE * tolerance
+                    clock[k], step[k], allowed[k] = 0.0, 0.5 * tolerance**0.125, STEP_TOLERANCE_SHARE * tolerance
                     following += 1
             call_field(field, S, STATE, K0, P)
             for k in range(LANES if elsewhere else 0):
@@ -111,7 +111,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                     # Orbits go round in one sense: where u.U > 0 they come to this section next, else to the opposite.
                     vx, vy = _velocity(S, STATE, K0, k)
                     m = own * who[k]
-                    phase[k] = SECOND_HALF if u[m, 0] * vx + u[m, 1] * vy > 0.0 else TURNED
+                    phase[k] = SECOND_HALF if u[m, 0] * vx + u[m, 1] * vy > 0.0 else AT_HALF_TURN
         set_lengths(S, step)
         advance(S, P, field)
         for k in range(LANES):
@@ -121,7 +121,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
         for k in range(LANES):
             if phase[k] == DONE or phase[k] == REFINING:
                 continue
-            error = judged(S, k, allowed[k])
+            error = step_error(S, k, allowed[k])
             tries[k] = 1 if error <= 1.0 else 0
             low[k] = step[k]  # the length just tried
             step[k] *= growth(error)
@@ -143,15 +143,15 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                     step[k] = next_length(k, low, at_low, high, at_high)
                     continue
                 if record > 0:
-                    logged = noted(log, logged, S, k, h, who[k])
+                    logged = log_step(log, logged, S, k, h, who[k])
                 codes[who[k]], times[who[k]] = RETURNED, clock[k] + h
                 phase[k] = DONE
             elif tries[k] == 1:
                 h = low[k]
                 forward = sense[m] * (u1 * vy - u2 * vx)
                 if phase[k] == FIRST_HALF and forward < 0.0:
-                    phase[k] = TURNED
-                if phase[k] == TURNED and g > 0.0:
+                    phase[k] = AT_HALF_TURN
+                if phase[k] == AT_HALF_TURN and g > 0.0:
                     phase[k] = SECOND_HALF
                 elif phase[k] == SECOND_HALF and g <= 0.0:
                     ox, oy = _velocity(S, STATE, K0, k)
@@ -160,12 +160,12 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                     phase[k], tries[k], side[k] = REFINING, 0, 0
                     continue
                 if record > 0:
-                    logged = noted(log, logged, S, k, h, who[k])
+                    logged = log_step(log, logged, S, k, h, who[k])
                 clock[k] += h
                 w = S[NEW + 2 * LANES + k]
                 dx, dy = S[NEW + k] / w - centre[m, 0], S[NEW + LANES + k] / w - centre[m, 1]
                 if dx * dx + dy * dy < floor[m] * floor[m]:
-                    codes[who[k]], times[who[k]], phase[k] = INWARD, clock[k], DONE
+                    codes[who[k]], times[who[k]], phase[k] = TO_CRITICAL_SET, clock[k], DONE
                 elif w < sunk[m] * states[who[k], 2]:
                     codes[who[k]], times[who[k]], phase[k] = OUTWARD, clock[k], DONE
                 elif clock[k] >= t_max:
@@ -186,7 +186,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def reached(states, lengths, shared, whose, field):
+def single_step(states, lengths, shared, whose, field):
     """Take one step of given length (n,) from each state (n, 3): for short ones as accurate as the stepping.
 
     The parameters (m, SHARED) of the field are in the rows whose (n,).
@@ -200,7 +200,7 @@ def reached(states, lengths, shared, whose, field):
             load_system(P, shared[whose[i]], k)
             for c in range(3):
                 S[STATE + c * LANES + k] = states[i, c]
-                S[STEP + c * LANES + k] = lengths[i]
+                S[STEP_ROW + c * LANES + k] = lengths[i]
         call_field(field, S, STATE, K0, P)
         advance(S, P, field)
         for k in range(min(LANES, n - base)):

@@ -15,21 +15,21 @@ import numpy as np
 from ..numerics.root_between import root_through
 from ..words import say
 from .resolution import NEAR_FOLD, UNRESOLVED, Samples, near_fold, zeros
-from .section import COARSE, FINE, INNER, Array, FixedPoint, Section
+from .section import COARSE_RTOL, FINE_RTOL, INNER_RADIUS, Array, FixedPoint, Section
 
-TOUCHING = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
-CLOSE = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time
-CLOSER, AGREED = 0.02, 1e-10  # spacing of the samples about a fixed point; how far two interpolants may differ
+FOLD_NOISE = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
+MIN_JUMP_WIDTH = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time
+FINE_SPACING, AGREED = 0.02, 1e-10  # spacing of the samples about a fixed point; how far two interpolants may differ
 NOISE = 1e-8  # displacement that COARSE cannot tell from zero
 NEAR_LOOP = 1e-3
-MEASURED, SMALLEST = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R
+MEASURED, MIN_CYCLE_RADIUS = 2.0, 1e-8  # where the expansion at C is measured, in INNER; the smallest cycle, in r/R
 
 
-def _between(low: float, high: float, count: int) -> Array:
+def _sample_between(low: float, high: float, count: int) -> Array:
     return low + (high - low) * np.arange(1, count + 1) / (count + 1)
 
 
-def _settled(shift: Array, inner: int, step: int) -> bool:
+def _has_converged(shift: Array, inner: int, step: int) -> bool:
     """Whether the displacement has all but reached its limit where orbits stop returning, well away from zero.
 
     Past a saddle it converges like a power of the distance; over the last samples that distance fell fourfold.
@@ -46,13 +46,13 @@ def _ends(xi: Array, shift: Array) -> list[int]:
     finite = np.isfinite(shift)
     width = np.diff(xi)
     candidates = width > 1e-12 * np.maximum(1.0, np.abs(xi[:-1]))
-    jumps = candidates & (width > CLOSE) & np.isinf(shift[:-1]) & (shift[1:] == -shift[:-1])
+    jumps = candidates & (width > MIN_JUMP_WIDTH) & np.isinf(shift[:-1]) & (shift[1:] == -shift[:-1])
     new = []
     for i in np.flatnonzero(candidates & (finite[1:] != finite[:-1])).tolist():
         # Before the displacement jumps to +inf; to -inf, on C, it goes continuously.
         inner, outer, step = (i, i + 1, -1) if finite[i] else (i + 1, i, 1)
         hidden = shift[outer] > 0.0 or (np.isinf(shift[outer]) and shift[inner] > 0.0)
-        if hidden and not (width[i] < 0.05 and _settled(shift, inner, step)):
+        if hidden and not (width[i] < 0.05 and _has_converged(shift, inner, step)):
             new.append(i)
     return [*new, *np.flatnonzero(jumps).tolist()]
 
@@ -65,7 +65,9 @@ def _one_way(y: Array) -> bool:
     return bool((steps > 0.0).all() or (steps < 0.0).all())
 
 
-def _interpolated(section: Section, x: Array, y: Array, low: float, high: float, backward: bool) -> float | None:
+def _interpolate_fixed_point(
+    section: Section, x: Array, y: Array, low: float, high: float, backward: bool
+) -> float | None:
     """Find the fixed point between low and high by six samples about the zero of the cubic through those around.
 
     None if these do not show it: they do if their interpolant and that of the inner four agree.
@@ -73,19 +75,19 @@ def _interpolated(section: Section, x: Array, y: Array, low: float, high: float,
     guess = root_through(x, y)
     if not low < guess < high:
         return None
-    x = guess + min(CLOSER, 0.1 * (high - low)) * np.array([-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
-    y = section.displacement(x, FINE, backward)
+    x = guess + min(FINE_SPACING, 0.1 * (high - low)) * np.array([-2.5, -1.5, -0.5, 0.5, 1.5, 2.5])
+    y = section.displacement(x, FINE_RTOL, backward)
     if not _one_way(y) or y[0] * y[-1] > 0.0:
         return None
     found = root_through(x, y)
     return found if abs(found - root_through(x[1:-1], y[1:-1])) < AGREED else None
 
 
-def _bracketed(section: Section, low: float, high: float, backward: bool) -> float:
+def _bracket_fixed_point(section: Section, low: float, high: float, backward: bool) -> float:
     """Find the fixed point between low and high, where the displacement has opposite signs, by rounds of samples."""
     for _ in range(8):
-        x = np.concatenate([[low], _between(low, high, 30), [high]])
-        y = section.displacement(x, COARSE, backward)
+        x = np.concatenate([[low], _sample_between(low, high, 30), [high]])
+        y = section.displacement(x, COARSE_RTOL, backward)
         changes = np.flatnonzero((y[1:] < 0.0) != (y[:-1] < 0.0))
         k = int(changes[0]) if len(changes) else len(x) // 2
         low, high = float(x[k]), float(x[k + 1])
@@ -93,36 +95,38 @@ def _bracketed(section: Section, low: float, high: float, backward: bool) -> flo
             break
     width = high - low
     x = low + width * np.array([-2.0, -1.0, 0.0, 1.0, 2.0, 3.0])
-    y = section.displacement(x, FINE, backward)
+    y = section.displacement(x, FINE_RTOL, backward)
     if not np.isfinite(y).all() or len(np.unique(y)) < len(y):
         return 0.5 * (low + high)
     guess = root_through(x, y)
     return guess if low - width <= guess <= high + width else 0.5 * (low + high)
 
 
-def _polished(section: Section, xi: Array, shift: Array, i: int, j: int, backward: bool) -> float:
+def _polish_fixed_point(section: Section, xi: Array, shift: Array, i: int, j: int, backward: bool) -> float:
     """Find the fixed point between samples i and j of opposite sign."""
     low, high = float(xi[i]), float(xi[j])
     near = slice(max(i - 1, 0), j + 2)
-    found = _interpolated(section, xi[near], shift[near], low, high, backward) if _one_way(shift[near]) else None
-    return _bracketed(section, low, high, backward) if found is None else found
+    found = (
+        _interpolate_fixed_point(section, xi[near], shift[near], low, high, backward) if _one_way(shift[near]) else None
+    )
+    return _bracket_fixed_point(section, low, high, backward) if found is None else found
 
 
 def _newborn(section: Section) -> FixedPoint | None:
     """Place a cycle below the innermost sample: ``displacement = 2 pi mu/omega + c r^2``, its first term exact.
 
     c is measured well outside the cycle, where rounding (1e-16/r) does not matter yet; what is left is of order r^2.
-    None below `SMALLEST`, where the trace of J has lost its digits.
+    None below `MIN_CYCLE_RADIUS`, where the trace of J has lost its digits.
     """
     C = section.critical
     linear = 2.0 * math.pi * C.trace / math.sqrt(-C.discriminant)
-    r = INNER * MEASURED * np.array([1.0, 2.0, 4.0])
-    parts = (section.displacement(np.log(r / (1.0 - r)), FINE) - linear) / r**2
+    r = INNER_RADIUS * MEASURED * np.array([1.0, 2.0, 4.0])
+    parts = (section.displacement(np.log(r / (1.0 - r)), FINE_RTOL) - linear) / r**2
     square = float(parts @ (8.0, -6.0, 1.0)) / 3.0  # takes out the next two powers of r
     if not square * linear < 0.0:
         return None
     size = math.sqrt(-linear / square)
-    if not SMALLEST <= size < 2.0 * INNER:
+    if not MIN_CYCLE_RADIUS <= size < 2.0 * INNER_RADIUS:
         return None
     return FixedPoint(math.log(size / (1.0 - size)), square > 0.0, born=True)
 
@@ -169,14 +173,14 @@ class Shown:
 
     @property
     def certain(self) -> int:
-        """How many of the changes of sign, from the first, are fixed points for certain, and all up to there."""
+        """Return how many sign changes, from the first, are surely fixed points, with none missed before them."""
         if self.notes or self.touching or self.newborn:
             return -1
         finite = np.isfinite(self.shift).tolist()
         return next((k for k, (i, j) in enumerate(self.changes) if not (finite[i] and finite[j])), len(self.changes))
 
 
-def shown(section: Section) -> Shown:
+def sample_return_map(section: Section) -> Shown:
     """Sample the return map of a section until the samples resolve it."""
     notes: list[str] = []
     samples = Samples(section, section.grid())
@@ -194,11 +198,11 @@ def shown(section: Section) -> Shown:
     if band:
         notes.append(say("band"))
     notes += _nearly_degenerate(q, shift, noise)
-    meeting = tuple(i for i in touching if noise[i] < TOUCHING)
+    meeting = tuple(i for i in touching if noise[i] < FOLD_NOISE)
     return Shown(section, xi, q, shift, tuple(changes), meeting, tuple(notes))
 
 
-def crossed(samples: Shown, first: int = 0) -> list[FixedPoint]:
+def find_fixed_points(samples: Shown, first: int = 0) -> list[FixedPoint]:
     """Place the fixed points at the changes of sign of the displacement, from the first or a later one.
 
     One that repels attracts backward in time: it is found and followed backward. It may repel so strongly that forward
@@ -218,7 +222,7 @@ def crossed(samples: Shown, first: int = 0) -> list[FixedPoint]:
             back = section.displacement(xi[[i, j]], backward=True)
             known = bool(back[0] > 0.0 > back[1])
         if known:
-            found.append(FixedPoint(_polished(section, xi, shift, i, j, repelling), repelling))
+            found.append(FixedPoint(_polish_fixed_point(section, xi, shift, i, j, repelling), repelling))
     return found
 
 
@@ -230,7 +234,7 @@ def search(samples: Shown) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
     samples : Shown
     """
     section, xi, notes = samples.section, samples.xi, samples.notes
-    found = crossed(samples)
+    found = find_fixed_points(samples)
     found += [FixedPoint(float(xi[i]), touching=True) for i in samples.touching]
     if samples.newborn:
         newborn = _newborn(section)

@@ -15,14 +15,14 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.location import Location, locate
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from .equator_pull import LEAST, LOST, SUNK, EquatorPull, equator_pull
+from .equator_pull import LOST, MIN_HEIGHT, SUNK, EquatorPull, equator_pull
 
 Array = NDArray[np.float64]
-SAMPLES = 64  # so many that lanes are full to the last
-INNER, OUTER = 1e-4, 1e5  # of the reach R, and in zeta: how near C and the equator the section is sampled
-COARSE, FINE = 1e-9, 1e-13  # tolerances
-FARTHEST = 1e6  # zeta from which the outer samples begin, at most
-STEPS, LONGEST = 2000, 1e6  # steps tried, and T in units of 1/|(a, b, d, f1, f2)|
+FIRST_SAMPLES = 64  # so many that lanes are full to the last
+INNER_RADIUS, OUTER_ZETA = 1e-4, 1e5  # of the reach R, and in zeta: how near C and the equator the section is sampled
+COARSE_RTOL, FINE_RTOL = 1e-9, 1e-13  # tolerances
+MAX_FIRST_ZETA = 1e6  # zeta from which the outer samples begin, at most
+MAX_STEPS, MAX_TURN_TIME = 2000, 1e6  # steps tried, and T in units of 1/|(a, b, d, f1, f2)|
 SUNK_INWARD = 1e-3  # of the innermost sample: gone, within one turn
 
 
@@ -127,11 +127,11 @@ class AnySection(Protocol):
         ...
 
 
-def followed(
+def integrate_turn(
     section: AnySection, follow: Callable[..., Any], states: Array, backward: bool, recorded: bool
 ) -> tuple[Array, Array, Any, Any]:
     """Follow one turn; those that the equator may not draw in are followed on, however close they come to it."""
-    lost = min(SUNK, max(LOST, LEAST / max(LEAST, float(states[:, 2].min(initial=1.0)))))
+    lost = min(SUNK, max(LOST, MIN_HEIGHT / max(MIN_HEIGHT, float(states[:, 2].min(initial=1.0)))))
     if recorded:
         return follow(states, lost)
     ends, times, codes, record = follow(states, SUNK)
@@ -184,7 +184,7 @@ class Section:
 
     @cached_property
     def pull(self) -> EquatorPull:
-        """What becomes of orbits that pass close to the equator."""
+        """Return the first-order return map of orbits close to the equator."""
         return equator_pull(self.coefficients, self.location)
 
     @property
@@ -248,7 +248,7 @@ class Section:
         rtol: float,
         backward: bool = False,
         record: int = 0,
-        limit: int = STEPS,
+        limit: int = MAX_STEPS,
         elsewhere: bool = False,
     ) -> tuple[Array, Array, Any, Any]:
         """Follow one turn: states on return (n, 3), times, codes and recorded steps of `return_map.returns`."""
@@ -267,20 +267,20 @@ class Section:
                 np.array([sense]),
                 np.array([SUNK_INWARD * nearest]),
                 np.array([sunk]),
-                LONGEST,
+                MAX_TURN_TIME,
                 np.array([rtol]),
                 limit,
                 record,
                 elsewhere,
             )
 
-        return followed(self, follow, states, backward, record > 0)
+        return integrate_turn(self, follow, states, backward, record > 0)
 
     def shared(self, backward: bool) -> Array:
         """Parameters of the compiled field."""
-        from ..stepping.layout import SHARED
+        from ..stepping.layout import SHARED_SIZE
 
-        shared = np.zeros(SHARED)
+        shared = np.zeros(SHARED_SIZE)
         shared[:5] = -self.plane if backward else self.plane
         shared[5] = self.psi.parameter
         return shared
@@ -290,26 +290,26 @@ class Section:
         """Distance from C in x2 of the innermost sample, to first order."""
         radial, tangential = self.psi.jacobian_factors(float(np.hypot(*self.critical.x2)))
         along = float(self.e @ self.u) / max(float(np.hypot(*self.e)), 1e-300)
-        return INNER * self.reach * (1.0 / tangential + along * along * (1.0 / radial - 1.0 / tangential))
+        return INNER_RADIUS * self.reach * (1.0 / tangential + along * along * (1.0 / radial - 1.0 / tangential))
 
-    def displacement(self, xi: Array, rtol: float = COARSE, backward: bool = False) -> Array:
+    def displacement(self, xi: Array, rtol: float = COARSE_RTOL, backward: bool = False) -> Array:
         """Displacement of q over a turn (n,): -inf to C, +inf to the equator, NaN undecided."""
         module, _ = self.kernel
         states, q = self.states(xi)
         ends, _, codes, _ = self.turn(states, rtol, backward)
         shift = self.coordinate(ends) - q
-        shift[codes == module.INWARD] = -np.inf
+        shift[codes == module.TO_CRITICAL_SET] = -np.inf
         shift[codes == module.OUTWARD] = np.inf
-        shift[codes == module.UNDECIDED] = np.nan
+        shift[codes == module.NO_RETURN_YET] = np.nan
         return shift
 
     def grid(self) -> Array:
         """Choose samples: even in ln r near C, in ln zeta near the equator."""
-        inner = np.linspace(math.log(INNER), math.log(9.0), SAMPLES - 24)
+        inner = np.linspace(math.log(INNER_RADIUS), math.log(9.0), FIRST_SAMPLES - 24)
         r, rest = self.reach / (1.0 + math.exp(-inner[-1])), self.reach / (1.0 + math.exp(inner[-1]))
         modulus = min(math.hypot(*(self.e + r * self.u).tolist()), 1.0)
         gap = min(max(rest * (r + self.other), 1e-300), 1.0)
-        start = min(max(self.psi.radius(modulus, gap), 1e-3), FARTHEST)
-        outer = self.xi_at_radius(np.geomspace(start, max(OUTER, 10.0 * start), 25)[1:])
+        start = min(max(self.psi.radius(modulus, gap), 1e-3), MAX_FIRST_ZETA)
+        outer = self.xi_at_radius(np.geomspace(start, max(OUTER_ZETA, 10.0 * start), 25)[1:])
         xi = np.concatenate([inner, outer[outer > inner[-1] + 1e-3]])
         return np.unique(np.minimum(xi, 600.0))

@@ -15,28 +15,28 @@ from numba import njit
 from ..stepping.dop853 import ARITHMETIC, advance
 from ..stepping.layout import K0, K12, LANES, NEW, STATE, call_field
 from .lane_steps import (
-    SHARE,
+    STEP_TOLERANCE_SHARE,
     TRIALS,
     growth,
-    judged,
     load,
+    log_step,
     narrow,
     next_length,
-    noted,
     set_lengths,
+    step_error,
     to_sphere,
     workspace,
 )
-from .return_map import INWARD, OUTWARD, RETURNED, UNDECIDED
+from .return_map import NO_RETURN_YET, OUTWARD, RETURNED, TO_CRITICAL_SET
 
-DONE, RUNNING, REFINING = range(3)
-FARTHEST = 2.0  # radians about the point in one step: more could be a turn unseen
-FULL = 2.0 * math.pi
-STILL = 3.0  # times the tolerance: a speed at which an orbit has come to rest
+DONE, STEPPING, REFINING = range(3)
+MAX_STEP_ANGLE = 2.0  # radians about the point in one step: more could be a turn unseen
+FULL_TURN = 2.0 * math.pi
+REST_SPEED = 3.0  # times the tolerance: a speed at which an orbit has come to rest
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def _swept(S, centre, k):
+def _swept_angle(S, centre, k):
     """Angle about the point from STATE to NEW."""
     ax, ay = S[STATE + k] - centre[0], S[STATE + LANES + k] - centre[1]
     bx, by = S[NEW + k] - centre[0], S[NEW + LANES + k] - centre[1]
@@ -74,7 +74,7 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
     ends (n, 3), times (n,), codes (n,) of `return_map`, steps (k, 4): as `return_map.returns`
     """
     n = states.shape[0]
-    ends, times, codes = states.copy(), np.zeros(n), np.full(n, UNDECIDED)
+    ends, times, codes = states.copy(), np.zeros(n), np.full(n, NO_RETURN_YET)
     log, logged = np.empty((record, 5)), 0
     S, P = workspace(shared)
     phase, tries, side = np.zeros(LANES, np.int64), np.zeros(LANES, np.int64), np.zeros(LANES, np.int64)
@@ -84,7 +84,7 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
         active = min(LANES, n - base)
         load(S, states, base, active)
         for k in range(LANES):
-            phase[k] = RUNNING if k < active else DONE
+            phase[k] = STEPPING if k < active else DONE
             clock[k], angle[k], step[k] = 0.0, 0.0, 0.5 * rtol**0.125 if k < active else 0.0
         call_field(field, S, STATE, K0, P)
         spent, running = 0, active
@@ -96,16 +96,16 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                 if phase[k] == REFINING:
                     to_sphere(S, k)
                 elif phase[k] != DONE:
-                    errors[k] = judged(S, k, SHARE * rtol)
+                    errors[k] = step_error(S, k, STEP_TOLERANCE_SHARE * rtol)
             call_field(field, S, NEW, K12, P)
             for k in range(LANES):
                 if phase[k] == DONE:
                     continue
-                h, swept = step[k], _swept(S, centre, k)
+                h, swept = step[k], _swept_angle(S, centre, k)
                 finished, code = False, RETURNED
                 if phase[k] == REFINING:
                     tries[k] += 1
-                    g = abs(angle[k] + swept) - FULL
+                    g = abs(angle[k] + swept) - FULL_TURN
                     narrow(k, g < 0.0, g, step, low, at_low, high, at_high, side)
                     if abs(g) > 1e-15 and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
                         step[k] = next_length(k, low, at_low, high, at_high)
@@ -116,28 +116,28 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                     if not errors[k] <= 1.0:
                         step[k] *= factor
                         continue
-                    if abs(swept) > FARTHEST:
+                    if abs(swept) > MAX_STEP_ANGLE:
                         step[k] *= 0.5
                         continue
-                    if abs(angle[k] + swept) >= FULL:
-                        low[k], at_low[k] = 0.0, abs(angle[k]) - FULL
-                        high[k], at_high[k] = h, abs(angle[k] + swept) - FULL
+                    if abs(angle[k] + swept) >= FULL_TURN:
+                        low[k], at_low[k] = 0.0, abs(angle[k]) - FULL_TURN
+                        high[k], at_high[k] = h, abs(angle[k] + swept) - FULL_TURN
                         step[k] = h * at_low[k] / (at_low[k] - at_high[k])
                         phase[k], tries[k], side[k] = REFINING, 0, 0
                         continue
                     step[k] *= factor
                     dx, dy = S[NEW + k] - centre[0], S[NEW + LANES + k] - centre[1]
                     if dx * dx + dy * dy < floor * floor:
-                        finished, code = True, INWARD
+                        finished, code = True, TO_CRITICAL_SET
                     elif S[NEW + 2 * LANES + k] < sunk * states[base + k, 2]:
                         finished, code = True, OUTWARD
                     else:
                         vx, vy, vw = S[K12 + k], S[K12 + LANES + k], S[K12 + 2 * LANES + k]
-                        still = vx * vx + vy * vy + vw * vw < (STILL * rtol) ** 2
+                        still = vx * vx + vy * vy + vw * vw < (REST_SPEED * rtol) ** 2
                         if still or clock[k] + h >= t_max:
-                            finished, code = True, UNDECIDED
+                            finished, code = True, NO_RETURN_YET
                 if base + k == 0:
-                    logged = noted(log, logged, S, k, h, 0)
+                    logged = log_step(log, logged, S, k, h, 0)
                 clock[k] += h
                 angle[k] += swept
                 for c in range(3):

@@ -13,15 +13,19 @@ from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from .equator_pull import EquatorPull, equator_pull
-from .section import COARSE, followed
+from .section import COARSE_RTOL, integrate_turn
 
 Array = NDArray[np.float64]
-INNER, OUTER, SPACING = 1e-4, 1e-5, 0.2  # of the reach; ebar of the last sample; of samples in ln(r/(reach - r))
-STEPS, LONGEST = 2000, 1e6  # steps tried, and T in units of 1/max |U|
+INNER_RADIUS, OUTER_HEIGHT, SAMPLE_SPACING = (
+    1e-4,
+    1e-5,
+    0.2,
+)  # of the reach; ebar of the last sample; of samples in ln(r/(reach - r))
+MAX_STEPS, MAX_TURN_TIME = 2000, 1e6  # steps tried, and T in units of 1/max |U|
 SUNK_INWARD = 1e-3  # of the innermost sample: gone
 AT_REST = 1e-4  # distance from a critical set, or ebar, at which an orbit that never turned has settled
 NOISE = 10.0  # times the tolerance: error in p of a turn
-DIRECTIONS = 16
+RAY_DIRECTIONS = 16
 
 
 class TurnSection:
@@ -50,9 +54,9 @@ class TurnSection:
         self.other = gap / self.reach
 
     def _direction(self, away: list[Array]) -> Array:
-        angle = 2.0 * math.pi * (np.arange(DIRECTIONS) + 0.25) / DIRECTIONS
+        angle = 2.0 * math.pi * (np.arange(RAY_DIRECTIONS) + 0.25) / RAY_DIRECTIONS
         u = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        room = np.full(DIRECTIONS, 2.0)
+        room = np.full(RAY_DIRECTIONS, 2.0)
         for d in away:
             part = np.maximum(u @ d, 0.0)
             room = np.minimum(room, np.hypot(*(d - part[:, None] * u).T))
@@ -68,7 +72,7 @@ class TurnSection:
 
     @cached_property
     def pull(self) -> EquatorPull:
-        """What becomes of orbits that pass close to the equator."""
+        """Return the first-order return map of orbits close to the equator."""
         return equator_pull(self.at, None)
 
     def shared(self, backward: bool) -> Array:
@@ -96,7 +100,7 @@ class TurnSection:
         return np.log(r) - np.log(np.maximum(states[:, 2] ** 2 / (r + self.other), 1e-300))
 
     def turn(
-        self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = STEPS
+        self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = MAX_STEPS
     ) -> tuple[Array, Array, Any, Any]:
         """Follow one turn: ends (n, 3), times, codes and recorded steps of `turn_map.turns`."""
         module, function = self.kernel
@@ -107,24 +111,24 @@ class TurnSection:
                 self.shared(backward),
                 function.address,
                 np.array(self.critical.p),
-                SUNK_INWARD * INNER * self.reach,
+                SUNK_INWARD * INNER_RADIUS * self.reach,
                 sunk,
-                LONGEST,
+                MAX_TURN_TIME,
                 rtol,
                 limit,
                 record,
             )
 
-        return followed(self, follow, states, backward, record > 0)
+        return integrate_turn(self, follow, states, backward, record > 0)
 
-    def displacement(self, xi: Array, rtol: float = COARSE, backward: bool = False) -> Array:
+    def displacement(self, xi: Array, rtol: float = COARSE_RTOL, backward: bool = False) -> Array:
         """Displacement of q over a turn (n,): -inf to the critical set, +inf elsewhere, NaN undecided."""
         module, _ = self.kernel
         states, q = self.states(xi)
         ends, _, codes, _ = self.turn(states, rtol, backward)
         shift = self.coordinate(ends) - q
         gaps = np.hypot(*(ends[:, None, :2] - self._rests[None]).T).T
-        inward = (codes == module.INWARD) | (np.hypot(*(ends[:, :2] - self.critical.p).T) < AT_REST)
+        inward = (codes == module.TO_CRITICAL_SET) | (np.hypot(*(ends[:, :2] - self.critical.p).T) < AT_REST)
         settled = (gaps.min(axis=1) < AT_REST) | (ends[:, 2] < AT_REST) | (codes == module.OUTWARD)
         # What the tolerance cannot tell from zero is zero: in a band of closed orbits noise has both signs.
         shift[np.abs(shift) < NOISE * rtol * (1.0 + (1.0 + np.exp(-q)) / self.reach)] = 0.0
@@ -136,6 +140,6 @@ class TurnSection:
 
     def grid(self) -> Array:
         """Choose samples: even in ln(r/(reach - r))."""
-        last = math.log(self.reach * (self.reach + self.other)) - 2.0 * math.log(OUTER)
-        first = math.log(INNER)
-        return np.linspace(first, last, int((last - first) / SPACING))
+        last = math.log(self.reach * (self.reach + self.other)) - 2.0 * math.log(OUTER_HEIGHT)
+        first = math.log(INNER_RADIUS)
+        return np.linspace(first, last, int((last - first) / SAMPLE_SPACING))

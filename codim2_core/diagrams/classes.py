@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..layer_problem.vary import limits, names, varied
+from ..layer_problem.vary import limits, names, vary
 from ..psi.function import Psi
 from ..systems.affine import as_elinear
 from .family import Sweep, family
@@ -102,7 +102,7 @@ class GeneralClasses:
         try:
             of = self._of
             for name, value in zip(self._names[:-1], place[:-1], strict=True):
-                of = varied(*of, name, value)
+                of = vary(*of, name, value)
             system, psi, z = of
             state = State(system, psi, self._names[-1], place[-1], z)
         except ValueError:  # U is not finite there
@@ -140,7 +140,7 @@ def classes_over(
     Raises
     ------
     ValueError
-        A name cannot be varied, a value is beyond what it may be, or z does not fit.
+        A name cannot be vary, a value is beyond what it may be, or z does not fit.
     """
     linear = as_elinear(system)
     if linear is not None:
@@ -149,7 +149,7 @@ def classes_over(
     there = names(system, psi, z)
     for i, name in enumerate(varying):
         if name not in there:
-            raise ValueError(f"{name!r} cannot be varied here; choose one of {', '.join(there)}.")
+            raise ValueError(f"{name!r} cannot be vary here; choose one of {', '.join(there)}.")
         if name in varying[:i]:
             raise ValueError(f"{name!r} is given twice; choose two different names.")
         low, high = limits(system, psi, name)

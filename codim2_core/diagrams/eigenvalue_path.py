@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .. import drawing
 from ..layer_problem.critical import critical_sets
-from ..layer_problem.vary import varied
+from ..layer_problem.vary import vary
 from ..psi.function import Psi
 from ..tables import number, table
 from .sweep import KINDS, family, linearise
@@ -122,7 +122,7 @@ def _one_by_one(system: Any, psi: Psi, name: str, values: Array, z: ArrayLike) -
     kind = [""] * len(values)
     last = np.zeros(2)
     for i, value in enumerate(values.tolist()):
-        found = critical_sets(*varied(system, psi, z, name, value))
+        found = critical_sets(*vary(system, psi, z, name, value))
         if found:
             C = min(found, key=lambda C, last=last: float(np.hypot(*(C.p - last))))
             exists[i], kind[i], last = True, C.kind, C.p

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..layer_problem.closed_equator import equator_cycle
-from ..numerics.sign_changes import refined, roots, sign_changes
+from ..numerics.sign_changes import refine_roots, roots, sign_changes
 from ..numerics.trigonometric import real_zeros, tangential_zeros
 from ..words import say
 from .critical import OFF_CENTRE, SPREAD, Borders
@@ -98,7 +98,7 @@ def _meetings(
     ]
     if missed:
         at = np.array(missed)
-        places, poles = refined(lambda v: discriminant(path(v), exponent), solid[at], solid[at + 1])
+        places, poles = refine_roots(lambda v: discriminant(path(v), exponent), solid[at], solid[at + 1])
         for value in places[~poles].tolist():
             q = path(np.array([value])).coefficients(0)
             still = real_zeros(0.0, -q.f1, -q.f2, q.d - q.a, 0.0).theta

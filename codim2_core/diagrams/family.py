@@ -13,7 +13,7 @@ from ..expressions.expression import Expression
 from ..layer_problem.vary import limits, names
 from ..psi.function import Psi
 from ..systems.affine import as_elinear
-from ..systems.bounds import LARGEST
+from ..systems.bounds import MAX_NUMBER
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 
@@ -151,7 +151,7 @@ class Sweep:
         defined = np.ones(k, bool)
         with np.errstate(invalid="ignore"):
             for v in full:
-                defined &= abs(v) <= LARGEST
+                defined &= abs(v) <= MAX_NUMBER
         if not defined.all():
             full = [np.where(defined, v, 0.0) for v in full]
         if self.system.given_matrix is None:

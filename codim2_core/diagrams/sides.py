@@ -8,7 +8,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from ..layer_problem.problem import LayerProblem
-from ..layer_problem.vary import names, value_of, varied
+from ..layer_problem.vary import names, value_of, vary
 from ..portrait.classify import portrait_name
 from ..psi.function import Psi
 
@@ -59,7 +59,7 @@ def sides(system: Any, psi: Psi, z: ArrayLike = (), name: str = "") -> Sides | N
     found = []
     for moved in (value - step, value + step):
         try:
-            other, family, place = varied(system, psi, z, name, moved)
+            other, family, place = vary(system, psi, z, name, moved)
             found.append(portrait_name(LayerProblem(other.at(place), family)).name)
         except ValueError:  # the end of what is allowed
             found.append("")

@@ -1,4 +1,4 @@
-"""How the states of an example are those of a ball that slips and rolls."""
+"""Physical quantities of a ball that slips and rolls, from the states of an example."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an example is: a system, its ranges, and where to start."""
+"""An example: a system, ranges of its parameters, and initial states."""
 
 from __future__ import annotations
 

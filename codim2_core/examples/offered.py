@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from .example import Example
 
-NAMES = (
+EXAMPLE_NAMES = (
     "ball_in_pool",
     "attracting_repelling",
     "nonunique_sliding",
@@ -20,7 +20,7 @@ NAMES = (
     "spinning_annulus",
     "towed_wheel",
 )
-LISTED: tuple[Example, ...] = tuple(import_module(f".{name}", __package__).EXAMPLE for name in NAMES)
+LISTED: tuple[Example, ...] = tuple(import_module(f".{name}", __package__).EXAMPLE for name in EXAMPLE_NAMES)
 
 _known: dict[str, Example] = {example.key: example for example in LISTED}
 catalogue: Mapping[str, Example] = MappingProxyType(_known)  # by key, in the order of menus; grows with `register`

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from .expression import Expression
 from .functions import code
-from .names import PLANE, number_names
+from .names import FAST_NAMES, number_names
 from .opcodes import ADD, DIV, HYPOT, MAX, MIN, MUL, NEG, NUM, POW, SLOT, SUB, VAR
 
 Array = NDArray[np.floating[Any]]
@@ -25,10 +25,12 @@ Key = tuple[tuple[Expression, ...], tuple[float, ...]]  # `Frozen.key`: rows of 
 
 _CODES = {"neg": NEG, "+": ADD, "-": SUB, "*": MUL, "/": DIV, "**": POW, "min": MIN, "max": MAX, **code}
 
-BESIDE = 1e-6  # so far from a point its slopes are looked at where it has none by the rules,
+ONE_SIDED_DISTANCE = 1e-6  # so far from a point its slopes are looked at where it has none by the rules,
 AGREED = 1e-4  # and there they agree
-AROUND = np.stack([np.cos(np.arange(16) * math.pi / 8.0 + 0.1), np.sin(np.arange(16) * math.pi / 8.0 + 0.1)], axis=-1)
-AROUND.flags.writeable = False
+ONE_SIDED_DIRECTIONS = np.stack(
+    [np.cos(np.arange(16) * math.pi / 8.0 + 0.1), np.sin(np.arange(16) * math.pi / 8.0 + 0.1)], axis=-1
+)
+ONE_SIDED_DIRECTIONS.flags.writeable = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,8 +84,8 @@ class Program:
 
         finite = np.isfinite(out)
         for i in np.flatnonzero(finite[:, :, 0].all(axis=1) & ~finite.all(axis=(1, 2))):
-            around = np.empty((len(AROUND), len(self.roots), 3))
-            interpreter.batch(*self.arrays, points[i] + BESIDE * AROUND, around)
+            around = np.empty((len(ONE_SIDED_DIRECTIONS), len(self.roots), 3))
+            interpreter.batch(*self.arrays, points[i] + ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS, around)
             mean = around.mean(axis=0)
             spread = np.abs(around - mean).max(axis=0)
             with np.errstate(invalid="ignore"):
@@ -92,7 +94,7 @@ class Program:
 
 
 @lru_cache(maxsize=64)
-def _encoded(rows: tuple[Expression, ...]) -> Program:
+def _encode(rows: tuple[Expression, ...]) -> Program:
     names = {name: slot for slot, name in enumerate(number_names(rows))}
     where: dict[tuple[Any, ...], int] = {}
     nodes: list[tuple[int, int, int, float]] = []
@@ -124,7 +126,7 @@ def _encoded(rows: tuple[Expression, ...]) -> Program:
                 node: tuple[int, int, int, float] = (NUM, 0, 0, float(args[0]))
             elif op == "name":
                 name = args[0]
-                node = (VAR, PLANE.index(name), 0, 0.0) if name in PLANE else (SLOT, names[name], 0, 0.0)
+                node = (VAR, FAST_NAMES.index(name), 0, 0.0) if name in FAST_NAMES else (SLOT, names[name], 0, 0.0)
             else:
                 rooted = op == "sqrt" or (op == "**" and row.tape[args[1]] == ("num", 0.5))
                 root = norm(at[args[0]]) if rooted else None
@@ -145,7 +147,7 @@ def program(key: Hashable) -> Program:
     from . import interpreter  # on first use: it loads the compiler
 
     rows, numbers = key  # type: ignore[misc]
-    template = _encoded(rows)
+    template = _encode(rows)
     op, right, number = template.op.copy(), template.right.copy(), template.number.copy()
     interpreter.specialise(op, template.left, right, number, np.array(numbers, float))
     return Program(op, template.left, right, number, template.roots)

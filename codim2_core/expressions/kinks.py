@@ -1,4 +1,4 @@
-"""Where a formula may have a kink: formulas that vanish there."""
+"""Find where a formula may have a kink: the formulas that vanish there."""
 
 from __future__ import annotations
 

@@ -9,12 +9,12 @@ from .expression import Expression
 MOST_SLOW_VARIABLES = 16
 
 
-PLANE = ("c", "s", "x", "y")
+FAST_NAMES = ("c", "s", "x", "y")
 TIME = "t"  # unless a parameter or a definition has that name
-SLOW = tuple(f"z{i}" for i in range(1, MOST_SLOW_VARIABLES + 1))
+SLOW_NAMES = tuple(f"z{i}" for i in range(1, MOST_SLOW_VARIABLES + 1))
 
 
 def number_names(rows: Sequence[Expression]) -> tuple[str, ...]:
     """Slow variables, then parameters by alphabet, that formulas read: an order that they alone decide."""
     used = {name for row in rows for name in row.names}
-    return (*(name for name in SLOW if name in used), *sorted(used.difference(PLANE, SLOW)))
+    return (*(name for name in SLOW_NAMES if name in used), *sorted(used.difference(FAST_NAMES, SLOW_NAMES)))

@@ -1,4 +1,4 @@
-"""From typed text to a tape: a tokeniser and a precedence parser over a whitelist. Nothing is run as code."""
+"""Parse typed text into a tape: a tokeniser and a precedence parser over a whitelist. Nothing is run as code."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ def program(rows: Sequence[Expression], names: Mapping[str, str], inner: Collect
         Names (of the formulas) that change from one evaluation to the next.
     """
     build = Builder()
-    roots = [_entered(build, row) for row in rows]
+    roots = [_entry_of(build, row) for row in rows]
     shown: list[str] = []
     varies: list[bool] = []
     before: list[str] = []
@@ -72,7 +72,7 @@ def program(rows: Sequence[Expression], names: Mapping[str, str], inner: Collect
     return Source(tuple(before), tuple(inside), tuple(shown[i] for i in roots), entire)
 
 
-def _entered(build: Builder, row: Expression) -> int:
+def _entry_of(build: Builder, row: Expression) -> int:
     """Entry of a formula among those already there."""
     at: list[int] = []
     for op, *args in row.tape:

@@ -5,7 +5,7 @@ A walk of three presets changes f1 only: "-before", "-at" and "-after" can be re
 
 from __future__ import annotations
 
-from .preset import Add, Preset, adding
+from .preset import Add, Preset, collector
 
 _BIFURCATIONS = "Bifurcations"
 _PLANE_OF_F = "Conics and the ellipse"
@@ -117,5 +117,5 @@ def bifurcation_presets() -> dict[str, Preset]:
     """
     found: dict[str, Preset] = {}
     for group in (_pitchfork, _saddle_node, _transcritical, _conics, _ellipse):
-        group(adding(found))
+        group(collector(found))
     return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from .preset import Add, Preset, adding
+from .preset import Add, Preset, collector
 
 # 7 mu m g/(2 K) with the defaults of the ball
 Z_CRIT = 7.0 * 0.2 * 9.81 / 2.0
@@ -34,7 +34,7 @@ def _ball(add: Add) -> None:
     )  # fmt: skip
 
 
-def _typed(add: Add) -> None:
+def _add_typed(add: Add) -> None:
     add(
         "attracting-repelling", Preset(group="Examples", example="attracting_repelling", z=(0.5,)),
         title="Attracting and repelling directions", label="sec:mateslidecross, fig:ex4p5",
@@ -105,6 +105,6 @@ def _filippov(add: Add) -> None:
 def example_presets() -> dict[str, Preset]:
     """Return the presets by name."""
     found: dict[str, Preset] = {}
-    for group in (_ball, _typed, _discs, _blowup, _filippov):
-        group(adding(found))
+    for group in (_ball, _add_typed, _discs, _blowup, _filippov):
+        group(collector(found))
     return found

@@ -99,7 +99,7 @@ class Preset:
 Add = Callable[..., Preset]
 
 
-def adding(found: dict[str, Preset]) -> Add:
+def collector(found: dict[str, Preset]) -> Add:
     """Return what adds presets to a list, and hands each on."""
 
     def add(name: str, parent: Preset, **differences: object) -> Preset:

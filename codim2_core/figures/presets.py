@@ -11,7 +11,7 @@ from types import MappingProxyType
 
 from .bifurcations import bifurcation_presets
 from .examples import example_presets
-from .preset import Add, Preset, adding
+from .preset import Add, Preset, collector
 
 
 def _case_one(add: Add) -> None:
@@ -136,14 +136,14 @@ def _case_three(add: Add) -> None:
         )  # fmt: skip
 
 
-def _all() -> dict[str, Preset]:
+def _collect_presets() -> dict[str, Preset]:
     found: dict[str, Preset] = {}
     for group in (_case_one, _case_two, _case_three):
-        group(adding(found))
+        group(collector(found))
     return found | bifurcation_presets() | example_presets()
 
 
-_known = _all()
+_known = _collect_presets()
 _LISTED = frozenset(_known)
 presets: Mapping[str, Preset] = MappingProxyType(_known)  # by name, in the order of menus; grows with `register`
 

@@ -23,7 +23,7 @@ from numba import (
 from numpy.typing import NDArray
 
 from ..expressions.functions import kernels
-from ..expressions.names import PLANE, SLOW
+from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.source import program
 from ..numerics.dense import Dense, Steps
 from ..numerics.growth import BlowUpError, too_short
@@ -34,16 +34,16 @@ from ..stepping.gains import one_gain
 from ..stepping.layout import FIELD
 from ..words import say
 from .field import Field
-from .kernels.explicit import DEGREE, WIDTH
+from .kernels.explicit import DENSE_DEGREE, MAX_COMPONENTS
 from .kernels.motion import (
-    AHEAD,
-    ARRIVED,
+    AT_SIGMA,
     BLOWN_UP,
+    CHUNK_FULL,
     CONTROL,
-    FULL,
     LIMIT,
+    MIN_IMPLICIT_STEPS,
+    MIN_STEP,
     SHORT,
-    SHORTEST,
     follow,
     follow_all,
     price,
@@ -55,9 +55,9 @@ from .line import InvariantLine
 Array = NDArray[np.float64]
 
 MOST_SYSTEMS = 64
-CHUNK = 256  # steps that one call fills in
+STEPS_PER_CALL = 256  # steps that one call fills in
 SHARED_OUT = 16  # motions at once that are shared out to all cores, in as many parts each, at most so many in one
-PARTS, LARGEST_PART = 4, 256
+PARTS_PER_CORE, LARGEST_PART = 4, 256
 _fields = Kept(MOST_SYSTEMS)
 
 
@@ -66,8 +66,8 @@ def is_compiled(field: Field) -> bool:
     return field.rows in _fields
 
 
-def _made(field: Field) -> tuple[Any, Any]:
-    names = (*PLANE, *SLOW[: field.m])
+def _compile_field(field: Field) -> tuple[Any, Any]:
+    names = (*FAST_NAMES, *SLOW_NAMES[: field.m])
     slopes = [row.derivative(name) for row in field.rows for name in names]
     return tuple(_function(rows, names) for rows in (field.rows, slopes))  # pyright: ignore[reportReturnType]
 
@@ -114,7 +114,7 @@ def functions_of(field: Field, psi: Psi) -> Functions:
     """Return the compiled functions of a field and a Psi; they are compiled when they are first asked for."""
 
     def make() -> Functions:
-        functions = (*_fields.get(field.rows, lambda: _made(field)), one_gain(psi))
+        functions = (*_fields.get(field.rows, lambda: _compile_field(field)), one_gain(psi))
         return Functions(functions, np.array([function.address for function in functions], np.int64))
 
     return _last.get((field.rows, psi), make)
@@ -157,10 +157,10 @@ class CompiledMotion:
     floor : float
         atol/rtol.
     farthest : float
-        The largest rho so far, of a nonsmooth motion: eps = 0. It ends where rho is `problem.arrived` of the largest.
+        The largest rho so far, of a nonsmooth motion: eps = 0. It ends where rho is `arrival_radius` of the largest.
     """
 
-    chunk = CHUNK
+    chunk = STEPS_PER_CALL
 
     def __init__(
         self,
@@ -184,10 +184,10 @@ class CompiledMotion:
         value, slopes, gain = self.functions.addresses.tolist()
         self.motion = Motion(value, slopes, gain, n, eps, rtol, floor, along[0], along[1])
         self.y, self.clock = np.array(first), np.array([t_start, 0.0, t_end, 0.0])
-        implicit = 1.0 if n > WIDTH else 0.0
+        implicit = 1.0 if n > MAX_COMPONENTS else 0.0
         largest = max(1.0, float(np.abs(first).max()))
-        worth = AHEAD * price(n)
-        self.control = np.array([h, 1.0, 0.0, float(most), 0.0, largest, implicit, 0.0, worth, farthest, SHORTEST])
+        worth = MIN_IMPLICIT_STEPS * price(n)
+        self.control = np.array([h, 1.0, 0.0, float(most), 0.0, largest, implicit, 0.0, worth, farthest, MIN_STEP])
         assert len(self.control) == CONTROL
 
     @property
@@ -204,10 +204,10 @@ class CompiledMotion:
             As `bounded` does of `steps`.
         """
         n, count = len(self.y), self.chunk
-        table, work, code = _table(), self.work(), FULL
-        while code in (FULL, ARRIVED):  # who has arrived asks for no more
+        table, work, code = _table(), self.work(), CHUNK_FULL
+        while code in (CHUNK_FULL, AT_SIGMA):  # who has arrived asks for no more
             starts, lengths = np.empty(count), np.empty(count)
-            ends, polynomials = np.empty((count, n)), np.empty((count, n, DEGREE))
+            ends, polynomials = np.empty((count, n)), np.empty((count, n, DENSE_DEGREE))
             begin = self.y.copy()
             code, filled = follow(
                 self.motion, table, work, self.y, self.clock, self.control, starts, lengths, ends, polynomials
@@ -236,7 +236,7 @@ class Ended:
     evaluations: int
 
 
-def followed(
+def integrate_compiled(
     field: Field,
     psi: Psi,
     eps: float,
@@ -273,7 +273,7 @@ def followed(
 
     def part(cut: slice) -> list[Ended]:
         found = follow_all(made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))
-        return _apart(*found, first.shape[1])
+        return _split_motions(*found, first.shape[1])
 
     return shared_out(part, count)
 
@@ -285,15 +285,15 @@ def shared_out(part: Callable[[slice], list[Any]], count: int) -> list[Any]:
     from concurrent.futures import ThreadPoolExecutor  # imported late: one motion does without
 
     cores = os.cpu_count() or 1
-    size = max(1, min(LARGEST_PART, -(-count // (PARTS * cores))))
+    size = max(1, min(LARGEST_PART, -(-count // (PARTS_PER_CORE * cores))))
     cuts = [slice(i, i + size) for i in range(0, count, size)]
     with ThreadPoolExecutor(cores) as pool:
         return [one for found in pool.map(part, cuts) for one in found]
 
 
-def _apart(times: Array, lengths: Array, states: Array, polynomials: Array, told: Array, n: int) -> list[Ended]:
+def _split_motions(times: Array, lengths: Array, states: Array, polynomials: Array, told: Array, n: int) -> list[Ended]:
     """Cut what `follow_all` returns into motions, without copying."""
-    states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DEGREE)
+    states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DENSE_DEGREE)
     for array in (times, lengths, states, polynomials):
         array.flags.writeable = False
     found, row = [], 0

@@ -49,7 +49,7 @@ class CompiledPhases:
 
     @property
     def evaluations(self) -> int:
-        """Of the field, so far."""
+        """Return the number of evaluations of the field so far."""
         return sum(motion.evaluations for motion in self._begun)
 
     def slip(self, t: float, t_end: float, state: Array, h: float, most: int, farthest: float) -> Iterator[Step]:

@@ -13,13 +13,13 @@ from ..numerics.radau import Problem, TooManyStepsError
 from ..psi.constructors import constant
 from .compiled import CompiledMotion, failure
 from .field import Field
-from .kernels.motion import LEAST, SHORT
-from .kernels.slow import EXTENT, SLOPES, SLOW, VALUE, flow, sets
+from .kernels.motion import LEAST_STEP, SHORT
+from .kernels.slow import SLOPES, SLOW_EXTENT, SLOW_RATES, VALUE, flow, sets
 from .line import InvariantLine
 
 Array = NDArray[np.float64]
 
-CHUNK = 64  # steps that one call fills in
+SLOW_STEPS_PER_CALL = 64  # steps that one call fills in
 
 
 class CompiledSlow(CompiledMotion):
@@ -38,7 +38,7 @@ class CompiledSlow(CompiledMotion):
         A shorter step ends it.
     """
 
-    chunk = CHUNK
+    chunk = SLOW_STEPS_PER_CALL
 
     def __init__(
         self,
@@ -61,20 +61,22 @@ class CompiledSlow(CompiledMotion):
         self.addresses = self.functions.addresses[:2].view(float)
         value, slopes = flow()
         self.motion = self.motion._replace(value=value.address, slopes=slopes.address)
-        self.control[LEAST] = shortest
+        self.control[LEAST_STEP] = shortest
 
     def work(self) -> Any:
         """Return a workspace that holds what the slow flow reads there."""
-        S = np.zeros(EXTENT)
+        S = np.zeros(SLOW_EXTENT)
         S[VALUE : SLOPES + 1] = self.addresses
-        S[SLOW] = len(self.y) - 2
+        S[SLOW_RATES] = len(self.y) - 2
         return super().work()._replace(S=S)
 
     def failure(self, code: int) -> TooManyStepsError | None:
         """Say why it has ended before its time."""
         t, z = float(self.clock[0]), self.y[2:]
         return (
-            too_short(self.problem, t, z, self.control[LEAST]) if code == SHORT else failure(self.problem, code, t, z)
+            too_short(self.problem, t, z, self.control[LEAST_STEP])
+            if code == SHORT
+            else failure(self.problem, code, t, z)
         )
 
     def sets(self, steps: Steps, u: Array) -> tuple[Array, Array]:

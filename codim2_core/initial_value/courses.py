@@ -15,7 +15,7 @@ from ..psi.function import Psi
 from .compiled import functions_of, numbers_of_tableau, shared_out
 from .field import Field
 from .kernels.course import ROW, TOLD, follow_courses
-from .kernels.explicit import DEGREE
+from .kernels.explicit import DENSE_DEGREE
 from .kernels.slow import flow
 from .line import InvariantLine
 
@@ -73,7 +73,7 @@ def _is_affine(field: Field) -> bool:
     return not any({"c", "s"} & set(row.derivative(name).names) for row in field.rows[:2] for name in ("c", "s"))
 
 
-def followed(
+def run_hybrid(
     field: Field,
     psi: Psi | None,
     lines: Sequence[InvariantLine | None],
@@ -108,16 +108,16 @@ def followed(
     def part(cut: slice) -> list[Followed]:
         found = follow_courses(addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))
         times, lengths, states, polynomials, sets, phases, told = found
-        return _apart(times, lengths, states, polynomials, sets, phases, told, first.shape[1])
+        return _split_motions(times, lengths, states, polynomials, sets, phases, told, first.shape[1])
 
     return shared_out(part, len(first))
 
 
-def _apart(
+def _split_motions(
     times: Array, lengths: Array, states: Array, polynomials: Array, sets: Array, phases: Array, told: Array, n: int
 ) -> list[Followed]:
     """Cut what `follow_courses` returns into motions, without copying."""
-    states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DEGREE)
+    states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DENSE_DEGREE)
     sets = sets.reshape(-1, 2)
     for array in (times, lengths, states, polynomials, sets):
         array.flags.writeable = False

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.radau import Step, shortened
+from ..numerics.radau import Step, truncate_step
 
 Array = NDArray[np.float64]
 
@@ -50,7 +50,7 @@ class Event:
             )
 
 
-def reflected(event: Event) -> Event:
+def reverse_event(event: Event) -> Event:
     """Return the same event for a motion that runs backwards in time, by the time -t."""
     return Event(lambda t, state: event.function(-t, state), -event.direction, event.terminal)
 
@@ -119,7 +119,7 @@ class Watch:
                 self.times[i].append(step.start + u * step.h)
         if end is None:
             return None
-        return step if end == 1.0 else shortened(step, end)
+        return step if end == 1.0 else truncate_step(step, end)
 
     def zeros(self, i: int, step: Step) -> list[tuple[float, bool]]:
         """Zeros of event i along a step: as fraction of the step, and whether it rises there."""
@@ -141,7 +141,7 @@ def turns(
     for degree in degrees:
         nodes = 0.5 - 0.5 * np.cos(math.pi * np.arange(degree + 1) / degree)
         values = np.array([start, *(along(u) for u in nodes[1:-1].tolist()), end])
-        polynomial = interpolated(values)
+        polynomial = chebyshev_coefficients(values)
         size = float(np.abs(values).max())
         if abs(polynomial[0]) > 2.0 * float(np.abs(polynomial[1:]).sum()):  # far from zero all along
             return [0.0, 1.0], [start, end]
@@ -158,7 +158,7 @@ def turns(
     return u, [0.0 if abs(v) <= TOUCH * size and 0 < k < len(u) - 1 else v for k, v in enumerate(at)]
 
 
-def interpolated(values: Array) -> Array:
+def chebyshev_coefficients(values: Array) -> Array:
     """Chebyshev coefficients of the polynomial through values at the nodes -cos(pi k/n)."""
     n = len(values) - 1
     k = np.arange(n + 1)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..expressions.expression import Expression, parse
 from ..expressions.functions import called
-from ..expressions.names import PLANE, SLOW
+from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.source import program
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
@@ -27,7 +27,7 @@ from ..systems.typed_at_z import Frozen
 from ..systems.typed_formulas import Formulas
 
 Array = NDArray[np.float64]
-BESIDE = 1e-9
+ONE_SIDED_DISTANCE = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,7 @@ class Field:
         arguments = (c, s, x, y, *z)
         slopes = np.array(self.slope(*arguments))
         if not np.isfinite(slopes).all():
-            slopes = np.array(self.slope(*(value + BESIDE * (1.0 + abs(value)) for value in arguments)))
+            slopes = np.array(self.slope(*(value + ONE_SIDED_DISTANCE * (1.0 + abs(value)) for value in arguments)))
             slopes = np.nan_to_num(slopes, posinf=0.0, neginf=0.0)
         return slopes.reshape(2 + self.m, 4 + self.m)
 
@@ -102,7 +102,7 @@ def backwards(formulas: Field) -> Field:
 
 @lru_cache(maxsize=32)
 def _backwards(rows: tuple[Expression, ...], m: int) -> Field:
-    return _field([_filled("-r", r=row) for row in rows], m)
+    return _field([_fill_template("-r", r=row) for row in rows], m)
 
 
 def backwards_system(system: AnySystem) -> System:
@@ -130,7 +130,7 @@ def rows_of(system: AnySystem, kept: Sequence[str] = ()) -> list[Expression]:
     if isinstance(system, ELinear):
         return _elinear_rows(system, kept)
     rows = _system_rows(system.typed, kept)
-    for name, value in zip(SLOW, getattr(system, "z", ()), strict=False):  # of one that is frozen
+    for name, value in zip(SLOW_NAMES, getattr(system, "z", ()), strict=False):  # of one that is frozen
         rows = [row.substitute(name, _number(value)) for row in rows]
     return rows
 
@@ -157,22 +157,24 @@ def _with_parameters(rows: Sequence[Expression], parameters: Sequence[tuple[str,
 def _elinear_rows(system: ELinear, kept: Sequence[str] = ()) -> list[Expression]:
     values = [pair for pair in system.parameters if pair[0] not in kept]
 
-    def known(value: Any, name: str = "") -> Expression:
+    def as_expression(value: Any, name: str = "") -> Expression:
         if name in kept:
             return parse(name, (name,))
         expression = value if isinstance(value, Expression) else _number(value)
         expression = _with_parameters([expression], values)[0]
-        return expression.substitute("z", parse("z1", SLOW)) if "z" in expression.names else expression
+        return expression.substitute("z", parse("z1", SLOW_NAMES)) if "z" in expression.names else expression
 
-    f = [known(value, name) for name, value in zip(("f1", "f2"), system.f, strict=True)]
-    B = [[known(value) for value in row] for row in system.B or [(0.0, 0.0)] * system.m]
-    g = [known(value) for value in system.g or [0.0] * system.m]
-    abd: list[Any] = [known(value, name) for name, value in zip("abd", (system.a, system.b, system.d), strict=True)]
+    f = [as_expression(value, name) for name, value in zip(("f1", "f2"), system.f, strict=True)]
+    B = [[as_expression(value) for value in row] for row in system.B or [(0.0, 0.0)] * system.m]
+    g = [as_expression(value) for value in system.g or [0.0] * system.m]
+    abd: list[Any] = [
+        as_expression(value, name) for name, value in zip("abd", (system.a, system.b, system.d), strict=True)
+    ]
     axes = (1.0, 0.0)
     if system.given_matrix is not None:
-        entries = [[known(value).constant for value in row] for row in system.given_matrix]
+        entries = [[as_expression(value).constant for value in row] for row in system.given_matrix]
         if any(entry is None for row in entries for entry in row):
-            if any(name in kept for row in system.given_matrix for value in row for name in known(value).names):
+            if any(name in kept for row in system.given_matrix for value in row for name in as_expression(value).names):
                 raise ValueError(
                     "A is made of the parameters named, and its rotation into the normal form turns with them: "
                     "give the system as System(U=..., W=...) in fixed axes."
@@ -191,28 +193,28 @@ def _affine(abd: Sequence[Any], f: Sequence[Any], B: Sequence[Any], g: Sequence[
     a, b, d = abd
     k, n = axes
     rows = [
-        _filled("a*c - b*s + (k*u - n*v)", a=a, b=b, k=k, n=n, u=f[0], v=f[1]),
-        _filled("b*c + d*s + (n*u + k*v)", b=b, d=d, k=k, n=n, u=f[0], v=f[1]),
+        _fill_template("a*c - b*s + (k*u - n*v)", a=a, b=b, k=k, n=n, u=f[0], v=f[1]),
+        _fill_template("b*c + d*s + (n*u + k*v)", b=b, d=d, k=k, n=n, u=f[0], v=f[1]),
     ]
     rows += [
-        _filled("(k*u - n*v)*c + (n*u + k*v)*s + w", k=k, n=n, u=row[0], v=row[1], w=last)
+        _fill_template("(k*u - n*v)*c + (n*u + k*v)*s + w", k=k, n=n, u=row[0], v=row[1], w=last)
         for row, last in zip(B, g, strict=True)
     ]
     return rows
 
 
-def _filled(template: str, **values: Any) -> Expression:
+def _fill_template(template: str, **values: Any) -> Expression:
     # Capitals: the values' own names c, s, z1 … must not be taken for placeholders.
     for name in values:
         template = template.replace(name, name.upper())
-    row = parse(template, (*PLANE, *(name.upper() for name in values)))
+    row = parse(template, (*FAST_NAMES, *(name.upper() for name in values)))
     for name, value in values.items():
         row = row.substitute(name.upper(), value if isinstance(value, Expression) else _number(value))
     return row
 
 
 def _field(rows: Sequence[Expression], m: int) -> Field:
-    names = (*PLANE, *SLOW[:m])
+    names = (*FAST_NAMES, *SLOW_NAMES[:m])
     slopes = [row.derivative(name) for row in rows for name in names]
     return Field(m, tuple(rows), function_of(rows, names), function_of(slopes, names))
 
@@ -227,12 +229,12 @@ def function_of(rows: Sequence[Expression], names: Sequence[str]) -> Callable[..
         f"    except (ArithmeticError, ValueError):\n        return beyond({', '.join(names)})\n"
     )
 
-    def beyond(*values: float) -> tuple[float, ...]:
+    def ieee_values(*values: float) -> tuple[float, ...]:
         """Return what IEEE arithmetic, which goes on past inf, makes of them, as in machine code."""
         known = dict(zip(names, values, strict=True))
         found = (float(row.evaluate({name: known[name] for name in row.names})) for row in rows)
         return tuple(value if math.isfinite(value) else math.nan for value in found)
 
-    scope: dict[str, Any] = {"math": math, "beyond": beyond, **called}
+    scope: dict[str, Any] = {"math": math, "beyond": ieee_values, **called}
     exec(source, scope)  # written by `program`: its own names, numbers and math.* only
     return scope["function"]

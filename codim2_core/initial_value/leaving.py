@@ -14,10 +14,13 @@ from .line import InvariantLine
 
 Array = NDArray[np.float64]
 
-START, SLOW_START = 1e-9, 1e-5  # first part, of the time ahead or of the rates' own, covered by an expansion at Sigma
+FAST_START, SLOW_START = (
+    1e-9,
+    1e-5,
+)  # first part, of the time ahead or of the rates' own, covered by an expansion at Sigma
 TILT = 1e-6  # largest angle that this expansion may cover
-NEWTON, FURTHEST = 6, 0.05  # steps to polish theta, and how far one may go
-NEUTRAL = 1e-7  # of the size of U's slopes: lambda_rho counts as zero
+MAX_NEWTON, MAX_CORRECTION = 6, 0.05  # steps to polish theta, and how far one may go
+NEUTRAL_RATE = 1e-7  # of the size of U's slopes: lambda_rho counts as zero
 
 
 def polynomial_of(*terms: Array) -> Array:
@@ -63,7 +66,7 @@ def leave(
         The first, short step; or why there is none, as a sentence.
     """
     slow = z.tolist()
-    theta = _polished(field, theta, slow) if line is None else theta
+    theta = _polish_zero(field, theta, slow) if line is None else theta
     c, s = math.cos(theta), math.sin(theta)
     if line is not None:  # exactly
         c, s = (math.copysign(1.0, line.n[0] * c + line.n[1] * s) * line.n).tolist()
@@ -78,12 +81,12 @@ def leave(
         return say("repels angularly", theta=theta)
     drift = D[:2, 4:] @ W
     ahead = t_end - t
-    if lambda_rho > NEUTRAL * size:
+    if lambda_rho > NEUTRAL_RATE * size:
         outward = drift + lambda_rho * (D[:2, 2:4] @ radial)
         forced = 0.0 if line is not None else float(angular @ outward)
         turning = forced / (lambda_rho - lambda_theta) if forced else 0.0
         bend = D[2:, 4:] @ W + D[2:, :2] @ angular * turning + D[2:, 2:4] @ radial * lambda_rho
-        h = START * min(ahead, pace(lambda_rho, float(radial @ outward)), pace(norm(W), norm(bend)))
+        h = FAST_START * min(ahead, pace(lambda_rho, float(radial @ outward)), pace(norm(W), norm(bend)))
         h = min(h, TILT / abs(turning)) if turning else h
         end = theta + turning * h
         n = radial if line is not None else np.array([math.cos(end), math.sin(end)])
@@ -93,7 +96,7 @@ def leave(
     # On the equator and on the critical set U = 0: lambda_rho and Theta both vanish.
     turning = 0.0 if line is not None else -float(angular @ drift) / lambda_theta
     beta = float(radial @ drift) + float(radial @ across) * turning
-    if lambda_rho < -NEUTRAL * size or not beta > 0.0:
+    if lambda_rho < -NEUTRAL_RATE * size or not beta > 0.0:
         return say("nothing leaves", theta=theta)
     h = SLOW_START * min(ahead, abs(lambda_theta or size) / beta)
     h = min(h, 1e-2 * math.sqrt(TILT) / abs(turning)) if turning else h
@@ -106,16 +109,16 @@ def leave(
     return Step(t, h, first, first + linear + square, polynomial_of(linear, square))
 
 
-def _polished(field: Field, theta: float, slow: list[float]) -> float:
+def _polish_zero(field: Field, theta: float, slow: list[float]) -> float:
     """Return the zero of Theta near theta, by Newton's method."""
     angle = theta
-    for _ in range(NEWTON):
+    for _ in range(MAX_NEWTON):
         c, s = math.cos(angle), math.sin(angle)
         u, v = field.value(c, s, 0.0, 0.0, *slow)[:2]
         D = field.jacobian(c, s, 0.0, 0.0, slow)[:2, :2]
         rate = float(np.array([-s, c]) @ D @ np.array([-s, c])) - (c * u + s * v)
         change = (c * v - s * u) / rate if rate != 0.0 else math.nan
-        if not abs(change) < FURTHEST:
+        if not abs(change) < MAX_CORRECTION:
             return theta
         angle -= change
     return angle

@@ -19,10 +19,10 @@ from .field import Field
 
 Array = NDArray[np.float64]
 
-SAMPLES = 16  # points at which invariance is asked
+INVARIANCE_SAMPLES = 16  # points at which invariance is asked
 EXACT = 1e-13  # of both products in n x U: what counts as parallel
 QUICK = (0.37, -0.61)  # of q
-NET = 400  # of q, on which zeros are looked for
+ZERO_NET = 400  # of q, on which zeros are looked for
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ class InvariantLine:
         return float(self.n @ self.field.jacobian(c, s, 0.0, 0.0, z.tolist())[:2, :2] @ self.n)
 
     def onward(self, q: float, z: Array) -> float | None:
-        """Where the layer problem leads from q: the first zero of n.U that way; +-1, an end; None if it rests at q.
+        """Return the limit of the layer problem from q: the first zero of n.U, or +-1, an end; None if it rests.
 
         Parameters
         ----------
@@ -69,7 +69,7 @@ class InvariantLine:
         if not rate:
             return None
         end = math.copysign(1.0, rate)
-        net = q + (end - q) * np.arange(1, NET + 1) / NET
+        net = q + (end - q) * np.arange(1, ZERO_NET + 1) / ZERO_NET
         before = q
         for after in net.tolist():
             if self.along(after, z) * end <= 0.0:
@@ -105,21 +105,21 @@ def invariant_line(field: Field, state: Array) -> InvariantLine | None:
 
 
 def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:
-    def at(q: float, r: float, z: Array) -> tuple[Array, Array]:
+    def state_at(q: float, r: float, z: Array) -> tuple[Array, Array]:
         found = np.array(field.value(*(q * n).tolist(), *(r * n).tolist(), *z.tolist()))
         return found[:2], found[2:]
 
     for q in QUICK:  # what is no line is mostly told at once
-        U = at(q, 0.0, z)[0]
+        U = state_at(q, 0.0, z)[0]
         left, right = float(n[0] * U[1]), float(n[1] * U[0])
         if abs(left - right) > EXACT * (abs(left) + abs(right) + float(np.abs(U).max())):
             return False
-    span = np.stack([z, *(at(q, 0.0, z)[1] for q in (-1.0, 0.0, 1.0))], axis=-1)
+    span = np.stack([z, *(state_at(q, 0.0, z)[1] for q in (-1.0, 0.0, 1.0))], axis=-1)
     if not np.isfinite(span).all():
         return False
     basis, sizes, _ = np.linalg.svd(span, full_matrices=False)
     basis = basis[:, sizes > EXACT * max(1e-300, float(sizes.max(initial=0.0)))]
-    V, places = _drawn(basis.shape[1])
+    V, places = _sample_places(basis.shape[1])
     moved = z + (1.0 + np.abs(z).max(initial=0.0)) * (V @ basis.T)
     n1, n2 = n.tolist()
     rows = [
@@ -133,11 +133,11 @@ def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:
         return False
     left, right = n1 * U[:, 1], n2 * U[:, 0]
     across, size = np.abs(left - right).max(initial=0.0), (np.abs(left) + np.abs(right)).max(initial=0.0)
-    return len(found) > SAMPLES // 4 and bool(across <= EXACT * size)
+    return len(found) > INVARIANCE_SAMPLES // 4 and bool(across <= EXACT * size)
 
 
 @cache
-def _drawn(width: int) -> tuple[Array, list[tuple[float, float]]]:
+def _sample_places(width: int) -> tuple[Array, list[tuple[float, float]]]:
     """Return where invariance is asked: (SAMPLES, width) places in the span of z and W, and (q, part of r) of each."""
     rng = np.random.default_rng(0)
-    return rng.uniform(-1.0, 1.0, (SAMPLES, width)), rng.uniform(-1.0, 1.0, (SAMPLES, 2)).tolist()
+    return rng.uniform(-1.0, 1.0, (INVARIANCE_SAMPLES, width)), rng.uniform(-1.0, 1.0, (INVARIANCE_SAMPLES, 2)).tolist()

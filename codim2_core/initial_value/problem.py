@@ -18,24 +18,24 @@ from .field import Field
 
 Array = NDArray[np.float64]
 
-INWARD = 0.9  # of rho: how far towards Sigma one step may go
+MAX_INWARD_SHARE = 0.9  # of rho: how far towards Sigma one step may go
 CONTACT = 20.0  # times eps: so near, what looks like a way inward may be the rounding of a slide, eps times 1/rtol
-ARRIVED, ENOUGH = 1e-13, 5e-5  # of the largest rho of a slip; of that times rtol
-GROWTH = 1.0  # longest step times a growth rate: an L-stable method damps faster growth away
+MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE = 1e-13, 5e-5  # of the largest rho of a slip; of that times rtol
+MAX_STEP_GROWTH = 1.0  # longest step times a growth rate: an L-stable method damps faster growth away
 
 
-def arrived(rtol: float) -> float:
+def arrival_radius(rtol: float) -> float:
     """Part of the largest rho of a slip at which it has arrived at Sigma: the rest of the way is straight.
 
     What is left to turn on it, to a limit direction that attracts, is a small part of 1: rtol has room for it.
     """
-    return max(ARRIVED, ENOUGH * rtol)
+    return max(MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE * rtol)
 
 
 def growth_bound(jacobian: Array) -> float:
     """Longest step in which an L-stable method follows growth away from an unstable state instead of damping it."""
     growth = float(np.linalg.eigvals(jacobian).real.max()) if jacobian.size else 0.0
-    return GROWTH / growth if growth > 0.0 else math.inf
+    return MAX_STEP_GROWTH / growth if growth > 0.0 else math.inf
 
 
 def own_time(problem: Problem, state: Array, rate: Array) -> float:
@@ -74,7 +74,7 @@ def direction(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, f
     return tangential * x, tangential * y, radial, tangential, n1, n2
 
 
-def smoothed(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, float]:
+def smoothed_direction(psi: Psi | None, eps: float, x: float, y: float) -> tuple[float, float]:
     """Return e alone, as `direction` does."""
     r = math.hypot(x, y)
     if eps == 0.0 or psi is None:
@@ -109,7 +109,7 @@ def plane_problem(
             along = n1 * x + n2 * y
             x, y = n1 * along, n2 * along
         try:
-            c, s = smoothed(psi, eps, x, y)
+            c, s = smoothed_direction(psi, eps, x, y)
         except ValueError:  # a stage of a step far too long is at infinity
             return np.full(len(state), math.nan)
         rate = value(c, s, x, y, *z)
@@ -137,7 +137,7 @@ def plane_problem(
     def limit(state: Array, rate: Array, jacobian: Array) -> float:
         x, y, u, v = float(state[0]), float(state[1]), float(rate[0]), float(rate[1])
         inward, square = -(x * u + y * v), x * x + y * y + eps * eps
-        bound = INWARD * square / inward if inward > 0.0 and square > contact else math.inf
+        bound = MAX_INWARD_SHARE * square / inward if inward > 0.0 and square > contact else math.inf
         return min(bound, growth_bound(jacobian))
 
     return Problem(F, J, scale, limit)

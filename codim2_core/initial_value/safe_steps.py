@@ -13,14 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..psi.function import Psi
-from .events import interpolated
+from .events import chebyshev_coefficients
 
 Array = NDArray[np.float64]
 
-DEGREE = 4
+SAFE_DEGREE = 4
 LEFT_OUT = 8.0
-NODES = 0.5 - 0.5 * np.cos(math.pi * np.arange(DEGREE + 1) / DEGREE)
-COEFFICIENTS = np.array([interpolated(row) for row in np.eye(DEGREE + 1)])
+SAFE_NODES = 0.5 - 0.5 * np.cos(math.pi * np.arange(SAFE_DEGREE + 1) / SAFE_DEGREE)
+COEFFICIENTS = np.array([chebyshev_coefficients(row) for row in np.eye(SAFE_DEGREE + 1)])
 
 
 def _positive(values: Array) -> NDArray[np.bool_]:
@@ -36,7 +36,7 @@ def _positive(values: Array) -> NDArray[np.bool_]:
 
 @dataclass(frozen=True)
 class Safe:
-    """What is asked of steps.
+    """Requirements on the steps of a slide.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Safe:
     n: Array | None
 
     def steps(self, e: Array, D: Array) -> list[bool]:
-        """Tell for k steps, with e (k, 5, 2) and D_e U (k, 5, 2, 2) at their `NODES`."""
+        """Tell for k steps, with e (k, 5, 2) and D_e U (k, 5, 2, 2) at their `SAFE_NODES`."""
         r = np.hypot(e[..., 0], e[..., 1])
         gap = (1.0 - r) * (1.0 + r)
         safe = _positive(gap)

@@ -14,12 +14,12 @@ from .problem import growth_bound
 
 Array = NDArray[np.float64]
 
-NEWTON, FURTHER = 12, 20  # iterations; and where there was a set a little before
-FAR = 0.6  # in e: no set is looked for if Newton's first step is longer
-SAME = 1e-2  # in e: sets as near to each other are one
+MAX_NEWTON, FURTHER = 12, 20  # iterations; and where there was a set a little before
+MAX_CORRECTION = 0.6  # in e: no set is looked for if Newton's first step is longer
+SAME_SET_DISTANCE = 1e-2  # in e: sets as near to each other are one
 
 
-def solved(field: Field, e: Array, z: Array, far: float = FAR, most: int = NEWTON) -> Array | None:
+def solved(field: Field, e: Array, z: Array, far: float = MAX_CORRECTION, most: int = MAX_NEWTON) -> Array | None:
     """Critical set near e, by Newton's method; None where there is none near: a step is longer than `far`."""
     e, slow, before = np.array(e, float), z.tolist(), math.inf
     for _ in range(most):
@@ -68,7 +68,7 @@ class Sheet:
         between = other.z - self.z
         leads = (self.slope @ between, other.slope @ between)
         far = other.e - self.e
-        return all(np.abs(far - change).max() <= max(SAME, 0.5 * np.abs(change).max()) for change in leads)
+        return all(np.abs(far - change).max() <= max(SAME_SET_DISTANCE, 0.5 * np.abs(change).max()) for change in leads)
 
     def move(self, z: Array) -> None:
         """Continue from z from now on."""

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..expressions.expression import Expression
-from ..expressions.names import PLANE, SLOW
+from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .field import rows_of
@@ -62,7 +62,7 @@ class Slopes:
 
     def _values(self, e: Array, states: Array) -> dict[str, Array | float]:
         columns = (*e.T, *states.T)
-        return dict(zip((*PLANE, *SLOW[: self.m]), columns, strict=True)) | dict(self.kept)
+        return dict(zip((*FAST_NAMES, *SLOW_NAMES[: self.m]), columns, strict=True)) | dict(self.kept)
 
 
 def slopes_of(system: AnySystem, kept: Sequence[str] = ()) -> Slopes:
@@ -85,7 +85,7 @@ def slopes_of(system: AnySystem, kept: Sequence[str] = ()) -> Slopes:
             raise ValueError(f"{name!r} is no number of this system; it has {own}.")
     rows = rows_of(system, kept)
     m = len(rows) - 2
-    by = (*PLANE, *SLOW[:m], *kept)
+    by = (*FAST_NAMES, *SLOW_NAMES[:m], *kept)
     derivatives = tuple(tuple(row.derivative(name) for name in by) for row in rows)
     return Slopes(m, tuple((name, system.value_of(name)) for name in kept), tuple(rows), derivatives)
 
@@ -107,7 +107,7 @@ def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
     return e, np.divide(across, r[:, :, None], out=np.zeros_like(across), where=r[:, :, None] > 0.0)
 
 
-def smoothed(psi: Psi, eps: float, xy: Array) -> tuple[Array, Array]:
+def smoothed_direction(psi: Psi, eps: float, xy: Array) -> tuple[Array, Array]:
     """Return e_Psi (k, 2), eq:ePsi, and its derivative (k, 2, 2), rem:jaco_properties.
 
     Parameters

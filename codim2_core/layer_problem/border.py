@@ -1,4 +1,4 @@
-"""How far an e-linear critical set is from the equator, where doubles cancel: ``det(A)^2 - |adj(A) f|^2``."""
+"""Distance of an e-linear critical set from the equator without cancellation: ``det(A)^2 - |adj(A) f|^2``."""
 
 from __future__ import annotations
 

@@ -18,8 +18,8 @@ from .equator_zeros import equator_as_orbit
 
 __all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
 
-CLOSE = 1e-4  # distance from a saddle-node below which the zeros need more than doubles
-DIRECTIONS = 512  # of a mean: zeros of Theta with |e| below 0.95 are then far enough from the circle
+SADDLE_NODE_DISTANCE = 1e-4  # distance from a saddle-node below which the zeros need more than doubles
+MEAN_DIRECTIONS = 512  # of a mean: zeros of Theta with |e| below 0.95 are then far enough from the circle
 DESCENTS = 6  # of Newton's method: from within 2.5 degrees of a minimum
 NEUTRAL_EQUATOR = 2.0**-49  # of the terms of the exponent: zero within rounding
 
@@ -117,12 +117,12 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
 def exponents(planes: NDArray[np.float64]) -> NDArray[np.float64]:
     """Find the exponent of `equator_cycle` for many (a, b, d, f1, f2) (n, 5) whose equator is closed, by means.
 
-    NaN where the mean over `DIRECTIONS` is far from that over half of them: what is left is about the square of what is
-    between the two. Also where the exponent is small beside its terms.
+    NaN where the mean over `MEAN_DIRECTIONS` is far from that over half of them: the error is about the square of their
+    difference. Also where the exponent is small beside its terms.
     """
     planes = planes / np.abs(planes).max(axis=1, keepdims=True)
     a, b, d, f1, f2 = (v[:, None] for v in planes.T)
-    theta = np.arange(DIRECTIONS) * (2.0 * math.pi / DIRECTIONS)
+    theta = np.arange(MEAN_DIRECTIONS) * (2.0 * math.pi / MEAN_DIRECTIONS)
     c, s = np.cos(theta), np.sin(theta)
     with np.errstate(all="ignore"):
         weight = 1.0 / np.abs(b + f2 * c - f1 * s + (d - a) * s * c)
@@ -138,7 +138,7 @@ def slowest_turn(planes: NDArray[np.float64]) -> NDArray[np.float64]:
     Where it is positive the equator is a closed orbit, within rounding: it changes its sign where equilibria appear.
     """
     a, b, d, f1, f2 = (planes / np.abs(planes).max(axis=1, keepdims=True)).T[:, :, None]
-    half, sign, theta = 0.5 * (d - a), np.where(b < 0.0, -1.0, 1.0), _TURN
+    half, sign, theta = 0.5 * (d - a), np.where(b < 0.0, -1.0, 1.0), _START_ANGLES
     for _ in range(DESCENTS):  # Newton's method for minima, from all directions
         c, s = np.cos(theta), np.sin(theta)
         c2, s2 = (c - s) * (c + s), 2.0 * c * s
@@ -148,9 +148,9 @@ def slowest_turn(planes: NDArray[np.float64]) -> NDArray[np.float64]:
     return turn.min(axis=1)
 
 
-_TURN = np.arange(72) * (2.0 * math.pi / 72.0)
-_COS, _SIN = np.cos(_TURN), np.sin(_TURN)
-_SIN2, _COS2 = np.sin(2.0 * _TURN), np.cos(2.0 * _TURN)
+_START_ANGLES = np.arange(72) * (2.0 * math.pi / 72.0)
+_COS, _SIN = np.cos(_START_ANGLES), np.sin(_START_ANGLES)
+_SIN2, _COS2 = np.sin(2.0 * _START_ANGLES), np.cos(2.0 * _START_ANGLES)
 
 
 def _mean_rule(f2: float, f1: float, difference: float) -> tuple[float, float]:
@@ -179,8 +179,8 @@ def _fourier_of_reciprocal(b: float, f2: float, f1: float, a: float, d: float, d
         r = math.copysign(h / (abs(g) + steep), -g)
         roots[i] = complex(r * math.cos(nu), r * math.sin(nu))
         gaps[i] = 2.0 * steep / (abs(g) + steep)  # 1 - r^2, without cancellation
-        if distance < CLOSE and gaps[i] < 0.1:
-            roots[i], gaps[i] = _polished((b, f2, -f1, 0.5 * a, 0.5 * d), roots[i])
+        if distance < SADDLE_NODE_DISTANCE and gaps[i] < 0.1:
+            roots[i], gaps[i] = _polish_zero((b, f2, -f1, 0.5 * a, 0.5 * d), roots[i])
             close = True
     z1, z2 = roots
     total, product = z1 + z2, z1 * z2
@@ -226,7 +226,7 @@ def _integrals(K: float, total: complex, product: complex) -> tuple[float, float
     return g0, (total * g1).real  # and -product g0, which is imaginary
 
 
-def _polished(coefficients: tuple[float, float, float, float, float], start: complex) -> tuple[complex, float]:
+def _polish_zero(coefficients: tuple[float, float, float, float, float], start: complex) -> tuple[complex, float]:
     """Newton's method in 256-bit fixed point for a zero inside the circle; also 1 - |z|^2, to all digits.
 
     Close to a saddle-node it and its mirror image outside nearly meet, and doubles cannot tell them apart.

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..expressions.arrays import AROUND, BESIDE, program
+from ..expressions.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, program
 from ..expressions.kinks import kinks
-from ..expressions.names import PLANE
+from ..expressions.names import FAST_NAMES
 from ..psi.function import Psi
 from ..systems.bounds import at_place
 from ..systems.coefficients import Affine
@@ -29,7 +29,7 @@ from .linearisation import (
     matrix_determinant,
     spectrum,
 )
-from .location import Location, locate, turned
+from .location import Location, locate, rotate_location
 
 SMALL_TRACE = 1e-9  # of the terms of tr J, below which it is asked whether rounding made it
 PLACED = 4 * 2.0**-52  # of |e|, to which the place of a zero is known
@@ -75,7 +75,7 @@ class CriticalSet(Tabled):
 
     @property
     def index(self) -> int:
-        """How often U turns about it, read from its kind: -1 for a saddle, 0 for a saddle-node, else 1."""
+        """Return the index of U about it, read from its kind: -1 for a saddle, 0 for a saddle-node, else 1."""
         return {"saddle": -1, "saddle-node": 0}.get(self.kind, 1)
 
     def _row_(self) -> tuple[str, ...]:
@@ -127,7 +127,7 @@ def _linear_set(at: AtZ, psi: Psi, affine: Affine, location: Location, e: tuple[
     if form is None or form.given is not None:  # by the matrix as given, whatever the rotation has rounded
         shift = math.frexp(max(map(abs, affine[:4])))[1]
         m11, m12, m21, m22 = (math.ldexp(v, -shift) for v in affine[:4])
-        given = turned(location, -at.turn).e or e
+        given = rotate_location(location, -at.turn).e or e
         parts = linearisation_of((m11, m12, m21, m22), psi, given, location.complement, sign)
         return _critical_set(e, _turned_parts(parts, at.turn), shift, slow_flow_at(at, e))
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
@@ -219,9 +219,9 @@ def _blur(at: AtZ, e: tuple[float, float], psi: Psi, frame: Frame, shift: int) -
 def _sides_agree(at: AtZ, psi: Psi, C: CriticalSet) -> bool:
     """Whether C attracts, repels or is a saddle by the linearisation on every side of a kink that it may lie on."""
     system = at.typed
-    if system is None or not kinks(system.U, PLANE):
+    if system is None or not kinks(system.U, FAST_NAMES):
         return True
-    sides = at.DU(C.e + BESIDE * AROUND)
+    sides = at.DU(C.e + ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS)
     middle = at.DU(C.e)
     if abs(sides - middle).max() <= 1e-3 * abs(middle).max():
         return True

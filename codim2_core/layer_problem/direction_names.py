@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .equator import EquatorEquilibria
 
-TURN = 2.0 * math.pi
+FULL_TURN = 2.0 * math.pi
 
 
 def cut_that_keeps_names(before: EquatorEquilibria, after: EquatorEquilibria, cut: float = 0.0) -> float:
@@ -39,21 +39,21 @@ def cut_that_keeps_names(before: EquatorEquilibria, after: EquatorEquilibria, cu
     theta = np.sort(after.theta)
     first = _first(before.theta, theta)
     for kept in (0.0, cut):
-        if int(np.argmin(np.mod(theta - kept, TURN))) == first:
+        if int(np.argmin(np.mod(theta - kept, FULL_TURN))) == first:
             return kept
-    gap = float(np.mod(theta[first] - theta[first - 1], TURN)) or TURN
-    middle = float(np.mod(theta[first] - 0.5 * gap, TURN))
+    gap = float(np.mod(theta[first] - theta[first - 1], FULL_TURN)) or FULL_TURN
+    middle = float(np.mod(theta[first] - 0.5 * gap, FULL_TURN))
     return round(middle, 2) if gap > 0.1 else middle  # short in a link
 
 
 def _first(before: NDArray[np.float64], theta: NDArray[np.float64]) -> int:
     """Index in `theta`, increasing from 0, of the direction that is the first one before."""
     if len(before) != len(theta):
-        return int(np.argmin(np.abs(_wrapped(theta - before[0]))))
-    sums = [float((_wrapped(np.roll(theta, -k) - before) ** 2).sum()) for k in range(len(theta))]
+        return int(np.argmin(np.abs(_wrap_angle(theta - before[0]))))
+    sums = [float((_wrap_angle(np.roll(theta, -k) - before) ** 2).sum()) for k in range(len(theta))]
     return int(np.argmin(sums))
 
 
-def _wrapped(angle: NDArray[np.float64]) -> NDArray[np.float64]:
+def _wrap_angle(angle: NDArray[np.float64]) -> NDArray[np.float64]:
     """Angles in [-pi, pi)."""
-    return np.mod(angle + math.pi, TURN) - math.pi
+    return np.mod(angle + math.pi, FULL_TURN) - math.pi

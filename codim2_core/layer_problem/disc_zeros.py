@@ -1,4 +1,4 @@
-"""Where U(e) = 0 in the open disc |e| < 1, for a general system: all of the zeros, checked by the index.
+"""All zeros of U(e) in the open disc |e| < 1 of a general system, checked by the index.
 
 Independent of Psi, which only places them in the picture. `numerics.disc_search` proves the list complete; the sum of
 the indices, sign det D_e U, must in addition be the degree of U on the equator, found independently there.
@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..expressions.arrays import AROUND, BESIDE, Program, program
+from ..expressions.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, Program, program
 from ..numerics.fourier_zeros import UNIT
 from .equator_zeros import component_series, equator_zeros
 
@@ -25,10 +25,10 @@ Array = NDArray[np.floating[Any]]
 EFFORTS = ((25, 1500, 1_000_000), (32, 6_000, 3_000_000))
 TOGETHER = 1e-6  # critical sets closer than this, and not told apart by the search, count as one
 CURVE = 200  # undecided boxes that are no mere neighbours of a point,
-LONG = 0.02  # if they extend this far
+MIN_CURVE_EXTENT = 0.02  # if they extend this far
 REGULAR = 1e-4  # det D_e U, in units of |D_e U|^2, of a zero that is not multiple
-ROUGH = 1e-2  # change of D_e U over `BESIDE`, in units of itself, of a U that is not differentiable
-SMALL = 2e-6  # radius of the circle around a rough zero on which its index is counted
+ROUGH = 1e-2  # change of D_e U over `ONE_SIDED_DISTANCE`, in units of itself, of a U that is not differentiable
+INDEX_RADIUS = 2e-6  # radius of the circle around a rough zero on which its index is counted
 CROWDED = 100  # zeros: more effort would only find more of them
 
 
@@ -83,25 +83,25 @@ class DiscZeros:
 def disc_zeros(key: Hashable) -> DiscZeros:
     """All zeros of U in the disc; `key` is `Frozen.key`."""
     size = component_series(key, "theta").size
-    if size == 0.0 and np.all(program(key).at(_NET)[:, :, 0] == 0.0):
+    if size == 0.0 and np.all(program(key).at(_SIZE_NET)[:, :, 0] == 0.0):
         nothing = np.zeros((0, 2))
         return DiscZeros(
             nothing, np.zeros((0, 2, 2)), np.zeros(0, bool), np.zeros(0, bool), np.zeros(0, np.int64), (), False, True,
             None, True,
         )  # fmt: skip
     degree = equator_zeros(key).degree
-    first = _searched(program(key), size, degree, *EFFORTS[0])
+    first = _search_boxes(program(key), size, degree, *EFFORTS[0])
     if (first.consistent is not False and first.proven) or len(first.e) >= CROWDED:
         return first
-    return _searched(program(key), size, degree, *EFFORTS[1])
+    return _search_boxes(program(key), size, degree, *EFFORTS[1])
 
 
-_ANGLES = 2.0 * math.pi * (np.arange(256) + 0.5) / 256
-_CIRCLE = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1)
-_NET = np.stack(np.meshgrid(np.linspace(-0.7, 0.7, 9), np.linspace(-0.7, 0.7, 9)), axis=-1).reshape(-1, 2)
+_CIRCLE_ANGLES = 2.0 * math.pi * (np.arange(256) + 0.5) / 256
+_UNIT_CIRCLE = np.stack([np.cos(_CIRCLE_ANGLES), np.sin(_CIRCLE_ANGLES)], axis=-1)
+_SIZE_NET = np.stack(np.meshgrid(np.linspace(-0.7, 0.7, 9), np.linspace(-0.7, 0.7, 9)), axis=-1).reshape(-1, 2)
 
 
-def _searched(run: Program, size: float, degree: int | None, levels: int, most: int, operations: int) -> DiscZeros:
+def _search_boxes(run: Program, size: float, degree: int | None, levels: int, most: int, operations: int) -> DiscZeros:
     from ..numerics.disc_search import CAPACITY, search  # on first use: it loads the compiler
 
     found, rest = np.empty((CAPACITY, 3)), np.empty((most, 2))
@@ -111,7 +111,7 @@ def _searched(run: Program, size: float, degree: int | None, levels: int, most: 
     degenerate = np.zeros(count, bool)
     curve, proven = False, complete and count < CAPACITY
     if undecided:
-        places, curve, left = _undecided(run, rest[:undecided], half, max(size, _size(run)))
+        places, curve, left = _classify_undecided(run, rest[:undecided], half, max(size, _size(run)))
         proven = curve or (proven and not left)
         # a place where a proven zero lies is that zero
         places = [p for p in places if not count or np.abs(points - p).max(axis=1).min() > TOGETHER]
@@ -130,7 +130,7 @@ def _searched(run: Program, size: float, degree: int | None, levels: int, most: 
     index = np.sign(DU[:, 0, 0] * DU[:, 1, 1] - DU[:, 0, 1] * DU[:, 1, 0]).astype(np.int64)
     index[degenerate] = 0
     for i in np.flatnonzero(rough):
-        index[i] = _turns(run, points[i], SMALL)
+        index[i] = _turns(run, points[i], INDEX_RADIUS)
     if degree is not None and degenerate.sum() == 1 and not rough.any():
         index[degenerate] = degree - index.sum()
         if abs(int(index[degenerate][0])) > 8:
@@ -150,7 +150,7 @@ def _slopes(run: Program, points: Array, doubtful: NDArray[np.bool_]) -> tuple[A
     DU = run.at(points)[:, :, 1:]
     degenerate, rough = doubtful.copy(), np.zeros(len(points), bool)
     for i in np.flatnonzero(doubtful | ~np.isfinite(DU).all(axis=(1, 2))):
-        sides = run.at(points[i] + BESIDE * AROUND)[:, :, 1:]
+        sides = run.at(points[i] + ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS)[:, :, 1:]
         every = np.concatenate([DU[i : i + 1], sides])
         if not np.isfinite(every).all():
             DU[i], degenerate[i], rough[i] = 0.0, True, True
@@ -160,18 +160,18 @@ def _slopes(run: Program, points: Array, doubtful: NDArray[np.bool_]) -> tuple[A
         regular = np.abs(determinants) > REGULAR * np.square(every).sum(axis=(1, 2))
         degenerate[i] = not (regular.all() and np.ptp(np.sign(determinants)) == 0.0)
         # a smooth U changes its slopes by about BESIDE times its size
-        rough[i] = degenerate[i] and spread > max(ROUGH * np.abs(every).max(), 100.0 * BESIDE * _size(run))
+        rough[i] = degenerate[i] and spread > max(ROUGH * np.abs(every).max(), 100.0 * ONE_SIDED_DISTANCE * _size(run))
     return DU, degenerate, rough
 
 
 def _size(run: Program) -> float:
     """Largest |U1| + |U2| on a net: what rounding is measured by where U is small on the equator."""
-    values = np.abs(run.at(_NET)[:, :, 0]).sum(axis=1)
+    values = np.abs(run.at(_SIZE_NET)[:, :, 0]).sum(axis=1)
     return float(values[np.isfinite(values)].max(initial=0.0))
 
 
 def _blur(DU: Array, degenerate: NDArray[np.bool_], size: float) -> Array:
-    """How far rounding of U moves each zero: 16 units over the smallest stretch of D_e U."""
+    """Return how far rounding of U moves each zero: 16 units over the smallest singular value of D_e U."""
     # the smaller singular value, to within a factor of sqrt 2
     spread = np.sqrt((DU * DU).sum(axis=(1, 2)))
     smallest = np.abs(DU[:, 0, 0] * DU[:, 1, 1] - DU[:, 0, 1] * DU[:, 1, 0]) / np.where(spread == 0.0, 1.0, spread)
@@ -179,10 +179,10 @@ def _blur(DU: Array, degenerate: NDArray[np.bool_], size: float) -> Array:
     return 16.0 * UNIT * np.maximum(1.0, size / np.where(least == 0.0, 1.0, least))
 
 
-def _undecided(run: Program, boxes: Array, half: float, size: float) -> tuple[list[Array], bool, bool]:
+def _classify_undecided(run: Program, boxes: Array, half: float, size: float) -> tuple[list[Array], bool, bool]:
     """Undecided boxes become degenerate zeros, a curve of zeros, or stay undecided: (zeros, curve, left over)."""
     sample = boxes[:: max(1, len(boxes) // CURVE)]
-    if len(boxes) >= CURVE and np.ptp(boxes, axis=0).max() > LONG:
+    if len(boxes) >= CURVE and np.ptp(boxes, axis=0).max() > MIN_CURVE_EXTENT:
         ends, ok = _least_squares(run, sample, size, 4.0 * half)
         singular = np.linalg.svd(run.at(ends[ok])[:, :, 1:], compute_uv=False)
         if ok.mean() > 0.5 and np.median(singular[:, 1]) <= 1e-6 * max(float(np.median(singular[:, 0])), 1e-6 * size):
@@ -193,7 +193,7 @@ def _undecided(run: Program, boxes: Array, half: float, size: float) -> tuple[li
         ends, ok = _least_squares(run, cluster[:: max(1, len(cluster) // CURVE)], size, 4.0 * half)
         extent = float(np.ptp(cluster, axis=0).max())
         middle = 0.5 * (cluster.min(axis=0) + cluster.max(axis=0))
-        if ok.any() and extent < LONG:
+        if ok.any() and extent < MIN_CURVE_EXTENT:
             places.append(np.median(ends[ok], axis=0))
         elif extent < TOGETHER and _turns(run, middle, 2.0 * (extent + half)):
             places.append(middle)  # U turns around it: as it is continuous it vanishes inside, with no slope to follow
@@ -204,7 +204,7 @@ def _undecided(run: Program, boxes: Array, half: float, size: float) -> tuple[li
 
 def _turns(run: Program, middle: Array, radius: float) -> int:
     """Count how often U turns around a small circle; 0 where it is not finite, or turns too fast to tell."""
-    U = run.at(middle + radius * _CIRCLE)[:, :, 0]
+    U = run.at(middle + radius * _UNIT_CIRCLE)[:, :, 0]
     if not (np.isfinite(U).all() and U.any(axis=1).all()):
         return 0
     largest = np.abs(U).max(axis=0)  # its rows may be of very different size: that turns nothing

@@ -21,14 +21,16 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..numerics.trigonometric import ROUNDING
+from ..numerics.trigonometric import INPUT_ROUNDING
 from ..systems.frozen import AtZ
 from .critical import CriticalSet
 from .problem import LayerProblem
 
 Array = NDArray[np.float64]
 
-SAME = 64 * ROUNDING  # of the size of J: both eigenvalues are one, and every direction is an eigenvector
+EQUAL_EIGENVALUES = (
+    64 * INPUT_ROUNDING
+)  # of the size of J: both eigenvalues are one, and every direction is an eigenvector
 RESONANCE = 1e-6  # of the eigenvalues: their curves meet in the end, and are tangent to the equator
 
 Where = Literal["disc", "equator", "up", "outside"]
@@ -56,7 +58,7 @@ class Eigendirection:
 
 @dataclass(frozen=True, slots=True)
 class Linearised:
-    """What the linearisation at one object shows in the picture.
+    """Eigenvectors of the linearisation at one object, as lines of the picture.
 
     Attributes
     ----------
@@ -91,7 +93,7 @@ def of_critical_set(C: CriticalSet) -> Linearised:
     if C.eigenvalues[0].imag != 0.0:
         return Linearised((), 1 if j21 > j12 else -1)  # j12 j21 < 0
     size = abs(j11) + abs(j12) + abs(j21) + abs(j22)
-    if max(abs(j11 - j22), abs(j12), abs(j21)) <= SAME * size:
+    if max(abs(j11 - j22), abs(j12), abs(j21)) <= EQUAL_EIGENVALUES * size:
         return Linearised((), 0, True)
     values = [float(v.real) for v in C.eigenvalues]
     found = []

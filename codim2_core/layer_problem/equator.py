@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.fourier_zeros import turn as turned_angle
 from ..numerics.trigonometric import (
     GENERAL_PATTERNS,
-    ROUNDING,
+    INPUT_ROUNDING,
     THETA_PATTERNS,
     TrigonometricZeros,
     real_zeros,
@@ -37,7 +37,9 @@ from .location import Location, locate
 __all__ = ["EquatorCycle", "EquatorEquilibria", "equator_cycle", "equator_equilibria"]
 
 
-SINGULAR = 8 * ROUNDING  # of the terms of lambda_rho: zero, where det A = 0 leaves no isolated critical set to ask
+SINGULAR_ROUNDING = (
+    8 * INPUT_ROUNDING
+)  # of the terms of lambda_rho: zero, where det A = 0 leaves no isolated critical set to ask
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,7 +166,7 @@ class EquatorEquilibria:
 
     @cached_property
     def turns(self) -> int | None:
-        """How often U turns along the equator, read from lambda_rho and Theta: the sum of the indices within.
+        """Return the index of U along the equator, read from lambda_rho and Theta: the sum of the indices within.
 
         Seen from the turning frame U is (lambda_rho, Theta): it crosses the radial axis where Theta changes sign. None
         where U vanishes on the equator, or every direction is a limit direction.
@@ -240,7 +242,7 @@ def equilibria_at(at: AtZ, location: Location | None) -> EquatorEquilibria:
         return _radial_exactly(a, b, d, f1, f2, theta) if abs(value) <= 1e-3 * size else value
 
     size = abs(a) + abs(d) + abs(f1) + abs(f2)
-    return _gathered(zeros, radial, size, location, b == 0.0 and (f1 == 0.0 or f2 == 0.0))
+    return _collect_equilibria(zeros, radial, size, location, b == 0.0 and (f1 == 0.0 or f2 == 0.0))
 
 
 def number_of_directions(q: Coefficients) -> int:
@@ -284,10 +286,10 @@ def _of_matrix(affine: Affine, turn: float, location: Location) -> EquatorEquili
     F11, F12, F21, F22, G1, G2 = map(Fraction, affine)
     shear = (F12 + F21) / 2
     along_axis = G1 * (shear * G1 + F22 * G2) == G2 * (F11 * G1 + shear * G2)  # f is an eigenvector
-    return _gathered(zeros, radial, size, location, a12 == a21 and along_axis)
+    return _collect_equilibria(zeros, radial, size, location, a12 == a21 and along_axis)
 
 
-def _gathered(
+def _collect_equilibria(
     zeros: TrigonometricZeros, radial: Callable[[float], float], size: float, location: Location, symmetric: bool
 ) -> EquatorEquilibria:
     """Put the equilibria together: zeros of Theta, lambda_rho there, and where it vanishes within rounding."""
@@ -303,7 +305,7 @@ def _gathered(
             if reached is not None:  # U(e) = 0 on the equator, within rounding: at the nearest zero of Theta
                 degenerate = theta == nearest
             elif location.singular:
-                degenerate = abs(value) <= SINGULAR * size
+                degenerate = abs(value) <= SINGULAR_ROUNDING * size
         rho.append(0.0 if degenerate else value)
         flat.append(degenerate)
     arrays = (
@@ -349,7 +351,7 @@ def _radial_exactly(a: float, b: float, d: float, f1: float, f2: float, theta: f
 
 
 def _radial_of_matrix(affine: Affine, harmonics: tuple[float, ...], theta: float) -> float:
-    """As `_radial_exactly`, for any matrix."""
+    """Return the sign of lambda_rho as `_radial_exactly` does, for any matrix."""
     found = solve_exactly(harmonics, GENERAL_PATTERNS).zeros
     (m11, m12, m21, m22, i1, i2), exponent = to_integers(affine)
     if not found:

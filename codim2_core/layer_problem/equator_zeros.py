@@ -19,19 +19,19 @@ from ..expressions.arrays import Program, polynomial_degree, program
 from ..expressions.kinks import kinks
 from ..expressions.names import number_names
 from ..numerics.fourier_zeros import UNIT, Series, series, turn, zeros
-from ..numerics.sign_changes import refined, roots
+from ..numerics.sign_changes import refine_roots, roots
 from ..words import say
 
 Array = NDArray[np.floating[Any]]
 
 MOST_ANGLES = 1024  # a Theta that needs more is not smooth: its zeros are then looked for between its kinks,
-NET = 4096  # on a net of that many angles
-BESIDE = 1e-7  # so far from a kink the formula is taken to be smooth
+NET_ANGLES = 4096  # on a net of that many angles
+KINK_DISTANCE = 1e-7  # so far from a kink the formula is taken to be smooth
 MOST_OF_A_TURN = 65_536  # for the integrals over a closed equator close to a saddle-node
-NEUTRAL = 2.0**-49
-NOTHING = 1e-13  # of |U|: a component that is smaller all along a piece vanishes there
+NEUTRAL_ROUNDING = 2.0**-49
+ZERO_COMPONENT = 1e-13  # of |U|: a component that is smaller all along a piece vanishes there
 NO_ARCS = np.zeros((0, 2))
-FLAT = 1e-9  # of |U|: a smaller slope at a sign change of a Theta that is not smooth counts as none
+MIN_SLOPE = 1e-9  # of |U|: a smaller slope at a sign change of a Theta that is not smooth counts as none
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -138,16 +138,16 @@ def equator_zeros(key: Hashable) -> EquatorZeros:
     theta, multiplicity = theta[order], multiplicity[order]
     Theta, rate, radial, radial_rate, _ = _components(run, theta)
     if not f.resolved:  # Theta = t |t| and its like change sign with no slope
-        multiplicity = np.where((multiplicity == 1) & (np.abs(rate) <= FLAT * f.size), 3, multiplicity)
+        multiplicity = np.where((multiplicity == 1) & (np.abs(rate) <= MIN_SLOPE * f.size), 3, multiplicity)
     slope = np.where(multiplicity == 1, rate, 0.0)
     # a zero is known to within the rounding of Theta over its slope, which moves lambda_rho by so much
     blur = np.where(slope != 0.0, np.abs(radial_rate) / np.where(slope == 0.0, 1.0, np.abs(slope)), 4.0)
     flat = np.abs(radial) <= 16.0 * UNIT * f.size * (1.0 + np.minimum(blur, 1e6))
     rows = np.stack([theta, np.where(flat, 0.0, radial), slope, multiplicity.astype(float)])
-    return _result(key, rows, f, distance, proven, arcs=arcs, beyond=_beyond(run, theta, multiplicity, arcs))
+    return _result(key, rows, f, distance, proven, arcs=arcs, beyond=_signs_after_zeros(run, theta, multiplicity, arcs))
 
 
-def _beyond(run: Program, theta: Array, multiplicity: NDArray[np.int64], arcs: Array) -> tuple[int, ...]:
+def _signs_after_zeros(run: Program, theta: Array, multiplicity: NDArray[np.int64], arcs: Array) -> tuple[int, ...]:
     """Sign of Theta after each of its zeros, where some are odd and none is simple, so that no slope tells it."""
     if not (multiplicity % 2 == 1).any() or (multiplicity == 1).any():
         return ()
@@ -191,7 +191,7 @@ def _result(
 
 def _certificate(f: Series, proven: bool) -> str:
     if not f.resolved:
-        return say("on a net", net=NET)
+        return say("on a net", net=NET_ANGLES)
     start = say("exact series" if f.exact else "series", degree=f.degree)
     return f"{start} {say('bounds' if proven else 'close to a multiple zero')}"
 
@@ -215,7 +215,7 @@ def _degree(key: Hashable, rows: Array, f: Series, all_directions: bool) -> int 
 
 def _turns(key: Hashable) -> int | None:
     """Count how often U turns along a net on the equator; None where it vanishes, or turns too fast to tell."""
-    U = _components(program(key), (np.arange(NET) + 0.5) * (2.0 * math.pi / NET))[-1]
+    U = _components(program(key), (np.arange(NET_ANGLES) + 0.5) * (2.0 * math.pi / NET_ANGLES))[-1]
     if not (np.isfinite(U).all() and U.any(axis=1).all()):
         return None
     angle = np.arctan2(U[:, 1], U[:, 0])
@@ -270,7 +270,7 @@ def _kinks(key: Hashable) -> NDArray[np.float64]:
     sources = kinks(rows, ("c", "s"))
     if not sources:
         return np.zeros(0)
-    net = 1e-3 + np.linspace(0.0, 2.0 * math.pi, NET // 4 + 1)
+    net = 1e-3 + np.linspace(0.0, 2.0 * math.pi, NET_ANGLES // 4 + 1)
     found: list[NDArray[np.float64]] = []
     for source in sources:  # each by itself: of all together the others would be evaluated with it
         run = program(((source,), tuple(values[name] for name in number_names((source,)))))
@@ -295,28 +295,30 @@ def _pieces(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.in
 
     if not len(edges):
         edges = np.array([1e-3])
-    low, high = edges + BESIDE, np.append(edges[1:], edges[0] + 2.0 * math.pi) - BESIDE
+    low, high = edges + KINK_DISTANCE, np.append(edges[1:], edges[0] + 2.0 * math.pi) - KINK_DISTANCE
     grids = [
-        np.linspace(a, b, 33 + int(NET * (b - a) / (2.0 * math.pi))) for a, b in zip(low, high, strict=True) if a < b
+        np.linspace(a, b, 33 + int(NET_ANGLES * (b - a) / (2.0 * math.pi)))
+        for a, b in zip(low, high, strict=True)
+        if a < b
     ]
     samples = [value(grid) for grid in grids]
-    still = [bool((np.abs(sample) <= NOTHING * size).all()) for sample in samples]
+    still = [bool((np.abs(sample) <= ZERO_COMPONENT * size).all()) for sample in samples]
     arcs = np.array([(grid[0], grid[-1]) for grid, none in zip(grids, still, strict=True) if none]).reshape(-1, 2)
     grids, samples = ([one for one, none in zip(each, still, strict=True) if not none] for each in (grids, samples))
     between = roots(value, grids, samples)
-    left, at, right = value(edges - BESIDE), value(edges), value(edges + BESIDE)
+    left, at, right = value(edges - KINK_DISTANCE), value(edges), value(edges + KINK_DISTANCE)
     through = (left > 0.0) != (right > 0.0)
-    across = refined(value, edges[through] - BESIDE, edges[through] + BESIDE)[0]
+    across = refine_roots(value, edges[through] - KINK_DISTANCE, edges[through] + KINK_DISTANCE)[0]
     touches = [*between.touches, edges[~through & (abs(at) <= 1e-13 * size)]]
     theta = np.concatenate([*between.zeros, across, *touches]) % (2.0 * math.pi)
     multiplicity = np.ones(len(theta), np.int64)
     multiplicity[len(theta) - sum(map(len, touches)) :] = 2
     order = np.argsort(theta)
-    order = order[~_on(theta[order], arcs)]
+    order = order[~_lies_on_arcs(theta[order], arcs)]
     return theta[order], multiplicity[order], arcs
 
 
-def _on(theta: Array, arcs: Array) -> NDArray[np.bool_]:
+def _lies_on_arcs(theta: Array, arcs: Array) -> NDArray[np.bool_]:
     """Tell which angles lie on some arcs, ends included."""
     after = np.remainder(theta[:, None] - arcs[:, 0] + 1e-6, 2.0 * math.pi)
     return np.asarray((after <= arcs[:, 1] - arcs[:, 0] + 2e-6).any(axis=1))
@@ -345,5 +347,5 @@ def equator_as_orbit(key: Hashable) -> tuple[int, float, float, bool] | None:
             break
         theta = (np.arange(n) + 0.5) * (2.0 * math.pi / n)  # what is new where n is doubled
         n, last = 2 * n, (period, exponent)
-    neutral = abs(exponent) <= NEUTRAL * terms
+    neutral = abs(exponent) <= NEUTRAL_ROUNDING * terms
     return (1 if Theta[0] > 0.0 else -1), period, 0.0 if neutral else exponent, neutral

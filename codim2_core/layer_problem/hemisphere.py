@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arguments import guarded
+from ..arguments import checked_functions
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 
@@ -116,4 +116,4 @@ def outside_flow(coefficients: AtZ, theta: ArrayLike) -> tuple[Array, Array]:
     return U[..., 0] * c + U[..., 1] * s, U[..., 1] * c - U[..., 0] * s
 
 
-globals().update(guarded(__name__, globals(), __all__))
+globals().update(checked_functions(__name__, globals(), __all__))

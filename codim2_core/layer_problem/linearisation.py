@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from ..numerics.trigonometric import ROUNDING
+from ..numerics.trigonometric import INPUT_ROUNDING
 from ..psi.function import Psi
 
 # Below this fraction of its terms a sum of products is recomputed exactly (rounding then stays below 1e-12 of it).
@@ -14,7 +14,7 @@ CANCELLATION = 1e-3
 NEUTRAL_TRACE = 16 * 2.0**-53  # of the terms of tr J: zero within rounding
 
 
-def scaled(values: tuple[float, ...]) -> tuple[float, ...]:
+def scale_by_power_of_two(values: tuple[float, ...]) -> tuple[float, ...]:
     """Values times one power of two that brings the largest near 1: exact, and no product over- or underflows."""
     size = max(map(abs, values))
     if size == 0.0:
@@ -33,7 +33,7 @@ def exact_determinant(a: float, b: float, d: float) -> float:
 
 def determinant_sign(a: float, b: float, d: float) -> int:
     """Sign of ``det A = a d + b^2``, 0 when it vanishes within the rounding of a, b, d."""
-    a, b, d = scaled((a, b, d))
+    a, b, d = scale_by_power_of_two((a, b, d))
     size = abs(a * d) + b * b
     det = a * d + b * b
     if size == 0.0:
@@ -41,7 +41,7 @@ def determinant_sign(a: float, b: float, d: float) -> int:
     if abs(det) < CANCELLATION * size or size < 1e-280:
         exact = Fraction(a) * Fraction(d) + Fraction(b) ** 2
         weight = abs(Fraction(a) * Fraction(d)) + Fraction(b) ** 2
-        if abs(exact) <= 2 * Fraction(ROUNDING) * weight:
+        if abs(exact) <= 2 * Fraction(INPUT_ROUNDING) * weight:
             return 0
         return 1 if exact > 0 else -1
     return 1 if det > 0 else -1
@@ -58,7 +58,7 @@ def matrix_determinant(m11: float, m12: float, m21: float, m22: float) -> tuple[
         return math.ldexp(det, -2 * shift), 1 if det > 0.0 else -1
     first, second = Fraction(m11) * Fraction(m22), Fraction(m12) * Fraction(m21)
     exact = first - second
-    within = abs(exact) <= 2 * Fraction(ROUNDING) * (abs(first) + abs(second))
+    within = abs(exact) <= 2 * Fraction(INPUT_ROUNDING) * (abs(first) + abs(second))
     return math.ldexp(float(exact), -2 * shift), 0 if within else 1 if exact > 0 else -1
 
 
@@ -141,7 +141,7 @@ def linearisation(
 def linearisation_of(
     M: tuple[float, float, float, float], psi: Psi, e: tuple[float, float], complement: float, sign: int
 ) -> Parts:
-    """As `linearisation`, for ``J = M . D e_Psi`` with any M = D_e U (rows first) whose determinant has that sign."""
+    """Return the `linearisation` of ``J = M . D e_Psi``, M = D_e U (rows first), whose determinant has that sign."""
     m11, m12, m21, m22 = M
     modulus = math.hypot(*e)
     zeta = float(psi.radius(modulus, complement)) if modulus > 0.0 else 0.0

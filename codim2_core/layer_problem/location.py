@@ -1,4 +1,4 @@
-"""Where A e + f = 0 holds, and whether there: the critical set of the e-linear system, thm:lineps1.
+"""Solve A e + f = 0 in the disc: the critical set of the e-linear system, thm:lineps1.
 
 The solution is ``e = -A^-1 f = -n/det A`` with ``n = adj(A) f``, and a critical set exists iff ``|n| < |det A|``. That
 form never divides by det A. Signs that rounding could blur are decided in exact rational arithmetic of the given
@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
 
-from ..numerics.trigonometric import ROUNDING
+from ..numerics.trigonometric import INPUT_ROUNDING
 from ..systems.coefficients import Affine
 from ..systems.frozen import AtZ
 from ..words import say
@@ -20,12 +20,12 @@ from .border import CANCELS, to_all_digits
 from .linearisation import (
     CANCELLATION,
     determinant_sign,
-    scaled,
+    scale_by_power_of_two,
 )
 
 
 class Existence(Enum):
-    """How many critical sets there are, and why; the value is the sentence shown."""
+    """The number of critical sets and its reason; the value is the sentence shown."""
 
     INSIDE = say("exists once")
     NONE = say("exists not")
@@ -38,7 +38,7 @@ class Existence(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """Where ``A e = -f`` holds.
+    """The solution of ``A e = -f``.
 
     Attributes
     ----------
@@ -87,8 +87,8 @@ def locate(at: AtZ) -> Location:
     if coefficients is None or coefficients.given is not None:
         if at.affine is None:
             raise ValueError("U is not e-linear; give a system whose U is affine in (c, s).")
-        return turned(locate_affine(at.affine), at.turn)
-    a, b, d, f1, f2 = scaled(coefficients.plane)
+        return rotate_location(locate_affine(at.affine), at.turn)
+    a, b, d, f1, f2 = scale_by_power_of_two(coefficients.plane)
     if determinant_sign(a, b, d) == 0:
         return _locate_singular(a, b, d, f1, f2)
     det = a * d + b * b
@@ -124,7 +124,7 @@ def _locate_exactly(a: float, b: float, d: float, f1: float, f2: float) -> Locat
         + abs(n1 * D * F1 - n2 * B * F1)
         + abs(n1 * B * F2 + n2 * A * F2)
     )
-    off = 2 * Fraction(ROUNDING)
+    off = 2 * Fraction(INPUT_ROUNDING)
     # Near det A = 0 first order is not enough: |adj(A) f| and |det A| must be able to meet.
     parts = ((n1, abs(D * F1) + abs(B * F2)), (n2, abs(A * F2) + abs(B * F1)))
     least = sum(max(abs(n) - off * size, 0) ** 2 for n, size in parts)
@@ -140,7 +140,7 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
         return Location(Existence.EVERYTHING if f1 == f2 == 0.0 else Existence.SINGULAR_NONE)
     A, B, D, F1, F2 = map(Fraction, (a, b, d, f1, f2))
     n1, n2 = D * F1 + B * F2, A * F2 - B * F1
-    rounding = 2 * Fraction(ROUNDING)
+    rounding = 2 * Fraction(INPUT_ROUNDING)
     solvable = abs(n1) <= rounding * (abs(D * F1) + abs(B * F2)) and abs(n2) <= rounding * (abs(A * F2) + abs(B * F1))
     if not solvable:
         return Location(Existence.SINGULAR_NONE)
@@ -149,10 +149,10 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
 
 def locate_affine(affine: Affine) -> Location:
     """Decide as `locate` for any matrix, ``affine = (A11, A12, A21, A22, f1, f2)``, exactly."""
-    M = tuple(map(Fraction, scaled(affine)))
+    M = tuple(map(Fraction, scale_by_power_of_two(affine)))
     m11, m12, m21, m22, f1, f2 = M
     det, n1, n2 = m11 * m22 - m12 * m21, m22 * f1 - m12 * f2, m11 * f2 - m21 * f1
-    off = 2 * Fraction(ROUNDING)
+    off = 2 * Fraction(INPUT_ROUNDING)
     w0 = abs(m11 * m22) + abs(m12 * m21)
     w1, w2 = abs(m22 * f1) + abs(m12 * f2), abs(m11 * f2) + abs(m21 * f1)
     if not any(M):
@@ -194,7 +194,7 @@ def _line(M: tuple[Fraction, ...]) -> Location:
     )
 
 
-def turned(location: Location, angle: float) -> Location:
+def rotate_location(location: Location, angle: float) -> Location:
     """Rotate a location by an angle."""
     if angle == 0.0:
         return location

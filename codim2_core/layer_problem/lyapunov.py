@@ -13,7 +13,7 @@ from ..expressions.expression import parse
 from ..psi.function import Psi
 
 Array = NDArray[np.float64]
-ROUNDING = 2.0**-44  # of the terms that the coefficient is the sum of
+TERM_ROUNDING = 2.0**-44  # of the terms that the coefficient is the sum of
 
 
 def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
@@ -81,10 +81,10 @@ def first_lyapunov(A: Array, psi: Psi, x2: Array, second_U: Array | None = None,
     De = h0[:, :, None] * eye + 2.0 * h1[:, :, None] * x[:, :, None] * x[:, None, :]
     J = A @ De
 
-    def through(matrix: NDArray, u: NDArray) -> NDArray:
+    def apply_matrix(matrix: NDArray, u: NDArray) -> NDArray:
         return (matrix @ u[:, :, None])[:, :, 0]
 
-    def bent(v: NDArray, u: NDArray) -> NDArray:
+    def second_derivative(v: NDArray, u: NDArray) -> NDArray:
         xv, xu = dot(x, v), dot(x, u)
         return 2.0 * h1 * (xu * v + xv * u + dot(u, v) * x) + 4.0 * h2 * xu * xv * x
 
@@ -92,15 +92,20 @@ def first_lyapunov(A: Array, psi: Psi, x2: Array, second_U: Array | None = None,
         return np.zeros(2) if second_U is None else np.einsum("mijk,mj,mk->mi", second_U, v, u)
 
     def second(v: NDArray, u: NDArray) -> NDArray:
-        return through(A, bent(v, u)) + twice(through(De, v), through(De, u))
+        return apply_matrix(A, second_derivative(v, u)) + twice(apply_matrix(De, v), apply_matrix(De, u))
 
     def third(u: NDArray, v: NDArray, t: NDArray) -> NDArray:
         xu, xv, xt, uv, ut, vt = dot(x, u), dot(x, v), dot(x, t), dot(u, v), dot(u, t), dot(v, t)
         plain = 2.0 * h1 * (ut * v + uv * t + vt * u)
         mixed = 4.0 * h2 * (xu * xt * v + xu * xv * t + xv * xt * u + (uv * xt + xv * ut + xu * vt) * x)
-        out = through(A, plain + mixed + 8.0 * h3 * xu * xv * xt * x)
-        Du, Dv, Dt = through(De, u), through(De, v), through(De, t)
-        out = out + twice(bent(u, v), Dt) + twice(bent(v, t), Du) + twice(bent(t, u), Dv)
+        out = apply_matrix(A, plain + mixed + 8.0 * h3 * xu * xv * xt * x)
+        Du, Dv, Dt = apply_matrix(De, u), apply_matrix(De, v), apply_matrix(De, t)
+        out = (
+            out
+            + twice(second_derivative(u, v), Dt)
+            + twice(second_derivative(v, t), Du)
+            + twice(second_derivative(t, u), Dv)
+        )
         return out if third_U is None else out + np.einsum("mijkl,mj,mk,ml->mi", third_U, Du, Dv, Dt)
 
     # On the curve tr J = 0; its rounding is taken out, so that the eigenvalues are +- i omega.
@@ -123,5 +128,5 @@ def first_lyapunov(A: Array, psi: Psi, x2: Array, second_U: Array | None = None,
     terms = np.stack([third(q, q, bar), -2.0 * second(q, still), second(bar, double)])
     value = (np.conj(p) * terms.sum(axis=0)).sum(axis=1).real
     # where the flow is linear or reversible the terms cancel: what rounding leaves of them is no sign
-    lost = ROUNDING * (abs(p) * abs(terms).sum(axis=0)).sum(axis=1)
+    lost = TERM_ROUNDING * (abs(p) * abs(terms).sum(axis=0)).sum(axis=1)
     return np.where(abs(value) <= lost, 0.0, value) / (2.0 * omega)

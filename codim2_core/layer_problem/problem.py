@@ -131,7 +131,7 @@ class LayerProblem:
 
     @property
     def location(self) -> Location | None:
-        """Where A e + f = 0, thm:lineps1(a); None if U is not e-linear."""
+        """Return the solution of A e + f = 0, thm:lineps1(a); None if U is not e-linear."""
         return find_location(self)
 
     @property

@@ -10,11 +10,11 @@ from numpy.typing import ArrayLike
 
 from ..psi.constructors import with_parameter
 from ..psi.function import Psi
-from ..systems.bounds import LARGEST
+from ..systems.bounds import MAX_NUMBER
 
-__all__ = ["check_name", "limits", "names", "usual_span", "value_of", "varied"]
+__all__ = ["check_name", "limits", "names", "usual_span", "value_of", "vary"]
 
-PLANE = ("a", "b", "d", "f1", "f2")
+PLANE_COEFFICIENTS = ("a", "b", "d", "f1", "f2")
 
 
 def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
@@ -41,7 +41,7 @@ def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
     return tuple(found)
 
 
-def varied(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tuple[Any, Psi, tuple[float, ...]]:
+def vary(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tuple[Any, Psi, tuple[float, ...]]:
     """Return system, Psi and z with the one thing called `name` set to `value`.
 
     Parameters
@@ -70,7 +70,7 @@ def varied(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tupl
         return system, psi, (*slow[:index], _finite(name, value), *slow[index + 1 :])
     if _of_psi(psi, name):
         return system, with_parameter(psi, value), slow
-    raise _unknown(system, psi, z, name)
+    raise _unknown_name(system, psi, z, name)
 
 
 def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
@@ -79,7 +79,7 @@ def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
     Parameters
     ----------
     system, psi, z, name
-        As for `varied`.
+        As for `vary`.
 
     Returns
     -------
@@ -97,15 +97,15 @@ def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
         return slow[index]
     if _of_psi(psi, name):
         return psi.parameter
-    raise _unknown(system, psi, z, name)
+    raise _unknown_name(system, psi, z, name)
 
 
 def limits(system: Any, psi: Psi, name: str) -> tuple[float, float]:
-    """Return the smallest and the largest value that `varied` takes for a name."""
+    """Return the smallest and the largest value that `vary` takes for a name."""
     shape = psi.record.parameter
     if shape is not None and name == shape.name and name not in system.variable:
         return shape.low, shape.high
-    return -LARGEST, LARGEST
+    return -MAX_NUMBER, MAX_NUMBER
 
 
 def check_name(system: Any, psi: Psi, z: ArrayLike, parameter: str, name: str) -> None:
@@ -123,7 +123,7 @@ def usual_span(system: Any, psi: Psi, z: ArrayLike, name: str) -> tuple[float, f
     Parameters
     ----------
     system, psi, z, name
-        As for `varied`.
+        As for `vary`.
 
     Returns
     -------
@@ -140,8 +140,8 @@ def usual_span(system: Any, psi: Psi, z: ArrayLike, name: str) -> tuple[float, f
     value, (low, high) = value_of(system, psi, z, name), limits(system, psi, name)
     if name not in system.variable and _of_psi(psi, name):
         return max(low, value / 3.0), min(high, 3.0 * value)
-    if name in PLANE and system.typed is None:
-        room = max(abs(system.value_of(one)) for one in PLANE if one in system.variable)
+    if name in PLANE_COEFFICIENTS and system.typed is None:
+        room = max(abs(system.value_of(one)) for one in PLANE_COEFFICIENTS if one in system.variable)
     else:
         room = 0.5 * abs(value) if name in system.variable else max(abs(value), 1.0)
     return max(low, value - (room or 1.0)), min(high, value + (room or 1.0))
@@ -170,12 +170,12 @@ def _finite(name: str, value: float) -> float:
         number = float(value)
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name} is {value!r}; give a number.") from error
-    if not math.isfinite(number) or abs(number) > LARGEST:
-        raise ValueError(f"{name} is {number}; give a finite number of size up to {LARGEST:g}.")
+    if not math.isfinite(number) or abs(number) > MAX_NUMBER:
+        raise ValueError(f"{name} is {number}; give a finite number of size up to {MAX_NUMBER:g}.")
     return number
 
 
-def _unknown(system: Any, psi: Psi, z: ArrayLike, name: str) -> ValueError:
+def _unknown_name(system: Any, psi: Psi, z: ArrayLike, name: str) -> ValueError:
     allowed = names(system, psi, z)
     return ValueError(
         f"{name!r} cannot be varied here; choose one of {', '.join(allowed)}."

@@ -1,8 +1,8 @@
-"""From a mechanism to its system: mass matrix, contact point and coefficient of friction in, U and W out."""
+"""Derive the system of a mechanism: mass matrix, contact point and coefficient of friction in, U and W out."""
 
 from __future__ import annotations
 
-from ..arguments import guarded
+from ..arguments import checked_functions
 from .contact import contact
 from .fit import Fit, fit
 from .grip import Grip
@@ -10,4 +10,4 @@ from .mechanism import Mechanism
 
 __all__ = ["Fit", "Grip", "Mechanism", "contact", "fit"]
 
-globals().update(guarded(__name__, globals(), ["fit"]))
+globals().update(checked_functions(__name__, globals(), ["fit"]))

@@ -13,11 +13,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..systems.bounds import slow_values
 from ..systems.elinear import ELinear
-from ..systems.reading import shortened
+from ..systems.reading import short_repr
 from ..systems.typed import System
 from ..words import say
 from .measured import read
-from .slipping import Slipping, TooLongError, slipping
+from .slipping import Slipping, TooLongError, integrate_slip
 
 Array = NDArray[np.float64]
 Interval = tuple[float, float]
@@ -25,7 +25,7 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """What a measured slip says of a system: each value with the interval in which it lies, 95 % sure.
+    """A system estimated from a measured slip: each value with its 95 % confidence interval.
 
     Intervals are those of least squares: for errors that are independent and normal, of one size, and small.
 
@@ -75,7 +75,7 @@ class Fit:
 
     @property
     def sentence(self) -> str:
-        """What was found."""
+        """Return the estimates in a sentence."""
         found = ", ".join(
             f"{name} = {value:.4g} ({self.intervals[name][0]:.4g} to {self.intervals[name][1]:.4g})"
             for name, value in self.values.items()
@@ -133,8 +133,8 @@ def fit(
     from scipy.optimize import least_squares
     from scipy.stats import t as student
 
-    t, v = _measured(times, velocities)
-    searched = _searched(system, names)
+    t, v = _read_measurements(times, velocities)
+    searched = _parameter_names(system, names)
     slow = slow_values(z, system.m)
     _check(system, t, v, searched)
     known = dict(system.parameters)
@@ -146,10 +146,10 @@ def fit(
         nonlocal left
         changed = dict(zip(searched, map(float, unknown[:-2]), strict=True))
         try:
-            one = slipping(system.evolve(**changed), unknown[-2:], slow, t, left)
+            one = integrate_slip(system.evolve(**changed), unknown[-2:], slow, t, left)
         except TooLongError:
             raise ValueError(
-                f"{max_evaluations} evaluations of U did not lead to an end, the last at {shortened(changed)}; begin "
+                f"{max_evaluations} evaluations of U did not lead to an end, the last at {short_repr(changed)}; begin "
                 "with parameters closer to what was measured, or allow more by max_evaluations."
             ) from None
         left -= one.evaluations
@@ -190,7 +190,7 @@ def fit(
     )
 
 
-def _measured(times: Any, velocities: Any) -> tuple[Array, Array]:
+def _read_measurements(times: Any, velocities: Any) -> tuple[Array, Array]:
     if isinstance(times, str | Path):
         if velocities is not None:
             raise ValueError("times is a file and velocities are given too; leave them out: they are in the file.")
@@ -205,13 +205,13 @@ def _turn(one: float, other: float) -> float:
     return float(np.angle(np.exp(1j * (other - one))))
 
 
-def _searched(system: ELinear | System, names: Any) -> tuple[str, ...]:
+def _parameter_names(system: ELinear | System, names: Any) -> tuple[str, ...]:
     known = dict(system.parameters)
     given = (names,) if isinstance(names, str) or not isinstance(names, Iterable) else tuple(names)
     strange = any(not isinstance(name, str) or name not in known for name in given)
     if strange or not given or len(set(given)) < len(given):
         raise ValueError(
-            f"names is {shortened(names)}; give one or several parameters of the system, among "
+            f"names is {short_repr(names)}; give one or several parameters of the system, among "
             f"{', '.join(known) or '(none)'}."
         )
     return given

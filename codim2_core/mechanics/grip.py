@@ -57,7 +57,7 @@ class Grip:
 
     @property
     def sentence(self) -> str:
-        """What an engineer wants to know."""
+        """Return the verdict for an engineer."""
         needed = float(np.hypot(*self.needed))
         if not self.normal > 0.0:
             return say("contact opens", normal=self.normal)

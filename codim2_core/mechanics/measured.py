@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..systems.reading import shortened
+from ..systems.reading import short_repr
 
 Array = NDArray[np.float64]
 
@@ -32,16 +32,16 @@ def read(path: str | Path) -> tuple[Array, Array]:
             rows = [_numbers(line) for _, line in zip(range(MOST_LINES + 1), lines, strict=False)]
     except (OSError, UnicodeDecodeError, ValueError) as error:
         why = "is no text in UTF-8" if isinstance(error, ValueError) else "cannot be opened"
-        raise ValueError(f"times is {shortened(str(path))}, which {why}; give a CSV file, or an array.") from None
+        raise ValueError(f"times is {short_repr(str(path))}, which {why}; give a CSV file, or an array.") from None
     if len(rows) > MOST_LINES:
-        raise ValueError(f"times is {shortened(str(path))}, of more than {MOST_LINES} lines; give fewer.")
+        raise ValueError(f"times is {short_repr(str(path))}, of more than {MOST_LINES} lines; give fewer.")
     first = next((i for i, row in enumerate(rows) if row is not None), 0)
     if rows and rows[first] == []:
         rows[first] = None
     for i, row in enumerate(rows):
         if row == []:
             raise ValueError(
-                f"times is {shortened(str(path))}, whose line {i + 1} is not of three numbers; give time, v_x and v_y."
+                f"times is {short_repr(str(path))}, whose line {i + 1} is not of three numbers; give time, v_x and v_y."
             )
     found = np.array([row for row in rows if row is not None], float).reshape(-1, 3)
     return found[:, 0], found[:, 1:]

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..expressions.expression import Expression
-from ..expressions.names import SLOW
+from ..expressions.names import SLOW_NAMES
 from ..systems.bounds import at_place, slow_values
 from ..systems.elinear import ELinear
 from ..systems.typed import System
@@ -85,9 +85,9 @@ class Mechanism(Parts):
 
     @cached_property
     def _meanings(self) -> dict[str, int]:
-        """What the user's names are in x, y, z1, z2, ..."""
+        """Return the indices of the user's names among x, y, z1, z2, ..."""
         algebra = self._algebra
-        known = {word: algebra.name(z) for word, z in zip(self.slow, SLOW, strict=False)}
+        known = {word: algebra.name(z) for word, z in zip(self.slow, SLOW_NAMES, strict=False)}
         known.update((word, algebra.name(word)) for word in ("c", "s", "x", "y"))
         rows = [[algebra.enter(entry, known) for entry in row] for row in self.rows]
         columns = [self.velocities.index(word) for word in self.eliminated]
@@ -207,7 +207,7 @@ class Mechanism(Parts):
         given = np.asarray(states, float)
         if given.shape[-1:] != (2 + len(self.slow),):
             raise ValueError(f"states have the shape {given.shape}; give (..., {2 + len(self.slow)}).")
-        known = dict(self.parameters, **dict(zip(("x", "y", *SLOW), np.moveaxis(given, -1, 0), strict=False)))
+        known = dict(self.parameters, **dict(zip(("x", "y", *SLOW_NAMES), np.moveaxis(given, -1, 0), strict=False)))
         return {word: np.array(self._algebra.formula(self._meanings[word]).evaluate(known)) for word in self.words}
 
     def told(self, phases: Iterable[Any], sticking: str = "sticks") -> str:
@@ -249,7 +249,7 @@ class Mechanism(Parts):
         if any(word in ("c", "s") for row in bare for word in row.names):
             raise ValueError("a force, mu or the normal force depends on e: what sticking needs depends on it too.")
         known = dict(self.parameters, x=0.0, y=0.0)
-        known.update(zip(SLOW, slow_values(z, len(self.slow)), strict=False))
+        known.update(zip(SLOW_NAMES, slow_values(z, len(self.slow)), strict=False))
         names = ("λ1", "λ2", "λ3")  # friction and the normal force: no name of a user
         rest = self._apart(self._speeds(tuple(map(self._algebra.name, names))))
         rows = [self._algebra.formula(entry) for entry in rest]
@@ -258,7 +258,7 @@ class Mechanism(Parts):
         slopes = np.array([[at(row, one) for one in names[: len(rows)]] for row in rows]) - free[:, None]
         mu = np.array([[at(self._algebra.formula(entry)) for entry in self._entered(row)] for row in self.mu])
         if not (np.isfinite(slopes).all() and np.isfinite(free).all() and np.isfinite(mu).all()):
-            raise ValueError(f"a force is not finite{at_place(tuple(known[w] for w in SLOW if w in known))}.")
+            raise ValueError(f"a force is not finite{at_place(tuple(known[w] for w in SLOW_NAMES if w in known))}.")
         found = np.linalg.solve(slopes, -free)
         normal = float(found[2]) if self.held else float(at(self._algebra.formula(self._normal)))
         return Grip(found[:2], normal, mu, held=self.held)

@@ -1,4 +1,4 @@
-"""What a mechanism is made of, read and checked."""
+"""The parts of a mechanism, read and checked."""
 
 from __future__ import annotations
 

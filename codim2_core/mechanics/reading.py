@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..expressions.expression import Expression, ExpressionError, parse
-from ..expressions.names import PLANE, SLOW
+from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.reader import check_names
-from ..systems.reading import mapping, parameter, shortened
+from ..systems.reading import mapping, parameter, short_repr
 
 Row = tuple[Expression, ...]
 Matrix = tuple[Row, ...]
@@ -22,8 +22,8 @@ def words(values: Any, what: str) -> tuple[str, ...]:
     found = (values,) if isinstance(values, str) or not hasattr(values, "__iter__") else tuple(values)
     for word in found:
         if not isinstance(word, str) or len(word) > 40:
-            raise ValueError(f"{what} has the name {shortened(word)}; use at most 40 ASCII letters, digits and _.")
-        if word in PLANE:
+            raise ValueError(f"{what} has the name {short_repr(word)}; use at most 40 ASCII letters, digits and _.")
+        if word in FAST_NAMES:
             raise ValueError(f"{what} has the name {word!r}; use names other than c, s, x, y, which are of the slip.")
         try:
             check_names((word,))
@@ -31,7 +31,7 @@ def words(values: Any, what: str) -> tuple[str, ...]:
             raise ValueError(f"{what}: {error}") from error
     twice = next((word for word in found if found.count(word) > 1), None)
     if twice is not None:
-        raise ValueError(f"{what} names {shortened(twice)} twice; once is enough.")
+        raise ValueError(f"{what} names {short_repr(twice)} twice; once is enough.")
     return found
 
 
@@ -46,8 +46,8 @@ def velocities(values: Any) -> tuple[str, ...]:
 def slow(values: Any) -> tuple[str, ...]:
     """Check the names of the slow variables."""
     found = words(values, "slow")
-    if len(found) > len(SLOW):
-        raise ValueError(f"slow has {len(found)} names; at most {len(SLOW)} slow variables are allowed.")
+    if len(found) > len(SLOW_NAMES):
+        raise ValueError(f"slow has {len(found)} names; at most {len(SLOW_NAMES)} slow variables are allowed.")
     return found
 
 
@@ -73,7 +73,7 @@ def formula(value: Any, what: str, names: Sequence[str]) -> Expression:
         try:
             value = repr(float(value))
         except (TypeError, ValueError, OverflowError):
-            raise ValueError(f"{what} is {shortened(value)}; give a number, or text in {', '.join(names)}.") from None
+            raise ValueError(f"{what} is {short_repr(value)}; give a number, or text in {', '.join(names)}.") from None
     try:
         return parse(value, tuple(names))
     except ExpressionError as error:
@@ -83,14 +83,14 @@ def formula(value: Any, what: str, names: Sequence[str]) -> Expression:
 def row(values: Any, what: str, length: int, names: Sequence[str]) -> Row:
     """Read a row of so many entries."""
     if isinstance(values, str) or not hasattr(values, "__getitem__") or len(values) != length:
-        raise ValueError(f"{what} is {shortened(values)}; give {length} entries, numbers or text.")
+        raise ValueError(f"{what} is {short_repr(values)}; give {length} entries, numbers or text.")
     return tuple(formula(value, f"{what}[{i}]", names) for i, value in enumerate(values, 1))
 
 
 def matrix(values: Any, what: str, rows: int, columns: int, names: Sequence[str]) -> Matrix:
     """Read a matrix of so many rows and columns."""
     if isinstance(values, str) or not hasattr(values, "__getitem__") or len(values) != rows:
-        raise ValueError(f"{what} is {shortened(values)}; give {rows} rows of {columns} entries, numbers or text.")
+        raise ValueError(f"{what} is {short_repr(values)}; give {rows} rows of {columns} entries, numbers or text.")
     return tuple(row(value, f"{what}[{i}]", columns, names) for i, value in enumerate(values, 1))
 
 
@@ -107,7 +107,7 @@ def rates(values: Any, positions: Sequence[str], names: Sequence[str]) -> Mappin
     given = mapping(values, "rates")
     strange = next((key for key in given if key not in positions), None)
     if strange is not None:
-        raise ValueError(f"rates has {shortened(strange)}, which is no slow variable but a velocity, or nothing.")
+        raise ValueError(f"rates has {short_repr(strange)}, which is no slow variable but a velocity, or nothing.")
     missing = next((key for key in positions if key not in given), None)
     if missing is not None:
         raise ValueError(f"the slow variable {missing} is no velocity; say how it moves: rates={{'{missing}': '...'}}.")

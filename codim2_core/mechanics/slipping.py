@@ -15,7 +15,7 @@ from ..systems.typed import System
 Array = NDArray[np.float64]
 
 STOPPED = 30.0  # log of how much slower than at the start it is when it stops
-LONGEST = 1e4  # in turns of the time dt/r
+MAX_TURNS = 1e4  # in turns of the time dt/r
 
 
 class TooLongError(Exception):
@@ -54,7 +54,7 @@ class Slipping:
         return np.stack([r * np.cos(theta), r * np.sin(theta)], axis=-1)
 
 
-def slipping(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array, most: int) -> Slipping:
+def integrate_slip(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array, most: int) -> Slipping:
     """Follow the slip from a start at the first time until it stops, or until the last time.
 
     Raises
@@ -90,7 +90,7 @@ def slipping(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Ar
     slow_now: Any = lambda _tau, state: state[0] - first + STOPPED
     over.terminal = slow_now.terminal = True
     begin = np.array([first, math.atan2(y, x), times[0], *slow])
-    run = solve_ivp(rates, (0.0, LONGEST), begin, "DOP853", events=(over, slow_now), rtol=1e-10, atol=1e-12,
+    run = solve_ivp(rates, (0.0, MAX_TURNS), begin, "DOP853", events=(over, slow_now), rtol=1e-10, atol=1e-12,
                     dense_output=True)  # fmt: skip
     stopped = bool(len(run.t_events[1]))
     return Slipping(float(run.y[2, -1]) if stopped else None, float(run.y[1, -1]), count, run.t, run.y, run.sol)

@@ -1,4 +1,4 @@
-"""How a regularised motion and its limit eps -> 0 agree: in their phases, and to which order in eps."""
+"""Compare a regularised motion with its limit eps -> 0: their phases, and the order in eps."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .result import Phase, Simulation
 
-NEUTRAL = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (fig:transcrit)
+NEUTRAL_RATIO = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (fig:transcrit)
 FAR_OUT = 1e6  # zeta at which the power with which Psi falls is read off
 _VERB = {"slip": "slips", "slide": "slides", "cross": "crosses Σ"}
 
 
 @dataclass(frozen=True)
 class Agreement:
-    """How a motion for eps > 0 and the limit agree.
+    """Agreement of a motion for eps > 0 with the limit.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
         distance = np.abs(np.exp(1j * equator.theta) - complex(*e.tolist()))
         i = int(np.argmin(distance))
         radial, angular = float(equator.lambda_rho[i]), float(equator.lambda_theta[i])
-        if radial > NEUTRAL * abs(angular):
+        if radial > NEUTRAL_RATIO * abs(angular):
             if angular < 0.0 and not in_line:
                 order = min(order, -angular / radial)
         else:

@@ -1,4 +1,4 @@
-"""What a motion is given, checked: its span, where it starts, its tolerances."""
+"""Checks of the arguments of a motion: its span, its initial state, its tolerances."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from ..words import say
 
 Array = NDArray[np.float64]
 
-SAMPLES = 33  # of the delay
+DELAY_SAMPLES = 33  # of the delay
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -61,7 +61,7 @@ class Delay(Tabled):
 
     @property
     def reason(self) -> str:
-        """How it ends: a sentence."""
+        """Return the reason of its end as a sentence."""
         if self.t_out is None:
             return say("delay, open", C=self.onto, how=self.bifurcation)
         key = "Hopf, delayed until" if self.buffer is None else "Hopf, delayed until the buffer"
@@ -100,7 +100,7 @@ def delay(
     """
     t_in, t_hopf, t_end = times
     z_in, z_hopf, z_end = motion(np.array(times))[:, 2:]
-    t = np.linspace(t_hopf, t_end, SAMPLES)
+    t = np.linspace(t_hopf, t_end, DELAY_SAMPLES)
     z = motion(t)[:, 2:]
     e = np.stack([np.interp(t, known[0], column) for column in known[1].T], axis=-1)
     for i, guess in enumerate(e):

@@ -13,7 +13,7 @@ from ..numerics.dense import Dense
 
 Array = NDArray[np.float64]
 
-SAMPLES = 240  # even times of a drawn motion, at least
+MIN_TIMES = 240  # even times of a drawn motion, at least
 CHORD_TOLERANCE = (
     0.002  # radii of the equator, outside of the distance from Sigma: how far a chord may be from the curve
 )
@@ -39,7 +39,7 @@ class Drawn:
     points: Array
 
 
-def drawn(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:
+def drawn_curve(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:
     """Return a motion as a curve, as `Simulation.drawn` does.
 
     Parameters
@@ -58,7 +58,7 @@ def drawn(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:
         last = k + 1 == len(phases)
         end = len(times) if last else int(np.searchsorted(times, phases[k + 1].t_start, side="left"))
         up = phase.ascent
-        up = up[_needed(up, CHORD_TOLERANCE)]
+        up = up[_needed_points(up, CHORD_TOLERANCE)]
         state = motion(np.full(len(up), phase.t_start))
         pieces.append((np.full(len(up), phase.t_start), state, up))
         if end > done:
@@ -80,29 +80,29 @@ def _times(motion: Dense, eps: float) -> Array:
     if not last > first:
         return motion.times
 
-    def at(t: Array) -> Array:
+    def state_at(t: Array) -> Array:
         xy = motion(t)[:, :2]
         rho = np.hypot(np.hypot(xy[:, 0], xy[:, 1]), eps)[:, None]
         return xy * np.divide(1.0 + rho, rho, out=np.zeros_like(rho), where=rho > 0.0)
 
-    even = np.linspace(first, last, SAMPLES)
+    even = np.linspace(first, last, MIN_TIMES)
     times = np.union1d(even, motion.times)
     for _ in range(MAX_HALVINGS):
         middle = 0.5 * (times[:-1] + times[1:])
-        points = at(times)
-        bent = _off(at(middle), points[:-1], points[1:]) > CHORD_TOLERANCE
+        points = state_at(times)
+        bent = _off(state_at(middle), points[:-1], points[1:]) > CHORD_TOLERANCE
         times = np.union1d(times, middle[bent])
         if not bent.any() or len(times) > 4 * MAX_POINTS:
             break
-    points, eye = at(times), CHORD_TOLERANCE
+    points, eye = state_at(times), CHORD_TOLERANCE
     while True:
-        kept = _needed(points, eye) | np.isin(times, even)
+        kept = _needed_points(points, eye) | np.isin(times, even)
         if kept.sum() <= MAX_POINTS or eye > 1.0:
             return times[kept]
         eye *= 2.0
 
 
-def _needed(points: Array, eye: float) -> NDArray[np.bool_]:
+def _needed_points(points: Array, eye: float) -> NDArray[np.bool_]:
     """Mark the points of a curve without which chords would be further from it than the eye may see."""
     kept = np.arange(len(points))
     for _ in range(THINNINGS):

@@ -1,4 +1,4 @@
-"""Which critical set a state of the regularised motion follows, if any: sec:geneps1, thm:geneps1.
+"""Find the critical set that a state of the regularised motion follows, if any: sec:geneps1, thm:geneps1.
 
 The motion slides where it lies on a slow manifold, and that is O(eps) away from the critical set: in the chart
 kappa_2, where ``eps x2' = U(e_Psi(x2), eps x2, z)`` up to the time, it is ``x2 = X(z) + eps X1(z) + O(eps^2)`` with
@@ -19,9 +19,9 @@ from ..psi.function import Psi
 
 Array = NDArray[np.float64]
 
-MARGIN = 2.0  # times the first-order distance of the slow manifold
+MANIFOLD_MARGIN = 2.0  # times the first-order distance of the slow manifold
 FLOOR = 1e-3  # in p: what an orbit that runs into the set is given besides
-MOST = 0.25  # in p: near a fold, and near the equator, the expansion promises nothing
+MAX_DISTANCE = 0.25  # in p: near a fold, and near the equator, the expansion promises nothing
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def place(psi: Psi, eps: float, x: float, y: float) -> tuple[Array, Array]:
     return (p * (float(psi.modulus(r / eps)) * rho / r) if r > 0.0 else np.zeros(2)), p
 
 
-def _expanded(psi: Psi, e: Array) -> tuple[float, Array, Array]:
+def _inverse_gain(psi: Psi, e: Array) -> tuple[float, Array, Array]:
     """Return |x2| where e_Psi(x2) = e, its direction, and D e_Psi there."""
     modulus = math.hypot(e[0], e[1])
     zeta = float(psi.radius(modulus))
@@ -78,10 +78,10 @@ def _expanded(psi: Psi, e: Array) -> tuple[float, Array, Array]:
 def jacobian(field: Field, psi: Psi, e: Array, z: Array) -> Array:
     """Return J (2, 2) of the layer problem in kappa_2 at the critical set e."""
     D = field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
-    return D[:2, :2] @ _expanded(psi, e)[2]
+    return D[:2, :2] @ _inverse_gain(psi, e)[2]
 
 
-def followed(field: Field, psi: Psi, eps: float, state: Array) -> Followed | None:
+def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> Followed | None:
     """Return the critical set within O(eps) of which the state lies, in p; None if there is none.
 
     Parameters
@@ -98,9 +98,9 @@ def followed(field: Field, psi: Psi, eps: float, state: Array) -> Followed | Non
         return None
     p = in_disc(psi, e)
     distance = float(np.hypot(*(own_p - p)))
-    if not distance <= MOST:
+    if not distance <= MAX_DISTANCE:
         return None
-    zeta, n, De = _expanded(psi, e)
+    zeta, n, De = _inverse_gain(psi, e)
     along = np.outer(n, n)
     D = field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
     J = D[:2, :2] @ De
@@ -117,6 +117,6 @@ def followed(field: Field, psi: Psi, eps: float, state: Array) -> Followed | Non
                 return None
         height = 1.0 / math.hypot(1.0, zeta)
         change = height * X1 + (height**3 - height) * (along @ X1)
-        if not distance <= FLOOR + MARGIN * eps * math.hypot(change[0], change[1]):
+        if not distance <= FLOOR + MANIFOLD_MARGIN * eps * math.hypot(change[0], change[1]):
             return None
     return Followed(e, p, determinant > 0.0 and trace < 0.0, rate, 0.5 * trace + math.sqrt(max(split, 0.0)))

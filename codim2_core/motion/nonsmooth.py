@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..initial_value.compiled_phases import CompiledPhases
-from ..initial_value.events import Event, Events, Watch, checked_events, reflected
+from ..initial_value.events import Event, Events, Watch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards_system, field
 from ..initial_value.line import invariant_line
 from ..initial_value.problem import plane_problem
-from ..numerics.dense import dense, gathered
+from ..numerics.dense import dense, gather_steps
 from ..numerics.growth import BlowUpError
 from ..numerics.radau import TooManyStepsError
 from ..psi.function import Psi
@@ -26,7 +26,7 @@ from .checks import checked_span, checked_states, checked_tolerances, with_time
 from .limit.course import AtEventError, Course, StopError
 from .past import Past
 from .places import OfState
-from .regularised import MANY, MAX_STEPS, count_steps, waited_for
+from .regularised import MANY_MOTIONS, MAX_STEPS, count_steps, waited_for
 from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
 
@@ -142,13 +142,17 @@ def simulate_nonsmooth(
     if t_end < t_start:
         pasts = tuple(_past(asked, first) for first in states)
         return pasts[0] if np.ndim(state0) < 2 else pasts
-    runs = _followed(asked, states) if len(states) >= MANY or not waited_for(formulas) else map(asked.one, states)
+    runs = (
+        _run_motions(asked, states)
+        if len(states) >= MANY_MOTIONS or not waited_for(formulas)
+        else map(asked.one, states)
+    )
     return next(iter(runs)) if np.ndim(state0) < 2 else tuple(runs)
 
 
 @dataclass(frozen=True, eq=False)
 class _Asked:
-    """What is asked of each motion."""
+    """Arguments common to all motions of one call."""
 
     system: AnySystem
     psi: Psi | None
@@ -164,11 +168,11 @@ class _Asked:
         (t_start, t_end), rtol, atol, count = self.span, self.rtol, self.atol, [0]
         value = self.formulas.value
 
-        def counted(*arguments: float) -> tuple[float, ...]:
+        def count_calls(*arguments: float) -> tuple[float, ...]:
             count[0] += 1
             return value(*arguments)
 
-        formulas = Field(self.formulas.m, self.formulas.rows, counted, self.formulas.slope)
+        formulas = Field(self.formulas.m, self.formulas.rows, count_calls, self.formulas.slope)
         line = invariant_line(formulas, first)
         problem = plane_problem(formulas, None, 0.0, rtol, atol, None if line is None else line.vector)
         watch = Watch(self.watched, t_start, first)
@@ -193,7 +197,7 @@ class _Asked:
             status, detail = SimulationStatus.STEP_LIMIT, str(error)
         count_steps(formulas, len(course.taken))
         evaluations = count[0] + (course.compiled.evaluations if course.compiled else 0)
-        motion = dense(t_start, first, [gathered(course.taken, len(first))])
+        motion = dense(t_start, first, [gather_steps(course.taken, len(first))])
         phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
         variation = partial(of_nonsmooth, self.system, motion, phases, line)
         return simulation(motion, phases, variation, status, detail=detail, evaluations=evaluations, events=watch.times)
@@ -208,7 +212,7 @@ def _past(asked: _Asked, last: Array) -> Simulation:
     t_start, t_end = asked.span
     back = simulate_nonsmooth(
         backwards_system(asked.system), last, (-t_start, -t_end), asked.psi, rtol=asked.rtol, atol=asked.atol,
-        events=tuple(map(reflected, asked.watched)), max_steps=asked.max_steps,
+        events=tuple(map(reverse_event, asked.watched)), max_steps=asked.max_steps,
     )  # fmt: skip
     arrives = len(back.phases) > 1
     steps = int(np.searchsorted(back.times, back.phases[0].t_end, side="right")) - 1 if arrives else len(back.times) - 1
@@ -223,7 +227,7 @@ def _past(asked: _Asked, last: Array) -> Simulation:
     )  # fmt: skip
 
 
-def _followed(asked: _Asked, states: Array) -> Iterator[Simulation]:
+def _run_motions(asked: _Asked, states: Array) -> Iterator[Simulation]:
     """Follow motions compiled as far as safe signs decide what comes next, all at once, and phase by phase from there.
 
     What starts on Sigma, and what is under watch, is followed phase by phase from the start.
@@ -231,12 +235,12 @@ def _followed(asked: _Asked, states: Array) -> Iterator[Simulation]:
     outside = [i for i, first in enumerate(states) if first[:2].any()] if not asked.watched else []
     legs: dict[int, Legs] = {}
     if outside:
-        from ..initial_value.courses import followed  # loads the compiler
+        from ..initial_value.courses import run_hybrid  # loads the compiler
         from .limit.legs import Legs
 
         lines = [invariant_line(asked.formulas, states[i]) for i in outside]
         own = (asked.rtol, asked.atol / asked.rtol, asked.max_steps)
-        found = followed(asked.formulas, asked.psi, lines, states[outside], asked.span, *own)
+        found = run_hybrid(asked.formulas, asked.psi, lines, states[outside], asked.span, *own)
         legs = {i: Legs(asked.system, asked.psi, line, one) for i, line, one in zip(outside, lines, found, strict=True)}
     for i, first in enumerate(states):
         begun = legs.get(i)

@@ -43,7 +43,7 @@ class Past(NamedTuple):
         rtol : float
             Its tolerance: differences that it cannot tell.
         """
-        return cls.upto(run, _known(run.motion, problem, math.log(AGREE / rtol)), "past forgotten")
+        return cls.upto(run, _reliable_steps(run.motion, problem, math.log(AGREE / rtol)), "past forgotten")
 
     @classmethod
     def upto(cls, run: Simulation, k: int, why: str) -> Past:
@@ -65,7 +65,7 @@ class Past(NamedTuple):
         return cls(motion, SimulationStatus.FORGOTTEN, say(why, t=first), run.evaluations, events)
 
 
-def _known(motion: Dense, problem: Problem, most: float) -> int:
+def _reliable_steps(motion: Dense, problem: Problem, most: float) -> int:
     """Return the steps along which differences grow by at most exp(most) beyond what the motion itself does."""
     grown = np.cumsum([_growth(motion, i, problem) for i in range(len(motion.lengths))])
     return int(np.searchsorted(grown, most, side="right"))

@@ -1,8 +1,9 @@
 """Phases of a regularised motion: slip, slide, cross, by the set of the layer problem that its states follow.
 
-A motion is in contact with Sigma while r = |(x, y)| is of order eps: there, and only there, |p| < 1 in the limit. What
-it follows while in contact (see `followed`) makes it a slide, from the contact on; a contact that follows nothing is a
-crossing. So, as eps goes to 0, the phases become those of the nonsmooth limit, where contact takes no time.
+A motion is in contact with Sigma while r = |(x, y)| is of order eps: there, and only there, |p| < 1 in the limit. If it
+follows a critical set or cycle while in contact (see `followed_critical_set`), the phase is a slide, from the contact
+on; a contact that follows nothing is a crossing. So, as eps goes to 0, the phases become those of the nonsmooth limit,
+where contact takes no time.
 """
 
 from __future__ import annotations
@@ -21,20 +22,20 @@ from ..numerics.dense import Dense
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .followed import Followed, followed, place
+from .followed import Followed, followed_critical_set, place
 from .limit.decide import critical_name, from_hemisphere
 from .places import OfState
 from .result import Phase
 
 Array = NDArray[np.float64]
 
-NEAR = 20.0  # r in units of eps within which a motion is in contact with Sigma
-CLOSE = 3.0  # and from which on what it follows then is said to begin: |p| < 0.95
-HALVINGS = 45
+CONTACT_RADIUS = 20.0  # r in units of eps within which a motion is in contact with Sigma
+FOLLOWING_RADIUS = 3.0  # and from which on what it follows then is said to begin: |p| < 0.95
+MAX_HALVINGS = 45
 PASSING = (
     35.0  # e-foldings: what does not attract, and is followed no longer than rounding takes to leave it, is passed
 )
-SAME = 0.1  # in e: two runs on one set, interrupted, whose e are no further apart
+SAME_SET_DISTANCE = 0.1  # in e: two runs on one set, interrupted, whose e are no further apart
 TURNS = 2.0  # round the middle of a stay at Sigma, from which on it is asked for a limit cycle
 ON_CYCLE = 0.04  # in p, besides eps: distance to a cycle that is followed
 ASKED = 7  # states of a stay that are held against the limit cycles at their z
@@ -73,16 +74,16 @@ class _ReadMotion:
         return self.motion.states
 
     def near(self, state: Array) -> bool:
-        return math.hypot(state[0], state[1]) <= NEAR * self.eps
+        return math.hypot(state[0], state[1]) <= CONTACT_RADIUS * self.eps
 
     def set_at(self, state: Array) -> Followed | None:
-        return followed(self.formulas, self.psi, self.eps, state)
+        return followed_critical_set(self.formulas, self.psi, self.eps, state)
 
     def boundary(self, i: int, holds: Callable[[Array], bool]) -> float:
         """Time within the step from end i to end i + 1 at which `holds` changes."""
         before = holds(self.states[i])
         low, high = 0.0, 1.0
-        for _ in range(HALVINGS):
+        for _ in range(MAX_HALVINGS):
             middle = 0.5 * (low + high)
             low, high = (middle, high) if holds(self.motion.within(i, middle)) == before else (low, middle)
         return min(float(self.times[i] + high * self.motion.lengths[i]), float(self.times[i + 1]))
@@ -90,8 +91,8 @@ class _ReadMotion:
     def stays(self) -> Iterator[tuple[int, int]]:
         """Contacts, as first and last step end; returns from within a middle distance belong to the same contact."""
         r = np.hypot(self.states[:, 0], self.states[:, 1])
-        middle = max(NEAR * self.eps, math.sqrt(NEAR * self.eps * float(r.max())))
-        contact, i = r <= NEAR * self.eps, 0
+        middle = max(CONTACT_RADIUS * self.eps, math.sqrt(CONTACT_RADIUS * self.eps * float(r.max())))
+        contact, i = r <= CONTACT_RADIUS * self.eps, 0
         within = r <= middle
         while i < len(r):
             if not contact[i]:
@@ -129,7 +130,7 @@ class _ReadMotion:
             if self.is_followed(run, found[begin : i + 1]):
                 runs.append(run)
             i += 1
-        return _joined(self.with_cycles(first, last, runs))
+        return _join_runs(self.with_cycles(first, last, runs))
 
     def goes_on(self, here: Followed | None, there: Followed | None, i: int) -> bool:
         """Whether two step ends in a row follow the same set."""
@@ -137,8 +138,8 @@ class _ReadMotion:
             return False
         middle = self.set_at(self.motion.within(i, 0.5))
         if middle is None:
-            return bool(np.hypot(*(here.e - there.e)) < SAME)
-        return float(np.hypot(*(here.e - middle.e)) + np.hypot(*(there.e - middle.e))) < 3.0 * SAME
+            return bool(np.hypot(*(here.e - there.e)) < SAME_SET_DISTANCE)
+        return float(np.hypot(*(here.e - middle.e)) + np.hypot(*(there.e - middle.e))) < 3.0 * SAME_SET_DISTANCE
 
     def on_set(self, first: int, last: int, start: Followed, end: Followed) -> _Run:
         holds = lambda state: self.set_at(state) is not None
@@ -186,7 +187,7 @@ class _ReadMotion:
             p = place(self.psi, self.eps, *self.states[i, :2].tolist())[1]
             cycles = limit_cycles(self.system, self.psi, tuple(self.states[i, 2:].tolist()))
             for k, cycle in enumerate(cycles):
-                if cycle.stable and _distance(p, cycle.points) <= ON_CYCLE + NEAR * self.eps:
+                if cycle.stable and _distance(p, cycle.points) <= ON_CYCLE + CONTACT_RADIUS * self.eps:
                     followed.append((i, f"cycle {k + 1}"))
         if not followed:
             return None
@@ -230,14 +231,14 @@ class _ReadMotion:
                     reason = say("starts, follows nothing")
                     continue
                 yield Phase("slip", t, begins, reason)
-                yield Phase("cross", begins, ends, say("passes", near=NEAR))
-                t, reason = ends, say("has left", near=NEAR)
+                yield Phase("cross", begins, ends, say("passes", near=CONTACT_RADIUS))
+                t, reason = ends, say("has left", near=CONTACT_RADIUS)
                 continue
             if not initial:
                 yield Phase("slip", t, begins, reason)
             starts = [begins, *(run.t_end for run in runs[:-1])]
             for k, (run, start) in enumerate(zip(runs, starts, strict=True)):
-                why = _why(run, "goes on" if k else "starts, follows" if initial else "comes, follows")
+                why = _phase_reason(run, "goes on" if k else "starts, follows" if initial else "comes, follows")
                 turns = self.decided_by_errors(run)
                 if turns is None:
                     yield Phase("slide", start, run.t_end, why, run.onto)
@@ -281,7 +282,7 @@ class _ReadMotion:
 
     def contact(self, first: int, last: int, runs: list[_Run]) -> float:
         """Return the time at which a contact, from one step end to another, begins."""
-        close = lambda state: math.hypot(state[0], state[1]) <= CLOSE * self.eps
+        close = lambda state: math.hypot(state[0], state[1]) <= FOLLOWING_RADIUS * self.eps
         for i in range(first, (runs[0].first if runs else last) + 1):
             if close(self.states[i]):
                 return self.boundary(i - 1, close)
@@ -310,12 +311,12 @@ def phases_of(system: AnySystem, psi: Psi, eps: float, rtol: float, motion: Dens
     return tuple(replace(one, _place=OfState(motion, psi, eps, one.t_start, one.t_end)) for one in phases)
 
 
-def _why(run: _Run, how: str) -> str:
+def _phase_reason(run: _Run, how: str) -> str:
     onto = f"limit {run.onto}" if run.onto.startswith("cycle") else f"the critical set {run.onto}"
     return say(how, onto=onto)
 
 
-def _joined(runs: list[_Run]) -> list[_Run]:
+def _join_runs(runs: list[_Run]) -> list[_Run]:
     """Join runs on one set that an excursion interrupts."""
     found: list[_Run] = []
     for run in runs:
@@ -338,7 +339,7 @@ def _close(before: _Run, after: _Run) -> bool:
         return False
     if after.first <= before.last + 1:
         return True
-    return not (before.e and after.e) or float(np.hypot(*(before.e[1] - after.e[0]))) < SAME
+    return not (before.e and after.e) or float(np.hypot(*(before.e[1] - after.e[0]))) < SAME_SET_DISTANCE
 
 
 def _distance(p: Array, points: Array) -> float:

@@ -1,4 +1,4 @@
-"""Where a phase of a motion lies: its e, and its p in the projected disc, at any time; and how it came there.
+"""Locate a phase of a motion: its e, and its p in the projected disc, at any time; and its origin.
 
 Regularised, both are those of the state. In the limit eps -> 0 they are those of the set that is followed, and what
 happens in no time, the orbit of the layer problem up the hemisphere (fig:side_of_sphere), is kept as a path.
@@ -25,14 +25,14 @@ from .followed import in_disc
 
 Array = NDArray[np.float64]
 
-FASTEST, LONGEST = 60.0, 4.0  # time T and length for which an orbit up the hemisphere is followed
-BESIDE = 0.9995  # |p| from which an orbit is followed that leaves the closed equator
-NONE = np.zeros((0, 2))
-NONE.flags.writeable = False
+FASTEST, MAX_ASCENT_LENGTH = 60.0, 4.0  # time T and length for which an orbit up the hemisphere is followed
+ASCENT_START = 0.9995  # |p| from which an orbit is followed that leaves the closed equator
+NO_POINTS = np.zeros((0, 2))
+NO_POINTS.flags.writeable = False
 
 
 class Place(Protocol):
-    """Where a phase lies."""
+    """The location of a phase."""
 
     def at(self, t: Array) -> tuple[Array, Array]:
         """Return e and p, each (k, 2), at times (k,)."""
@@ -199,12 +199,12 @@ class Ascent:
                 limits = equator_equilibria(self.system, self.z).theta
                 if len(limits):
                     theta = min(limits, key=lambda limit: abs(math.remainder(limit - self.theta, math.tau)))
-                    up = continuation(self.system, self.psi, [theta], self.z, t_max=FASTEST, length=LONGEST)
+                    up = continuation(self.system, self.psi, [theta], self.z, t_max=FASTEST, length=MAX_ASCENT_LENGTH)
                     return up.points[0]
-                start = BESIDE * np.array([math.cos(self.theta), math.sin(self.theta)])
+                start = ASCENT_START * np.array([math.cos(self.theta), math.sin(self.theta)])
             else:
                 start = self.start
             seeds = start[None]
-            return trajectories(self.system, self.psi, seeds, self.z, t_max=FASTEST, length=LONGEST).points[0]
+            return trajectories(self.system, self.psi, seeds, self.z, t_max=FASTEST, length=MAX_ASCENT_LENGTH).points[0]
         except ValueError:  # a start that nothing leaves
-            return NONE
+            return NO_POINTS

@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..expressions.expression import Expression
-from ..initial_value.events import Event, Events, Watch, checked_events, reflected
+from ..initial_value.events import Event, Events, Watch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards, field
 from ..initial_value.line import invariant_line
 from ..initial_value.problem import plane_problem
-from ..numerics.dense import Dense, Steps, dense, gathered
-from ..numerics.growth import BlowUpError, bounded
+from ..numerics.dense import Dense, Steps, dense, gather_steps
+from ..numerics.growth import BlowUpError, until_blow_up
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
@@ -39,11 +39,11 @@ Array = NDArray[np.float64]
 _stepped: dict[tuple[Expression, ...], int] = {}  # steps in Python so far, by the formulas of a system
 
 SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
-FIRST = 1e-2  # of rho/|U|: the first step tried
+FIRST_STEP_SHARE = 1e-2  # of rho/|U|: the first step tried
 MAX_STEPS = 20_000
-PATIENCE = 400  # steps in Python, of all motions of a system: they take about as long as compiling its formulas
-REMEMBERED = 64  # systems whose steps are counted
-MANY = 8  # motions at once for which that is not waited for
+PYTHON_STEPS = 400  # steps in Python, of all motions of a system: they take about as long as compiling its formulas
+COUNTED_SYSTEMS = 64  # systems whose steps are counted
+MANY_MOTIONS = 8  # motions at once for which that is not waited for
 
 
 @overload
@@ -147,7 +147,7 @@ def simulate(
 
 @dataclass(frozen=True, eq=False)
 class _Asked:
-    """What is asked of each motion; the phases are those of `system`, `formulas` are what is followed."""
+    """Arguments common to all motions of one call: `system` names the phases, `formulas` are integrated."""
 
     system: AnySystem
     formulas: Field
@@ -161,14 +161,14 @@ class _Asked:
 
     def runs(self, states: Array) -> tuple[Simulation, ...]:
         """Follow all motions."""
-        if not self.events and (len(states) >= MANY or _is_compiled(self.formulas)):
+        if not self.events and (len(states) >= MANY_MOTIONS or _is_compiled(self.formulas)):
             return self.compiled(states)
         return tuple(self.one(first) for first in states)
 
     def one(self, first: Array) -> Simulation:
         """Follow one motion, in Python at first."""
         watch = Watch(self.events, self.span[0], first)
-        parts, status, detail, count = _followed(
+        parts, status, detail, count = _integrate(
             self.formulas, self.psi, self.eps, first, self.span, self.rtol, self.atol, self.max_steps, watch
         )
         return self.told(dense(self.span[0], first, parts), status, detail, count, watch.times)
@@ -190,12 +190,15 @@ class _Asked:
 
     def compiled(self, states: Array) -> tuple[Simulation, ...]:
         """Follow motions compiled from the start, in as few calls as there are cores."""
-        from ..initial_value.compiled import failure, followed  # loads the compiler
+        from ..initial_value.compiled import failure, integrate_compiled  # loads the compiler
         from ..initial_value.kernels.motion import UNDEFINED
 
         formulas, psi, eps, rtol, atol = self.formulas, self.psi, self.eps, self.rtol, self.atol
         lines = [invariant_line(formulas, first) for first in states]
-        found, runs = followed(formulas, psi, eps, lines, states, self.span, rtol, atol / rtol, self.max_steps), []
+        found, runs = (
+            integrate_compiled(formulas, psi, eps, lines, states, self.span, rtol, atol / rtol, self.max_steps),
+            [],
+        )
         for one, line, first in zip(found, lines, states, strict=True):
             status, detail = SimulationStatus.T_END, ""
             if one.code == UNDEFINED:
@@ -215,7 +218,7 @@ def _pasts(asked: _Asked, states: Array) -> tuple[Simulation, ...]:
         asked,
         formulas=backwards(asked.formulas),
         span=(-asked.span[0], -asked.span[1]),
-        events=tuple(map(reflected, asked.events)),
+        events=tuple(map(reverse_event, asked.events)),
     )
     problem = plane_problem(back.formulas, asked.psi, asked.eps, asked.rtol, asked.atol)
     pasts = [Past.of(run, problem, asked.rtol) for run in back.runs(states)]
@@ -227,7 +230,7 @@ def _refuse(rate: Array, first: Array) -> NoReturn:
     raise ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
 
 
-def _counting(problem: Problem, count: list[int]) -> Problem:
+def _count_evaluations(problem: Problem, count: list[int]) -> Problem:
     def F(state: Array) -> Array:
         count[0] += 1
         return problem.F(state)
@@ -238,10 +241,10 @@ def _counting(problem: Problem, count: list[int]) -> Problem:
 def first_step(problem: Problem, state: Array, rate: Array) -> float:
     """Return a short first step: a small part of the time in which the state changes by its own size."""
     speed = float(np.max(np.abs(rate) / problem.scale(state)))
-    return FIRST / speed if speed > 0.0 else math.inf
+    return FIRST_STEP_SHARE / speed if speed > 0.0 else math.inf
 
 
-def _followed(
+def _integrate(
     formulas: Field,
     psi: Psi,
     eps: float,
@@ -256,7 +259,7 @@ def _followed(
     line = invariant_line(formulas, first)
     problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
     count = [0]
-    problem = _counting(problem, count)
+    problem = _count_evaluations(problem, count)
     rate = problem.F(first)
     if not np.isfinite(rate).all():
         _refuse(rate, first)
@@ -268,11 +271,11 @@ def _followed(
     status, detail = SimulationStatus.T_END, ""
     try:
         if patience > 0:
-            for step in bounded(problem, steps(problem, *span, first, rtol, h, max_steps)):
+            for step in until_blow_up(problem, steps(problem, *span, first, rtol, h, max_steps)):
                 last = watch.step(step)
                 taken.append(step if last is None else last)
                 if last is not None:
-                    return [gathered(taken, len(first))], SimulationStatus.EVENT, "", count[0]
+                    return [gather_steps(taken, len(first))], SimulationStatus.EVENT, "", count[0]
                 if len(taken) == patience:
                     t, state, h = step.end, step.last, step.h
                     break
@@ -283,7 +286,7 @@ def _followed(
                 problem, formulas, psi, eps, line, t, span[1], state, rtol, atol / rtol, h, max_steps - len(taken)
             )
             for part in motion.chunks():
-                ended = _ended(part, watch, len(first))
+                ended = _cut_at_event(part, watch, len(first))
                 parts.append(part if ended is None else ended)
                 if ended is not None:
                     status = SimulationStatus.EVENT
@@ -295,29 +298,29 @@ def _followed(
     finally:
         count_steps(formulas, len(taken))
     evaluations = count[0] + (0 if motion is None else motion.evaluations)
-    return [gathered(taken, len(first)), *parts], status, detail, evaluations
+    return [gather_steps(taken, len(first)), *parts], status, detail, evaluations
 
 
-def _ended(part: Steps, watch: Watch, n: int) -> Steps | None:
+def _cut_at_event(part: Steps, watch: Watch, n: int) -> Steps | None:
     """Return the steps of a part, of n variables, up to an event that ends the motion; None where there is none."""
     taken: list[Step] = []
     for step in part if watch.events else ():
         last = watch.step(step)
         taken.append(step if last is None else last)
         if last is not None:
-            return gathered(taken, n)
+            return gather_steps(taken, n)
     return None
 
 
 def waited_for(formulas: Field) -> int:
     """Say how many steps in Python are still taken before a system's motions are followed compiled."""
-    return 0 if _is_compiled(formulas) else max(0, PATIENCE - _stepped.get(formulas.rows, 0))
+    return 0 if _is_compiled(formulas) else max(0, PYTHON_STEPS - _stepped.get(formulas.rows, 0))
 
 
 def count_steps(formulas: Field, steps: int) -> None:
     """Count steps in Python: a system that comes again is compiled once its motions together are a long one."""
     before = _stepped.pop(formulas.rows, 0)
-    while len(_stepped) >= REMEMBERED:
+    while len(_stepped) >= COUNTED_SYSTEMS:
         _stepped.pop(next(iter(_stepped)), None)
     _stepped[formulas.rows] = before + steps
 

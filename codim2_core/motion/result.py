@@ -1,4 +1,4 @@
-"""What a simulation returns: states, times, dense output, and its phases with their reasons."""
+"""The result of a simulation: states, times, dense output, and its phases with their reasons."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import drawing
-from ..expressions.names import SLOW
+from ..expressions.names import SLOW_NAMES
 from ..numerics.dense import Dense
 from ..tables import Tabled, frame, number, paragraphs, rows
 from ..words import say
 from .delay import Delay
-from .drawn import Drawn, drawn
-from .places import NONE, Ascent, Place
+from .drawn import Drawn, drawn_curve
+from .places import NO_POINTS, Ascent, Place
 
 if TYPE_CHECKING:
     from .variation.result import Variation
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 
 class SimulationStatus(Enum):
-    """Why a simulation ended; the value is the sentence shown."""
+    """The reason why a simulation ended; the value is the sentence shown."""
 
     T_END = say("end of span")
     EVENT = say("at an event")
@@ -146,7 +146,7 @@ class Phase(Tabled):
     @cached_property
     def ascent(self) -> Array:
         """Orbit (k, 2) of the layer problem that it begins with, in p: in the limit that takes no time; else empty."""
-        return NONE if self._ascent is None else self._ascent.path(self.onto)
+        return NO_POINTS if self._ascent is None else self._ascent.path(self.onto)
 
 
 @dataclass(frozen=True, eq=False)
@@ -279,7 +279,7 @@ class Simulation:
         In the limit the orbits up the hemisphere, which take no time, are put in where phases begin with one; a slide
         on a limit cycle is drawn by the orbit that winds onto it.
         """
-        return drawn(self.motion, self.phases, self.eps)
+        return drawn_curve(self.motion, self.phases, self.eps)
 
     def to_frame(self, t: ArrayLike | None = None) -> Any:
         """Return the motion as a pandas DataFrame: a row a time, columns t, x, y, z1, ..., zm, phase and onto.
@@ -298,7 +298,7 @@ class Simulation:
         if when.ndim != 1:
             raise ValueError(f"t has shape {when.shape}; give a list of times.")
         states = self.states if t is None else self.dense(when)
-        named = dict(zip(("x", "y", *SLOW), states.T, strict=False))
+        named = dict(zip(("x", "y", *SLOW_NAMES), states.T, strict=False))
         starts = [phase.t_start for phase in self.phases]
         phases = [self.phases[i - 1] for i in np.searchsorted(starts, when, side="right") if i]  # as `phase_at`
         told = {"phase": [phase.kind for phase in phases], "onto": [phase.onto for phase in phases]} if starts else {}

@@ -17,7 +17,7 @@ from ..examples.ball import Ball
 Array = NDArray[np.float64]
 
 #: Radius of a ball as a part of the way that it goes, where none is given: its rolling is then seen.
-SHARE, SMALLEST = 0.07, 1e-6
+ROLLING_SHARE, MIN_ROLLING = 0.07, 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ def rolling(ball: Ball, times: ArrayLike, states: ArrayLike, rate: float = 0.0, 
     else:
         centre = np.concatenate([np.zeros((1, 2)), np.cumsum(0.5 * dt * (velocity[1:] + velocity[:-1]), axis=0)])
     if radius is None:
-        radius = SHARE * max(float(np.ptp(centre, axis=0).max()), SMALLEST)
+        radius = ROLLING_SHARE * max(float(np.ptp(centre, axis=0).max()), MIN_ROLLING)
     plane = rate * np.column_stack([-centre[:, 1], centre[:, 0]])
     across = (velocity - slip - plane) / radius  # omega x k = (omega_y, -omega_x)
     middle = 0.5 * dt * (across[1:] + across[:-1])

@@ -1,4 +1,4 @@
-"""Where the branches of one nullcline cross each other, or come so close that it looks so.
+"""Find where the branches of one nullcline cross each other, or come so close that they seem to.
 
 At a crossing the component and its gradient vanish. On a small circle around it the component changes sign once for
 each half-branch; with 2 k of them, half-branch i goes straight on as i + k.
@@ -18,12 +18,12 @@ from ..numerics.fourier_zeros import series, zeros
 
 Array = NDArray[np.floating[Any]]
 
-RADIUS, SMALLEST = 0.02, 1e-3  # of the circle, in units of the disc
-CLOSE = 1e-4  # branches that pass each other at this distance are drawn as crossing: a fiftieth of a pixel
-ANGLES = 32  # on a circle
+RADIUS, MIN_RADIUS = 0.02, 1e-3  # of the circle, in units of the disc
+CROSSING_DISTANCE = 1e-4  # branches that pass each other at this distance are drawn as crossing: a fiftieth of a pixel
+CIRCLE_SAMPLES = 32  # on a circle
 OBLIQUE = 0.35  # radians by which half-branches may miss going straight on, or leaving along the radius
-MOST_CELLS = 300  # with more, the field is not smooth on the scale of the net
-MOST = 64  # crossings
+MAX_CELLS = 300  # with more, the field is not smooth on the scale of the net
+MAX_CROSSINGS = 64  # crossings
 NEAR_BORDER = 1e-3
 
 
@@ -83,7 +83,7 @@ def crossings(
     width = float(np.abs(nodes[1:, 1:] - nodes[:-1, :-1]).max())
     i, j = np.nonzero(flat_cells(parts, width))
     found: list[Crossing] = []
-    if len(i) > MOST_CELLS:
+    if len(i) > MAX_CELLS:
         return found
     for middle in 0.5 * (nodes[i, j] + nodes[i + 1, j + 1]):
         if any(math.hypot(*(middle - other.circle[:2])) < 0.5 * width for other in found):
@@ -96,27 +96,30 @@ def crossings(
         between = min((math.dist((X, Y), other.circle[:2]) for other in found), default=math.inf)
         if between < 1e-4:
             continue
-        crossing = _around(run, kind, outside, X, Y, value, size, min(RADIUS, 0.7 * away, 0.4 * between))
+        crossing = _crossing_at(run, kind, outside, X, Y, value, size, min(RADIUS, 0.7 * away, 0.4 * between))
         if crossing is not None:
             found.append(crossing)
-            if len(found) >= MOST:
+            if len(found) >= MAX_CROSSINGS:
                 break
     return found
 
 
 _UNIT = np.stack(
-    [np.cos(np.arange(ANGLES) * (2.0 * math.pi / ANGLES)), np.sin(np.arange(ANGLES) * (2.0 * math.pi / ANGLES))],
+    [
+        np.cos(np.arange(CIRCLE_SAMPLES) * (2.0 * math.pi / CIRCLE_SAMPLES)),
+        np.sin(np.arange(CIRCLE_SAMPLES) * (2.0 * math.pi / CIRCLE_SAMPLES)),
+    ],
     axis=-1,
 )
 
 
-def _around(
+def _crossing_at(
     run: Program, kind: int, outside: bool, X: float, Y: float, value: float, size: float, r: float
 ) -> Crossing | None:
     """Return the crossing at a point where the gradient vanishes, or None if it is none."""
     from .trace import sample
 
-    while r >= SMALLEST:
+    while r >= MIN_RADIUS:
         ring = sample(*run.arrays, outside, np.array([X, Y]) + r * _UNIT)[kind, 0]
         f = series(ring, 2.0 * size)
         around = zeros(f) if f.resolved and not f.vanishes else None
@@ -124,7 +127,7 @@ def _around(
             angles = around.theta[around.multiplicity % 2 == 1]
             k = len(angles) // 2
             far = r * (abs(value) / float(np.abs(ring).max())) ** (1.0 / max(k, 2))
-            if k < 2 or len(angles) % 2 or far > CLOSE:
+            if k < 2 or len(angles) % 2 or far > CROSSING_DISTANCE:
                 return None
             miss = np.remainder(np.roll(angles, -k) - angles, 2.0 * math.pi) - math.pi
             if np.abs(miss).max() < OBLIQUE:

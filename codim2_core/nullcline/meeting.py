@@ -9,13 +9,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..layer_problem.problem import LayerProblem
-from ..numerics.trigonometric import ROUNDING
+from ..numerics.trigonometric import INPUT_ROUNDING
 
 Array = NDArray[np.float64]
-FAR = 1e6  # of the view: a hyperbola whose centre is farther away is a straight line in it, to 1e-5 of the view
-WITHIN = 5e-4  # of the view: farther than this from the hyperbola no chord may be
-MOST = 4000  # points of a piece
-LONGEST = 0.5  # step of t on the hyperbola (e^t, e^-t)
+STRAIGHT_DISTANCE = (
+    1e6  # of the view: a hyperbola whose centre is farther away is a straight line in it, to 1e-5 of the view
+)
+CHORD_TOLERANCE = 5e-4  # of the view: farther than this from the hyperbola no chord may be
+MAX_PIECE_POINTS = 4000  # points of a piece
+MAX_PARAMETER_STEP = 0.5  # step of t on the hyperbola (e^t, e^-t)
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +50,7 @@ def conics_of(problem: LayerProblem, view: float = 2.0, pixel: float | None = No
         Half the side of the square that is drawn.
     pixel : float, optional
         Of what is looked at more closely: then no chord is farther than a quarter of it from the hyperbola, as long as
-        `MOST` points of a piece allow.
+        `MAX_PIECE_POINTS` points of a piece allow.
 
     Returns
     -------
@@ -56,20 +58,20 @@ def conics_of(problem: LayerProblem, view: float = 2.0, pixel: float | None = No
         A system in other axes has the conic of its normal form, turned back (lem:normalform).
     """
     form, theta = problem.at.normal_form, problem.equator.theta
-    meeting = _fixed(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
+    meeting = _read_only(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
     if form is None:
         return Conics("", (), meeting)
     turned = problem.at.as_given is None
     reach = view * math.sqrt(2.0) if turned else view
-    within = WITHIN * reach if pixel is None else 0.25 * pixel
+    within = CHORD_TOLERANCE * reach if pixel is None else 0.25 * pixel
     kind, pieces = _conic(form.d - form.a, form.f2, -form.f1, form.b, reach, within)
     if turned:
         c, s = math.cos(form.rotation), math.sin(form.rotation)
         pieces = [piece @ np.array([[c, -s], [s, c]]) for piece in pieces]
-    return Conics(kind, tuple(_fixed(piece) for piece in pieces), meeting)
+    return Conics(kind, tuple(_read_only(piece) for piece in pieces), meeting)
 
 
-def _fixed(points: Array) -> Array:
+def _read_only(points: Array) -> Array:
     """Return the points, read-only."""
     points.setflags(write=False)
     return points
@@ -82,10 +84,10 @@ def _conic(q: float, p1: float, p2: float, b: float, reach: float, within: float
     if q == 0.0:
         return "line", _line(p1, p2, b, reach)
     h, k = -p2 / q, -p1 / q  # the centre: (x - h)(y - k) = product
-    if not max(abs(h), abs(k)) <= FAR * reach:
+    if not max(abs(h), abs(k)) <= STRAIGHT_DISTANCE * reach:
         return "hyperbola", _line(p1, p2, b, reach)
     product = h * k - b / q
-    if abs(product) <= ROUNDING * (abs(h * k) + abs(b / q)):
+    if abs(product) <= INPUT_ROUNDING * (abs(h * k) + abs(b / q)):
         return "two lines", [*_line(1.0, 0.0, -h, reach), *_line(0.0, 1.0, -k, reach)]
     return "hyperbola", _branches(h, k, product, reach, within)
 
@@ -110,7 +112,7 @@ def _branches(h: float, k: float, product: float, reach: float, within: float) -
     """Return the pieces of (x - h)(y - k) = product, x - h = ±size e^t and y - k = ±size e^-t on each branch."""
     size = math.sqrt(abs(product))
     # a chord over a step s of t is within size s^2/(4 sqrt 2) of its arc
-    step = min(LONGEST, math.sqrt(4.0 * math.sqrt(2.0) * within / size))
+    step = min(MAX_PARAMETER_STEP, math.sqrt(4.0 * math.sqrt(2.0) * within / size))
     pieces = []
     for sign in (1.0, -1.0):
         up = math.copysign(sign, sign * product)
@@ -119,7 +121,7 @@ def _branches(h: float, k: float, product: float, reach: float, within: float) -
         low, high = max(low_x, -high_y), min(high_x, -low_y)
         if not low < high:
             continue
-        t = np.linspace(low, high, min(MOST, 2 + math.ceil((high - low) / step)))
+        t = np.linspace(low, high, min(MAX_PIECE_POINTS, 2 + math.ceil((high - low) / step)))
         points = np.stack([h + sign * size * np.exp(t), k + up * size * np.exp(-t)], axis=-1)
         pieces.append(np.clip(points, -reach, reach))  # a centre far away costs digits
     return pieces

@@ -17,7 +17,7 @@ from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from ..tables import Results, Tabled, point
 from .conics import Curve, Straight, affine_field, chord_ends, conic, lines
-from .polylines import drawn
+from .polylines import picture_points
 from .refining import Seen, on_component
 from .typed import Kind, inside_curves, outside_curves
 
@@ -48,7 +48,7 @@ class NullclineBranch(Tabled):
 
     def _row_(self) -> tuple[str, ...]:
         ends = (point(self.points[i]) for i in (0, -1)) if len(self.points) else ("–", "–")
-        return _NAMES[self.kind], "hemisphere" if self.inside else "outside", *ends
+        return _NULLCLINE_NAMES[self.kind], "hemisphere" if self.inside else "outside", *ends
 
 
 class Nullclines(Results[NullclineBranch]):
@@ -63,7 +63,7 @@ class Nullclines(Results[NullclineBranch]):
         return (self._repr_svg_() or "") + super()._repr_html_()
 
 
-_NAMES: dict[Kind, str] = {"rho": "ρ′ = 0", "theta": "θ′ = 0", "U1": "U₁ = 0", "U2": "U₂ = 0"}
+_NULLCLINE_NAMES: dict[Kind, str] = {"rho": "ρ′ = 0", "theta": "θ′ = 0", "U1": "U₁ = 0", "U2": "U₂ = 0"}
 
 
 def inside_nullclines(
@@ -73,7 +73,7 @@ def inside_nullclines(
     affine = affine_field(coefficients)
     if affine is None:
         return tuple(
-            _branch(kind, True, drawn(curve, psi, seen, on_component(coefficients, kind, inside=True)))
+            _branch(kind, True, picture_points(curve, psi, seen, on_component(coefficients, kind, inside=True)))
             for kind, curve in inside_curves(coefficients)
         )
     U, radial = affine
@@ -89,7 +89,7 @@ def inside_nullclines(
         chord = chord_ends(*line)
         if chord is not None:
             shapes.append((kind, Straight(*chord)))
-    return tuple(_branch(kind, True, drawn(curve, psi, seen)) for kind, curve in shapes)
+    return tuple(_branch(kind, True, picture_points(curve, psi, seen)) for kind, curve in shapes)
 
 
 def _branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
@@ -109,7 +109,7 @@ def outside_nullclines(
     if affine is None:
         one = constant()
         return tuple(
-            _branch(kind, False, drawn(curve, one, seen, on_component(coefficients, kind, inside=False)))
+            _branch(kind, False, picture_points(curve, one, seen, on_component(coefficients, kind, inside=False)))
             for kind, curve in outside_curves(coefficients, reach)
         )
     U, radial = affine

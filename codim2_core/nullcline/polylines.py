@@ -13,17 +13,17 @@ from numpy.typing import NDArray
 
 from ..psi.function import Psi
 from .conics import Arc, Curve, Straight
-from .refining import Seen, placed, refined
+from .refining import Seen, refine_curve, to_picture
 from .typed import Traced
 
 Array = NDArray[np.floating[Any]]
 Exactly = Callable[[Array], Array]
 
-POINTS = 65  # most points of a branch
+MAX_COARSE_POINTS = 65  # most points of a branch
 PASSES = 8  # of redistribution; each resolves tighter bends, smooth branches need none or one
 SAG = 0.2 / 180.0  # in picture units: a polyline stays within 0.25 px of its curve at 180 px a unit
 # Clustered at both ends, where a nullcline leaves the origin and where Psi bends it into the equator.
-_GRID = 0.5 - 0.5 * np.cos(np.linspace(0.0, math.pi, POINTS))
+_CHEBYSHEV_GRID = 0.5 - 0.5 * np.cos(np.linspace(0.0, math.pi, MAX_COARSE_POINTS))
 
 
 @lru_cache(maxsize=16)
@@ -49,7 +49,7 @@ def _onto_disc(psi: Psi, e: Array) -> Array:
     return e * factor[:, None]
 
 
-def drawn(curve: Curve, psi: Psi, seen: Seen | None = None, exactly: Exactly | None = None) -> Array:
+def picture_points(curve: Curve, psi: Psi, seen: Seen | None = None, exactly: Exactly | None = None) -> Array:
     """Picture points along a curve of the e-disc, spread so that no segment sags by more than SAG.
 
     At most POINTS, or for a traced curve so many for each half turn, and for a conic between its tips; closer where
@@ -58,26 +58,30 @@ def drawn(curve: Curve, psi: Psi, seen: Seen | None = None, exactly: Exactly | N
     if isinstance(curve, Straight) and (psi.record.identity or curve.is_diameter):
         return _onto_disc(psi, np.stack([curve.start, curve.end]))  # Psi moves points along their radius
     if isinstance(curve, Traced) and curve.straight:
-        return drawn(Straight(curve.points[0], curve.points[-1]), psi, seen)
-    t, points = _sampled(curve, psi)
+        return picture_points(Straight(curve.points[0], curve.points[-1]), psi, seen)
+    t, points = _sample_curve(curve, psi)
     if seen is None or not seen.near(points).any():
         return points
     onto = exactly or (lambda e: e)
-    return refined(curve, lambda e: placed(psi, onto(e)), t, points, seen)
+    return refine_curve(curve, lambda e: to_picture(psi, onto(e)), t, points, seen)
 
 
-def _sampled(curve: Curve, psi: Psi) -> tuple[Array, Array]:
+def _sample_curve(curve: Curve, psi: Psi) -> tuple[Array, Array]:
     """Parameters along a curve, and its picture points there."""
     if isinstance(curve, Arc) and not psi.record.identity:
         knots = [0.0, *curve.tips(), 1.0]
-        parts = [_spread(curve, psi, low + (high - low) * _GRID) for low, high in pairwise(knots)]
+        parts = [_spread(curve, psi, low + (high - low) * _CHEBYSHEV_GRID) for low, high in pairwise(knots)]
         first, *others = parts
         return (
             np.concatenate([first[0], *(t[1:] for t, _ in others)]),
             np.concatenate([first[1], *(points[1:] for _, points in others)]),
         )
-    count = POINTS * max(1, math.ceil(curve.turning / math.pi)) if isinstance(curve, Traced) else POINTS
-    return _spread(curve, psi, _GRID if count == POINTS else np.linspace(0.0, 1.0, count))
+    count = (
+        MAX_COARSE_POINTS * max(1, math.ceil(curve.turning / math.pi))
+        if isinstance(curve, Traced)
+        else MAX_COARSE_POINTS
+    )
+    return _spread(curve, psi, _CHEBYSHEV_GRID if count == MAX_COARSE_POINTS else np.linspace(0.0, 1.0, count))
 
 
 def _spread(curve: Curve, psi: Psi, t: Array) -> tuple[Array, Array]:

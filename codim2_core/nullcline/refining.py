@@ -16,12 +16,12 @@ from .typed import Kind
 
 Array = NDArray[np.floating[Any]]
 
-TOLERANCE = 0.25  # of a pixel: a polyline stays within it of its curve
-MARGIN = 0.5  # of the window, beside it: what a small pan shows
-MOST = 4000  # points of a branch
+PIXEL_TOLERANCE = 0.25  # of a pixel: a polyline stays within it of its curve
+WINDOW_MARGIN = 0.5  # of the window, beside it: what a small pan shows
+MAX_BRANCH_POINTS = 4000  # points of a branch
 PASSES = 12  # each cuts a step in three
-STEP = 1e-6  # of differences of a component
-NEWTON = 3  # steps: a traced curve is known to 1e-5, and the last step squares what the gradient is off by
+DIFFERENCE_STEP = 1e-6  # of differences of a component
+NEWTON_STEPS = 3  # steps: a traced curve is known to 1e-5, and the last step squares what the gradient is off by
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,14 +34,14 @@ class Seen:
     def near(self, points: Array) -> NDArray[np.bool_]:
         """Tell which steps between neighbouring points (n, 2) may be seen; (n - 1,)."""
         left, right, bottom, top = self.window
-        x, y = MARGIN * (right - left), MARGIN * (top - bottom)
+        x, y = WINDOW_MARGIN * (right - left), WINDOW_MARGIN * (top - bottom)
         low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
         bulge = 0.3 * np.hypot(*(points[1:] - points[:-1]).T)[:, None]  # a step may bend out of its box
         inside = (high + bulge >= (left - x, bottom - y)) & (low - bulge <= (right + x, top + y))
         return inside.all(axis=1)
 
 
-def placed(psi: Psi, e: Array) -> Array:
+def to_picture(psi: Psi, e: Array) -> Array:
     """Return the points of the picture at points of the closed e-disc, to rounding."""
     if psi.record.identity:
         return e
@@ -67,21 +67,25 @@ def on_component(at: AtZ, kind: Kind, inside: bool) -> Callable[[Array], Array]:
         c, s = e.T
         return c * U[:, 0] + s * U[:, 1] if kind == "rho" else c * U[:, 1] - s * U[:, 0]
 
-    def corrected(points: Array) -> Array:
+    def correct_points(points: Array) -> Array:
         first = points
-        for _ in range(NEWTON):
+        for _ in range(NEWTON_STEPS):
             value = component(points)
-            slopes = [(component(points + STEP * v) - component(points - STEP * v)) / (2.0 * STEP) for v in np.eye(2)]
+            slopes = [
+                (component(points + DIFFERENCE_STEP * v) - component(points - DIFFERENCE_STEP * v))
+                / (2.0 * DIFFERENCE_STEP)
+                for v in np.eye(2)
+            ]
             gradient = np.stack(slopes, axis=-1)
             square = (gradient**2).sum(axis=1)
             step = gradient * np.divide(value, square, out=np.zeros_like(value), where=square > 0.0)[:, None]
             points = points - np.where(np.isfinite(step) & (np.abs(step) < 1e-3), step, 0.0)
         return np.where((np.hypot(*(points - first).T) < 1e-3)[:, None], points, first)
 
-    return corrected
+    return correct_points
 
 
-def refined(curve: Curve, place: Callable[[Array], Array], t: Array, points: Array, seen: Seen) -> Array:
+def refine_curve(curve: Curve, place: Callable[[Array], Array], t: Array, points: Array, seen: Seen) -> Array:
     """Return picture points along a curve of which t and points are a coarse sample, closer where they are seen.
 
     Parameters
@@ -98,7 +102,7 @@ def refined(curve: Curve, place: Callable[[Array], Array], t: Array, points: Arr
     Returns
     -------
     (m, 2) array
-        At most `MOST`. Both ends stay.
+        At most `MAX_BRANCH_POINTS`. Both ends stay.
     """
     ends = points[0], points[-1]
     points = place(curve(t))
@@ -106,11 +110,11 @@ def refined(curve: Curve, place: Callable[[Array], Array], t: Array, points: Arr
     open_ = np.ones(len(t) - 1, bool)  # steps that have not been looked at
     for _ in range(PASSES):
         cut = np.flatnonzero(open_ & seen.near(points) & (np.diff(t) > 1e-15))
-        if not len(cut) or len(t) + 2 * len(cut) > MOST:
+        if not len(cut) or len(t) + 2 * len(cut) > MAX_BRANCH_POINTS:
             break
         thirds = t[cut, None] + (t[cut + 1] - t[cut])[:, None] * (1.0 / 3.0, 2.0 / 3.0)
         between = place(curve(thirds.ravel())).reshape(-1, 2, 2)
-        bent = _away(points[cut], points[cut + 1], between) > TOLERANCE * seen.pixel
+        bent = _away(points[cut], points[cut + 1], between) > PIXEL_TOLERANCE * seen.pixel
         open_[cut] = bent
         steps = np.ones(len(t) - 1, np.intp)
         steps[cut[bent]] = 3

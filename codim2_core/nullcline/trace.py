@@ -15,10 +15,10 @@ from numba import njit
 from ..expressions.interpreter import gradients
 
 RHO, THETA, U1, U2 = range(4)  # kinds
-LONGEST, SHORTEST = 0.04, 1e-6  # steps, in units of the disc
+MAX_STEP, MIN_STEP = 0.04, 1e-6  # steps, in units of the disc
 BEND = 0.12  # radians between neighbouring points
 UNEVEN = 1e-3  # a step times the radians by which it bends otherwise than the last: 100 errors of a cubic over it
-BORDER, CLOSED, CROSSING, STUCK = range(4)  # how a curve ends
+BORDER, CLOSED_CURVE, CROSSING, STUCK = range(4)  # how a curve ends
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -134,7 +134,7 @@ def stationary(op, left, right, number, roots, kind, outside, X, Y, reach):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _corrected(op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows):
+def _newton_along_gradient(op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows):
     """Newton's method along the gradient; (ok, X, Y, gradient), not ok farther than `reach` away.
 
     floor : size of the gradient below which a point is taken as a crossing of branches and left where it is.
@@ -162,7 +162,9 @@ def settle(op, left, right, number, roots, kind, outside, X, Y, reach, size):
     """Bring a point near a curve onto it; (ok, X, Y, tangent)."""
     seed, work, rows = np.zeros((4, 3)), np.empty((len(op), 3)), np.empty((2, 3))
     floor = 1e-9 * size
-    ok, X, Y, gx, gy = _corrected(op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows)
+    ok, X, Y, gx, gy = _newton_along_gradient(
+        op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows
+    )
     length = math.hypot(gx, gy)
     if length == 0.0:
         return False, X, Y, 0.0, 0.0
@@ -170,7 +172,7 @@ def settle(op, left, right, number, roots, kind, outside, X, Y, reach, size):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _entered(crossings, X, Y):
+def _entered_crossing(crossings, X, Y):
     """Return the crossing within whose circle a point lies, or -1."""
     for i in range(len(crossings)):
         if math.hypot(X - crossings[i, 0], Y - crossings[i, 1]) < crossings[i, 2]:
@@ -247,23 +249,23 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
     X, Y, tx, ty = start[0], start[1], start[2], start[3]
     out[0] = start
     _, slope_X, slope_Y = _component(op, left, right, number, roots, kind, outside, X, Y, seed, work, rows)
-    leaving = _entered(crossings, X, Y)  # by rounding, at its circle
-    count, h, bend = 1, 0.25 * LONGEST, 0.0
+    leaving = _entered_crossing(crossings, X, Y)  # by rounding, at its circle
+    count, h, bend = 1, 0.25 * MAX_STEP, 0.0
     from_home = home[0] == start[0] and home[1] == start[1]
     while count < len(out) - 1:
         h = _short_of(crossings, X, Y, h)
-        ok, nX, nY, gx, gy = _corrected(
+        ok, nX, nY, gx, gy = _newton_along_gradient(
             op, left, right, number, roots, kind, outside, X + h * tx, Y + h * ty, 0.3 * h, floor, seed, work, rows
         )
         nx, ny, turn = _tangent(gx, gy, tx, ty)
         uneven = count > 1 and abs(turn - bend * h) * h > UNEVEN
         if not ok or abs(turn) > BEND or _leaps(gx, gy, slope_X, slope_Y) or uneven:
             h *= 0.5
-            if h < SHORTEST:
+            if h < MIN_STEP:
                 return count, STUCK, -1
             continue
         r = math.hypot(nX, nY)
-        which = _entered(crossings, nX, nY)
+        which = _entered_crossing(crossings, nX, nY)
         if which >= 0 and which == leaving and count == 1:
             which = -1
         if r > most or (outside and r < 1.0) or which >= 0:
@@ -284,10 +286,10 @@ def follow(op, left, right, number, roots, kind, outside, start, home, crossings
             if ahead < 0.25 * h and count > 1:  # the last point is at home or past it
                 count -= 1
             out[count] = home
-            return count + 1, CLOSED, -1
+            return count + 1, CLOSED_CURVE, -1
         bend = turn / h
         if abs(turn) < 0.4 * BEND:
-            h = min(1.5 * h, LONGEST)
+            h = min(1.5 * h, MAX_STEP)
     return count, STUCK, -1
 
 
@@ -318,7 +320,7 @@ def _to_circle(op, left, right, number, roots, kind, outside, h, cX, cY, radius,
         pX, pY = X, Y
         for _ in range(40):
             middle = 0.5 * (low + high)
-            ok, nX, nY, ax, ay = _corrected(
+            ok, nX, nY, ax, ay = _newton_along_gradient(
                 op, left, right, number, roots, kind, outside, X + middle * tx, Y + middle * ty, 0.3 * h, floor, seed,
                 work, rows,
             )  # fmt: skip

@@ -19,17 +19,21 @@ from numpy.typing import NDArray
 from ..expressions.arrays import Program, program
 from ..layer_problem.equator_zeros import component_zeros, directions
 from ..systems.frozen import AtZ
-from .crossings import CLOSE, Crossing, crossings
+from .crossings import CROSSING_DISTANCE, Crossing, crossings
 
 Array = NDArray[np.floating[Any]]
 Kind = Literal["rho", "theta", "U1", "U2"]
-KINDS: tuple[Kind, ...] = ("rho", "theta", "U1", "U2")  # in the order of the numbers in `trace`
+NULLCLINE_KINDS: tuple[Kind, ...] = ("rho", "theta", "U1", "U2")  # in the order of the numbers in `trace`
 
-CELLS = 48  # of the net along a side
+NET_CELLS = 48  # of the net along a side
 MOST_POINTS = 4000  # of a branch
 ALL_POINTS = 30_000  # of the branches of one kind; a picture with more shows no curve any more
-NOTHING = 1e-14  # of U: a component this small everywhere is zero, and has no nullcline
-LEFT, BELOW, SIDE = -1.0137, -1.0211, 2.047  # the net lies off centre: zeros on the axes would fall on its nodes
+ZERO_COMPONENT = 1e-14  # of U: a component this small everywhere is zero, and has no nullcline
+NET_LEFT, BELOW, NET_SIDE = (
+    -1.0137,
+    -1.0211,
+    2.047,
+)  # the net lies off centre: zeros on the axes would fall on its nodes
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -82,8 +86,8 @@ class Traced:
 
 def inside_curves(at: AtZ) -> list[tuple[Kind, Traced]]:
     """All branches in the closed e-disc."""
-    nodes_c = LEFT + SIDE / CELLS * np.arange(CELLS + 1)
-    nodes_s = BELOW + SIDE / CELLS * np.arange(CELLS + 1)
+    nodes_c = NET_LEFT + NET_SIDE / NET_CELLS * np.arange(NET_CELLS + 1)
+    nodes_s = BELOW + NET_SIDE / NET_CELLS * np.arange(NET_CELLS + 1)
     points = np.stack(np.meshgrid(nodes_c, nodes_s, indexing="ij"), axis=-1)
     return _curves(at, points, (points**2).sum(axis=-1) < 1.0, nodes_c, nodes_s, 0.0)
 
@@ -92,12 +96,12 @@ def outside_curves(at: AtZ, reach: float) -> list[tuple[Kind, Traced]]:
     """All branches outside, up to that distance from the middle: rays unless U reads x or y."""
     if not at.reads_position:
         rays: list[tuple[Kind, Traced]] = []
-        for kind in KINDS:
+        for kind in NULLCLINE_KINDS:
             for u in directions(component_zeros(at.key, kind)[0]):
                 rays.append((kind, Traced(np.stack([u, reach * u]), np.stack([u, u]))))  # noqa: PERF401 (type of kind)
         return rays
-    radii = np.linspace(1.0, reach, CELLS + 1)
-    angles = 1e-3 + 2.0 * math.pi * np.arange(4 * CELLS + 1) / (4 * CELLS)
+    radii = np.linspace(1.0, reach, NET_CELLS + 1)
+    angles = 1e-3 + 2.0 * math.pi * np.arange(4 * NET_CELLS + 1) / (4 * NET_CELLS)
     points = radii[:, None, None] * directions(angles)
     return _curves(at, points, np.ones(points.shape[:2], bool), radii, angles, reach)
 
@@ -113,8 +117,8 @@ def _curves(
     nets = [_Net(values, usable, first, second) for values in parts[:, 0]]
     size = max(at.size, *(net.largest for net in nets))  # what reads x or y may vanish on Sigma, and not outside
     found: list[tuple[Kind, Traced]] = []
-    for number, (kind, net) in enumerate(zip(KINDS, nets, strict=True)):
-        if net.largest <= NOTHING * size:
+    for number, (kind, net) in enumerate(zip(NULLCLINE_KINDS, nets, strict=True)):
+        if net.largest <= ZERO_COMPONENT * size:
             continue
         met = crossings(run, number, reach > 0.0, reach, points, parts[number], size)
         for branch in _Tracer(at.key, run, size, kind, net, reach, met).branches():
@@ -122,7 +126,7 @@ def _curves(
     return found
 
 
-_AROUND = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)])
+_NEIGHBOURS = np.array([(i, j) for i in (-1, 0, 1) for j in (-1, 0, 1)])
 
 
 class _Net:
@@ -149,7 +153,7 @@ class _Net:
 
     def passed(self, branch: Traced) -> None:
         """Close the cells along a branch, and their neighbours: a step of the branch is no longer than a cell."""
-        i, j = (self._cell(branch.points)[:, None, :] + _AROUND).reshape(-1, 2).T
+        i, j = (self._cell(branch.points)[:, None, :] + _NEIGHBOURS).reshape(-1, 2).T
         if self.polar:
             j = j % self.open.shape[1]
         ok = (i >= 0) & (i < self.open.shape[0]) & (j >= 0) & (j < self.open.shape[1])
@@ -176,7 +180,7 @@ class _Tracer:
     def __init__(
         self, key: Hashable, run: Program, size: float, kind: Kind, net: _Net, reach: float, met: list[Crossing]
     ) -> None:
-        self.run, self.size, self.kind, self.net, self.reach = run, size, KINDS.index(kind), net, reach
+        self.run, self.size, self.kind, self.net, self.reach = run, size, NULLCLINE_KINDS.index(kind), net, reach
         self.outside = reach > 0.0
         angles, multiplicity = component_zeros(key, kind)
         self.ends = directions(angles[multiplicity % 2 == 1])
@@ -200,7 +204,7 @@ class _Tracer:
             if start is not None:
                 start[:2] = u
                 outwards = start[2] * u[0] + start[3] * u[1] > 0.0
-                self._add(self._followed(start if outwards == self.outside else _reversed(start))[0])
+                self._add(self._followed(start if outwards == self.outside else _reverse_tangents(start))[0])
         for which, crossing in enumerate(self.met):
             for i in range(len(crossing.angles)):
                 if self.unseen[which][i] and not self._enough():
@@ -226,7 +230,7 @@ class _Tracer:
             gaps = np.hypot(*(ends - ends[i]).T)
             gaps[i] = math.inf
             j = int(gaps.argmin())
-            if not border[j] and 0.0 < gaps[j] < CLOSE:
+            if not border[j] and 0.0 < gaps[j] < CROSSING_DISTANCE:
                 ends[[i, j]] = 0.5 * (ends[i] + ends[j])
                 for k in (i, j):
                     self.found[k // 2].points[-(k % 2)] = ends[k]
@@ -248,7 +252,7 @@ class _Tracer:
     def _both_ways(self, start: Array) -> None:
         rows, closed = self._followed(start)
         if not closed:
-            back, _ = self._followed(_reversed(start))
+            back, _ = self._followed(_reverse_tangents(start))
             rows = np.concatenate([_backwards(back[1:]), rows])
         self._add(rows)
 
@@ -271,7 +275,7 @@ class _Tracer:
         settled = self._settled(guess[:2], 0.1 * crossing.circle[2])
         if settled is None:
             return None
-        return settled if settled[2:] @ guess[2:] > 0.0 else _reversed(settled)
+        return settled if settled[2:] @ guess[2:] > 0.0 else _reverse_tangents(settled)
 
     def _add(self, rows: Array) -> None:
         if len(rows) > 1:
@@ -284,7 +288,7 @@ class _Tracer:
 
         origin : the crossing and its half-branch at which it starts.
         """
-        from .trace import BORDER, CLOSED, CROSSING, follow
+        from .trace import BORDER, CLOSED_CURVE, CROSSING, follow
 
         pieces: list[Array] = []
         here, total = start, 0
@@ -298,7 +302,7 @@ class _Tracer:
             if ending == BORDER:
                 self._end(out[count - 1])
             if ending != CROSSING or total > MOST_POINTS:
-                return np.concatenate(pieces), ending == CLOSED
+                return np.concatenate(pieces), ending == CLOSED_CURVE
             i = self.met[which].nearest(out[count - 1])
             j = self.met[which].opposite(i)
             if origin == (which, j):
@@ -320,9 +324,9 @@ class _Tracer:
             last[:2] = self.ends[nearest]
 
 
-def _reversed(start: Array) -> Array:
+def _reverse_tangents(start: Array) -> Array:
     return start * (1.0, 1.0, -1.0, -1.0)
 
 
 def _backwards(rows: Array) -> Array:
-    return _reversed(rows[::-1])
+    return _reverse_tangents(rows[::-1])

@@ -94,7 +94,7 @@ class Steps:
             before = end
 
 
-def gathered(taken: Sequence[Step], n: int) -> Steps:
+def gather_steps(taken: Sequence[Step], n: int) -> Steps:
     """Gather steps of n numbers."""
     degree = max((step.polynomial.shape[1] for step in taken), default=STAGES)
     polynomials = np.zeros((len(taken), n, degree))

@@ -17,8 +17,8 @@ from ..expressions.interpreter import gradients
 from .enclosure import enclose
 
 # A square around the disc, off centre so that zeros on the axes lie inside boxes and not on their borders.
-LEFT, BELOW, SIDE = -1.0137, -1.0211, 2.047
-START = 8  # boxes along each side
+SQUARE_LEFT, BELOW, SQUARE_SIDE = -1.0137, -1.0211, 2.047
+FIRST_BOXES = 8  # boxes along each side
 CAPACITY = 256  # zeros
 
 
@@ -96,11 +96,11 @@ def _injective_radius(op, left, right, number, roots, c, s, rows, smallest, boxe
 @njit(inline="always")
 def _cover(now):
     """Write the middles of the boxes with which the search starts; their number and half-width."""
-    half = 0.5 * SIDE / START
+    half = 0.5 * SQUARE_SIDE / FIRST_BOXES
     count = 0
-    for i in range(START):
-        for j in range(START):
-            now[count, 0], now[count, 1] = LEFT + (2 * i + 1) * half, BELOW + (2 * j + 1) * half
+    for i in range(FIRST_BOXES):
+        for j in range(FIRST_BOXES):
+            now[count, 0], now[count, 1] = SQUARE_LEFT + (2 * i + 1) * half, BELOW + (2 * j + 1) * half
             count += 1
     return count, half
 

@@ -54,7 +54,7 @@ def _only_zero(c, low, high, rising, tolerance):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def cut(c, theta, h, least, most, tolerance, first, fourth, simple):
+def decide_arcs(c, theta, h, least, most, tolerance, first, fourth, simple):
     """Decide arcs, cutting the undecided ones in four, until none is left or they are shorter than `least`.
 
     Parameters

@@ -20,9 +20,9 @@ Array = NDArray[np.floating[Any]]
 
 UNIT = 2.0**-53
 ROUNDINGS = 16.0  # of the terms of f: what a zero's multiplicity is decided within
-COARSE = 2e-3  # half-width of an arc below which a multiple zero is asked for
+MIN_ARC = 2e-3  # half-width of an arc below which a multiple zero is asked for
 FINEST = 1e-11
-SAME = 1e-6  # a multiple zero found twice differs by less
+SAME_ZERO_DISTANCE = 1e-6  # a multiple zero found twice differs by less
 OFFSET = 0.1234567  # so that no arc of the first net ends at a multiple of pi/2, where zeros like to be
 HIGHEST = 8  # multiplicity
 
@@ -124,7 +124,7 @@ def series(values: Array, size: float, degree: int | None = None) -> Series:
 
 def zeros(f: Series) -> Zeros:
     """All zeros of f, by cutting arcs until each is decided; none if f vanishes identically."""
-    from .fourier_arcs import cut, lowest_extremum  # on first use: it loads the compiler
+    from .fourier_arcs import decide_arcs, lowest_extremum  # on first use: it loads the compiler
 
     none = Zeros(np.zeros(0), np.zeros(0, np.int64), True, math.inf)
     if f.vanishes:
@@ -136,10 +136,10 @@ def zeros(f: Series) -> Zeros:
     distance = float(lowest_extremum(f.c, theta, h)) / f.size
     simple: list[float] = []
     multiple: list[tuple[float, int, float]] = []
-    proven, least, most = True, COARSE, 16 * (f.degree + 32)
+    proven, least, most = True, MIN_ARC, 16 * (f.degree + 32)
     while True:
         at = np.empty(2 * f.degree + 16)
-        theta, h = cut(f.c, theta, h, least, most, f.tolerance, first, fourth, at)
+        theta, h = decide_arcs(f.c, theta, h, least, most, f.tolerance, first, fourth, at)
         simple += at[~np.isnan(at)].tolist()
         if len(theta) and len(theta) <= most:
             least = h / 50.0  # by then what lies close together has come apart
@@ -153,7 +153,7 @@ def zeros(f: Series) -> Zeros:
             break
         h *= 0.25
         theta = (theta[:, None] + h * np.array([-3.0, -1.0, 1.0, 3.0])).ravel()
-    return _collected(f, simple, multiple, proven, distance)
+    return _collect_zeros(f, simple, multiple, proven, distance)
 
 
 def _add_multiple(f: Series, theta: Array, h: float, found: list[tuple[float, int, float]]) -> None:
@@ -184,12 +184,14 @@ def _add_multiple(f: Series, theta: Array, h: float, found: list[tuple[float, in
                 for j in range(m - 1)
             ):
                 radius = 0.5 * (m + 1) * abs(taylor[m]) / f.bound(m + 1)
-                if not any(abs(math.remainder(x - other, 2 * math.pi)) < max(r, SAME) for other, _, r in found):
+                if not any(
+                    abs(math.remainder(x - other, 2 * math.pi)) < max(r, SAME_ZERO_DISTANCE) for other, _, r in found
+                ):
                     found.append((x, m, radius))
                 break
 
 
-def _collected(
+def _collect_zeros(
     f: Series, simple: list[float], multiple: list[tuple[float, int, float]], proven: bool, distance: float
 ) -> Zeros:
     # what lies as near to a multiple zero as its own rounding blurs it is that zero
@@ -234,7 +236,7 @@ def _same(f: Series, one: tuple[float, int, float], next_: tuple[float, int, flo
     if not m == n == 1 or (slope > 0.0) != (other > 0.0):
         return False
     blur = 4.0 * f.tolerance / max(min(abs(slope), abs(other)), 1e-300)
-    return u - t < max(1e-9, min(blur, SAME))
+    return u - t < max(1e-9, min(blur, SAME_ZERO_DISTANCE))
 
 
 def turn(theta: float) -> float:

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 BOUND = 1e200
 GROWN = 8.0  # times its size, within the spacing of doubles in time
-STEPS = 100.0  # of the shortest: what grows by its own size within these has no later time
+GROWTH_STEPS = 100.0  # of the shortest: what grows by its own size within these has no later time
 RATE = 1e-12  # of the time: what grows by its own size in less ends there
 
 
@@ -22,7 +22,7 @@ class BlowUpError(TooManyStepsError):
     """The motion grows beyond all bounds; the message says near which time."""
 
 
-def bounded(problem: Problem, steps: Iterator[Step], shortest: float = 0.0) -> Iterator[Step]:
+def until_blow_up(problem: Problem, steps: Iterator[Step], shortest: float = 0.0) -> Iterator[Step]:
     """Hand on steps until the state grows beyond all bounds in no time.
 
     Close to Sigma steps are short too, but the state does not grow there. `shortest` is the step at which they stop.
@@ -54,6 +54,6 @@ def bounded(problem: Problem, steps: Iterator[Step], shortest: float = 0.0) -> I
 def too_short(problem: Problem, t: float, state: Array, shortest: float = 0.0) -> TooManyStepsError:
     """Say why steps became too short at a state: it blows up, or its formulas end."""
     size, rate = np.abs(state), np.abs(problem.F(state))
-    if (rate * max(RATE * abs(t), STEPS * shortest) > 1.0 + size).any():
+    if (rate * max(RATE * abs(t), GROWTH_STEPS * shortest) > 1.0 + size).any():
         return BlowUpError(say("blow-up time", t=t))
     return StepsTooShortError(say("undefined from", t=t))

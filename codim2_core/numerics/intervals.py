@@ -11,16 +11,16 @@ import math
 import numpy as np
 from numba import njit
 
-from ..expressions.functions import FIRST, FUNCTIONS, code, kernels
+from ..expressions.functions import FIRST_CODE, FUNCTIONS, code, kernels
 
-ABS, SIGN, ATAN, COS, COSH = (code[name] for name in ("abs", "sign", "atan", "cos", "cosh"))
+ABS, SIGN_CODE, ATAN, COS, COSH = (code[name] for name in ("abs", "sign", "atan", "cos", "cosh"))
 EXP, LOG, SIN, SINH = (code[name] for name in ("exp", "log", "sin", "sinh"))
 SQRT, TAN, TANH = (code[name] for name in ("sqrt", "tan", "tanh"))
 BLUR = np.array([one.blur for one in FUNCTIONS])
 UNTIL = np.array([one.until for one in FUNCTIONS])
 
 WIDER = 2.0**-51  # four units of rounding: sums and products need half of one, library functions up to two
-TINY = 1e-300
+UNDERFLOW_BOUND = 1e-300
 HALF_PI = 0.5 * math.pi
 WHOLE_TURN = 2.0 * math.pi
 
@@ -30,7 +30,7 @@ def outwards(lo, hi):
     """Return bounds moved outwards, and -inf, inf where there are none."""
     if not (lo <= hi):
         return -math.inf, math.inf
-    return lo - abs(lo) * WIDER - TINY, hi + abs(hi) * WIDER + TINY
+    return lo - abs(lo) * WIDER - UNDERFLOW_BOUND, hi + abs(hi) * WIDER + UNDERFLOW_BOUND
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -114,9 +114,9 @@ def _tangent(a, b):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _between(k, a, b, p, q):
+def _monotone_bounds(k, a, b, p, q):
     """Bounds between p and q, what is monotone at a and b, with the blur of the function k."""
-    blur = BLUR[k - FIRST] * WIDER * (1.0 + max(abs(a), abs(b)))
+    blur = BLUR[k - FIRST_CODE] * WIDER * (1.0 + max(abs(a), abs(b)))
     p, q = min(p, q), max(p, q)
     return outwards(p - abs(p) * blur, q + abs(q) * blur)
 
@@ -149,13 +149,13 @@ def slope_of(k, a, b, v, w):
     if k == ATAN:
         lo, hi = power_positive(a, b, 2.0)
         return divide(1.0, 1.0, 1.0 + lo, 1.0 + hi)
-    if k == SIGN:
+    if k == SIGN_CODE:
         return (0.0, 0.0) if a > 0.0 or b < 0.0 or a == b else (-math.inf, math.inf)
     if k == ABS:
         return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)
-    if not b <= UNTIL[k - FIRST]:
+    if not b <= UNTIL[k - FIRST_CODE]:
         return -math.inf, math.inf
-    return _between(k, a, b, kernels.slope(k, a, kernels.value(k, a)), kernels.slope(k, b, kernels.value(k, b)))
+    return _monotone_bounds(k, a, b, kernels.slope(k, a, kernels.value(k, a)), kernels.slope(k, b, kernels.value(k, b)))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -193,12 +193,12 @@ def range_of(k, a, b):
         return _hyperbolic_cosine(a, b)
     if k == ATAN:
         return outwards(math.atan(a), math.atan(b))
-    if k == SIGN:
+    if k == SIGN_CODE:
         if a == b == 0.0:
             return 0.0, 0.0
         return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)
     if k == ABS:
         return modulus(a, b)
-    if not b <= UNTIL[k - FIRST]:
+    if not b <= UNTIL[k - FIRST_CODE]:
         return -math.inf, math.inf
-    return _between(k, a, b, kernels.value(k, a), kernels.value(k, b))
+    return _monotone_bounds(k, a, b, kernels.value(k, a), kernels.value(k, b))

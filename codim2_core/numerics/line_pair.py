@@ -1,4 +1,4 @@
-"""Where a trigonometric polynomial of degree 2 nearly vanishes: a pair of lines meets the unit circle.
+"""Near-zeros of a trigonometric polynomial of degree 2: a pair of lines meets the unit circle.
 
 With (X, Y) = (cos theta, sin theta) the polynomial is a conic. Some member of its pencil with the unit circle is a pair
 of real lines; they meet the circle where the polynomial vanishes.
@@ -10,7 +10,7 @@ import math
 
 __all__ = ["line_pair", "starts_of"]
 
-_TAU = 2.0 * math.pi
+_FULL_TURN = 2.0 * math.pi
 
 
 def starts_of(
@@ -77,7 +77,7 @@ def line_pair(m: float, c1: float, s1: float, c2: float, s2: float) -> tuple[flo
 def _chord(h: float, g: float, nu: float) -> list[float]:
     """Return the two zeros of h cos(theta - nu) + g, brought near [-pi, pi]."""
     half = math.acos(-g / h)
-    return [math.remainder(nu + half, _TAU), math.remainder(nu - half, _TAU)]
+    return [math.remainder(nu + half, _FULL_TURN), math.remainder(nu - half, _FULL_TURN)]
 
 
 def _pencil_root(b: float, c: float, d: float) -> float:
@@ -88,7 +88,7 @@ def _pencil_root(b: float, c: float, d: float) -> float:
         root = math.sqrt(p)
         angle = math.acos(max(-1.0, min(1.0, -q / (root * p)))) / 3.0
         # Increasing order; the outer two are at least as steep as the middle one, but may lie outside [0, 1].
-        guesses = [2.0 * root * math.cos(angle + k * _TAU / 3.0) - third for k in (1, 2, 0)]
+        guesses = [2.0 * root * math.cos(angle + k * _FULL_TURN / 3.0) - third for k in (1, 2, 0)]
         inside = [y for y in guesses if -1e-9 <= y <= 1.0 + 1e-9] or [0.5]
         y = max(inside, key=lambda y: abs((3.0 * y + 2.0 * b) * y + c))
     else:

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 STAGES = 5
 ITERATIONS = 10  # of Newton's method in one step
-SAFETY, SHRINK, GROW, FAILED = 0.9, 0.2, 8.0, 0.3
+STEP_SAFETY, MAX_SHRINKAGE, MAX_GROWTH, FAILED_SHRINKAGE = 0.9, 0.2, 8.0, 0.3
 CAREFUL, GROWTH_AFTER_FAILURE = 6, 1.2  # so many steps after Newton's method failed, a step grows by so much at most
 
 
@@ -84,7 +84,7 @@ class Step(NamedTuple):
         return self.first + self.polynomial @ (u ** np.arange(1, self.polynomial.shape[1] + 1))
 
 
-def shortened(step: Step, u: float) -> Step:
+def truncate_step(step: Step, u: float) -> Step:
     """Return the first part of a step, up to its fraction u."""
     powers = u ** np.arange(1, step.polynomial.shape[1] + 1)
     return Step(step.start, u * step.h, step.first, step.at(u), step.polynomial * powers)
@@ -92,7 +92,7 @@ def shortened(step: Step, u: float) -> Step:
 
 @dataclass(frozen=True)
 class Problem:
-    """What is integrated.
+    """An initial value problem.
 
     Attributes
     ----------
@@ -152,7 +152,7 @@ def steps(
     y, t, lost = first, t_start, 0.0
     previous: Step | None = None
     eager, careful, tried = False, 0, 0
-    here = _linearised(problem, y)
+    here = _linearise(problem, y)
     while (remaining := (t_end - t) - lost) > 0.0:
         h = min(h, here.bound)
         if h >= 0.99 * remaining:
@@ -168,7 +168,7 @@ def steps(
         if found is None:
             previous = None  # a prediction may have misled
             h, eager = h * factor, False
-            careful = CAREFUL if factor == FAILED else careful
+            careful = CAREFUL if factor == FAILED_SHRINKAGE else careful
             continue
         Z, polynomial = found
         step = Step(t, h, y, y + Z[-1], polynomial)
@@ -178,8 +178,8 @@ def steps(
         ahead = t + total
         lost = total - (ahead - t)
         t, y, previous = ahead, step.last, step
-        here = _linearised(problem, y)
-        most_growth = 1.0 if not eager and tried > 1 else GROWTH_AFTER_FAILURE if careful else GROW
+        here = _linearise(problem, y)
+        most_growth = 1.0 if not eager and tried > 1 else GROWTH_AFTER_FAILURE if careful else MAX_GROWTH
         h, eager, careful = h * min(factor, most_growth), True, max(careful - 1, 0)
 
 
@@ -193,7 +193,7 @@ class _Linearised:
     bound: float
 
 
-def _linearised(problem: Problem, y: Array) -> _Linearised:
+def _linearise(problem: Problem, y: Array) -> _Linearised:
     with np.errstate(all="ignore"):
         rate, jacobian, size = problem.F(y), problem.J(y), problem.scale(y)
         bound = problem.limit(y, rate, jacobian)
@@ -208,15 +208,15 @@ def _attempt(
     with np.errstate(all="ignore"):
         scaled = h * here.jacobian
         kron = (table.A[:, None, :, None] * scaled[None, :, None, :]).reshape(n * STAGES, n * STAGES)
-        guess = np.zeros((STAGES, n)) if previous is None else _extrapolated(previous, h, y, table.nodes)
+        guess = np.zeros((STAGES, n)) if previous is None else _predict_stages(previous, h, y, table.nodes)
         try:
             inverse = np.asarray(np.linalg.inv(np.eye(n * STAGES) - kron), float)
             damping = np.linalg.inv(np.eye(n) - table.gamma * scaled)
         except np.linalg.LinAlgError:
-            return None, FAILED
-        Z = _solved(problem.F, y, h, guess, inverse, size, rtol, table)
+            return None, FAILED_SHRINKAGE
+        Z = _solve_stages(problem.F, y, h, guess, inverse, size, rtol, table)
         if Z is None:
-            return None, 1.0 if guess.any() else FAILED
+            return None, 1.0 if guess.any() else FAILED_SHRINKAGE
         small = np.minimum(size, problem.scale(y + Z[-1]))
         error = damping @ ((table.gamma * h * here.rate + table.error @ Z) / size)
         norm = float(np.max(np.abs(error) * size / small)) / rtol
@@ -225,14 +225,14 @@ def _attempt(
             again = float(np.max(np.abs(error) * size / small)) / rtol
             norm = min(norm, again) if again == again else norm
     if not norm < math.inf:
-        return None, SHRINK
-    factor = min(max(SAFETY * max(norm, 1e-12) ** (-1.0 / (STAGES + 1)), SHRINK), GROW)
+        return None, MAX_SHRINKAGE
+    factor = min(max(STEP_SAFETY * max(norm, 1e-12) ** (-1.0 / (STAGES + 1)), MAX_SHRINKAGE), MAX_GROWTH)
     if norm > 1.0:
         return None, min(factor, 0.8)
     return (Z, (table.fit @ Z).T), factor
 
 
-def _extrapolated(previous: Step, h: float, y: Array, nodes: Array) -> Array:
+def _predict_stages(previous: Step, h: float, y: Array, nodes: Array) -> Array:
     """Stage increments that the last step's polynomial predicts."""
     ratio = h / previous.h
     if ratio > 4.0:
@@ -242,7 +242,7 @@ def _extrapolated(previous: Step, h: float, y: Array, nodes: Array) -> Array:
     return ahead + (previous.first - y)
 
 
-def _solved(
+def _solve_stages(
     F: Callable[[Array], Array],
     y: Array,
     h: float,

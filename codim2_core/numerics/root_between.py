@@ -49,7 +49,7 @@ def root_through(x: Sequence[float] | Array, y: Sequence[float] | Array) -> floa
 
 
 def vertex_through(x: Sequence[float], y: Sequence[float]) -> float | None:
-    """Where the parabola through three values comes to zero or beyond, if its middle one is the least; or None."""
+    """Return where the parabola through three values reaches zero, if its middle one is the least; or None."""
     y0, y1, y2 = y
     s = math.copysign(1.0, y1)
     bend = s * (y0 - 2.0 * y1 + y2)

@@ -8,14 +8,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Roots", "lowest", "refined", "roots", "sign_changes", "vertex"]
+__all__ = ["Roots", "lowest", "refine_roots", "roots", "sign_changes", "vertex"]
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 
 _UNIT = np.linspace(0.0, 1.0, 17)
 _OFFSETS = 10.0 ** -np.arange(1.0, 17.0, 1.5)
-_AROUND = np.concatenate([-_OFFSETS, _OFFSETS[::-1]])
+_BRACKET_OFFSETS = np.concatenate([-_OFFSETS, _OFFSETS[::-1]])
 _ROUNDS = 40
 _NOTHING = 1e-13  # of the largest size of a function: below it, its sign is rounding
 
@@ -26,7 +26,7 @@ def sign_changes(values: Array) -> NDArray[np.intp]:
     return np.flatnonzero(positive[1:] != positive[:-1])
 
 
-def refined(function: Function, low: Array, high: Array) -> tuple[Array, NDArray[np.bool_]]:
+def refine_roots(function: Function, low: Array, high: Array) -> tuple[Array, NDArray[np.bool_]]:
     """One sign change in each interval, to the last digits.
 
     Each interval is sampled evenly and, more and more densely, around the zero of the chord.
@@ -53,7 +53,7 @@ def refined(function: Function, low: Array, high: Array) -> tuple[Array, NDArray
         if not len(todo):
             break
         width = (high - low)[:, None]
-        near = guess[:, None] + width * _AROUND
+        near = guess[:, None] + width * _BRACKET_OFFSETS
         x = np.sort(np.concatenate([low[:, None] + width * _UNIT, np.clip(near, low[:, None], high[:, None])], axis=1))
         x[:, -1] = high
         y = function(x.ravel()).reshape(x.shape)
@@ -75,7 +75,7 @@ def refined(function: Function, low: Array, high: Array) -> tuple[Array, NDArray
 
 
 class Roots(NamedTuple):
-    """What `roots` finds on each grid, increasing."""
+    """The roots found on each grid, increasing."""
 
     zeros: list[Array]
     poles: list[Array]
@@ -111,12 +111,12 @@ def roots(function: Function, grids: Sequence[Array], values: Sequence[Array]) -
         high += grid[changes + 1].tolist()
         owner += [k] * len(changes)
         tips += [(k, i) for i in lowest(grid, y)]
-    hidden, touching = _hidden(function, grids, values, tips)
+    hidden, touching = _hidden_pairs(function, grids, values, tips)
     for k, u, v in hidden:
         low.append(u)
         high.append(v)
         owner.append(k)
-    place, pole = refined(function, np.array(low), np.array(high)) if low else (np.zeros(0), np.zeros(0, bool))
+    place, pole = refine_roots(function, np.array(low), np.array(high)) if low else (np.zeros(0), np.zeros(0, bool))
     of = np.array(owner, int)
     each = range(len(grids))
     return Roots(
@@ -157,7 +157,7 @@ def vertex(grid: Array, y: Array, i: int) -> float:
     return float(grid[i] + min(max(-0.5 * slope / bend, 0.9 * u), 0.9 * w)) if bend else float(grid[i] + 0.5 * w)
 
 
-def _hidden(
+def _hidden_pairs(
     function: Function, grids: Sequence[Array], values: Sequence[Array], tips: list[tuple[int, int]]
 ) -> tuple[list[tuple[int, float, float]], list[tuple[int, float]]]:
     """Brackets (grid, low, high) of the zeros that minima of the size hide, two for each pair; and (grid, touch)."""

@@ -10,7 +10,7 @@ polishes them. The number of zeros is decided by the discriminant with a bound o
 bound does not decide, or a zero is ill-conditioned, `trigonometric_exact` starts again with integers.
 
 What "multiple" means for typed numbers: a zero is reported as double, triple or fourfold if coefficients exist
-that have it and differ from every given one by at most `ROUNDING` (1.4 half-units in the last place); the
+that have it and differ from every given one by at most `INPUT_ROUNDING` (1.4 half-units in the last place); the
 highest such multiplicity wins. `exact_count` is the number of distinct zeros of the doubles as given.
 """
 
@@ -21,11 +21,11 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from .line_pair import starts_of
-from .trigonometric_exact import ROUNDING, solve_exactly
+from .trigonometric_exact import INPUT_ROUNDING, solve_exactly
 
 __all__ = [
     "GENERAL_PATTERNS",
-    "ROUNDING",
+    "INPUT_ROUNDING",
     "THETA_PATTERNS",
     "TrigonometricZeros",
     "radial_zeros",
@@ -33,7 +33,7 @@ __all__ = [
     "tangential_zeros",
 ]
 
-_TAU = 2.0 * math.pi
+_FULL_TURN = 2.0 * math.pi
 _FILTER = 2.0**-49  # 16 half-ulps: covers the rounding of the discriminant and the inputs' own ROUNDING
 GENERAL_PATTERNS = ((2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (0, 0, 2, 0, 0), (0, 0, 0, 2, 0), (0, 0, 0, 0, 2))
 # Rows for b, f2, f1, a, d.
@@ -88,7 +88,7 @@ def real_zeros(m0: float, c1: float, s1: float, c2: float, s2: float) -> Trigono
         If a coefficient is not finite.
     """
     inputs = _finite((m0, c1, s1, c2, s2), ("m0", "c1", "s1", "c2", "s2"))
-    scale, (m0, c1, s1, c2, s2) = _scaled(inputs)
+    scale, (m0, c1, s1, c2, s2) = _scale_by_power_of_two(inputs)
     fast = _fast(m0, c1, s1, c2, s2, abs(m0), abs(c2), abs(s2))
     return _finish(fast, scale, inputs, GENERAL_PATTERNS)
 
@@ -113,10 +113,10 @@ def tangential_zeros(a: float, b: float, d: float, f1: float, f2: float) -> Trig
     """
     inputs = _finite((b, f2, f1, a, d), ("b", "f2", "f1", "a", "d"))
     if a == d:
-        scale, (b, f2, f1) = _scaled(inputs[:3])
+        scale, (b, f2, f1) = _scale_by_power_of_two(inputs[:3])
         fast = _fast(b, f2, -f1, 0.0, 0.0, abs(b), 0.0, 0.0)
         return _finish(fast, scale, inputs[:3], THETA_PATTERNS[:3])
-    scale, (b, f2, f1, a, d) = _scaled(inputs)
+    scale, (b, f2, f1, a, d) = _scale_by_power_of_two(inputs)
     fast = _fast(b, f2, -f1, 0.0, 0.5 * (d - a), abs(b), 0.0, 0.5 * (abs(a) + abs(d)))
     return _finish(fast, scale, inputs, THETA_PATTERNS)
 
@@ -141,10 +141,10 @@ def radial_zeros(a: float, d: float, f1: float, f2: float) -> TrigonometricZeros
     """
     inputs = _finite((f1, f2, a, d), ("f1", "f2", "a", "d"))
     if a == d:
-        scale, (f1, f2, a) = _scaled(inputs[:3])
+        scale, (f1, f2, a) = _scale_by_power_of_two(inputs[:3])
         fast = _fast(a, f1, f2, 0.0, 0.0, abs(a), 0.0, 0.0)
         return _finish(fast, scale, inputs[:3], (*_RADIAL[:2], (2, 0, 0, 0, 0)))
-    scale, (f1, f2, a, d) = _scaled(inputs)
+    scale, (f1, f2, a, d) = _scale_by_power_of_two(inputs)
     size = 0.5 * (abs(a) + abs(d))
     fast = _fast(0.5 * (a + d), f1, f2, 0.5 * (a - d), 0.0, size, size, 0.0)
     return _finish(fast, scale, inputs, _RADIAL)
@@ -157,7 +157,7 @@ def _finite(values: tuple[float, ...], names: tuple[str, ...]) -> tuple[float, .
     return tuple(map(float, values))
 
 
-def _scaled(values: tuple[float, ...]) -> tuple[int, list[float]]:
+def _scale_by_power_of_two(values: tuple[float, ...]) -> tuple[int, list[float]]:
     """Divide by a power of two so that the largest is in [1/2, 1); what underflows is beyond any rounding."""
     exponent = math.frexp(max(map(abs, values)))[1]
     return exponent, [math.ldexp(v, -exponent) for v in values]
@@ -176,7 +176,7 @@ def _finish(
         return TrigonometricZeros(theta, slope, (1,) * len(theta), False, len(theta), distance)
     exact = solve_exactly(inputs, patterns)
     # In cyclic order already: zeros closer than the spacing of doubles keep it.
-    ordered = [(_wrapped(z.theta), z) for z in exact.zeros]
+    ordered = [(_wrap_angle(z.theta), z) for z in exact.zeros]
     first = next((i for i in range(1, len(ordered)) if ordered[i][0] < ordered[i - 1][0]), 0)
     ordered = ordered[first:] + ordered[:first]
     return TrigonometricZeros(
@@ -189,11 +189,11 @@ def _finish(
     )
 
 
-def _wrapped(theta: float) -> float:
+def _wrap_angle(theta: float) -> float:
     """Bring an angle of (-2 pi, 2 pi) to [0, 2 pi); -1e-17 becomes 0.0."""
     if theta < 0.0:
-        theta += _TAU
-    return theta if 0.0 < theta < _TAU else 0.0
+        theta += _FULL_TURN
+    return theta if 0.0 < theta < _FULL_TURN else 0.0
 
 
 def _fast(
@@ -242,7 +242,7 @@ def _fast(
                 break
         else:
             return None
-        zeros.append((_wrapped(_on_axis(theta, m, c1, s1, c2)), slope))
+        zeros.append((_wrap_angle(_on_axis(theta, m, c1, s1, c2)), slope))
     zeros.sort()
     for i in range(len(zeros)):
         if zeros[i][1] * zeros[i - 1][1] > 0.0:

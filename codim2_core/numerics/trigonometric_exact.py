@@ -17,8 +17,8 @@ from typing import NamedTuple
 #: How far, relatively, an input may be off: 1.4 half-units in the last place (0.7 * 2**-52). Points of a
 #: stratum computed in doubles lie within 1.0 of it in 99.5 % and within 1.4 in 99.9 % of random trials, while one
 #: coefficient changed by 1e-15 at the pitchfork a = -1, b = 0, d = -1.5, f = (-0.5, 0) lies at 1.5.
-ROUNDING = 0.7 * 2.0**-52
-_PER_ROUNDING = int(1.0 / ROUNDING)
+INPUT_ROUNDING = 0.7 * 2.0**-52
+_PER_ROUNDING = int(1.0 / INPUT_ROUNDING)
 
 _AXES = ((1, 0, 1), (0, 1, 1), (-1, 0, 1), (0, -1, 1))
 _SLANTED = tuple((i * x, j * y, 5) for x, y in ((3, 4), (4, 3)) for i in (1, -1) for j in (1, -1))
@@ -89,7 +89,7 @@ def solve_exactly(inputs: Sequence[float], patterns: Sequence[Sequence[int]]) ->
     while len(chain[-1]) > 2:
         chain.append([k * a for k, a in enumerate(chain[-1])][1:])
     levels = _real_zeros_of_chain(chain, bits)
-    found, distance = _named(chain, levels, doubtful, bits)
+    found, distance = _degenerate_zeros(chain, levels, doubtful, bits)
     count = len(levels[0]) if _discriminant(total) else _count_degenerate(quartic, levels, bits)
     zeros = tuple(_direction(p, m, chain[1], base, bits, exponent) for p, m in found)
     return ExactZeros(zeros, False, count, distance)
@@ -169,11 +169,13 @@ def _real_zeros_of_chain(chain: Sequence[Sequence[int]], bits: int) -> list[list
             if values[i] == 0:
                 levels[k].append(knots[i])
             elif values[i + 1] and (values[i] > 0) != (values[i + 1] > 0):
-                levels[k].append(_bracketed(polynomial, slope, knots[i], knots[i + 1], values[i] > 0, bits))
+                levels[k].append(_bracketed_newton(polynomial, slope, knots[i], knots[i + 1], values[i] > 0, bits))
     return levels
 
 
-def _bracketed(polynomial: Sequence[int], slope: Sequence[int], low: int, high: int, falls: bool, bits: int) -> int:
+def _bracketed_newton(
+    polynomial: Sequence[int], slope: Sequence[int], low: int, high: int, falls: bool, bits: int
+) -> int:
     """Newton's method kept inside a bracket, to the last of `bits` binary places."""
     p, last = (low + high) >> 1, high - low
     while high - low > 1:
@@ -247,7 +249,7 @@ def _double_distance(chain: Sequence[Sequence[int]], doubtful: Sequence[Sequence
     return _distance(chain, doubtful, p, 2, bits)
 
 
-def _named(
+def _degenerate_zeros(
     chain: Sequence[Sequence[int]],
     levels: Sequence[Sequence[int]],
     doubtful: Sequence[Sequence[int]],
@@ -256,10 +258,10 @@ def _named(
     """Zeros with multiplicities of the most degenerate polynomial within the rounding of the inputs."""
     critical, zeros = levels[1], levels[0]
     fourfold = _distance(chain, doubtful, levels[3][0], 3, bits)
-    if fourfold <= ROUNDING:
+    if fourfold <= INPUT_ROUNDING:
         return [(levels[3][0], 4)], 0.0
     triple, p = min(((_distance(chain, doubtful, p, 2, bits), p) for p in levels[2]), default=(math.inf, 0))
-    if triple <= ROUNDING:
+    if triple <= INPUT_ROUNDING:
         others = [q for q in zeros if _value(chain[1], q, bits)]
         # One simple zero remains: the one farthest from the cluster.
         far = max(others or [p], key=lambda q: abs(q - p))
@@ -274,7 +276,7 @@ def _named(
         value = _value(chain[0], p, bits)
         up = (chain[0][-1] > 0) == (i % 2 == 0)
         crossed = value < 0 if up else value > 0
-        if scores[i] <= ROUNDING and (not crossed or {i, i + 1} <= set(gaps)):
+        if scores[i] <= INPUT_ROUNDING and (not crossed or {i, i + 1} <= set(gaps)):
             pairs[i] = {i, i + 1} if crossed else set()
     if not pairs:
         return [(q, 1) for q in zeros], min([triple, fourfold, *scores])
@@ -301,7 +303,7 @@ def _both_double(
         scale = sum(abs(v) for v in values) or 1
         rows.append([v / scale for v in values])
         vector.append(_value(chain[0], p, bits) / scale)
-    return _backward_distance(vector, list(zip(*rows, strict=True))) <= ROUNDING
+    return _backward_distance(vector, list(zip(*rows, strict=True))) <= INPUT_ROUNDING
 
 
 def _direction(

@@ -1,4 +1,4 @@
-"""How long trajectories are drawn: until they have ended at the slowest attractor, in T (dT = dt/rho)."""
+"""The duration of drawn trajectories: until they have ended at the slowest attractor, in T (dT = dt/rho)."""
 
 from __future__ import annotations
 
@@ -8,8 +8,8 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..systems.frozen import AtZ
 
-LEAST = 40.0  # over the size of U: what is drawn in any case
-MOST = 1e9  # and at most: rates 1e-8 of the largest cannot be told from 0 by differences (`stepping.events`)
+MIN_DURATION = 40.0  # over the size of U: what is drawn in any case
+MAX_DURATION = 1e9  # and at most: rates 1e-8 of the largest cannot be told from 0 by differences (`stepping.events`)
 ARRIVAL = 10.0  # over the slowest rate: e^-10 of the way is left, a hundredth of a pixel
 STIFF = 60.0  # ratio of the rates at one equilibrium from which an explicit method is bound to the fast one for long
 
@@ -44,7 +44,7 @@ def drawn_duration(at: AtZ, equator: EquatorEquilibria, critical: tuple[Critical
     Returns
     -------
     float
-        Between `LEAST` and `MOST` over the size of U; rates that would take longer are not waited for.
+        Between `MIN_DURATION` and `MAX_DURATION` over the size of U; rates that would take longer are not waited for.
     """
     size = at.size or 1.0
     rates = [
@@ -57,4 +57,4 @@ def drawn_duration(at: AtZ, equator: EquatorEquilibria, critical: tuple[Critical
             height = 1.0 / math.hypot(1.0, float(C.x2[0]), float(C.x2[1]))
             rates.append(float(abs(C.eigenvalues.real).min()) / height)
     needed = max((ARRIVAL / rate for rate in rates if rate > 0.0), default=0.0)
-    return min(max(LEAST / size, needed), MOST / size)
+    return min(max(MIN_DURATION / size, needed), MAX_DURATION / size)

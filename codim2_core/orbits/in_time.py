@@ -18,11 +18,13 @@ from .seeds import checked_seeds
 Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-7, 1e-9
-FAR = 10.0  # eps: how far from Sigma an orbit on the hemisphere is followed; it comes from or goes to infinity there …
-BEYOND = 3.0  # … or so many times as far as its seed, where that is farther
-PARTS = np.array([1.0, 2.0, 3.0]) / 3.0  # of each step, so that a curve drawn through them is smooth
-STEPS = 400  # of each half
-MOST = 300  # points of each half
+MAX_RADIUS = (
+    10.0  # eps: how far from Sigma an orbit on the hemisphere is followed; it comes from or goes to infinity there …
+)
+MAX_SEED_FACTOR = 3.0  # … or so many times as far as its seed, where that is farther
+STEP_PARTS = np.array([1.0, 2.0, 3.0]) / 3.0  # of each step, so that a curve drawn through them is smooth
+MAX_HALF_STEPS = 400  # of each half
+MAX_HALF_POINTS = 300  # points of each half
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,13 +109,13 @@ def _on_hemisphere(at: AtZ, psi: Psi, start: Array, end: float) -> tuple[Array, 
     thousand times at 10 eps.
     """
     x2 = scaling_from_disc(start)
-    far = max(FAR, BEYOND * math.hypot(*x2))
+    far = max(MAX_RADIUS, MAX_SEED_FACTOR * math.hypot(*x2))
 
     def rate(_: float, y: Array) -> Array:
         faster = math.hypot(1.0, y[0], y[1])
         return np.append(faster * at.U(e_psi(psi, disc_from_scaling(y[:2]))), faster)
 
-    y = _followed(rate, np.append(x2, 0.0), end, lambda y: math.hypot(y[0], y[1]) > far)
+    y = _integrate(rate, np.append(x2, 0.0), end, lambda y: math.hypot(y[0], y[1]) > far)
     left = np.flatnonzero(np.hypot(y[:, 0], y[:, 1]) > far)
     y = y[: left[0] if len(left) else None]
     p = disc_from_scaling(y[:, :2])
@@ -128,7 +130,7 @@ def _outside(at: AtZ, _: Psi, start: Array, end: float) -> tuple[Array, Array, A
         return np.array([radial, turning, math.exp(min(y[0], 700.0))])
 
     r = math.hypot(*start)
-    y = _followed(rate, np.array([math.log(r - 1.0), math.atan2(start[1], start[0]), 0.0]), end)
+    y = _integrate(rate, np.array([math.log(r - 1.0), math.atan2(start[1], start[0]), 0.0]), end)
     rho, e = np.exp(y[:, 0]), np.stack([np.cos(y[:, 1]), np.sin(y[:, 1])], axis=-1)
     return y[:, 2], (1.0 + rho)[:, None] * e, rho[:, None] * e, rho
 
@@ -137,17 +139,17 @@ def _nowhere(_: Array) -> bool:
     return False
 
 
-def _followed(
+def _integrate(
     rate: Callable[[float, Array], Array], start: Array, end: float, left: Callable[[Array], bool] = _nowhere
 ) -> Array:
-    """Return the states from T = 0 to `end`, in `STEPS` steps at most, or until one has `left`: (k, n)."""
+    """Return the states from T = 0 to `end`, in `MAX_HALF_STEPS` steps at most, or until one has `left`: (k, n)."""
     from scipy.integrate import LSODA  # imported late: it takes longer than all of this package
 
     found = [start[None]]
     solver = LSODA(rate, 0.0, start, end, rtol=RTOL, atol=ATOL)
-    while end and solver.status == "running" and len(found) <= STEPS and not left(solver.y):
+    while end and solver.status == "running" and len(found) <= MAX_HALF_STEPS and not left(solver.y):
         before = solver.t
         solver.step()
-        found.append(solver.dense_output()(before + (solver.t - before) * PARTS).T)
+        found.append(solver.dense_output()(before + (solver.t - before) * STEP_PARTS).T)
     states = np.concatenate(found)
-    return states[np.unique(np.rint(np.linspace(0, len(states) - 1, MOST)).astype(int))]
+    return states[np.unique(np.rint(np.linspace(0, len(states) - 1, MAX_HALF_POINTS)).astype(int))]

@@ -1,4 +1,4 @@
-"""How trajectories are followed: their eleven options, checked once."""
+"""The eleven options of an integration of trajectories, checked once."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Literal
 
 PIXEL = 1.0 / 180.0
 LEAST_PIXEL = 1e-10  # a line within a quarter of it has some 1e5 points
-STEP_LIMIT = 10_000
+DEFAULT_MAX_STEPS = 10_000
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Stepping:
     capture: float | None = None
     samples: Literal["ends"] | None = None
     length: float = math.inf
-    step_limit: int = STEP_LIMIT
+    step_limit: int = DEFAULT_MAX_STEPS
     stiff: bool = False
 
     def __post_init__(self) -> None:

@@ -1,4 +1,4 @@
-"""What integrating trajectories returns: lines of the picture, their times, and why each one ended."""
+"""The result of integrating trajectories: lines of the picture, their times, and why each one ended."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 
 
 class Status(Enum):
-    """Why a trajectory ended; the value is the sentence shown."""
+    """The reason why a trajectory ended; the value is the sentence shown."""
 
     T_MAX = say("reached t_max")
     EQUILIBRIUM = say("reached an equilibrium")
@@ -91,11 +91,11 @@ class Trajectories:
 
     @cached_property
     def status(self) -> tuple[Status, ...]:
-        """Why each one ended."""
+        """Return the reason why each one ended."""
         return tuple(STATUSES[code] for code in self.codes.tolist())
 
 
-def joined(parts: Sequence[Trajectories]) -> Trajectories:
+def concatenate(parts: Sequence[Trajectories]) -> Trajectories:
     """Several results as one, in order."""
     if not parts:
         return Trajectories(
@@ -124,7 +124,7 @@ def cut_up(every: Trajectories, until: Sequence[int], evaluations: Sequence[int]
     return parts
 
 
-def continued(first: Trajectories, which: NDArray[np.int64], rest: Trajectories) -> Trajectories:
+def append_continuations(first: Trajectories, which: NDArray[np.int64], rest: Trajectories) -> Trajectories:
     """Return trajectories of which some, `which` of `first`, go on as `rest`, from where they ended there."""
     points, times = list(first.points), list(first.times)
     for i, more, later in zip(which.tolist(), rest.points, rest.times, strict=True):

@@ -1,4 +1,4 @@
-"""Where the drawn trajectories start: fixed places, so that a seed keeps its identity while a slider moves.
+"""Seeds of drawn trajectories: fixed places, so that a seed keeps its identity while a slider moves.
 
 The places show the structure of any portrait: a ring outside, from which every limit direction that attracts is
 reached, and rings over the disc, evenly spaced. They are symmetric about both axes, as the normal form is for b = 0

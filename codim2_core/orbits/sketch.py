@@ -15,9 +15,9 @@ from ..systems.kinds import AtZ
 Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-5, 1e-5  # where orbits part, errors of 1e-3 on the way become some pixels
-LONGEST = 16.0  # in units of 1/max |U|: what is slower is seen when the kernels are there
-SAMPLES = 640  # of each half
-SPACING = 0.015  # of the drawn points, in picture units
+MAX_SKETCH_TIME = 16.0  # in units of 1/max |U|: what is slower is seen when the kernels are there
+HALF_SAMPLES = 640  # of each half
+POINT_SPACING = 0.015  # of the drawn points, in picture units
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def sketch(at: AtZ, psi: Psi, seeds: Array, t_max: float, length: float, view: f
     """
     if len(seeds) == 0:
         return Sketch(np.empty((0, 2)), np.zeros(1, np.int64))
-    longest = min(t_max, LONGEST / (at.size or 1.0))
+    longest = min(t_max, MAX_SKETCH_TIME / (at.size or 1.0))
     halves = [_half(at, psi, seeds, sign * longest, length, view) for sign in (-1.0, 1.0)]
     lines = [np.concatenate([back[:0:-1], ahead]) for back, ahead in zip(*halves, strict=True)]
     return Sketch(np.concatenate(lines), np.cumsum([0] + [len(line) for line in lines]))
@@ -90,21 +90,21 @@ def _half(at: AtZ, psi: Psi, seeds: Array, end: float, length: float, view: floa
     from scipy.integrate import solve_ivp  # imported late: it takes longer than all of this package
 
     found = solve_ivp(
-        rate, (0.0, end), start.ravel(), "RK45", t_eval=np.linspace(0.0, end, SAMPLES), rtol=RTOL, atol=ATOL
+        rate, (0.0, end), start.ravel(), "RK45", t_eval=np.linspace(0.0, end, HALF_SAMPLES), rtol=RTOL, atol=ATOL
     )
     points = found.y.T.reshape(-1, *shape)
     if outside:
         r = 1.0 + np.exp(np.minimum(points[..., 0], math.log(10.0 * view)))
         points = np.stack([r * np.cos(points[..., 1]), r * np.sin(points[..., 1])], axis=-1)
-    return _thinned(points, length, view)
+    return _thin_out(points, length, view)
 
 
-def _thinned(points: Array, length: float, view: float) -> list[Array]:
+def _thin_out(points: Array, length: float, view: float) -> list[Array]:
     """Leave out points that are near the one before, and what is beyond the view or the length; (n, k, 2) to lines."""
     steps = np.hypot(*np.moveaxis(np.diff(points, axis=0), -1, 0))
     way = np.concatenate([np.zeros((1, points.shape[1])), np.cumsum(steps, axis=0)])
     seen = np.logical_and.accumulate((np.abs(points).max(axis=-1) <= view) & (way <= length), axis=0)
     seen[0] = True
-    places = np.floor(way / SPACING)
+    places = np.floor(way / POINT_SPACING)
     kept = seen & np.concatenate([np.ones((1, points.shape[1]), bool), np.diff(places, axis=0) > 0.0])
     return [points[kept[:, i], i] for i in range(points.shape[1])]

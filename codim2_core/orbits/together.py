@@ -12,12 +12,12 @@ from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from .options import Stepping
 from .result import Trajectories
-from .trajectories import in_lanes, stepped
+from .trajectories import in_lanes, integrate_explicitly
 
 Array = NDArray[np.float64]
 
 
-def together(at: AtZ, psis: Sequence[Psi], states: Sequence[Array], options: Stepping) -> list[Trajectories]:
+def batch_by_psi(at: AtZ, psis: Sequence[Psi], states: Sequence[Array], options: Stepping) -> list[Trajectories]:
     """Follow states of the hemisphere under several Psi side by side, explicitly.
 
     One alone, and typed ones, of which the field is compiled for the picture, are followed by themselves.
@@ -39,7 +39,9 @@ def together(at: AtZ, psis: Sequence[Psi], states: Sequence[Array], options: Ste
     some = [i for i in every if not psis[i].record.typed]
     if len(some) < 2:
         some = []
-    found = {i: stepped(at, psis[i], states[i], _inside(states[i]), options) for i in every if i not in some}
+    found = {
+        i: integrate_explicitly(at, psis[i], states[i], _inside(states[i]), options) for i in every if i not in some
+    }
     if some:
         lines = _blocks(at, [psis[i] for i in some], [states[i] for i in some], options)
         found.update(zip(some, lines, strict=True))

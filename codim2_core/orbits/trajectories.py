@@ -20,11 +20,11 @@ from ..systems.elinear import ELinear
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
 from .departures import departures
-from .options import PIXEL, STEP_LIMIT, Stepping, stepping
-from .result import STATUSES, Status, Trajectories, continued, cut_up, joined
+from .options import DEFAULT_MAX_STEPS, PIXEL, Stepping, stepping
+from .result import STATUSES, Status, Trajectories, append_continuations, concatenate, cut_up
 from .seeds import checked_seeds
 
-__all__ = ["Status", "Trajectories", "continuation", "is_warm", "joined", "trajectories", "warm"]
+__all__ = ["Status", "Trajectories", "concatenate", "continuation", "is_warm", "trajectories", "warm"]
 
 Array = NDArray[np.float64]
 
@@ -33,9 +33,9 @@ DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
 # A step of either costs about as much; one implicit step does for any number that stability would ask for. What is
 # longer than the disc is wide by then, or would be at its last pace in as much time again, goes round and round, and
 # does not creep.
-EXPLICIT, IMPLICIT, ROUND = 300, 1.0 / 3.0, 2.5  # IMPLICIT: of the step limit
+EXPLICIT, IMPLICIT, ROUND_FACTOR = 300, 1.0 / 3.0, 2.5  # IMPLICIT: of the step limit
 
-FARTHEST = (
+FARTHEST_PLACES = (
     1e6  # from Sigma, of a seed whose line is drawn: to a quarter of a pixel an arc has points without end beyond
 )
 
@@ -75,7 +75,7 @@ def trajectories(
     capture: float | None = None,
     samples: Literal["ends"] | None = None,
     length: float = math.inf,
-    step_limit: int = STEP_LIMIT,
+    step_limit: int = DEFAULT_MAX_STEPS,
     stiff: bool = False,
 ) -> Trajectories:
     """Follow trajectories from points of the picture: eq:LP on the hemisphere, eq:polar_gen_odes_desing outside.
@@ -131,10 +131,10 @@ def trajectories(
     states, signs, largest = _kernels().states_of(np.ascontiguousarray(points))
     if math.isnan(largest):
         checked_seeds(seeds)  # says which
-    if largest > FARTHEST and options.samples is None:
-        far = np.flatnonzero(np.abs(points).max(axis=1) > FARTHEST)
+    if largest > FARTHEST_PLACES and options.samples is None:
+        far = np.flatnonzero(np.abs(points).max(axis=1) > FARTHEST_PLACES)
         raise ValueError(
-            f"seed {far[0]} is {tuple(points[far[0]].tolist())}; give points at most {FARTHEST:g} away, "
+            f"seed {far[0]} is {tuple(points[far[0]].tolist())}; give points at most {FARTHEST_PLACES:g} away, "
             'or samples="ends".'
         )
     return _integrate(at, psi, states, signs, options)
@@ -142,16 +142,16 @@ def trajectories(
 
 def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     if len(states) == 0:
-        return joined([])
+        return concatenate([])
     if not options.stiff:
-        return stepped(at, psi, states, signs, options)
-    found = stepped(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
+        return integrate_explicitly(at, psi, states, signs, options)
+    found = integrate_explicitly(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
     which, spent, drawn, pace = _under_way(found)
-    creeping = (drawn < ROUND) & (pace * spent < ROUND)
+    creeping = (drawn < ROUND_FACTOR) & (pace * spent < ROUND_FACTOR)
     if options.step_limit > EXPLICIT and creeping.any():
         which, spent, drawn = which[creeping], spent[creeping], drawn[creeping]
-        rest = _crept(at, psi, found.ends[which], signs[which], spent, drawn, options)
-        found = continued(found, which, rest)
+        rest = _integrate_implicitly(at, psi, found.ends[which], signs[which], spent, drawn, options)
+        found = append_continuations(found, which, rest)
         which, spent, drawn, _ = _under_way(found)
     more = options.step_limit - EXPLICIT - (int(IMPLICIT * options.step_limit) if creeping.any() else 0)
     if not len(which) or more <= 0:
@@ -160,11 +160,11 @@ def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping
         options, t_max=max(options.t_max - spent.min(), 1e-300), length=max(options.length - drawn.max(), 1e-9),
         step_limit=more,
     )  # fmt: skip
-    return continued(found, which, stepped(at, psi, found.ends[which], signs[which], last))
+    return append_continuations(found, which, integrate_explicitly(at, psi, found.ends[which], signs[which], last))
 
 
 def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Array]:
-    """Which trajectories have come to the step limit, in what time each, over what length, and how fast at last."""
+    """Return the trajectories that came to the step limit: indices, times, lengths, and last speeds."""
     which = np.flatnonzero(found.codes == STATUSES.index(Status.STEP_LIMIT))
     lines, times = found.points, found.times
     spent = np.array([abs(times[i][-1]) for i in which])
@@ -173,7 +173,7 @@ def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Ar
     return which, spent, drawn, np.array([way / max(time, 1e-300) for way, time in last])
 
 
-def stepped(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
+def integrate_explicitly(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     """Follow trajectories explicitly."""
     found = in_lanes(at, _kernels().problem(at, psi, options.backward), states, signs, [len(states)], options)[0]
     _warm.add(psi.family if at.typed is None else GENERAL)
@@ -207,7 +207,7 @@ def in_lanes(
     return [found] if len(until) == 1 else cut_up(found, until, evaluations.tolist())
 
 
-def _crept(
+def _integrate_implicitly(
     at: AtZ, psi: Psi, states: Array, signs: Array, spent: Array, drawn: Array, options: Stepping
 ) -> Trajectories:
     """Follow trajectories implicitly, after a time that each has `spent` and a length that is `drawn`."""
@@ -279,7 +279,7 @@ def continuation(
     capture: float | None = None,
     samples: Literal["ends"] | None = None,
     length: float = math.inf,
-    step_limit: int = STEP_LIMIT,
+    step_limit: int = DEFAULT_MAX_STEPS,
     stiff: bool = False,
     beside: Array | None = None,
 ) -> Trajectories:

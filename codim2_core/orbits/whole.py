@@ -75,10 +75,10 @@ class Orbits:
 
     @property
     def status(self) -> tuple[Status, ...]:
-        """Why each orbit ends, forward in time."""
+        """Return the reason why each orbit ends, forward in time."""
         return self.forward.status
 
     @property
     def origin(self) -> tuple[Status, ...]:
-        """Why each orbit ends, backward in time: where it comes from."""
+        """Return the reason why each orbit ends, backward in time: its alpha limit set."""
         return self.backward.status

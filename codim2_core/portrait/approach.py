@@ -19,14 +19,14 @@ from numpy.typing import ArrayLike
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem, found_once
-from ..psi.constructors import compared
+from ..psi.constructors import comparison_families
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..systems.kinds import AnySystem
-from ..words import named, say
+from ..words import say, written_label
 from .endings import angular_sign, radially_neutral
 from .outcomes import Outcome, Outcomes, on_arcs
-from .verdicts import ANGLES, OUTER, Array, Judged, arriving, arriving_begun, spiralling, with_flow
+from .verdicts import ARRIVAL_ANGLES, OUTER_ANGLES, Array, Judged, arriving_begun, judge_arrivals, spiralling, with_flow
 
 __all__ = ["approach_outcomes"]
 
@@ -89,9 +89,9 @@ def outcomes_of(problem: LayerProblem) -> Outcomes:
 
 def compared_outcomes(own: LayerProblem, compare: Sequence[Psi] | None) -> Outcomes:
     """Say the same, with the regularisations that are asked as in `outcomes`."""
-    equator, asked = own.equator, _asked(own, compare)
+    equator, asked = own.equator, _comparison(own, compare)
     if not len(equator):
-        whole = _whole(asked)
+        whole = _outcome_of_equator(asked)
         found = () if whole.verdict == "misses" else (whole,)
         return Outcomes(found, (), equator, whole, own.at)
     directions = _directions(asked, range(len(equator)))
@@ -102,9 +102,9 @@ def compared_outcomes(own: LayerProblem, compare: Sequence[Psi] | None) -> Outco
 
 def outcome_towards(own: LayerProblem, theta: float, compare: Sequence[Psi] | None = None) -> Outcome:
     """Say what `outcomes_of` says of one angle of approach, at the cost of that one."""
-    equator, asked = own.equator, _asked(own, compare)
+    equator, asked = own.equator, _comparison(own, compare)
     if not len(equator):
-        return _whole(asked)
+        return _outcome_of_equator(asked)
     i = Outcomes((), (), equator, None, own.at).destination(theta)
     return on_arcs(equator) if i is None else _directions(asked, (i,))[0]
 
@@ -117,11 +117,11 @@ class _Asked(NamedTuple):
     sensitive: bool
 
 
-def _asked(own: LayerProblem, compare: Sequence[Psi] | None) -> _Asked:
+def _comparison(own: LayerProblem, compare: Sequence[Psi] | None) -> _Asked:
     if not _sensitive(own.at, own.equator, own.critical):
         return _Asked(own, [], False)
     if compare is None:
-        compare = () if len(own.critical) > MOST_COMPARED else compared()
+        compare = () if len(own.critical) > MOST_COMPARED else comparison_families()
     return _Asked(own, [own.under(other) for other in compare], True)
 
 
@@ -133,7 +133,7 @@ def _directions(asked: _Asked, indices: Sequence[int]) -> tuple[Outcome, ...]:
     problems = {problem.psi: problem for problem in (own, *others)}  # the own Psi may be one of the others
     lines = arriving_begun(list(problems.values()), which)
     arrivals = {
-        problem.psi: arriving(problem, which, begun, ANGLES if problem is own else OUTER)
+        problem.psi: judge_arrivals(problem, which, begun, ARRIVAL_ANGLES if problem is own else OUTER_ANGLES)
         for problem, begun in zip(problems.values(), lines, strict=True)
     }
     judged = {i: [arrivals[problem.psi][k] for problem in (own, *others)] for k, i in enumerate(which)}
@@ -141,7 +141,9 @@ def _directions(asked: _Asked, indices: Sequence[int]) -> tuple[Outcome, ...]:
     return tuple(_direction(own, judged.get(i, ()), texts, sensitive, i) for i in indices)
 
 
-def _compared(outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sensitive: bool, elinear: bool) -> Outcome:
+def _compare_families(
+    outcome: Outcome, verdicts: list[tuple[str, str, str | None]], sensitive: bool, elinear: bool
+) -> Outcome:
     if not sensitive:
         return outcome
     if not verdicts:
@@ -158,10 +160,10 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
     equator, label = own.equator, f"Q{i + 1}"
     theta = float(equator.theta[i])
     if radially_neutral(equator, i):
-        reason = say("neutral approach", Q=named(label))
+        reason = say("neutral approach", Q=written_label(label))
         return Outcome(theta, label, "nothing", "undecided", None, None, None, reason, why="neutral")
     if equator.lambda_rho[i] > 0.0:
-        reason = say("repels" if angular_sign(equator, i) > 0 else "leads away", Q=named(label))
+        reason = say("repels" if angular_sign(equator, i) > 0 else "leads away", Q=written_label(label))
         beside = equator.lambda_rho[[i - 1, (i + 1) % len(equator)]]
         if angular_sign(equator, i) < 0 and (beside < 0.0).any():
             reason = f"{reason} {say('turns away')}"
@@ -169,13 +171,13 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
     arrives = _arrival(equator, i)
     verdict, onto, leaving, slow, reason, why = with_flow(own, judged[0])
     # a single direction is an even zero of Theta
-    reason = f"{say('one side, all angles' if len(equator) == 1 else arrives, Q=named(label))} {reason}"
+    reason = f"{say('one side, all angles' if len(equator) == 1 else arrives, Q=written_label(label))} {reason}"
     outcome = Outcome(theta, label, arrives, verdict, onto, leaving, slow, reason, why=why)
     verdicts = [(text, *other[:2]) for text, other in zip(texts, judged[1:], strict=True)]
-    return _compared(outcome, verdicts, sensitive, own.at.normal_form is not None)
+    return _compare_families(outcome, verdicts, sensitive, own.at.normal_form is not None)
 
 
-def _whole(asked: _Asked) -> Outcome:
+def _outcome_of_equator(asked: _Asked) -> Outcome:
     own, others, sensitive = asked
     elinear, cycle = own.at.normal_form is not None, own.equator_cycle
     if own.equator.all_directions:
@@ -186,7 +188,7 @@ def _whole(asked: _Asked) -> Outcome:
             )
             reason = f"{say('all directions')} {reason}"
             outcome = Outcome(None, label, "open set", verdict, onto, leaving, slow, reason, why=why)
-            return _compared(
+            return _compare_families(
                 outcome, [(other.psi.words, *spiralling(other)[:2]) for other in others], sensitive, elinear
             )
         if radial.min() > 0.0:
@@ -204,4 +206,6 @@ def _whole(asked: _Asked) -> Outcome:
         return Outcome(None, "equator", "nothing", "misses", None, None, None, reason)
     verdict, onto, leaving, slow, reason, why = with_flow(own, spiralling(own))
     outcome = Outcome(None, "equator", "open set", verdict, onto, leaving, slow, f"{say('spiral')} {reason}", why=why)
-    return _compared(outcome, [(other.psi.words, *spiralling(other)[:2]) for other in others], sensitive, elinear)
+    return _compare_families(
+        outcome, [(other.psi.words, *spiralling(other)[:2]) for other in others], sensitive, elinear
+    )

@@ -1,4 +1,4 @@
-"""Which attracting set of the layer problem sliding follows: a stable critical set, or a stable limit cycle."""
+"""Find the attracting set of the layer problem along which a motion slides: a critical set, or a limit cycle."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Attracting:
     slow_flow: NDArray[np.float64]
 
 
-def attracting(
+def attracting_set(
     critical: Sequence[CriticalSet], cycles: Callable[[], Iterable[LimitCycle]], last: ArrayLike | None = None
 ) -> Attracting | None:
     """Return the attracting set that sliding is on, or goes on with when z drifts.

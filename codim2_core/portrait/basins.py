@@ -23,7 +23,7 @@ from ..tables import number, point, table
 from .endings import CAPTURE, critical_label, drawn_time, endings
 
 COARSEST = 32  # cells across the disc at first
-OUTSIDE, UNDECIDED = -2, -1
+OUTSIDE, UNDECIDED_CELL = -2, -1
 RTOL = 1e-5
 DISC = (-1.0, 1.0, -1.0, 1.0)
 
@@ -33,7 +33,7 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True, eq=False)
 class Basins:
-    """Where trajectories of the layer problem lead from each cell of the disc.
+    """Basins of attraction of the layer problem, as a class for each cell of the disc.
 
     Attributes
     ----------
@@ -112,7 +112,7 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
     times, rest = divmod(n, COARSEST)
     if rest or times < 1 or times & (times - 1):
         raise ValueError(f"n is {n}; give 32 times a power of two: 32, 64, 128, …")
-    box = _checked(box)
+    box = _check_box(box)
     at, psi, equator, critical = problem.at, problem.psi, problem.equator, problem.critical
     cycles = cycles_of(problem)
     time = drawn_time(at, equator)
@@ -123,7 +123,7 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
         nonlocal evaluations
         lines = trajectories(at, psi, points, t_max=time, rtol=RTOL, atol=RTOL, capture=CAPTURE, samples="ends")
         evaluations += lines.evaluations
-        found = np.full(len(points), UNDECIDED, np.int8)
+        found = np.full(len(points), UNDECIDED_CELL, np.int8)
         for i, end in enumerate(endings(at, psi, lines, equator, critical, lambda: cycles, rtol=RTOL)):
             if end.label == "undecided":
                 continue
@@ -138,7 +138,7 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
     cells[inside] = lead(_centres(size, box)[inside])
     while size < n:
         size *= 2
-        border = np.kron(_bordering(cells), np.ones((2, 2), bool))
+        border = np.kron(_border_cells(cells), np.ones((2, 2), bool))
         cells = np.kron(cells, np.ones((2, 2), np.int8))
         inside = _inside(size, box)
         again = inside & (border | (cells == OUTSIDE))
@@ -156,7 +156,7 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
     return Basins(cells, tuple(names), tuple(flows), evaluations, box)
 
 
-def _checked(box: Box) -> Box:
+def _check_box(box: Box) -> Box:
     try:
         left, right, bottom, top = map(float, box)
     except (TypeError, ValueError, OverflowError):
@@ -176,7 +176,7 @@ def _inside(size: int, box: Box) -> NDArray[np.bool_]:
     return np.hypot(*np.moveaxis(_centres(size, box), -1, 0)) < 1.0
 
 
-def _bordering(cells: NDArray[np.int8]) -> NDArray[np.bool_]:
+def _border_cells(cells: NDArray[np.int8]) -> NDArray[np.bool_]:
     """Cells with a neighbour, across an edge or a corner, of another kind; the outside is no kind."""
     padded = np.pad(cells, 1, constant_values=OUTSIDE)
     size = len(cells)

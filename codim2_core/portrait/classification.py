@@ -1,4 +1,4 @@
-"""What the name of a portrait is made of, for e-linear and for general systems."""
+"""Name a portrait, of an e-linear or a general system."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from ..cycles.limit_cycles import LimitCycle, surrounds
 from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
-from ..numerics.trigonometric import ROUNDING
+from ..numerics.trigonometric import INPUT_ROUNDING
 from ..tables import Tabled, paragraphs, rows
-from ..words import SENTENCES, named, power, say, subscript
+from ..words import SENTENCES, power, say, subscript, written_label
 from .endings import critical_label, radially_neutral_ones
 
 
@@ -45,7 +45,9 @@ class Degeneracy(Tabled):
 NEARER = SENTENCES["nearer"].says.partition(" {")[0]
 
 
-def undecided(name: str, sentence: str, within: float = ROUNDING, of: str = "each coefficient") -> Degeneracy:
+def undecided_degeneracy(
+    name: str, sentence: str, within: float = INPUT_ROUNDING, of: str = "each coefficient"
+) -> Degeneracy:
     """Make a degeneracy whose sentence says within what it cannot be told from its neighbours."""
     return Degeneracy(name, f"{sentence} {say('nearer', within=power(within), of=of)}", within)
 
@@ -98,7 +100,7 @@ class Classification:
         return f"{name}{paragraphs([self.sentence])}{rows(self.degeneracies)}"
 
 
-NEUTRAL_CLOSED_EQUATOR = undecided(
+NEUTRAL_CLOSED_EQUATOR = undecided_degeneracy(
     "neutral equator",
     say("neutral closed equator"),
     NEUTRAL_EQUATOR,
@@ -142,7 +144,7 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
 
 def attracting_cycles(cycles: Sequence[LimitCycle], critical: tuple[CriticalSet, ...]) -> str:
     """Describe the limit cycles that attract, and which critical sets they surround; "" if there are none."""
-    around = Counter((cycle.stable, _surrounded(cycle, critical)) for cycle in cycles if cycle.kind != "unstable")
+    around = Counter((cycle.stable, _surrounded_sets(cycle, critical)) for cycle in cycles if cycle.kind != "unstable")
     said = []
     for (stable, sets), count in around.items():
         if count == 1:
@@ -152,7 +154,9 @@ def attracting_cycles(cycles: Sequence[LimitCycle], critical: tuple[CriticalSet,
     return " ".join(said)
 
 
-def _surrounded(cycle: LimitCycle, critical: tuple[CriticalSet, ...]) -> str:
+def _surrounded_sets(cycle: LimitCycle, critical: tuple[CriticalSet, ...]) -> str:
     """Name the critical sets about which a cycle winds."""
-    labels = [named(critical_label(critical, i)) for i, C in enumerate(critical) if surrounds(cycle.points, C.p)]
+    labels = [
+        written_label(critical_label(critical, i)) for i, C in enumerate(critical) if surrounds(cycle.points, C.p)
+    ]
     return " and ".join(filter(None, [", ".join(labels[:-1]), *labels[-1:]]))

@@ -22,36 +22,36 @@ from .classification import (
     PortraitName,
     attracting_cycles,
     directions,
-    undecided,
+    undecided_degeneracy,
 )
 from .classify_typed import general_consequence, general_name
 from .endings import radially_neutral_ones
 
 _MULTIPLE = {
-    2: undecided(
+    2: undecided_degeneracy(
         "saddle-node",
         say("two have met"),
     ),
-    3: undecided(
+    3: undecided_degeneracy(
         "pitchfork",
         say("one splits, D2"),
     ),
-    4: undecided("quadruple zero", say("four have met")),
+    4: undecided_degeneracy("quadruple zero", say("four have met")),
 }
-_CUSP = undecided("cusp", say("cusp"))
+_CUSP_DEGENERACY = undecided_degeneracy("cusp", say("cusp"))
 
 
 def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
     found = []
     if equator.all_directions:
         found.append(
-            undecided(
+            undecided_degeneracy(
                 "all directions",
                 say("nothing turns"),
             )
         )
     multiple = sorted({int(k) for k in equator.multiplicity if k > 1})
-    found += [_CUSP if k == 3 and not equator.symmetric else _MULTIPLE[k] for k in multiple]
+    found += [_CUSP_DEGENERACY if k == 3 and not equator.symmetric else _MULTIPLE[k] for k in multiple]
     if cycle is not None and cycle.exponent == 0.0:
         found.append(NEUTRAL_CLOSED_EQUATOR)
     return found
@@ -79,10 +79,10 @@ def _critical_degeneracies(
     }
     found = []
     if location.existence in names:
-        found.append(undecided(names[location.existence], location.existence.value))
+        found.append(undecided_degeneracy(names[location.existence], location.existence.value))
     if any(C.kind == "centre (linear)" for C in critical):
         found.append(
-            undecided(
+            undecided_degeneracy(
                 "tr J = 0",
                 say("true centre" if _true_centre(coefficients) else "linear centre"),
                 NEUTRAL_TRACE,

@@ -9,9 +9,9 @@ from ..layer_problem.linearisation import NEUTRAL_TRACE
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
 from ..systems.frozen import AtZ
 from ..words import say
-from .classification import NEUTRAL_CLOSED_EQUATOR, Degeneracy, PortraitName, undecided
+from .classification import NEUTRAL_CLOSED_EQUATOR, Degeneracy, PortraitName, undecided_degeneracy
 
-WITHIN = ROUNDINGS * UNIT
+TYPED_ROUNDING = ROUNDINGS * UNIT
 TERMS = "the terms of U"
 
 
@@ -33,7 +33,7 @@ def _count(k: int, noun: str, proven: bool) -> str:
     return count if proven else f"{count} found"
 
 
-def _counted(k: int, kind: str) -> str:
+def _count_phrase(k: int, kind: str) -> str:
     for one, many in (("focus", "foci"), ("centre", "centres"), ("saddle-node", "saddle-nodes")):
         if k > 1 and one in kind:
             return f"{k} {kind.replace(one, many)}"
@@ -47,7 +47,7 @@ def general_consequence(critical: tuple[CriticalSet, ...], found: DiscZeros, cyc
             return say("no isolated set")
         return say("no critical set" if found.proven else "no set found")
     kinds = [C.kind for C in critical]
-    counted = ", ".join(_counted(kinds.count(kind), kind) for kind in sorted(set(kinds)))
+    counted = ", ".join(_count_phrase(kinds.count(kind), kind) for kind in sorted(set(kinds)))
     if not found.proven:
         return say("sets unproved", kinds=counted)
     stable = sum(kind.startswith("stable") for kind in kinds)
@@ -63,19 +63,21 @@ _MULTIPLE = {
     3: ("pitchfork", say("one splits")),
     4: ("quadruple zero", say("four directions have met")),
 }
-_CUSP = ("cusp", say("cusp"))
+_CUSP_SENTENCE = ("cusp", say("cusp"))
 
 
 def _equator(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
     degeneracies = []
     if equator.all_directions:
         text = say("no turning")
-        degeneracies.append(undecided("all directions", text, WITHIN, TERMS))
-    degeneracies += [undecided("arc of directions", text, WITHIN, TERMS) for text in arcs_of(equator.arcs)]
+        degeneracies.append(undecided_degeneracy("all directions", text, TYPED_ROUNDING, TERMS))
+    degeneracies += [
+        undecided_degeneracy("arc of directions", text, TYPED_ROUNDING, TERMS) for text in arcs_of(equator.arcs)
+    ]
     for m in sorted({int(m) for m in equator.multiplicity if m > 1}):
         high = (f"zero of multiplicity {m}", say("many have met", count=m))
-        name, text = _CUSP if m == 3 and not equator.symmetric else _MULTIPLE.get(m, high)
-        degeneracies.append(undecided(name, text, WITHIN, TERMS))
+        name, text = _CUSP_SENTENCE if m == 3 and not equator.symmetric else _MULTIPLE.get(m, high)
+        degeneracies.append(undecided_degeneracy(name, text, TYPED_ROUNDING, TERMS))
     if not equator.proven:
         degeneracies.append(Degeneracy("limit directions uncertain", equator.certificate))
     if cycle is not None and cycle.neutral:
@@ -97,13 +99,13 @@ def _critical(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degen
     met = int((found.degenerate & ~found.rough & (found.index != 0)).sum())
     if met:
         named.append(("degenerate critical set", say("more sets have met")))
-    degeneracies = [undecided(name, text, WITHIN, TERMS) for name, text in named]
+    degeneracies = [undecided_degeneracy(name, text, TYPED_ROUNDING, TERMS) for name, text in named]
     if kinds.count("degenerate") > met:
         text = say("corner")
         degeneracies.append(Degeneracy("corner at a critical set", text))
     if "centre (linear)" in kinds:
         text = say("linear centre, one of them")
-        degeneracies.append(undecided("tr J = 0", text, NEUTRAL_TRACE, "the terms of the trace"))
+        degeneracies.append(undecided_degeneracy("tr J = 0", text, NEUTRAL_TRACE, "the terms of the trace"))
     if not found.proven:
         degeneracies.append(
             Degeneracy(

@@ -1,4 +1,4 @@
-"""Where trajectories on the hemisphere end: at which equilibrium, on which cycle, and from which side."""
+"""Omega limit sets of trajectories on the hemisphere: an equilibrium, a cycle, and the side of approach."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from ..words import say
 Array = NDArray[np.float64]
 
 SPEEDS = 600.0  # length drawn of a branch that ends nowhere: T in units of 1/|(a, b, d, f1, f2)|, or 1/max |U|
-SLOW = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends
-PATIENCE = 30.0  # and how many times longer it is followed to see where it ends
+RISE_TIMES = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends
+EXTENSION_FACTOR = 30.0  # and how many times longer it is followed to see where it ends
 CAPTURE = 1e-6  # distance from an attractor at which a branch has reached it
 ON_CYCLE = 1e-4  # distance to a limit cycle at which a branch has reached it
 AT_CRITICAL = 1e-2  # distance beyond which an equilibrium that captures is none of the critical sets known
 AT_SADDLE = 1e-4  # distance at which a branch that stopped nowhere else is at a saddle
-NEUTRAL = 1e-13  # of the largest eigenvalue on the equator
+NEUTRAL_RATIO = 1e-13  # of the largest eigenvalue on the equator
 AT_NEUTRAL = 1e-2  # distance to a radially neutral Q, which is come to like 1/T, at which a branch is at it
 TOLD = 1e-7  # ebar of which a point of the disc says something: below it an orbit is not followed on
 CONNECTION = say("into a saddle")
@@ -38,7 +38,7 @@ AT_NEUTRAL_Q = say("to a neutral direction")
 
 @dataclass(frozen=True, eq=False)
 class Ending:
-    """Where a trajectory ends: the label, the angle of arrival if it has one, and a sentence."""
+    """The omega limit set of a trajectory: its label, the angle of arrival if it has one, and a sentence."""
 
     label: str
     angle: float | None
@@ -109,7 +109,7 @@ def endings(
     backward: bool = False,
     foretold: Callable[[Array], list[int | None]] | None = None,
 ) -> list[Ending]:
-    """Where trajectories on the hemisphere end; those cut off by their time are followed further.
+    """Return the omega limit sets of trajectories on the hemisphere; those cut off by time are integrated on.
 
     Parameters
     ----------
@@ -133,19 +133,19 @@ def endings(
     statuses, states = list(lines.status), np.array(lines.ends)
     found: list[Ending | None] = [None] * len(lines)
     length = drawn_time(at, equator)
-    for more in (0.0, 1.0, PATIENCE):
+    for more in (0.0, 1.0, EXTENSION_FACTOR):
         open_ = [i for i, s in enumerate(statuses) if s in (Status.T_MAX, Status.STEP_LIMIT) and found[i] is None]
         follow = [i for i in open_ if states[i, 2] > TOLD] if more else []
         if follow:
             time, places = more * length, states[follow, :2]
-            on = _followed(at, psi, places, time, rtol, backward)
+            on = _integrate(at, psi, places, time, rtol, backward)
             for j, i in enumerate(follow):
                 statuses[i], states[i] = on.status[j], on.ends[j]
         elif foretold is not None:
             going = [i for i in open_ if not nears_end(critical, states[i, :2], backward)]
             labels = foretold(states[going]) if going else []
             for i, onto in zip(going, labels, strict=True):
-                found[i] = None if onto is None else _foretold(critical, onto)
+                found[i] = None if onto is None else _predicted_ending(critical, onto)
         for i in open_ if more else range(len(lines)):
             if found[i] is not None:
                 continue
@@ -165,7 +165,7 @@ def endings(
             elif (reached := _on_cycle(cycles(), p, backward)) is not None:
                 found[i] = Ending(f"cycle {reached + 1}", None, say("onto a cycle"))
             elif w < AT_SADDLE and gap < AT_SADDLE and more:
-                found[i] = Ending(label, float(equator.theta[near]), _stopping(equator, near, w))
+                found[i] = Ending(label, float(equator.theta[near]), _stopping_reason(equator, near, w))
             elif more and max(w, gap) < AT_NEUTRAL and radially_neutral(equator, near):
                 found[i] = Ending(label, float(equator.theta[near]), AT_NEUTRAL_Q)
             elif k is not None and critical[k].kind == "saddle" and more:
@@ -173,7 +173,7 @@ def endings(
     return [e if e is not None else Ending("undecided", None, s.value) for e, s in zip(found, statuses, strict=True)]
 
 
-def _foretold(critical: tuple[CriticalSet, ...], onto: int) -> Ending:
+def _predicted_ending(critical: tuple[CriticalSet, ...], onto: int) -> Ending:
     if onto == ON_C:
         return Ending(critical_label(critical, 0), None, Status.EQUILIBRIUM.value)
     return Ending(f"cycle {onto + 1}", None, say("onto a cycle"))
@@ -183,10 +183,10 @@ def drawn_time(at: AtZ, equator: EquatorEquilibria) -> float:
     """T in which a branch shows where it goes: long for |U|, and for the slowest way up from the equator."""
     unit = at.speed
     slow = np.abs(equator.lambda_rho[~equator.radially_degenerate])
-    return SPEEDS / unit + (SLOW / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
+    return SPEEDS / unit + (RISE_TIMES / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
 
 
-def _followed(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backward: bool) -> Trajectories:
+def _integrate(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backward: bool) -> Trajectories:
     return trajectories(
         at,
         psi,
@@ -201,8 +201,8 @@ def _followed(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backwa
     )
 
 
-def _stopping(equator: EquatorEquilibria, i: int, w: float) -> str:
-    """Why an orbit that no attractor captured is at Q_{i+1}."""
+def _stopping_reason(equator: EquatorEquilibria, i: int, w: float) -> str:
+    """Return the reason why an orbit that no attractor captured is at Q_{i+1}."""
     if equator.multiplicity[i] > 1 or radially_neutral(equator, i):
         return say("to a degenerate equilibrium")
     if half_saddle(equator, i) and w > 0.0:
@@ -218,7 +218,7 @@ def radially_neutral(equator: EquatorEquilibria, i: int) -> bool:
 def radially_neutral_ones(equator: EquatorEquilibria) -> list[bool]:
     """`radially_neutral` of all limit directions; in floats, for there are few, and NumPy's calls would cost more."""
     rho = equator.lambda_rho.tolist()
-    least = NEUTRAL * max(map(abs, (*rho, *equator.lambda_theta.tolist())), default=0.0)
+    least = NEUTRAL_RATIO * max(map(abs, (*rho, *equator.lambda_theta.tolist())), default=0.0)
     return [zero or abs(r) <= least for r, zero in zip(rho, equator.radially_degenerate.tolist(), strict=True)]
 
 

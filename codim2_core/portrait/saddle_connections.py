@@ -32,7 +32,9 @@ def gaps_between(branches: list[Separatrix]) -> dict[tuple[int, int], float]:
     return gaps
 
 
-def connected(branches: list[Separatrix], gaps: dict[tuple[int, int], float], tolerance: float) -> list[Separatrix]:
+def name_connections(
+    branches: list[Separatrix], gaps: dict[tuple[int, int], float], tolerance: float
+) -> list[Separatrix]:
     """Name saddle connections: an unstable branch that coincides with a stable one of another saddle."""
     out = list(branches)
     for (i, j), gap in gaps.items():

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 ORDER = 5
 FITTED = 9  # nodes the coefficients are read off at
-FIRST, SMALLEST = 0.2, 1e-6  # start distances tried, in units of hypot(1, |x2|) of the saddle
+FIRST_DISTANCE, MIN_DISTANCE = 0.2, 1e-6  # start distances tried, in units of hypot(1, |x2|) of the saddle
 
 
 @lru_cache(maxsize=1)
@@ -100,13 +100,13 @@ def starts(at: AtZ, psi: Psi, critical: CriticalSet, eigenvalue: float, toleranc
         Error allowed, relative to ``hypot(1, |x2|)``; the start distance is chosen for it.
     """
     scale = math.hypot(1.0, float(np.hypot(*critical.x2)))
-    reach = FIRST * scale
+    reach = FIRST_DISTANCE * scale
     terms, defect = expansion(at, psi, critical, eigenvalue, reach)
     for _ in range(6):
         ratio = defect / (tolerance * scale)
-        if ratio <= 1.0 or reach <= SMALLEST * scale:
+        if ratio <= 1.0 or reach <= MIN_DISTANCE * scale:
             break
-        reach = max(SMALLEST * scale, 0.8 * reach * max(ratio ** (-1.0 / (ORDER + 1)), 1e-2))
+        reach = max(MIN_DISTANCE * scale, 0.8 * reach * max(ratio ** (-1.0 / (ORDER + 1)), 1e-2))
         terms, defect = expansion(at, psi, critical, eigenvalue, reach)
     sigma = np.array([-reach, reach])
     x2 = (sigma[:, None] ** np.arange(ORDER + 1)) @ terms

@@ -11,9 +11,9 @@ from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
 from .endings import drawn_time, radially_neutral
-from .saddle_connections import connected, gaps_between
+from .saddle_connections import gaps_between, name_connections
 from .separatrix import Separatrices, Separatrix
-from .separatrix_branches import bent, branches_inside, outside_half_saddle, ray
+from .separatrix_branches import bent_branch, branches_inside, outside_half_saddle, ray
 
 __all__ = ["Separatrices", "Separatrix", "separatrices"]
 
@@ -83,10 +83,10 @@ def separatrices_of(
     if gaps and min(gaps.values()) < 2.0 * pixel:
         # Drawn lines are too coarse to tell a connection from a near miss.
         gaps = gaps_between(inside(min(pixel, tolerance)))
-    branches = connected(branches, gaps, tolerance)
+    branches = name_connections(branches, gaps, tolerance)
     rays = [i for i in range(len(equator)) if outside_half_saddle(equator, i)]
     if problem.at.reads_position:
-        branches += [bent(problem, i, longest, rtol, view, pixel) for i in rays]
+        branches += [bent_branch(problem, i, longest, rtol, view, pixel) for i in rays]
     else:
         branches += [ray(equator, i, view) for i in rays]
     for branch in branches:

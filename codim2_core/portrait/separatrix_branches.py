@@ -18,14 +18,14 @@ from numpy.typing import NDArray
 from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
-from ..orbits.trajectories import Status, Trajectories, continuation, joined, trajectories
+from ..orbits.trajectories import Status, Trajectories, concatenate, continuation, trajectories
 from ..psi.function import Psi
 from ..systems.frozen import AtZ
 from ..words import say
 from .endings import (
     CAPTURE,
     CONNECTION,
-    SLOW,
+    RISE_TIMES,
     SPEEDS,
     critical_label,
     endings,
@@ -57,7 +57,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
     unit = at.speed
     parts = []
     for i in owners:
-        own = min(t_max, SPEEDS / unit + SLOW / abs(float(equator.lambda_rho[i])))
+        own = min(t_max, SPEEDS / unit + RISE_TIMES / abs(float(equator.lambda_rho[i])))
         parts.append(continuation(at, psi, equator.theta[i : i + 1], t_max=own, **fine))
     for k, C in enumerate(critical):
         if C.kind == "saddle":
@@ -69,7 +69,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
             firsts += [C.p, C.p]
     if not parts:
         return []
-    lines = joined(parts)
+    lines = concatenate(parts)
     branches = []
     ends = endings(at, psi, lines, equator, critical, lambda: cycles_of(problem), rtol=rtol, backward=backward)
     places = {critical_label(critical, k): C.p for k, C in enumerate(critical)}
@@ -153,7 +153,7 @@ def _along_equator(at: AtZ, p: Array, end: Array, backward: bool) -> Array:
 
 
 def outside_half_saddle(equator: EquatorEquilibria, i: int) -> bool:
-    """As `half_saddle`, for the side rho > 0, where the radial eigenvalue is lambda_rho."""
+    """Return whether Q is a `half_saddle` on the side rho > 0, where the radial eigenvalue is lambda_rho."""
     if radially_neutral(equator, i):
         return False
     return int(equator.multiplicity[i]) % 2 == 0 or not half_saddle(equator, i)
@@ -171,7 +171,7 @@ def ray(equator: EquatorEquilibria, i: int, view: float) -> Separatrix:
     return Separatrix(f"Q{i + 1}", direction, "outside", points, angle, angle, False, False, None, sentence)
 
 
-def bent(problem: LayerProblem, i: int, t_max: float, rtol: float, view: float, pixel: float) -> Separatrix:
+def bent_branch(problem: LayerProblem, i: int, t_max: float, rtol: float, view: float, pixel: float) -> Separatrix:
     """Follow the branch outside where U depends on x or y: ``theta = theta_i + k rho + ...``, rho' = rho lambda_rho."""
     at, psi, equator = problem.at, problem.psi, problem.equator
     angle, growth = float(equator.theta[i]), float(equator.lambda_rho[i])

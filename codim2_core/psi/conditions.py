@@ -15,7 +15,7 @@ from .typed import NEGLIGIBLE, PROBES, Array, first_not_positive, refine
 
 PROBED = "as far as probing s from 0 to 1e16 can tell"
 # exp(-s) and its like: beyond some s a formula of size 1 is rounding only
-ROUNDING = 1e-11
+VALUE_ROUNDING = 1e-11
 
 
 @lru_cache(maxsize=64)
@@ -82,7 +82,7 @@ def _never_rises(rate: Expression, values: Array) -> Condition:
     def falls(s: Array) -> Array:
         # a change of relative size ROUNDING over the scale s + 1 cannot be told from rounding
         slope = rate.evaluate({"s": s})
-        return ~(slope * (1.0 + s) > ROUNDING * scale)
+        return ~(slope * (1.0 + s) > VALUE_ROUNDING * scale)
 
     good = falls(PROBES)
     if good.all():
@@ -118,7 +118,7 @@ def _rough(s: float, order: int, what: str) -> Condition:
 
 
 def _jump(expression: Expression, values: Array, least: float) -> float | None:
-    """Where a function jumps, or None: the ten steepest cells are bisected towards the larger change."""
+    """Return where a function jumps, or None: the ten steepest cells are bisected towards the larger change."""
     keep = np.isfinite(values) & (values > NEGLIGIBLE * PROBES) & (least <= PROBES)
     s = PROBES[keep]
     if not len(s):  # where it matters at all is below the probes

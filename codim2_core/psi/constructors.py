@@ -1,4 +1,4 @@
-"""What makes a Psi: of a family by its name, or of a typed formula."""
+"""Construct a Psi: of a family by its name, or of a typed formula."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..expressions.expression import parse
-from .families import FAMILIES, Family, listed
+from .families import FAMILIES, Family, family_of_name
 from .families.custom import FAMILY as TYPED
 from .function import Psi
 from .kernel import Each
@@ -48,7 +48,7 @@ def hill(n: float) -> Psi:
     ValueError
         n is no number or out of range.
     """
-    return _member(listed("hill"), n)
+    return _member(family_of_name("hill"), n)
 
 
 def custom(text: str) -> Psi:
@@ -87,7 +87,7 @@ def make(family: str, parameter: float | None = None, text: str = "") -> Psi:
     ValueError
         No such family, or the parameter or the text is refused.
     """
-    record = listed(family)
+    record = family_of_name(family)
     if record.typed:
         return custom(text)
     return _member(record, record.parameter.default if parameter is None and record.parameter else parameter)
@@ -134,6 +134,6 @@ def many(psi: Psi, values: NDArray[np.float64]) -> Psi:
     return Psi(record.name, float("nan"), record.formula, None, kernel, record)
 
 
-def compared(most: int | None = None) -> tuple[Psi, ...]:
+def comparison_families(most: int | None = None) -> tuple[Psi, ...]:
     """Those members of all families, at most so many of each, with which "whatever Psi" is asked."""
     return tuple(_member(record, value) for record in FAMILIES.values() for value in record.compared[:most])

@@ -32,7 +32,7 @@ __all__ = ["Psi"]
 Array = NDArray[np.float64]
 Vector = NDArray[Any] | Sequence[float]
 
-LARGEST = np.finfo(float).max
+MAX_FLOAT = np.finfo(float).max
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ class Psi:
         ValueError
             s is negative, infinite or NaN.
         """
-        return _apply(self.kernel.slope, s, "s", LARGEST, "0 <= s < inf")
+        return _apply(self.kernel.slope, s, "s", MAX_FLOAT, "0 <= s < inf")
 
     @overload
     def modulus(self, zeta: float) -> float: ...
@@ -136,7 +136,7 @@ class Psi:
         ValueError
             zeta is negative, infinite or NaN.
         """
-        return _apply(self._modulus, zeta, "zeta", LARGEST, "0 <= zeta < inf")
+        return _apply(self._modulus, zeta, "zeta", MAX_FLOAT, "0 <= zeta < inf")
 
     @overload
     def complement(self, zeta: float) -> float: ...
@@ -155,7 +155,7 @@ class Psi:
         ValueError
             zeta is negative, infinite or NaN.
         """
-        return _apply(self._complement, zeta, "zeta", LARGEST, "0 <= zeta < inf")
+        return _apply(self._complement, zeta, "zeta", MAX_FLOAT, "0 <= zeta < inf")
 
     @overload
     def radius(self, modulus: float, complement: float | None = None) -> float: ...
@@ -225,7 +225,7 @@ class Psi:
         ValueError
             zeta is negative, infinite or NaN.
         """
-        return _apply(self._jacobian_factors, zeta, "zeta", LARGEST, "0 <= zeta < inf")
+        return _apply(self._jacobian_factors, zeta, "zeta", MAX_FLOAT, "0 <= zeta < inf")
 
     @overload
     def steepness(self, zeta: float) -> float: ...
@@ -246,7 +246,7 @@ class Psi:
         ValueError
             zeta is negative, infinite or NaN.
         """
-        return _apply(self.kernel.kappa, zeta, "zeta", LARGEST, "0 <= zeta < inf")
+        return _apply(self.kernel.kappa, zeta, "zeta", MAX_FLOAT, "0 <= zeta < inf")
 
     def check(self) -> PsiCheck:
         """Whether Psi meets R1 to R5 of def:Psi, and where it does not.

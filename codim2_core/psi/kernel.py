@@ -1,4 +1,4 @@
-"""What the arithmetic of a family of Psi must offer, def:Psi, for one float or for arrays.
+"""The interface of the arithmetic of a family of Psi, def:Psi, for one float or for arrays.
 
 Everything about ``|e_Psi|`` is written in zeta with two functions that neither overflow nor cancel,
 
@@ -19,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-TINY = 1e-300
+UNDERFLOW_BOUND = 1e-300
 
 
 def _power(base: float, exponent: float) -> float:
@@ -46,7 +46,7 @@ VECTOR = SimpleNamespace(
 
 
 class Kernel:
-    """What a family must offer; `lib` is `SCALAR` or `VECTOR`, called inside ``np.errstate(all="ignore")``."""
+    """The interface of a family; `lib` is `SCALAR` or `VECTOR`, called inside ``np.errstate(all="ignore")``."""
 
     limit: float = 0.0  # Psi_1(0), R5
 
@@ -87,14 +87,14 @@ class Each(Kernel):
         self.kernels = kernels
 
     def root(self, lib: Any, zeta: Any) -> Any:  # noqa: ARG002 (each is asked for one float)
-        """As `Kernel.root`, point by point."""
+        """Return the same as `Kernel.root`, point by point."""
         return np.array([kernel.root(SCALAR, z) for kernel, z in zip(self.kernels, zeta.tolist(), strict=True)])
 
     def kappa(self, lib: Any, zeta: Any) -> Any:  # noqa: ARG002
-        """As `Kernel.kappa`, point by point."""
+        """Return the same as `Kernel.kappa`, point by point."""
         return np.array([kernel.kappa(SCALAR, z) for kernel, z in zip(self.kernels, zeta.tolist(), strict=True)])
 
     def inverse(self, lib: Any, w: Any) -> Any:  # noqa: ARG002
-        """As `Kernel.inverse`, point by point."""
+        """Return the same as `Kernel.inverse`, point by point."""
         pairs = zip(self.kernels, w.tolist(), strict=True)
         return np.array([kernel.inverse(SCALAR, v) if v > 0.0 else 0.0 for kernel, v in pairs])

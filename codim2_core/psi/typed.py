@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..expressions.expression import Expression
-from .kernel import SCALAR, TINY, VECTOR, Kernel
+from .kernel import SCALAR, UNDERFLOW_BOUND, VECTOR, Kernel
 
 Array = NDArray[np.float64]
 
@@ -91,7 +91,7 @@ class Custom(Kernel):
         scalar = lib is SCALAR
         x, y, rate, xs, ys, rates = self._table
         last = len(xs) - 1
-        log_w = lib.log(lib.maximum(w, TINY))
+        log_w = lib.log(lib.maximum(w, UNDERFLOW_BOUND))
         if scalar:
             x, y, rate = xs, ys, rates
             i = min(max(bisect.bisect_right(xs, log_w), 1), last)
@@ -132,11 +132,11 @@ class Custom(Kernel):
                 break
         small = w < 1e-100  # there ln w carries fewer digits than w, and s = zeta^2 is nothing beside 1
         zeta = lib.where(small, w * self.root(lib, 0.0 * w), lib.exp(t))
-        polished = self.polish(lib, zeta, lib.maximum(w, TINY))
+        polished = self.polish(lib, zeta, lib.maximum(w, UNDERFLOW_BOUND))
         return lib.where(abs(polished - zeta) <= 1e-3 * zeta, polished, zeta)
 
     def polish(self, lib: Any, zeta: Any, w: Any) -> Any:
-        """As for every family, with Psi evaluated once."""
+        """Polish a root as every family does, with Psi evaluated once."""
         s = zeta * zeta
         values = self.expression.evaluate({"s": s})
         used = values > TINY_PSI

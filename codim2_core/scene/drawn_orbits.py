@@ -16,8 +16,8 @@ from ..portrait.endings import radially_neutral_ones
 from ..psi import constructors
 from .setting import SceneSetting
 
-AROUND = 0.05  # radius of the seeds around an unstable critical set
-STEPS = 780  # of half a drawn orbit: one that goes round a weak focus for longer is not waited for
+SEED_RADIUS = 0.05  # radius of the seeds around an unstable critical set
+MAX_HALF_STEPS = 780  # of half a drawn orbit: one that goes round a weak focus for longer is not waited for
 CAPTURE = 0.25  # of a pixel: where a drawn trajectory ends, so near its equilibrium that nobody can see the rest
 
 
@@ -25,7 +25,7 @@ def seeds_of(setting: SceneSetting, outside: bool) -> np.ndarray:
     """Seeds on the hemisphere, or outside: those that are given, or the usual ones and more in the window."""
     if setting.seeds is not None:
         return _sides(setting.seeds)[outside]
-    seeds = _structured(setting.count, setting.view)[outside]
+    seeds = _structured_seeds(setting.count, setting.view)[outside]
     if setting.window is None:
         return seeds
     return np.concatenate([seeds, _sides(window_seeds(setting.count // 2, setting.window))[outside]])
@@ -38,11 +38,11 @@ def _sides(seeds: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 @lru_cache(maxsize=32)
-def _structured(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
+def _structured_seeds(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
     return _sides(structured_seeds(count, view))
 
 
-def _stepping(setting: SceneSetting, outside: bool = False) -> dict[str, Any]:
+def _stepping_options(setting: SceneSetting, outside: bool = False) -> dict[str, Any]:
     longest, problem = setting.t_max, setting.problem
     critical = () if outside else problem.critical
     if longest is None:
@@ -55,25 +55,25 @@ def _stepping(setting: SceneSetting, outside: bool = False) -> dict[str, Any]:
         "view": setting.view,
         "pixel": setting.pixel,
         "capture": CAPTURE * setting.pixel,
-        "step_limit": STEPS,
+        "step_limit": MAX_HALF_STEPS,
         "stiff": is_stiff(problem.equator, critical),
     }
 
 
 def starts(setting: SceneSetting, outside: bool) -> np.ndarray:
-    """Where drawn orbits start: at the seeds, and around what they would not leave."""
+    """Return the starting points of drawn orbits: the seeds, and points around what they would not leave."""
     seeds = seeds_of(setting, outside)
     if outside or setting.seeds is not None or not setting.count:
         return seeds
     # What leaves an unstable critical set (to a limit cycle, in Case III) starts nearer to it than any fixed seed.
     unstable = [C for C in setting.problem.critical if C.kind.startswith(("unstable", "centre"))]
-    rings = [C.p + ring(AROUND, 6) for C in unstable]
+    rings = [C.p + ring(SEED_RADIUS, 6) for C in unstable]
     return np.concatenate([seeds, *(r for r in rings if np.hypot(r[:, 0], r[:, 1]).max() < 1.0)])
 
 
 def orbits(setting: SceneSetting, outside: bool) -> Orbits:
     """Whole orbits through the seeds, on the hemisphere or outside."""
-    seeds, options = starts(setting, outside), _stepping(setting, outside)
+    seeds, options = starts(setting, outside), _stepping_options(setting, outside)
     # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
     cheapest = outside and setting.coefficients.typed is None
     psi = constructors.constant() if cheapest else setting.psi
@@ -81,16 +81,16 @@ def orbits(setting: SceneSetting, outside: bool) -> Orbits:
     return Orbits(*halves)
 
 
-def sketched(setting: SceneSetting, outside: bool) -> Sketch:
+def sketch_orbits(setting: SceneSetting, outside: bool) -> Sketch:
     """Sketch the same orbits, without the kernels."""
-    options = _stepping(setting, outside)
+    options = _stepping_options(setting, outside)
     wanted = {name: options[name] for name in ("t_max", "length", "view")}
     return sketch(setting.coefficients, setting.psi, starts(setting, outside), **wanted)
 
 
 def continuations(setting: SceneSetting) -> Trajectories:
-    """From each limit direction along which an open set of trajectories arrives, up the hemisphere."""
+    """Integrate up the hemisphere from each limit direction along which an open set of trajectories arrives."""
     equator = setting.problem.equator
     decided = ~np.array(radially_neutral_ones(equator), bool)  # where it is not, what rises does so for ever
     arriving = equator.theta[decided & (equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)]
-    return continuation(setting.coefficients, setting.psi, arriving, **_stepping(setting))
+    return continuation(setting.coefficients, setting.psi, arriving, **_stepping_options(setting))

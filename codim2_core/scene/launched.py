@@ -14,7 +14,7 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.hemisphere import outside_flow
 from ..layer_problem.problem import LayerProblem
 from ..orbits.result import Status, Trajectories
-from ..orbits.trajectories import joined, trajectories
+from ..orbits.trajectories import concatenate, trajectories
 from ..orbits.whole import Orbits
 from ..portrait.approach import outcomes_of
 from ..portrait.endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
@@ -26,15 +26,15 @@ from ..words import say
 Array = NDArray[np.float64]
 
 RTOL = 1e-9
-LONG = 40.0  # picture units drawn of an orbit that winds
-PATIENCE = 30.0  # how many times longer than it is drawn an orbit is followed to see where it ends
+MAX_WINDING_LENGTH = 40.0  # picture units drawn of an orbit that winds
+EXTENSION_FACTOR = 30.0  # how many times longer than it is drawn an orbit is followed to see where it ends
 CUT = (Status.LENGTH, Status.T_MAX)  # drawn lines that have not ended
 LOST = 1e-9  # rho below which a drawn point |p| = 1 + rho does not tell it, and that takes no time to speak of
 
 
 @dataclass(frozen=True)
 class Fate:
-    """Where an orbit goes, or where it comes from.
+    """The limit set of an orbit, forward or backward in time.
 
     Attributes
     ----------
@@ -85,10 +85,10 @@ class Launched:
         return len(self.goes)
 
 
-NOTHING = Launched(Orbits(joined([]), joined([])), (), ())
+NO_ORBITS = Launched(Orbits(concatenate([]), concatenate([])), (), ())
 
 
-def launched(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0) -> Launched:
+def launched_orbits(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0) -> Launched:
     """Follow orbits through points of the picture, and say where they go and where they come from.
 
     Parameters
@@ -104,7 +104,7 @@ def launched(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: f
     Launched
     """
     if not len(seeds):
-        return NOTHING
+        return NO_ORBITS
     at, psi = problem.at, problem.psi
     time = drawn_time(at, problem.equator)
     back, ahead = (
@@ -119,14 +119,14 @@ def launched(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: f
             view=view,
             pixel=pixel,
             capture=CAPTURE,
-            length=LONG,
+            length=MAX_WINDING_LENGTH,
         )
         for backward in (True, False)
     )
     inside = np.hypot(seeds[:, 0], seeds[:, 1]) < 1.0
     fates = []
     for line, backward in ((ahead, False), (back, True)):
-        half = _ended(problem, line, seeds, PATIENCE * time, view, backward)
+        half = _orbits_to_end(problem, line, seeds, EXTENSION_FACTOR * time, view, backward)
         found: list[Fate | None] = [None] * len(seeds)
         within = np.flatnonzero(inside).tolist()
         for i, end in zip(within, _endings(problem, half, within, backward), strict=True):
@@ -138,7 +138,7 @@ def launched(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: f
     return Launched(Orbits(back, ahead), *fates)
 
 
-def _ended(
+def _orbits_to_end(
     problem: LayerProblem, line: Trajectories, seeds: Array, time: float, view: float, backward: bool
 ) -> Trajectories:
     """Return the trajectories with the ends that those cut off would come to, were they drawn on."""
@@ -217,11 +217,11 @@ def _outside(problem: LayerProblem, half: Trajectories, i: int, after: float | N
     if backward:
         return Fate(label, None, after, say("left" + way, **known))
     found = outcomes_of(problem)
-    then, onto = _then(found.whole if k is None or found.whole is not None else found.directions[k])
+    then, onto = _what_follows(found.whole if k is None or found.whole is not None else found.directions[k])
     return Fate(label, onto, after, f"{say('reached' + way, **known)} {then}")
 
 
-def _then(outcome: Outcome | None) -> tuple[str, str | None]:
+def _what_follows(outcome: Outcome | None) -> tuple[str, str | None]:
     if outcome is None or outcome.verdict in ("undecided", "misses"):
         return say("then undecided"), None
     if outcome.verdict == "cross" and outcome.leaving is None:

@@ -18,10 +18,10 @@ from ..portrait.approach import outcomes_of
 from ..portrait.classify import portrait, portrait_name
 from ..portrait.separatrices import Separatrices, separatrices_of
 from ..sliding.flow import flow_on
-from ..systems.bounds import SMALLEST
+from ..systems.bounds import MIN_NUMBER
 from ..theorems.certificates import Certificate, certificates_of
-from .drawn_orbits import continuations, orbits, seeds_of, sketched
-from .launched import Launched, launched
+from .drawn_orbits import continuations, orbits, seeds_of, sketch_orbits
+from .launched import Launched, launched_orbits
 from .setting import SceneSetting
 
 
@@ -74,7 +74,7 @@ def _matrix(setting: SceneSetting) -> tuple[float, float, float] | None:
     if at.typed is not None or at.as_given is None:
         return None
     a, b, d = at.as_given.plane[:3]
-    return (a, b, d) if max(abs(a), abs(b), abs(d)) >= SMALLEST else (0.0, 0.0, 0.0)
+    return (a, b, d) if max(abs(a), abs(b), abs(d)) >= MIN_NUMBER else (0.0, 0.0, 0.0)
 
 
 def _atlas_curves(setting: SceneSetting) -> tuple[BifurcationCurve, BifurcationCurve] | None:
@@ -88,8 +88,8 @@ def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
     return None if matrix is None else regions(*matrix)
 
 
-def _launched(setting: SceneSetting) -> Launched:
-    return launched(setting.problem, setting.launch, view=setting.view, pixel=setting.pixel)
+def _launched_layer(setting: SceneSetting) -> Launched:
+    return launched_orbits(setting.problem, setting.launch, view=setting.view, pixel=setting.pixel)
 
 
 def _separatrices(setting: SceneSetting) -> Separatrices:
@@ -131,12 +131,12 @@ layers: Mapping[str, Recipe] = MappingProxyType(
         "conics": Recipe(("plane", "view", "closely"), _conics),
         "inside": Recipe(("plane", "psi", "inner seeds", *_STEPPED), lambda s: orbits(s, outside=False)),
         "outside": Recipe(("plane", "outer seeds", "view", *_STEPPED), lambda s: orbits(s, outside=True)),
-        "inside_sketch": Recipe(("plane", "psi", "inner seeds", "time"), lambda s: sketched(s, outside=False)),
-        "outside_sketch": Recipe(("plane", "outer seeds", "view", "time"), lambda s: sketched(s, outside=True)),
+        "inside_sketch": Recipe(("plane", "psi", "inner seeds", "time"), lambda s: sketch_orbits(s, outside=False)),
+        "outside_sketch": Recipe(("plane", "outer seeds", "view", "time"), lambda s: sketch_orbits(s, outside=True)),
         "continuations": Recipe(("plane", "psi", *_STEPPED), continuations),
         "closed_orbits": Recipe(("plane", "psi"), lambda s: closed_orbits.compute(s.problem)),
         "cycles": Recipe(("plane", "slow", "psi"), lambda s: cycles_of.compute(s.problem)),
-        "launched": Recipe(("plane", "psi", "launch", "view", "pixel"), _launched),
+        "launched": Recipe(("plane", "psi", "launch", "view", "pixel"), _launched_layer),
         "separatrices": Recipe(("plane", "psi", "tolerance", "pixel"), _separatrices),
         "outcomes": Recipe(("plane", "slow", "psi"), lambda s: outcomes_of.compute(s.problem)),
         "certificates": Recipe(("plane", "slow", "psi", "place"), _certificates),

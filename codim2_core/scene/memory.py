@@ -1,4 +1,4 @@
-"""What the scenes of one lineage have computed, kept under the values of the inputs that each layer reads."""
+"""The cache of a lineage of scenes: results under the values of the inputs that each layer reads."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from threading import Lock
 from typing import Any
 
-REMEMBERED = 8  # results kept for each layer: a few settings back and forth
+KEPT_RESULTS = 8  # results kept for each layer: a few settings back and forth
 
 
 @dataclass
@@ -18,7 +18,7 @@ class Memory:
     Attributes
     ----------
     results : dict of str to OrderedDict
-        Of each layer the last `REMEMBERED`.
+        Of each layer the last `KEPT_RESULTS`.
     runs : Counter of str
         How often each layer has been computed, for tests and benchmarks.
     before : callable, optional
@@ -43,9 +43,9 @@ class Memory:
         return result
 
     def keep(self, layer: str, key: Hashable, result: Any) -> None:
-        """Keep a result, and forget the oldest of more than `REMEMBERED`."""
+        """Keep a result, and forget the oldest of more than `KEPT_RESULTS`."""
         with self.lock:
             kept = self.results.setdefault(layer, OrderedDict())
             kept[key] = result
-            if len(kept) > REMEMBERED:
+            if len(kept) > KEPT_RESULTS:
                 kept.popitem(last=False)

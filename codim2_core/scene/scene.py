@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .. import drawing
-from ..arguments import number, whole
+from ..arguments import number, whole_number
 from ..layer_problem.problem import Finding, LayerProblem, Result
 from ..orbits.options import LEAST_PIXEL
 from ..orbits.seeds import checked_seeds
@@ -24,7 +24,7 @@ from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.bounds import slow_values
 from ..systems.frozen import AtZ
-from ..systems.kinds import KINDS, AnySystem
+from ..systems.kinds import SYSTEM_KINDS, AnySystem
 from .layer_table import ELINEAR_ONLY, INPUTS, layers
 from .memory import Memory
 
@@ -118,13 +118,13 @@ class Scene:
         cut: float = 0.0,
         _memory: Memory | None = None,
     ) -> None:
-        if not isinstance(system, KINDS):
+        if not isinstance(system, SYSTEM_KINDS):
             raise ValueError(f"system is {system!r}; give an ELinear or a System.")
         if psi is None:
             psi = constructors.constant()
         if not isinstance(psi, Psi):
             raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
-        view, pixel, count = number("view", view), number("pixel", pixel), whole("count", count, MOST_SEEDS)
+        view, pixel, count = number("view", view), number("pixel", pixel), whole_number("count", count, MOST_SEEDS)
         if not view > 1.0:
             raise ValueError(f"view is {view}; give a finite radius greater than 1 (the equator).")
         if not LEAST_PIXEL <= pixel < 1.0:
@@ -243,5 +243,5 @@ class Scene:
 
     @property
     def runs(self) -> Mapping[str, int]:
-        """How often each layer has been computed in this scene and those it evolved from or into."""
+        """Return how often each layer has been computed in this scene and those it evolved from or into."""
         return MappingProxyType(self._memory.runs)

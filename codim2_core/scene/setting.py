@@ -1,4 +1,4 @@
-"""What a layer may read of a scene: its inputs, and the layer problem that they pose."""
+"""The inputs of a scene that a layer may read, and the layer problem that they pose."""
 
 from __future__ import annotations
 

@@ -26,10 +26,10 @@ from .slow_portrait_result import SlowBranch, SlowInterval, SlowPoint, SlowPortr
 Array = NDArray[np.float64]
 
 BISECTIONS = 44  # of one step of the net: to the rounding of z
-NARROW = 1e-7  # of the span: two changes this near, as where a double zero is lost in rounding, are one
+MIN_CHANGE_DISTANCE = 1e-7  # of the span: two changes this near, as where a double zero is lost in rounding, are one
 SLOPING = 0.75  # of the larger of its neighbours: the smallest distance of two sets that meet within a step of the net
 THIRDS = 48  # times that an interval around it is cut by a third
-AT_EQUATOR = 1e-4  # 1 - |e| of a critical set that is about to reach the equator, one bisected step before it does
+EQUATOR_DISTANCE = 1e-4  # 1 - |e| of a critical set about to reach the equator, one bisected step before it does
 STABLE, UNSTABLE, CROSSING = "sliding", "unstable", "crossing"
 _SENTENCES = {
     STABLE: say("along: sliding"),
@@ -193,7 +193,7 @@ def _pieces(
             pieces[-1][0].append(end)
             pieces[-1][1].append(there)
         start, here = end, there
-    return _without_narrow(pieces, points, NARROW * float(net[-1] - net[0]))
+    return _without_narrow(pieces, points, MIN_CHANGE_DISTANCE * float(net[-1] - net[0]))
 
 
 def _without_narrow(pieces: list[Piece], points: list[SlowPoint], width: float) -> tuple[list[Piece], list[SlowPoint]]:
@@ -229,7 +229,7 @@ def _change(z: float, before: Sequence[CriticalSet], after: Sequence[CriticalSet
     more = max(before, after, key=len)
     if len(before) != len(after):
         outermost = max(more, key=lambda C: float(np.hypot(*C.e)))
-        if np.hypot(*outermost.e) > 1.0 - AT_EQUATOR:
+        if np.hypot(*outermost.e) > 1.0 - EQUATOR_DISTANCE:
             sentence = say("along: equator")
             return SlowPoint("equator", z, *_place(outermost), None, sentence)
         flattest = min(more, key=lambda C: abs(C.determinant))

@@ -22,16 +22,16 @@ from ..words import say
 
 Array = NDArray[np.float64]
 
-DENSE = 512  # directions among which maxima are looked for, then refined
-START = 48  # directions of the first linear programme
-ROUNDS = 60
-TOLERANCE = (
+SEARCH_DIRECTIONS = 512  # directions among which maxima are looked for, then refined
+FIRST_DIRECTIONS = 48  # directions of the first linear programme
+MAX_ROUNDS = 60
+SUPPORT_TOLERANCE = (
     5e-10  # of the largest |(U, W)|: how far the curve may stick out of a face, so the error of a vertex along n
 )
 SUPPORTS = 32  # faces from which a polygon of candidates is made (m = 2)
 UNIQUE = 1e-9  # of the largest |W|: candidates this near are one
 WEIGHTLESS = 1e-9  # weights below this are the linear programme's rounding
-CLOSE = 1e-3  # directions nearer than this stand for one
+SAME_DIRECTION = 1e-3  # directions nearer than this stand for one
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
@@ -146,7 +146,7 @@ class _Field:
 
     def __init__(self, at: AtZ) -> None:
         self._at = at
-        self.theta = np.linspace(0.0, 2.0 * math.pi, DENSE, endpoint=False)
+        self.theta = np.linspace(0.0, 2.0 * math.pi, SEARCH_DIRECTIONS, endpoint=False)
         self.U, self.W = self(self.theta)
         self.size = float(max(np.abs(self.U).max(), np.abs(self.W).max(initial=0.0))) or 1.0
 
@@ -170,8 +170,8 @@ def _separating(field: _Field) -> tuple[bool, Array]:
     """Whether a line through 0 has all of U on one side, and directions whose U otherwise has 0 in its hull."""
     from scipy.optimize import linprog  # imported late: it takes longer than all of this package
 
-    theta = field.theta[:: DENSE // START]
-    for _ in range(ROUNDS):
+    theta = field.theta[:: SEARCH_DIRECTIONS // FIRST_DIRECTIONS]
+    for _ in range(MAX_ROUNDS):
         U, _ = field(theta)
         # the least s with nu.U <= s at these directions, |nu| <= 1
         result = linprog(
@@ -182,7 +182,7 @@ def _separating(field: _Field) -> tuple[bool, Array]:
             method="highs",
         )
         nu, s = result.x[:2], result.x[2]
-        if s >= -TOLERANCE:
+        if s >= -SUPPORT_TOLERANCE:
             return False, theta
         peaks = _maxima(lambda t, nu=nu: field(t)[0] @ nu / field.size, field.theta)
         heights = field(peaks)[0] @ nu / field.size
@@ -197,7 +197,7 @@ def _extreme(field: _Field, theta: Array, n: Array) -> tuple[Array, Array, Array
     from scipy.optimize import linprog
 
     weights, slope = np.zeros(0), np.zeros(2)
-    for _ in range(ROUNDS):
+    for _ in range(MAX_ROUNDS):
         U, W = field(theta)
         # primal: weights; its dual variables give a face n.W + slope.U <= level
         result = linprog(
@@ -217,7 +217,7 @@ def _extreme(field: _Field, theta: Array, n: Array) -> tuple[Array, Array, Array
             return (w @ n + u @ slope) / field.size - level
 
         peaks = _maxima(height, field.theta)
-        peaks = peaks[height(peaks) > TOLERANCE]
+        peaks = peaks[height(peaks) > SUPPORT_TOLERANCE]
         fresh = np.abs(np.exp(1j * peaks)[:, None] - np.exp(1j * theta)).min(axis=1, initial=2.0) > 1e-7
         if not fresh.any():
             break
@@ -244,9 +244,9 @@ def _merged(theta: Array, weights: Array) -> tuple[Array, Array]:
     theta, weights = theta[used] % (2.0 * math.pi), weights[used]
     order = np.argsort(theta)
     theta, weights = theta[order], weights[order]
-    new = np.append(True, np.diff(theta) > CLOSE)
+    new = np.append(True, np.diff(theta) > SAME_DIRECTION)
     group = np.cumsum(new) - 1
-    if theta[0] + 2.0 * math.pi - theta[-1] <= CLOSE:
+    if theta[0] + 2.0 * math.pi - theta[-1] <= SAME_DIRECTION:
         theta, group = (
             np.where(group == group[-1], theta - 2.0 * math.pi, theta),
             np.where(group == group[-1], 0, group),
@@ -279,7 +279,7 @@ def _polished(field: _Field, n: Array, theta: Array, weights: Array, slope: Arra
         matrix[2 * k + 2, k : 2 * k] = 1.0
         step = np.linalg.lstsq(matrix, -residual, rcond=1e-12)[0]
         moved, weighed = theta + step[:k], weights + step[k : 2 * k]
-        if np.abs(step[:k]).max() > CLOSE:
+        if np.abs(step[:k]).max() > SAME_DIRECTION:
             return None
         theta, weights, slope = moved, np.maximum(weighed, 0.0), slope + step[2 * k :]
     return (theta % (2.0 * math.pi), weights) if np.abs(residual).max() < 1e-12 else None

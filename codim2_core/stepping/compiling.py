@@ -12,7 +12,7 @@ from .layout import FIELD
 ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}
 
 
-def compiled(function: Callable[..., None], cache: bool) -> Any:
+def compile_address(function: Callable[..., None], cache: bool) -> Any:
     """Compile a right-hand side, or a gain, to be called by its `address`."""
     return cfunc(FIELD, cache=cache, nogil=True, fastmath=ARITHMETIC, error_model="numpy")(function)
 

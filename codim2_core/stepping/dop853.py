@@ -1,6 +1,6 @@
 """The Dormand-Prince method of order 8 with error estimates of order 5 and 3, in SIMD lanes, compiled.
 
-Every loop runs over `WIDTH` neighbouring numbers of one workspace at fixed offsets, which is what lets the compiler
+Every loop runs over `ROW_WIDTH` neighbouring numbers of one workspace at fixed offsets, which is what lets the compiler
 keep them in vector registers; the coefficients stand in the code for the same reason.
 
 E. Hairer, S. P. Norsett, G. Wanner, "Solving Ordinary Differential Equations I", 2nd ed., sec. II.5 and II.6
@@ -12,7 +12,7 @@ from __future__ import annotations
 from numba import njit
 
 from .layout import (
-    DENSE,
+    DENSE_ROWS,
     ERROR_3,
     ERROR_5,
     K0,
@@ -32,10 +32,10 @@ from .layout import (
     K14,
     K15,
     NEW,
+    ROW_WIDTH,
     STATE,
-    STEP,
+    STEP_ROW,
     TRIAL,
-    WIDTH,
     call_field,
 )
 
@@ -46,35 +46,39 @@ ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep the
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def advance(S, P, field):
     """One trial step of every lane: from STATE, K0 and STEP to NEW and the two error estimates."""
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (0.05260015195876773 * S[m + K0])
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (0.05260015195876773 * S[m + K0])
     call_field(field, S, TRIAL, K1, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (0.0197250569845379 * S[m + K0] + 0.0591751709536137 * S[m + K1])
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
+            0.0197250569845379 * S[m + K0] + 0.0591751709536137 * S[m + K1]
+        )
     call_field(field, S, TRIAL, K2, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (0.02958758547680685 * S[m + K0] + 0.08876275643042054 * S[m + K2])
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
+            0.02958758547680685 * S[m + K0] + 0.08876275643042054 * S[m + K2]
+        )
     call_field(field, S, TRIAL, K3, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             0.2413651341592667 * S[m + K0] + -0.8845494793282861 * S[m + K2] + 0.924834003261792 * S[m + K3]
         )
     call_field(field, S, TRIAL, K4, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             0.037037037037037035 * S[m + K0] + 0.17082860872947386 * S[m + K3] + 0.12546768756682242 * S[m + K4]
         )
     call_field(field, S, TRIAL, K5, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             0.037109375 * S[m + K0]
             + 0.17025221101954405 * S[m + K3]
             + 0.06021653898045596 * S[m + K4]
             + -0.017578125 * S[m + K5]
         )
     call_field(field, S, TRIAL, K6, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             0.03709200011850479 * S[m + K0]
             + 0.17038392571223998 * S[m + K3]
             + 0.10726203044637328 * S[m + K4]
@@ -82,8 +86,8 @@ def advance(S, P, field):
             + 0.008273789163814023 * S[m + K6]
         )
     call_field(field, S, TRIAL, K7, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             0.6241109587160757 * S[m + K0]
             + -3.3608926294469414 * S[m + K3]
             + -0.868219346841726 * S[m + K4]
@@ -92,8 +96,8 @@ def advance(S, P, field):
             + -43.48988418106996 * S[m + K7]
         )
     call_field(field, S, TRIAL, K8, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             0.47766253643826434 * S[m + K0]
             + -2.4881146199716677 * S[m + K3]
             + -0.590290826836843 * S[m + K4]
@@ -103,8 +107,8 @@ def advance(S, P, field):
             + -0.020331201708508627 * S[m + K8]
         )
     call_field(field, S, TRIAL, K9, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             -0.9371424300859873 * S[m + K0]
             + 5.186372428844064 * S[m + K3]
             + 1.0914373489967295 * S[m + K4]
@@ -115,8 +119,8 @@ def advance(S, P, field):
             + -3.0467644718982196 * S[m + K9]
         )
     call_field(field, S, TRIAL, K10, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             2.273310147516538 * S[m + K0]
             + -10.53449546673725 * S[m + K3]
             + -2.0008720582248625 * S[m + K4]
@@ -128,8 +132,8 @@ def advance(S, P, field):
             + 0.6433927460157636 * S[m + K10]
         )
     call_field(field, S, TRIAL, K11, P)
-    for m in range(WIDTH):
-        S[m + NEW] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + NEW] = S[m + STATE] + S[m + STEP_ROW] * (
             0.054293734116568765 * S[m + K0]
             + 4.450312892752409 * S[m + K5]
             + 1.8915178993145003 * S[m + K6]
@@ -139,8 +143,8 @@ def advance(S, P, field):
             + 0.20136540080403034 * S[m + K10]
             + 0.04471061572777259 * S[m + K11]
         )
-    for m in range(WIDTH):
-        S[m + ERROR_5] = S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + ERROR_5] = S[m + STEP_ROW] * (
             0.01312004499419488 * S[m + K0]
             + -1.2251564463762044 * S[m + K5]
             + -0.4957589496572502 * S[m + K6]
@@ -150,8 +154,8 @@ def advance(S, P, field):
             + 0.08192320648511571 * S[m + K10]
             + -0.022355307863886294 * S[m + K11]
         )
-    for m in range(WIDTH):
-        S[m + ERROR_3] = S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + ERROR_3] = S[m + STEP_ROW] * (
             -0.18980075407240762 * S[m + K0]
             + 4.450312892752409 * S[m + K5]
             + 1.8915178993145003 * S[m + K6]
@@ -169,8 +173,8 @@ def interpolate(S, P, field):
 
     K12 is the field at NEW.
     """
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             0.056167502283047954 * S[m + K0]
             + 0.25350021021662483 * S[m + K6]
             + -0.2462390374708025 * S[m + K7]
@@ -181,8 +185,8 @@ def interpolate(S, P, field):
             + -0.008298 * S[m + K12]
         )
     call_field(field, S, TRIAL, K13, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             0.03183464816350214 * S[m + K0]
             + 0.028300909672366776 * S[m + K5]
             + 0.053541988307438566 * S[m + K6]
@@ -193,8 +197,8 @@ def interpolate(S, P, field):
             + 0.1413124436746325 * S[m + K13]
         )
     call_field(field, S, TRIAL, K14, P)
-    for m in range(WIDTH):
-        S[m + TRIAL] = S[m + STATE] + S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + TRIAL] = S[m + STATE] + S[m + STEP_ROW] * (
             -0.42889630158379194 * S[m + K0]
             + -4.697621415361164 * S[m + K5]
             + 7.683421196062599 * S[m + K6]
@@ -205,14 +209,14 @@ def interpolate(S, P, field):
             + -9.15095847217987 * S[m + K14]
         )
     call_field(field, S, TRIAL, K15, P)
-    for m in range(WIDTH):
+    for m in range(ROW_WIDTH):
         difference = S[m + NEW] - S[m + STATE]
-        h = S[m + STEP]
-        S[m + DENSE] = difference
-        S[m + DENSE + WIDTH] = h * S[m + K0] - difference
-        S[m + DENSE + 2 * WIDTH] = 2.0 * difference - h * (S[m + K12] + S[m + K0])
-    for m in range(WIDTH):
-        S[m + DENSE + 3 * WIDTH] = S[m + STEP] * (
+        h = S[m + STEP_ROW]
+        S[m + DENSE_ROWS] = difference
+        S[m + DENSE_ROWS + ROW_WIDTH] = h * S[m + K0] - difference
+        S[m + DENSE_ROWS + 2 * ROW_WIDTH] = 2.0 * difference - h * (S[m + K12] + S[m + K0])
+    for m in range(ROW_WIDTH):
+        S[m + DENSE_ROWS + 3 * ROW_WIDTH] = S[m + STEP_ROW] * (
             -8.428938276109013 * S[m + K0]
             + 0.5667149535193777 * S[m + K5]
             + -3.0689499459498917 * S[m + K6]
@@ -226,8 +230,8 @@ def interpolate(S, P, field):
             + -9.194632392478356 * S[m + K14]
             + -4.436036387594894 * S[m + K15]
         )
-    for m in range(WIDTH):
-        S[m + DENSE + 4 * WIDTH] = S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + DENSE_ROWS + 4 * ROW_WIDTH] = S[m + STEP_ROW] * (
             10.427508642579134 * S[m + K0]
             + 242.28349177525817 * S[m + K5]
             + 165.20045171727028 * S[m + K6]
@@ -241,8 +245,8 @@ def interpolate(S, P, field):
             + -9.35292435884448 * S[m + K14]
             + 35.81684148639408 * S[m + K15]
         )
-    for m in range(WIDTH):
-        S[m + DENSE + 5 * WIDTH] = S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + DENSE_ROWS + 5 * ROW_WIDTH] = S[m + STEP_ROW] * (
             19.985053242002433 * S[m + K0]
             + -387.0373087493518 * S[m + K5]
             + -189.17813819516758 * S[m + K6]
@@ -256,8 +260,8 @@ def interpolate(S, P, field):
             + 84.32040550667716 * S[m + K14]
             + 11.99229113618279 * S[m + K15]
         )
-    for m in range(WIDTH):
-        S[m + DENSE + 6 * WIDTH] = S[m + STEP] * (
+    for m in range(ROW_WIDTH):
+        S[m + DENSE_ROWS + 6 * ROW_WIDTH] = S[m + STEP_ROW] * (
             -25.69393346270375 * S[m + K0]
             + -154.18974869023643 * S[m + K5]
             + -231.5293791760455 * S[m + K6]
@@ -280,7 +284,7 @@ def dense(S, m, x):
     value = 0.0
     slope = 0.0
     for i in range(6, -1, -1):
-        value += S[m + DENSE + i * WIDTH]
+        value += S[m + DENSE_ROWS + i * ROW_WIDTH]
         if i % 2 == 0:
             slope = slope * x + value
             value *= x

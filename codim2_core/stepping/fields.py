@@ -17,14 +17,14 @@ from numba import (
 )
 
 from ..psi.function import Psi
-from .compiling import ARITHMETIC, compiled
+from .compiling import ARITHMETIC, compile_address
 from .gains import Variants, arguments, gain, kind, variant
-from .layout import EACH, LANES, PARAMETERS, SIGN, WIDTH, WITH_EACH, call_at
+from .layout import EACH, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, WITH_EACH, call_at
 from .numbers import GAIN, PSI
 
 
 @njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-def put(S, out, P, lane, gain, a, b, d, f1, f2):
+def write_lane(S, out, P, lane, gain, a, b, d, f1, f2):
     """Write one lane of the field, given its gain and coefficients."""
     x, y, w = S[lane], S[lane + LANES], S[lane + 2 * LANES]
     c, s = gain * x, gain * y
@@ -33,31 +33,31 @@ def put(S, out, P, lane, gain, a, b, d, f1, f2):
     q = x * u + y * v
     out[lane] = u - x * q
     out[lane + LANES] = v - y * q
-    out[lane + 2 * LANES] = P[lane + SIGN] * w * q
+    out[lane + 2 * LANES] = P[lane + SIDE_SIGN] * w * q
 
 
 def _field(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
     parameter = kind(P[PSI])
     for lane in range(LANES):
         r2, w = arguments(S, P, lane)
-        put(S, D, P, lane, gain(r2, w, parameter), P[0], P[1], P[2], P[3], P[4])
+        write_lane(S, D, P, lane, gain(r2, w, parameter), P[0], P[1], P[2], P[3], P[4])
 
 
 def _field_of_each(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (WITH_EACH,))
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (WITH_EACH,))
     for lane in range(LANES):
         r2, w = arguments(S, P, lane)
         m = EACH + lane
         a, b, d, f1, f2 = P[m], P[m + LANES], P[m + 2 * LANES], P[m + 3 * LANES], P[m + 4 * LANES]
-        put(S, D, P, lane, gain(r2, w, kind(P[m + PSI * LANES])), a, b, d, f1, f2)
+        write_lane(S, D, P, lane, gain(r2, w, kind(P[m + PSI * LANES])), a, b, d, f1, f2)
 
 
 def _field_of_gain(state, out, parameters):
     call_at(int(carray(parameters, (PARAMETERS,))[GAIN]), state, out, parameters)
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
     for lane in range(LANES):
-        put(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
+        write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
 
 
 _compiled, _compiled_of_each = Variants(_field), Variants(_field_of_each)
@@ -87,7 +87,7 @@ def field(psi: Psi) -> Any:
 @lru_cache(maxsize=1)
 def field_of_gain() -> Any:
     """Return the same for a gain that is called at its address, in place GAIN of the parameters."""
-    return compiled(_field_of_gain, cache=True)
+    return compile_address(_field_of_gain, cache=True)
 
 
 def field_of_each(psi: Psi, same: bool) -> Any:

@@ -13,12 +13,12 @@ from typing import Any
 from numba import carray  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
 
 from ..expressions.functions import kernels
-from ..expressions.names import PLANE
+from ..expressions.names import FAST_NAMES
 from ..expressions.source import program
 from ..systems.typed import System
-from .compiling import Kept, compiled
-from .layout import LANES, PARAMETERS, SIGN, WIDTH, call_at
-from .numbers import FACTOR, GAIN, OWN
+from .compiling import Kept, compile_address
+from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, call_at
+from .numbers import FACTOR, GAIN, OWN_NUMBERS
 
 MOST_SYSTEMS = 64  # compiled systems kept
 _fields = Kept(MOST_SYSTEMS)
@@ -35,7 +35,7 @@ class GeneralField:
 def _source(system: System) -> tuple[str, bool]:
     """Python source of the field, and whether U is smooth beyond |e| = 1."""
     numbers = {name: f"n{i}" for i, name in enumerate(system.numbers)}
-    written = program(system.U, {**{name: name for name in PLANE}, **numbers}, PLANE)
+    written = program(system.U, {**{name: name for name in FAST_NAMES}, **numbers}, FAST_NAMES)
     far = system.reads_position
     # x = rho p outside, 0 on the hemisphere.
     position = ["rho = w*(0.5 + 0.5*P[lane + SIGN])", "x, y = rho*px, rho*py"] if far else []
@@ -62,7 +62,7 @@ def _source(system: System) -> tuple[str, bool]:
     return "\n".join([*lines, *(f"        {line}" for line in inside)]) + "\n", written.entire
 
 
-def _made(system: System) -> GeneralField:
+def _make_field(system: System) -> GeneralField:
     source, smooth = _source(system)
     scope: dict[str, Any] = {
         "math": math,
@@ -71,14 +71,14 @@ def _made(system: System) -> GeneralField:
         "call_at": call_at,
         "LANES": LANES,
         "PARAMETERS": PARAMETERS,
-        "SIGN": SIGN,
-        "WIDTH": WIDTH,
+        "SIGN": SIDE_SIGN,
+        "WIDTH": ROW_WIDTH,
         "FACTOR": FACTOR,
         "GAIN": GAIN,
-        "OWN": OWN,
+        "OWN": OWN_NUMBERS,
     }
     exec(source, scope)  # written by `program` from whitelisted formulas: numbers, our own names and math.* only
-    return GeneralField(compiled(scope["field"], cache=False), smooth)
+    return GeneralField(compile_address(scope["field"], cache=False), smooth)
 
 
 def is_compiled(system: System) -> bool:
@@ -99,4 +99,4 @@ def general_field(system: System) -> GeneralField:
         The `address` of its `function` enters the integrator. Compiled once for the formulas of U and the names of
         its parameters (below a second for formulas of usual length), whatever their values and Psi.
     """
-    return _fields.get(system.U, lambda: _made(system))
+    return _fields.get(system.U, lambda: _make_field(system))

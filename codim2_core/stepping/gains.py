@@ -24,7 +24,7 @@ from numba import (
 
 from ..expressions.functions import kernels
 from ..psi.function import Psi
-from .compiling import ARITHMETIC, Kept, compiled
+from .compiling import ARITHMETIC, Kept, compile_address
 from .layout import (
     BLOCK,
     BLOCKS,
@@ -32,8 +32,8 @@ from .layout import (
     LANES,
     PARAMETERS,
     PSIS,
-    SIGN,
-    WIDTH,
+    ROW_WIDTH,
+    SIDE_SIGN,
     ahead,
     bits_of_double,
     call_at,
@@ -41,10 +41,10 @@ from .layout import (
 )
 from .numbers import PSI
 
-TINY = 1e-300
+UNDERFLOW_BOUND = 1e-300
 LOG2_E, LN2_HIGH, LN2_LOW = 1.4426950408889634, 0.6931471803691238, 1.9082149292705877e-10
 # Beyond s = LARGE, w^2 Psi(s) <= Psi(s) |p|^2/LARGE is lost beside |p|^2.
-LARGE = 1e20
+LARGE_ZETA = 1e20
 MOST_EXPRESSIONS = 64  # compiled typed formulas kept
 
 
@@ -97,15 +97,15 @@ def log(x):
 def arguments(S, P, lane):
     """``|p|^2`` and ebar (0 outside) in one lane: what a gain depends on."""
     x, y = S[lane], S[lane + LANES]
-    return x * x + y * y, S[lane + 2 * LANES] * (0.5 - 0.5 * P[lane + SIGN])
+    return x * x + y * y, S[lane + 2 * LANES] * (0.5 - 0.5 * P[lane + SIDE_SIGN])
 
 
-def _one(r2, w, parameter):  # noqa: ARG001 (a gain is called with all three)
+def _unit_gain(r2, w, parameter):  # noqa: ARG001 (a gain is called with all three)
     return 1.0
 
 
 # What a function of all lanes calls; `Variant.make` puts a family's own in their place.
-gain, kind = _one, float
+gain, kind = _unit_gain, float
 
 
 def _typed_gain(source: str, parameter: str) -> Any:
@@ -117,18 +117,18 @@ def _typed_gain(source: str, parameter: str) -> Any:
     def gain(r2, w, parameter):
         w2 = w * w
         shape = 0.0
-        if r2 < LARGE * w2:
+        if r2 < LARGE_ZETA * w2:
             shape = w2 * psi(r2 / w2, parameter)
             if not 0.0 <= shape < math.inf:  # a formula that leaves R1 here: the nonsmooth field instead
                 shape = 0.0
-        return 1.0 / math.sqrt(max(r2 + shape, TINY))
+        return 1.0 / math.sqrt(max(r2 + shape, UNDERFLOW_BOUND))
 
     return gain
 
 
 @dataclass(frozen=True)
 class Variant:
-    """What is compiled for a Psi: one thing for a family, two with `Family.gain_whole`, or one for a typed formula.
+    """The compiled code of a Psi: one for a family, two with `Family.gain_whole`, or one for a typed formula.
 
     Attributes
     ----------
@@ -159,10 +159,10 @@ class Variant:
         written = repr((own.__code__.co_code, own.__code__.co_consts, own.__code__.co_names, self.whole))
         function.__module__ = lanes.__module__
         function.__qualname__ = f"{lanes.__name__}_{blake2b(written.encode(), digest_size=8).hexdigest()}"
-        return compiled(function, cache=self.cached)
+        return compile_address(function, cache=self.cached)
 
 
-ONE = Variant(_one, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
+ONE = Variant(_unit_gain, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
 
 
 def variant(psi: Psi, smooth: bool, whole: bool = True) -> Variant:
@@ -210,7 +210,7 @@ class Variants:
 
 
 def _gains(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
     parameter = kind(P[PSI])
     for lane in range(LANES):
         r2, w = arguments(S, P, lane)
@@ -239,7 +239,7 @@ def has_gains(psi: Psi) -> bool:
 
 
 def _gains_of_block(state, out, parameters):
-    S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
     for lane in range(BLOCK):
         r2, w = arguments(S, P, lane)
         D[lane] = gain(r2, w, kind(P[PSIS + lane]))
@@ -262,7 +262,7 @@ def gains_of_block(psi: Psi, smooth: bool) -> Any:
 @lru_cache(maxsize=1)
 def gains_of_blocks() -> Any:
     """Return the compiled gain of lanes that have a Psi of their own, block by block: see `layout.GAINS`."""
-    return compiled(_gains_of_blocks, cache=True)
+    return compile_address(_gains_of_blocks, cache=True)
 
 
 def _one_gain(state, out, parameters):

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from .dop853 import ARITHMETIC, advance, dense, interpolate
-from .events import INTERIOR, MIRROR, NOTHING, attracted, left_view, winding
+from .events import INTERIOR, MIRROR, NO_ATTRACTOR, is_captured, left_view, winding
 from .layout import (
     BLOCK,
     BLOCKS,
@@ -25,9 +25,9 @@ from .layout import (
     NEW,
     PARAMETERS,
     PSIS,
-    SIGN,
+    SIDE_SIGN,
     STATE,
-    STEP,
+    STEP_ROW,
     WORKSPACE,
     call_field,
 )
@@ -35,17 +35,17 @@ from .lines import BEGUN, begin_lines, end_line, in_order, keep_line, length_of,
 from .polyline import CURSOR, follow
 
 # Outcomes; `orbits.trajectories.Status` lists their sentences in this order.
-T_MAX, EQUILIBRIUM, LEFT_VIEW, ARRIVED, SPIRALLED, ON_EQUATOR, STEP_LIMIT, LENGTH = range(8)
+T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, SPIRALLED, STAYS_ON_EQUATOR, STEP_LIMIT, LENGTH = range(8)
 RUNNING = -1
 
-SAFETY, SHRINK, GROW = 0.9, 0.2, 6.0
+STEP_SAFETY, MAX_SHRINKAGE, MAX_GROWTH = 0.9, 0.2, 6.0
 # Of the tolerance, for one step: what keeps the error of a whole trajectory below ten times the tolerance (measured
 # on 1000 orbits of SO(2, 1), T = 8: at most 20 times with 1).
-SHARE = 0.1
+STEP_TOLERANCE_SHARE = 0.1
 FIRST_STEP = 1.0  # times rtol^(1/8): about what the error estimate asks for where |U| = 1
-NEAR = 1e-6  # ebar and rho below which (or below `capture`) a trajectory has spiralled onto the equator
+SPIRAL_HEIGHT = 1e-6  # ebar and rho below which (or below `capture`) a trajectory has spiralled onto the equator
 EXTREME = 1e-300
-LEAVING, SLOW, OTHER = 1, 2, 4  # marks of lanes to look at
+LEAVING, SLOW_MARK, OTHER = 1, 2, 4  # marks of lanes to look at
 IDLE = -(1 << 60)  # steps spent by a lane without a trajectory
 
 
@@ -53,13 +53,13 @@ IDLE = -(1 << 60)  # steps spent by a lane without a trajectory
 def _load(S, P, lane, states, signs, i):
     for c in range(3):
         S[STATE + c * LANES + lane] = states[i, c]
-    P[SIGN + lane] = signs[i]
+    P[SIDE_SIGN + lane] = signs[i]
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol):
     """Error norms, projection of NEW to the sphere, and the next step of every lane. Vectorised."""
-    rtol, atol = SHARE * rtol, SHARE * atol
+    rtol, atol = STEP_TOLERANCE_SHARE * rtol, STEP_TOLERANCE_SHARE * atol
     for k in range(LANES):
         x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
         # w is multiplicative: its error counts relative to w itself, however small that is.
@@ -71,10 +71,10 @@ def _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol):
         three = a * a + b * b + c * c
         error = five / math.sqrt(3.0 * (five + 0.01 * three) + EXTREME)
         good = error <= 1.0
-        factor = SAFETY / math.sqrt(math.sqrt(math.sqrt(error + 1e-30)))
-        factor = factor if factor > SHRINK else SHRINK  # and NaN shrinks
-        factor = min(factor, GROW)
-        inside = 0.5 - 0.5 * P[SIGN + k]
+        factor = STEP_SAFETY / math.sqrt(math.sqrt(math.sqrt(error + 1e-30)))
+        factor = factor if factor > MAX_SHRINKAGE else MAX_SHRINKAGE  # and NaN shrinks
+        factor = min(factor, MAX_GROWTH)
+        inside = 0.5 - 0.5 * P[SIDE_SIGN + k]
         length = 1.0 / math.sqrt(x * x + y * y + inside * w * w)
         S[NEW + k] = x * length
         S[NEW + LANES + k] = y * length
@@ -97,16 +97,16 @@ def _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit):
         spent[k] += 1
         busy = spent[k] > 0
         good = busy & (accepted[k] > 0.0)
-        leaving = good & (P[SIGN + k] > 0.0) & (extent > view) & (extent > before)
+        leaving = good & (P[SIDE_SIGN + k] > 0.0) & (extent > view) & (extent > before)
         still = good & (ux * ux + uy * uy + uw * uw <= slow)
         other = (good & ((times[LANES + k] >= t_max) | ((w > 0.0) & (w < near)))) | (busy & (spent[k] >= limit))
-        flags[k] = (LEAVING if leaving else 0) | (SLOW if still else 0) | (OTHER if other else 0)
+        flags[k] = (LEAVING if leaving else 0) | (SLOW_MARK if still else 0) | (OTHER if other else 0)
         marks |= flags[k]
     return marks
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _own(P, own):
+def _assign_gains(P, own):
     """Give each block of lanes its Psi of those in the rows of `own`: the address of its gain, and its parameter."""
     for k in range(LANES):
         j = k // BLOCK
@@ -133,9 +133,9 @@ def _try(S, who, times, steps, tried, t_max):
     for k in range(LANES):
         h = min(steps[k], t_max - times[k]) if who[k] >= 0 else 0.0
         tried[k] = h
-        S[STEP + k] = h
-        S[STEP + LANES + k] = h
-        S[STEP + 2 * LANES + k] = h
+        S[STEP_ROW + k] = h
+        S[STEP_ROW + LANES + k] = h
+        S[STEP_ROW + 2 * LANES + k] = h
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -149,14 +149,14 @@ def _event(S, P, field, k, flag, times, tried, t_max, capture, view, near, turn,
         fraction = left_view(S, k, view)
         return LEFT_VIEW, times[k] + fraction * tried[k], fraction
     t = times[LANES + k]
-    if flag & SLOW != 0:
-        kind = attracted(S, P, field, k, capture, scratch)
-        if kind != NOTHING:
-            return EQUILIBRIUM if kind == INTERIOR else ARRIVED, t, 1.0
+    if flag & SLOW_MARK != 0:
+        kind = is_captured(S, P, field, k, capture, scratch)
+        if kind != NO_ATTRACTOR:
+            return EQUILIBRIUM if kind == INTERIOR else AT_LIMIT_DIRECTION, t, 1.0
     if 0.0 < S[NEW + 2 * LANES + k] < near and S[K12 + 2 * LANES + k] < 0.0:
         if turn[1] == 0.0:
             turn[0], turn[1] = winding(P, field, scratch), 1.0
-        if turn[0] * P[SIGN + k] < 0.0:
+        if turn[0] * P[SIDE_SIGN + k] < 0.0:
             return SPIRALLED, t, 1.0
     return T_MAX if t >= t_max else RUNNING, t, 1.0
 
@@ -230,9 +230,9 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
     n = states.shape[0]
     draw = distance > 0.0
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)
-    for m in range(SIGN):
+    for m in range(SIDE_SIGN):
         P[m] = shared[m]
-    _own(P, own)
+    _assign_gains(P, own)
     cursor = np.zeros((CURSOR, LANES))
     times, steps, tried, accepted = np.zeros(2 * LANES), np.zeros(LANES), np.zeros(LANES), np.zeros(LANES)
     flags = np.zeros(LANES, np.int64)
@@ -244,7 +244,7 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
     ends, codes = np.empty((n, 3)), np.full(n, RUNNING)
     turn = np.zeros(2)
     first = FIRST_STEP * rtol**0.125
-    slow, near = (4.0 * capture) ** 2, max(NEAR, capture)
+    slow, near = (4.0 * capture) ** 2, max(SPIRAL_HEIGHT, capture)
     for k in range(LANES):
         _load(S, P, k, states, signs, 0)  # an idle lane repeats a harmless state with steps of length 0
     following = np.zeros(len(until), np.int64)
@@ -291,10 +291,10 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
                 continue
             i = who[k]
             _end(S, k, fraction, ends, i)
-            codes[i] = ON_EQUATOR if ends[i, 2] == 0.0 and states[i, 2] == 0.0 else code
+            codes[i] = STAYS_ON_EQUATOR if ends[i, 2] == 0.0 and states[i, 2] == 0.0 else code
             if counts[k] == lines.shape[1]:
                 lines = longer(lines)
-            end_line(lines, counts, k, P[SIGN + k], ends, i, stop)
+            end_line(lines, counts, k, P[SIDE_SIGN + k], ends, i, stop)
             while stored + counts[k] > store.shape[1]:
                 store = longer(store)
             where[i], length[i] = stored, counts[k]

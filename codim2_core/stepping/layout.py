@@ -1,6 +1,6 @@
-"""Where the numbers of the compiled stepping lie, and how a right-hand side is called.
+"""The memory layout of the compiled stepping, and the call of a right-hand side.
 
-`LANES` trajectories step side by side. The workspace S is one array of rows of `WIDTH` numbers: px of every lane,
+`LANES` trajectories step side by side. The workspace S is one array of rows of `ROW_WIDTH` numbers: px of every lane,
 then py, then w: one state (px, py, w) for both sides of the equator, w = ebar on the hemisphere and rho outside.
 P holds the parameters.
 
@@ -18,25 +18,25 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from .numbers import PSI, SHARED
+from .numbers import PSI, SHARED_SIZE
 
 # 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
 # 65 ns a step and lane with 8 lanes, 30 with 16, 20 with 32).
 LANES = 32
-WIDTH = 3 * LANES
+ROW_WIDTH = 3 * LANES
 
-K0, K1, K2, K3, K4, K5, K6, K7 = (k * WIDTH for k in range(8))
-K8, K9, K10, K11, K12, K13, K14, K15 = (k * WIDTH for k in range(8, 16))
-STATE, TRIAL, STEP, NEW, ERROR_5, ERROR_3 = (k * WIDTH for k in range(16, 22))
-DENSE = 22 * WIDTH  # seven rows
-WORKSPACE = 29 * WIDTH
+K0, K1, K2, K3, K4, K5, K6, K7 = (k * ROW_WIDTH for k in range(8))
+K8, K9, K10, K11, K12, K13, K14, K15 = (k * ROW_WIDTH for k in range(8, 16))
+STATE, TRIAL, STEP_ROW, NEW, ERROR_5, ERROR_3 = (k * ROW_WIDTH for k in range(16, 22))
+DENSE_ROWS = 22 * ROW_WIDTH  # seven rows
+WORKSPACE = 29 * ROW_WIDTH
 
-SIGN = SHARED  # P[SIGN + lane] = -1 on the hemisphere, +1 outside
+SIDE_SIGN = SHARED_SIZE  # P[SIGN + lane] = -1 on the hemisphere, +1 outside
 # Where lanes have a Psi of their own, BLOCK neighbours (a register of four) have the same one: P[GAINS + block] is the
 # address of its gain for one block, and P[PSIS + lane] its parameter.
 BLOCK = max(LANES // 8, 1)
 BLOCKS = LANES // BLOCK
-GAINS = SIGN + LANES
+GAINS = SIDE_SIGN + LANES
 PSIS = GAINS + BLOCKS
 PARAMETERS = PSIS + LANES
 # Where lanes have systems of their own: P[EACH + c LANES + lane] is number c of what e-linear fields read.
@@ -82,12 +82,12 @@ def _call_at(typing_context, address, state, out, parameters):  # noqa: ARG001
 call_at: Any = intrinsic(_call_at)
 
 
-def _ahead(typing_context, pointer, places):  # noqa: ARG001
+def _advance_pointer(typing_context, pointer, places):  # noqa: ARG001
     """Point some places further on."""
     return _POINTER(_POINTER, types.int64), lambda _c, builder, _s, a: builder.gep(a[0], [a[1]])
 
 
-ahead: Any = intrinsic(_ahead)
+ahead: Any = intrinsic(_advance_pointer)
 
 
 def _double_of_bits(typing_context, bits):  # noqa: ARG001
@@ -104,7 +104,7 @@ double_of_bits: Any = intrinsic(_double_of_bits)
 bits_of_double: Any = intrinsic(_bits_of_double)
 
 
-ON_EQUATOR = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equator: four roundings
+EQUATOR_ROUNDING = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equator: four roundings
 
 
 @njit(cache=True, error_model="numpy")
@@ -140,9 +140,9 @@ def states_of(points):
         x, y = points[i, 0], points[i, 1]
         r = math.hypot(x, y)
         largest = max(largest, abs(x), abs(y)) if math.isfinite(r) and not math.isnan(largest) else math.nan
-        inside = r - 1.0 < -ON_EQUATOR
+        inside = r - 1.0 < -EQUATOR_ROUNDING
         scale = 1.0 if inside else r
         states[i, 0], states[i, 1] = x / scale, y / scale
-        states[i, 2] = math.sqrt(_defect(x, y)) if inside else r - 1.0 if r - 1.0 > ON_EQUATOR else 0.0
+        states[i, 2] = math.sqrt(_defect(x, y)) if inside else r - 1.0 if r - 1.0 > EQUATOR_ROUNDING else 0.0
         signs[i] = -1.0 if inside else 1.0
     return states, signs, largest

@@ -18,8 +18,8 @@ from ..systems.typed_formulas import MOST_NUMBERS
 if TYPE_CHECKING:
     from ..psi.function import Psi
 
-FACTOR, PSI, GAIN, OWN = 0, 5, 6, 7
-SHARED = OWN + MOST_NUMBERS + 1  # a multiple of 8
+FACTOR, PSI, GAIN, OWN_NUMBERS = 0, 5, 6, 7
+SHARED_SIZE = OWN_NUMBERS + MOST_NUMBERS + 1  # a multiple of 8
 
 
 def numbers(at: AtZ, psi: Psi, backward: bool, gain: int = 0) -> NDArray[np.float64]:
@@ -35,11 +35,11 @@ def numbers(at: AtZ, psi: Psi, backward: bool, gain: int = 0) -> NDArray[np.floa
         Address of the gain of Psi, of a field that calls it.
     """
     sign, unit = -1.0 if backward else 1.0, at.speed
-    shared = np.zeros(SHARED)
+    shared = np.zeros(SHARED_SIZE)
     shared[PSI], shared[GAIN] = psi.parameter, float(gain)  # exact: addresses have fewer than 53 bits
     if at.typed is None:
         shared[:5] = [sign * (value / unit) for value in at.numbers]
     else:
         shared[FACTOR] = sign / unit
-        shared[OWN : OWN + len(at.numbers)] = at.numbers
+        shared[OWN_NUMBERS : OWN_NUMBERS + len(at.numbers)] = at.numbers
     return shared

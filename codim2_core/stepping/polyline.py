@@ -12,10 +12,10 @@ import math
 from numba import njit
 
 from .dop853 import ARITHMETIC, dense
-from .layout import K0, LANES, SIGN, STATE
+from .layout import K0, LANES, SIDE_SIGN, STATE
 
 # Rows of the cursor, a number a lane each: the last point and the velocity there, its time, the next spacing.
-X, Y, VX, VY, TIME, SPACING = range(6)
+X, Y, VX, VY, TIME, POINT_SPACING = range(6)
 CURSOR = 6
 LONGER = 4.0  # growth of the spacing from one chord to the next
 AIM, ALLOWED = 0.8, 0.9  # of the distance: what a chord aims at, and what it may have
@@ -26,7 +26,7 @@ def place(S, P, lane, x):
     """Picture point and picture velocity (a step's fraction as time) at the fraction x of the step in DENSE."""
     px, ux = dense(S, lane, x)
     py, uy = dense(S, LANES + lane, x)
-    if P[SIGN + lane] < 0.0:
+    if P[SIDE_SIGN + lane] < 0.0:
         return px, py, ux, uy
     w, uw = dense(S, 2 * LANES + lane, x)
     radius = (1.0 + w) / math.sqrt(px * px + py * py)  # p is on the circle, but for the error of the interpolant
@@ -38,14 +38,14 @@ def start(S, P, lane, cursor):
     """Put the cursor at a lane's STATE, where K0 is the field."""
     px, py, w = S[STATE + lane], S[STATE + LANES + lane], S[STATE + 2 * LANES + lane]
     ux, uy, uw = S[K0 + lane], S[K0 + LANES + lane], S[K0 + 2 * LANES + lane]
-    if P[SIGN + lane] < 0.0:
+    if P[SIDE_SIGN + lane] < 0.0:
         w, uw = 0.0, 0.0
     cursor[X, lane] = (1.0 + w) * px
     cursor[Y, lane] = (1.0 + w) * py
     cursor[VX, lane] = (1.0 + w) * ux + uw * px
     cursor[VY, lane] = (1.0 + w) * uy + uw * py
     cursor[TIME, lane] = 0.0
-    cursor[SPACING, lane] = 1e300  # to the end of the first step, or what its bend allows
+    cursor[POINT_SPACING, lane] = 1e300  # to the end of the first step, or what its bend allows
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
@@ -55,7 +55,7 @@ def follow(S, P, lane, cursor, lines, count, t0, h, stop, distance):
     Returns the new count; -1 - count when the line is full: make room and call again.
     """
     x0, y0, ux, uy = cursor[X, lane], cursor[Y, lane], cursor[VX, lane], cursor[VY, lane]
-    last, spacing = cursor[TIME, lane], cursor[SPACING, lane]
+    last, spacing = cursor[TIME, lane], cursor[POINT_SPACING, lane]
     aim, allowed = AIM * distance, ALLOWED * distance
     while True:
         beyond = last + spacing >= stop
@@ -70,7 +70,7 @@ def follow(S, P, lane, cursor, lines, count, t0, h, stop, distance):
         if last >= t0:
             mx, my, _vx, _vy = place(S, P, lane, (0.5 * (last + t) - t0) / h)
         else:
-            scale = 1.0 if P[SIGN + lane] < 0.0 else 1.0 + S[STATE + 2 * LANES + lane]
+            scale = 1.0 if P[SIDE_SIGN + lane] < 0.0 else 1.0 + S[STATE + 2 * LANES + lane]
             mx, my = scale * S[STATE + lane], scale * S[STATE + LANES + lane]
         bend = max(bend, abs(lx * (my - y0) - ly * (mx - x0)) / math.sqrt(lx * lx + ly * ly + 1e-300))
         ratio = math.sqrt(aim / (bend + 1e-30))
@@ -92,5 +92,5 @@ def follow(S, P, lane, cursor, lines, count, t0, h, stop, distance):
             spacing = 1e-3 * h
         last = t
     cursor[X, lane], cursor[Y, lane], cursor[VX, lane], cursor[VY, lane] = x0, y0, ux, uy
-    cursor[TIME, lane], cursor[SPACING, lane] = last, spacing
+    cursor[TIME, lane], cursor[POINT_SPACING, lane] = last, spacing
     return count

@@ -1,4 +1,4 @@
-"""What the compiled stepping needs of a system and Psi: the address of the field and the numbers that it reads."""
+"""A system and Psi as the compiled stepping reads them: the address of the field and its numbers."""
 
 from __future__ import annotations
 

@@ -19,9 +19,9 @@ import numpy as np
 from numba import njit
 
 from .dop853 import ARITHMETIC, dense
-from .events import EQUATOR, INTERIOR, MIRROR, attracted, left_view
+from .events import INTERIOR, MIRROR, ON_EQUATOR_ATTRACTOR, is_captured, left_view
 from .layout import (
-    DENSE,
+    DENSE_ROWS,
     K0,
     K1,
     K2,
@@ -34,10 +34,10 @@ from .layout import (
     LANES,
     NEW,
     PARAMETERS,
-    SIGN,
+    ROW_WIDTH,
+    SIDE_SIGN,
     STATE,
     TRIAL,
-    WIDTH,
     WORKSPACE,
     call_field,
 )
@@ -45,13 +45,13 @@ from .lines import end_line, keep_line, length_of, longer
 from .polyline import CURSOR, X, Y, follow, start
 
 # As in `lanes`
-T_MAX, EQUILIBRIUM, LEFT_VIEW, ARRIVED, STEP_LIMIT, LENGTH, RUNNING = 0, 1, 2, 3, 6, 7, -1
+T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, STEP_LIMIT, LENGTH, RUNNING = 0, 1, 2, 3, 6, 7, -1
 GAMMA = 0.25
-DIFFERENCE = 1e-5  # of the central differences of the Jacobian; of w: of w itself
-SAFETY, SHRINK, GROW = 0.9, 0.2, 6.0
+DIFFERENCE_STEP = 1e-5  # of the central differences of the Jacobian; of w: of w itself
+STEP_SAFETY, MAX_SHRINKAGE, MAX_GROWTH = 0.9, 0.2, 6.0
 FIRST_STEP = 0.02
 HIGH = 0.1  # ebar above which the projection is along w
-FAINT = 1e-7  # below this w its error counts as if it were this large: the rest is far below a pixel
+MIN_W = 1e-7  # below this w its error counts as if it were this large: the rest is far below a pixel
 CALLS = 13  # evaluations a step: 6 stages, 6 for the Jacobian, one to see whether it has arrived
 
 
@@ -60,7 +60,7 @@ def _project(S, P, high, at):
     """Bring a row to the sphere (outside: p to the circle)."""
     for k in range(LANES):
         x, y, w = S[at + k], S[at + LANES + k], S[at + 2 * LANES + k]
-        inside = 0.5 - 0.5 * P[SIGN + k]
+        inside = 0.5 - 0.5 * P[SIDE_SIGN + k]
         r2 = x * x + y * y
         up = high[k] > 0.5 and r2 < 0.9999
         length = 1.0 if up else 1.0 / math.sqrt(r2 + inside * w * w)
@@ -74,15 +74,15 @@ def _inverse(S, P, high, field, h, J, M):
     """Write ``(I/(GAMMA h) - J)^-1`` of every lane, J of the projected field by central differences; M : (9, LANES)."""
     for c in range(3):
         for side in range(2):
-            for m in range(WIDTH):
+            for m in range(ROW_WIDTH):
                 S[TRIAL + m] = S[STATE + m]
             for k in range(LANES):
-                d = DIFFERENCE * (1.0 if c < 2 else S[STATE + 2 * LANES + k])
+                d = DIFFERENCE_STEP * (1.0 if c < 2 else S[STATE + 2 * LANES + k])
                 S[TRIAL + c * LANES + k] += d if side == 0 else -d
             _project(S, P, high, TRIAL)
             call_field(field, S, TRIAL, K6 if side == 0 else K7, P)
         for k in range(LANES):
-            d = DIFFERENCE * (1.0 if c < 2 else S[STATE + 2 * LANES + k])
+            d = DIFFERENCE_STEP * (1.0 if c < 2 else S[STATE + 2 * LANES + k])
             inverse = 0.5 / d if d > 1e-300 else 0.0
             for r in range(3):
                 J[3 * r + c, k] = (S[K6 + r * LANES + k] - S[K7 + r * LANES + k]) * inverse
@@ -117,7 +117,7 @@ def _solve(S, M, source, c1, c2, c3, c4, c5, h, target):
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 def _stage(S, P, high, field, a1, a2, a3, a4, a5):
     """Put the field at ``STATE + a1 K1 + ... + a5 K5`` into K6."""
-    for m in range(WIDTH):
+    for m in range(ROW_WIDTH):
         S[TRIAL + m] = S[STATE + m] + (
             a1 * S[K1 + m] + a2 * S[K2 + m] + a3 * S[K3 + m] + a4 * S[K4 + m] + a5 * S[K5 + m]
         )
@@ -129,7 +129,7 @@ def _stage(S, P, high, field, a1, a2, a3, a4, a5):
 def advance(S, P, high, field, h, J, M):
     """One trial step of every lane: from STATE and K0 to NEW, the error in K7, and the dense output in DENSE."""
     _inverse(S, P, high, field, h, J, M)
-    for m in range(5 * WIDTH):
+    for m in range(5 * ROW_WIDTH):
         S[K1 + m] = 0.0
     _solve(S, M, K0, 0.0, 0.0, 0.0, 0.0, 0.0, h, K1)
     _stage(S, P, high, field, 1.544, 0.0, 0.0, 0.0, 0.0)
@@ -153,7 +153,7 @@ def advance(S, P, high, field, h, J, M):
         h,
         K7,
     )
-    for m in range(WIDTH):
+    for m in range(ROW_WIDTH):
         increment = (
             1.221224509226641 * S[K1 + m]
             + 6.019134481288629 * S[K2 + m]
@@ -163,15 +163,15 @@ def advance(S, P, high, field, h, J, M):
             + S[K7 + m]
         )
         S[NEW + m] = S[STATE + m] + increment
-        S[DENSE + m] = increment
-        S[DENSE + WIDTH + m] = (
+        S[DENSE_ROWS + m] = increment
+        S[DENSE_ROWS + ROW_WIDTH + m] = (
             10.12623508344586 * S[K1 + m]
             - 7.487995877610167 * S[K2 + m]
             - 34.80091861555747 * S[K3 + m]
             - 7.992771707568823 * S[K4 + m]
             + 1.025137723295662 * S[K5 + m]
         )
-        S[DENSE + 2 * WIDTH + m] = (
+        S[DENSE_ROWS + 2 * ROW_WIDTH + m] = (
             -0.6762803392801253 * S[K1 + m]
             + 6.087714651680015 * S[K2 + m]
             + 16.43084320892478 * S[K3 + m]
@@ -185,7 +185,7 @@ def _error(S, high, k, rtol, atol):
     """Error of a lane's step, in units of the tolerance; NaN stays."""
     x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
     plane = math.hypot(S[K7 + k], S[K7 + LANES + k]) / (atol + rtol * math.hypot(x, y))
-    height = abs(S[K7 + 2 * LANES + k]) / (rtol * max(abs(w), FAINT))
+    height = abs(S[K7 + 2 * LANES + k]) / (rtol * max(abs(w), MIN_W))
     return plane + (0.0 if high[k] > 0.5 else height)
 
 
@@ -194,11 +194,11 @@ def _event(S, P, field, k, capture, view, scratch):
     """Return what ends a lane's trajectory within its step, if anything: a code, and the fraction of the step."""
     x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
     ux, uy, uw = S[K12 + k], S[K12 + LANES + k], S[K12 + 2 * LANES + k]
-    if P[SIGN + k] > 0.0 and (1.0 + w) * max(abs(x), abs(y)) > view:
+    if P[SIDE_SIGN + k] > 0.0 and (1.0 + w) * max(abs(x), abs(y)) > view:
         return LEFT_VIEW, left_view(S, k, view)
     if ux * ux + uy * uy + uw * uw <= (4.0 * capture) ** 2:
-        kind = attracted(S, P, field, k, capture, scratch)
-        return EQUILIBRIUM if kind == INTERIOR else ARRIVED if kind == EQUATOR else RUNNING, 1.0
+        kind = is_captured(S, P, field, k, capture, scratch)
+        return EQUILIBRIUM if kind == INTERIOR else AT_LIMIT_DIRECTION if kind == ON_EQUATOR_ATTRACTOR else RUNNING, 1.0
     return RUNNING, 1.0
 
 
@@ -224,7 +224,7 @@ def _begin(S, P, states, signs, t_max, field, base, many, cursor, lines, times, 
         i = base + min(k, many - 1)
         for c in range(3):
             S[STATE + c * LANES + k] = states[i, c]
-        P[SIGN + k] = signs[i]
+        P[SIDE_SIGN + k] = signs[i]
         times[k], travelled[k], counts[k], h[k] = 0.0, 0.0, 1, min(FIRST_STEP, t_max[i])
     call_field(field, S, STATE, K0, P)
     for k in range(many):
@@ -245,7 +245,7 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
     """
     n = states.shape[0]
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)
-    for m in range(SIGN):
+    for m in range(SIDE_SIGN):
         P[m] = shared[m]
     J, M, h, high = np.zeros((9, LANES)), np.zeros((9, LANES)), np.ones(LANES), np.zeros(LANES)
     cursor = np.zeros((CURSOR, LANES))
@@ -261,7 +261,7 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
             if left == 0:
                 break
             for k in range(LANES):
-                high[k] = 1.0 if P[SIGN + k] < 0.0 and S[STATE + 2 * LANES + k] > HIGH else 0.0
+                high[k] = 1.0 if P[SIDE_SIGN + k] < 0.0 and S[STATE + 2 * LANES + k] > HIGH else 0.0
             advance(S, P, high, field, h, J, M)
             _project(S, P, high, NEW)
             call_field(field, S, NEW, K12, P)
@@ -271,7 +271,11 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
                 if k >= many or codes[i] != RUNNING:
                     continue
                 error = _error(S, high, k, rtol, atol)
-                factor = min(max(SAFETY * (error + 1e-12) ** -0.25, SHRINK), GROW) if error < math.inf else SHRINK
+                factor = (
+                    min(max(STEP_SAFETY * (error + 1e-12) ** -0.25, MAX_SHRINKAGE), MAX_GROWTH)
+                    if error < math.inf
+                    else MAX_SHRINKAGE
+                )
                 taken = h[k]
                 h[k] = taken * factor
                 if not error <= 1.0:
@@ -302,7 +306,7 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
                 ends[i, c] = S[STATE + c * LANES + k]
             if counts[k] == lines.shape[1]:
                 lines = longer(lines)
-            end_line(lines, counts, k, P[SIGN + k], ends, i, times[k])
+            end_line(lines, counts, k, P[SIDE_SIGN + k], ends, i, times[k])
             while stored + counts[k] > store.shape[1]:
                 store = longer(store)
             stored = keep_line(store, stored, lines, counts, k)

@@ -1,4 +1,4 @@
-"""How large numbers of a system may be, and what a z must be."""
+"""Bounds of the numbers of a system, and the check of a z."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 # Products of two coefficients (det A, |adj A f|^2 needs four, after scaling) must stay finite.
-LARGEST, SMALLEST = 1e150, 1e-150
+MAX_NUMBER, MIN_NUMBER = 1e150, 1e-150
 
 
 def at_place(z: Sequence[float], e: Sequence[float] = ()) -> str:

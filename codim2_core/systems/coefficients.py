@@ -85,7 +85,7 @@ class Coefficients:
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """What the compiled field reads: `plane`."""
+        """Return the numbers that the compiled field reads: `plane`."""
         return self.plane
 
     @property
@@ -138,12 +138,12 @@ class Coefficients:
 
     @property
     def key(self) -> Hashable:
-        """What decides the portrait, as `Frozen.key` for a general system."""
+        """Return the key of the portrait, as `Frozen.key` of a general system."""
         return self.plane if self.given is None else (self.plane, self.given)
 
     @property
     def slow_key(self) -> Hashable:
-        """What decides the slow flow on a given critical set."""
+        """Return the key of the slow flow on a given critical set."""
         return self.B.tobytes(), self.g.tobytes()
 
     def U(self, e: ArrayLike, xy: ArrayLike | None = None) -> NDArray[np.float64]:  # noqa: ARG002 (f at x = y = 0)

@@ -18,9 +18,9 @@ from numpy.typing import ArrayLike
 
 from ..expressions.expression import Expression, parse
 from ..expressions.names import MOST_SLOW_VARIABLES
-from .bounds import LARGEST, SMALLEST, at_place, slow_names, slow_values
+from .bounds import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
 from .coefficients import Coefficients
-from .normal_form import in_normal_form, turned
+from .normal_form import in_normal_form, rotate_f
 
 Coefficient = float | Expression
 
@@ -43,9 +43,9 @@ def _coefficient(value: object, what: str, names: tuple[str, ...]) -> Coefficien
 def _finite(number: float, what: str) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{what} is {number}; give a finite number.")
-    if abs(number) > LARGEST:
+    if abs(number) > MAX_NUMBER:
         raise ValueError(
-            f"{what} is {number:.3g}; at most {LARGEST:g} in size is allowed. "
+            f"{what} is {number:.3g}; at most {MAX_NUMBER:g} in size is allowed. "
             "Divide all coefficients by one common factor: that only rescales time."
         )
     return number
@@ -302,12 +302,12 @@ class ELinear:
             )
             given = (a11, a12, a21, a22, f1, f2)
             a, b, d, phi, (c, s) = in_normal_form(a11, a12, a21, a22)
-            f1, f2 = turned(given, c, s)
+            f1, f2 = rotate_f(given, c, s)
             B = B @ np.array([[c, s], [-s, c]])
         size = max(abs(a), abs(b), abs(d), abs(f1), abs(f2))
-        if 0.0 < size < SMALLEST:
+        if 0.0 < size < MIN_NUMBER:
             raise ValueError(
-                f"the largest of a, b, d, f1, f2 is {size:.3g}; at least {SMALLEST:g} (or all zero) is allowed. "
+                f"the largest of a, b, d, f1, f2 is {size:.3g}; at least {MIN_NUMBER:g} (or all zero) is allowed. "
                 "Multiply all coefficients by one common factor: that only rescales time."
             )
         B.flags.writeable = g.flags.writeable = False

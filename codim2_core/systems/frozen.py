@@ -1,4 +1,4 @@
-"""What every system frozen at one z answers: all that the hemisphere there depends on."""
+"""The interface of a system frozen at one z: all that the hemisphere there depends on."""
 
 from __future__ import annotations
 

@@ -9,4 +9,4 @@ from .typed import System
 from .typed_at_z import Frozen
 
 AnySystem = ELinear | System | AtZ
-KINDS = (ELinear, System, Coefficients, Frozen)  # for `isinstance`, at the door
+SYSTEM_KINDS = (ELinear, System, Coefficients, Frozen)  # for `isinstance`, at the door

@@ -33,7 +33,7 @@ def in_normal_form(
     return a, 0.5 * a21 - 0.5 * a12, d, phi, (math.cos(phi), math.sin(phi))
 
 
-def turned(given: Affine, c: float, s: float) -> tuple[float, float]:
+def rotate_f(given: Affine, c: float, s: float) -> tuple[float, float]:
     """Rotate f; a component that is zero, as f is an eigenvector of the symmetric part of A, is zero exactly."""
     f1, f2 = given[4:]
     u, v = c * f1 - s * f2, s * f1 + c * f2

@@ -9,9 +9,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..expressions.expression import Expression, ExpressionError, parse
-from ..expressions.names import MOST_SLOW_VARIABLES, PLANE, SLOW, TIME
+from ..expressions.names import FAST_NAMES, MOST_SLOW_VARIABLES, SLOW_NAMES, TIME
 from ..expressions.reader import MOST_CHARACTERS
-from .bounds import LARGEST
+from .bounds import MAX_NUMBER
 
 Text = str | float | int | Expression
 
@@ -21,7 +21,7 @@ _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = 60
 
 
-def shortened(value: object) -> str:
+def short_repr(value: object) -> str:
     """Return repr(value) for a message, of bounded length and made in bounded time."""
     return _SHORT.repr(value)
 
@@ -31,22 +31,23 @@ def mapping(values: Any, what: str) -> dict[str, Any]:
     try:
         return dict(values)
     except (TypeError, ValueError):
-        raise ValueError(f"{what} is {shortened(values)}; give names with values, such as {{'mu': 0.2}}.") from None
+        raise ValueError(f"{what} is {short_repr(values)}; give names with values, such as {{'mu': 0.2}}.") from None
 
 
 def parameter(name: object, value: object) -> float:
     """Check the name and the value of a parameter."""
     if not isinstance(name, str) or len(name) > 40:
-        raise ValueError(f"{shortened(name)} cannot name a parameter; use at most 40 ASCII letters, digits and _.")
-    if name in PLANE or name == "z" or name in SLOW:
+        raise ValueError(f"{short_repr(name)} cannot name a parameter; use at most 40 ASCII letters, digits and _.")
+    if name in FAST_NAMES or name == "z" or name in SLOW_NAMES:
         raise ValueError(f"{name!r} cannot name a parameter: c, s, x, y, z, z1 … z{MOST_SLOW_VARIABLES} are variables.")
     try:
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
         number = math.nan
-    if not abs(number) <= LARGEST:
+    if not abs(number) <= MAX_NUMBER:
         raise ValueError(
-            f"parameter {shortened(name)} is {shortened(value)}; give a finite number, at most {LARGEST:g} in size."
+            f"parameter {short_repr(name)} is {short_repr(value)}; "
+            f"give a finite number, at most {MAX_NUMBER:g} in size."
         )
     return number
 
@@ -60,7 +61,7 @@ def texts(rows: Any, what: str) -> tuple[Text, ...]:
     rows = tuple(rows)
     for row in rows:
         if not isinstance(row, (str, Expression, float, int)):
-            raise ValueError(f"{what} has the entry {shortened(row)}; give formulas as text, such as '-c + z'.")
+            raise ValueError(f"{what} has the entry {short_repr(row)}; give formulas as text, such as '-c + z'.")
     return rows
 
 
@@ -74,10 +75,16 @@ def definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[
         short = isinstance(key, str) and len(key) <= LONGEST_KEY
         match = re.fullmatch(r"\s*([A-Za-z]\w*)\s*(?:\(([\w\s,]*)\))?\s*", key, re.ASCII) if short else None
         if match is None:
-            raise ValueError(f"{shortened(key)} cannot name a definition; write a name such as 'chi' or 'chi(z)'.")
+            raise ValueError(f"{short_repr(key)} cannot name a definition; write a name such as 'chi' or 'chi(z)'.")
         name, arguments = match[1], match[2] or ""
-        if name in PLANE or name in SLOW or name == "z" or name in parameters or name in [d[0] for d in found]:
-            raise ValueError(f"the definition {shortened(name)} has the name of something else; choose another name.")
+        if (
+            name in FAST_NAMES
+            or name in SLOW_NAMES
+            or name == "z"
+            or name in parameters
+            or name in [d[0] for d in found]
+        ):
+            raise ValueError(f"the definition {short_repr(name)} has the name of something else; choose another name.")
         inside = r"\s*,\s*".join(re.escape(word.strip()) for word in arguments.split(","))
         call = re.compile(rf"(?<!\w){name}\s*\(\s*{inside or r'z'}\s*\)", re.ASCII)
         meaning = read(text, f"definition {name}", parameters, tuple(found))
@@ -88,14 +95,14 @@ def definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[
 def read(text: Text, what: str, parameters: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
     """Parse one formula; `z` becomes `z1` and definitions are put in."""
     given = (*parameters, *(definition[0] for definition in definitions))
-    names = (*PLANE, "z", *SLOW, *given, *(() if TIME in given else (TIME,)))
+    names = (*FAST_NAMES, "z", *SLOW_NAMES, *given, *(() if TIME in given else (TIME,)))
     if isinstance(text, Expression):
         foreign = [name for name in text.names if name not in names]
         if foreign:
-            raise ValueError(f"{what} reads {shortened(foreign[0])}, which is no variable, parameter or definition.")
-        return _resolved(text, names, definitions)
+            raise ValueError(f"{what} reads {short_repr(foreign[0])}, which is no variable, parameter or definition.")
+        return _resolve_names(text, names, definitions)
     if not isinstance(text, (str, float, int)):
-        raise ValueError(f"{what} is {shortened(text)}; give a formula as text, such as '1 + z**2'.")
+        raise ValueError(f"{what} is {short_repr(text)}; give a formula as text, such as '1 + z**2'.")
     source = text if isinstance(text, str) else _numeral(text, what)
     for name, _, call, _ in definitions if len(source) <= MOST_CHARACTERS else ():
         # chi(z) is written as chi, padded to the same length so that columns in messages stay right
@@ -104,7 +111,7 @@ def read(text: Text, what: str, parameters: tuple[str, ...], definitions: Sequen
         expression = parse(source, names)
     except ExpressionError as error:
         raise ExpressionError(f"{what}: {error}", error.text, error.column) from error
-    return _resolved(expression, names, definitions)
+    return _resolve_names(expression, names, definitions)
 
 
 def continuous(row: Expression, what: str) -> None:
@@ -112,7 +119,7 @@ def continuous(row: Expression, what: str) -> None:
     moves: list[bool] = []
     tape = row.tape
 
-    def squared(i: int) -> str:
+    def power_sign(i: int) -> str:
         op, *args = tape[i]
         square = (op == "**" and tape[args[1]] == ("num", 2.0)) or (op == "*" and args[0] == args[1])
         return tape[args[0]][1] if square and tape[args[0]][0] == "name" else ""
@@ -122,10 +129,10 @@ def continuous(row: Expression, what: str) -> None:
         op, *args = tape[i]
         if op == "**" and tape[args[1]] == ("num", 0.5):
             op = "sqrt"
-        return op == "sqrt" and tape[args[0]][0] == "+" and {squared(j) for j in tape[args[0]][1:]} == {"x", "y"}
+        return op == "sqrt" and tape[args[0]][0] == "+" and {power_sign(j) for j in tape[args[0]][1:]} == {"x", "y"}
 
     for op, *args in tape:
-        moves.append(args[0] in PLANE if op == "name" else op != "num" and any(moves[i] for i in args))
+        moves.append(args[0] in FAST_NAMES if op == "name" else op != "num" and any(moves[i] for i in args))
         if op == "sign" and moves[-1]:
             raise ValueError(
                 f"{what} has the sign of a formula in c, s, x or y: it jumps there, on a discontinuity set of "
@@ -143,12 +150,14 @@ def _numeral(value: float, what: str) -> str:
         number = float(value)
     except OverflowError:
         number = math.inf
-    if not abs(number) <= LARGEST:
-        raise ValueError(f"{what} is {shortened(value)}; give a finite number, at most {LARGEST:g} in size, or text.")
+    if not abs(number) <= MAX_NUMBER:
+        raise ValueError(
+            f"{what} is {short_repr(value)}; give a finite number, at most {MAX_NUMBER:g} in size, or text."
+        )
     return repr(number)
 
 
-def _resolved(expression: Expression, names: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
+def _resolve_names(expression: Expression, names: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
     """Put z1 for z, and the definitions' meanings for their names."""
     expression = expression.substitute("z", parse("z1", names)) if "z" in expression.names else expression
     for name, _, _, meaning in reversed(definitions):

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..expressions.names import SLOW
+from ..expressions.names import SLOW_NAMES
 from .bounds import slow_values
 from .reading import parameter
 from .typed_at_z import Frozen
@@ -116,7 +116,7 @@ class System(Formulas):
         """
         if self.clock and np.size(np.asarray(z, object)) == self.m - 1:
             z = (*np.ravel(z).tolist(), 0.0)
-        used = any(name in SLOW for row in (*self.U, *self.W) for name in row.names)
+        used = any(name in SLOW_NAMES for row in (*self.U, *self.W) for name in row.names)
         frozen = Frozen(self, slow_values(z, self.m, needed=used))
         frozen.size  # noqa: B018 (raises where U is not finite)
         return frozen

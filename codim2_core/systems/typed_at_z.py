@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..expressions.arrays import program
 from ..expressions.expression import Expression
-from ..expressions.names import PLANE, SLOW, number_names
-from .bounds import LARGEST, SMALLEST, at_place
+from ..expressions.names import FAST_NAMES, SLOW_NAMES, number_names
+from .bounds import MAX_NUMBER, MIN_NUMBER, at_place
 from .coefficients import Affine, Coefficients
 from .elinear import ELinear
 from .typed_formulas import Formulas
@@ -23,8 +23,8 @@ Array = NDArray[np.float64]
 
 # Where U must be finite: rings of directions, the equator among them.
 _SIZES = (0.0, 0.35, 0.7, 1.0)
-_ANGLES = np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False)
-_PROBES = np.concatenate([r * np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1) for r in _SIZES])
+_SIZE_ANGLES = np.linspace(0.0, 2.0 * math.pi, 24, endpoint=False)
+_PROBES = np.concatenate([r * np.stack([np.cos(_SIZE_ANGLES), np.sin(_SIZE_ANGLES)], axis=-1) for r in _SIZES])
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Frozen:
     @cached_property
     def values(self) -> dict[str, float]:
         """Parameters and slow variables by name."""
-        return {**dict(self.system.parameters), **dict(zip(SLOW, self.z, strict=False))}
+        return {**dict(self.system.parameters), **dict(zip(SLOW_NAMES, self.z, strict=False))}
 
     def value_of(self, name: str) -> float:
         """Present value of a parameter or a slow variable."""
@@ -76,12 +76,12 @@ class Frozen:
 
     @cached_property
     def key(self) -> Hashable:
-        """What decides the portrait: the formulas of U and the numbers that they read."""
+        """Return the key of the portrait: the formulas of U and the numbers that they read."""
         return self.system.U, self.numbers
 
     @cached_property
     def slow_key(self) -> Hashable:
-        """What decides the slow flow on a given critical set: the formulas of W and the numbers that they read."""
+        """Return the key of the slow flow on a given critical set: the formulas of W and the numbers that they read."""
         return self.system.W, tuple(self.values[name] for name in number_names(self.system.W))
 
     def at(self, z: ArrayLike = ()) -> Frozen:  # noqa: ARG002 (z is already chosen)
@@ -119,7 +119,7 @@ class Frozen:
     def _matrix(self) -> Array | None:
         """D_(c,s) U where it is the same everywhere: U is affine in c and s."""
         entries = [entry for row in self.system.jacobian for entry in row]
-        if any(name in PLANE for entry in entries for name in entry.names):
+        if any(name in FAST_NAMES for entry in entries for name in entry.names):
             return None
         return self._vector(entries, (0.0, 0.0), None).reshape(2, 2)
 
@@ -170,9 +170,9 @@ class Frozen:
     def _size(self) -> float:
         speeds = np.hypot(*np.moveaxis(self.U(_PROBES), -1, 0))
         largest = float(speeds.max())
-        if not largest <= LARGEST:  # also NaN
-            c, s = _PROBES[int(np.argmax(~(speeds <= LARGEST)))]
-            i = int(np.argmax(~(np.abs(self.U((c, s))) <= LARGEST)))
+        if not largest <= MAX_NUMBER:  # also NaN
+            c, s = _PROBES[int(np.argmax(~(speeds <= MAX_NUMBER)))]
+            i = int(np.argmax(~(np.abs(self.U((c, s))) <= MAX_NUMBER)))
             value, place = float(self.U((c, s))[i]), at_place(self.z, (c, s))
             if math.isnan(largest):
                 raise ValueError(
@@ -180,9 +180,10 @@ class Frozen:
                     "has a limit only, give it a value, as in 'c*log(abs(c) + 1e-300)'."
                 )
             raise ValueError(
-                f"U{i + 1} is {value:g}{place}; it must be finite, and at most {LARGEST:g}, on the whole disc |e| <= 1."
+                f"U{i + 1} is {value:g}{place}; it must be finite, and at most {MAX_NUMBER:g}, "
+                "on the whole disc |e| <= 1."
             )
-        if 0.0 < largest < SMALLEST:
+        if 0.0 < largest < MIN_NUMBER:
             raise ValueError(f"U is at most {largest:.3g}; multiply it by a factor: that only rescales time.")
         return largest
 
@@ -198,5 +199,5 @@ class Frozen:
             xy = np.asarray(xy, float)
             values["x"], values["y"] = xy[..., 0], xy[..., 1]
         if e.ndim == 1 and (xy is None or xy.ndim == 1):
-            values.update((name, float(values[name])) for name in PLANE)
+            values.update((name, float(values[name])) for name in FAST_NAMES)
         return np.stack([np.asarray(row.evaluate(values), float) for row in rows], axis=-1)

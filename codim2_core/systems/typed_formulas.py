@@ -7,9 +7,9 @@ from functools import cached_property
 from typing import Any
 
 from ..expressions.expression import Expression, parse
-from ..expressions.names import MOST_SLOW_VARIABLES, SLOW, TIME, number_names
+from ..expressions.names import MOST_SLOW_VARIABLES, SLOW_NAMES, TIME, number_names
 from .bounds import slow_names
-from .reading import continuous, mapping, parameter, read, shortened, texts
+from .reading import continuous, mapping, parameter, read, short_repr, texts
 from .reading import definitions as read_definitions
 
 MOST_NUMBERS = 32  # parameters and slow variables that one system may read
@@ -26,15 +26,15 @@ def with_clock(U: Rows, W: Rows) -> tuple[Rows, Rows, str]:
     Time is a slow variable like any other for all that is known of them: a portrait is that of an instant, sliding
     follows it, a periodic motion is forced by it.
     """
-    named = max((SLOW.index(name) + 1 for row in (*U, *W) for name in row.names if name in SLOW), default=0)
+    named = max((SLOW_NAMES.index(name) + 1 for row in (*U, *W) for name in row.names if name in SLOW_NAMES), default=0)
     others = len(W) or named
     if others >= MOST_SLOW_VARIABLES:
         raise ValueError(f"t is one more slow variable; at most {MOST_SLOW_VARIABLES - 1} are allowed beside it.")
     if named > others:  # to be refused for that
         return U, W, ""
-    clock = SLOW[others]
+    clock = SLOW_NAMES[others]
     rows = W or (parse("0", ()),) * others
-    U, W = (tuple(row.substitute(TIME, parse(clock, SLOW)) for row in part) for part in (U, rows))
+    U, W = (tuple(row.substitute(TIME, parse(clock, SLOW_NAMES)) for row in part) for part in (U, rows))
     return U, (*W, parse("1", ())), clock
 
 
@@ -67,7 +67,7 @@ class Formulas:
         fix(self, "definitions", tuple((name, text) for name, text, _, _ in definitions))
         U = texts(self.U, "U")
         if len(U) != 2:
-            raise ValueError(f"U is {shortened(self.U)}; give two formulas (U1, U2).")
+            raise ValueError(f"U is {short_repr(self.U)}; give two formulas (U1, U2).")
         formula = lambda text, what: read(text, what, tuple(parameters), definitions)
         plane = tuple(formula(text, f"U{i + 1}") for i, text in enumerate(U))
         W = texts(self.W, "W")
@@ -101,7 +101,8 @@ class Formulas:
         """The number of slow variables."""
         rows = [(f"{what}{i}", row) for what, own in (("U", self.U), ("W", self.W)) for i, row in enumerate(own, 1)]
         named, first = max(
-            ((SLOW.index(name) + 1, box) for box, row in rows for name in row.names if name in SLOW), default=(0, "")
+            ((SLOW_NAMES.index(name) + 1, box) for box, row in rows for name in row.names if name in SLOW_NAMES),
+            default=(0, ""),
         )
         if self.W and named > len(self.W):
             raise ValueError(
@@ -123,7 +124,7 @@ class Formulas:
     @cached_property
     def moves_with_z(self) -> bool:
         """Whether U, and with it the whole portrait, may depend on z."""
-        return any(name in SLOW for u in self.U for name in u.names)
+        return any(name in SLOW_NAMES for u in self.U for name in u.names)
 
     @cached_property
     def reads_position(self) -> bool:

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..layer_problem.location import Existence
-from ..psi.constructors import compared
+from ..psi.constructors import comparison_families
 from ..words import say
 from .degenerate import NOT_LINEAR
-from .facts import RAYS, Certificate, Facts, not_applicable, verdict_of
+from .facts import RAY_ANGLES, Certificate, Facts, not_applicable, verdict_of
 
 
-def _why(facts: Facts) -> str:
+def _reason(facts: Facts) -> str:
     return NOT_LINEAR if facts.location is None else facts.location.existence.value
 
 
@@ -30,7 +30,7 @@ def case1(facts: Facts) -> tuple[Certificate, ...]:
 def _case1a(facts: Facts, statement: str) -> Certificate:
     theorem = "thm:case1(a)"
     if not facts.critical:
-        return not_applicable(theorem, statement, _why(facts))
+        return not_applicable(theorem, statement, _reason(facts))
     assert facts.form is not None
     a, d = facts.form.a, facts.form.d
     backwards = a > 0.0
@@ -39,7 +39,7 @@ def _case1a(facts: Facts, statement: str) -> Certificate:
     zeta = np.geomspace(1e-4, 1e4, 81)
     s = zeta**2
     P, slope = facts.psi(s), facts.psi.derivative(s)
-    x, y = zeta[:, None] * np.cos(RAYS), zeta[:, None] * np.sin(RAYS)
+    x, y = zeta[:, None] * np.cos(RAY_ANGLES), zeta[:, None] * np.sin(RAY_ANGLES)
     weight = (s + P)[:, None]
     top = (a + d) * P[:, None] - (a * x**2 + d * y**2) * slope[:, None] + a * y**2 + d * x**2
     divergence = top / weight**1.5
@@ -65,7 +65,7 @@ def _case1a(facts: Facts, statement: str) -> Certificate:
 
 def _without_set(theorem: str, facts: Facts, statement: str) -> Certificate:
     if facts.location is None or facts.location.existence is not Existence.NONE:
-        return not_applicable(theorem, statement, _why(facts))
+        return not_applicable(theorem, statement, _reason(facts))
     count = len(facts.equator)
     numbers = (("critical sets", float(len(facts.critical))), ("limit directions", float(count)))
     if not facts.generic:
@@ -103,10 +103,12 @@ def case2(facts: Facts) -> tuple[Certificate, ...]:
         return not_applicable("thm:case2(a)", with_set, why), not_applicable("thm:case2(b)", without, why)
     second = _without_set("thm:case2(b)", facts, without)
     if not facts.critical:
-        return not_applicable("thm:case2(a)", with_set, _why(facts)), second
+        return not_applicable("thm:case2(a)", with_set, _reason(facts)), second
     equator = facts.equator
     products = (equator.lambda_rho * equator.lambda_theta).tolist()
-    saddles = all(C.kind == "saddle" for psi in (facts.psi, *compared(1)) for C in facts.problem.under(psi).critical)
+    saddles = all(
+        C.kind == "saddle" for psi in (facts.psi, *comparison_families(1)) for C in facts.problem.under(psi).critical
+    )
     holds = saddles and len(products) == 4 and all(v < 0.0 for v in products)
     numbers = (("det J", facts.critical[0].determinant), ("limit directions", float(len(products))),
                *((f"λ_ρ λ_θ at {label}", v) for label, v in zip(equator.labels, products, strict=True)))  # fmt: skip

@@ -23,7 +23,7 @@ from ..tables import Results
 from ..words import say
 from .cases import case1, case2
 from .degenerate import NOT_LINEAR, equal_diagonal, normal_form, symmetric
-from .facts import CLOSE, RAYS, Array, Certificate, Facts, Verdict, not_applicable, verdict_of
+from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Array, Certificate, Facts, Verdict, not_applicable, verdict_of
 from .paper_examples import attracting_and_repelling, ball_in_pool, nonunique
 from .psi_claims import psi_claims
 from .sliding_claims import sliding_claims
@@ -111,7 +111,7 @@ def _equilibria(facts: Facts) -> Certificate:
         worst = max(worst, abs(numbers[-1][1]))
     count = len(numbers)
     return Certificate(
-        theorem, statement, verdict_of(worst <= CLOSE * facts.size), tuple(numbers),
+        theorem, statement, verdict_of(worst <= RELATIVE_TOLERANCE * facts.size), tuple(numbers),
         say("vanishes in one" if count == 1 else "vanishes in", count=count),
     )  # fmt: skip
 
@@ -215,7 +215,7 @@ def _existence(facts: Facts) -> Certificate:
         e = facts.psi.modulus(zeta) * C.x2 / zeta if zeta else C.x2
         residual = float(abs(facts.at.U(e)).max())
         numbers.append(("|A e_Ψ + f| there", residual))
-        holds &= residual <= CLOSE * facts.size
+        holds &= residual <= RELATIVE_TOLERANCE * facts.size
     return Certificate(
         theorem, statement, verdict_of(holds), tuple(numbers),
         say("one set here" if facts.critical else "no set here", length=length),
@@ -224,7 +224,7 @@ def _existence(facts: Facts) -> Certificate:
 
 def _affine(at: AtZ) -> bool:
     """Whether W is affine in (c, s), as far as a few directions show."""
-    e = np.stack([np.cos(RAYS), np.sin(RAYS)], axis=-1)
+    e = np.stack([np.cos(RAY_ANGLES), np.sin(RAY_ANGLES)], axis=-1)
     W, middle = at.W(e), at.W(np.zeros(2))
     tilt = np.stack([at.W(np.eye(2)[k]) - middle for k in (0, 1)])
     return bool(np.abs(W - middle - e @ tilt).max(initial=0.0) <= 1e-13 * (np.abs(W).max(initial=0.0) or 1.0))
@@ -247,7 +247,7 @@ def _filippov(facts: Facts) -> Certificate:
     size = facts.slow_size
     worst = float(abs(slow - formula).max())
     spread = 0.0
-    for angle in RAYS[:6]:
+    for angle in RAY_ANGLES[:6]:
         # two limit vectors along a chord through e: their convex combination that is tangent to the discontinuity set
         u = np.array([math.cos(angle), math.sin(angle)])
         half = math.sqrt(max(0.0, 1.0 - (e[0] * u[1] - e[1] * u[0]) ** 2))
@@ -258,7 +258,7 @@ def _filippov(facts: Facts) -> Certificate:
         spread = max(spread, float(abs(combined - slow).max()) / size, float(abs(across).max()) / facts.size)
     numbers = [(f"z{i + 1}′", float(v)) for i, v in enumerate(slow)]
     numbers += [("difference from −B A⁻¹f + g", worst), ("difference from six Filippov combinations", spread)]
-    holds = worst <= CLOSE * size and spread <= CLOSE
+    holds = worst <= RELATIVE_TOLERANCE * size and spread <= RELATIVE_TOLERANCE
     return Certificate(
         theorem, statement, verdict_of(holds), tuple(numbers),
         say("all combinations agree"),

@@ -9,7 +9,7 @@ import numpy as np
 from ..words import say
 from .facts import Certificate, Facts, not_applicable, verdict_of
 
-TURNED = 4.0 * np.finfo(float).eps
+ANGLE_ROUNDING = 4.0 * np.finfo(float).eps
 NOT_LINEAR = say("U not e-linear")
 
 
@@ -31,7 +31,7 @@ def normal_form(facts: Facts) -> Certificate:
     )  # fmt: skip
 
 
-def _held(facts: Facts, theorem: str, statement: str, expected: list[float], sentence: str) -> Certificate:
+def _compare_angles(facts: Facts, theorem: str, statement: str, expected: list[float], sentence: str) -> Certificate:
     """Hold angles in the normal form's axes against the limit directions found."""
     form = facts.form
     assert form is not None
@@ -60,14 +60,14 @@ def equal_diagonal(facts: Facts) -> Certificate:
         return not_applicable(theorem, statement, say("a and d differ"))
     length = math.hypot(form.f1, form.f2)
     # turning a matrix leaves a rounding of its entries, and with b = f = 0 nothing else
-    least = 0.0 if form.given is None else TURNED * max(abs(form.a), abs(form.d))
+    least = 0.0 if form.given is None else ANGLE_ROUNDING * max(abs(form.a), abs(form.d))
     if max(length, abs(form.b)) <= least:
         return not_applicable(theorem, statement, say("every direction, b = 0"))
     expected: list[float] = []
     if abs(form.b) <= length:
         turn, half = math.atan2(form.f2, form.f1), math.asin(form.b / length)
         expected = [turn + half] if abs(form.b) == length else [turn + half, turn + math.pi - half]
-    return _held(facts, theorem, statement, expected, say("D1, here", b=abs(form.b), f=length))
+    return _compare_angles(facts, theorem, statement, expected, say("D1, here", b=abs(form.b), f=length))
 
 
 def symmetric(facts: Facts) -> Certificate:
@@ -93,4 +93,4 @@ def symmetric(facts: Facts) -> Certificate:
             half = math.asin(-force / spread)
             expected += [half, math.pi - half]
     key = "D2, at the pitchfork" if abs(force) == abs(spread) else "D2, here"
-    return _held(facts, theorem, statement, expected, say(key, f=abs(force), spread=abs(spread)))
+    return _compare_angles(facts, theorem, statement, expected, say(key, f=abs(force), spread=abs(spread)))

@@ -1,4 +1,4 @@
-"""What a certificate is, and the facts about one system that all certificates read."""
+"""A certificate, and the facts about one system that all certificates read."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ from ..systems.frozen import AtZ
 from ..tables import Tabled, number
 
 Array = NDArray[np.float64]
-CLOSE = 1e-9  # of the size of what is compared
-RAYS = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)
+RELATIVE_TOLERANCE = 1e-9  # of the size of what is compared
+RAY_ANGLES = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)
 
 
 UNCERTAIN = frozenset(
@@ -41,7 +41,7 @@ UNCERTAIN = frozenset(
 
 
 class Verdict(Enum):
-    """What a certificate finds; the value is shown."""
+    """The verdict of a certificate; the value is shown."""
 
     HOLDS = "holds"
     DOES_NOT_APPLY = "does not apply"
@@ -116,13 +116,13 @@ class Facts:
     @property
     def slow_size(self) -> float:
         """The largest |W| on the edge and in the middle (1 if W = 0): what slow flows are compared with."""
-        e = np.stack([np.cos(RAYS), np.sin(RAYS)], axis=-1)
+        e = np.stack([np.cos(RAY_ANGLES), np.sin(RAY_ANGLES)], axis=-1)
         values = np.abs(self.at.W(np.concatenate([e, np.zeros((1, 2))])))
         return float(values.max(initial=0.0)) or 1.0
 
     @property
     def uncertain(self) -> str | None:
-        """Why a count of this system is not certain, or None: then a claim that fails shows nothing."""
+        """Return why a count of this system is uncertain, or None: with a reason, a claim that fails shows nothing."""
         for degeneracy in self.portrait.degeneracies:
             if degeneracy.name in UNCERTAIN:
                 return degeneracy.sentence
@@ -145,7 +145,7 @@ class Facts:
 
     @property
     def location(self) -> Location | None:
-        """Where A e + f = 0; None where U is not e-linear."""
+        """Return the solution of A e + f = 0; None where U is not e-linear."""
         return self.problem.location
 
     @property

@@ -10,9 +10,11 @@ from ..examples.attracting_repelling import attracting_repelling
 from ..examples.nonunique_sliding import nonunique_sliding
 from ..systems.typed import System
 from ..words import say
-from .facts import CLOSE, RAYS, Certificate, Facts, not_applicable, verdict_of
+from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Certificate, Facts, not_applicable, verdict_of
 
-_NET = np.concatenate([r * np.stack([np.cos(RAYS), np.sin(RAYS)], axis=-1) for r in (0.0, 0.4, 0.8, 1.0)])
+_DISC_NET = np.concatenate(
+    [r * np.stack([np.cos(RAY_ANGLES), np.sin(RAY_ANGLES)], axis=-1) for r in (0.0, 0.4, 0.8, 1.0)]
+)
 
 
 def ball_in_pool(facts: Facts) -> Certificate:
@@ -25,7 +27,7 @@ def ball_in_pool(facts: Facts) -> Certificate:
         assert form is not None
         zero = np.zeros(2)
         f, g = at.U(zero), at.W(zero)
-        own = bool(np.abs(at.W(_NET) - (2.0 / 7.0 * form.a * _NET + f)).max() <= 1e-12 * facts.size)
+        own = bool(np.abs(at.W(_DISC_NET) - (2.0 / 7.0 * form.a * _DISC_NET + f)).max() <= 1e-12 * facts.size)
         own = own and bool(np.abs(f - g).max() <= 1e-12 * facts.size)
     if not own or form is None:
         return not_applicable(theorem, statement, say("not the ball"))
@@ -36,7 +38,11 @@ def ball_in_pool(facts: Facts) -> Certificate:
     sticks = bool(facts.critical) and facts.critical[0].kind == "stable node"
     gap = float(np.abs(facts.critical[0].slow_flow - 5.0 / 7.0 * f).max()) if facts.critical else 0.0
     count = len(facts.equator)
-    holds = sticks == (ratio < 1.0) and gap <= CLOSE * facts.size and (count == 2 or facts.equator.all_directions)
+    holds = (
+        sticks == (ratio < 1.0)
+        and gap <= RELATIVE_TOLERANCE * facts.size
+        and (count == 2 or facts.equator.all_directions)
+    )
     words = say("ball sticks") if sticks else say("ball slips")
     numbers = (("|f|/|a|", ratio), ("limit directions", float(count)), ("|z′ − 5f/7|", gap))
     return Certificate(theorem, statement, verdict_of(holds), numbers, words)
@@ -49,7 +55,7 @@ def _is(facts: Facts, example: System) -> bool:
         return False
     other = example.at(at.z)
     near = lambda u, v: bool(np.abs(u - v).max() <= 1e-12 * facts.size)
-    return near(at.U(_NET), other.U(_NET)) and near(at.W(_NET), other.W(_NET))
+    return near(at.U(_DISC_NET), other.U(_DISC_NET)) and near(at.W(_DISC_NET), other.W(_DISC_NET))
 
 
 def attracting_and_repelling(facts: Facts) -> Certificate:
@@ -69,7 +75,7 @@ def attracting_and_repelling(facts: Facts) -> Certificate:
     kinds = [C.kind for C in facts.critical]
     places = [(1.0 - math.sqrt(5.0)) / 4.0, (1.0 + math.sqrt(5.0)) / 4.0]
     gap = max((abs(C.e[0] - c) for C, c in zip(facts.critical, places, strict=False)), default=math.inf)
-    holds = worst <= CLOSE and signs and kinds == ["stable node", "saddle"] and gap <= CLOSE
+    holds = worst <= RELATIVE_TOLERANCE and signs and kinds == ["stable node", "saddle"] and gap <= RELATIVE_TOLERANCE
     numbers = (("limit directions", float(len(equator))), ("largest |θ_i − (i − 1)π/3|", worst))
     numbers += (("critical sets", float(len(kinds))), ("largest |c − (1 ± √5)/4|", float(gap)))
     words = say("within a third")
@@ -90,7 +96,7 @@ def nonunique(facts: Facts) -> Certificate:
     gap = max((abs(u - v) for u, v in zip(flows, expected, strict=False)), default=math.inf)
     count = 8 if chi**2 < 2.0 else 4
     firm = abs(chi**2 - 2.0) > 1e-9
-    holds = kinds == ["stable node", "saddle", "stable node"] and gap <= CLOSE
+    holds = kinds == ["stable node", "saddle", "stable node"] and gap <= RELATIVE_TOLERANCE
     holds = holds and (len(facts.equator) == count or not firm)
     numbers = (("χ(z)", chi), ("critical sets", float(len(kinds))), ("limit directions", float(len(facts.equator))))
     numbers += (("largest difference of slow flows from ±χ + 1/4, 1/4", gap),)

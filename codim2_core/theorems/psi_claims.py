@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 
 from ..psi.function import Psi
 from ..words import say
-from .facts import RAYS, Certificate, verdict_of
+from .facts import RAY_ANGLES, Certificate, verdict_of
 
 Array = NDArray[np.float64]
 ZETA = np.geomspace(1e-3, 1e3, 49)
-ROUND = 1e-12
+CLAIM_ROUNDING = 1e-12
 UNDERFLOW = 1e-280
 
 
@@ -31,14 +31,14 @@ def _points() -> Array:
 
 
 def _equivariant(psi: Psi) -> Certificate:
-    points, angles = _points(), RAYS[1::5]
+    points, angles = _points(), RAY_ANGLES[1::5]
     c, s = np.cos(angles), np.sin(angles)
     turns = np.stack([np.stack([c, s], axis=-1), np.stack([-s, c], axis=-1)], axis=-2)  # from the right
     turned, here = points @ turns, e_psi(psi, points, 1.0)
     worst = float(np.abs(e_psi(psi, turned.reshape(-1, 2), 1.0).reshape(turned.shape) - here @ turns).max())
     return Certificate(
         "lem:ePsi(a)", say("lem:ePsi(a)"),
-        verdict_of(worst <= ROUND), (("largest difference", worst),), say("through the square"),
+        verdict_of(worst <= CLAIM_ROUNDING), (("largest difference", worst),), say("through the square"),
     )  # fmt: skip
 
 
@@ -49,7 +49,7 @@ def _homogeneous(psi: Psi) -> Certificate:
         worst = max(worst, float(np.abs(e_psi(psi, k * points, k) - here).max()))
     return Certificate(
         "lem:ePsi(b)", say("lem:ePsi(b)"),
-        verdict_of(worst <= ROUND), (("largest difference", worst),),
+        verdict_of(worst <= CLAIM_ROUNDING), (("largest difference", worst),),
         say("one scale"),
     )  # fmt: skip
 

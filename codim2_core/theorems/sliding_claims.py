@@ -6,7 +6,7 @@ import numpy as np
 
 from ..layer_problem.critical import CriticalSet, critical_sets
 from ..layer_problem.linearisation import matrix_determinant
-from ..psi.constructors import compared
+from ..psi.constructors import comparison_families
 from ..psi.function import Psi
 from ..words import say
 from .facts import Array, Certificate, Facts, not_applicable, verdict_of
@@ -14,8 +14,8 @@ from .psi_claims import e_psi
 
 NO_SET = say("no isolated critical set")
 FOLDED = ("saddle-node", "degenerate")
-STEPS = (1e-3, 1e-4)  # eps times the way to the slow manifold, of hypot(1, |x2|)
-AHEAD = 1e-5  # step along z, of 1 + |z|
+EPS_VALUES = (1e-3, 1e-4)  # eps times the way to the slow manifold, of hypot(1, |x2|)
+Z_STEP = 1e-5  # step along z, of 1 + |z|
 
 
 def sliding_claims(facts: Facts) -> tuple[Certificate, ...]:
@@ -70,7 +70,7 @@ def _slow_flow(facts: Facts) -> Certificate:
     if not facts.at.m:
         return not_applicable(theorem, statement, say("no slow variable"))
     numbers, holds = [], True
-    for other in dict.fromkeys((facts.psi, *compared(1))):
+    for other in dict.fromkeys((facts.psi, *comparison_families(1))):
         found = facts.problem.under(other).critical
         worst = 0.0
         for C, D in zip(facts.critical, found, strict=False):
@@ -95,10 +95,10 @@ def _slow_manifold(facts: Facts) -> Certificate:
         return not_applicable(theorem, statement, say("frozen"))
     numbers: list[tuple[str, float]] = []
     holds, skipped = True, []
-    beside = _beside(facts)
+    beside = _finite_difference(facts)
     for label, C in zip(_labels(facts), facts.critical, strict=True):
         rate, size = float(np.abs(C.eigenvalues.real).min()), float(np.abs(C.eigenvalues).max())
-        moved = _along(beside, C)
+        moved = _set_derivative(beside, C)
         if C.kind in FOLDED or rate <= 1e-6 * size or moved is None:
             skipped.append(label)
             continue
@@ -108,7 +108,7 @@ def _slow_manifold(facts: Facts) -> Certificate:
         length = float(np.hypot(*shift))
         unit = float(np.hypot(1.0, np.hypot(*C.x2))) / length if length else 1.0
         left = []
-        for eps in (STEPS[0] * unit, STEPS[1] * unit):
+        for eps in (EPS_VALUES[0] * unit, EPS_VALUES[1] * unit):
             U = facts.at.U(e_psi(facts.psi, (C.x2 + eps * shift)[None], 1.0)[0])
             left.append(float(np.abs(U - eps * drift).max()))
         numbers += [(f"|x₂ − x₂*|/ε at {label}", length), (f"defect at {label}", left[0])]
@@ -127,11 +127,11 @@ def _slow_manifold(facts: Facts) -> Certificate:
 Beside = list[tuple[float, list[tuple[CriticalSet, ...]]]]
 
 
-def _beside(facts: Facts) -> Beside | None:
+def _finite_difference(facts: Facts) -> Beside | None:
     """Critical sets at z +- h in each slow variable, and h; None at the edge of where the formulas are defined."""
     found: Beside = []
     for k, value in enumerate(facts.z):
-        h = AHEAD * (1.0 + abs(value))
+        h = Z_STEP * (1.0 + abs(value))
         places = [(*facts.z[:k], value + side, *facts.z[k + 1 :]) for side in (h, -h)]
         try:
             found.append((h, [critical_sets(facts.system, facts.psi, z) for z in places]))
@@ -140,7 +140,7 @@ def _beside(facts: Facts) -> Beside | None:
     return found
 
 
-def _along(beside: Beside | None, C: CriticalSet) -> Array | None:
+def _set_derivative(beside: Beside | None, C: CriticalSet) -> Array | None:
     """Differentiate x2 of C by z, (2, m), from the critical sets on either side; None where they are not there."""
     columns = []
     for h, sides in beside or []:

@@ -1,4 +1,4 @@
-"""What is said of a system, a portrait, a motion: every sentence once, a module a room, with when it is said.
+"""Sentences about systems, portraits and motions: each written once, a module a topic, with its condition.
 
 The other rooms say them by `say`; `recognise` finds them again in a text, so that the tests can hold each against
 what motions do: a sentence without a check of its own is a failing test.
@@ -8,8 +8,8 @@ from .registry import ROOMS as ROOMS
 from .registry import SENTENCES as SENTENCES
 from .registry import recognise as recognise
 from .registry import say as say
-from .written import named as named
 from .written import number as number
 from .written import power as power
-from .written import printed as printed
+from .written import printed_sentence as printed_sentence
 from .written import subscript as subscript
+from .written import written_label as written_label

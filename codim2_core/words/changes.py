@@ -1,4 +1,4 @@
-"""What is said of a change: at a value of one parameter, or on a curve in the plane of two."""
+"""Sentences about a change: at a value of one parameter, or on a curve in the plane of two."""
 
 from __future__ import annotations
 

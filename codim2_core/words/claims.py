@@ -1,4 +1,4 @@
-"""What is said of the paper's claims: each in short, why it does not apply, and what is found."""
+"""Sentences about the paper's claims: each in short, why it does not apply, and what is found."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said of limit cycles: how many were found, or why there is none, and how a branch of them begins and ends."""
+"""Sentences about limit cycles: how many were found, or why there is none; how a branch begins and ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said of a degenerate setting: what has met, vanished or become neutral."""
+"""Sentences about a degenerate setting: what has met, vanished or become neutral."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said of the equator as a whole: its equilibria, and whether all are known."""
+"""Sentences about the equator as a whole: its equilibria, and whether all are known."""
 
 from __future__ import annotations
 

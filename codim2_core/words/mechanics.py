@@ -1,4 +1,4 @@
-"""What is said of a mechanism: whether its contact grips."""
+"""Sentences about a mechanism: whether its contact grips."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said of a motion: why each phase begins, and why it ends."""
+"""Sentences about a motion: why each phase begins, and why it ends."""
 
 from __future__ import annotations
 

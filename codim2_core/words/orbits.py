@@ -1,4 +1,4 @@
-"""What is said of an orbit: where it goes and comes from, launched or a separatrix, and why it ends."""
+"""Sentences about an orbit, launched or a separatrix: its limit sets, and why it ends."""
 
 from __future__ import annotations
 

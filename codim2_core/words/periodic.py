@@ -1,4 +1,4 @@
-"""What is said of periodic motions: whether one was found, and whether it is stable."""
+"""Sentences about periodic motions: whether one was found, and whether it is stable."""
 
 from __future__ import annotations
 

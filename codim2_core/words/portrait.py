@@ -1,4 +1,4 @@
-"""What is said of a portrait: its limit directions, its critical sets, and what becomes of approaches."""
+"""Sentences about a portrait: its limit directions, its critical sets, and the outcomes of approaches."""
 
 from __future__ import annotations
 

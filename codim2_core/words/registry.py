@@ -8,7 +8,7 @@ from string import Formatter
 
 from . import changes, claims, cycles, degenerate, equator, mechanics, motion, orbits, periodic, portrait, slow_flow
 from .sentence import Sentence
-from .written import named, number, power
+from .written import number, power, written_label
 
 #: The sentences of each room, by the room's name.
 ROOMS: dict[str, dict[str, Sentence]] = {
@@ -29,7 +29,7 @@ SENTENCES: dict[str, Sentence] = {key: one for room in ROOMS.values() for key, o
 
 
 @cache
-def _parsed(key: str) -> tuple[tuple[str, str | None, str | None], ...]:
+def _parse_fields(key: str) -> tuple[tuple[str, str | None, str | None], ...]:
     """Text, and the name and format of the field that follows it, as often as there are fields, and the rest."""
     return tuple((text, name, format_) for text, name, format_, _ in Formatter().parse(SENTENCES[key].says))
 
@@ -38,13 +38,14 @@ def _written(value: object, format_: str) -> str:
     """Numbers and names are written in one way."""
     if isinstance(value, float):
         return power(value) if format_.endswith("e") else number(value, int(format_.strip(".g") or 6))
-    return named(str(value))
+    return written_label(str(value))
 
 
 def say(key: str, **fields: object) -> str:
     """Return a sentence with its fields filled in."""
     return "".join(
-        text if name is None else text + _written(fields[name], format_ or "") for text, name, format_ in _parsed(key)
+        text if name is None else text + _written(fields[name], format_ or "")
+        for text, name, format_ in _parse_fields(key)
     )
 
 

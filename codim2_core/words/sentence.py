@@ -1,4 +1,4 @@
-"""What a sentence of the registry is."""
+"""A sentence of the registry."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said of sliding along Σ: along one slow variable, and by convex combinations."""
+"""Sentences about sliding along Σ: along one slow variable, and by convex combinations."""
 
 from __future__ import annotations
 

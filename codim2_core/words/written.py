@@ -13,7 +13,7 @@ def subscript(number: int) -> str:
     return str(number).translate(_LOWERED)
 
 
-def named(label: str) -> str:
+def written_label(label: str) -> str:
     """Return a label as it is written in a sentence: "Q1" as Q₁, "f2" as f₂; "cycle 1" as it is."""
     return re.sub(r"(?<=[QC])\d+|(?<=\b[fgkxzB])\d+\b", lambda digits: digits[0].translate(_LOWERED), label)
 
@@ -33,7 +33,7 @@ _EXPONENT = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d+)\b")
 _MINUS = re.compile(r"(?<![\w.)\]}/-])-(?=\.?\d|inf\b)")
 
 
-def printed(sentence: str) -> str:
+def printed_sentence(sentence: str) -> str:
     """Return a sentence that was made for Python with its numbers as they are read: minus signs, raised powers, ∞.
 
     What is quoted stays as it was typed, and names are those that are typed.

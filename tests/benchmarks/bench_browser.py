@@ -17,13 +17,13 @@ from ..app.serving import serving
 
 #: A slider that moves once in each frame of the screen, a tenth of its range to both sides, and what is painted
 #: meanwhile: the frames of the screen in which the picture was drawn, each of which shows a value that it knows.
-DRAG = """async (root, seconds) => {
-    const slider = root.querySelector("#c2-f1"), asked = new Map(), delays = []
+DRAG = """async (root, [name, seconds]) => {
+    const slider = root.querySelector(`#c2-${name}`), asked = new Map(), delays = []
     const {picture, requests, values} = root.explorer, view = picture.drawn.view
     const apply = picture.apply.bind(picture), paint = view._paint.bind(view), send = requests.send
-    const middle = values.f1, reach = 0.1 * (slider.max - slider.min)
+    const middle = values[name], reach = 0.1 * (slider.max - slider.min)
     let shown = null, most = 0, long = 0, frames = 0, painted = 0, fresh = true
-    picture.apply = (frame) => { shown = frame.header.set?.f1 ?? shown; apply(frame) }
+    picture.apply = (frame) => { shown = frame.header.set?.[name] ?? shown; apply(frame) }
     view._paint = (ctx) => {
         paint(ctx)
         if (fresh) painted++
@@ -40,7 +40,7 @@ DRAG = """async (root, seconds) => {
         fresh = true
         slider.value = middle + reach * (Math.sin((performance.now() - start) / 700) + 1e-6 * frames++)
         slider.dispatchEvent(new Event("input", {bubbles: true}))
-        asked.set(values.f1, performance.now())
+        asked.set(values[name], performance.now())
     }
     const passed = (performance.now() - start) / 1000
     observer.disconnect()
@@ -60,6 +60,7 @@ class Case:
     width: int = 1440
     height: int = 900
     ratio: int = 1
+    slider: str = "f1"
 
 
 ALL = "outside,inside,continuations,separatrices,cycles,rho,theta,lines,equator,critical,outcomes,basins"
@@ -72,6 +73,10 @@ CASES = (
     Case("phone, ratio 3", width=390, height=844, ratio=3),
 )  # fmt: skip
 QUICK = CASES[:2]
+#: Every slider of the e-linear system, and the addresses of those that the first page does not have.
+SLIDERS = ("a", "b", "d", "f1", "f2", "z", "k1", "k2", "B1", "B2", "g0", "n")
+QUERIES = {"n": "?psi=hill&n=3", "k1": "?z=1", "k2": "?z=1"}
+SLOWER = 4
 
 
 def _processor(browser: Browser) -> float:
@@ -83,7 +88,7 @@ def _processor(browser: Browser) -> float:
 
 
 def drag(browser: Browser, address: str, case: Case, seconds: float) -> dict[str, Any]:
-    """Drag f1 of one page and return what was painted; "cpu" is the renderer's time for a painted frame, in ms."""
+    """Drag a slider of one page and return what was painted; "cpu" is the renderer's ms for a painted frame."""
     viewport = {"width": case.width, "height": case.height}
     context = browser.new_context(viewport=viewport, device_scale_factor=case.ratio)  # type: ignore[arg-type]
     try:
@@ -94,9 +99,9 @@ def drag(browser: Browser, address: str, case: Case, seconds: float) -> dict[str
         root = page.locator(".codim2")
         if case.throttle > 1:
             context.new_cdp_session(page).send("Emulation.setCPUThrottlingRate", {"rate": case.throttle})
-        root.evaluate(DRAG, 1.5)  # the window of requests finds its size
+        root.evaluate(DRAG, [case.slider, 1.5])  # the window of requests finds its size
         before = _processor(browser)
-        found = root.evaluate(DRAG, seconds)
+        found = root.evaluate(DRAG, [case.slider, seconds])
         found["cpu"] = 1000 * (_processor(browser) - before) / max(1.0, found["painted"] * found["passed"])
         return found
     finally:
@@ -104,7 +109,7 @@ def drag(browser: Browser, address: str, case: Case, seconds: float) -> dict[str
 
 
 def report(quick: bool = False) -> str:
-    """Return the table of all cases."""
+    """Return the table of all cases, and what is painted of every slider."""
     rows = [
         "| drag of f1 | painted /s | animation frames /s | renderer's CPU a frame, ms | event to painted, ms: "
         "median, p95 | tasks > 50 ms | most requests out |",
@@ -121,6 +126,15 @@ def report(quick: bool = False) -> str:
             _row(case, [drag(browser, address, case, seconds) for _ in range(times)])
             for case in (QUICK if quick else CASES)
         ]
+        rows += [
+            "",
+            f"| slider | painted /s | renderer's CPU a frame, ms | {SLOWER} times slower: painted /s |",
+            "|---|---|---|---|",
+        ]
+        for name in SLIDERS:
+            cases = [Case(name, rate, QUERIES.get(name, ""), slider=name) for rate in (1, SLOWER)]
+            fast, slow = (drag(browser, address, case, seconds) for case in cases)
+            rows.append(f"| {name} | {fast['painted']:.1f} | {fast['cpu']:.1f} | {slow['painted']:.1f} |")
         browser.close()
     return "\n".join(rows)
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from codim2_core import ELinear, classify, psi
 from codim2_core.counting.draws import normal
-from codim2_core.counting.names import NAMES, names
+from codim2_core.counting.names import PORTRAIT_NAMES, names
 
 #: How far from the saddle-node curve systems are drawn: as they come, and 10^-k of a coefficient from it.
 GAPS = (0, 3, 6, 9, 12)
@@ -55,7 +55,7 @@ def report(quick: bool = False) -> str:
         start = time.process_time()
         known = one_by_one(plane[:few])
         slow = few / (time.process_time() - start)
-        said = [others[i] if code == 0 else NAMES[code - 1] for i, code in enumerate(codes[:few].tolist())]
+        said = [others[i] if code == 0 else PORTRAIT_NAMES[code - 1] for i, code in enumerate(codes[:few].tolist())]
         wrong = sum(one != other for one, other in zip(said, known, strict=True))
         exact = np.count_nonzero(margins == 0.0) / many
         where = f"within 1e-{digits} of a saddle-node" if digits else "standard normal"

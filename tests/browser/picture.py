@@ -9,7 +9,7 @@ import shutil
 import tempfile
 from pathlib import Path
 
-from codim2_app.view.markup import STATIC
+from codim2_app.view.markup import SCRIPT_FOLDER
 from PIL import Image
 from playwright.sync_api import Browser, sync_playwright
 
@@ -64,7 +64,7 @@ def the_preview(browser: Browser) -> None:
         page.set_content(PREVIEW.format(hemisphere))
         page.wait_for_timeout(500)
         shot = Image.open(io.BytesIO(page.screenshot()))
-        shot.convert("RGB").save(STATIC / "preview.jpg", quality=88, optimize=True)
+        shot.convert("RGB").save(SCRIPT_FOLDER / "preview.jpg", quality=88, optimize=True)
         page.close()
 
 

@@ -1,5 +1,7 @@
 """For the beamer: the picture is large, letters too; controls fade and come back; Esc ends it."""
 
+from urllib.parse import urlparse
+
 WIDE = {"width": 1280, "height": 720}
 SHOWN = "Number(getComputedStyle(root.querySelector('.controls')).opacity)"
 
@@ -58,6 +60,7 @@ def test_a_panel_stands_beside_the_picture_and_kept_views_are_run_through(open_p
     assert panel["x"] > picture["x"] + picture["width"] - 1
     assert panel["width"] > 0.4 * 1920
     assert page.find(".panel-atlas text.name").first.evaluate("(it) => it.getBoundingClientRect().height") > 14
+    assert page.find(".controls").bounding_box()["y"] > picture["y"] + 0.9 * picture["height"]  # not over the picture
     keys = page.page.keyboard
     keys.press("k")
     page.type("f1", "-1.5")
@@ -70,4 +73,11 @@ def test_a_panel_stands_beside_the_picture_and_kept_views_are_run_through(open_p
     assert page.find(".panel-atlas").is_hidden()
     page.open("?v=1&beamer=1")  # they are kept in this browser
     assert page.find(".views button[data-view='1']").count() == 1
+    page.find(".tools .share").click()
+    page.find(".sharing .qr").wait_for()
+    carried = urlparse(page.find(".sharing .address").input_value())
+    other = open_page().open(f"?{carried.query}")  # and travel with a link
+    other.page.keyboard.press("PageDown")
+    other.page.keyboard.press("PageDown")
+    other.until("root.explorer.values.f1 === -1.5")
     assert page.complaints == []

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from codim2_app.draw.theme import REACH
+from codim2_app.draw.theme import PICTURE_REACH
 
 import codim2_core as c2
 from codim2_core.portrait.basins import basins
@@ -54,7 +54,7 @@ class Drawn:
         B, g = ((setting["B1"], setting["B2"]),), (setting["g0"],)
         self.system = c2.ELinear(setting["a"], setting["b"], setting["d"], (setting["f1"], setting["f2"]), B=B, g=g)
         self.psi = getattr(c2.psi, psi)()
-        self.scene = c2.Scene(self.system, self.psi, (0.0,), view=REACH)
+        self.scene = c2.Scene(self.system, self.psi, (0.0,), view=PICTURE_REACH)
         self.U = self.scene.coefficients.U
 
     def strokes(self, look):

@@ -1,5 +1,8 @@
 """Hands on the picture: a click, a drag, a tap; what is launched stays, is in the link, and is told in words."""
 
+import math
+
+import numpy as np
 import pytest
 
 pytestmark = pytest.mark.browser
@@ -7,10 +10,10 @@ pytestmark = pytest.mark.browser
 
 def place(explorer, x, y):
     """The point of the window over a point of the picture, which shows [-VIEW, VIEW] across its shorter side."""
-    from codim2_app.draw.theme import VIEW
+    from codim2_app.draw.theme import HALF_VIEW
 
     box = explorer.find(".bokeh").bounding_box()
-    unit = min(box["width"], box["height"]) / (2 * VIEW)
+    unit = min(box["width"], box["height"]) / (2 * HALF_VIEW)
     return box["x"] + box["width"] / 2 + x * unit, box["y"] + box["height"] / 2 - y * unit
 
 
@@ -32,6 +35,35 @@ def test_a_click_launches_the_orbit_through_that_point(open_page):
     assert (x, y, u, v) == pytest.approx((-0.4, 0.3, 1.2, 0.8), abs=0.02)
     again = open_page().open("?panel=orbits&orbits=" + starts(explorer).replace(";", "%3B"))
     assert again.find(".orbit-goes").all_text_contents() == explorer.find(".orbit-goes").all_text_contents()
+    assert explorer.complaints == []
+
+
+def test_a_limit_direction_is_turned_by_hand_and_by_keys(open_page):
+    """f changes by as little as it can: across that direction."""
+    explorer = open_page().open("?f1=-0.5&a=-2&d=-1&b=0")
+    page = explorer.page
+
+    def drawn():
+        found = explorer.ask("picture.state.header.equator")
+        return np.column_stack([found["x"], found["y"]])
+
+    start, goal = drawn()[1], np.array([math.cos(1.7), math.sin(1.7)])
+    page.mouse.move(*place(explorer, *start))
+    explorer.find(".card").filter(has_text="f follows").wait_for()
+    page.mouse.down()
+    for share in (0.3, 0.7, 1.0):
+        page.mouse.move(*place(explorer, *(1.1 * (start + share * (goal - start)))))
+        explorer.painted()
+    page.mouse.up()
+    explorer.settle()
+    assert min(np.linalg.norm(drawn() - goal, axis=1)) < 0.02
+    explorer.kept()
+    f = np.array([float(explorer.find(f"[data-control={name}] .number").input_value()) for name in ("f1", "f2")])
+    assert (f - (-0.5, 0.0)) @ goal == pytest.approx(0.0, abs=0.02)
+    assert starts(explorer) is None
+    explorer.find(".objects [data-object=Q2]").press("Shift+ArrowRight")
+    explorer.settle()
+    assert min(np.linalg.norm(drawn() - (math.cos(1.6), math.sin(1.6)), axis=1)) < 0.02
     assert explorer.complaints == []
 
 

@@ -1,6 +1,7 @@
 """A student's way through a lesson: open it, drag a number, predict, see the answer, reach the goal."""
 
 import json
+from itertools import pairwise
 
 import pytest
 
@@ -70,3 +71,28 @@ def test_a_question_is_in_the_link(open_page):
     again = open_page().open("?panel=lessons&lesson=03-limit-directions&preset=case1-cm4&quiz=0.17")
     assert again.find("[data-control=a] .number").input_value() == shown
     assert not again.find(".options").first.is_hidden()
+
+
+def test_on_a_phone_a_question_its_sliders_the_picture_and_the_answers_are_in_one_view(open_page):
+    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open(
+        "?lesson=02-blowing-up"
+    )
+    page.find(".question .begin").first.tap()
+    page.settle()
+    page.until("root.classList.contains('asked')")
+    answers = ".question .options [data-choice] >> nth="
+    boxes = [
+        page.find(name).first.bounding_box() for name in (".picture", "#c2-a", ".ask", answers + "0", answers + "2")
+    ]
+    assert all(box["x"] >= 0 and box["y"] >= -1 and box["y"] + box["height"] <= 844 for box in boxes)
+    assert all(above["y"] + above["height"] <= below["y"] + 1 for above, below in pairwise(boxes))
+    assert boxes[0]["height"] >= 290
+    page.find(answers + "0").tap()
+    page.settle()
+    box = page.find(".verdict").first.bounding_box()
+    foot = page.find(".sheets").bounding_box()["y"]
+    assert box["height"] > 30
+    assert box["y"] + box["height"] <= foot + 1
+    page.find(".sheets [data-sheet=controls]").tap()
+    assert page.find(".top").is_visible()
+    assert page.complaints == []

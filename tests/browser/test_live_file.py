@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from codim2_app.draw.packing import STEP
+from codim2_app.draw.packing import INT16_STEP
 from codim2_app.export.view import view_of
 from codim2_app.server.cli import main
 
@@ -40,8 +40,8 @@ def test_it_is_dragged_offline_and_draws_the_core(chromium, tmp_path):
         seen.add(value)
         scene = view_of("case1-cm4").changed({"f1": value}).scene().evolve(pixel=3.5 / 700)
         assert name == scene["classification"].name
-        drawn = np.array(points).reshape(-1, 2) * STEP
-        assert gaps(drawn, scene["inside"].points).max() <= STEP
+        drawn = np.array(points).reshape(-1, 2) * INT16_STEP
+        assert gaps(drawn, scene["inside"].points).max() <= INT16_STEP
         assert scene["classification"].sentence == page.locator(".sentence").inner_text()
     page.mouse.up()
     assert len(seen) == 4

@@ -183,10 +183,14 @@ def test_the_atlas_is_narrowed_around_the_handle(explorer):
 def test_a_special_point_is_gone_to_exactly(open_page):
     page = open_page().open("?preset=case3-n3&panel=diagram&along=n")
     page.find(".diagram .cycle").first.wait_for()
-    page.find(".special-list button").filter(has_text="Hopf").click()
+    page.find(".frames button[title^=Hopf]").click()
     page.kept()
     assert float(parse_qs(urlparse(page.page.url).query)["n"][0]) == pytest.approx(284 / 129, abs=1e-12)
-    assert "here" in page.find(".special-list button").filter(has_text="Hopf").get_attribute("class")
+    assert "here" in page.find(".frames button[title^=Hopf]").get_attribute("class")
+    assert page.find(".happens").inner_text().startswith("At Hopf, n = 2.20155: ")
+    page.find(".panel-diagram .play").click()
+    page.find(".happens").filter(has_text="After Hopf").wait_for()
+    page.find(".panel-diagram .play").click()
     page.find(".diagram .special").first.click()
     page.kept()
     assert float(parse_qs(urlparse(page.page.url).query)["n"][0]) == pytest.approx(4 / 3, abs=1e-9)
@@ -271,7 +275,7 @@ def test_parameters_of_a_chosen_system_are_axes(explorer):
     explorer.settle()
     assert explorer.find("select.along").input_value() == "z"  # it opens with what the system has
     choose(explorer, "along", "own:K")
-    explorer.find(".special-list button").filter(has_text="transcritical").click()
+    explorer.find(".frames button[title^=transcritical]").click()
     explorer.settle()
     shown = explorer.find("[data-control=parameter-K] .number").input_value()
     assert float(shown) == pytest.approx(3.5 * 0.2 * 9.81 / 4, abs=1e-5)  # |z| = 7 mu m g/(2 K), the paper's boundary

@@ -1,6 +1,7 @@
 """The picture as a browser has it: what is exported, what a tooltip says, what a motion adds."""
 
 import re
+from urllib.parse import urlparse
 
 import pytest
 
@@ -130,6 +131,10 @@ def test_the_picture_is_lifted_onto_the_hemisphere_turned_and_laid_flat(explorer
     explorer.painted()
     assert explorer.ask(colour)[:4] == before
     assert explorer.ask(f"{lift}.place(0.25, 0.5)") != place
+    explorer.kept()
+    explorer.open("?" + urlparse(explorer.page.url).query)  # a link brings it as it is
+    explorer.until("root.explorer.picture.lift.up === 1")
     explorer.page.keyboard.press("l")
     explorer.until("root.querySelector('.lifted').hidden")
+    assert "lift" not in explorer.page.url
     assert explorer.find(".grab").is_visible()

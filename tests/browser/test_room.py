@@ -29,6 +29,13 @@ def test_a_phones_settings_are_a_dot_on_the_lecturers_atlas(open_page):
     lecturer.settle()
     assert lecturer.find("[data-control=f1] .number").input_value() == "1.25"
     assert lecturer.name() == phone.name()
+    steps = phone.kept().page.evaluate("history.length")
+    phone.find(".room-bar [data-room=follow]").click()
+    lecturer.type("f2", "0.75")
+    phone.until("root.querySelector('[data-control=f2] .number').value === '0.75'")  # as the lecturer shows it
+    assert phone.page.evaluate("history.length") == steps  # it is no step of the phone's own
+    phone.type("f1", "1")
+    phone.until("root.querySelector('[data-room=follow][aria-pressed=false]')")  # who sets something goes his own way
     lecturer.page.reload()
     lecturer.until("root.querySelectorAll('.crowd .phone').length === 1")  # the same room, with the phone in it
     lecturer.find("[data-room=end]").click()

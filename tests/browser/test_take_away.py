@@ -114,7 +114,7 @@ def test_a_film_tells_how_far_it_is_and_can_be_stopped(open_page):
     page.find(".take .first-slider").select_option("f1")
     name, data = fetched(page, "gif")
     film = Image.open(io.BytesIO(data))
-    assert name == "codim2-case1-cm4.gif"
+    assert name == "codim2-case1-cm4-f1.gif"
     assert film.n_frames == 80
     page.find(".take .first-slider").select_option("f2")
     stop = page.find(".take .stop-making")

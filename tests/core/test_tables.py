@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import pytest
 
 import codim2_core as c2
-from codim2_core.tables import MOST, number, point, table
+from codim2_core.tables import MAX_ROWS, number, point, table
 
 FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))
 PSI = c2.psi.constant()
@@ -59,10 +59,10 @@ def test_a_motion_shows_its_phases():
 
 
 def test_text_is_escaped_and_long_tables_are_cut():
-    shown = table(("a<b",), [(f"{i} & more",) for i in range(MOST + 3)])
+    shown = table(("a<b",), [(f"{i} & more",) for i in range(MAX_ROWS + 3)])
     assert "a&lt;b" in shown
     assert "and 3 more" in shown
-    assert len(cells(shown)) == 1 + MOST
+    assert len(cells(shown)) == 1 + MAX_ROWS
     assert table(("a",), []) == ""
     assert number(-0.5) == "−0.5"
 

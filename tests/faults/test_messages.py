@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import NAMES
+from codim2_app.state.controls import CONTROL_NAMES
 from tornado.websocket import WebSocketClosedError
 
 from tests.app.serving import serving
@@ -50,7 +50,7 @@ def refused(server, do):
     return answer
 
 
-@pytest.mark.parametrize("name", sorted(NAMES))
+@pytest.mark.parametrize("name", sorted(CONTROL_NAMES))
 def test_values_of_wrong_types(server, name):
     wrong = [None, [], {}, "\0", True, [[[]]], {"a": {"b": {}}}, 10**400, 1e308, ["x"] * 8000, "x" * 100_000]
 

@@ -17,7 +17,7 @@ from codim2_app.frame.faults import FAULT
 from codim2_app.frame.jobs import Jobs
 from codim2_app.phrases import say
 from codim2_app.state.chosen import BOXES
-from codim2_app.state.controls import NAMES, ExplorerState
+from codim2_app.state.controls import CONTROL_NAMES, ExplorerState
 from codim2_app.state.links import read_link
 from codim2_app.view.refresh import Frames
 from hypothesis import strategies as st
@@ -112,7 +112,7 @@ _TOKENS = [
 _NUMBERS = st.sampled_from(
     ["", "0", "-1", "1e308", "1e-320", "nan", "inf", "-0", "0x10", "1_0", "１", "1,5", "1e400", "−1"]
 )
-_KEYS = st.sampled_from([*NAMES, "v", "s", "seen", "embed", "controls"])
+_KEYS = st.sampled_from([*CONTROL_NAMES, "v", "s", "seen", "embed", "controls"])
 FORMULAS = st.lists(st.sampled_from(_TOKENS), max_size=40).map("".join) | st.text(max_size=40)
 _WORDS = st.sampled_from([
     "typed", "normal", "own", "ball_in_pool", "custom", "hill", "tanh", "case1-cm0", "fig-3", "inside", "U1", "U2", "V",
@@ -135,7 +135,7 @@ _TYPED = {
 _FORMS = st.fixed_dictionaries(
     {"system": st.sampled_from(["own", "typed"]), "psi": st.sampled_from(["custom", "hill"])}, optional=_TYPED
 )
-_SETTINGS = _FORMS | st.dictionaries(st.sampled_from(NAMES), _VALUES, max_size=4)
+_SETTINGS = _FORMS | st.dictionaries(st.sampled_from(CONTROL_NAMES), _VALUES, max_size=4)
 _KINDS = st.sampled_from(["svg", "zip", "json", "npz", "py", "tex", "html", "exe"])
 _WISHES = st.fixed_dictionaries(
     {

@@ -13,7 +13,7 @@ from urllib.parse import parse_qsl
 
 from codim2_app.draw.packing import unpack
 from codim2_app.frame.jobs import Jobs
-from codim2_app.panels.registry import PANELS
+from codim2_app.panels.registry import PANELS_BY_NAME
 from codim2_app.state.links import read_link
 from codim2_app.view.markup import config
 from codim2_app.view.refresh import Frames
@@ -79,11 +79,12 @@ def columns(name: str) -> str:
     else:
         raise AssertionError(f"{name}: never comes to rest: {made['late']}")
     settings = config(link.state)
-    script = PANELS[key].script.read_text(encoding="utf-8")  # what it never names, it does not read
+    script = PANELS_BY_NAME[key].script.read_text(encoding="utf-8")  # what it never names, it does not read
     shown = {
         "panel": key,
         "values": link.state.values(),
-        "tools": {it: settings[it] for it in ("symbols", "ranges", "docs")} | {"settings": PANELS[key].settings},
+        "tools": {it: settings[it] for it in ("symbols", "ranges", "docs")}
+        | {"settings": PANELS_BY_NAME[key].settings},
         "slow": [one["symbol"] for one in header["system"]["slow"]],
         "header": {it: value for it, value in header.items() if it not in LEFT_OUT and re.search(rf"\b{it}\b", script)},
         "blocks": blocks,

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from codim2_app.draw.packing import STEP, unpack
+from codim2_app.draw.packing import INT16_STEP, unpack
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
@@ -34,7 +34,7 @@ class Figure:
 
     def points(self, part):
         assert f"{part}.xy" in self.blocks, f"{part} is not drawn"
-        return np.reshape(self.blocks[f"{part}.xy"], (-1, 2)) * STEP
+        return np.reshape(self.blocks[f"{part}.xy"], (-1, 2)) * INT16_STEP
 
 
 def limit_directions(figure):

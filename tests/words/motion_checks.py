@@ -11,7 +11,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.words import named
+from codim2_core.words import written_label
 
 EPS = 1e-6
 CONSTANT = psi.constant()
@@ -57,7 +57,7 @@ def slides(told, fields):
     """The regularised motion is where the critical set is that the sentence names."""
     assert told.phase.kind == "slide"
     name = fields.get("onto", fields.get("C", "C"))
-    assert named(told.phase.onto) in name or "C" in name
+    assert written_label(told.phase.onto) in name or "C" in name
     if told.phase.onto.startswith("cycle"):
         assert max(told.distance(share) for share in np.linspace(0.5, 1.0, 9)) < 1e3
         return

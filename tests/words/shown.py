@@ -12,7 +12,7 @@ from codim2_app.draw.layers import LAYERS
 from codim2_app.lessons.library import built_in
 from codim2_app.panels import registry
 from codim2_app.server.cli import parser
-from codim2_app.state.controls import NAMES, ExplorerState
+from codim2_app.state.controls import CONTROL_NAMES, ExplorerState
 from codim2_app.view.glossary import GLOSSARY, MARKS, OPENING
 
 from codim2_core import presets, psi
@@ -56,9 +56,9 @@ def shown() -> Iterator[tuple[str, str]]:
     yield "the opening portrait", OPENING
     yield from ((f"layer {name}", layer.words) for name, layer in LAYERS.items())
     yield from ((f"tip of the layer {name}", layer.tip) for name, layer in LAYERS.items())
-    for name in NAMES:
+    for name in CONTROL_NAMES:
         yield f"control {name}", f"{ExplorerState.param[name].label}: {ExplorerState.param[name].doc}"
-    for panel in registry.PANELS.values():
+    for panel in registry.PANELS_BY_NAME.values():
         yield f"tab {panel.key}", f"{panel.title}: {panel.tip}"
     for key, preset in presets.items():
         yield f"portrait {key}", f"{preset.title}: {preset.note}"

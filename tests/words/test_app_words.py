@@ -13,7 +13,7 @@ from codim2_app.panels.parameters.atlas_columns import atlas_columns
 from codim2_app.server.live import link_of
 from codim2_app.state import asked, links
 from codim2_app.state.controls import ExplorerState
-from codim2_app.state.links import read_link, unsqueezed
+from codim2_app.state.links import decompress_query, read_link
 from codim2_app.view.refresh import Frames
 
 from codim2_core import System, equator_equilibria, psi
@@ -186,7 +186,7 @@ def address(query, *, left=True):
 
 def too_long(key):
     with pytest.raises(ValueError, match="too long") as refused:
-        unsqueezed("A" * (links.LONGEST_SQUEEZED + 1))
+        decompress_query("A" * (links.LONGEST_SQUEEZED + 1))
     assert fields(key, str(refused.value)) == {"most": str(links.LONGEST_SQUEEZED)}
 
 
@@ -251,6 +251,7 @@ CHECKS = {
     "address of a later version": later_version,
     "part of the picture": address("v=1&seen=3,1,0,0"),
     "controls of a frame": address("v=1&controls=a b,f1"),
+    "views of a link": address("v=1&views=[3"),
     "no such parameter": no_parameter,
     "no such box": no_box,
     "no such lesson": no_lesson,

@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
-from codim2_core.words import ROOMS, named, recognise
+from codim2_core.words import ROOMS, recognise, written_label
 
 from .read_back import number
 
@@ -30,7 +30,7 @@ def holds(key, fields, system, family, seed, end):
     place, sets = float(np.hypot(*end)), c2.critical_sets(system, family)
     if key.endswith("a set"):
         i = int(np.argmin([math.dist(C.p, end) for C in sets]))
-        label = "C" if len(sets) == 1 else named(f"C{i + 1}")
+        label = "C" if len(sets) == 1 else written_label(f"C{i + 1}")
         is_there = math.dist(sets[i].p, end) < 1e-3 and fields["label"] == label
         return is_there and fields["kind"].split(" ", 1)[1] == sets[i].kind
     if key in ("comes up", "comes down", "left", "left, timed"):

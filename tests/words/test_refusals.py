@@ -8,7 +8,7 @@ from codim2_app.draw.packing import unpack
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
-from codim2_core.words import printed
+from codim2_core.words import printed_sentence
 
 from .inventory import ROOT
 from .shown import RULES
@@ -118,7 +118,7 @@ def _templates():
             for part in node.exc.args:
                 if isinstance(part, ast.JoinedStr):
                     words = [v.value if isinstance(v, ast.Constant) else None for v in part.values]
-                    yield path.name, node.lineno, ".*".join(re.escape(printed(w)) if w else "" for w in words)
+                    yield path.name, node.lineno, ".*".join(re.escape(printed_sentence(w)) if w else "" for w in words)
 
 
 def test_every_refusal_of_a_control_is_among_them():
@@ -145,4 +145,4 @@ def test_every_refusal_of_a_control_is_among_them():
     ],
 )  # fmt: skip
 def test_numbers_in_a_sentence_made_for_python(made, read):
-    assert printed(made) == read
+    assert printed_sentence(made) == read

@@ -1,4 +1,4 @@
-"""Where arrowheads sit on curves: where there is room, so that curves that run together do not pile them up."""
+"""Place arrowheads on curves where there is room, so that curves that run together do not pile them up."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from numba import njit
 from numpy.typing import NDArray
 
 #: In px: how far apart arrowheads are at least, how long a curve is for each that it carries, and at least for one.
-CLEARANCE, STRETCH, SHORTEST = 24.0, 300.0, 16.0
+CLEARANCE, STRETCH, MIN_LINE_LENGTH = 24.0, 300.0, 16.0
 #: Where on its stretch of the curve an arrowhead is tried, as fractions, until there is room.
-TRIED = np.array([0.5, 0.64, 0.36, 0.78, 0.22, 0.9, 0.1])
+CANDIDATE_SHARES = np.array([0.5, 0.64, 0.36, 0.78, 0.22, 0.9, 0.1])
 
 
 def arrowheads(
@@ -35,7 +35,12 @@ def arrowheads(
         x, y and direction in radians; no two are nearer than `CLEARANCE`.
     """
     return _place(
-        *of_one_type(offsets, points), CLEARANCE * pixel, STRETCH * pixel, SHORTEST * pixel, TRIED, *map(float, window)
+        *of_one_type(offsets, points),
+        CLEARANCE * pixel,
+        STRETCH * pixel,
+        MIN_LINE_LENGTH * pixel,
+        CANDIDATE_SHARES,
+        *map(float, window),
     )
 
 

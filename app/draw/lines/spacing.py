@@ -17,12 +17,12 @@ from ..layers import Pieces
 from .arrowheads import of_one_type
 
 #: In px: how near orbits come to one another, and how long a part of one is at least.
-APART, SHORTEST = 9.0, 44.0
+SEPARATION, MIN_PIECE = 9.0, 44.0
 
 
 def is_warm() -> bool:
     """Whether orbits are spaced at once, without compiling or loading what does it."""
-    return bool(_left.signatures)
+    return bool(_kept_pieces.signatures)
 
 
 def evenly(
@@ -32,7 +32,7 @@ def evenly(
     window: tuple[float, float, float, float],
     guards: Pieces | None = None,
 ) -> Pieces:
-    """Leave out what of each curve is nearer than `APART` to one that was there before, or to the equator.
+    """Leave out what of each curve is nearer than `SEPARATION` to one that was there before, or to the equator.
 
     Parameters
     ----------
@@ -51,25 +51,28 @@ def evenly(
     offsets, points : ndarray
         Of the parts that are left.
     """
-    others = EQUATOR if guards is None else _both(guards)
+    others = EQUATOR_GUARD if guards is None else _both_directions(guards)
     order = _order(len(offsets) - 1)
-    return _left(
+    return _kept_pieces(
         *of_one_type(offsets, points),
         *of_one_type(*others),
         order,
-        APART * pixel,
-        SHORTEST * pixel,
+        SEPARATION * pixel,
+        MIN_PIECE * pixel,
         *map(float, window),
     )
 
 
-_TURN = np.linspace(0.0, 2.0 * np.pi, 361)
-EQUATOR: Pieces = np.array([0, len(_TURN)]), np.column_stack([np.cos(_TURN), np.sin(_TURN)])
+_CIRCLE_ANGLES = np.linspace(0.0, 2.0 * np.pi, 361)
+EQUATOR_GUARD: Pieces = (
+    np.array([0, len(_CIRCLE_ANGLES)]),
+    np.column_stack([np.cos(_CIRCLE_ANGLES), np.sin(_CIRCLE_ANGLES)]),
+)
 
 
-def _both(guards: Pieces) -> Pieces:
+def _both_directions(guards: Pieces) -> Pieces:
     offsets, points = guards
-    return np.append(EQUATOR[0], EQUATOR[0][-1] + offsets[1:]), np.concatenate([EQUATOR[1], points])
+    return np.append(EQUATOR_GUARD[0], EQUATOR_GUARD[0][-1] + offsets[1:]), np.concatenate([EQUATOR_GUARD[1], points])
 
 
 @lru_cache(maxsize=64)
@@ -84,7 +87,7 @@ def _order(count: int) -> NDArray[np.int64]:
 
 @njit(inline="always")
 def _steps(dx, dy, step):
-    """How many steps a stretch of a curve is walked in; what is far outside is not looked at closely."""
+    """Return the number of steps in which a piece of a curve is walked; pieces far outside the picture take few."""
     return 1 + int(min(math.hypot(dx, dy) / step, 1e4))
 
 
@@ -100,7 +103,7 @@ def _store(x, y, stored, places, older, newest, left, bottom, apart, rows):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _left(offsets, points, guards, others, order, apart, shortest, left, right, bottom, top):
+def _kept_pieces(offsets, points, guards, others, order, apart, shortest, left, right, bottom, top):
     """Walk along each curve in steps of half the distance; a grid of cells of that distance tells what is near."""
     columns, rows = int((right - left) / apart) + 3, int((top - bottom) / apart) + 3
     newest = np.zeros(columns * rows, np.int64)  # of the places in a cell, from 1; `older` leads to the one before

@@ -1,4 +1,4 @@
-"""Where labels stand: beside their marks, over no other label and no mark."""
+"""Place labels beside their marks, over no other label and no mark."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 #: Widths of letters over the size of the font: a little more than those of Times, in which or in something like it a
 #: reader sees them.
-NARROW, WIDE, CAPITAL, OTHER = 0.34, 0.84, 0.76, 0.54
+NARROW_LETTER, WIDE_LETTER, CAPITAL, OTHER = 0.34, 0.84, 0.76, 0.54
 COMBINING = "\u0304\u0305"  # bars over the letter before
 
 #: Steps tried from where a label would stand, in sizes of the font, the shortest first: across, up.
-TRIED = tuple(
+LABEL_OFFSETS = tuple(
     (0.7 * ring * math.cos(k * math.pi / 6), 0.7 * ring * math.sin(k * math.pi / 6))
     for ring in range(8)
     for k in range(12 if ring else 1)
@@ -51,9 +51,9 @@ def _width(letter: str) -> float:
     if letter in COMBINING:
         return 0.0
     if letter in "ijlftr .,:;'′|()[]₁₂₃₄₅₆₇₈₉":
-        return NARROW
+        return NARROW_LETTER
     if letter in "mwMW⊙⊗":
-        return WIDE
+        return WIDE_LETTER
     return CAPITAL if letter.isupper() else OTHER
 
 
@@ -77,7 +77,9 @@ def clear_of(
     # a label beside its mark may also stand on the mark's other side
     lefts = (x - wide / 2,) if anchor == "middle" else (x, x - wide - 2 * size)
     boxes = [
-        LabelBox(left + across * size, y - high / 2 + up * size, wide, high) for across, up in TRIED for left in lefts
+        LabelBox(left + across * size, y - high / 2 + up * size, wide, high)
+        for across, up in LABEL_OFFSETS
+        for left in lefts
     ]
     free = (box for box in boxes if box.within(width, height) and not any(box.meets(other) for other in taken))
     return next(free, boxes[0])

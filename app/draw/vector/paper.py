@@ -7,14 +7,14 @@ from types import MappingProxyType
 
 from ..theme import themes
 
-INK, DIM, FAINT = "#000000", "#555555", "#8a8a8a"
+INK, DIM, FAINT_INK = "#000000", "#555555", "#8a8a8a"
 
 #: What is not simply black.
 GREYS: Mapping[str, str] = MappingProxyType(
     {
         "page": "#ffffff", "shade": "#000000", "shade-lit": "0", "shade-middle": "0.04", "shade-limb": "0.14",
-        "outside": DIM, "lines-in": FAINT,
-        "lines-out": FAINT, "degenerate": FAINT, "soft": DIM, "line": FAINT,
+        "outside": DIM, "lines-in": FAINT_INK,
+        "lines-out": FAINT_INK, "degenerate": FAINT_INK, "soft": DIM, "line": FAINT_INK,
         "launch-2": DIM, "launch-4": DIM, "launch-6": DIM,
         "slide": "#222222", "cross": "#9a9a9a", "depends": "#666666", "undecided": "#c4c4c4", "misses": "#f0f0f0",
         "basin-1": "#000000", "basin-2": "#777777", "basin-3": "#b0b0b0", "basin-4": "#444444",

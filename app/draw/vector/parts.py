@@ -13,23 +13,23 @@ from typing import Any
 import numpy as np
 
 from ..layers import Part
-from ..packing import ANGLE_STEP, STEP, Rectangle
+from ..packing import ANGLE_STEP, INT16_STEP, Rectangle
 from ..shapes import OPEN, shape
-from ..theme import HATCHES, LIGHT, MIDDLE, RING, VIEW
+from ..theme import HALF_VIEW, HATCHES, LIGHT, MIDDLE, RING
 from .labels import LabelBox, clear_of, width_of
 
-SIDE = 1000
+VIEWBOX_SIDE = 1000
 #: A hatch's strokes are so far apart, in px of the screen.
 HATCH = 7.0
 #: Width of a text in the widest font that a reader may see it in, and in the usual one, over `width_of`.
-WIDEST, USUAL = 1.25, 0.87
+MAX_LABEL_SCALE, USUAL = 1.25, 0.87
 #: The part of a mark's width over which no label stands.
 CORE = 0.8
 
 
 @dataclass(frozen=True)
 class Placement:
-    """How the picture lies in a drawing.
+    """Position and size of the picture in a drawing.
 
     Attributes
     ----------
@@ -49,9 +49,9 @@ class Placement:
         How much farther out labels of limit directions stand where there is the ring of outcomes.
     """
 
-    seen: Rectangle = (-VIEW, VIEW, -VIEW, VIEW)
-    side: float = SIDE
-    unit: float = SIDE / 700
+    seen: Rectangle = (-HALF_VIEW, HALF_VIEW, -HALF_VIEW, HALF_VIEW)
+    side: float = VIEWBOX_SIDE
+    unit: float = VIEWBOX_SIDE / 700
     text: float = 22.0
     decimals: int = 0
     dashes: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
@@ -59,12 +59,12 @@ class Placement:
 
     @property
     def scale(self) -> float:
-        """What is the disc's radius."""
+        """Return the radius of the disc in px."""
         return self.side / (self.seen[1] - self.seen[0])
 
     @property
     def height(self) -> float:
-        """Of the drawing."""
+        """Return the height of the drawing in px."""
         return self.scale * (self.seen[3] - self.seen[2])
 
     def points(self, values: Any) -> Any:
@@ -93,7 +93,7 @@ class Placement:
 def steps(blocks: Mapping[str, Any], name: str) -> Any:
     """Return packed coordinates as numbers."""
     values = blocks[name]
-    return values * STEP if values.dtype == np.int16 else values
+    return values * INT16_STEP if values.dtype == np.int16 else values
 
 
 def rim(place: Placement) -> str:
@@ -190,7 +190,7 @@ def labels(columns: Mapping[str, Any], place: Placement, taken: list[LabelBox], 
             continue
         if "label_x" in columns:
             away = np.array([columns["label_x"][i] - columns["x"][i], columns["y"][i] - columns["label_y"][i]])
-            away *= min(place.scale, place.side / (2 * VIEW))  # zoomed in, it stays as near to its mark
+            away *= min(place.scale, place.side / (2 * HALF_VIEW))  # zoomed in, it stays as near to its mark
             away *= place.beyond if ringed else 1.0
             drawn.append(label(columns["label"][i], u + away[0], v + away[1], "middle", place, taken))
         else:
@@ -221,7 +221,7 @@ def words(
     """Return a line of text; `y` is that of its foot. In a wide font it is condensed where there is no more `room`."""
     look = f'font-size="{size:g}"' + (' font-weight="700"' if bold else "") + ' fill="var(--ink)"'
     aligned = f' text-anchor="{anchor}"' if anchor != "start" else ""
-    if WIDEST * width_of(text, size) > room:
+    if MAX_LABEL_SCALE * width_of(text, size) > room:
         aligned += f' textLength="{USUAL * width_of(text, size):.1f}" lengthAdjust="spacingAndGlyphs"'
     return f'<text x="{round(x, 1):g}" y="{round(y, 1):g}" {look}{aligned}>{text}</text>'
 

@@ -10,21 +10,21 @@ from typing import Any
 
 import numpy as np
 
-from ...draw.still import coloured
+from ...draw.still import fill_colours
 from ...draw.theme import themes
 from ...draw.vector.parts import Placement, stroke, words
 
 COLOURS = ("rho", "theta", "separatrix", "continuation", "node-focus", "soft")
-WIDTH, HEIGHT, LEFT, BOTTOM = 360.0, 220.0, 44.0, 34.0
+CHART_WIDTH, CHART_HEIGHT, LEFT_MARGIN, BOTTOM = 360.0, 220.0, 44.0, 34.0
 SQUARE, EDGE, NAME_ROOM = 360.0, 'stroke="var(--soft)" stroke-width="0.8"', 60.0
-POINTS = 3000  # of all lines together
+MAX_CHART_POINTS = 3000  # of all lines together
 #: Width of a letter, and height of a row of names.
 LETTER, ROW = 6.2, 13
 
 
 @dataclass(frozen=True)
 class Frame:
-    """Where values are in a chart: its lower left corner is (left, low), as far as (right, high) is (wide, tall) px."""
+    """The frame of a chart: its lower left corner is (left, low), as far as (right, high) is (wide, tall) px."""
 
     corner: tuple[float, float]
     foot: tuple[float, float]
@@ -37,11 +37,11 @@ class Frame:
 
 
 def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
-    """Return lines over a parameter or time, as `framed` does."""
-    return framed(lines, across, up)[0]
+    """Return lines over a parameter or time, as `line_chart` does."""
+    return line_chart(lines, across, up)[0]
 
 
-def framed(
+def line_chart(
     lines: Sequence[tuple[str, Any, Any]], across: str, up: str, colours: Mapping[str, str] | None = None
 ) -> tuple[str, Frame]:
     """Return lines over a parameter or time, with the ends of both axes and a word for each kind, and where values are.
@@ -55,34 +55,38 @@ def framed(
     colours : mapping, optional
         By name; by default those of the light theme.
     """
-    kept = [(name, thinned(np.column_stack([x, y]), max(2, POINTS // len(lines)))) for name, x, y in lines if len(x)]
+    kept = [
+        (name, thin_out(np.column_stack([x, y]), max(2, MAX_CHART_POINTS // len(lines))))
+        for name, x, y in lines
+        if len(x)
+    ]
     every = np.concatenate([points for _, points in kept]) if kept else np.zeros((1, 2))
     (left, low), (right, high) = every.min(axis=0), every.max(axis=0)
     kinds = dict(zip(dict.fromkeys(name for name, _ in kept), COLOURS * 9, strict=False))
     named = list(kinds.items())[: len(COLOURS)]
-    wide, tall = WIDTH - LEFT - 8, HEIGHT - BOTTOM - 22
+    wide, tall = CHART_WIDTH - LEFT_MARGIN - 8, CHART_HEIGHT - BOTTOM - 22
     beside = all(LETTER * len(name) <= wide / len(named) for name, _ in named)  # else each has a row of its own
     top = 18 + (0 if beside else ROW * (len(named) - 1))
     scale = wide / ((right - left) or 1.0), -tall / ((high - low) or 1.0)
-    place = Placement(side=WIDTH, unit=1.0, decimals=1)
+    place = Placement(side=CHART_WIDTH, unit=1.0, decimals=1)
     floor = top + tall + 4
-    frame = Frame((float(left), float(low)), (LEFT, floor - 2), scale)
-    parts = [f'<rect x="{LEFT}" y="{top}" width="{wide}" height="{tall + 4}" stroke="var(--line)"/>']
+    frame = Frame((float(left), float(low)), (LEFT_MARGIN, floor - 2), scale)
+    parts = [f'<rect x="{LEFT_MARGIN}" y="{top}" width="{wide}" height="{tall + 4}" stroke="var(--line)"/>']
     for name, points in kept:
-        placed = (points - (left, low)) * scale + (LEFT, floor - 2)
+        placed = (points - (left, low)) * scale + (LEFT_MARGIN, floor - 2)
         path = place.path([np.round(placed, 1)])
         parts.append(f'<path d="{path}" {stroke(kinds[name], 1.6, (), place)}/>')
     for i, (name, colour) in enumerate(named):
         x, y = (i * wide / len(named), 12) if beside else (0, 12 + ROW * i)
-        parts.append(words(LEFT + 4 + x, y, escape(name), 11.0).replace("--ink", f"--{colour}"))
+        parts.append(words(LEFT_MARGIN + 4 + x, y, escape(name), 11.0).replace("--ink", f"--{colour}"))
     foot = floor + 14
-    parts += [words(LEFT, foot, _short(left), 11.0), words(WIDTH - 8, foot, _short(right), 11.0, "end")]
-    parts += [words(LEFT - 4, y, _short(value), 11.0, "end") for y, value in ((floor, low), (top + 10, high))]
+    parts += [words(LEFT_MARGIN, foot, _short(left), 11.0), words(CHART_WIDTH - 8, foot, _short(right), 11.0, "end")]
+    parts += [words(LEFT_MARGIN - 4, y, _short(value), 11.0, "end") for y, value in ((floor, low), (top + 10, high))]
     parts += [
-        words((LEFT + WIDTH) / 2, foot, across, 12.0, "middle"),
-        words(LEFT - 12, (top + floor) / 2, up, 12.0, "end"),
+        words((LEFT_MARGIN + CHART_WIDTH) / 2, foot, across, 12.0, "middle"),
+        words(LEFT_MARGIN - 12, (top + floor) / 2, up, 12.0, "end"),
     ]
-    return finished("".join(parts), WIDTH, foot + 8, WIDTH, foot + 8, colours), frame
+    return close_svg("".join(parts), CHART_WIDTH, foot + 8, CHART_WIDTH, foot + 8, colours), frame
 
 
 def regions(
@@ -99,13 +103,13 @@ def regions(
         Names of the axes.
     """
     (left, right), (low, high) = spans
-    wide, tall = SQUARE - LEFT - 8, SQUARE - LEFT - 8
+    wide, tall = SQUARE - LEFT_MARGIN - 8, SQUARE - LEFT_MARGIN - 8
     scale, place = (wide / (right - left), -tall / (high - low)), Placement(side=SQUARE, unit=1.0, decimals=1)
     floor = 8 + tall
-    each = POINTS // max(1, sum(len(polygons) for _, polygons in areas))
+    each = MAX_CHART_POINTS // max(1, sum(len(polygons) for _, polygons in areas))
     parts, names = [], []
     for name, polygons in areas:
-        placed = [np.round((thinned(one, each) - (left, low)) * scale + (LEFT, floor), 1) for one in polygons]
+        placed = [np.round((thin_out(one, each) - (left, low)) * scale + (LEFT_MARGIN, floor), 1) for one in polygons]
         colour = name.partition(";")[0].partition(",")[0].lower()
         fill = f"r-{colour}" if f"r-{colour}" in themes()["light"] else "r-other"
         path = place.path(placed).replace("M", "ZM")[1:] + "Z"
@@ -113,14 +117,17 @@ def regions(
         x, y, room = _middle(placed)
         if room > NAME_ROOM:
             names.append(words(x, y + 4, escape(name), 10.0, "middle"))
-    parts += [f'<rect x="{LEFT}" y="8" width="{wide}" height="{tall}" stroke="var(--line)"/>', *names]
+    parts += [f'<rect x="{LEFT_MARGIN}" y="8" width="{wide}" height="{tall}" stroke="var(--line)"/>', *names]
     foot = floor + 14
-    parts += [words(LEFT, foot, _short(left), 11.0), words(SQUARE - 8, foot, _short(right), 11.0, "end")]
-    parts += [words(LEFT - 4, y, _short(value), 11.0, "end") for y, value in ((floor, low), (18, high))]
-    parts += [words((LEFT + SQUARE) / 2, foot, across, 12.0, "middle"), words(LEFT - 12, 8 + tall / 2, up, 12.0, "end")]
-    clip = f'<clipPath id="plane"><rect x="{LEFT}" y="8" width="{wide}" height="{tall}"/></clipPath>'
+    parts += [words(LEFT_MARGIN, foot, _short(left), 11.0), words(SQUARE - 8, foot, _short(right), 11.0, "end")]
+    parts += [words(LEFT_MARGIN - 4, y, _short(value), 11.0, "end") for y, value in ((floor, low), (18, high))]
+    parts += [
+        words((LEFT_MARGIN + SQUARE) / 2, foot, across, 12.0, "middle"),
+        words(LEFT_MARGIN - 12, 8 + tall / 2, up, 12.0, "end"),
+    ]
+    clip = f'<clipPath id="plane"><rect x="{LEFT_MARGIN}" y="8" width="{wide}" height="{tall}"/></clipPath>'
     inside = f'{clip}<g clip-path="url(#plane)">{"".join(parts[: len(areas)])}</g>{"".join(parts[len(areas) :])}'
-    return finished(inside, SQUARE, foot + 8, SQUARE, foot + 8)
+    return close_svg(inside, SQUARE, foot + 8, SQUARE, foot + 8)
 
 
 def _middle(polygons: Sequence[Any]) -> tuple[float, float, float]:
@@ -141,7 +148,7 @@ def _middle(polygons: Sequence[Any]) -> tuple[float, float, float]:
     return best
 
 
-def thinned(points: Any, most: int) -> Any:
+def thin_out(points: Any, most: int) -> Any:
     """Return points of a line, of many evenly left out, its ends kept."""
     if len(points) <= most:
         return points
@@ -152,7 +159,7 @@ def _short(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-12 else value:.3g}".replace("-", "−")
 
 
-def finished(
+def close_svg(
     inner: str, width: float, height: float, wide: float, high: float, colours: Mapping[str, str] | None = None
 ) -> str:
     """Return elements as an SVG that needs nothing else."""
@@ -161,4 +168,4 @@ def finished(
         f'height="{high:g}" fill="none" stroke-linejoin="round" font-family="sans-serif">'
         f'<rect width="{width:g}" height="{height:g}" fill="var(--page)"/>{inner}</svg>'
     )
-    return coloured(whole, themes()["light"] if colours is None else colours)
+    return fill_colours(whole, themes()["light"] if colours is None else colours)

@@ -29,22 +29,22 @@ from codim2_core.scene.launched import Launched
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
 
 from ...draw import glyphs
-from ...draw.layers import painted
+from ...draw.layers import layers_in_paint_order
 from ...draw.packing import Polylines, pack
 from ...draw.svg import content
 from ...draw.vector.parts import Placement, rim, stroke, words
-from .chart import chart, finished, regions, thinned
+from .chart import chart, close_svg, regions, thin_out
 
 #: px of the screen.
-SIDE = 360
-MOST = 45_000  # bytes
+SKETCH_SIDE = 360
+MAX_SVG_BYTES = 45_000  # bytes
 #: Starting points and pixel of a small portrait; the next ones are tried where it is too large.
 SKETCHED = ((40, 1 / 90), (16, 1 / 50), (0, 1 / 50))
 #: Curves that are drawn, and points of all of them.
-PIECES, POINTS = 200, 4000
+PIECES, MAX_SKETCH_POINTS = 200, 4000
 #: Colours of basins; cells across a small picture of them.
-BASINS, MOST_CELLS = ("basin-1", "basin-2", "basin-3", "basin-4"), 64
-UNDECIDED = -1
+BASIN_COLOURS, MAX_BASIN_CELLS = ("basin-1", "basin-2", "basin-3", "basin-4"), 64
+UNDECIDED_CELL = -1
 
 
 @singledispatch
@@ -66,7 +66,11 @@ def portrait(result: Scene) -> str:
     for count, pixel in SKETCHED:
         seeds = result.seeds if count else np.zeros((0, 2))
         scene = result.evolve(count=min(count, result.count), seeds=seeds, pixel=pixel)
-        layers = [layer for layer in painted() if not layer.hidden and not (layer.optional and not len(result.launch))]
+        layers = [
+            layer
+            for layer in layers_in_paint_order()
+            if not layer.hidden and not (layer.optional and not len(result.launch))
+        ]
         blocks = {
             part.name: Polylines(*part.pieces(scene[part.scene]), part.arrows)
             for layer in layers
@@ -80,9 +84,9 @@ def portrait(result: Scene) -> str:
             "critical": glyphs.critical_columns(scene["critical"]),
         }
         made = content(pack(header, blocks), [layer.name for layer in layers], Placement(text=32.0))
-        if len(made) < MOST:
+        if len(made) < MAX_SVG_BYTES:
             break
-    return finished(made, 1000, 1000, SIDE, SIDE)
+    return close_svg(made, 1000, 1000, SKETCH_SIDE, SKETCH_SIDE)
 
 
 @svg.register
@@ -177,23 +181,23 @@ def _regions(result: Regions) -> str:
 @svg.register
 def _nullclines(result: Nullclines) -> str:
     named = {"rho": "rho", "theta": "theta", "U1": "soft", "U2": "soft"}
-    return _pictured([(named[branch.kind], branch.points) for branch in result])
+    return _hemisphere_svg([(named[branch.kind], branch.points) for branch in result])
 
 
 @svg.register
-def _launched(result: Launched) -> str:
+def _launched_svg(result: Launched) -> str:
     halves = (result.orbits.backward.points, result.orbits.forward.points)
     seeds = "".join(
         f'<circle cx="{x}" cy="{y}" r="11" fill="var(--orbit)"/>'
         for x, y in Placement().points([line[0] for line in halves[1]]).tolist()
     )
-    return _pictured([("orbit", line) for half in halves for line in half], seeds)
+    return _hemisphere_svg([("orbit", line) for half in halves for line in half], seeds)
 
 
 @svg.register
 def _basins(result: Basins) -> str:
     cells, (left, right, bottom, top) = result.cells, result.box
-    while len(cells) > MOST_CELLS:  # each of four stands for all: the picture is small
+    while len(cells) > MAX_BASIN_CELLS:  # each of four stands for all: the picture is small
         cells = cells[::2, ::2]
     place = Placement((left, right, bottom, top), decimals=1)
     side = place.side / len(cells)
@@ -202,7 +206,9 @@ def _basins(result: Basins) -> str:
         for part in _runs(line):
             x, y, wide = part.start * side, place.side - (row + 1) * side, (part.stop - part.start) * side
             paths.setdefault(int(line[part.start]), []).append(f"M{x:.0f} {y:.0f}h{wide:.0f}v{side:.1f}h-{wide:.0f}Z")
-    colours = {i: BASINS[i % len(BASINS)] for i in range(len(result.destinations))} | {UNDECIDED: "undecided"}
+    colours = {i: BASIN_COLOURS[i % len(BASIN_COLOURS)] for i in range(len(result.destinations))} | {
+        UNDECIDED_CELL: "undecided"
+    }
     areas = [
         f'<path d="{"".join(path)}" fill="var(--{colours[which]})" opacity=".45" shape-rendering="crispEdges"/>'
         for which, path in sorted(paths.items())
@@ -213,7 +219,7 @@ def _basins(result: Basins) -> str:
     said = "".join(
         words(20, 50 + 44 * i, name, 36.0).replace("--ink", f"--{colour}") for i, (name, colour) in enumerate(names)
     )
-    return finished("".join(areas) + circle + said, 1000, 1000, SIDE, SIDE)
+    return close_svg("".join(areas) + circle + said, 1000, 1000, SKETCH_SIDE, SKETCH_SIDE)
 
 
 def _runs(values: Any) -> list[slice]:
@@ -223,16 +229,16 @@ def _runs(values: Any) -> list[slice]:
 
 
 def _curves(pieces: Sequence[Any], colour: str) -> str:
-    return _pictured([(colour, piece) for piece in pieces])
+    return _hemisphere_svg([(colour, piece) for piece in pieces])
 
 
-def _pictured(pieces: Sequence[tuple[str, Any]], over: str = "") -> str:
+def _hemisphere_svg(pieces: Sequence[tuple[str, Any]], over: str = "") -> str:
     """Return curves of the picture over the hemisphere, each in a colour, the first `PIECES` of them."""
     place = Placement()
-    each = POINTS // min(max(1, len(pieces)), PIECES)
+    each = MAX_SKETCH_POINTS // min(max(1, len(pieces)), PIECES)
     lines = ""
     for colour in dict.fromkeys(colour for colour, _ in pieces):
-        kept = [thinned(np.asarray(piece), each) for own, piece in pieces[:PIECES] if own == colour]
+        kept = [thin_out(np.asarray(piece), each) for own, piece in pieces[:PIECES] if own == colour]
         lines += f'<path d="{place.path(map(place.points, kept))}" {stroke(colour, 1.4, (), place)}/>'
     circle = f"{rim(place)} {stroke('ink', 2, (), place)}/>"
-    return finished(lines + circle + over, 1000, 1000, SIDE, SIDE)
+    return close_svg(lines + circle + over, 1000, 1000, SKETCH_SIDE, SKETCH_SIDE)

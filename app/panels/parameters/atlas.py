@@ -24,10 +24,10 @@ from ...frame.draft import Draft
 from ...phrases import say
 from ..panel import Panel
 from .atlas_columns import atlas_columns, short, strip_columns
-from .axes import Axis, available, missing, spans_of, without
+from .axes import Axis, available, missing_axes, spans_of, without_parameters
 
 #: Controls of the plane of f: a system that lacks one of them has none.
-PLANE = ("a", "b", "d", "f1", "f2")
+MAP_PARAMETERS = ("a", "b", "d", "f1", "f2")
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
 #: A region of less area than the square of this, of the map's, gets no small portrait; nor a stretch shorter than this.
@@ -38,8 +38,8 @@ def add(draft: Draft) -> None:
     """Add the map of the chosen axes."""
     axes = draft.values["across"], draft.values["up"]
     there = available(draft)
-    reason = missing(draft, there, *axes)
-    closed_form = axes == ("f1", "f2") and set(PLANE) <= there.keys()
+    reason = missing_axes(draft, there, *axes)
+    closed_form = axes == ("f1", "f2") and set(MAP_PARAMETERS) <= there.keys()
     plane = closed_form and draft.values["atlas_zoom"] == 0 and not {"f1", "f2"} & draft.values["ranges"].keys()
     shown = (next(iter(there)), "") if len(there) == 1 else axes
     if draft.now.get("atlas of") != (shown, plane):
@@ -154,15 +154,15 @@ def _portraits_of_plane(draft: Draft) -> None:
 
 
 def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
-    system, psi, z = without(draft.scene, *axes)
+    system, psi, z = without_parameters(draft.scene, *axes)
     spans = spans_of(draft, "map", axes, draft.values["atlas_zoom"])
     names = axes[0].core, axes[1].core
     key = (system, psi, z, names, spans)
-    _followed(draft, key, axes)
+    _add_atlas(draft, key, axes)
     _portraits(draft, key)
 
 
-def _followed(draft: Draft, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> None:
+def _add_atlas(draft: Draft, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> None:
     """Add the curves and, once they are there, the regions between them.
 
     Then, where they are asked for, the folds of its limit cycles and the connections of its saddles.
@@ -204,7 +204,7 @@ def _portraits(draft: Draft, key: tuple[Any, ...]) -> None:
 
 def _strip(draft: Draft, axis: Axis) -> None:
     """Add the stretches of one class along the only parameter, as a plane of which the other axis means nothing."""
-    system, psi, z = without(draft.scene, axis)
+    system, psi, z = without_parameters(draft.scene, axis)
     (span,) = spans_of(draft, "map", (axis,), draft.values["atlas_zoom"])
     key = (system, psi, z, (axis.core,), span)
     found: tuple[Stretch, ...] | None = draft.slow("map", key, class_line, system, psi, axis.core, span, z)

@@ -1,4 +1,4 @@
-"""What the panel "Atlas" sends of a map: columns of its regions, curves and points, and their lines."""
+"""Columns that the panel "Atlas" sends: regions, curves and points of a map, with their labels."""
 
 from __future__ import annotations
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from codim2_core.examples import catalogue
-from codim2_core.layer_problem.vary import names, varied
+from codim2_core.layer_problem.vary import names, vary
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
@@ -15,14 +15,14 @@ from codim2_core.systems.elinear import ELinear
 from ...draw.mathml import plain_symbol
 from ...frame.draft import Draft
 from ...phrases import say
-from ...state.choices import AXES, COEFFICIENTS, OWN_AXIS, SLOW_CONTROLS
-from ...state.chosen import NORMAL, OWN, PARAMETER_RANGE, parameter_ranges, slow_ranges
+from ...state.choices import COEFFICIENTS, OWN_AXIS, SLIDER_AXES, SLOW_CONTROLS
+from ...state.chosen import NORMAL, OWN_SYSTEM, PARAMETER_RANGE, parameter_ranges, slow_ranges
 from ...state.controls import ExplorerState
 from ...state.opening import axes_of
 from ...state.slider_range import edited_range, slider_range
 
 #: Coefficients of the slow flow: nothing in a diagram or a map depends on them.
-SLOW = ("B1", "B2", "g0")
+SLOW_FLOW_PARAMETERS = ("B1", "B2", "g0")
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ def available(draft: Draft) -> dict[str, Axis]:
 def axes_there(scene: Scene, values: Mapping[str, Any], locked: Collection[str] = ()) -> dict[str, Axis]:
     """Return, by name, the axes that belong to the system and Psi of a scene.
 
-    They are those of `AXES`, and "own:" with the name of any other parameter of the system.
+    They are those of `SLIDER_AXES`, and "own:" with the name of any other parameter of the system.
     """
     known = names(scene.system, scene.psi, scene.z)
     normal, example = values["system"] == NORMAL, catalogue.get(values["system"])
@@ -70,7 +70,7 @@ def axes_there(scene: Scene, values: Mapping[str, Any], locked: Collection[str] 
     found = {}
     # a parameter of a typed system may be called a, but then it is not the control a
     ranges = slow_ranges(values["system"], getattr(scene.system, "m", 0))
-    for name in AXES if normal else (*SLOW_CONTROLS, "n"):
+    for name in SLIDER_AXES if normal else (*SLOW_CONTROLS, "n"):
         slow = SLOW_CONTROLS.index(name) if name in SLOW_CONTROLS else None
         core = name if slow is None else f"z{slow + 1}"
         if core not in known or name in locked or (name == "n" and "n" in own):
@@ -97,7 +97,7 @@ def opening_axes(scene: Scene, values: Mapping[str, Any], locked: Collection[str
     parameter that has left the typed equations makes way.
     """
     choice = values["system"]
-    across, up = axes_of(OWN if choice == NORMAL and not isinstance(scene.system, ELinear) else choice)
+    across, up = axes_of(OWN_SYSTEM if choice == NORMAL and not isinstance(scene.system, ELinear) else choice)
     there = axes_there(scene, values, locked)
     numbers = getattr(scene.system, "numbers", [axis.core for axis in there.values()])
     read = {name for name, axis in there.items() if name == "n" or axis.core in numbers}
@@ -115,7 +115,7 @@ def opening_axes(scene: Scene, values: Mapping[str, Any], locked: Collection[str
     return found
 
 
-def missing(draft: Draft, there: dict[str, Axis], *wanted: str) -> str:
+def missing_axes(draft: Draft, there: dict[str, Axis], *wanted: str) -> str:
     """Say which of the wanted axes does not belong to the present system or Psi, or return nothing."""
     for name in wanted:
         if name in there:
@@ -145,7 +145,7 @@ def _well_inside(span: tuple[float, float], axis: Axis) -> bool:
     return 0.08 <= (axis.value - low) / (high - low) <= 0.92
 
 
-def without(scene: Scene, *along: Axis) -> tuple[Any, Psi, tuple[float, ...]]:
+def without_parameters(scene: Scene, *along: Axis) -> tuple[Any, Psi, tuple[float, ...]]:
     """Return system, Psi and z of a scene at a fixed value of some parameters, and without a slow flow.
 
     They say all that a diagram along these depends on: moving their sliders, or those of B and g, asks for no new one.
@@ -153,7 +153,7 @@ def without(scene: Scene, *along: Axis) -> tuple[Any, Psi, tuple[float, ...]]:
     system, psi, z = scene.system, scene.psi, scene.z
     if isinstance(system, ELinear):
         given = dict(system.parameters)
-        system = system.evolve(**{name: 0.0 for name in SLOW if name in given})
+        system = system.evolve(**{name: 0.0 for name in SLOW_FLOW_PARAMETERS if name in given})
     for axis in along:
-        system, psi, z = varied(system, psi, z, axis.core, axis.high)
+        system, psi, z = vary(system, psi, z, axis.core, axis.high)
     return system, psi, tuple(z)

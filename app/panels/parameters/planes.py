@@ -22,7 +22,7 @@ from ...frame.draft import Draft
 from ...phrases import say
 from ..panel import Panel
 
-POINTS = 120  # along the curve over the parameter
+CURVE_POINTS = 120  # along the curve over the parameter
 S = np.linspace(0.0, 1.0, 51)  # as in fig:bads(c)
 
 
@@ -48,7 +48,7 @@ def over_parameter(at: AtZ, psi: Psi) -> dict[str, Any]:
     assert shape is not None
     low, high = shape.shown
     spaced = np.geomspace if low > 0.0 else np.linspace
-    path = linearisation_path(at, psi, shape.name, np.unique([*spaced(low, high, POINTS), *family.compared]))
+    path = linearisation_path(at, psi, shape.name, np.unique([*spaced(low, high, CURVE_POINTS), *family.compared]))
     rows = [
         (
             path.trace[i],

@@ -1,4 +1,4 @@
-"""As many files as the system allows: each page is one, and a shell allows 256 or 1024 by default."""
+"""Raise the limit of open files to the hard one: each page is one, and a shell allows 256 or 1024 by default."""
 
 from __future__ import annotations
 

@@ -17,20 +17,20 @@ from tornado.process import task_id
 
 bokeh_server: Any = server  # it says of no name that it may be replaced
 #: Elsewhere such sockets cannot be, or all visitors come to the last of them.
-SHARED = sys.platform == "linux" and hasattr(socket, "SO_REUSEPORT")
+CAN_SHARE_PORT = sys.platform == "linux" and hasattr(socket, "SO_REUSEPORT")
 
 
-def _bound(address: str | None, port: int) -> tuple[list[socket.socket], int]:
+def _bind_sockets(address: str | None, port: int) -> tuple[list[socket.socket], int]:
     sockets = bind_sockets(port or 0, address, reuse_port=True)
     return sockets, sockets[0].getsockname()[1]
 
 
 @contextmanager
-def shared(processes: int) -> Iterator[None]:
+def share_port(processes: int) -> Iterator[None]:
     """Let a server of several processes that is made meanwhile bind a port that each of them can bind again."""
     kept = bokeh_server.bind_sockets
-    if processes > 1 and SHARED:
-        bokeh_server.bind_sockets = _bound
+    if processes > 1 and CAN_SHARE_PORT:
+        bokeh_server.bind_sockets = _bind_sockets
     try:
         yield
     finally:
@@ -43,7 +43,7 @@ def listen_by_own(one: Any, address: str) -> None:
     The process from which they are forked has that socket too and never answers: without the first it would be waited
     for.
     """
-    if not SHARED or not task_id():
+    if not CAN_SHARE_PORT or not task_id():
         return
     http = one._http  # noqa: SLF001 (Bokeh hands out no other way to it)
     http.stop()

@@ -14,7 +14,7 @@ from numba.core.event import Listener, register
 
 #: Seconds for which a pass is put off at most; nor for longer than has been compiled since, so that a process which
 #: always answers compiles too, and whoever waits for the compiler does so for twice as long at most.
-MOST = 0.05
+MAX_PAUSE_SECONDS = 0.05
 LOOK = 0.0005
 
 
@@ -47,7 +47,7 @@ class _Before(Listener):
     def on_start(self, event: Any) -> None:  # noqa: ARG002 (Numba's)
         """Wait while a visitor is answered, if it may."""
         began = now = time.monotonic()
-        self._owed = min(MOST, self._owed + began - self._since)
+        self._owed = min(MAX_PAUSE_SECONDS, self._owed + began - self._since)
         while answering.elsewhere() and now - began < self._owed:
             time.sleep(LOOK)
             now = time.monotonic()

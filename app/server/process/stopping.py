@@ -10,7 +10,7 @@ GRACE = 4.0  # seconds for what is under way; platforms kill after ten
 
 
 def stop_when_asked() -> None:
-    """From now on SIGTERM interrupts this process as Ctrl+C does, and ends it after `GRACE` seconds at the latest.
+    """Let SIGTERM interrupt this process as Ctrl+C does, and end it after `GRACE` seconds at the latest.
 
     Without this the first process of a container ignores SIGTERM: the kernel gives process 1 no default.
     """

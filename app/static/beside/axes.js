@@ -42,8 +42,8 @@ export class ZoomButtons {
   }
 }
 
-/** The markup of both: the words before each list, by control. */
-export function axesMarkup(words, zoom) {
+/** The markup of both: the words before each list, by control; more that stands between. */
+export function axesMarkup(words, zoom, more = "") {
   const lists = Object.entries(words).map(([name, text]) => `<label data-control="${name}">${text} <select class="${name}"></select></label>`)
-  return `<div class="row axes">${lists.join("")}<span class="zoom" data-control="${zoom}"><button type="button" class="out" title="Wider" aria-label="Wider ranges">−</button><button type="button" class="in" title="Narrower, around the present values" aria-label="Narrower ranges">+</button></span></div>`
+  return `<div class="row axes">${lists.join("")}${more}<span class="zoom" data-control="${zoom}"><button type="button" class="out" title="Wider" aria-label="Wider ranges">−</button><button type="button" class="in" title="Narrower, around the present values" aria-label="Narrower ranges">+</button></span></div>`
 }

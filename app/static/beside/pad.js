@@ -1,7 +1,7 @@
 // A plane of two parameters: regions of one portrait each, the curves between them, and a handle over them.
 
 import {Chart} from "../chart/chart.js"
-import {holds} from "../chart/regions.js"
+import {extent, holds} from "../chart/regions.js"
 import {rounded} from "../chart/scale.js"
 import {escape} from "../words.js"
 
@@ -56,11 +56,11 @@ export class Pad {
       lines: lines.filter(({line}) => !isPoint(line)).map(({name, line}) => ({name, title: names[name], silent: true, x: line.map(([x]) => x), y: line.map(([, y]) => y)})),
       dots: lines.filter(({line}) => isPoint(line)).map(({name, line: [[x, y]]}) => ({name: `point ${name}`, title: names[name], x, y, r: 3})),
       marks: points.map(([type, x, y, sentence]) => ({kind: "codimension two", x, y, title: `${type}. ${sentence}`})),
-      labels: regions.map((region) => ({text: short(region.name), name: "name", near: region.inside, allowed: (x, y) => holds(region, [x, y])})),
+      labels: regions.map((region) => ({text: short(region.name), name: "name", near: region.inside, within: extent(region), allowed: (x, y) => holds(region, [x, y])})),
     }])
   }
 
-  // What moves with the sliders: the handle, where the portrait is, its region and the name of that.
+  // What moves with the sliders: the handle, where the portrait is, its region and the beginning of the name of that.
   drawMoving() {
     const {handle, here, path, regions, old} = this.chart
     const around = regions.map((region) => holds(region, here))
@@ -68,7 +68,7 @@ export class Pad {
     const moved = here[0] !== handle[0] || here[1] !== handle[1]
     const region = regions[around.indexOf(true)]
     this.plot.over([...(moved ? [{name: "here", x: here[0], y: here[1], r: 4.5}] : []), {name: "handle", x: handle[0], y: handle[1], r: 8}],
-      path, region && !old ? {text: this.short(region.name), at: here, name: "name tag"} : null)
+      path, region && !old ? {text: this.short(region.name).split(";")[0], at: here, name: "name tag"} : null)
   }
 }
 

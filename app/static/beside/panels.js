@@ -15,7 +15,8 @@
  * @property {(wanted: Record<string, any>) => void} move controls
  * @property {(name: string, value: any) => void} choose a value that concerns the panels only, and draw them
  * @property {(name: string, set: (value: any) => void) => void} follow a control of the panel that the state may move
- * @property {(wish: Record<string, any>) => Promise<any>} take ask for a file of what is shown: {name, type, file} or {error}
+ * @property {(wish: Record<string, any>, progress?: (done: number, all: number) => void) => Promise<any>} take ask for a file of what is shown: {name, type, file} or {error}
+ * @property {boolean} film whether films can be had
  * @property {(kind: string) => void} untake the last wish of this kind is no longer wanted
  * @property {(paths: any, place?: number[]) => void} trace a motion in the picture, or clear it with null
  * @property {() => any[]} drawn what the picture shows, from bottom to top

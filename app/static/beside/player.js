@@ -1,6 +1,6 @@
 // A time that is played and scrubbed, and what a motion is then.
 
-const PLAY_SECONDS = 9 // for the whole motion
+export const PLAY_SECONDS = 9 // for the whole motion
 const LONGEST = 80 // ms that count as passed between two frames, at most: a page in the background stands still
 
 /** What a button plays and pauses, once a frame of the screen. */

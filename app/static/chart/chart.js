@@ -17,8 +17,8 @@ import {beside, Space, TEXT, textSize} from "./space.js"
  * @typedef {{x: number, y: number, r: number, name: string, title?: string}} Dot
  * @typedef {{x: number, y: number, u: number, v: number, length: number, name?: string}} Arrow middle, direction in data, px
  * @typedef {{from: number, to: number, name: string, title?: string, word?: string}} Band
- * @typedef {{text: string, at?: number[], near?: number[], name?: string, allowed?: (x: number, y: number) => boolean}} Label
- *   beside a point, or as near to a place as it is allowed by all of its corners
+ * @typedef {{text: string, at?: number[], near?: number[], name?: string, within?: number[][], allowed?: (x: number, y: number) => boolean}} Label
+ *   beside a point, or as near to a place as it is allowed by all of its corners, which `within` two spans they may be
  * @typedef {{name: string, points?: number[][], loops?: number[][][], whole?: boolean, label?: string, title?: string}} Area by its border, or
  *   by several loops (even-odd), of which the whole chart may be one
  * @typedef {object} Plot
@@ -158,10 +158,11 @@ export class Chart {
     const inside = ([u, v, w, h]) => u - w / 2 >= left + 1 && u + w / 2 <= right - 1 && v - h / 2 >= top + 1 && v + h / 2 <= bottom - 1
     const all = [...(plot.bands ?? []).filter((band) => band.word).map((band) => ({text: band.word, name: "band-name", near: [(band.from + band.to) / 2, y.back(bottom - TEXT)], allowed: (u) => u >= band.from && u <= band.to})), ...(plot.labels ?? [])]
     return all.map((label) => {
-      const {text, name = "label", at, near} = label
+      const {text, name = "label", at, near, within} = label
+      const most = within && Math.hypot(...[x, y].map((axis, i) => Math.max(...within[i].map((v) => Math.abs(axis.at(v) - axis.at(near[i]))))))
       const corners = ([u, v, w, h]) => [[-1, -1], [-1, 1], [1, -1], [1, 1], [0, -1], [0, 1]].map(([i, j]) => [x.back(u + i * w / 2), y.back(v + j * h / 2)])
       const allowed = (box) => inside(box) && (!label.allowed || corners(box).every(([u, v]) => label.allowed(u, v)))
-      const middles = at ? beside([x.at(at[0]), y.at(at[1])], text) : this.space.around([x.at(near[0]), y.at(near[1])])
+      const middles = at ? beside([x.at(at[0]), y.at(at[1])], text) : this.space.around([x.at(near[0]), y.at(near[1])], most)
       const found = this.space.place(text, middles, allowed)
       if (!found) return ""
       this.placed.push({index: this.placed.length, text, box: [found[0], found[1], ...textSize(text)]})

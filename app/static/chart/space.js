@@ -72,10 +72,11 @@ export class Space {
     return null
   }
 
-  /** Middles all around a favourite place, the nearest first. @param {number[]} favourite */
-  * around([x, y]) {
+  /** Middles all around a favourite place, the nearest first. @param {number[]} favourite @param {number} most px away */
+  * around([x, y], most = Infinity) {
     const [x0, y0] = [Math.max(0, Math.min(this.width, x)), Math.max(0, Math.min(this.height, y))]
-    for (const [u, v] of nearby()) {
+    for (const [u, v, away] of nearby()) {
+      if (away > most) return
       if (x0 + u > 0 && y0 + v > 0 && x0 + u < this.width && y0 + v < this.height) yield [x0 + u, y0 + v]
     }
   }
@@ -88,8 +89,8 @@ let offsets = null
 function nearby() {
   if (offsets) return offsets
   offsets = []
-  for (let u = -FAR; u <= FAR; u += 2 * CELL) for (let v = -FAR; v <= FAR; v += 2 * CELL) offsets.push([u, v])
-  return offsets.sort((one, other) => Math.hypot(...one) - Math.hypot(...other))
+  for (let u = -FAR; u <= FAR; u += 2 * CELL) for (let v = -FAR; v <= FAR; v += 2 * CELL) offsets.push([u, v, Math.hypot(u, v)])
+  return offsets.sort((one, other) => one[2] - other[2])
 }
 
 /**

@@ -1,5 +1,6 @@
 // C in hand: drag the red mark, or move it by the arrow keys, and f follows; beyond the rim there is no critical set, and
-// where it would be is a ring that can be taken back in. Of the e-linear system only: there f = -A e decides it alone.
+// where it would be is a ring that can be taken back in. Of the e-linear system only: there f = -A e decides it alone. A
+// limit direction is turned by the least change of f that does: the one across it.
 
 import {SAYS} from "../words.js"
 
@@ -7,7 +8,8 @@ const STORE = "codim2-welcome"
 const LATER = 100 // ms until it is placed, where the picture has not been laid out yet
 const STILL = 5 // px that a pointer may move in a click
 const STEP = 0.02 // of the picture's unit, by a key; with Shift five times as much
-const KEYS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}
+const DIGITS = 4 // of f
+export const KEYS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}
 
 /**
  * Where C has left to: -A^-1 f, if that is outside the disc.
@@ -17,6 +19,16 @@ export function left({a, b, d, f1, f2, z, k1, k2}) {
   const p = f1 + z * k1, q = f2 + z * k2, det = a * d + b * b
   const e = [-(d * p + b * q) / det, (b * p - a * q) / det], r = Math.hypot(...e)
   return r >= 1 && Number.isFinite(r) ? [e[0], e[1]] : null
+}
+
+/**
+ * The f that is nearest to the present one among those for which the direction of a place is a limit direction.
+ * @param {Record<string, any>} v values of the controls @param {{x: number, y: number}} place @returns {{f1: number, f2: number}}
+ */
+export function turnedTo({a, b, d, f1, f2, z, k1, k2}, {x, y}) {
+  const r = Math.hypot(x, y) || 1, c = x / r, s = y / r
+  const theta = c * (b * c + d * s + f2 + z * k2) - s * (a * c - b * s + f1 + z * k1)
+  return {f1: Number((f1 + s * theta).toFixed(DIGITS)), f2: Number((f2 - c * theta).toFixed(DIGITS))}
 }
 
 export class Grab {

@@ -1,6 +1,6 @@
 // Hands on the picture: a click or tap launches the orbit through that point; press and drag, and the orbit follows;
-// a drag that begins at a launched orbit's start moves that one. A click or tap on an object pins it. Shift, a wheel with
-// Ctrl, or two fingers are Bokeh's.
+// a drag that begins at a launched orbit's start, or at a limit direction that can be turned, moves that one. A click or
+// tap on an object pins it. Shift, a wheel with Ctrl, or two fingers are Bokeh's.
 
 import {changed, launchedAt, nearest, readLaunches, writeLaunches} from "./launches.js"
 
@@ -13,13 +13,14 @@ export class Hands {
    * @param {any} element that holds the picture
    * @param {{at: (x: number, y: number) => {x: number, y: number, unit: number} | null}} picture
    * @param {{get: () => string, set: (text: string) => void, begin: (i: number) => void, end: () => void}} orbits
-   * @param {{under: (event: any) => any, toggle: (one: any) => void}} objects that can be pinned
+   * @param {{under: (event: any) => any, toggle: (one: any) => void, turns: (one: any) => ((place: {x: number, y: number}) => void) | null}} objects
+   *   that can be pinned; `turns` returns what is called with where one is drawn to, null of one that stays
    */
   constructor(element, picture, orbits, objects) {
     this.picture = picture
     this.orbits = orbits
     this.objects = objects
-    this.held = null // {id, i}: the pointer that holds an orbit's start
+    this.held = null // {id, i, turn}: the pointer that holds an orbit's start, or what it turns
     this.tap = null // {id, x, y, since, one}: a pointer that may be lifted where it came down; `one` is the object there
     /** @type {((place: {x: number, y: number}) => void) | null} */
     this.marks = null // is called with a place that is clicked, while a question asks for one: nothing is launched then
@@ -42,13 +43,14 @@ export class Hands {
     }
     const launches = readLaunches(this.orbits.get())
     const i = nearest(launches, place.x, place.y, REACH[event.pointerType] * place.unit)
-    const one = i < 0 ? this.objects.under(event) : null
+    const one = i < 0 ? this.objects.under(event) : null, turn = one && this.objects.turns(one)
     if (i < 0) this.tap = {id: event.pointerId, x: event.clientX, y: event.clientY, since: event.timeStamp, one}
-    if (event.pointerType === "touch" && i < 0) return // a finger scrolls the page, unless it only taps
+    if (event.pointerType === "touch" && i < 0 && !turn) return // a finger scrolls the page, unless it only taps
     event.preventDefault()
     event.stopPropagation()
     element.setPointerCapture?.(event.pointerId)
-    if (one) return // a click pins it, a drag launches
+    if (turn) this.held = {id: event.pointerId, turn}
+    if (one) return // a click pins it, a drag launches or turns it
     this.tap = null
     this.take(event, launches, i, place)
   }
@@ -61,23 +63,24 @@ export class Hands {
 
   move(event) {
     const {tap} = this
-    if (tap?.one && tap.id === event.pointerId && event.pointerType !== "touch" && Math.hypot(event.clientX - tap.x, event.clientY - tap.y) > STILL) {
+    if (tap?.one && tap.id === event.pointerId && (this.held || event.pointerType !== "touch") && Math.hypot(event.clientX - tap.x, event.clientY - tap.y) > STILL) {
       this.tap = null
       const place = this.picture.at(tap.x, tap.y)
-      if (place) this.take(event, readLaunches(this.orbits.get()), -1, place)
+      if (place && !this.held) this.take(event, readLaunches(this.orbits.get()), -1, place)
     }
     if (this.held?.id !== event.pointerId) return
     event.preventDefault()
     event.stopPropagation()
-    const place = this.picture.at(event.clientX, event.clientY)
-    if (place) this.orbits.set(writeLaunches(changed(readLaunches(this.orbits.get()), this.held.i, {x: place.x, y: place.y})))
+    const place = this.tap ? null : this.picture.at(event.clientX, event.clientY)
+    if (place && this.held.turn) this.held.turn(place)
+    else if (place) this.orbits.set(writeLaunches(changed(readLaunches(this.orbits.get()), this.held.i, {x: place.x, y: place.y})))
   }
 
   up(event, done) {
     if (this.held?.id === event.pointerId) {
       event.stopPropagation()
+      if (!this.held.turn) this.orbits.end()
       this.held = null
-      this.orbits.end()
     }
     const tap = this.tap
     if (!tap || tap.id !== event.pointerId) return

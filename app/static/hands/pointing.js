@@ -41,6 +41,7 @@ export class Pointing {
     this.pinned = this.over = this.place = null
     this.last = [] // the objects of the frame before, while one is followed
     this.gone = this.byName = this.byKey = false
+    this.hint = (/** @type {any} */ _) => "" // what can be done with an object
     const holder = document.createElement("div")
     holder.className = "pointing"
     holder.innerHTML = MARKUP
@@ -185,14 +186,14 @@ export class Pointing {
   }
 
   markup(one) {
-    const {header} = this.picture.state, {title, rows, notes} = factsOf(one, header, this.slowSymbols())
+    const {header} = this.picture.state, {title, rows, notes} = factsOf(one, header, this.slowSymbols()), hint = this.hint(one)
     const lines = eigenvectorsOf(one, header).map(([, , value, where]) => {
       const {colour, dash, head} = styleOf(value)
       const arrow = head === "in" ? "M13 4l6 4-6 4Z" : head === "out" ? "M20 4l6 4-6 4Z" : ""
       return `<li><svg viewBox="0 0 26 16" width="26" height="16" aria-hidden="true"><path d="M0 8H${head === "out" ? 20 : 26}" stroke="var(--${colour})" stroke-width="2.4" stroke-dasharray="${dash.join(" ")}"/><path d="${arrow}" fill="var(--${colour})"/></svg> ${escape(eigenWords(where, value))}</li>`
     })
     return `<b>${escape(one.label)}</b>${escape(title.slice(one.label.length))}${listed(rows)}`
-      + (lines.length ? `<ul>${lines.join("")}</ul>` : "") + notes.map((note) => `<p>${escape(note)}</p>`).join("")
+      + (lines.length ? `<ul>${lines.join("")}</ul>` : "") + [...notes, ...(hint ? [hint] : [])].map((note) => `<p>${escape(note)}</p>`).join("")
   }
 
   // The legend knows the layers by name, and what the colours of the ring mean.

@@ -7,6 +7,7 @@ export const KEYS = [
   ["?", "this sheet"],
   ["click, tap", "launches the orbit through that point; on a mark or a named curve, pins its card"],
   ["press and drag", "the orbit follows; from the start of one, moves it"],
+  ["drag C, or a Q", "f follows: it puts C where it is held, and turns Q by as little as it can; arrow keys do so too"],
   ["hover, or Tab", "the name, numbers and eigenvectors of what is there; Enter pins it"],
   ["Esc", "lets go of what is pinned; closes a sheet"],
   ["Shift and drag, Ctrl and wheel", "move and enlarge the picture; on a phone with two fingers"],

@@ -3,7 +3,7 @@
 /**
  * @typedef {{link: {version: number, brought: string[]}, defaults: Record<string, any>,
  *   presets: Record<string, {values: Record<string, any>}>, boxes: Record<string, {name: string, text: string}[]>,
- *   look: {embed: boolean, controls: string[], beamer?: number}}} Config
+ *   look: {embed: boolean, controls: string[], beamer?: number, lift?: boolean, views?: any[]}}} Config
  */
 
 /** A value as a link writes it. @param {any} value */
@@ -22,11 +22,12 @@ export function writeLink(values, seen, config) {
   const wanted = Object.fromEntries(Object.entries(values).filter(([name, value]) => written(value) !== written(base[name]) || brought.includes(name)))
   const boxes = config.boxes[values.system]
   if (boxes) wanted.texts = {...Object.fromEntries(boxes.map(({name, text}) => [name, text])), ...values.texts}
-  const {embed, controls, beamer} = config.look
+  const {embed, controls, beamer, lift, views} = config.look
   return new URLSearchParams([
     ["v", String(config.link.version)], ...Object.entries(wanted).map(([name, value]) => [name, written(value)]),
     ...(seen ? [["seen", seen.map((v) => Number(v.toPrecision(6))).join(",")]] : []),
     ...(embed ? [["embed", "1"]] : []), ...(embed && controls.length ? [["controls", controls.join(",")]] : []), ...(beamer ? [["beamer", String(beamer)]] : []),
+    ...(lift ? [["lift", "1"]] : []), ...(views?.length ? [["views", JSON.stringify(views)]] : []),
   ]).toString()
 }
 

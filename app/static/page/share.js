@@ -7,7 +7,7 @@ import {SAYS, escape} from "../words.js"
 const MARKUP = `
   <form method="dialog"><button class="close" title="Close" aria-label="Close">✕</button></form>
   <h2>This view as a link</h2>
-  <p class="note">It carries every value, what was typed, launched orbits, the lesson and the zoom.</p>
+  <p class="note">It carries every value, what was typed, launched orbits, the lesson, the zoom and kept views.</p>
   <div class="row"><input type="text" class="address" readonly aria-label="Link of this view"><button type="button" data-copies="address">Copy</button></div>
   <img class="qr" alt="QR code of the link" hidden>
   <div class="rooms"><h2>A room</h2>

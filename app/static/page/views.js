@@ -1,4 +1,4 @@
-// Views that a lecturer has kept in this browser. For the beamer arrow keys, or a clicker, go from one to the next, and the
+// Views that a lecturer has kept in this browser, or that have come with a link. For the beamer arrow keys, or a clicker, go from one to the next, and the
 // values between two of one system are run through.
 
 import {busy} from "./beamer.js"
@@ -6,6 +6,7 @@ import {put} from "../dom.js"
 import {escape} from "../words.js"
 
 const STORE = "codim2-views"
+const MOST = 24 // that a link carries
 const LASTS = 900 // ms from one view to the next
 const WAYS = {ArrowRight: 1, PageDown: 1, ArrowLeft: -1, PageUp: -1}
 const OTHER = ["system", "texts", "psi", "psi_text", "beside"] // where these differ there is nothing between two views
@@ -29,7 +30,7 @@ export function between(from, to) {
 export class Views {
   /**
    * @param {any} root the explorer
-   * @param {{values: Record<string, any>, first: Record<string, any>, shown: () => boolean, name: () => string, seen: () => number[] | null, move: (wanted: Record<string, number>) => void, open: (view: Record<string, any>, seen: number[] | null) => void}} does
+   * @param {{values: Record<string, any>, first: Record<string, any>, brought: View[], shown: () => boolean, name: () => string, seen: () => number[] | null, move: (wanted: Record<string, number>) => void, open: (view: Record<string, any>, seen: number[] | null) => void}} does
    */
   constructor(root, does) {
     this.root = root
@@ -38,6 +39,8 @@ export class Views {
     this.at = -1
     this.run = 0
     try { this.list = /** @type {View[]} */ (JSON.parse(localStorage.getItem(STORE) ?? "[]")) } catch { this.list = [] }
+    const known = new Set(this.list.map((view) => JSON.stringify(view)))
+    this.list.push(...does.brought.filter((view) => !known.has(JSON.stringify(view))))
     this.box.addEventListener("click", (event) => {
       const {view} = event.target.closest("button")?.dataset ?? {}
       if (view === "keep") this.keep()
@@ -50,7 +53,8 @@ export class Views {
       if (event.key === "k") this.keep()
       else if (way && !onControl && this.list.length) { event.preventDefault(); this.go((this.at + way + this.list.length) % this.list.length) }
     })
-    this.write()
+    if (does.brought.length) this.store()
+    else this.write()
   }
 
   keep() {
@@ -70,6 +74,9 @@ export class Views {
     try { localStorage.setItem(STORE, JSON.stringify(this.list)) } catch { /* they are kept until the page is closed */ }
     this.write()
   }
+
+  /** Those that go with a link. */
+  get carried() { return this.list.slice(0, MOST) }
 
   write() {
     const button = (view, words, title, more = "") => `<button type="button" data-view="${view}" title="${escape(title)}" aria-label="${escape(title)}"${more}>${words}</button>`

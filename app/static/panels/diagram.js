@@ -1,21 +1,28 @@
 // The panel "Diagram": limit directions, critical sets and cycles along one parameter, over the range of its slider.
-// A click sets the parameter; a click on a special point goes exactly there.
+// A click sets the parameter; a click on a special point goes exactly there. Above it a film strip: the portraits before,
+// at and after each special value, with a sentence for the nearest; play goes through them, slowly near one.
 
 import {axesMarkup, AxisChoice, ZoomButtons} from "../beside/axes.js"
+import {put, save} from "../dom.js"
 import {Chart} from "../chart/chart.js"
 import {rounded, spanOf} from "../chart/scale.js"
 import {shape} from "../chart/marks.js"
 import {register} from "../beside/panels.js"
+import {PLAY_SECONDS, Ticker} from "../beside/player.js"
 import {SAYS, escape, formula, minus, plain} from "../words.js"
 
 const TURN = 2 * Math.PI
 const NARROW = 0.2 // of the span: what happens within less of it has an axis of its own
+const MOST_EVENTS = 12 // of a film
+const RESTS = 1000 // ms for which play stays at a special value
 
-const MARKUP = `${axesMarkup({along: "along"}, "zoom")}
+const MARKUP = `${axesMarkup({along: "along"}, "zoom", '<button type="button" class="play" aria-pressed="false" title="Go through the range, slowly where something happens">▶ Play</button><button type="button" class="gif" title="A film of it as a GIF, for a slide">GIF</button>')}
+  <p class="note making" role="status"></p>
+  <ol class="frames" aria-label="Film strip"></ol>
+  <p class="note happens" aria-live="polite"></p>
   <svg class="diagram" role="slider" tabindex="0" aria-label="Bifurcation diagram: click to set the parameter, or use the arrow keys"></svg>
   <p class="pad-key diagram-key"></p>
-  <p class="note diagram-note"></p>
-  <ul class="special-list"></ul>`
+  <p class="note diagram-note"></p>`
 
 class Diagram {
   constructor(box, tools) {
@@ -37,11 +44,54 @@ class Diagram {
       },
       onMark: (marks) => this.visit(marks),
     })
-    this.find(".special-list").addEventListener("click", (event) => {
+    this.find(".frames").addEventListener("click", (event) => {
       const item = event.target.closest("button")
-      if (item) this.go(this.special[item.dataset.special].value)
+      if (item) { this.ticker.toggle(false); this.go(this.frames[item.dataset.frame][0]) }
     })
+    this.ticker = new Ticker(this.find(".play"), (ms, next) => this.run(ms, next))
+    this.find(".play").addEventListener("click", () => this.play())
+    this.find(".gif").addEventListener("click", () => this.take())
   }
+
+  // Play: from here to the end of the range, or all of it, with a rest at each special value.
+  play(on = !this.ticker.playing) {
+    const plays = on && this.fits(), span = this.data?.span
+    this.rests = 0
+    if (plays && this.at >= span[1]) this.go(span[0])
+    if (!plays && this.ticker.playing && this.fits()) this.go(this.event(this.at) ? this.at : rounded(this.at, span))
+    this.ticker.toggle(plays)
+  }
+
+  run(ms, next) {
+    if (!this.fits() || this.at >= this.data.span[1]) { this.play(false); return }
+    this.rests -= ms
+    if (this.rests > 0) { next(); return }
+    const {at} = this, [low, high] = this.data.span, {slow, near} = this.tools.settings
+    const gap = Math.min(Infinity, ...this.special.map(({value}) => Math.abs(value - at)))
+    const pace = Math.max(slow, Math.min(1, gap / (near * (high - low))))
+    const to = at + pace * ms / 1000 * (high - low) / PLAY_SECONDS
+    const event = this.special.find(({value}) => value > at && value <= to)
+    if (event) this.rests = RESTS
+    this.arrived = () => { this.arrived = null; next() } // once it is drawn: nothing runs ahead of the picture
+    this.go(event ? event.value : Number(Math.min(high, to).toPrecision(7)))
+  }
+
+  get at() { return this.tools.valueOf(this.values.along) }
+
+  event(at) { return this.special.find(({value}) => value === at) }
+
+  // The same as a film.
+  async take() {
+    const {along} = this.values, told = this.find(".making"), button = this.find(".gif")
+    if (!this.fits()) return
+    button.disabled = true
+    const events = [...new Set(this.special.map(({value}) => plain(value)))].slice(0, MOST_EVENTS)
+    const answer = await this.tools.take({kind: "gif", sliders: [`${along}=${this.data.span};${events}`]}, (done, all) => { told.textContent = `Drawing the film: ${done} of ${all} pictures …` })
+    told.textContent = answer.error ?? save(new Blob([answer.file], {type: answer.type}), answer.name)
+    button.disabled = false
+  }
+
+  close() { this.play(false) }
 
   go(value) { this.setControls({[this.values.along]: value}) }
 
@@ -59,15 +109,17 @@ class Diagram {
     this.list.apply(header.axes)
     const unable = header.unable?.diagram
     let fresh = Boolean(unable)
-    if (header.diagram) { this.data = {...header.diagram, cycles: null}; this.why = ""; fresh = true }
+    if (header.diagram) { this.data = {...header.diagram, cycles: null}; this.film = null; this.why = ""; fresh = true }
     if (unable) { this.data = null; this.why = unable }
     if (header.cycles_along && this.data) { this.data.cycles = header.cycles_along; fresh = true }
     if (header.unable?.["cycles along"] && this.data) this.why = header.unable["cycles along"]
+    if (header.film && this.data) { this.film = header.film; fresh = true }
     if (fresh) this.drawAll()
     this.old = late.includes("diagram")
     this.find(".diagram-note").textContent = this.why || (late.includes("cycles along") && !this.old ? SAYS.looking : this.data?.cycles?.sentence ?? "")
     this.svg.classList.toggle("old", this.old && !this.fits())
     if (this.values && fresh && !this.box.hidden) this.draw(this.values)
+    this.arrived?.()
   }
 
   // Whether what is drawn is still along the chosen parameter: then the line of the present value may move over it.
@@ -77,22 +129,36 @@ class Diagram {
     this.values = values
     this.zoom.draw(values)
     if (!this.fits()) return
-    const value = this.tools.valueOf(values.along)
+    const value = this.at
     this.chart.at(value)
     this.svg.setAttribute("aria-valuenow", value)
     this.svg.setAttribute("aria-valuetext", `${this.tools.symbols[values.along]} = ${plain(value)}`)
-    for (const item of this.find(".special-list").querySelectorAll("button")) item.classList.toggle("here", this.special[item.dataset.special].value === value)
+    this.tell(value)
+  }
+
+  // Which portrait of the strip is the present one, and what happens at the special value that is nearest.
+  tell(value) {
+    const strip = this.find(".frames"), nearest = [...this.special].sort((one, other) => Math.abs(one.value - value) - Math.abs(other.value - value))[0]
+    const after = this.special.filter((one) => one.value < value).at(-1)?.value ?? -Infinity, before = this.special.find((one) => one.value > value)?.value ?? Infinity
+    const at = this.frames.findIndex(([v]) => this.event(value) ? v === value : v > after && v < before)
+    for (const [i, item] of [...strip.children].entries()) item.firstElementChild.classList.toggle("here", i === at)
+    const item = strip.children[at]
+    if (item) strip.scrollLeft = item.offsetLeft - (strip.clientWidth - item.offsetWidth) / 2
+    const where = nearest && (nearest.value === value ? "At" : nearest.value > value ? "Before" : "After")
+    put(this.find(".happens"), nearest ? `<b>${where} ${escape(nearest.kind)}, ${this.word} = ${minus(plain(nearest.value))}:</b> ${formula(nearest.sentence)}` : SAYS.nothingHappens)
   }
 
   drawAll() {
     this.svg.toggleAttribute("hidden", !this.data)
-    if (!this.data) { this.find(".special-list").innerHTML = this.find(".diagram-key").innerHTML = ""; return }
+    for (const name of [".play", ".frames", ".happens"]) this.find(name).hidden = !this.data
+    this.find(".gif").hidden = !this.data || !this.tools.film
+    if (!this.data) { this.find(".frames").innerHTML = this.find(".diagram-key").innerHTML = ""; return }
     const {equator, critical, closed, span} = this.data
     const cycles = this.data.cycles?.pieces ?? []
     this.special = [...this.data.special, ...(this.data.cycles?.special ?? [])].sort((one, other) => one.value - other.value)
     const special = this.special
     const [low, high] = span
-    const words = this.tools.symbols[this.data.control]
+    const words = this.word = this.tools.symbols[this.data.control]
     /** @type {any[]} */
     const plots = [this.angles(equator, closed), this.radii(critical)]
     if (cycles.length) {
@@ -112,8 +178,13 @@ class Diagram {
     this.svg.setAttribute("aria-valuemin", low)
     this.svg.setAttribute("aria-valuemax", high)
     this.find(".diagram-key").innerHTML = `<span>green: arrive</span><span>pink: leave</span><span>red: critical set${cycles.length ? ", cycles" : ""}</span><span>dashed: unstable</span><span>dotted: saddle</span>`
-    this.find(".special-list").innerHTML = special.map((one, i) => `<li><button type="button" data-special="${i}"><svg viewBox="-5 -5 10 10">${shape(one.kind)}</svg>
-      <span>${escape(one.kind)}</span><span>${words} = ${minus(plain(one.value))}</span><span class="note">${formula(one.sentence)}</span></button></li>`).join("")
+    this.frames = this.film ?? [...new Set(special.map(({value}) => value))].map((value) => [value, "", ""])
+    this.find(".frames").innerHTML = this.frames.map(([value, name, drawn], i) => {
+      const event = this.event(value), at = `${words} = ${minus(plain(value))}`
+      const title = event ? `${event.kind} at ${at}. ${event.sentence}` : `${name}, at ${at}`
+      return `<li><button type="button" data-frame="${i}" title="${escape(title)}"${event ? ' class="event"' : ""}>${drawn || '<svg viewBox="0 0 240 240" aria-hidden="true"></svg>'}
+        <span>${event ? `<svg viewBox="-5 -5 10 10">${shape(event.kind)}</svg>${minus(plain(value))}` : escape(name)}</span></button></li>`
+    }).join("")
   }
 
   // The part of the span in which there are critical sets and cycles, if it is narrow: else they were one column of pixels.

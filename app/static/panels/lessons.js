@@ -34,11 +34,12 @@ class Lessons {
   }
 
   draw() {
+    this.tools.root.classList.toggle("in-lesson", Boolean(this.lesson?.key))
     this.showNumbers()
     this.asks()
   }
 
-  close() { this.ask() }
+  close() { this.tools.root.classList.remove("in-lesson"); this.ask() }
 
   // --- the two views
   show() {
@@ -87,6 +88,7 @@ class Lessons {
     const seed = Math.floor(Math.random() * 1e6)
     this.tools.choose("quiz", `${i}.${seed}`)
     this.openQuestion(i)
+    this.section(i)?.scrollIntoView({block: "nearest"})
   }
 
   openQuestion(i) {
@@ -143,6 +145,7 @@ class Lessons {
     section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not so."}</b> ${lowered([why, explain].filter(Boolean).join(" "))}</p>`
     const vary = section.querySelector(".vary")
     if (vary) vary.hidden = false
+    section.querySelector(".verdict").scrollIntoView({block: "nearest"})
     if (right) this.keep(i, "answer")
   }
 

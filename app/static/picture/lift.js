@@ -30,9 +30,10 @@ export function projection({up, azimuth, elevation, x: left, y: top, scale}) {
 }
 
 export class Lift {
-  /** @param {any} root the explorer @param {any} picture */
-  constructor(root, picture) {
+  /** @param {any} root the explorer @param {any} picture @param {(on: boolean) => void} told is called when it goes up or down */
+  constructor(root, picture, told) {
     this.root = root
+    this.told = told
     this.picture = picture
     this.up = 0
     this.way = 0 // whether it goes up, down, or rests
@@ -73,15 +74,16 @@ export class Lift {
     this.frame = requestAnimationFrame(() => this.paint())
   }
 
-  /** Up, or down again; at once for who wants no motion. */
-  swing() {
+  /** Up, or down again; at once for who wants no motion, or has come by a link. @param {boolean} still */
+  swing(still = matchMedia("(prefers-reduced-motion: reduce)").matches) {
     this.way = this.way === 1 ? -1 : 1
     if (!this.shown) { this.picture.home(); this.azimuth = TURNED[0]; this.elevation = TURNED[1] }
     this.button.setAttribute("aria-pressed", this.way === 1)
     this.button.textContent = this.way === 1 ? SAYS.flat : SAYS.lift
     this.root.classList.toggle("aloft", this.way === 1)
     this.canvas.hidden = false
-    const still = matchMedia("(prefers-reduced-motion: reduce)").matches, way = this.way
+    this.told(this.way === 1)
+    const {way} = this
     let before = performance.now()
     const step = (/** @type {number} */ now) => {
       if (way !== this.way) return

@@ -40,11 +40,11 @@ function fixed(mine, axes, families) {
 }
 
 /**
- * Where the phones are on a chart: of the lecturer's system, with a mark whether all else is as he has it too.
+ * Where the phones are on a chart: those for which all else is as the lecturer has it.
  * @param {Row[]} rows
  * @param {Values} mine the lecturer's values; of a system with parameters all of these
  * @param {{axes: string[], plane: boolean, first: Values, names: string[], families: any}} chart `plane`: of f(z)
- * @returns {{row: Row, values: Values, x: number, y: number, alike: boolean}[]}
+ * @returns {{row: Row, x: number, y: number}[]}
  */
 export function placed(rows, mine, {axes, plane, first, names, families}) {
   const held = fixed(mine, axes, families)
@@ -56,7 +56,7 @@ export function placed(rows, mine, {axes, plane, first, names, families}) {
     const [x, y] = axes.map((name) => valueOf(at, name)).map((v, i) => plane ? v + mine[`k${i + 1}`] * mine.z : v)
     if (typeof x !== "number" || typeof y !== "number") return []
     const alike = held.every((name) => equal(at[name], mine[name])) && others.every((name) => equal(at.parameters[name], mine.parameters[name]))
-    return [{row, values, x, y, alike}]
+    return alike ? [{row, x, y}] : []
   })
 }
 
@@ -68,7 +68,10 @@ export function tally(rows) {
   return [...found].sort(([one, some], [other, more]) => more.length - some.length || (one < other ? -1 : 1))
 }
 
-/** In which lessons they are, and what they have answered last. @param {Row[]} rows @returns {string[]} */
+/**
+ * In which lessons they are: how many, and of each question, from 0 on, how many have answered it last, and how many rightly.
+ * @param {Row[]} rows @returns {[string, number, [number, number, number][]][]}
+ */
 export function lessons(rows) {
   /** @type {Map<string, Row[]>} */
   const found = new Map()
@@ -77,8 +80,8 @@ export function lessons(rows) {
     const numbers = [...new Set(there.map((row) => row[3]?.[1] ?? -1))].filter((n) => n >= 0).sort((m, n) => m - n)
     const parts = numbers.map((n) => {
       const answered = there.filter((row) => row[3]?.[1] === n)
-      return `question ${n + 1}: ${answered.filter((row) => row[3]?.[2]).length} of ${answered.length} right`
+      return /** @type {[number, number, number]} */ ([n, answered.length, answered.filter((row) => row[3]?.[2]).length])
     })
-    return [`${title}: ${there.length} there`, ...parts].join("; ")
+    return [title, there.length, parts]
   })
 }

@@ -18,8 +18,9 @@ const MARKUP = `
 export class Room {
   /**
    * @param {any} root the explorer
-   * @param {{send: (message: {room: any}) => void, query: () => string, version: number, changed: () => void, opened: () => void, open: (view: Record<string, any>) => void}} tools
-   *   `changed` is called when the phones in the room are others, `opened` when a room has been opened
+   * @param {{send: (message: {room: any}) => void, query: () => string, version: number, changed: () => void, opened: () => void, open: (view: Record<string, any>) => void, follow: (view: Record<string, any>) => void}} tools
+   *   `changed` is called when the phones in the room are others, `opened` when a room has been opened, `follow` when the
+   *   lecturer shows something else
    */
   constructor(root, tools) {
     this.root = root
@@ -29,6 +30,7 @@ export class Room {
     /** @type {import("./crowd.js").Row[] | null} */
     this.rows = null
     this.code = this.inside = ""
+    this.follows = false
     this.bare = [...new URLSearchParams(globalThis.location?.search).keys()].join() === "room" // the code was typed: it brings the view
     this.again = 0 // times that a room is asked for still which is not there
     this.bar.addEventListener("click", (event) => {
@@ -36,6 +38,7 @@ export class Room {
       if (act === "show") this.show()
       else if (act === "end") this.end()
       else if (act === "leave") this.leave()
+      else if (act === "follow") this.follow(!this.follows)
       else if (act === "hide") this.bar.hidden = true
     })
   }
@@ -53,7 +56,17 @@ export class Room {
   open(key = "") { this.resumes = Boolean(key); this.tools.send({room: {open: key}}) }
   enter(code) { this.wanted = code; this.tools.send({room: {join: code}}) }
   end() { this.tools.send({room: {close: true}}) }
-  leave() { this.keep({}); this.inside = ""; this.bar.hidden = true; this.tools.send({room: {leave: true}}) }
+  leave() { this.keep({}); this.inside = ""; this.follows = false; this.bar.hidden = true; this.tools.send({room: {leave: true}}) }
+
+  /** Show what the lecturer shows, or no longer. @param {boolean} on */
+  follow(on) {
+    this.follows = on
+    this.tools.send({room: {follow: on}})
+    this.seated()
+  }
+
+  // Something is set here: who goes his own way follows no more.
+  stray() { if (this.follows) this.follow(false) }
 
   // Whether a message was about a room.
   hear(message) {
@@ -62,6 +75,7 @@ export class Room {
     if ("open" in room) this.opened(room)
     else if ("rows" in room) { this.rows = room.rows; this.tell(); this.tools.changed() }
     else if ("joined" in room) { this.entered(room.joined, room.view) }
+    else if ("view" in room) { if (this.follows) this.tools.follow(room.view) }
     else if ("ended" in room) this.ended(room.ended)
     else if (room.error) this.refused(room.error)
     return true
@@ -84,13 +98,18 @@ export class Room {
     this.inside = code
     this.again = 0
     this.keep({in: code})
-    this.say(`You are in room <b>${escape(code)}</b>: the lecturer sees your settings as a dot, no name.`, ["leave", "Leave"])
+    this.seated()
+  }
+
+  seated() {
+    this.say(`Room <b>${escape(this.inside)}</b>: ${this.follows ? "you see what the lecturer shows." : "the lecturer sees your settings as a dot, no name."}`, ["follow", "Follow", this.follows], ["leave", "Leave"])
   }
 
   ended(code) {
     const mine = code === this.code
     this.keep({})
     this.code = this.inside = ""
+    this.follows = false
     this.rows = null
     this.root.classList.remove("hosting")
     if (this.dialog.open) this.dialog.close()
@@ -110,7 +129,7 @@ export class Room {
 
   say(markup, ...buttons) {
     this.bar.hidden = false
-    put(this.bar, `<span>${markup}</span>${buttons.map(([act, words]) => `<button type="button" data-room="${act}">${words}</button>`).join("")}`)
+    put(this.bar, `<span>${markup}</span>${buttons.map(([act, words, on]) => `<button type="button" data-room="${act}"${on === undefined ? "" : ` aria-pressed="${on}"`}>${words}</button>`).join("")}`)
   }
 
   // The lecturer's line, and the number in the dialog.

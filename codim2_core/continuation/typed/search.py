@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from ...cycles.limit_cycles import LimitCycle, closed_orbits
 from ...cycles.turn_section import TurnSection
 from ...layer_problem.problem import LayerProblem
-from ...layer_problem.vary import limits, varied
+from ...layer_problem.vary import limits, vary
 from ...psi.function import Psi
 from ...systems.frozen import AtZ
 from ...systems.kinds import AnySystem
@@ -77,7 +77,7 @@ def continue_typed(
 
     @lru_cache(maxsize=KEPT)
     def at(value: float) -> tuple[AtZ, Psi]:
-        changed, family_psi, place = varied(system, psi, z, name, value)
+        changed, family_psi, place = vary(system, psi, z, name, value)
         return changed.at(place), family_psi
 
     return Search(at, name, span, limits(system, psi, name), marked).run()

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...cycles.orbit import NODES, gauss, path
+from ...cycles.orbit import STEP_NODES, gauss, path
 from ...psi.function import Psi
 from ...systems.frozen import AtZ
 from ..measured import MOST_EXPONENT
@@ -64,7 +64,7 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place
     e, D = _regularised(ray.psi, np.concatenate([way.inner, start, way.end[None]]))
     F = sign * ray.field(e)
     J = ray.derivative(e[:-2]) @ D[:-2]
-    rates = (sign * (J[:, 0, 0] + J[:, 1, 1]) / way.inner[:, 2]).reshape(-1, NODES)
+    rates = (sign * (J[:, 0, 0] + J[:, 1, 1]) / way.inner[:, 2]).reshape(-1, STEP_NODES)
     whole = way.h * (rates @ weights)
     exponent = float(whole.sum())
     if not abs(exponent) < MOST_EXPONENT:

@@ -9,10 +9,10 @@ from numba import njit
 
 from ...layer_problem.border import CANCELS
 from ...numerics import double_double
-from ...stepping.numbers import PSI, SHARED
-from ..equator_pull import LEAST, LOST, SUNK
-from ..return_map import RETURNED, reached
-from ..section import INNER, SUNK_INWARD
+from ...stepping.numbers import PSI, SHARED_SIZE
+from ..equator_pull import LOST, MIN_HEIGHT, SUNK
+from ..return_map import RETURNED, single_step
+from ..section import INNER_RADIUS, SUNK_INWARD
 
 _add = njit(cache=True, error_model="numpy")(double_double.add)
 _product = njit(cache=True, error_model="numpy")(double_double.product)
@@ -25,7 +25,7 @@ def _square(pair):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def located(planes):
+def critical_points(planes):
     """Find ``e_C = -A^-1 f`` (n, 2) and ``1 - |e_C|^2`` (n,) of (a, b, d, f1, f2) (n, 5), of any size.
 
     The complement is positive just where no theorem forbids cycles: a, d differ in sign, and C exists with det A > 0.
@@ -71,7 +71,7 @@ def rays(planes, e, complement, signs):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def centred(e, sides, room, zeta, radial, tangential):
+def linearise_at_critical(e, sides, room, zeta, radial, tangential):
     """Return x2 of C (n, 2), the eigenvalues (n, 2) of D e_Psi there, and the distance (n,) of the innermost sample."""
     n = len(e)
     x2, factors, inner = np.empty((n, 2)), np.empty((n, 2)), np.empty(n)
@@ -80,12 +80,14 @@ def centred(e, sides, room, zeta, radial, tangential):
         x2[i, 0], x2[i, 1] = zeta[i] / modulus * e[i, 0], zeta[i] / modulus * e[i, 1]
         factors[i, 0], factors[i, 1] = radial[i], tangential[i]
         along = sides[i, 1] / modulus
-        inner[i] = INNER * room[i, 0] * (1.0 / tangential[i] + along * along * (1.0 / radial[i] - 1.0 / tangential[i]))
+        inner[i] = (
+            INNER_RADIUS * room[i, 0] * (1.0 / tangential[i] + along * along * (1.0 / radial[i] - 1.0 / tangential[i]))
+        )
     return x2, factors, inner
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def started(e, u, room, xi):
+def section_points(e, u, room, xi):
     """Return r, reach - r, ``1 - |e|^2`` (n, 3), e (n, 2) and |e| (n,), at parameters (n,) of sections."""
     n = len(e)
     parts, place, modulus = np.empty((n, 3)), np.empty((n, 2)), np.empty(n)
@@ -111,7 +113,7 @@ def hemisphere(x2):
 def lanes(plane, parameters, backward, states, x2, inner):
     """Return what `return_map.returns` is given of each: parameters of the field, sense, floor and sunk."""
     n = len(plane)
-    shared, sense, floor, sunk = np.zeros((n, SHARED)), np.empty(n), np.empty(n), np.empty(n)
+    shared, sense, floor, sunk = np.zeros((n, SHARED_SIZE)), np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
         for c in range(5):
             shared[i, c] = -plane[i, c] if backward[i] else plane[i, c]
@@ -120,12 +122,12 @@ def lanes(plane, parameters, backward, states, x2, inner):
         w = states[i, 2]
         away = math.hypot(states[i, 0] / w - x2[i, 0], states[i, 1] / w - x2[i, 1])
         floor[i] = SUNK_INWARD * min(inner[i], away)
-        sunk[i] = min(SUNK, max(LOST, LEAST / max(LEAST, min(w, 1.0))))
+        sunk[i] = min(SUNK, max(LOST, MIN_HEIGHT / max(MIN_HEIGHT, min(w, 1.0))))
     return shared, sense, floor, sunk
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def noded(steps, codes, shared, nodes, field):
+def collect_nodes(steps, codes, shared, nodes, field):
     """Return, of the turns that return: rows (k,), first node of each, h, and whose nodes are which and where.
 
     Steps (m, 5) as `return_map.returns` writes them, with its codes (n,); nodes (q,) of a step's length.
@@ -159,7 +161,7 @@ def noded(steps, codes, shared, nodes, field):
                 begin[q * at + m, c] = steps[j, c]
             length[q * at + m] = steps[j, 3] * nodes[m]
             own[q * at + m], whose[q * at + m] = i, number[i]
-    return rows[:k], first[: k + 1], h, whose, reached(begin, length, shared, own, field)
+    return rows[:k], first[: k + 1], h, whose, single_step(begin, length, shared, own, field)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

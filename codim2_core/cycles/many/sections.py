@@ -15,20 +15,20 @@ from numpy.typing import NDArray
 from ...psi.constructors import many
 from ...psi.function import Psi
 from ..orbit import MOST_STEPS, gauss
-from ..section import LONGEST
+from ..section import MAX_TURN_TIME
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-NODES = 4  # of a step: of its own order, 8; with more the means are the same
-SIGNS = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])  # of the four rays, as in `section.rays`
+STEP_NODES = 4  # of a step: of its own order, 8; with more the means are the same
+RAY_SIGNS = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])  # of the four rays, as in `section.rays`
 
 
-def located(planes: Array) -> tuple[Array, Array]:
-    """Find ``e_C = -A^-1 f`` (n, 2) and ``1 - |e_C|^2`` (n,) of (a, b, d, f1, f2) (n, 5): see `placing.located`."""
+def critical_points(planes: Array) -> tuple[Array, Array]:
+    """Find ``e_C = -A^-1 f`` (n, 2) and ``1 - |e_C|^2`` (n,) of planes (n, 5): see `placing.critical_points`."""
     from . import placing
 
-    return placing.located(np.ascontiguousarray(planes, float))
+    return placing.critical_points(np.ascontiguousarray(planes, float))
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class Sections:
     planes : ndarray (n, 5)
         (a, b, d, f1, f2).
     e, complement : ndarray (n, 2), (n,)
-        As `located` finds them, the complement positive.
+        As `critical_points` finds them, the complement positive.
     psi : Psi
     own : ndarray (n,), optional
         The parameter of each one's Psi, a member of the family of `psi`.
@@ -77,14 +77,14 @@ class Sections:
         from . import placing
 
         self.psi, self.own, self.e = psi, own, e
-        signs = SIGNS[np.broadcast_to(ray, len(planes))]
+        signs = RAY_SIGNS[np.broadcast_to(ray, len(planes))]
         planes = np.ascontiguousarray(planes)
         self.rate, self.plane, self.u, self.room, sides = placing.rays(planes, e, complement, signs)
         self.zeta = self.psi_at().radius(sides[:, 0], np.clip(complement, 1e-300, 1.0))
         factors = self.psi_at().jacobian_factors(self.zeta)
         #: x2 of C; eigenvalues of D e_Psi there, radial and tangential; and the distance from it in x2 of the innermost
         #: sample, to first order.
-        self.x2, self.factors, self.inner = placing.centred(e, sides, self.room, self.zeta, *factors)
+        self.x2, self.factors, self.inner = placing.linearise_at_critical(e, sides, self.room, self.zeta, *factors)
 
     def __len__(self) -> int:
         return len(self.plane)
@@ -114,7 +114,7 @@ class Sections:
         """Find r, reach - r and ``1 - |e|^2`` (n, 3), and x2 (n, 2), at parameters (n,) of the sections."""
         from . import placing
 
-        parts, e, modulus = placing.started(self.e, self.u, self.room, xi)
+        parts, e, modulus = placing.section_points(self.e, self.u, self.room, xi)
         zeta = self.psi_at().radius(modulus, np.clip(parts[:, 2], 1e-300, 1.0))
         return parts, (zeta / np.maximum(modulus, 1e-300))[:, None] * e
 
@@ -146,8 +146,8 @@ class Sections:
         parameters = np.full(len(self), self.psi.parameter) if self.own is None else self.own
         shared, sense, floor, sunk = placing.lanes(self.plane, parameters, backward, states, self.x2, self.inner)
         ends, _, codes, steps = returns(
-            states, shared, field.address, self.u, self.x2, sense, floor, sunk, LONGEST, np.atleast_1d(rtol), limit,
-            len(self) * limit, False,
+            states, shared, field.address, self.u, self.x2, sense, floor, sunk, MAX_TURN_TIME, np.atleast_1d(rtol),
+            limit, len(self) * limit, False,
         )  # fmt: skip
-        rows, first, h, whose, inner = placing.noded(steps, codes, shared, gauss(NODES)[0], field.address)
+        rows, first, h, whose, inner = placing.collect_nodes(steps, codes, shared, gauss(STEP_NODES)[0], field.address)
         return rows, Ways(first, whose, h, inner, ends[rows]) if len(rows) else None

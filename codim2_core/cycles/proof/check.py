@@ -9,8 +9,10 @@ from math import comb, lcm
 
 import numpy as np
 
-TINY = 1e-12  # more than all rounding below, of the largest coefficient: 16 levels of products with rows that sum to 1
-DEEPEST, MOST_CELLS, GRID = 16, 400_000, 7
+ROUNDING_BOUND = (
+    1e-12  # more than all rounding below, of the largest coefficient: 16 levels of products with rows that sum to 1
+)
+DEEPEST, MAX_CELLS, GRID = 16, 400_000, 7
 
 
 def psi(family, n, s):
@@ -96,11 +98,11 @@ def halves(n):
 def check(certificate):
     """Return how many limit cycles there are, all hyperbolic, and that there is no other; (0, False): nothing shown."""
     with np.errstate(all="ignore"):
-        found = counted(certificate)
+        found = proved_count(certificate)
     return (0, False) if found is None else (found, True)
 
 
-def counted(certificate):
+def proved_count(certificate):
     """Return how many limit cycles there are; None: nothing is shown."""
     (family, power), (k, mu), known = certificate["psi"], map(Fraction, certificate["weight"]), ("constant", "hill")
     if family not in (*known, "rational", "exponential", "tanh") or (family == "hill" and not power >= 1):
@@ -150,11 +152,11 @@ def counted(certificate):
         return None
     lift, numbers = ((m / abs(m).max()).astype(float) for m in (L, np.array([[a, b, f], [c, d, g]], object)))
     center = np.array([float(Fraction(b * g - d * f, area)), float(Fraction(c * f - a * g, area))])
-    beyond = lambda sign: crossed(certificate["loop"], center, numbers, lines, sign)
+    beyond = lambda sign: loop_is_crossed(certificate["loop"], center, numbers, lines, sign)
     return ovals(P, certificate["way"], chart, lift, numbers, beyond)
 
 
-def crossed(loop, center, numbers, lines, sign):
+def loop_is_crossed(loop, center, numbers, lines, sign):
     """Return places about which a closed polygon goes, and whether it goes round C and all orbits cross it inwards (1).
 
     Or outwards (-1): that is, each from its right to its left, or each from its left to its right, if it meets itself.
@@ -162,19 +164,23 @@ def crossed(loop, center, numbers, lines, sign):
     p, (A, f), size = np.array(loop, float).reshape(-1, 2), np.split(numbers, [2], axis=1), abs(numbers).sum()
     d = np.roll(p, -1, axis=0) - p
     length, inside = np.hypot(*d.T), center + 0.97 * (p[:: len(p) // 16 or 1] - center)
-    if len(p) < 3 or np.hypot(*p.T).max() >= 1 - TINY or winding(p, d, center) != 1:
+    if len(p) < 3 or np.hypot(*p.T).max() >= 1 - ROUNDING_BOUND or winding(p, d, center) != 1:
         return inside, False
     inside = np.array([q for q in inside if winding(p, d, q) >= 1]).reshape(-1, 2)
     for pieces in (16, 128, 1024, 8192):  # the edges that are not decided yet, in more pieces
         e = p[:, None] + d[:, None] * ((np.arange(pieces) + 0.5) / pieces)[None, :, None]
-        U, r, modulus = e @ A.T + f[:, 0], length[:, None] / (2 * pieces) + TINY, np.hypot(*np.moveaxis(e, 2, 0))
+        U, r, modulus = (
+            e @ A.T + f[:, 0],
+            length[:, None] / (2 * pieces) + ROUNDING_BOUND,
+            np.hypot(*np.moveaxis(e, 2, 0)),
+        )
         along, about = (e * U).sum(axis=2), (d[:, 1] * p[:, 0] - d[:, 0] * p[:, 1])[:, None]  # d x e, all along an edge
         low, high = np.maximum(modulus - r, 0) ** 2, np.minimum(modulus + r, 1) ** 2
         alpha, sigma, error = lookup(lines, low, high)
         beta, spread = alpha + sigma * (low + high) / 2, abs(sigma) * (high - low) / 2 + error
         across = d[:, :1] * U[..., 1] - d[:, 1:] * U[..., 0] + beta * about * along
         near = spread * abs(along) + (abs(beta) + spread) * r * 3 * size
-        left = ~(sign * across > length[:, None] * size * (r + TINY) + abs(about) * near).all(axis=1)
+        left = ~(sign * across > length[:, None] * size * (r + ROUNDING_BOUND) + abs(about) * near).all(axis=1)
         p, d, length = p[left], d[left], length[left]
     return inside, not left.any()
 
@@ -203,10 +209,10 @@ def positive(tensors, chart, lines):
         meets = low <= 1
         T, centers, low, high = T[meets], centers[meets], np.maximum(low[meets], 0), np.minimum(high[meets], 1)
         alpha, sigma, error = lookup(lines, low, high)[:, :, None, None]
-        slack = error[:, 0, 0] * abs(T[:, 1]).max((1, 2)) + TINY * (1 + abs(alpha) + abs(sigma))[:, 0, 0]
+        slack = error[:, 0, 0] * abs(T[:, 1]).max((1, 2)) + ROUNDING_BOUND * (1 + abs(alpha) + abs(sigma))[:, 0, 0]
         left = ~((T[:, 0] + alpha * T[:, 1] + sigma * T[:, 2]).min(axis=(1, 2)) > slack)
         tried += len(left)
-        if left.any() and (tried > MOST_CELLS or half < 2.0**-DEEPEST):
+        if left.any() and (tried > MAX_CELLS or half < 2.0**-DEEPEST):
             return False
         T, centers = T[left], centers[left]
         for i in range(0, len(T), 64):
@@ -220,15 +226,15 @@ def squares(chart, centers, half):
     """Return the least and the greatest |e|^2 on squares: of (x^2 + y^2) / w^2, or of 1 + (x^2 + y^2 - w^2) / w^2."""
     places, form = np.column_stack([centers, np.ones(len(centers))]), chart.T @ np.diag([1.0, 1.0, -1.0]) @ chart
     (x, y, w), rates = chart @ places.T, 2 * form[:2] @ places.T
-    p, q, r = abs(chart[:, :2]).sum(axis=1) * half + TINY
+    p, q, r = abs(chart[:, :2]).sum(axis=1) * half + ROUNDING_BOUND
     middle = (places @ form * places).sum(axis=1)
-    spread = (abs(rates).sum(axis=0) + abs(form[:2, :2]).sum() * half) * half + TINY
+    spread = (abs(rates).sum(axis=0) + abs(form[:2, :2]).sum() * half) * half + ROUNDING_BOUND
     far, near = np.maximum(w + r, 1e-99) ** 2, np.maximum(w - r, 1e-99) ** 2
     low, high = middle - spread, middle + spread
     least = (np.maximum(abs(x) - p, 0) ** 2 + np.maximum(abs(y) - q, 0) ** 2) / far
     low = np.maximum(least, 1 + low / np.where(low > 0, far, near))
     high = np.minimum(((abs(x) + p) ** 2 + (abs(y) + q) ** 2) / near, 1 + high / np.where(high > 0, near, far))
-    return np.where(w + r > 0, low - TINY, np.inf), high + TINY
+    return np.where(w + r > 0, low - ROUNDING_BOUND, np.inf), high + ROUNDING_BOUND
 
 
 def ovals(P, way, chart, lift, numbers, crossed):
@@ -254,7 +260,7 @@ def ovals(P, way, chart, lift, numbers, crossed):
     B = bernstein(P, n)
     B = (B / abs(B).max()).astype(float)
     cells = [m @ B @ mats.transpose(0, 2, 1) for m in mats]
-    signs = np.array([(c.min((1, 2)) > TINY) * 1 - (c.max((1, 2)) < -TINY) for c in cells])
+    signs = np.array([(c.min((1, 2)) > ROUNDING_BOUND) * 1 - (c.max((1, 2)) < -ROUNDING_BOUND) for c in cells])
     sides = (np.arange(2**GRID) + 0.5) / 2 ** (GRID - 1) - 1
     centers = np.stack(np.meshgrid(sides, sides, indexing="ij"), axis=-1).reshape(-1, 2)
     high = squares(chart, centers, 2.0**-GRID)[1].reshape(signs.shape)
@@ -273,17 +279,17 @@ def ovals(P, way, chart, lift, numbers, crossed):
     # where orbits may tend to the equator, in the sense of time in which they stay beyond the last closed curve
     turn, step = np.arange(2**15) * 2.0**-14 * np.pi, 2.0**-14 * np.pi
     e = np.array([np.cos(turn), np.sin(turn)])
-    other = held(signs == -sign, lift, e, step)
+    other = is_covered(signs == -sign, lift, e, step)
     U, error = numbers @ np.vstack([e, np.ones(len(turn))]), 3 * step * abs(numbers).sum()
     rest = (abs(e[0] * U[1] - e[1] * U[0]) <= error) & ~other
     kept = bool((sign * (e * U).sum(axis=0) < -error)[rest].all())
     if count == most and not kept:  # or may not come there for a polygon, not all of it within the last closed curve
         inside, kept = crossed(sign)
-        kept = kept and held(~inner, lift, inside.T, TINY).any()
+        kept = kept and is_covered(~inner, lift, inside.T, ROUNDING_BOUND).any()
     return count if count == most and kept else None
 
 
-def held(squares, lift, e, step):
+def is_covered(squares, lift, e, step):
     """Whether all that is as near as this to places e is in some of the squares."""
     lifted, spread, middle = lift @ np.vstack([e, np.ones(e.shape[1])]), abs(lift).sum() * step, len(squares) // 2
     eta, away = lifted[:2] / lifted[2], 3 * spread / np.maximum(lifted[2] - spread, 1e-99)

@@ -11,23 +11,23 @@ from numpy.typing import NDArray
 from ...layer_problem.problem import LayerProblem
 from ...psi.kernel import VECTOR
 from ...words import say
-from .check import check, chords, crossed
+from .check import check, chords, loop_is_crossed
 from .result import Proof, covers
-from .search import LEAST_MARGIN, Layer, best_function, loops, written
+from .search import LEAST_MARGIN, Layer, best_function, loops, write_certificate
 
 Array = NDArray[np.float64]
 
 # Of Psi the degree, and weights (k, mu), in the order in which they are tried
-TRIED = (
+ATTEMPTS = (
     (6, ((-1.0, 1.0),)),
     (10, ((-1.0, 1.5), (-1.0, 1.0), (-2.0, 1.0))),
     (14, ((-1.0, 1.5), (-1.0, 1.0), (-2.0, 1.0), (-0.5, 1.75))),
     (20, ((-1.0, 1.5), (-2.0, 1.0))),
 )
-NONE = np.zeros((0, 2))
+NO_POINTS = np.zeros((0, 2))
 
 
-def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) -> Proof:
+def prove_count(problem: LayerProblem, cycles: list[Array], forbidden: str | None) -> Proof:
     """Prove that a layer problem has just these limit cycles, as far as that can be done.
 
     Parameters
@@ -46,13 +46,13 @@ def proved(problem: LayerProblem, cycles: list[Array], forbidden: str | None) ->
     if not covers(problem.psi):
         return Proof(False, nothing, say("proof not for this Psi"))
     system, why = Layer(problem), "proof finds no function"
-    loop = _loop(problem, system, cycles) if cycles else NONE
-    for degree, weights in TRIED:
+    loop = _loop(problem, system, cycles) if cycles else NO_POINTS
+    for degree, weights in ATTEMPTS:
         for k, mu in weights:
             margin, function = best_function(system, degree, k, mu)
             if margin < LEAST_MARGIN:
                 continue
-            certificate = written(problem, system, function, k, mu, loop)
+            certificate = write_certificate(problem, system, function, k, mu, loop)
             if check(certificate) == (len(cycles), True):
                 return Proof(True, tuple(True for _ in cycles), say("proved by a certificate"), json.dumps(certificate))
             why = "proof refused"
@@ -66,7 +66,7 @@ def _loop(problem: LayerProblem, system: Layer, cycles: list[Array]) -> Array:
     U = system.A @ e + system.f[:, None]
     turning = e[0] * U[1] - e[1] * U[0]
     if turning.min() * turning.max() > 0.0:
-        return NONE
+        return NO_POINTS
     cycle, stable = cycles[-1], (system.trace > 0.0) == (len(cycles) % 2 == 1)  # they are so in turn, from C on
     x = (cycle / np.sqrt(1.0 - (cycle**2).sum(axis=1))[:, None]).T
     s = (x**2).sum(axis=0)
@@ -74,6 +74,6 @@ def _loop(problem: LayerProblem, system: Layer, cycles: list[Array]) -> Array:
     numbers, lines = np.column_stack([system.A, system.f]), chords(problem.psi.family, problem.psi.parameter)
     center = -np.linalg.solve(system.A, system.f)
     for loop in loops(system, x.T, stable):
-        if crossed(loop, center, numbers, lines, 1 if stable else -1)[1]:
+        if loop_is_crossed(loop, center, numbers, lines, 1 if stable else -1)[1]:
             return loop
-    return NONE
+    return NO_POINTS

@@ -1,4 +1,4 @@
-"""What is proved of the limit cycles of a system, and the certificate that shows it."""
+"""A proved count of limit cycles, and the certificate that shows it."""
 
 from __future__ import annotations
 

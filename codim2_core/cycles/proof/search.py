@@ -17,10 +17,10 @@ from ...psi.kernel import VECTOR
 
 Array = NDArray[np.float64]
 
-SHRINK = 1.0001  # the disc lies in the square of the chart
+CHART_SHRINKAGE = 1.0001  # the disc lies in the square of the chart
 MAX_ROUNDS = 40
 MAX_CORNERS = 4000
-MAX_CUTS, RINGS, RAYS = 12, 96, 320
+MAX_CUTS, RINGS, RAY_COUNT = 12, 96, 320
 LEAST_MARGIN = 1e-5  # of a function with coefficients up to 1: below it none is sought
 
 
@@ -33,7 +33,7 @@ def chart_at(e_C: Array) -> Array:
         found[:2, :2] += (gamma - 1.0) * np.outer(e_C, e_C) / square
     found[:2, 2] = found[2, :2] = gamma * e_C
     found[2, 2] = gamma
-    return found * (SHRINK, SHRINK, 1.0)
+    return found * (CHART_SHRINKAGE, CHART_SHRINKAGE, 1.0)
 
 
 def exponents(degree: int) -> NDArray[np.intp]:
@@ -51,8 +51,8 @@ def factors(place: Array, degree: int) -> tuple[Array, ...]:
 @lru_cache(maxsize=1)
 def net() -> Array:
     """Return places (2, rings, rays) of the disc."""
-    r, t = np.sin(0.5 * math.pi * np.arange(1, RINGS + 1) / RINGS), math.tau * np.arange(RAYS) / RAYS
-    return np.array([np.outer(r, wave(t)) for wave in (np.cos, np.sin)]) / SHRINK
+    r, t = np.sin(0.5 * math.pi * np.arange(1, RINGS + 1) / RINGS), math.tau * np.arange(RAY_COUNT) / RAY_COUNT
+    return np.array([np.outer(r, wave(t)) for wave in (np.cos, np.sin)]) / CHART_SHRINKAGE
 
 
 class Places:
@@ -102,15 +102,15 @@ def best_function(system: Layer, degree: int, k: float, mu: float) -> tuple[floa
     every = Places(system, net().reshape(2, -1), k, mu)
     step = max(1, every.place.shape[1] // (5 * math.comb(degree + 2, 2)))
     first = Places(
-        system, np.hstack([np.zeros((2, 1)), every.place[:, ::step], net()[:, -1, :: RAYS // (8 * degree)]]), k, mu
+        system, np.hstack([np.zeros((2, 1)), every.place[:, ::step], net()[:, -1, :: RAY_COUNT // (8 * degree)]]), k, mu
     )
     M, function = first.rows(degree), np.zeros((degree + 1, degree + 1))
-    patch = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 5)] * 2)).reshape(2, 1, 25) * (3.0 / RAYS)
+    patch = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 5)] * 2)).reshape(2, 1, 25) * (3.0 / RAY_COUNT)
     for _ in range(MAX_CUTS):
         margin, function[tuple(exponents(degree))] = largest_margin(M)
         if margin < LEAST_MARGIN:
             break
-        reached = every.values(function).reshape(RINGS, RAYS)
+        reached = every.values(function).reshape(RINGS, RAY_COUNT)
         around = [
             np.roll(reached, 1, axis=1),
             np.roll(reached, -1, axis=1),
@@ -120,7 +120,7 @@ def best_function(system: Layer, degree: int, k: float, mu: float) -> tuple[floa
         dips = np.flatnonzero((reached <= np.min(around, axis=0)) & (reached < 2.0 * margin))
         dips = dips[np.argsort(reached.ravel()[dips])[:300]]
         beside = (every.place[:, dips, None] + patch).reshape(2, -1)
-        near = Places(system, beside / np.maximum(1.0, SHRINK * np.hypot(*beside)), k, mu)
+        near = Places(system, beside / np.maximum(1.0, CHART_SHRINKAGE * np.hypot(*beside)), k, mu)
         lower = near.values(function).reshape(-1, 25)
         least = float(lower.min(initial=margin))
         if least > 0.3 * margin:
@@ -135,10 +135,10 @@ def largest_margin(M: Array) -> tuple[float, Array]:
     m, n = M.shape
     rows, last = np.hstack([-M, np.ones((m, 1))]), np.arange(n + 1)
 
-    def mapped(y: Array) -> Array:
+    def map_coordinates(y: Array) -> Array:
         return np.concatenate([rows @ y, y[:n], -y[:n]])
 
-    def gathered(x: Array) -> Array:
+    def gather_columns(x: Array) -> Array:
         found = x[:m] @ rows
         found[:n] += x[m : m + n] - x[m + n :]
         return found
@@ -148,16 +148,16 @@ def largest_margin(M: Array) -> tuple[float, Array]:
         return min(1.0, 0.99 * float((-values[down] / by[down]).min(initial=2.0)))
 
     def direction(to: Array, x: Array, s: Array, short: Array, off: Array, factor: Any) -> tuple[Array, Array, Array]:
-        dy = cho_solve(factor, short - gathered((to - x * off) / s), check_finite=False)
-        ds = off - mapped(dy)
+        dy = cho_solve(factor, short - gather_columns((to - x * off) / s), check_finite=False)
+        ds = off - map_coordinates(dy)
         return (to - x * ds) / s, dy, ds
 
     bounds, wanted = np.concatenate([np.zeros(m), np.ones(2 * n)]), np.append(np.zeros(n), 1.0)
     y = -wanted
-    x, s = np.full(m + 2 * n, 1.0 / m), np.maximum(bounds - mapped(y), 1e-6)
+    x, s = np.full(m + 2 * n, 1.0 / m), np.maximum(bounds - map_coordinates(y), 1e-6)
     best, at_best = -math.inf, y[:n]
     for _ in range(MAX_ROUNDS):
-        short, off, gap = wanted - gathered(x), bounds - mapped(y) - s, float(x @ s) / len(x)
+        short, off, gap = wanted - gather_columns(x), bounds - map_coordinates(y) - s, float(x @ s) / len(x)
         scale = x / s
         normal = (rows * scale[:m, None]).T @ rows
         normal[last[:n], last[:n]] += scale[m : m + n] + scale[m + n :]
@@ -208,7 +208,7 @@ def loops(system: Layer, cycle: Array, stable: bool) -> Iterator[Array]:
             continue
         inner = float(turned.real[1:][crosses].max())
         for share, angle in ((0.3, 0.03), (0.1, 0.03), (0.6, 0.03), (0.03, 0.01), (0.3, 0.1)):
-            start = (inner + share * (1.0 / SHRINK - inner)) * way
+            start = (inner + share * (1.0 / CHART_SHRINKAGE - inner)) * way
             found = round_C(system, start, way, forward, sense, -sense * angle)
             if found and abs(found[-1]) < abs(start):
                 found = found if sense > 0.0 else found[::-1]
@@ -240,7 +240,7 @@ def round_C(system: Layer, start: complex, way: complex, forward: float, sense: 
         if turned > 0.5 * abs(angle) and h > 1e-6:
             h *= 0.5
             continue
-        if abs(there) > 1.0 / SHRINK:
+        if abs(there) > 1.0 / CHART_SHRINKAGE:
             return []
         before, side = sense * (z / way).imag, sense * (there / way).imag
         if left and before < 0.0 <= side and (there / way).real > 0.0:
@@ -251,7 +251,9 @@ def round_C(system: Layer, start: complex, way: complex, forward: float, sense: 
     return []
 
 
-def written(problem: LayerProblem, system: Layer, function: Array, k: float, mu: float, loop: Array) -> dict[str, Any]:
+def write_certificate(
+    problem: LayerProblem, system: Layer, function: Array, k: float, mu: float, loop: Array
+) -> dict[str, Any]:
     """Write a certificate: numbers as they were given, not rounded."""
     a, b, d, e, f, g = problem.at.affine or (0.0,) * 6
     edge = np.arange(-8, 9)

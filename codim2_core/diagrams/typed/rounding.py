@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...expressions.arrays import program
-from ...layer_problem.vary import varied
+from ...layer_problem.vary import vary
 from ...psi.function import Psi
 from ...systems.bounds import slow_values
 from ...systems.typed_at_z import Frozen
@@ -86,7 +86,7 @@ class States:
     def _is_clear(self, value: float) -> bool:
         (low, high), U = self._span, []
         for near in np.clip(value + (high - low) * _BESIDE, low, high).tolist():
-            at, _, z_at = varied(*self._given, near)
+            at, _, z_at = vary(*self._given, near)
             frozen = at if at.frozen else Frozen(at.typed, slow_values(z_at, at.m, needed=False))
             U.append(program(frozen.key).at(_AROUND)[:, :, 0])
         values: NDArray[np.float64] = np.array(U)

@@ -15,7 +15,7 @@ from ...layer_problem.critical import CriticalSet
 from ...layer_problem.disc_zeros import disc_zeros
 from ...layer_problem.equator import EquatorEquilibria
 from ...layer_problem.problem import LayerProblem
-from ...layer_problem.vary import varied
+from ...layer_problem.vary import vary
 from ...psi.function import Psi
 
 __all__ = ["State", "Turns"]
@@ -37,7 +37,7 @@ class State:
 
     def __init__(self, system: Any, psi: Psi, name: str, value: float, z: ArrayLike) -> None:
         self.value = value
-        at, psi_at, z_at = varied(system, psi, z, name, value)
+        at, psi_at, z_at = vary(system, psi, z, name, value)
         self._problem = LayerProblem(at.at(z_at), psi_at)
 
     def _field(self, e: Array) -> tuple[Array, Array]:

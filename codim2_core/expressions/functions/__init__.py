@@ -6,12 +6,12 @@ from .angles import ATAN, COS, SIN, TAN
 from .elementary import COSH, EXP, LOG, SINH, SQRT, TANH
 from .elliptic import ELLIPTIC
 from .function import Function
-from .kinked import ABS, SIGN
+from .kinked import ABS, SIGN_FUNCTION
 
-__all__ = ["FIRST", "FUNCTIONS", "Function", "called", "code", "known"]
+__all__ = ["FIRST_CODE", "FUNCTIONS", "Function", "called", "code", "known"]
 
-FUNCTIONS: tuple[Function, ...] = (SIN, COS, TAN, EXP, LOG, SQRT, TANH, SINH, COSH, ATAN, ABS, SIGN, *ELLIPTIC)
-FIRST = 32  # code of the first; those below are operations
+FUNCTIONS: tuple[Function, ...] = (SIN, COS, TAN, EXP, LOG, SQRT, TANH, SINH, COSH, ATAN, ABS, SIGN_FUNCTION, *ELLIPTIC)
+FIRST_CODE = 32  # code of the first; those below are operations
 known = {one.name: one for one in FUNCTIONS}
 called = {one.name: one.scalar for one in FUNCTIONS if not one.source}  # what source calls by its name
-code = {one.name: FIRST + i for i, one in enumerate(FUNCTIONS)}
+code = {one.name: FIRST_CODE + i for i, one in enumerate(FUNCTIONS)}

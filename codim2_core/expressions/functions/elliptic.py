@@ -70,7 +70,7 @@ def _slopes(m, K, E, B, B2, C2):
     return 0.5 * B / (1.0 - m), 0.5 * (B - K), 0.5 * (K - B - B2), 1.5 * C2, last
 
 
-def _one(integrals: Any, i: int) -> Callable[[float], float]:
+def _single_integral(integrals: Any, i: int) -> Callable[[float], float]:
     def value(m):
         return integrals(m)[i]
 
@@ -86,11 +86,11 @@ def _its_slope(integrals: Any, slopes: Any, i: int) -> Callable[[float, float], 
 
 
 def _kernels(i: int) -> Callable[[Any], Kernels]:
-    def made(jit: Any) -> Kernels:
+    def make_kernels(jit: Any) -> Kernels:
         all_five = jit(integrals)
-        return jit(_one(all_five, i)), jit(_its_slope(all_five, jit(_slopes), i))
+        return jit(_single_integral(all_five, i)), jit(_its_slope(all_five, jit(_slopes), i))
 
-    return made
+    return make_kernels
 
 
 def _half_over(build: Any, i: int, u: int) -> int:
@@ -122,7 +122,7 @@ def _rate_c2(build: Any, k: int, u: int) -> int:
 
 
 def _function(i: int, name: str, rate: Callable[[Any, int, int], int]) -> Function:
-    scalar = _one(integrals, i)
+    scalar = _single_integral(integrals, i)
     return Function(
         name, scalar, np.vectorize(scalar, otypes=[float]), _kernels(i), rate, sign="positive", blur=BLUR, until=1.0
     )

@@ -1,4 +1,4 @@
-"""What a function of one argument is, in all the forms in which a formula meets it."""
+"""A function of one argument in all forms in which a formula needs it."""
 
 from __future__ import annotations
 

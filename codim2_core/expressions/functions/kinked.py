@@ -34,7 +34,7 @@ ABS = Function(
     "abs", math.fabs, np.abs, plain(_abs, _abs_slope), lambda build, k, u: build.apply("sign", u),
     sign="not negative", source="math.fabs({0})",
 )  # fmt: skip
-SIGN = Function(
+SIGN_FUNCTION = Function(
     # at the jump too: formulas that jump in e are refused (`systems.typed`)
     "sign", sign, np.sign, plain(_sign, _sign_slope), lambda build, k, u: build.number(0.0),
     source="(1.0*({0} > 0.0) - 1.0*({0} < 0.0))",

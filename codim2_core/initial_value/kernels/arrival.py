@@ -1,4 +1,4 @@
-"""What follows an arrival at Sigma, compiled, where safe signs tell that it slides; all else is left to the caller.
+"""Compiled decisions after an arrival at Sigma where signs are safe; all else is left to the caller.
 
 It slides on C, whatever Psi is, where U = A (e - C) with A + A^T negative definite and |C| < 1 (thm:case1): at a limit
 direction (e - C).U = lambda_rho (1 - C.e) < 0, so that all of them lead inward, Bendixson's criterion forbids cycles,
@@ -14,16 +14,16 @@ import math
 from numba import njit
 
 from ...stepping.layout import bits_of_double, call_field
-from ..line import NET
+from ..line import ZERO_NET
 from .rate import GAIN, RADIUS
-from .slow import PLACE, RATES, TABLE, VALUE, found_set, write_slopes
+from .slow import RATES, SET_PLACE, TABLE, VALUE, found_set, write_slopes
 
 SIGNED = 1e-6  # of the size of D_e U and U: what has a sign for sure
 ATTRACTS = 1e-2  # of the size of D_e U squared: its determinant, where orbits are said to end
-NEWTON, FURTHEST = 12, 0.3  # for Q from the angle of arrival
-BETWEEN = 8  # angles on the way there at which Theta is asked for its sign
-BESIDE, HEIGHT = 0.01, 0.02  # angle from Q, and ebar, at which the two orbits start
-TOLERANCE, STEPS, EVERY = 1e-4, 120, 3  # of their steps
+MAX_NEWTON, MAX_CORRECTION = 12, 0.3  # for Q from the angle of arrival
+SIGN_SAMPLES = 8  # angles on the way there at which Theta is asked for its sign
+START_ANGLE, START_HEIGHT = 0.01, 0.02  # angle from Q, and ebar, at which the two orbits start
+ORBIT_TOLERANCE, MAX_ORBIT_STEPS, CHECK_INTERVAL = 1e-4, 120, 3  # of their steps
 CAPTURED = 1e-2  # in e: so close to a set that attracts, an orbit ends there
 ROOT = 80  # bisections at most
 
@@ -31,9 +31,9 @@ ROOT = 80  # bisections at most
 @njit(cache=True, nogil=True, error_model="numpy")
 def write_at(S, m, c, s):
     """Write U, W and their slopes at e = (c, s) on Sigma, at the z in place."""
-    S[PLACE], S[PLACE + 1], S[PLACE + 2], S[PLACE + 3] = c, s, 0.0, 0.0
+    S[SET_PLACE], S[SET_PLACE + 1], S[SET_PLACE + 2], S[SET_PLACE + 3] = c, s, 0.0, 0.0
     write_slopes(S, m)
-    call_field(bits_of_double(S[VALUE]), S, PLACE, RATES, S)
+    call_field(bits_of_double(S[VALUE]), S, SET_PLACE, RATES, S)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -46,7 +46,7 @@ def _size(S, m):
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _on_the_only_set(S, m):
-    """Of U = A (e - C): whether all that arrives slides on C, by the symmetric part of A; C is in place."""
+    """Return whether all orbits of U = A (e - C) slide on C, by the symmetric part of A; C is in place."""
     write_at(S, m, 0.0, 0.0)
     width = 4 + m
     a, b, c, d = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
@@ -55,12 +55,12 @@ def _on_the_only_set(S, m):
     if not largest < -SIGNED * _size(S, m)[0]:
         return False
     det = a * d - b * c
-    S[PLACE], S[PLACE + 1] = (b * v - d * u) / det, (c * u - a * v) / det
-    return math.hypot(S[PLACE], S[PLACE + 1]) < 1.0 - SIGNED and found_set(S, m)
+    S[SET_PLACE], S[SET_PLACE + 1] = (b * v - d * u) / det, (c * u - a * v) / det
+    return math.hypot(S[SET_PLACE], S[SET_PLACE + 1]) < 1.0 - SIGNED and found_set(S, m)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _along(S, m, n1, n2, q):
+def _radial_speed(S, m, n1, n2, q):
     """n.U at e = q n, and its derivative by q."""
     write_at(S, m, q * n1, q * n2)
     width = 4 + m
@@ -73,11 +73,11 @@ def _in_line(S, m, n1, n2, theta):
     """Whether an arrival in an invariant line slides; the set is in place."""
     q = math.copysign(1.0, n1 * math.cos(theta) + n2 * math.sin(theta))
     low, high, found = q, q, False
-    if not _along(S, m, n1, n2, q)[0] * q < -SIGNED * _size(S, m)[1]:
+    if not _radial_speed(S, m, n1, n2, q)[0] * q < -SIGNED * _size(S, m)[1]:
         return False
-    for k in range(1, NET + 1):
-        high = q - 2.0 * q * k / NET
-        if not _along(S, m, n1, n2, high)[0] * q < 0.0:
+    for k in range(1, ZERO_NET + 1):
+        high = q - 2.0 * q * k / ZERO_NET
+        if not _radial_speed(S, m, n1, n2, high)[0] * q < 0.0:
             found = True
             break
         low = high
@@ -88,13 +88,13 @@ def _in_line(S, m, n1, n2, theta):
         middle = 0.5 * (low + high)
         if middle in (low, high):
             break
-        value, slope = _along(S, m, n1, n2, middle)
+        value, slope = _radial_speed(S, m, n1, n2, middle)
         if value * q < 0.0:
             low = middle
         else:
             high = middle
     attracts = slope < -SIGNED * _size(S, m)[0]
-    S[PLACE], S[PLACE + 1] = high * n1, high * n2
+    S[SET_PLACE], S[SET_PLACE + 1] = high * n1, high * n2
     return attracts and abs(high) < 1.0 - SIGNED and found_set(S, m)
 
 
@@ -103,7 +103,7 @@ def _limit_direction(S, m, theta):
     """Angle of the limit direction that an arrival at theta comes to, if it attracts on all sides; else NaN."""
     angle, radial, slope, size, change = theta, 0.0, 0.0, 0.0, 1.0
     width = 4 + m
-    for _ in range(NEWTON):
+    for _ in range(MAX_NEWTON):
         c, s = math.cos(angle), math.sin(angle)
         write_at(S, m, c, s)
         u, v = S[RATES], S[RATES + 1]
@@ -112,7 +112,7 @@ def _limit_direction(S, m, theta):
         slope = s * (s * D11 - c * D12) + c * (c * D22 - s * D21) - radial
         change = (c * v - s * u) / slope
         angle -= change
-        if not (abs(change) < FURTHEST and abs(angle - theta) < FURTHEST):
+        if not (abs(change) < MAX_CORRECTION and abs(angle - theta) < MAX_CORRECTION):
             return math.nan
         if abs(change) < 1e-12:
             break
@@ -120,8 +120,8 @@ def _limit_direction(S, m, theta):
     if not (abs(change) < 1e-9 and radial < -SIGNED * size and slope < -SIGNED * size):
         return math.nan
     if abs(moved) > 1e-6:
-        for k in range(BETWEEN):
-            c, s = math.cos(theta + moved * k / BETWEEN), math.sin(theta + moved * k / BETWEEN)
+        for k in range(SIGN_SAMPLES):
+            c, s = math.cos(theta + moved * k / SIGN_SAMPLES), math.sin(theta + moved * k / SIGN_SAMPLES)
             write_at(S, m, c, s)
             if not (c * S[RATES + 1] - s * S[RATES]) * moved > 0.0:
                 return math.nan
@@ -136,21 +136,21 @@ def _layer_rate(S, P, gain, p, q):
         return math.nan, math.nan
     S[RADIUS], S[RADIUS + 1] = p * p + q * q, math.sqrt(gap)
     call_field(gain, S, RADIUS, GAIN, P)
-    S[PLACE], S[PLACE + 1] = S[GAIN] * p, S[GAIN] * q
-    call_field(bits_of_double(S[VALUE]), S, PLACE, RATES, S)
+    S[SET_PLACE], S[SET_PLACE + 1] = S[GAIN] * p, S[GAIN] * q
+    call_field(bits_of_double(S[VALUE]), S, SET_PLACE, RATES, S)
     u, v = S[RATES], S[RATES + 1]
     along = p * u + q * v
     return u - p * along, v - q * along
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _captured(S, P, gain, m, p, q):
+def _is_captured(S, P, gain, m, p, q):
     """Whether a point is close to a set that attracts under every Psi, which is then in place."""
     _layer_rate(S, P, gain, p, q)
-    c, s = S[PLACE], S[PLACE + 1]
+    c, s = S[SET_PLACE], S[SET_PLACE + 1]
     if not found_set(S, m):
         return False
-    e1, e2, width = S[PLACE], S[PLACE + 1], 4 + m
+    e1, e2, width = S[SET_PLACE], S[SET_PLACE + 1], 4 + m
     if not (math.hypot(e1 - c, e2 - s) < CAPTURED and math.hypot(e1, e2) < 1.0 - SIGNED):
         return False
     D11, D12, D21, D22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
@@ -167,25 +167,25 @@ def _ends_on_a_set(S, P, gain, m, angle):
 
     By the method of Bogacki and Shampine: only where it ends is asked.
     """
-    height = math.sqrt(1.0 - HEIGHT * HEIGHT)
+    height = math.sqrt(1.0 - START_HEIGHT * START_HEIGHT)
     p, q = height * math.cos(angle), height * math.sin(angle)
     a1, b1 = _layer_rate(S, P, gain, p, q)
     h = 0.1 / (abs(S[RATES]) + abs(S[RATES + 1]))
     taken = 0
-    for _ in range(STEPS):
+    for _ in range(MAX_ORBIT_STEPS):
         a2, b2 = _layer_rate(S, P, gain, p + 0.5 * h * a1, q + 0.5 * h * b1)
         a3, b3 = _layer_rate(S, P, gain, p + 0.75 * h * a2, q + 0.75 * h * b2)
         to_p, to_q = p + h * (2.0 * a1 + 3.0 * a2 + 4.0 * a3) / 9.0, q + h * (2.0 * b1 + 3.0 * b2 + 4.0 * b3) / 9.0
         a4, b4 = _layer_rate(S, P, gain, to_p, to_q)
         off_p, off_q = -5.0 * a1 + 6.0 * a2 + 8.0 * a3 - 9.0 * a4, -5.0 * b1 + 6.0 * b2 + 8.0 * b3 - 9.0 * b4
-        error = h * (abs(off_p) + abs(off_q)) / (72.0 * TOLERANCE)
+        error = h * (abs(off_p) + abs(off_q)) / (72.0 * ORBIT_TOLERANCE)
         if not error < math.inf:
             h *= 0.25
             continue
         if error <= 1.0:
             p, q, a1, b1 = to_p, to_q, a4, b4
             taken += 1
-            if taken % EVERY == 0 and _captured(S, P, gain, m, p, q):
+            if taken % CHECK_INTERVAL == 0 and _is_captured(S, P, gain, m, p, q):
                 return True
         h *= min(3.0, max(0.25, 0.8 * max(error, 1e-9) ** (-1.0 / 3.0)))
     return False
@@ -221,9 +221,9 @@ def slides(S, P, gain, n, affine, known, n1, n2, theta):
     if not known:
         return False
     angle = _limit_direction(S, m, theta)
-    if not (angle == angle and _ends_on_a_set(S, P, gain, m, angle - BESIDE)):
+    if not (angle == angle and _ends_on_a_set(S, P, gain, m, angle - START_ANGLE)):
         return False
-    c, s = S[PLACE], S[PLACE + 1]
-    if not _ends_on_a_set(S, P, gain, m, angle + BESIDE):
+    c, s = S[SET_PLACE], S[SET_PLACE + 1]
+    if not _ends_on_a_set(S, P, gain, m, angle + START_ANGLE):
         return False
-    return math.hypot(S[PLACE] - c, S[PLACE + 1] - s) < 1e-8
+    return math.hypot(S[SET_PLACE] - c, S[SET_PLACE + 1] - s) < 1e-8

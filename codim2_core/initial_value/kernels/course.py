@@ -14,33 +14,33 @@ from numba import njit
 
 from ...stepping.layout import PARAMETERS, double_of_bits
 from ...stepping.numbers import PSI
-from ..safe_steps import DEGREE
+from ..safe_steps import SAFE_DEGREE
 from . import explicit
 from .arrival import slides
-from .ends import GAUGES, SAFE, UNSURE, determinant, step_end
+from .ends import GAUGES, SAFE, UNSURE_END, determinant, step_end
 from .leave import leave
 from .motion import (
-    ARRIVED,
-    CHUNK,
+    AT_SIGMA,
+    CHUNK_FULL,
     CONTROL,
     FINISHED,
-    FIRST,
-    FULL,
-    LEAST,
+    FIRST_STEP_SHARE,
+    LEAST_STEP,
     NEXT,
+    STEPS_PER_CALL,
     follow,
     longer,
-    prepared,
+    prepare_motion,
 )
 from .rate import Motion, rate
-from .slow import EXTENT, PLACE, RATES, SLOPES, SLOW, VALUE, found_set
+from .slow import RATES, SET_PLACE, SLOPES, SLOW_EXTENT, SLOW_RATES, VALUE, found_set
 from .stages import tableau_of, work_on
 
 SLIP, SLIDE, LEAVE = range(3)  # what a phase is; one that begins with LEAVE is a slip
 ROW = 5  # numbers of a phase: its motion, what it is, its first and last step, the angle it comes along
 TOLD = 5  # numbers of a motion: its steps and phases, what is handed over (or WHOLE), the angle, evaluations
 WHOLE = -1
-SHORTEST = 1e-14  # of the time in which z changes by its own size: shorter steps mean that a set ends
+MIN_STEP = 1e-14  # of the time in which z changes by its own size: shorter steps mean that a set ends
 OF_SLIPS = 0.5  # of rtol, asked of the steps of a slip: see `initial_value.compiled_phases`
 
 
@@ -48,7 +48,7 @@ OF_SLIPS = 0.5  # of rtol, asked of the steps of a slip: see `initial_value.comp
 def _in_place(S, z):
     """Put z, the end of a state, in place."""
     for i in range(2, len(z)):
-        S[PLACE + 2 + i] = z[i]
+        S[SET_PLACE + 2 + i] = z[i]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -57,11 +57,11 @@ def _first_step(S, y, floor):
     speed = 0.0
     for i in range(2, len(y)):
         speed = max(speed, abs(S[RATES + i]) / (abs(y[i]) + floor))
-    return FIRST / speed if speed > 0.0 else math.inf
+    return FIRST_STEP_SHARE / speed if speed > 0.0 else math.inf
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _cut(polynomial, u):
+def _truncate_polynomial(polynomial, u):
     """Make a step's polynomial that of its part up to u."""
     power = 1.0
     for k in range(polynomial.shape[1]):
@@ -88,16 +88,16 @@ def _on_sigma(S, sign, line1, line2, raw, values, lengths, ends, polynomials, se
     n = len(raw)
     for a in range(len(lengths)):
         what, u = step_end(S, raw, polynomials[a], sign, line1, line2, values)
-        if what == UNSURE:
+        if what == UNSURE_END:
             return what, a
         for i in range(n):
             raw[i] = ends[a, i]
         if what != SAFE:
-            _cut(polynomials[a], u)
+            _truncate_polynomial(polynomials[a], u)
             lengths[a] *= u
             for i in range(2, n):
-                ends[a, i] = S[PLACE + 2 + i]
-        sets[a, 0], sets[a, 1] = S[PLACE], S[PLACE + 1]
+                ends[a, i] = S[SET_PLACE + 2 + i]
+        sets[a, 0], sets[a, 1] = S[SET_PLACE], S[SET_PLACE + 1]
         for i in range(2):
             ends[a, i] = 0.0
             for k in range(polynomials.shape[2]):
@@ -110,14 +110,14 @@ def _on_sigma(S, sign, line1, line2, raw, values, lengths, ends, polynomials, se
 @njit(cache=True, nogil=True, error_model="numpy")
 def _keep_step(y, linear, square, row, states, polynomials):
     """Move the state over a step whose polynomial is `linear` u + `square` u^2, and keep it."""
-    n, each = len(y), explicit.DEGREE * len(y)
+    n, each = len(y), explicit.DENSE_DEGREE * len(y)
     for j in range(n):
         y[j] += linear[j] + square[j]
         states[(row + 1) * n + j] = y[j]
-        for a in range(explicit.DEGREE):
-            polynomials[row * each + j * explicit.DEGREE + a] = 0.0
-        polynomials[row * each + j * explicit.DEGREE] = linear[j]
-        polynomials[row * each + j * explicit.DEGREE + 1] = square[j]
+        for a in range(explicit.DENSE_DEGREE):
+            polynomials[row * each + j * explicit.DENSE_DEGREE + a] = 0.0
+        polynomials[row * each + j * explicit.DENSE_DEGREE] = linear[j]
+        polynomials[row * each + j * explicit.DENSE_DEGREE + 1] = square[j]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -138,18 +138,18 @@ def _straight_on(motion, S, y, rates, linear, square):
 def _begun_slide(S, y, floor, control, ahead):
     """Put the set that a slide begins on in place, and its first step; say whether it is there, and the sign of det."""
     _in_place(S, y)
-    S[PLACE], S[PLACE + 1] = y[0], y[1]
+    S[SET_PLACE], S[SET_PLACE + 1] = y[0], y[1]
     there = found_set(S, len(y) - 2)
     first = _first_step(S, y, floor)
-    control[NEXT], control[LEAST] = first, SHORTEST * min(first / FIRST, ahead)
+    control[NEXT], control[LEAST_STEP] = first, MIN_STEP * min(first / FIRST_STEP_SHARE, ahead)
     return there, math.copysign(1.0, determinant(S, len(y)))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _roomier(n, times, lengths, states, polynomials, sets):
     """Return the arrays of all rows with room for more than twice as many."""
-    room = 2 * len(times) + CHUNK
-    each = explicit.DEGREE * n
+    room = 2 * len(times) + STEPS_PER_CALL
+    each = explicit.DENSE_DEGREE * n
     times, lengths, sets = longer(times, room), longer(lengths, room), longer(sets, 2 * room)
     return times, lengths, longer(states, room * n), longer(polynomials, room * each), sets
 
@@ -182,15 +182,15 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
     # One loop over phases: they share some twenty numbers and arrays. What is a step by itself is a function above, at
     # the same speed (0.93 to 0.95 of one body, 30 pairs) and with the same bits.
     k, n = first.shape
-    m, each = n - 2, explicit.DEGREE * n
+    m, each = n - 2, explicit.DENSE_DEGREE * n
     rtol, floor, t_end, affine, known = numbers[0], numbers[1], numbers[3], numbers[5] != 0.0, numbers[6] != 0.0
-    S, P = np.zeros(EXTENT), np.zeros(PARAMETERS)
-    S[VALUE], S[SLOPES], S[SLOW] = double_of_bits(addresses[0]), double_of_bits(addresses[1]), m
+    S, P = np.zeros(SLOW_EXTENT), np.zeros(PARAMETERS)
+    S[VALUE], S[SLOPES], S[SLOW_RATES] = double_of_bits(addresses[0]), double_of_bits(addresses[1]), m
     P[PSI] = numbers[4]
     work, table = work_on(S, n), tableau_of(coefficients)
     clock, control, y, raw, rates = np.zeros(4), np.zeros(CONTROL), np.zeros(n), np.zeros(n), np.zeros(n)
-    linear, square, values = np.zeros(n), np.zeros(n), np.zeros((GAUGES, DEGREE + 1))
-    room, row = CHUNK + 64 * k, 0
+    linear, square, values = np.zeros(n), np.zeros(n), np.zeros((GAUGES, SAFE_DEGREE + 1))
+    room, row = STEPS_PER_CALL + 64 * k, 0
     times, lengths, states, polynomials = np.empty(room), np.empty(room), np.empty(room * n), np.empty(room * each)
     sets, phases, count = np.empty(2 * room), np.empty(ROW * (8 + 4 * k)), 0
     told = np.zeros((k, TOLD))
@@ -232,26 +232,28 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                 row += 1
             motion = slow if sliding else slip
             if going:
-                going = prepared(motion, y, clock, control, times[row], t_end, left, work)
+                going = prepare_motion(motion, y, clock, control, times[row], t_end, left, work)
             if going and sliding:
                 going, sign = _begun_slide(S, y, floor, control, t_end - times[row])
                 for j in range(n):
                     raw[j] = y[j]
             while going:
-                if row + CHUNK >= len(times):
+                if row + STEPS_PER_CALL >= len(times):
                     times, lengths, states, polynomials, sets = _roomier(n, times, lengths, states, polynomials, sets)
-                ends = states[(row + 1) * n : (row + CHUNK) * n].reshape((CHUNK - 1, n))
-                ways = polynomials[row * each : (row + CHUNK - 1) * each].reshape((CHUNK - 1, n, explicit.DEGREE))
+                ends = states[(row + 1) * n : (row + STEPS_PER_CALL) * n].reshape((STEPS_PER_CALL - 1, n))
+                ways = polynomials[row * each : (row + STEPS_PER_CALL - 1) * each].reshape(
+                    (STEPS_PER_CALL - 1, n, explicit.DENSE_DEGREE)
+                )
                 code, filled = follow(
                     motion, table, work, y, clock, control,
-                    times[row + 1 : row + CHUNK], lengths[row : row + CHUNK - 1], ends, ways,
+                    times[row + 1 : row + STEPS_PER_CALL], lengths[row : row + STEPS_PER_CALL - 1], ends, ways,
                 )  # fmt: skip
                 if sliding:
                     what, filled = _on_sigma(
                         S, sign, line1, line2, raw, values, lengths[row : row + filled], ends, ways,
-                        sets[2 * (row + 1) : 2 * (row + CHUNK)].reshape((CHUNK - 1, 2)),
+                        sets[2 * (row + 1) : 2 * (row + STEPS_PER_CALL)].reshape((STEPS_PER_CALL - 1, 2)),
                     )  # fmt: skip
-                    if what == UNSURE:
+                    if what == UNSURE_END:
                         break
                     if what != SAFE:
                         last = row + filled
@@ -267,7 +269,7 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                 if code == FINISHED:
                     decided = True
                     break
-                if code == ARRIVED:
+                if code == AT_SIGMA:
                     h = _straight_on(motion, S, y, rates, linear, square)
                     if clock[0] + h < t_end:
                         theta, lengths[row] = math.atan2(y[1], y[0]), h
@@ -277,7 +279,7 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                         _in_place(S, y)
                         decided, onward = slides(S, P, addresses[5], n, affine, known, line1, line2, theta), SLIDE
                         break
-                elif code != FULL:
+                elif code != CHUNK_FULL:
                     break
             evaluations += clock[3]
             if not decided:
@@ -294,7 +296,7 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                 kind = WHOLE
                 break
             if kind == SLIDE:
-                y[0], y[1] = S[PLACE], S[PLACE + 1]
+                y[0], y[1] = S[SET_PLACE], S[SET_PLACE + 1]
         told[i, 0], told[i, 1], told[i, 2], told[i, 3] = row - begun, count - begun_phases, kind, theta
         told[i, 4] = evaluations
         row += 1

@@ -1,4 +1,4 @@
-"""Where a slide surely goes on, and where it ends at the equator, step by step, compiled: `safe_steps` at one step.
+"""Compiled test of each step of a slide: whether it surely goes on, and where it ends at the equator (`safe_steps`).
 
 What turns negative at an end is taken at the nodes of `safe_steps`, and bounded between them in the same way. Where
 only 1 - |e|^2 may turn negative, and that once, its zero is the end.
@@ -11,14 +11,14 @@ import math
 import numpy as np
 from numba import njit
 
-from ..safe_steps import COEFFICIENTS, DEGREE, LEFT_OUT, NODES
-from .slow import PLACE, TABLE, found_set
+from ..safe_steps import COEFFICIENTS, LEFT_OUT, SAFE_DEGREE, SAFE_NODES
+from .slow import SET_PLACE, TABLE, found_set
 
-SAFE, EQUATOR, UNSURE = range(3)
+SAFE, AT_EQUATOR_END, UNSURE_END = range(3)
 GAUGES = 4  # 1 - |e|^2; det D_e U with its sign; and the two parts of -tr J, across C and along it
 ROOT = 100  # evaluations at most
 EXACT = 1e-15  # of a step
-SMALLEST = 1.0 / 64.0  # of a step: parts that are not sure are halved down to this
+MIN_PART = 1.0 / 64.0  # of a step: parts that are not sure are halved down to this
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -38,13 +38,13 @@ def set_on_step(S, first, polynomial, u):
         total = 0.0
         for k in range(degree - 1, -1, -1):
             total = (total + polynomial[i, k]) * u
-        S[PLACE + i + (2 if i >= 2 else 0)] = first[i] + total
+        S[SET_PLACE + i + (2 if i >= 2 else 0)] = first[i] + total
     return found_set(S, n - 2)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def _gap(S):
-    r = math.hypot(S[PLACE], S[PLACE + 1])
+    r = math.hypot(S[SET_PLACE], S[SET_PLACE + 1])
     return (1.0 - r) * (1.0 + r)
 
 
@@ -63,7 +63,7 @@ def _write_gauges(S, n, sign, n1, n2, values, node):
         values[2, node] = values[3, node] = 1.0
         return
     values[1, node] = sign * (D11 * D22 - D12 * D21)
-    c, s = S[PLACE], S[PLACE + 1]
+    c, s = S[SET_PLACE], S[SET_PLACE + 1]
     r = math.hypot(c, s)
     c, s = (c / r, s / r) if r > 0.0 else (1.0, 0.0)
     radial = c * (c * D11 + s * D12) + s * (c * D21 + s * D22)
@@ -73,12 +73,12 @@ def _write_gauges(S, n, sign, n1, n2, values, node):
 @njit(cache=True, nogil=True, error_model="numpy")
 def _bounds(values, found):
     """Write the coefficients of the polynomial through values at the nodes; return what it leaves out."""
-    for j in range(DEGREE + 1):
+    for j in range(SAFE_DEGREE + 1):
         total = 0.0
-        for i in range(DEGREE + 1):
+        for i in range(SAFE_DEGREE + 1):
             total += values[i] * COEFFICIENTS[i, j]
         found[j] = total
-    return LEFT_OUT * (abs(found[DEGREE]) + abs(found[DEGREE - 1]))
+    return LEFT_OUT * (abs(found[SAFE_DEGREE]) + abs(found[SAFE_DEGREE - 1]))
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -109,29 +109,29 @@ def _zero(S, first, polynomial, low, high, before, after):
 def _part_end(S, first, polynomial, low, high, sign, n1, n2, values, found):
     """Tell of the part of a step between two of its fractions what `step_end` tells of all of it."""
     n = len(first)
-    for node in range(DEGREE + 1):
-        if not set_on_step(S, first, polynomial, low + (high - low) * NODES[node]):
-            return UNSURE, 0.0
+    for node in range(SAFE_DEGREE + 1):
+        if not set_on_step(S, first, polynomial, low + (high - low) * SAFE_NODES[node]):
+            return UNSURE_END, 0.0
         _write_gauges(S, n, sign, n1, n2, values, node)
     for which in range(1, GAUGES):
         spread = _bounds(values[which], found)
-        for j in range(1, DEGREE + 1):
+        for j in range(1, SAFE_DEGREE + 1):
             spread += abs(found[j])
         if not found[0] > spread:
-            return UNSURE, 0.0
+            return UNSURE_END, 0.0
     spread = _bounds(values[0], found)
-    bend = 2.0 * DEGREE * spread  # of the derivative
-    for j in range(1, DEGREE + 1):
+    bend = 2.0 * SAFE_DEGREE * spread  # of the derivative
+    for j in range(1, SAFE_DEGREE + 1):
         spread += abs(found[j])
         bend += j * j * abs(found[j]) if j > 1 else 0.0
     if found[0] > spread:
         return SAFE, high
-    before, after = values[0, 0], values[0, DEGREE]
+    before, after = values[0, 0], values[0, SAFE_DEGREE]
     if not (abs(found[1]) > bend and before > 0.0):
-        return UNSURE, 0.0
+        return UNSURE_END, 0.0
     if after > 0.0:  # it is monotone
         return SAFE, high
-    return EQUATOR, _zero(S, first, polynomial, low, high, before, after)
+    return AT_EQUATOR_END, _zero(S, first, polynomial, low, high, before, after)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -156,15 +156,15 @@ def step_end(S, first, polynomial, sign, n1, n2, values):
     (int, float)
         SAFE, EQUATOR, or UNSURE, and the fraction.
     """
-    found, low, part = np.empty(DEGREE + 1), 0.0, 1.0
+    found, low, part = np.empty(SAFE_DEGREE + 1), 0.0, 1.0
     while low < 1.0:
         what, u = _part_end(S, first, polynomial, low, low + part, sign, n1, n2, values, found)
-        if what == UNSURE:
+        if what == UNSURE_END:
             part *= 0.5
-            if part < SMALLEST:
-                return UNSURE, 0.0
-        elif what == EQUATOR:
-            return (EQUATOR, u) if u == u and set_on_step(S, first, polynomial, u) else (UNSURE, 0.0)
+            if part < MIN_PART:
+                return UNSURE_END, 0.0
+        elif what == AT_EQUATOR_END:
+            return (AT_EQUATOR_END, u) if u == u and set_on_step(S, first, polynomial, u) else (UNSURE_END, 0.0)
         else:
             low += part
     return SAFE, 1.0

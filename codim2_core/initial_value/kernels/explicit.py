@@ -12,23 +12,23 @@ from typing import Any
 
 from numba import njit
 
-from ...numerics.radau import FAILED, GROW, SAFETY, SHRINK
+from ...numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE, STEP_SAFETY
 from ...stepping import dop853, layout
-from .rate import PLACES, jacobian, rate_between
+from .rate import RATE_PLACES, jacobian, rate_between
 
-WIDTH = 8  # components at most; a longer state is followed implicitly
+MAX_COMPONENTS = 8  # components at most; a longer state is followed implicitly
 STIFF = 0.4  # h times a rate from which on a step may be short for stability alone, or for its loss of order
-SHARE = 0.1  # of the tolerance, for one step: its estimate is sharper than that of Radau IIA
+STEP_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step: its estimate is sharper than that of Radau IIA
 
 _rows = {
-    name: PLACES + getattr(layout, name) // layout.WIDTH * WIDTH
-    for name in (*(f"K{k}" for k in range(16)), "STATE", "TRIAL", "STEP", "NEW", "ERROR_5", "ERROR_3", "DENSE")
+    name: RATE_PLACES + getattr(layout, name) // layout.ROW_WIDTH * MAX_COMPONENTS
+    for name in (*(f"K{k}" for k in range(16)), "STATE", "TRIAL", "STEP_ROW", "NEW", "ERROR_5", "ERROR_3", "DENSE_ROWS")
 }
 K0, K11, K12 = _rows["K0"], _rows["K11"], _rows["K12"]
-STATE, TRIAL, STEP, NEW = _rows["STATE"], _rows["TRIAL"], _rows["STEP"], _rows["NEW"]
-ERROR_5, ERROR_3, DENSE = _rows["ERROR_5"], _rows["ERROR_3"], _rows["DENSE"]
-ROOM = PLACES + layout.WORKSPACE // layout.WIDTH * WIDTH
-DEGREE = 7  # of the dense output
+STATE, TRIAL, STEP_ROW, NEW = _rows["STATE"], _rows["TRIAL"], _rows["STEP_ROW"], _rows["NEW"]
+ERROR_5, ERROR_3, DENSE_ROW = _rows["ERROR_5"], _rows["ERROR_3"], _rows["DENSE_ROWS"]
+ROOM = RATE_PLACES + layout.WORKSPACE // layout.ROW_WIDTH * MAX_COMPONENTS
+DENSE_DEGREE = 7  # of the dense output
 
 
 @njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
@@ -39,7 +39,7 @@ def _field(motion, S, source, target, P):  # noqa: ARG001 (called as `layout.cal
 def _of_one(function: Any) -> Any:
     """Compile a function of all lanes for the components of one state."""
     own = function.py_func
-    scope = {**own.__globals__, **_rows, "WIDTH": WIDTH, "call_field": _field}
+    scope = {**own.__globals__, **_rows, "ROW_WIDTH": MAX_COMPONENTS, "call_field": _field}
     made = FunctionType(own.__code__, scope, own.__name__)
     # The disk cache knows a function by its file and its qualified name.
     made.__module__, made.__qualname__ = own.__module__, f"{own.__name__}_of_one"
@@ -75,8 +75,8 @@ def go_on(motion, work):
 def attempt(motion, h, clock, work):
     """Try one step: whether it is accepted, and the factor to the next step."""
     S, n = work.S, motion.n
-    for m in range(WIDTH):
-        S[STEP + m] = h
+    for m in range(MAX_COMPONENTS):
+        S[STEP_ROW + m] = h
     _advance(S, S, motion)
     clock[3] += 11.0
     end_size = work.end_size
@@ -89,17 +89,17 @@ def attempt(motion, h, clock, work):
         unit = 1.0 / min(work.size[i], end_size[i])
         five += (S[ERROR_5 + i] * unit) ** 2
         three += (S[ERROR_3 + i] * unit) ** 2
-    error = five / math.sqrt(five + 0.01 * three + 1e-300) / (SHARE * motion.rtol)
+    error = five / math.sqrt(five + 0.01 * three + 1e-300) / (STEP_TOLERANCE_SHARE * motion.rtol)
     if not error < math.inf:
-        return False, SHRINK
-    change = min(max(SAFETY * max(error, 1e-16) ** -0.125, SHRINK), GROW)
+        return False, MAX_SHRINKAGE
+    change = min(max(STEP_SAFETY * max(error, 1e-16) ** -0.125, MAX_SHRINKAGE), MAX_GROWTH)
     if error > 1.0:
         return False, min(change, 0.8)
     rate_between(motion, S, NEW, S, S, K12)
     clock[3] += 1.0
     for i in range(n):
         if not abs(S[K12 + i]) < math.inf:
-            return False, FAILED
+            return False, FAILED_SHRINKAGE
     return True, change
 
 
@@ -128,14 +128,14 @@ def keep(motion, y, clock, work, polynomial, end):
     clock[3] += 3.0
     for i in range(motion.n):
         row = polynomial[i]
-        for j in range(DEGREE):
+        for j in range(DENSE_DEGREE):
             row[j] = 0.0
-        row[0] = S[DENSE + (DEGREE - 1) * WIDTH + i]
-        for k in range(DEGREE - 2, -1, -1):  # times u for an odd k, else times 1 - u
-            for j in range(DEGREE - 1 - k, 0, -1):
+        row[0] = S[DENSE_ROW + (DENSE_DEGREE - 1) * MAX_COMPONENTS + i]
+        for k in range(DENSE_DEGREE - 2, -1, -1):  # times u for an odd k, else times 1 - u
+            for j in range(DENSE_DEGREE - 1 - k, 0, -1):
                 row[j] = row[j - 1] if k % 2 == 1 else row[j] - row[j - 1]
             if k % 2 == 1:
                 row[0] = 0.0
-            row[0] += S[DENSE + k * WIDTH + i]
+            row[0] += S[DENSE_ROW + k * MAX_COMPONENTS + i]
         y[i] = S[NEW + i]
         end[i] = y[i]

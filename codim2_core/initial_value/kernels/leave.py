@@ -6,7 +6,7 @@ import math
 
 from numba import njit
 
-from ..leaving import FURTHEST, NEUTRAL, NEWTON, SLOW_START, START, TILT, pace
+from ..leaving import FAST_START, MAX_CORRECTION, MAX_NEWTON, NEUTRAL_RATE, SLOW_START, TILT, pace
 from .arrival import write_at
 from .slow import RATES, TABLE
 
@@ -14,17 +14,17 @@ _pace = njit(cache=True, nogil=True, error_model="numpy")(pace)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _polished(S, m, theta):
+def _polish_zero(S, m, theta):
     """Return the zero of Theta near theta, by Newton's method; NaN where there is none."""
     angle, width = theta, 4 + m
-    for _ in range(NEWTON):
+    for _ in range(MAX_NEWTON):
         c, s = math.cos(angle), math.sin(angle)
         write_at(S, m, c, s)
         u, v = S[RATES], S[RATES + 1]
         D11, D12, D21, D22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
         rate = s * (s * D11 - c * D12) + c * (c * D22 - s * D21) - (c * u + s * v)
         change = (c * v - s * u) / rate
-        if not abs(change) < FURTHEST:
+        if not abs(change) < MAX_CORRECTION:
             return math.nan
         angle -= change
     return angle
@@ -50,7 +50,7 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
     """
     width, in_line = 4 + m, n1 != 0.0 or n2 != 0.0
     if not in_line:
-        theta = _polished(S, m, theta)
+        theta = _polish_zero(S, m, theta)
         if not math.isfinite(theta):
             return 0.0
     c, s = math.cos(theta), math.sin(theta)
@@ -72,7 +72,7 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
         drift2 += S[TABLE + width + 4 + j] * S[RATES + 2 + j]
     for i in range(2 + m):
         linear[i] = square[i] = 0.0
-    if radial > NEUTRAL * size:
+    if radial > NEUTRAL_RATE * size:
         outward1 = drift1 + radial * (S[TABLE + 2] * c + S[TABLE + 3] * s)
         outward2 = drift2 + radial * (S[TABLE + width + 2] * c + S[TABLE + width + 3] * s)
         forced = 0.0 if in_line else c * outward2 - s * outward1
@@ -84,7 +84,7 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
             for j in range(m):
                 change += S[row + 4 + j] * S[RATES + 2 + j]
             speed, bend = max(speed, abs(S[RATES + 2 + i])), max(bend, abs(change))
-        h = START * min(ahead, _pace(radial, c * outward1 + s * outward2), _pace(speed, bend))
+        h = FAST_START * min(ahead, _pace(radial, c * outward1 + s * outward2), _pace(speed, bend))
         h = min(h, TILT / abs(turning)) if turning != 0.0 else h
         if not in_line:
             c, s = math.cos(theta + turning * h), math.sin(theta + turning * h)
@@ -95,7 +95,7 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
     # On the equator and on the critical set U = 0: lambda_rho and Theta both vanish.
     turning = 0.0 if in_line else -(c * drift2 - s * drift1) / angular
     beta = c * drift1 + s * drift2 + (c * across1 + s * across2) * turning
-    if radial < -NEUTRAL * size or not beta > 0.0:
+    if radial < -NEUTRAL_RATE * size or not beta > 0.0:
         return 0.0
     h = SLOW_START * min(ahead, abs(angular if angular != 0.0 else size) / beta)
     h = min(h, 1e-2 * math.sqrt(TILT) / abs(turning)) if turning != 0.0 else h

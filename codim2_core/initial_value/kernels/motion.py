@@ -12,28 +12,30 @@ import math
 import numpy as np
 from numba import njit
 
-from ...numerics.radau import CAREFUL, FAILED, GROW, GROWTH_AFTER_FAILURE
+from ...numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH
 from .. import problem
 from . import explicit, radau
 from .rate import Motion, inward_bound, rate, sizes
 from .stages import tableau_of, workspace
 
-FINISHED, LIMIT, SHORT, FULL, BLOWN_UP, UNDEFINED, ARRIVED = range(7)
-FIRST = 1e-2  # of rho/|U|: the first step tried
-SHORTEST = 1e-290
-CHUNK = 256  # steps that are filled in at once
-LARGEST, GROWN = 1e200, 8.0  # as in `numerics.growth`
+FINISHED, LIMIT, SHORT, CHUNK_FULL, BLOWN_UP, UNDEFINED, AT_SIGMA = range(7)
+FIRST_STEP_SHARE = 1e-2  # of rho/|U|: the first step tried
+MIN_STEP = 1e-290
+STEPS_PER_CALL = 256  # steps that are filled in at once
+MAX_STATE, GROWN = 1e200, 8.0  # as in `numerics.growth`
 
 # What `control` holds.
-NEXT, REFINED, WARY, LEFT, TRIED, EXTENT, IMPLICIT, COUNT, WORTH, FARTHEST, LEAST = range(11)
+NEXT, REFINED, WARY, STEPS_LEFT, STEPS_TRIED, LARGEST_RHO, IMPLICIT, SIGN_COUNT, WORTH, FARTHEST_RHO, LEAST_STEP = (
+    range(11)
+)
 CONTROL = 11
 
 STABLE = 4.0  # h times a growth rate of an explicit step in a slide
-SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
-AHEAD = 20.0  # implicit steps that a slide takes at least, about: as many have to be saved
+SWITCH_SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
+MIN_IMPLICIT_STEPS = 20.0  # implicit steps that a slide takes at least, about: as many have to be saved
 
 
-arrived = njit(cache=True, nogil=True, error_model="numpy")(problem.arrived)
+arrived = njit(cache=True, nogil=True, error_model="numpy")(problem.arrival_radius)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -52,9 +54,9 @@ def _go_on(clock, control, h, y):
     for i in range(len(y)):
         extent = max(extent, abs(y[i]))
     if ahead > clock[0]:
-        control[EXTENT] = max(control[EXTENT], extent)
+        control[LARGEST_RHO] = max(control[LARGEST_RHO], extent)
     clock[0] = ahead
-    return extent > LARGEST or extent > GROWN * control[EXTENT]
+    return extent > MAX_STATE or extent > GROWN * control[LARGEST_RHO]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
@@ -72,25 +74,25 @@ def _turned_implicit(motion, control, work, h, remaining):
     if remaining < control[WORTH] * h:
         return
     if not explicit.stiff(motion, h, work):
-        control[COUNT] = max(0.0, control[COUNT] - 0.5)
+        control[SIGN_COUNT] = max(0.0, control[SIGN_COUNT] - 0.5)
         return
-    control[COUNT] += 1.0
-    if control[COUNT] < SIGNS:
+    control[SIGN_COUNT] += 1.0
+    if control[SIGN_COUNT] < SWITCH_SIGNS:
         return
-    control[IMPLICIT], control[COUNT] = 1.0, 0.0
+    control[IMPLICIT], control[SIGN_COUNT] = 1.0, 0.0
     control[WORTH] *= 2.0  # what turns back soon is asked for more the next time
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def _turned_explicit(motion, control, bound, reach):
-    """Where an implicit step begins: go on explicitly if as far an explicit way costs less."""
-    if motion.n > explicit.WIDTH or min(control[NEXT], bound) * reach > price(motion.n) * STABLE:
-        control[COUNT] = 0.0
+    """Go on explicitly where an implicit step would cost more than explicit ones over the same span."""
+    if motion.n > explicit.MAX_COMPONENTS or min(control[NEXT], bound) * reach > price(motion.n) * STABLE:
+        control[SIGN_COUNT] = 0.0
         return False
-    control[COUNT] += 1.0
-    if control[COUNT] < SIGNS_BACK:
+    control[SIGN_COUNT] += 1.0
+    if control[SIGN_COUNT] < SIGNS_BACK:
         return False
-    control[IMPLICIT], control[COUNT], control[REFINED] = 0.0, 0.0, 1.0
+    control[IMPLICIT], control[SIGN_COUNT], control[REFINED] = 0.0, 0.0, 1.0
     control[NEXT] = min(control[NEXT], STABLE / reach) if reach > 0.0 else control[NEXT]
     return True
 
@@ -125,9 +127,9 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
     filled, fresh, begun, bound, reach, before_h = 0, True, False, math.inf, 0.0, 0.0
     while clock[2] - clock[0] - clock[1] > 0.0:
         if filled == len(starts):
-            return FULL, filled
+            return CHUNK_FULL, filled
         if fresh and control[IMPLICIT] > 0.0:
-            bound, reach = radau.linearised(motion, y, control[NEXT], clock, work)
+            bound, reach = radau.linearise(motion, y, control[NEXT], clock, work)
             begun = False
             if _turned_explicit(motion, control, bound, reach):
                 before_h = 0.0
@@ -142,11 +144,11 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
             bound = inward_bound(motion, y, work.rate)
         remaining = clock[2] - clock[0] - clock[1]
         h = _length(control[NEXT], bound, remaining)
-        control[LEFT] -= 1.0
-        control[TRIED] += 1.0
-        if control[LEFT] < 0.0:
+        control[STEPS_LEFT] -= 1.0
+        control[STEPS_TRIED] += 1.0
+        if control[STEPS_LEFT] < 0.0:
             return LIMIT, filled
-        if not h > control[LEAST]:
+        if not h > control[LEAST_STEP]:
             return SHORT, filled
         implicit = control[IMPLICIT] > 0.0
         if implicit:
@@ -156,7 +158,7 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
         if not fresh:
             before_h = 0.0  # a prediction may have misled
             control[NEXT], control[REFINED] = h * change, 1.0
-            if change == FAILED:
+            if change == FAILED_SHRINKAGE:
                 control[WARY] = CAREFUL
             continue
         starts[filled], lengths[filled] = clock[0], h
@@ -171,11 +173,11 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
             return BLOWN_UP, filled - 1
         if motion.eps == 0.0:
             rho = math.hypot(y[0], y[1])
-            control[FARTHEST] = max(control[FARTHEST], rho)
-            if rho <= arrived(motion.rtol) * control[FARTHEST]:
-                return ARRIVED, filled
-        most = GROW
-        if control[REFINED] > 0.0 and control[TRIED] > 1.0:
+            control[FARTHEST_RHO] = max(control[FARTHEST_RHO], rho)
+            if rho <= arrived(motion.rtol) * control[FARTHEST_RHO]:
+                return AT_SIGMA, filled
+        most = MAX_GROWTH
+        if control[REFINED] > 0.0 and control[STEPS_TRIED] > 1.0:
             most = 1.0
         elif control[WARY] > 0.0:
             most = GROWTH_AFTER_FAILURE
@@ -184,10 +186,10 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def prepared(motion, y, clock, control, t_start, t_end, most, work):
+def prepare_motion(motion, y, clock, control, t_start, t_end, most, work):
     """Set the clock and the control for a motion from its start; say whether the rate is finite there."""
     clock[0], clock[1], clock[2], clock[3] = t_start, 0.0, t_end, 1.0
-    explicit_first = motion.n <= explicit.WIDTH
+    explicit_first = motion.n <= explicit.MAX_COMPONENTS
     rate(motion, y, work.S, work.rate)
     sizes(motion, y, work.size)
     speed, extent = 0.0, 1.0
@@ -196,10 +198,10 @@ def prepared(motion, y, clock, control, t_start, t_end, most, work):
             return False
         speed = max(speed, abs(work.rate[i]) / work.size[i])
         extent = max(extent, abs(y[i]))
-    control[NEXT] = FIRST / speed if speed > 0.0 else math.inf
-    control[REFINED], control[WARY], control[LEFT], control[TRIED] = 1.0, 0.0, most, 0.0
-    control[EXTENT], control[COUNT], control[WORTH] = extent, 0.0, AHEAD * price(motion.n)
-    control[IMPLICIT], control[FARTHEST], control[LEAST] = 0.0 if explicit_first else 1.0, 0.0, SHORTEST
+    control[NEXT] = FIRST_STEP_SHARE / speed if speed > 0.0 else math.inf
+    control[REFINED], control[WARY], control[STEPS_LEFT], control[STEPS_TRIED] = 1.0, 0.0, most, 0.0
+    control[LARGEST_RHO], control[SIGN_COUNT], control[WORTH] = extent, 0.0, MIN_IMPLICIT_STEPS * price(motion.n)
+    control[IMPLICIT], control[FARTHEST_RHO], control[LEAST_STEP] = 0.0 if explicit_first else 1.0, 0.0, MIN_STEP
     return True
 
 
@@ -241,8 +243,8 @@ def follow_all(fields, numbers, coefficients, lines, first, most):
     k, n = first.shape
     work, table = workspace(n, numbers[5]), tableau_of(coefficients)
     clock, control, y = np.zeros(4), np.zeros(CONTROL), np.zeros(n)
-    each = explicit.DEGREE * n
-    room, row = CHUNK + 32 * k, 0
+    each = explicit.DENSE_DEGREE * n
+    room, row = STEPS_PER_CALL + 32 * k, 0
     times, lengths, states, polynomials = np.empty(room), np.empty(room), np.empty(room * n), np.empty(room * each)
     told = np.zeros((k, 4))
     for i in range(k):
@@ -250,24 +252,28 @@ def follow_all(fields, numbers, coefficients, lines, first, most):
         motion = Motion(fields[0], fields[1], fields[2], n, numbers[0], numbers[1], numbers[2], line1, line2)
         for j in range(n):
             y[j] = first[i, j]
-        code = FULL if prepared(motion, y, clock, control, numbers[3], numbers[4], most, work) else UNDEFINED
+        code = (
+            CHUNK_FULL if prepare_motion(motion, y, clock, control, numbers[3], numbers[4], most, work) else UNDEFINED
+        )
         begun = row
         while True:
-            if row + CHUNK >= room:
-                room = 2 * room + CHUNK
+            if row + STEPS_PER_CALL >= room:
+                room = 2 * room + STEPS_PER_CALL
                 times, lengths = longer(times, room), longer(lengths, room)
                 states, polynomials = longer(states, room * n), longer(polynomials, room * each)
             if row == begun:
                 times[row] = numbers[3]
                 for j in range(n):
                     states[row * n + j] = y[j]
-            if code != FULL:
+            if code != CHUNK_FULL:
                 break
             code, filled = follow(
                 motion, table, work, y, clock, control,
-                times[row + 1 : row + CHUNK], lengths[row : row + CHUNK - 1],
-                states[(row + 1) * n : (row + CHUNK) * n].reshape((CHUNK - 1, n)),
-                polynomials[row * each : (row + CHUNK - 1) * each].reshape((CHUNK - 1, n, explicit.DEGREE)),
+                times[row + 1 : row + STEPS_PER_CALL], lengths[row : row + STEPS_PER_CALL - 1],
+                states[(row + 1) * n : (row + STEPS_PER_CALL) * n].reshape((STEPS_PER_CALL - 1, n)),
+                polynomials[row * each : (row + STEPS_PER_CALL - 1) * each].reshape(
+                    (STEPS_PER_CALL - 1, n, explicit.DENSE_DEGREE)
+                ),
             )  # fmt: skip
             for a in range(row, row + filled):  # from a step's start to its end, never decreasing
                 times[a + 1] = max(times[a], times[a + 1] + lengths[a])

@@ -10,14 +10,14 @@ import math
 import numpy as np
 from numba import njit
 
-from ...numerics.radau import FAILED, GROW, SAFETY, SHRINK, STAGES
+from ...numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE, STAGES, STEP_SAFETY
 from ..problem import CONTACT
 from .rate import inward_bound, jacobian, rate, sizes
-from .stages import factor, guess, matrices, solve, solved
+from .stages import factor, guess, matrices, solve, solve_stages
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _bound(motion, y, work, h):
+def _longest_step(motion, y, work, h):
     """Longest step: 0.9 of the way to Sigma, and one time of growth, which a longer step would damp; and the reach.
 
     In contact with Sigma (`problem.CONTACT`) there is no way left to jump over.
@@ -44,13 +44,13 @@ def _bound(motion, y, work, h):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def linearised(motion, y, wanted, clock, work):
+def linearise(motion, y, wanted, clock, work):
     """Write a state's rate, Jacobian and size; return the longest step allowed from it, and the reach."""
     rate(motion, y, work.S, work.rate)
     jacobian(motion, y, work.S, work.J)
     clock[3] += 1.0
     sizes(motion, y, work.size)
-    return _bound(motion, y, work, wanted)
+    return _longest_step(motion, y, work, wanted)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
@@ -72,7 +72,7 @@ def _error(motion, table, h, rates, work):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _estimated(motion, table, y, h, refine, clock, work):
+def _error_norm(motion, table, y, h, refine, clock, work):
     """Norm of the error of a step whose stages are known; a stiff component's is too large: filter it once more."""
     n, trial = motion.n, work.trial
     for i in range(n):
@@ -96,13 +96,13 @@ def attempt(motion, table, y, h, before_h, refine, clock, work):
     ratio = h / before_h if before_h > 0.0 else math.inf
     guessed = guess(table, work.before, work.first, ratio, y, work.Z)
     if not (factor(work.big, work.big_pivots, STAGES * n) and factor(work.small, work.small_pivots, n)):
-        return False, FAILED
-    if not solved(motion, table, y, h, clock, work):
-        return False, 1.0 if guessed else FAILED
-    norm = _estimated(motion, table, y, h, refine, clock, work)
+        return False, FAILED_SHRINKAGE
+    if not solve_stages(motion, table, y, h, clock, work):
+        return False, 1.0 if guessed else FAILED_SHRINKAGE
+    norm = _error_norm(motion, table, y, h, refine, clock, work)
     if not norm < math.inf:
-        return False, SHRINK
-    change = min(max(SAFETY * max(norm, 1e-12) ** (-1.0 / (STAGES + 1)), SHRINK), GROW)
+        return False, MAX_SHRINKAGE
+    change = min(max(STEP_SAFETY * max(norm, 1e-12) ** (-1.0 / (STAGES + 1)), MAX_SHRINKAGE), MAX_GROWTH)
     return (True, change) if norm <= 1.0 else (False, min(change, 0.8))
 
 

@@ -13,18 +13,18 @@ from numba import njit
 
 from ...expressions.names import MOST_SLOW_VARIABLES
 from ...stepping.layout import call_field
-from ..problem import INWARD
+from ..problem import MAX_INWARD_SHARE
 
-DIFFERENCE = 1e-5
+DIFFERENCE_STEP = 1e-5
 
 # Where the right-hand side reads and writes: the gain's arguments, the field's, its value, its slopes. The same array
 # holds the parameter of Psi, at PSI, where the gain looks for it.
 RADIUS, GAIN, ARGUMENTS, VALUE, SLOPES = 0, 4, 8, 8 + 32, 8 + 64
-PLACES = SLOPES + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
+RATE_PLACES = SLOPES + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 
 class Motion(NamedTuple):
-    """What does not change along a motion.
+    """Constants of a motion.
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ def inward_bound(motion, y, rates):
     """Longest step: 0.9 of the way to Sigma."""
     inward = -(y[0] * rates[0] + y[1] * rates[1])
     square = y[0] * y[0] + y[1] * y[1] + motion.eps * motion.eps
-    return INWARD * square / inward if inward > 0.0 else math.inf
+    return MAX_INWARD_SHARE * square / inward if inward > 0.0 else math.inf
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -112,7 +112,7 @@ def jacobian(motion, y, S, J):
     S[RADIUS], S[RADIUS + 1] = r * r, motion.eps
     call_field(motion.gain, S, RADIUS, GAIN, S)
     tangential = S[GAIN]
-    h = DIFFERENCE * math.hypot(r, motion.eps)
+    h = DIFFERENCE_STEP * math.hypot(r, motion.eps)
     radial = (_modulus(motion, r + h, S) - _modulus(motion, r - h, S)) / (2.0 * h)
     n1, n2 = (y[0] / r, y[1] / r) if r > 0.0 else (1.0, 0.0)
     spread = radial - tangential

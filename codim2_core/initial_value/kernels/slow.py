@@ -19,38 +19,38 @@ from numba import (
 )
 
 from ...expressions.names import MOST_SLOW_VARIABLES
-from ...stepping.compiling import compiled
+from ...stepping.compiling import compile_address
 from ...stepping.layout import bits_of_double, call_field
 from .explicit import ROOM
 
-NEWTON, FAR = 20, 1.0  # iterations, and the longest step of one
-CLOSE = 1e-10  # a step so short that the next would be rounding
-BESIDE = 1e-9  # as in `field`: where a slope is undefined
+MAX_NEWTON, MAX_CORRECTION = 20, 1.0  # iterations, and the longest step of one
+NEWTON_TOLERANCE = 1e-10  # a step so short that the next would be rounding
+ONE_SIDED_DISTANCE = 1e-9  # as in `field`: where a slope is undefined
 
 # Behind the workspace of a motion: the addresses of U, W and of their slopes, as bits; m; and the arguments, values and
 # slopes of both at one place.
-VALUE, SLOPES, SLOW = ROOM, ROOM + 1, ROOM + 2
-PLACE = ROOM + 4
-RATES = PLACE + 4 + MOST_SLOW_VARIABLES
+VALUE, SLOPES, SLOW_RATES = ROOM, ROOM + 1, ROOM + 2
+SET_PLACE = ROOM + 4
+RATES = SET_PLACE + 4 + MOST_SLOW_VARIABLES
 TABLE = RATES + 4 + MOST_SLOW_VARIABLES
-EXTENT = TABLE + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
+SLOW_EXTENT = TABLE + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def write_slopes(S, m):
     """Write the slopes at a place; where they are undefined those just beside, or 0."""
     slopes, count, whole = bits_of_double(S[SLOPES]), (2 + m) * (4 + m), True
-    call_field(slopes, S, PLACE, TABLE, S)
+    call_field(slopes, S, SET_PLACE, TABLE, S)
     for i in range(count):
         whole = whole and math.isfinite(S[TABLE + i])
     if whole:
         return
     for i in range(4 + m):
-        S[RATES + i] = S[PLACE + i]  # kept there: the rates are asked for after the slopes
-        S[PLACE + i] += BESIDE * (1.0 + abs(S[PLACE + i]))
-    call_field(slopes, S, PLACE, TABLE, S)
+        S[RATES + i] = S[SET_PLACE + i]  # kept there: the rates are asked for after the slopes
+        S[SET_PLACE + i] += ONE_SIDED_DISTANCE * (1.0 + abs(S[SET_PLACE + i]))
+    call_field(slopes, S, SET_PLACE, TABLE, S)
     for i in range(4 + m):
-        S[PLACE + i] = S[RATES + i]
+        S[SET_PLACE + i] = S[RATES + i]
     for i in range(count):
         S[TABLE + i] = S[TABLE + i] if math.isfinite(S[TABLE + i]) else 0.0
 
@@ -59,26 +59,26 @@ def write_slopes(S, m):
 def found_set(S, m):
     """Find the critical set near the e in place, by Newton's method, and its rates; say whether there is one."""
     value, width = bits_of_double(S[VALUE]), 4 + m
-    S[PLACE + 2] = S[PLACE + 3] = 0.0
-    for _ in range(NEWTON):
+    S[SET_PLACE + 2] = S[SET_PLACE + 3] = 0.0
+    for _ in range(MAX_NEWTON):
         write_slopes(S, m)
-        call_field(value, S, PLACE, RATES, S)
+        call_field(value, S, SET_PLACE, RATES, S)
         u, v = S[RATES], S[RATES + 1]
         j11, j12, j21, j22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
         inverse = 1.0 / (j11 * j22 - j12 * j21)
         du, dv = (j22 * u - j12 * v) * inverse, (j11 * v - j21 * u) * inverse
-        if not (abs(du) < FAR and abs(dv) < FAR):  # also where it is undefined
+        if not (abs(du) < MAX_CORRECTION and abs(dv) < MAX_CORRECTION):  # also where it is undefined
             return False
-        S[PLACE] -= du
-        S[PLACE + 1] -= dv
-        if max(abs(du), abs(dv)) <= CLOSE:
-            call_field(value, S, PLACE, RATES, S)
+        S[SET_PLACE] -= du
+        S[SET_PLACE + 1] -= dv
+        if max(abs(du), abs(dv)) <= NEWTON_TOLERANCE:
+            call_field(value, S, SET_PLACE, RATES, S)
             return True
     return False
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _along(S, m, u, v):
+def _critical_velocity(S, m, u, v):
     """Return how e moves where U moves by (u, v)."""
     width = 4 + m
     j11, j12, j21, j22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
@@ -89,11 +89,11 @@ def _along(S, m, u, v):
 def _slow(state, out, parameters):
     """Write (e', z') at a state."""
     A, D = carray(state, (4 + MOST_SLOW_VARIABLES,)), carray(out, (2 + MOST_SLOW_VARIABLES,))
-    S = carray(parameters, (EXTENT,))
-    m = int(S[SLOW])
-    S[PLACE], S[PLACE + 1] = A[2], A[3]  # the motion's own (x, y)
+    S = carray(parameters, (SLOW_EXTENT,))
+    m = int(S[SLOW_RATES])
+    S[SET_PLACE], S[SET_PLACE + 1] = A[2], A[3]  # the motion's own (x, y)
     for i in range(m):
-        S[PLACE + 4 + i] = A[4 + i]
+        S[SET_PLACE + 4 + i] = A[4 + i]
     if not found_set(S, m):
         for i in range(2 + m):
             D[i] = math.nan
@@ -103,47 +103,47 @@ def _slow(state, out, parameters):
         D[2 + i] = S[RATES + 2 + i]
         u += S[TABLE + 4 + i] * D[2 + i]
         v += S[TABLE + 8 + m + i] * D[2 + i]
-    D[0], D[1] = _along(S, m, u, v)
+    D[0], D[1] = _critical_velocity(S, m, u, v)
 
 
 def _slow_slopes(state, out, parameters):
     """Write the derivatives of (e', z') by z at a state; of e' but for those of D_z e, which are never stiff."""
-    A, S = carray(state, (4 + MOST_SLOW_VARIABLES,)), carray(parameters, (EXTENT,))
-    m = int(S[SLOW])
+    A, S = carray(state, (4 + MOST_SLOW_VARIABLES,)), carray(parameters, (SLOW_EXTENT,))
+    m = int(S[SLOW_RATES])
     width = 4 + m
     D = carray(out, ((2 + m) * width,))
-    S[PLACE], S[PLACE + 1] = A[2], A[3]
+    S[SET_PLACE], S[SET_PLACE + 1] = A[2], A[3]
     for i in range(m):
-        S[PLACE + 4 + i] = A[4 + i]
+        S[SET_PLACE + 4 + i] = A[4 + i]
     there = found_set(S, m)
     for i in range((2 + m) * width):
         D[i] = 0.0
     if not there:
         return
     for j in range(m):
-        c, s = _along(S, m, S[TABLE + 4 + j], S[TABLE + width + 4 + j])
+        c, s = _critical_velocity(S, m, S[TABLE + 4 + j], S[TABLE + width + 4 + j])
         u, v = 0.0, 0.0
         for i in range(2, 2 + m):
             row = TABLE + i * width
             D[i * width + 4 + j] = S[row + 4 + j] + S[row] * c + S[row + 1] * s
             u += S[TABLE + 2 + i] * D[i * width + 4 + j]
             v += S[TABLE + width + 2 + i] * D[i * width + 4 + j]
-        D[4 + j], D[width + 4 + j] = _along(S, m, u, v)
+        D[4 + j], D[width + 4 + j] = _critical_velocity(S, m, u, v)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def sets(addresses, points):
     """Find the critical sets near points (k, 2 + m), (e, z): e (k, 2), NaN where there is none, and D_e U (k, 2, 2)."""
     k, n = points.shape
-    S, e, D = np.zeros(EXTENT), np.empty((k, 2)), np.empty((k, 2, 2))
+    S, e, D = np.zeros(SLOW_EXTENT), np.empty((k, 2)), np.empty((k, 2, 2))
     S[VALUE], S[SLOPES] = addresses[0], addresses[1]
     for i in range(k):
-        S[PLACE], S[PLACE + 1] = points[i, 0], points[i, 1]
+        S[SET_PLACE], S[SET_PLACE + 1] = points[i, 0], points[i, 1]
         for j in range(2, n):
-            S[PLACE + 2 + j] = points[i, j]
+            S[SET_PLACE + 2 + j] = points[i, j]
         there = found_set(S, n - 2)
         for a in range(2):
-            e[i, a] = S[PLACE + a] if there else math.nan
+            e[i, a] = S[SET_PLACE + a] if there else math.nan
             for b in range(2):
                 D[i, a, b] = S[TABLE + a * (n + 2) + b]
     return e, D
@@ -152,4 +152,4 @@ def sets(addresses, points):
 @lru_cache(maxsize=1)
 def flow() -> tuple[Any, Any]:
     """Return the slow flow and its slopes, the same for all systems."""
-    return compiled(_slow, cache=True), compiled(_slow_slopes, cache=True)
+    return compile_address(_slow, cache=True), compile_address(_slow_slopes, cache=True)

@@ -13,7 +13,7 @@ from ...stepping.numbers import PSI
 from .explicit import ROOM
 from .rate import rate
 
-FARTHEST = 4.0  # times the last step: how far its polynomial is continued
+MAX_EXTRAPOLATION = 4.0  # times the last step: how far its polynomial is continued
 
 
 class Work(NamedTuple):
@@ -114,7 +114,7 @@ def solve(A, pivots, b, n):
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def guess(table, before, first, ratio, y, Z):
     """Continue the last step's polynomial into a step `ratio` times as long, if that is not too far; say whether."""
-    nodes, guessed = table.nodes, ratio <= FARTHEST
+    nodes, guessed = table.nodes, ratio <= MAX_EXTRAPOLATION
     for a in range(STAGES):
         for i in range(len(y)):
             Z[a, i] = 0.0
@@ -145,7 +145,7 @@ def matrices(table, h, J, size, big, small):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _converged(change, last, iteration, enough):
+def _newton_verdict(change, last, iteration, enough):
     """After one iteration of Newton's method: 1 if it is enough, -1 if it will not do, 0 if it goes on."""
     if iteration > 0:
         theta = change / last if last > 0.0 else 0.0
@@ -160,7 +160,7 @@ def _converged(change, last, iteration, enough):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def solved(motion, table, y, h, clock, work):
+def solve_stages(motion, table, y, h, clock, work):
     """Solve for the stages Z by simplified Newton iterations; say whether they have converged."""
     n, A, S, big, pivots = motion.n, table.A, work.S, work.big, work.big_pivots
     Z, rates, residual, trial, size = work.Z, work.rates, work.residual, work.trial, work.size
@@ -187,7 +187,7 @@ def solved(motion, table, y, h, clock, work):
         for a in range(STAGES):
             for i in range(n):
                 Z[a, i] += residual[a * n + i] * size[i]
-        told = _converged(change, last, iteration, enough)
+        told = _newton_verdict(change, last, iteration, enough)
         if told != 0:
             return told > 0
         last = change

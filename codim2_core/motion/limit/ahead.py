@@ -10,15 +10,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...initial_value.field import Field, field
 from ...layer_problem.critical import CriticalSet, critical_sets
-from ...numerics.dense import dense, gathered
-from ...numerics.radau import Step, shortened
+from ...numerics.dense import dense, gather_steps
+from ...numerics.radau import Step, truncate_step
 from ...psi.function import Psi
 from ...systems.bounds import slow_values
 from ...systems.elinear import ELinear
 from ...systems.typed import System
 from ...tables import Results
 from ..delay import Delay, delay
-from .delay import STILL, NotAnalyticError, delayed
+from .delay import REST_CHANGE, NotAnalyticError, cut_at_exit
 from .folded import fold
 from .slide import Slide, slide
 
@@ -27,12 +27,12 @@ __all__ = ["delays"]
 Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-10, 1e-12
-MOST = 4000  # steps of a slide
-LONG = 100.0  # times as long as the ranges would take at the first rate is a motion followed
+MAX_SLIDE_STEPS = 4000  # steps of a slide
+MAX_TIME_FACTOR = 100.0  # times as long as the ranges would take at the first rate is a motion followed
 
 
 def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLike = ()) -> Results[Delay]:
-    """Where motions that come to an attracting critical set at z lose its stability, and where they leave it.
+    """Return where motions on an attracting critical set at z lose its stability, and where they leave it.
 
     Each is followed with the slow flow, eq:RPCM, from z through a Hopf bifurcation (tr J = 0 < det J), or through an
     exchange of stability (transcritical, pitchfork; det J = 0) on a set that does not move. In the limit
@@ -85,24 +85,24 @@ def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLi
         )
     sets = critical_sets(system, psi, start)
     names = ["C"] if len(sets) == 1 else [f"C{i + 1}" for i in range(len(sets))]
-    found = [_ahead(formulas, psi, C, name, start, ranges) for C, name in zip(sets, names, strict=True)]
+    found = [_predict_delay(formulas, psi, C, name, start, ranges) for C, name in zip(sets, names, strict=True)]
     return Results(one for one in found if one is not None)
 
 
-def _ahead(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Array, ranges: Array) -> Delay | None:
+def _predict_delay(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Array, ranges: Array) -> Delay | None:
     """Return the delay ahead on one critical set, None if there is none or it is not known."""
     rate = np.abs(C.slow_flow)
     if not C.kind.startswith("stable") or not rate.any():
         return None
     width = np.where(np.isfinite(ranges).all(axis=1), ranges[:, 1] - ranges[:, 0], 1.0)
-    long = LONG * float(np.min(width[rate > 0.0] / rate[rate > 0.0]))
-    options = {"rtol": RTOL, "atol": ATOL, "most": MOST}
-    before = _within(slide(formulas, psi, np.array(C.e), 0.0, z, long, **options), ranges)
+    long = MAX_TIME_FACTOR * float(np.min(width[rate > 0.0] / rate[rate > 0.0]))
+    options = {"rtol": RTOL, "atol": ATOL, "most": MAX_SLIDE_STEPS}
+    before = _restrict_slide(slide(formulas, psi, np.array(C.e), 0.0, z, long, **options), ranges)
     if before.end not in ("hopf", "fold"):
         return None
     hopf = before.taken[-1]
     how = "Hopf" if before.end == "hopf" else fold(formulas, before.e, hopf.last[2:], name, "fold").exchange
-    if not how or (how != "Hopf" and np.ptp(before.places, axis=0).max() > STILL):
+    if not how or (how != "Hopf" and np.ptp(before.places, axis=0).max() > REST_CHANGE):
         return None
     after = slide(
         formulas,
@@ -116,24 +116,24 @@ def _ahead(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Array, range
         resting=how != "Hopf",
     )
     try:
-        after, way = delayed(formulas, psi, before.taken, before.places, _within(after, ranges))
+        after, way = cut_at_exit(formulas, psi, before.taken, before.places, _restrict_slide(after, ranges))
     except NotAnalyticError:
         return None
     if not after.taken:
         return None
     taken = [*before.taken, *after.taken]
-    motion = dense(0.0, taken[0].first, [gathered(taken, len(taken[0].first))])
+    motion = dense(0.0, taken[0].first, [gather_steps(taken, len(taken[0].first))])
     known = np.array([hopf.end, *(step.end for step in after.taken)]), np.array(after.places)
     times = 0.0, float(known[0][0]), float(known[0][-1])
     return delay(formulas, motion, known, name, times, way is not None, way and way.buffer, how)
 
 
-def _within(part: Slide, ranges: Array) -> Slide:
+def _restrict_slide(part: Slide, ranges: Array) -> Slide:
     """Cut a slide where z leaves the ranges."""
     for k, step in enumerate(part.taken):
         share = _leaves(step, ranges)
         if share is not None:
-            last = shortened(step, share)
+            last = truncate_step(step, share)
             return replace(
                 part, taken=[*part.taken[:k], last], end="range", e=part.places[k], places=part.places[: k + 2]
             )

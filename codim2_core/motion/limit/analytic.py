@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-MOST = 40  # support points
+MAX_SUPPORT_POINTS = 40  # support points
 DOUBLET = 1e3  # poles whose residue is below this many tolerances, of |f| and of the interval, are rounding's
 
 
@@ -76,7 +76,7 @@ def rational(t: Array, f: Array, tolerance: float) -> Rational | None:
     size = float(np.abs(f).max())
     chosen: list[int] = []
     approximation = np.full(len(f), f.mean())
-    for _ in range(min(MOST, len(t) // 2)):
+    for _ in range(min(MAX_SUPPORT_POINTS, len(t) // 2)):
         chosen.append(int(np.argmax(np.abs(f - approximation))))
         rest = np.ones(len(t), bool)
         rest[chosen] = False

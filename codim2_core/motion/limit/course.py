@@ -27,8 +27,8 @@ from ...words import say
 from ..followed import in_disc
 from ..places import Ascent
 from ..result import Phase
-from .decide import Decision, arriving, critical_name, from_hemisphere, starting
-from .delay import STILL, NotAnalyticError
+from .decide import Decision, critical_name, decide_arrival, decide_start, from_hemisphere
+from .delay import REST_CHANGE, NotAnalyticError
 from .folded import Fold, fold
 from .part import Delaying, MotionPart
 from .past_hopf import departure_point, ring, stay
@@ -41,9 +41,9 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-CLOSER = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
+CLOSER_FACTOR = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
 SAME_DIRECTION = 1e-12  # 1 - cos: directions that differ by a rounding of either
-AROUND = 16  # points of a cycle that has ended, from which orbits are followed
+CYCLE_POINTS = 16  # points of a cycle that has ended, from which orbits are followed
 PAST = 1e-6  # of the time ahead, or of the slide behind: how far past its end it is looked at what follows
 
 
@@ -148,7 +148,7 @@ class Course:
         """Decide what follows from a start on Sigma."""
         if self.line is not None:
             return self.in_line(0.0, say("starts in a line"))
-        decision = starting(self.system, self.psi, self.state[2:])
+        decision = decide_start(self.system, self.psi, self.state[2:])
         if self.psi is not None:
             self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
         return self.at_border(decision) if decision.kind == "border" else decision
@@ -191,7 +191,7 @@ class Course:
                 q = float(self.line.n @ [math.cos(part.theta), math.sin(part.theta)])
                 return self.crossed(self.in_line(math.copysign(1.0, q), say("arrives in a line")))
             z = part.taken[-1].last[2:]
-            decision = arriving(self.system, self.psi, z, part.theta)
+            decision = decide_arrival(self.system, self.psi, z, part.theta)
             if decision.kind != "away":
                 self.add("slip", taken + part.taken, reason)
                 self.ascent = Ascent(self.system, self.own, z, part.theta)
@@ -199,7 +199,7 @@ class Course:
             # It will turn away from Sigma: go on from where it was close, and look again from closer.
             taken += part.taken[:-1]
             t, state = taken[-1].end, taken[-1].last
-            largest = math.hypot(state[0], state[1]) * CLOSER
+            largest = math.hypot(state[0], state[1]) * CLOSER_FACTOR
 
     def crossed(self, decision: Decision) -> Decision:
         """Name the crossing, where what follows an arrival is to leave."""
@@ -305,7 +305,7 @@ class Course:
         if len(last) != 1:
             return Decision("stop", f"{reason} {say('cycle ends, not found')}")
         points = last[0].points
-        decision = self.onward(reason, ahead, points[:: max(1, len(points) // AROUND)])
+        decision = self.onward(reason, ahead, points[:: max(1, len(points) // CYCLE_POINTS)])
         if decision.kind == "cycle":  # it comes and goes within the resolution of the search
             return Decision("stop", f"{reason} {say('cycle ends, not decided')}")
         return decision
@@ -334,7 +334,7 @@ class Course:
         if self.psi is None:
             return Decision("stop", say("Hopf depends", C=C, how=how))
         before = self.parts[-1]
-        if resting and np.ptp(before.e, axis=0).max() > STILL:
+        if resting and np.ptp(before.e, axis=0).max() > REST_CHANGE:
             return Decision("stop", f"{met} {say('exchange, moving', C=C)}")
         taken = self.taken[len(self.taken) + 1 - len(before.times) :]
         part = self.slid(e, delayed=True, resting=resting)

@@ -1,4 +1,4 @@
-"""What follows on Sigma in the limit eps -> 0: decided by the hemisphere, sec:geneps1."""
+"""Decide what follows on Sigma in the limit eps -> 0, by the hemisphere: sec:geneps1."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from ...layer_problem.critical import CriticalSet, critical_sets
 from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ...layer_problem.problem import LayerProblem
 from ...portrait.approach import outcome_towards
-from ...portrait.verdicts import ends, followed, judge
-from ...psi.constructors import compared, constant
+from ...portrait.verdicts import ends, judge, orbits_to_end
+from ...psi.constructors import comparison_families, constant
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
@@ -22,12 +22,15 @@ from ...words import say
 Array = NDArray[np.float64]
 
 AT_MIDDLE = 1e-12  # |p| of a critical set that x = y = 0 lies on
-AROUND, BESIDE = 8, 1e-3  # orbits from around such a set that does not attract, and how far from it they start
+ORBITS_AROUND, START_DISTANCE = (
+    8,
+    1e-3,
+)  # orbits from around such a set that does not attract, and how far from it they start
 
 
 @dataclass(frozen=True)
 class Decision:
-    """What follows.
+    """The decision at one state on Sigma.
 
     Attributes
     ----------
@@ -48,7 +51,7 @@ class Decision:
     onto: str | None = None
 
 
-def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Decision:
+def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Decision:
     """Decide what becomes of a trajectory that arrives at Sigma at angle theta.
 
     Parameters
@@ -65,7 +68,7 @@ def arriving(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Deci
         return Decision("stop", say("arrival depends", theta=theta))
     if outcome.verdict == "misses":
         return Decision("away", outcome.reason)
-    return _followed(own, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
+    return _decision_of_outcome(own, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
 
 
 def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
@@ -74,14 +77,14 @@ def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Dec
     Parameters
     ----------
     system, psi, z
-        As in `arriving`.
+        As in `decide_arrival`.
     points : ndarray (k, 2)
         In the projected disc, |p| < 1. Where they end at different places the decision is "stop".
     """
     hemisphere = LayerProblem(system.at(tuple(z.tolist())), psi)
-    found = ends(hemisphere, followed(hemisphere, points))
+    found = ends(hemisphere, orbits_to_end(hemisphere, points))
     verdict, onto, leaving, _, reason, _ = judge(hemisphere, found, "Orbits go on from there")
-    return _followed(hemisphere, verdict, onto, leaving, reason)
+    return _decision_of_outcome(hemisphere, verdict, onto, leaving, reason)
 
 
 def critical_name(system: AnySystem, psi: Psi, z: Array, e: Array) -> str:
@@ -92,7 +95,9 @@ def critical_name(system: AnySystem, psi: Psi, z: Array, e: Array) -> str:
     return f"C{1 + min(range(len(sets)), key=lambda k: float(np.hypot(*(sets[k].e - e))))}"
 
 
-def _followed(problem: LayerProblem, verdict: str, onto: str | None, leaving: float | None, reason: str) -> Decision:
+def _decision_of_outcome(
+    problem: LayerProblem, verdict: str, onto: str | None, leaving: float | None, reason: str
+) -> Decision:
     """Turn what approach outcomes say into what the course does next."""
     if verdict == "slide":
         chosen = problem.critical[_index(onto)]
@@ -119,7 +124,7 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
     Parameters
     ----------
     system, psi, z
-        As in `arriving`.
+        As in `decide_arrival`.
     """
     at = tuple(z.tolist())
     equator = equator_equilibria(system, at)
@@ -130,8 +135,8 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
         onto = "C" if len(sets) == 1 else f"C{i + 1}"
         if _stable(sets[i]):
             return Decision("slide", say("middle is stable", kind=sets[i].kind, onto=onto), sets[i].e, onto=onto)
-        angle = math.tau * np.arange(AROUND) / AROUND
-        ring = BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        angle = math.tau * np.arange(ORBITS_AROUND) / ORBITS_AROUND
+        ring = START_DISTANCE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         decision = from_hemisphere(system, psi, z, ring)
         return replace(decision, reason=f"{say('middle is a set', onto=onto)} {decision.reason}")
     border = np.flatnonzero(equator.radially_degenerate)
@@ -142,13 +147,13 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
     return replace(decision, reason=f"{say('middle')} {decision.reason}")
 
 
-def starting(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
+def decide_start(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
     """Decide what follows from a state on Sigma, when nothing is known of how it came there.
 
     Parameters
     ----------
     system, psi, z
-        As in `arriving`.
+        As in `decide_arrival`.
 
     Returns
     -------
@@ -159,7 +164,7 @@ def starting(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
     if psi is not None:
         return from_middle(system, psi, z)
     at = tuple(z.tolist())
-    asked = compared()
+    asked = comparison_families()
     stable = [tuple(i for i, C in enumerate(critical_sets(system, own, at)) if _stable(C)) for own in asked]
     if any(choice != stable[0] for choice in stable):
         return Decision("stop", say("stability depends"))

@@ -21,8 +21,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...initial_value.field import Field
 from ...initial_value.sheet import complement, solved
-from ...numerics.dense import Dense, dense, gathered
-from ...numerics.radau import Step, shortened
+from ...numerics.dense import Dense, dense, gather_steps
+from ...numerics.radau import Step, truncate_step
 from ...numerics.root_between import root_between
 from ...psi.function import Psi
 from .analytic import Complex, Rational, rational
@@ -30,18 +30,21 @@ from .slide import Slide
 
 Array = NDArray[np.float64]
 
-DEGREE, HALVINGS = 9, 12  # of the polynomials of tr J and det J along a part of a step; how often it is halved
-RESOLVED, BESIDE = 1e-11, 0.43  # error allowed, of their size; where in a part it is looked at
-PARTS = 8  # of such a part, at whose ends signs are looked at
-SAMPLES = 400  # times from which tr J and det J are continued into the complex plane
+TRACE_DEGREE, MAX_HALVINGS = (
+    9,
+    12,
+)  # of the polynomials of tr J and det J along a part of a step; how often it is halved
+RESOLVED, CHECK_SHARE = 1e-11, 0.43  # error allowed, of their size; where in a part it is looked at
+SIGN_PARTS = 8  # of such a part, at whose ends signs are looked at
+CONTINUATION_SAMPLES = 400  # times from which tr J and det J are continued into the complex plane
 FINER, COARSER = 1e-9, 3e-8  # errors of two rational functions: a singular time that only one has is none
 CORNER = 3.0  # times between samples: a pole that near is a corner's
-ALIKE = 1e-3  # of its distance from the real axis: how far apart the two may have it
+SAME_SINGULARITY = 1e-3  # of its distance from the real axis: how far apart the two may have it
 VANISHES = 0.1  # of |lambda| at Re t*: more than that at a zero of det J, and it is the other eigenvalue that is 0
-STILL = 1e-11  # change of e of a critical set that does not move
-PANELS = 40  # of the way from Re t* to t*
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-POINTS: Array = 0.5 * (1.0 + NODES)
+REST_CHANGE = 1e-11  # change of e of a critical set that does not move
+QUADRATURE_PANELS = 40  # of the way from Re t* to t*
+GAUSS_NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
+GAUSS_POINTS: Array = 0.5 * (1.0 + GAUSS_NODES)
 SHARES: Array = 0.5 * WEIGHTS
 
 
@@ -51,7 +54,7 @@ class NotAnalyticError(Exception):
 
 @dataclass(frozen=True)
 class WayOut:
-    """When a motion leaves an unstable critical set.
+    """The exit of a motion from an unstable critical set.
 
     Attributes
     ----------
@@ -64,7 +67,7 @@ class WayOut:
     buffer: complex | None
 
 
-def delayed(
+def cut_at_exit(
     field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array], part: Slide
 ) -> tuple[Slide, WayOut | None]:
     """Cut a slide on an unstable critical set where the motion leaves it.
@@ -92,7 +95,7 @@ def delayed(
         return part, None
     k = next(i for i, step in enumerate(part.taken) if step.end >= way.t)
     step, e = part.taken[k], growth.place(way.t)
-    last = shortened(step, (way.t - step.start) / step.h)
+    last = truncate_step(step, (way.t - step.start) / step.h)
     return replace(part, taken=[*part.taken[:k], last], end="left", e=e, places=[*part.places[: k + 1], e]), way
 
 
@@ -112,10 +115,10 @@ class Growth:
     def __init__(self, field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array]) -> None:
         first = taken[0].first
         self.field, self.psi, self.e = field, psi, np.array(places)
-        self.motion = dense(taken[0].start, first, [gathered(taken, len(first))])
+        self.motion = dense(taken[0].start, first, [gather_steps(taken, len(first))])
         self.J = self._along()
         times = self.J.times
-        fine = np.unique(times[:-1, None] + np.diff(times)[:, None] * np.arange(PARTS + 1) / PARTS)
+        fine = np.unique(times[:-1, None] + np.diff(times)[:, None] * np.arange(SIGN_PARTS + 1) / SIGN_PARTS)
         # between these times G is smooth and monotone, as far as signs show it
         self.cuts = np.unique(np.concatenate([times, *(_sign_changes(of, fine) for of in (self.rate, self._focus))]))
         self.at = np.concatenate([[0.0], np.cumsum(self._between(self.cuts[:-1], self.cuts[1:]))])
@@ -129,7 +132,7 @@ class Growth:
         """
         end = self._reaches(0.0, unstable)
         found = [] if end is None else [WayOut(end, None)]
-        if np.ptp(self.e, axis=0).max() > STILL:
+        if np.ptp(self.e, axis=0).max() > REST_CHANGE:
             for time, height in self._singular(float(self.motion.times[-1]) if end is None else end):
                 t = self._reaches(self._growth(time.real) + height, max(unstable, time.real))
                 found += [] if t is None else [WayOut(t, time)]
@@ -165,17 +168,17 @@ class Growth:
 
     def _along(self) -> Dense:
         """Trace and determinant of J, as polynomials along the steps, which are halved until these are resolved."""
-        nodes = 0.5 - 0.5 * np.cos(math.pi * np.arange(DEGREE + 1) / DEGREE)
-        powers = nodes[1:, None] ** np.arange(1, DEGREE + 1)
-        todo = [(a, b, HALVINGS) for a, b in reversed([*pairwise(self.motion.times.tolist())])]
+        nodes = 0.5 - 0.5 * np.cos(math.pi * np.arange(TRACE_DEGREE + 1) / TRACE_DEGREE)
+        powers = nodes[1:, None] ** np.arange(1, TRACE_DEGREE + 1)
+        todo = [(a, b, MAX_HALVINGS) for a, b in reversed([*pairwise(self.motion.times.tolist())])]
         ends, states, polynomials, size = [todo[-1][0]], list[Array](), list[Array](), np.zeros(2)
         while todo:
             a, b, more = todo.pop()
             values = np.array([self.linear(a + (b - a) * u) for u in nodes.tolist()])
             size = np.maximum(size, np.abs(values).max(axis=0))
             polynomial = np.linalg.solve(powers, values[1:] - values[0]).T
-            beside = values[0] + polynomial @ (BESIDE ** np.arange(1, DEGREE + 1))
-            off = np.abs(beside - self.linear(a + (b - a) * BESIDE))
+            beside = values[0] + polynomial @ (CHECK_SHARE ** np.arange(1, TRACE_DEGREE + 1))
+            off = np.abs(beside - self.linear(a + (b - a) * CHECK_SHARE))
             if more and (off > RESOLVED * size).any():
                 todo += [(0.5 * (a + b), b, more - 1), (a, 0.5 * (a + b), more - 1)]
                 continue
@@ -187,8 +190,8 @@ class Growth:
     def _between(self, a: ArrayLike, b: ArrayLike) -> Array:
         """Integrals of G' (k,), by Gauss and Legendre in v, t = a + (b - a)(3 v^2 - 2 v^3): no root is left."""
         a, length = np.asarray(a, float), np.asarray(b, float) - a
-        t = a[..., None] + length[..., None] * POINTS**2 * (3.0 - 2.0 * POINTS)
-        return length * (self.rate(t) * (SHARES * 6.0 * POINTS * (1.0 - POINTS))).sum(axis=-1)
+        t = a[..., None] + length[..., None] * GAUSS_POINTS**2 * (3.0 - 2.0 * GAUSS_POINTS)
+        return length * (self.rate(t) * (SHARES * 6.0 * GAUSS_POINTS * (1.0 - GAUSS_POINTS))).sum(axis=-1)
 
     def _growth(self, t: float) -> float:
         """G, from 0 at the start."""
@@ -208,17 +211,17 @@ class Growth:
         """Singular times before `last`, in the upper half plane, each with its V."""
         start = float(self.cuts[0])
         span = last - start
-        s = np.linspace(0.0, 1.0, SAMPLES)
+        s = np.linspace(0.0, 1.0, CONTINUATION_SAMPLES)
         J = self.J(start + span * s) * [span, span * span]  # in a unit of time of its own
-        (trace, det), coarser = ([_continued(s, f, error) for f in J.T] for error in (FINER, COARSER))
-        other = _of(coarser[0], coarser[1])
-        for time in _of(trace, det).tolist():
-            alike = np.abs(other - time).min(initial=math.inf) < ALIKE * time.imag
+        (trace, det), coarser = ([_rational_interpolant(s, f, error) for f in J.T] for error in (FINER, COARSER))
+        other = _singularities(coarser[0], coarser[1])
+        for time in _singularities(trace, det).tolist():
+            alike = np.abs(other - time).min(initial=math.inf) < SAME_SINGULARITY * time.imag
             if alike and 0.0 < time.real < 1.0 and (height := _height(trace, det, time)) is not None:
                 yield start + span * time, height
 
 
-def _continued(t: Array, f: Array, error: float) -> Rational:
+def _rational_interpolant(t: Array, f: Array, error: float) -> Rational:
     found = rational(t, f, error)
     if found is None:
         raise NotAnalyticError
@@ -229,7 +232,7 @@ def _continued(t: Array, f: Array, error: float) -> Rational:
     return found
 
 
-def _of(trace: Rational, det: Rational) -> Complex:
+def _singularities(trace: Rational, det: Rational) -> Complex:
     """Zeros of det J, and poles of both, in the upper half plane."""
     found = np.concatenate([det.zeros(), det.poles(), trace.poles()])
     return found[found.imag > 0.0]
@@ -240,7 +243,7 @@ def _height(trace: Rational, det: Rational, time: complex) -> float | None:
 
     At a zero of det J it is none if the other eigenvalue vanishes.
     """
-    parts = ((np.arange(PANELS)[:, None] + POINTS) / PANELS).ravel()
+    parts = ((np.arange(QUADRATURE_PANELS)[:, None] + GAUSS_POINTS) / QUADRATURE_PANELS).ravel()
     values, half = [], 0j
     for t in (time.real + 1j * time.imag * parts).tolist():
         root = np.sqrt(0.25 * trace(t) ** 2 - det(t))
@@ -250,7 +253,9 @@ def _height(trace: Rational, det: Rational, time: complex) -> float | None:
             root = -root
         half = root
         values.append(0.5 * trace(t) + half)
-    height = -time.imag / PANELS * float(np.tile(SHARES, PANELS) @ np.imag(values))  # the real part of lambda i dy
+    height = (
+        -time.imag / QUADRATURE_PANELS * float(np.tile(SHARES, QUADRATURE_PANELS) @ np.imag(values))
+    )  # the real part of lambda i dy
     vanishing = abs(det(time)) < VANISHES**2 * abs(values[0]) ** 2
     return None if height <= 0.0 or (vanishing and abs(values[-1]) > VANISHES * abs(values[0])) else height
 

@@ -1,4 +1,4 @@
-"""What a fold of critical sets is at which a slide ends: a jump point, or a folded singularity of the slow flow.
+"""Classify a fold of critical sets at which a slide ends: a jump point, or a folded singularity of the slow flow.
 
 With D = D_e U, the slow flow on U = 0 in the time that det D divides,
 
@@ -25,8 +25,8 @@ from ...words import say
 
 Array = NDArray[np.float64]
 
-SINGULAR = 1e-5  # |e'| in units of what it is made of, below which a fold is a folded singularity
-DIFFERENCE = 1e-5  # in e and z, for derivatives
+SINGULAR_SPEED = 1e-5  # |e'| in units of what it is made of, below which a fold is a folded singularity
+DIFFERENCE_STEP = 1e-5  # in e and z, for derivatives
 STRAIGHT = 1e-4  # second derivative along the kernel, in units of D_e U, below which a crossing is a pitchfork
 SINGLE = 1e-4  # product of the eigenvalues in units of their squares, below which one is taken for 0
 
@@ -68,17 +68,17 @@ def fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold
     """
     at = np.concatenate([e, z])
     D, Dz, W, We = _parts(formulas, at)
-    across, bends = _crossing(formulas, at, D, Dz)
-    if float(np.abs(across).max()) <= SINGULAR * float(np.abs(D).max() + np.abs(Dz).max()):
+    across, bends = _transverse_slope(formulas, at, D, Dz)
+    if float(np.abs(across).max()) <= SINGULAR_SPEED * float(np.abs(D).max() + np.abs(Dz).max()):
         kind = "transcritical" if abs(bends) > STRAIGHT * float(np.abs(D).max()) else "pitchfork"
         return Fold(say(kind, C=C), exchange=kind)
     size = float(np.abs(D).max() * np.abs(Dz).max() * (np.abs(W).max() + np.abs(We).max()))
-    if not float(np.abs(_flow(formulas, at)[:2]).max()) < SINGULAR * size:
+    if not float(np.abs(_flow(formulas, at)[:2]).max()) < SINGULAR_SPEED * size:
         return Fold(say(plain, C=C))
     if len(z) == 1:
         return Fold(say("canard point", C=C), left_to_eps=True)
-    steps = DIFFERENCE * np.eye(len(at))
-    M = np.column_stack([(_flow(formulas, at + h) - _flow(formulas, at - h)) / (2.0 * DIFFERENCE) for h in steps])
+    steps = DIFFERENCE_STEP * np.eye(len(at))
+    M = np.column_stack([(_flow(formulas, at + h) - _flow(formulas, at - h)) / (2.0 * DIFFERENCE_STEP) for h in steps])
     total, squares = float(np.trace(M)), float(np.trace(M @ M))
     product, scale = 0.5 * (total**2 - squares), total**2 + abs(squares)
     if abs(product) < SINGLE * scale:
@@ -87,7 +87,7 @@ def fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold
         return Fold(say("folded saddle", C=C), left_to_eps=True)
     if 0.25 * total**2 < product:
         return Fold(say(plain, C=C))  # a focus turns its canards away: all motions beside it come to jump points
-    return Fold(say("folded node", C=C), beyond=_beyond(formulas, at, D, Dz))
+    return Fold(say("folded node", C=C), beyond=_direction_past_fold(formulas, at, D, Dz))
 
 
 def _parts(formulas: Field, at: Array) -> tuple[Array, Array, Array, Array]:
@@ -107,16 +107,16 @@ def _flow(formulas: Field, at: Array) -> Array:
     return np.concatenate([-_adjugate(D) @ Dz @ W, (D[0, 0] * D[1, 1] - D[0, 1] * D[1, 0]) * W])
 
 
-def _crossing(formulas: Field, at: Array, D: Array, Dz: Array) -> tuple[Array, float]:
+def _transverse_slope(formulas: Field, at: Array, D: Array, Dz: Array) -> tuple[Array, float]:
     """Return D_z U along the left null vector of D, and how U bends that way along the kernel."""
     left, _, right = np.linalg.svd(D)
     null, r = left[:, 1], np.concatenate([right[1], np.zeros(Dz.shape[1])])
-    change = _parts(formulas, at + DIFFERENCE * r)[0] - _parts(formulas, at - DIFFERENCE * r)[0]
-    return null @ Dz, float(null @ change @ right[1]) / (2.0 * DIFFERENCE)
+    change = _parts(formulas, at + DIFFERENCE_STEP * r)[0] - _parts(formulas, at - DIFFERENCE_STEP * r)[0]
+    return null @ Dz, float(null @ change @ right[1]) / (2.0 * DIFFERENCE_STEP)
 
 
-def _beyond(formulas: Field, at: Array, D: Array, Dz: Array) -> Array:
+def _direction_past_fold(formulas: Field, at: Array, D: Array, Dz: Array) -> Array:
     """Direction in z in which U does not vanish near the fold: that in which U moves as it does along the kernel."""
-    across, bends = _crossing(formulas, at, D, Dz)
+    across, bends = _transverse_slope(formulas, at, D, Dz)
     way = np.sign(bends) * across
     return way / np.linalg.norm(way)

@@ -20,7 +20,7 @@ from ...words import say
 from ..followed import in_disc
 from ..places import Ascent
 from ..result import Phase
-from .decide import Decision, arriving, critical_name
+from .decide import Decision, critical_name, decide_arrival
 from .part import MotionPart
 
 Array = NDArray[np.float64]
@@ -28,7 +28,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Legs:
-    """What was followed, of which system.
+    """Consecutive parts of a motion, and their system.
 
     Attributes
     ----------
@@ -98,7 +98,7 @@ class Legs:
         """Say why it slides from the beginning of a step on, and on what."""
         z = self.found.motion.states[row, 2:]
         if self.line is None:
-            decision = arriving(self.system, self.psi, z, theta)
+            decision = decide_arrival(self.system, self.psi, z, theta)
             return decision.reason, decision.onto
         onto = critical_name(self.system, constant() if self.psi is None else self.psi, z, self.found.sets[row])
         return f"{say('arrives in a line')} {say('slides in a line', onto=onto)}", onto

@@ -17,8 +17,8 @@ from ...numerics.radau import Step
 from ...psi.function import Psi
 from ...words import say
 from ..followed import in_disc, jacobian
-from .decide import AROUND, BESIDE
-from .delay import WayOut, delayed
+from .decide import ORBITS_AROUND, START_DISTANCE
+from .delay import WayOut, cut_at_exit
 from .slide import Slide
 
 Array = NDArray[np.float64]
@@ -58,7 +58,7 @@ def stay(
     NotAnalyticError
     """
     taken, places = before
-    part, way = delayed(field, psi, taken, places, part)
+    part, way = cut_at_exit(field, psi, taken, places, part)
     key = "Hopf, delayed"
     if way is not None:
         key = "Hopf, delayed until" if way.buffer is None else "Hopf, delayed until the buffer"
@@ -67,8 +67,8 @@ def stay(
 
 def ring(psi: Psi, e: Array) -> Array:
     """Points (k, 2) of the projected disc around a critical set, from which orbits show where a motion leaves it to."""
-    angle = math.tau * np.arange(AROUND) / AROUND
-    return in_disc(psi, e) + BESIDE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    angle = math.tau * np.arange(ORBITS_AROUND) / ORBITS_AROUND
+    return in_disc(psi, e) + START_DISTANCE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
 def departure_point(field: Field, psi: Psi, e: Array, z: Sequence[Array], arrival: Array) -> Array | None:
@@ -106,4 +106,4 @@ def departure_point(field: Field, psi: Psi, e: Array, z: Sequence[Array], arriva
     values, vectors = np.linalg.eig(jacobian(field, psi, e, z[-1]))
     right = vectors[:, int(np.argmax(values))]
     side = math.copysign(1.0, float(first @ away[far[-1]]) * float(left @ right))
-    return (C + side * BESIDE * right)[None]
+    return (C + side * START_DISTANCE * right)[None]

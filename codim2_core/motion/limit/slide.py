@@ -19,10 +19,10 @@ from ...initial_value.events import DEGREES, turns
 from ...initial_value.field import Field
 from ...initial_value.line import InvariantLine
 from ...initial_value.problem import own_time
-from ...initial_value.safe_steps import NODES, Safe
+from ...initial_value.safe_steps import SAFE_NODES, Safe
 from ...initial_value.sheet import Resting, Sheet, complement, determinant, trace
 from ...numerics.dense import Steps
-from ...numerics.growth import bounded
+from ...numerics.growth import until_blow_up
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps
 from ...psi.function import Psi
 
@@ -31,12 +31,12 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-SHORTEST = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
-AT_EQUATOR = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
+MIN_STEP = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
+EQUATOR_DISTANCE = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
 SHORTEST_PART = 1e-13  # of a step: a set that is not followed so far has gone
 LEAST_PART = 1.0 / 64.0  # of a step, in which a set that has moved far is followed to a place within it
-INSIDE = (4, *DEGREES)  # of the polynomials that a gauge is taken for along a step: most are far from zero
+GAUGE_DEGREES = (4, *DEGREES)  # of the polynomials that a gauge is taken for along a step: most are far from zero
 NEAR_HOPF = 1e-2  # |tr J| in units of D_e U, below which a stable cycle may be too small to be found
 
 
@@ -124,12 +124,14 @@ def slide(
     problem = sheet.problem(atol / rtol)
     rate = np.array(field.value(*sheet.e.tolist(), 0.0, 0.0, *z.tolist())[2:])
     pace = own_time(problem, z, rate)
-    h, shortest = 1e-2 * pace, SHORTEST * min(pace, t_end - t)
+    h, shortest = 1e-2 * pace, MIN_STEP * min(pace, t_end - t)
     if compiled is None or lives is not None or resting:
-        ahead = _in_python(sheet, bounded(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest))
+        ahead = _in_python(
+            sheet, until_blow_up(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest)
+        )
     else:
         safe = Safe(psi, math.copysign(1.0, determinant(sheet, sheet.e, z)), None if line is None else line.n)
-        ahead = _compiled(sheet, compiled.slide(problem, sheet.e, t, t_end, z, h, most, shortest), safe)
+        ahead = _compiled_steps(sheet, compiled.slide(problem, sheet.e, t, t_end, z, h, most, shortest), safe)
     taken: list[Step] = []
     places = [sheet.e]
     try:
@@ -140,7 +142,7 @@ def slide(
             if found:
                 u, name = min(found)
                 last = step.at(u)
-                taken.append(_whole(step, u))
+                taken.append(_lift_step(step, u))
                 end = sheet.at(last)
                 places.append(after if end is None else end)
                 return Slide(taken, name, places[-1], places)
@@ -171,17 +173,17 @@ def _in_python(sheet: Sheet, ahead: Iterator[Step]) -> Iterator[_Ahead]:
         after = sheet.at(step.last)
         if after is None:
             raise StepsTooShortError
-        yield _Ahead(step, _whole(step, 1.0), after, isinstance(sheet, Resting))
+        yield _Ahead(step, _lift_step(step, 1.0), after, isinstance(sheet, Resting))
 
 
-def _compiled(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[_Ahead]:
+def _compiled_steps(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[_Ahead]:
     """Take the steps of a compiled slide; the sheet is moved to where an end may be near."""
     z = sheet.z
     try:
         for part in motion.chunks():
             if not len(part.starts):
                 continue
-            e, D = motion.sets(part, NODES)
+            e, D = motion.sets(part, SAFE_NODES)
             known = safe.steps(e, D)
             zs = Steps(part.first[2:], part.starts, part.lengths, part.ends[:, 2:], part.polynomials[:, 2:])
             wholes = Steps(*(of.copy() for of in (part.first, part.starts, part.lengths, part.ends, part.polynomials)))
@@ -220,11 +222,11 @@ def _lost(sheet: Sheet, step: Step, before: Array, after: Array) -> tuple[float,
     At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
     """
     last = Sheet(sheet.field, after, step.last)
-    u, there = _followed(Sheet(sheet.field, before, step.first), step, 1.0, SHORTEST_PART, last)
+    u, there = _track_sheet(Sheet(sheet.field, before, step.first), step, 1.0, SHORTEST_PART, last)
     return None if there is last else (u, there)
 
 
-def _followed(here: Sheet, step: Step, to: float, least: float, last: Sheet | None = None) -> tuple[float, Sheet]:
+def _track_sheet(here: Sheet, step: Step, to: float, least: float, last: Sheet | None = None) -> tuple[float, Sheet]:
     """Follow a set to a fraction of a step, in parts not below the least one, or as far as it is there.
 
     A long step may move it farther than one search looks. The last set is searched for unless it is given.
@@ -232,7 +234,7 @@ def _followed(here: Sheet, step: Step, to: float, least: float, last: Sheet | No
     u, part = 0.0, to
     while part > least:
         at = min(u + part, to)
-        ahead = last if at == to and last is not None else _searched(here, step.at(at))
+        ahead = last if at == to and last is not None else _search_sheet(here, step.at(at))
         if ahead is not None and here.joined(ahead):
             if at == to:
                 return at, ahead
@@ -241,7 +243,7 @@ def _followed(here: Sheet, step: Step, to: float, least: float, last: Sheet | No
     return u, here
 
 
-def _searched(here: Sheet, z: Array) -> Sheet | None:
+def _search_sheet(here: Sheet, z: Array) -> Sheet | None:
     """Search the set at another z, close to one that is known."""
     e = here.at(z)
     return None if e is None else Sheet(here.field, e, z)
@@ -268,7 +270,7 @@ def _gauges(
 
 def _end(sheet: Sheet) -> str:
     """Say what ends the set where steps become too short to go on."""
-    if complement(sheet.e) < AT_EQUATOR:
+    if complement(sheet.e) < EQUATOR_DISTANCE:
         return "equator"
     size = float(np.abs(sheet.slopes(sheet.e, sheet.z)[:2, :2]).max())
     return "fold" if abs(determinant(sheet, sheet.e, sheet.z)) < AT_FOLD * size**2 else "given up"
@@ -279,7 +281,7 @@ def _place(sheet: Sheet, step: Step, u: float) -> tuple[Array | None, Array]:
     z = step.at(u)
     e = sheet.at(z)
     if e is None:
-        at, there = _followed(Sheet(sheet.field, sheet.e, sheet.z), step, u, LEAST_PART * u)
+        at, there = _track_sheet(Sheet(sheet.field, sheet.e, sheet.z), step, u, LEAST_PART * u)
         return (there.e if at == u else None), z
     return e, z
 
@@ -299,7 +301,7 @@ def _first(
         return missing if e is None else gauge(e, z)
 
     positive = None
-    for u, at in zip(*turns(value, start, end, INSIDE), strict=True):
+    for u, at in zip(*turns(value, start, end, GAUGE_DEGREES), strict=True):
         if at > 0.0:
             positive = u
         elif at < 0.0 and positive is not None:
@@ -317,7 +319,7 @@ def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:
     return low
 
 
-def _whole(step: Step, u: float) -> Step:
+def _lift_step(step: Step, u: float) -> Step:
     """Return the part of a step in z up to its fraction u, as a step of the whole state on Sigma."""
     degree = step.polynomial.shape[1]
     polynomial = np.zeros((2 + len(step.first), degree))

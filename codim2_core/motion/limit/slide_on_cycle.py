@@ -21,10 +21,10 @@ from ...systems.kinds import AnySystem
 Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-6, 1e-8  # no better than the cycles themselves are known
-DIFFERENCE = 1e-4
+DIFFERENCE_STEP = 1e-4
 #: Of the time in which z changes by its own size: the first step; steps so short that the cycle ends.
-FIRST, SHORTEST = 0.05, 1e-6
-APART = 0.2  # in the disc: a cycle whose middle has moved further is another
+FIRST_STEP_SHARE, MIN_STEP = 0.05, 1e-6
+OTHER_CYCLE_DISTANCE = 0.2  # in the disc: a cycle whose middle has moved further is another
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
     def rate(at: Array) -> Array:
         stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
         cycle = min(stable, key=lambda cycle: math.dist(_middle(cycle), middle), default=None)
-        if cycle is None or math.dist(_middle(cycle), middle) > APART:
+        if cycle is None or math.dist(_middle(cycle), middle) > OTHER_CYCLE_DISTANCE:
             return np.full(m, math.nan)
         return np.array(cycle.slow_flow)
 
@@ -85,7 +85,7 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
         here, columns = rate(at), []
         for i in range(m):
             aside = at.copy()
-            aside[i] += DIFFERENCE * (1.0 + abs(at[i]))
+            aside[i] += DIFFERENCE_STEP * (1.0 + abs(at[i]))
             columns.append((rate(aside) - here) / (aside[i] - at[i]))
         return np.nan_to_num(np.stack(columns, axis=-1))
 
@@ -99,7 +99,7 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
     taken: list[Step] = []
     try:
         pace = min(t_end - t, own_time(problem, z, np.array(first.slow_flow)))
-        for step in steps(problem, t, t_end, z, RTOL, FIRST * pace, most, SHORTEST * pace):
+        for step in steps(problem, t, t_end, z, RTOL, FIRST_STEP_SHARE * pace, most, MIN_STEP * pace):
             polynomial = np.concatenate([np.zeros((2, STAGES)), step.polynomial])
             first, last = np.concatenate([still, step.first]), np.concatenate([still, step.last])
             taken.append(Step(step.start, step.h, first, last, polynomial))

@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from ...initial_value.compiled_phases import CompiledPhases
 from ...initial_value.leaving import polynomial_of
-from ...initial_value.problem import arrived
-from ...numerics.growth import bounded
+from ...initial_value.problem import arrival_radius
+from ...numerics.growth import until_blow_up
 from ...numerics.radau import Problem, Step, TooManyStepsError, steps
 
 Array = NDArray[np.float64]
 
-FIRST = 1e-2
+FIRST_STEP_SHARE = 1e-2
 
 
 @dataclass(frozen=True)
@@ -65,16 +65,16 @@ def slip(
     most : int
         Steps.
     largest : float
-        The scale of rho: it has arrived where rho is `arrived` of that (or of a larger rho met on the way).
+        The scale of rho: it has arrived where rho is `arrival_radius` of that (or of a larger rho met on the way).
     compiled : CompiledPhases, optional
         Takes the steps instead.
     """
     taken: list[Step] = []
     rate = problem.F(state)
     largest = max(largest, math.hypot(state[0], state[1]))
-    h = FIRST / float(np.max(np.abs(rate) / problem.scale(state))) if rate.any() else math.inf
+    h = FIRST_STEP_SHARE / float(np.max(np.abs(rate) / problem.scale(state))) if rate.any() else math.inf
     if compiled is None:
-        ahead = bounded(problem, steps(problem, t, t_end, state, rtol, h, most))
+        ahead = until_blow_up(problem, steps(problem, t, t_end, state, rtol, h, most))
     else:
         ahead = compiled.slip(t, t_end, state, h, most, largest)
     try:
@@ -83,7 +83,7 @@ def slip(
             x, y = float(step.last[0]), float(step.last[1])
             rho = math.hypot(x, y)
             largest = max(largest, rho)
-            if rho <= arrived(rtol) * largest:
+            if rho <= arrival_radius(rtol) * largest:
                 u, v = problem.F(step.last)[:2].tolist()
                 inward = -(x * u + y * v) / rho
                 if inward > 0.0 and step.end + rho / inward < t_end:

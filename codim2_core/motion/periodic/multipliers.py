@@ -120,7 +120,7 @@ def _eigenvalues(matrix: Array) -> tuple[Complex, Array]:
     return values.astype(complex), np.linalg.norm(left, axis=1) * np.linalg.norm(right, axis=0)
 
 
-def matched(values: Complex, others: Complex) -> Array:
+def matching_distances(values: Complex, others: Complex) -> Array:
     """Distance of each value to its partner among as many others, partners being chosen to be close in all."""
     from scipy.optimize import linear_sum_assignment  # imported late: it takes longer than all of this package
 

@@ -1,4 +1,4 @@
-"""What a search for a periodic motion returns."""
+"""The result of a search for a periodic motion."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Complex = NDArray[np.complex128]
 
 
 class PeriodicStatus(Enum):
-    """What a search has come to; the reason of a result says it in a sentence."""
+    """The outcome of a search; the reason of a result says it in a sentence."""
 
     FOUND = "found"
     NOT_ISOLATED = "not isolated"

@@ -14,7 +14,7 @@ from ...words import say
 from ..checks import checked_state, checked_tolerances, with_time
 from ..regularised import LARGEST_EPS, MAX_STEPS, SMALLEST_EPS
 from ..result import Simulation
-from .multipliers import matched, multipliers
+from .multipliers import matching_distances, multipliers
 from .result import PeriodicMotion, PeriodicStatus
 from .shooting import LostError, Shooting, Shot
 
@@ -22,15 +22,20 @@ __all__ = ["periodic_motion"]
 
 Array = NDArray[np.float64]
 
-STEPS, HALVINGS = 40, 8  # of Newton's method, and of one of its steps
-CLOSER = 1e-2  # of rtol: how closely the motion is followed at last
+MAX_NEWTON, MAX_HALVINGS = 40, 8  # of Newton's method, and of one of its steps
+FINAL_RTOL_SHARE = 1e-2  # of rtol: how closely the motion is followed at last
 CLOSEST = 1e-13  # rtol of a motion
-ENOUGH, LOOSE = 10.0, 1e4  # times rtol: residuals that are small enough, and that rounding may leave
-ROUNDING = 1e-15
-STILL, NEARLY_STILL = 1e-6, 1e-3  # of its size: what moves less stands still; also where the search ends in no motion
-NEAR = 3.0  # factor by which a period may be another than is given: as it shrinks all motions come to repeat themselves
+RESIDUAL_RTOLS, LOOSE = 10.0, 1e4  # times rtol: residuals that are small enough, and that rounding may leave
+RESIDUAL_ROUNDING = 1e-15
+REST_EXTENT, NEARLY_STILL = (
+    1e-6,
+    1e-3,
+)  # of its size: what moves less stands still; also where the search ends in no motion
+MAX_PERIOD_FACTOR = (
+    3.0  # factor by which a period may be another than is given: as it shrinks all motions come to repeat themselves
+)
 MOST_TIMES = 12  # that a motion is asked whether it has repeated itself
-SAME = 1e-7  # relative: formulas, and states, that repeat themselves
+REPEAT_TOLERANCE = 1e-7  # relative: formulas, and states, that repeat themselves
 LOOKED_AT = 16  # states at which formulas are asked whether they do
 
 
@@ -121,7 +126,7 @@ def _advance(given: ArrayLike | None, rates: Array, period: float) -> Array:
     found = np.array(given, float)
     if found.shape != rates.shape or not np.isfinite(found).all():
         raise ValueError(f"advance is {given!r}; give {len(rates)} finite numbers, one for each slow variable.")
-    wrong = (rates != 0.0) & ~np.isclose(found, rates * period, rtol=SAME, atol=0.0)
+    wrong = (rates != 0.0) & ~np.isclose(found, rates * period, rtol=REPEAT_TOLERANCE, atol=0.0)
     if wrong.any():
         i = int(np.argmax(wrong))
         raise ValueError(f"advance[{i}] is {found[i]}; z{i + 1} moves on by {rates[i] * period:.10g} in a period.")
@@ -138,7 +143,9 @@ def _repeats(formulas: Field, states: Array, advance: Array) -> bool:
         z = np.array(z) + advance * (k / LOOKED_AT)
         e = 0.9 * np.cos(angle), 0.9 * np.sin(angle)
         here, there = (np.array(formulas.value(*e, x + e[0], y + e[1], *at.tolist())) for at in (z, z + advance))
-        if not np.allclose(here, there, rtol=SAME, atol=SAME * (1.0 + np.nanmax(np.abs(here))), equal_nan=True):
+        if not np.allclose(
+            here, there, rtol=REPEAT_TOLERANCE, atol=REPEAT_TOLERANCE * (1.0 + np.nanmax(np.abs(here))), equal_nan=True
+        ):
             return False
     return True
 
@@ -155,28 +162,28 @@ class _Stopped(Exception):
 def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
     try:
         rough = _newton(asked, asked.shot(start, asked.period, rtol), rtol)
-        closer = max(CLOSER * rtol, CLOSEST)
+        closer = max(FINAL_RTOL_SHARE * rtol, CLOSEST)
         fine = _newton(asked, asked.shot(rough.state, rough.period, closer), closer)
     except LostError as lost:
         return _not_found(asked, lost.status, str(lost), lost.run, asked.period, np.nan)
     except _Stopped as stopped:
         shot = stopped.shot
         return _not_found(asked, stopped.status, stopped.reason, shot.run, shot.period, shot.residual)
-    return _found(asked, rough, fine)
+    return _make_result(asked, rough, fine)
 
 
 def _newton(asked: Shooting, shot: Shot, rtol: float) -> Shot:
     """Take Newton's steps, shorter ones where a whole one does not lead closer."""
-    for _ in range(STEPS):
-        if not asked.forced and _extent(shot) <= STILL:
+    for _ in range(MAX_NEWTON):
+        if not asked.forced and _extent(shot) <= REST_EXTENT:
             break
-        if shot.residual <= ENOUGH * rtol and shot.step_size <= LOOSE * rtol:
+        if shot.residual <= RESIDUAL_RTOLS * rtol and shot.step_size <= LOOSE * rtol:
             return shot
         ahead = _closer(asked, shot, rtol)
         if ahead is None:
             break
         shot = ahead
-    still = not asked.forced and _extent(shot) <= STILL
+    still = not asked.forced and _extent(shot) <= REST_EXTENT
     if not still and shot.residual <= LOOSE * rtol and shot.step_size <= np.sqrt(rtol):
         return shot
     if not asked.forced and _extent(shot) <= NEARLY_STILL:
@@ -188,10 +195,10 @@ def _closer(asked: Shooting, shot: Shot, rtol: float) -> Shot | None:
     """Return what the longest part of the step that leads closer leads to; None if none does."""
     change, later = shot.step
     lost: LostError | None = None
-    for k in range(HALVINGS):
+    for k in range(MAX_HALVINGS):
         part = 0.5**k
         period = shot.period + part * later
-        if not asked.period / NEAR < period < asked.period * NEAR:
+        if not asked.period / MAX_PERIOD_FACTOR < period < asked.period * MAX_PERIOD_FACTOR:
             continue
         try:
             ahead = asked.shot(shot.state + part * change, period, rtol)
@@ -206,7 +213,7 @@ def _closer(asked: Shooting, shot: Shot, rtol: float) -> Shot | None:
 
 
 def _extent(shot: Shot) -> float:
-    """How far a motion comes from its start, in units of its size."""
+    """Return the largest distance of a motion from its start, in units of its size."""
     return float((np.abs(shot.run.states - shot.run.states[0]) / shot.sizes).max())
 
 
@@ -220,14 +227,14 @@ def _not_found(
     )  # fmt: skip
 
 
-def _found(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
+def _make_result(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
     n = len(fine.state)
     (others, _, _), (values, conditions, lost) = (
         multipliers(asked.formulas, asked.psi, shot.run, shot.variation, asked.clocks) for shot in (rough, fine)
     )
     blur = float((fine.variation.error[:, :n] / fine.sizes[:, None] * fine.sizes).max(initial=0.0))
-    apart = matched(values, others) if len(others) == len(values) else np.ones(len(values))
-    errors = conditions * max(blur, ROUNDING) + apart
+    apart = matching_distances(values, others) if len(others) == len(values) else np.ones(len(values))
+    errors = conditions * max(blur, RESIDUAL_ROUNDING) + apart
     errors[len(values) - lost :] = 0.0
     change, later = fine.step
     moved = np.abs(fine.state - rough.state) + np.abs(change)
@@ -264,13 +271,13 @@ def _verdict(values: NDArray[np.complex128], errors: Array, in_a_line: bool) -> 
 
 
 def _times(asked: Shooting, shot: Shot) -> int:
-    """How many times a motion repeats itself in its period."""
+    """Return how many times a motion repeats itself in its period."""
     motion, some = shot.run.dense, shot.run.states[:: max(1, len(shot.run.states) // LOOKED_AT)]
     for count in range(MOST_TIMES, 1, -1):
         part = asked.advance / count
         away = motion(shot.period / count) - shot.state
         away[2:] -= part
-        if (np.abs(away) <= SAME * shot.sizes).all() and _repeats(asked.formulas, some, part):
+        if (np.abs(away) <= REPEAT_TOLERANCE * shot.sizes).all() and _repeats(asked.formulas, some, part):
             return count
     return 1
 

@@ -30,7 +30,9 @@ from .result import PeriodicStatus
 
 Array = NDArray[np.float64]
 
-SINGULAR = 1e-8  # singular values of M - 1, or of M if that is larger, that count as 0: nothing moves, as in a family
+NULL_SINGULAR_VALUE = (
+    1e-8  # singular values of M - 1, or of M if that is larger, that count as 0: nothing moves, as in a family
+)
 
 
 class LostError(Exception):
@@ -43,7 +45,7 @@ class LostError(Exception):
 
 @dataclass(frozen=True, eq=False)
 class Shooting:
-    """What is asked of a periodic motion.
+    """A boundary value problem: the unknowns and conditions of a periodic motion.
 
     Attributes
     ----------
@@ -79,7 +81,7 @@ class Shooting:
 
     @cached_property
     def free(self) -> NDArray[np.bool_]:
-        """Which of (x, y, z) are sought."""
+        """Return which of (x, y, z) are unknown."""
         return np.concatenate([[True, True], ~self.clocks])
 
     def follow(self, state: Array, period: float, rtol: float) -> Simulation:
@@ -123,7 +125,7 @@ class Shot:
 
     @cached_property
     def sizes(self) -> Array:
-        """What small is measured by, (2 + m,)."""
+        """Return the scales (2 + m,) by which a difference counts as small."""
         found = np.abs(self.run.states).max(axis=0) + self.of.floor
         found[:2] = np.hypot(*self.run.states[:, :2].T).max() + self.of.eps
         found[:2] = found[:2] if found[0] > 0.0 else 1.0
@@ -131,7 +133,7 @@ class Shot:
 
     @cached_property
     def miss(self) -> Array:
-        """How far the end is from the start, (2 + m,)."""
+        """Return the difference (2 + m,) of end and start."""
         found = self.run.states[-1] - self.run.states[0]
         found[2:] -= self.of.advance
         found[~self.of.free] = 0.0
@@ -157,7 +159,7 @@ class Shot:
             ahead = self.variation.rate * self.period / sizes
             matrix = np.block([[matrix, ahead[:, None]], [behind[None], np.zeros((1, 1))]])
             right = np.append(right, 0.0)
-        found = _solved(matrix, right)
+        found = _least_solution(matrix, right)
         change = np.zeros(n)
         change[free] = found[: len(sizes)] * sizes
         return change, 0.0 if self.of.forced else float(found[-1]) * self.period
@@ -169,7 +171,7 @@ class Shot:
         return max(float(np.abs(change / self.sizes).max()), abs(later) / self.period)
 
 
-def _solved(matrix: Array, right: Array) -> Array:
+def _least_solution(matrix: Array, right: Array) -> Array:
     """Least solution of linear equations; exactly 0 in what is not coupled to any equation whose right side is not 0.
 
     So a start in an invariant line stays in it.
@@ -180,6 +182,6 @@ def _solved(matrix: Array, right: Array) -> Array:
         moved = moved | linked[:, moved].any(axis=1)
     found = np.zeros(len(right))
     left, values, along = np.linalg.svd(matrix[np.ix_(moved, moved)])
-    large = values > SINGULAR * max(1.0, values.max(initial=0.0))
+    large = values > NULL_SINGULAR_VALUE * max(1.0, values.max(initial=0.0))
     found[moved] = along.T[:, large] @ ((left.T @ right[moved])[large] / values[large])
     return found

@@ -1,1 +1,1 @@
-"""How a motion changes with where it starts and with its system's numbers."""
+"""Derivatives of a motion by its initial state and by the numbers of its system."""

@@ -11,7 +11,7 @@ from .result import Variation
 Array = NDArray[np.float64]
 
 
-def chained(
+def chain_propagators(
     names: tuple[str, ...],
     times: Array,
     fine: Array,

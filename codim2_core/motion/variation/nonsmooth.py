@@ -21,22 +21,22 @@ from ...initial_value.slopes import Slopes, outside, slopes_of
 from ...numerics.dense import Dense
 from ...systems.kinds import AnySystem
 from ...words import say
-from .chain import chained
-from .propagators import Propagators, along, padded, propagators
+from .chain import chain_propagators
+from .propagators import Propagators, pad_jacobians, propagators, states_along
 from .result import Variation
 
 Array = NDArray[np.float64]
 Steps = NDArray[np.intp]
 
 RTOL = 1e-10  # how far a part of a step and its halves may differ
-AT_EQUATOR = 1e-6  # 1 - |e| at which a slide has ended there
+EQUATOR_DISTANCE = 1e-6  # 1 - |e| at which a slide has ended there
 LEAVES = 1e-13  # of the largest slope: what turns U out of a line by more than rounding
-NEUTRAL = 1e-9  # lambda_theta, in units of U, up to which a line does not repel: all directions are alike
+NEUTRAL_RATE = 1e-9  # lambda_theta, in units of U, up to which a line does not repel: all directions are alike
 AT_REST = 1e-6  # |U| on a critical set, in units of its slopes: on a limit cycle e is a mean, where U is not zero
 
 
 class Phase(Protocol):
-    """What is read of a phase of the motion."""
+    """The data of one phase of the motion that its variation needs."""
 
     @property
     def kind(self) -> str: ...  # noqa: D102
@@ -87,7 +87,7 @@ def of_nonsmooth(
         first @= start
     end = len(matrices)
     times, rate = motion.times[: end + 1], course.rate(legs, end)
-    return chained(tuple(names), times, matrices, longer, rate, reason, course.within)
+    return chain_propagators(tuple(names), times, matrices, longer, rate, reason, course.within)
 
 
 @dataclass(frozen=True)
@@ -124,7 +124,7 @@ class _Course:
 
     @property
     def size(self) -> int:
-        """Of the state, and of the numbers by which it is differentiated."""
+        """Return the length of the state together with that of the varied numbers."""
         return self.motion.states.shape[1] + len(self.slopes.kept)
 
     def along(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
@@ -193,15 +193,15 @@ class _Course:
 
     def slip_slopes(self, steps: Steps, u: Array) -> Array:
         """Jacobian of the slip at fractions of steps."""
-        states = along(self.motion, steps, u)
-        found = padded(self.slopes.of_state(*outside(states[:, :2], self.n), states), u.shape)
+        states = states_along(self.motion, steps, u)
+        found = pad_jacobians(self.slopes.of_state(*outside(states[:, :2], self.n), states), u.shape)
         return found if self.n is None else self.kept @ found @ self.kept
 
     def slide_slopes(self, phase: Phase, steps: Steps, u: Array) -> Array:
         """Jacobian of the slow flow at fractions of steps; the critical set moves by ``D_e U de + D_z U dz = 0``."""
         times = self.motion.times[steps, None] + u * self.motion.lengths[steps, None]
         e = phase.e(np.clip(times.ravel(), phase.t_start, phase.t_end))
-        D = self.slopes.at(e, along(self.motion, steps, u))
+        D = self.slopes.at(e, states_along(self.motion, steps, u))
         De, Dz = D[:, :, :2], D[:, :, 4:]
         if self.n is None:
             moved = -np.linalg.solve(De[:, :2], Dz[:, :2])
@@ -209,7 +209,7 @@ class _Course:
             moved = -self.n[:, None] * ((self.n @ Dz[:, :2]) / (self.n @ De[:, :2] @ self.n)[:, None])[:, None]
         slopes = np.zeros((len(e), 2 + self.slopes.m, self.size))
         slopes[:, 2:, 2:] = Dz[:, 2:] + De[:, 2:] @ moved
-        found = padded(slopes, u.shape)
+        found = pad_jacobians(slopes, u.shape)
         return found if self.n is None else self.kept @ found @ self.kept
 
     @cached_property
@@ -223,7 +223,7 @@ class _Course:
         return found
 
     def leaves_line(self, n: Array) -> NDArray[np.bool_]:
-        """Which of z and the names (m + q,), changed, turn U out of the line along n, or move what does."""
+        """Return which of z and the names (m + q,), if changed, turn U out of the line along n, or move the line."""
         states = self.motion.states
         D = self.slopes.at(outside(states[:, :2], n)[0], states)
         across = np.abs(D[:, :2].swapaxes(1, 2) @ [-n[1], n[0]]).max(axis=0, initial=0.0)
@@ -263,7 +263,7 @@ class _Course:
         e, _ = outside(states[:, :2])
         U, D = self.slopes.rates(e, states)[:, :2], self.slopes.at(e, states)[:, :2, :2]
         lambda_theta = across @ D @ across - (e * U).sum(axis=1)
-        return bool((lambda_theta > NEUTRAL * np.abs(U).max(axis=1, initial=0.0)).any())
+        return bool((lambda_theta > NEUTRAL_RATE * np.abs(U).max(axis=1, initial=0.0)).any())
 
     def beginning(self, leg: _Leg) -> Array:
         """Rate of the state as a leg begins on Sigma."""
@@ -307,7 +307,7 @@ class _Course:
         return start
 
     def later(self, leg: _Leg) -> Array:
-        """How much later it leaves, by a change of the state; where a slide ended, (x, y) has none."""
+        """Return the change of the time of leaving by a change of the state; where a slide ended, (x, y) has none."""
         found, onward = np.zeros(self.size), self.beginning(leg)[:2]
         if not leg.left:
             found[:2] = -onward / (onward @ onward)
@@ -332,4 +332,4 @@ class _Course:
 
 def _at_equator(phase: Phase) -> bool:
     """Whether the critical set has come to the equator at the end of a slide."""
-    return bool(1.0 - np.hypot(*phase.e(phase.t_end)) < AT_EQUATOR)
+    return bool(1.0 - np.hypot(*phase.e(phase.t_end)) < EQUATOR_DISTANCE)

@@ -25,7 +25,7 @@ AT_ONCE = 64  # parts whose stage equations are held at once
 
 @dataclass(frozen=True, eq=False)
 class Propagators:
-    """What the steps of a motion do to small changes.
+    """Propagators of the steps of a motion: their action on small changes.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
     """
     steps: NDArray[np.intp] = np.arange(len(lengths))
     low, high = np.zeros(len(lengths)), np.ones(len(lengths))
-    whole = _collocated(jacobian, lengths, steps, low, high)
+    whole = _solve_collocation(jacobian, lengths, steps, low, high)
     to_steps, size = np.empty_like(whole), np.empty(len(lengths))
     for k, step in enumerate(whole):
         least = DAMPED * np.abs(before / np.maximum(sizes[k], sizes[k + 1])[:, None]).max()
@@ -68,8 +68,8 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
     done: list[tuple[NDArray[np.intp], Array, Array, Array]] = []
     for depth in range(DEEPEST + 1):
         middle = 0.5 * (low + high)
-        first = _collocated(jacobian, lengths, steps, low, middle)
-        second = _collocated(jacobian, lengths, steps, middle, high)
+        first = _solve_collocation(jacobian, lengths, steps, low, middle)
+        second = _solve_collocation(jacobian, lengths, steps, middle, high)
         both = second @ first
         off = np.abs((both - whole) @ coming / sizes[steps + 1, :, None]).max(axis=(1, 2), initial=0.0)
         apart = (off > rtol * size[steps]) & (depth < DEEPEST)  # undefined: False
@@ -77,9 +77,9 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
         if not apart.any():
             break
         steps, low, middle, high = steps[apart], low[apart], middle[apart], high[apart]
-        whole = _beside(first[apart], second[apart])
-        steps, low, high = np.repeat(steps, 2), _beside(low, middle), _beside(middle, high)
-        coming = _coming(to_steps, [(at, begin, two) for at, begin, two, _ in done], (steps, low, whole))
+        whole = _interleave_rows(first[apart], second[apart])
+        steps, low, high = np.repeat(steps, 2), _interleave_rows(low, middle), _interleave_rows(middle, high)
+        coming = _accumulate(to_steps, [(at, begin, two) for at, begin, two, _ in done], (steps, low, whole))
     fine = np.broadcast_to(np.eye(sizes.shape[1]), (len(lengths), *before.shape)).copy()
     coarse = fine.copy()
     at, begin, two, one = (np.concatenate(column) for column in zip(*done, strict=True))
@@ -92,7 +92,7 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
 Parts = tuple[NDArray[np.intp], Array, Array]
 
 
-def _coming(to_steps: Array, done: list[Parts], left: Parts) -> Array:
+def _accumulate(to_steps: Array, done: list[Parts], left: Parts) -> Array:
     """Return what comes to the parts that are left, through all before them as well as they are known by now."""
     at, begin, matrices = (np.concatenate(column) for column in zip(*done, left, strict=True))
     first, found, product = len(at) - len(left[0]), np.empty_like(left[2]), {}
@@ -106,12 +106,12 @@ def _coming(to_steps: Array, done: list[Parts], left: Parts) -> Array:
     return found
 
 
-def _beside(first: Array, second: Array) -> Array:
+def _interleave_rows(first: Array, second: Array) -> Array:
     """Rows of two arrays, in turn."""
     return np.stack((first, second), axis=1).reshape(-1, *first.shape[1:])
 
 
-def _collocated(jacobian: Jacobian, lengths: Array, steps: NDArray[np.intp], low: Array, high: Array) -> Array:
+def _solve_collocation(jacobian: Jacobian, lengths: Array, steps: NDArray[np.intp], low: Array, high: Array) -> Array:
     """Solve along parts of steps by Radau IIA, as the motion itself: L-stable, of order 9."""
     table = tableau()
     found = []
@@ -131,14 +131,14 @@ def _collocated(jacobian: Jacobian, lengths: Array, steps: NDArray[np.intp], low
     return np.concatenate(found)
 
 
-def along(motion: Dense, steps: NDArray[np.intp], u: Array) -> Array:
+def states_along(motion: Dense, steps: NDArray[np.intp], u: Array) -> Array:
     """States (p s, n) of a motion at fractions (p, s) of steps (p,)."""
     powers = u[:, :, None] ** np.arange(1, motion.polynomials.shape[2] + 1)
     found = motion.states[steps, None] + np.einsum("pjd,psd->psj", motion.polynomials[steps], powers)
     return found.reshape(-1, motion.states.shape[1])
 
 
-def padded(slopes: Array, shape: tuple[int, ...]) -> Array:
+def pad_jacobians(slopes: Array, shape: tuple[int, ...]) -> Array:
     """J (p, s, N, N) of states and of numbers that stay what they are, from the rows of the states (p s, n, N)."""
     count, n, N = slopes.shape
     found = np.zeros((count, N, N))

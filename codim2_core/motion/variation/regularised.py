@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...initial_value.slopes import slopes_of, smoothed
+from ...initial_value.slopes import slopes_of, smoothed_direction
 from ...numerics.dense import Dense
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
-from .chain import chained
-from .propagators import along, padded, propagators
+from .chain import chain_propagators
+from .propagators import pad_jacobians, propagators, states_along
 from .result import Variation
 
 Array = NDArray[np.float64]
@@ -35,12 +35,12 @@ def of_regularised(system: AnySystem, psi: Psi, eps: float, motion: Dense, names
     slopes, states = slopes_of(system, names), motion.states
 
     def jacobian(steps: NDArray[np.intp], u: Array) -> Array:
-        at = along(motion, steps, u)
-        return padded(slopes.of_state(*smoothed(psi, eps, at[:, :2]), at), u.shape)
+        at = states_along(motion, steps, u)
+        return pad_jacobians(slopes.of_state(*smoothed_direction(psi, eps, at[:, :2]), at), u.shape)
 
     rho = np.hypot(np.hypot(*states[:, :2].T), eps)
     sizes = np.ones((len(states), states.shape[1] + len(names)))
     sizes[:, :2] = rho[:, None]
     found = propagators(jacobian, motion.lengths, sizes, RTOL, np.diag(sizes[0]))
-    rate = slopes.rates(smoothed(psi, eps, states[-1:, :2])[0], states[-1:])[0]
-    return chained(tuple(names), motion.times, found.fine, found.coarse, rate)
+    rate = slopes.rates(smoothed_direction(psi, eps, states[-1:, :2])[0], states[-1:])[0]
+    return chain_propagators(tuple(names), motion.times, found.fine, found.coarse, rate)

@@ -1,4 +1,4 @@
-"""What a variation returns: the derivatives of a motion by its start and by numbers of its system."""
+"""The result of a variation: derivatives of a motion by its initial state and by numbers of its system."""
 
 from __future__ import annotations
 

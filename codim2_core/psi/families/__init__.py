@@ -9,9 +9,9 @@ from types import MappingProxyType
 
 from .record import Family, Parameter
 
-__all__ = ["FAMILIES", "Family", "Parameter", "listed", "register", "unregister"]
+__all__ = ["FAMILIES", "Family", "Parameter", "family_of_name", "register", "unregister"]
 
-NAMES = (
+FAMILY_NAMES = (
     "constant",
     "rational",
     "exponential",
@@ -19,7 +19,7 @@ NAMES = (
     "hill",
     "custom",
 )
-LISTED: tuple[Family, ...] = tuple(import_module(f".{name}", __package__).FAMILY for name in NAMES)
+LISTED: tuple[Family, ...] = tuple(import_module(f".{name}", __package__).FAMILY for name in FAMILY_NAMES)
 
 _known: dict[str, Family] = {family.name: family for family in LISTED}
 FAMILIES: Mapping[str, Family] = MappingProxyType(_known)  # by name, in the order of menus; grows with `register`
@@ -65,12 +65,12 @@ def unregister(name: str) -> None:
     ValueError
         There is no such family, or it is built in.
     """
-    if listed(name) in LISTED:
+    if family_of_name(name) in LISTED:
         raise ValueError(f"the family {name!r} is built in; only one that was registered can be taken off.")
     del _known[name]
 
 
-def listed(name: str) -> Family:
+def family_of_name(name: str) -> Family:
     """Return the family of a name.
 
     Raises

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kernel import TINY, Kernel
+from ..kernel import UNDERFLOW_BOUND, Kernel
 from .record import Array, Family
 
 
@@ -42,7 +42,7 @@ def derivatives(s: Array, _: float) -> tuple[Array, Array, Array]:
 
 def gain(r2, w, _):
     """``e_Psi = gain p`` at ``|p|^2 = r2``."""
-    return 1.0 / math.sqrt(max(r2 + w * w, TINY))
+    return 1.0 / math.sqrt(max(r2 + w * w, UNDERFLOW_BOUND))
 
 
 FAMILY = Family(

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..kernel import TINY, Kernel
+from ..kernel import UNDERFLOW_BOUND, Kernel
 from .record import Array, Family
 
 
@@ -36,7 +36,7 @@ class Exponential(Kernel):
         log_q = 2.0 * log_w
         # ln(1 + q), without forming q = w^2 where it would overflow
         L = lib.where(log_q > 600.0, log_q, lib.log1p(lib.exp(lib.minimum(log_q, 600.0))))
-        s = lib.maximum(L * (1.0 - lib.log1p(L) / (2.0 + L)), TINY)  # Winitzki's guess, within 2 %
+        s = lib.maximum(L * (1.0 - lib.log1p(L) / (2.0 + L)), UNDERFLOW_BOUND)  # Winitzki's guess, within 2 %
         for _ in range(2):  # Newton on s + ln s = ln q
             s = s / (1.0 + s) * (1.0 + log_q - lib.log(s))
         # small s: the rounding of ln q is as large as s, and zeta = w exp(-s/2) needs s only roughly
@@ -53,8 +53,8 @@ def derivatives(s: Array, _: float) -> tuple[Array, Array, Array]:
 def gain(r2, w, _):
     """``e_Psi = gain p`` at ``|p|^2 = r2``."""
     w2 = w * w
-    s = min(r2 / max(w2, TINY), 700.0)
-    return 1.0 / math.sqrt(max(r2 + w2 * (1.0 + expm1(-s)), TINY))
+    s = min(r2 / max(w2, UNDERFLOW_BOUND), 700.0)
+    return 1.0 / math.sqrt(max(r2 + w2 * (1.0 + expm1(-s)), UNDERFLOW_BOUND))
 
 
 FAMILY = Family(

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..condition import Condition
-from ..kernel import TINY, VECTOR, Kernel
+from ..kernel import UNDERFLOW_BOUND, VECTOR, Kernel
 from .record import Array, Family, Parameter
 
 SQRT3 = math.sqrt(3.0)
@@ -58,7 +58,7 @@ class Hill(Kernel):
         if isinstance(n, float) and n == 1.0:  # s (1 + 4s/3) = w^2; `sweep` gives an array of n
             return w * lib.sqrt(2.0 / (1.0 + lib.hypot(1.0, 4.0 / SQRT3 * w)))
         # x + n ln(1 + e^x) = X for x = ln((4s)^n/3), X = ln((4 w^2)^n/3): convex, slope at least 1
-        X = 2.0 * n * lib.log(lib.maximum(2.0 * w, TINY)) - LN3
+        X = 2.0 * n * lib.log(lib.maximum(2.0 * w, UNDERFLOW_BOUND)) - LN3
         log_y = lib.log(n * math.log(2.0)) + X  # as ln(1 + e^x) >= ln(2) e^x for x <= 0
         L = lib.where(log_y > 30.0, log_y, lib.log1p(lib.exp(lib.minimum(log_y, 30.0))))
         guess = X - L * (1.0 - lib.log1p(L) / (2.0 + L))
@@ -103,23 +103,23 @@ def derivatives(s: Array, n: float) -> tuple[Array, Array, Array]:
 def gain(r2, w, n):
     """``e_Psi = gain p`` at ``|p|^2 = r2``."""
     w2 = w * w
-    power = n * log(max(min(4.0 * r2 / max(w2, TINY), 1e300), TINY))
-    return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (4.0 + expm1(max(min(power, 700.0), -700.0))), TINY))
+    power = n * log(max(min(4.0 * r2 / max(w2, UNDERFLOW_BOUND), 1e300), UNDERFLOW_BOUND))
+    return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (4.0 + expm1(max(min(power, 700.0), -700.0))), UNDERFLOW_BOUND))
 
 
 def gain_whole(r2, w, n):
     """Do the same for a whole n up to 255 (eight bits), the power by squaring; infinity is a good power."""
     w2 = w * w
-    base = 4.0 * r2 / max(w2, TINY)
+    base = 4.0 * r2 / max(w2, UNDERFLOW_BOUND)
     power = 1.0
     for bit in range(8):
         power = power * base if (n >> bit) & 1 else power
         base = base * base
-    return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (3.0 + power), TINY))
+    return 1.0 / math.sqrt(max(r2 + 3.0 * w2 / (3.0 + power), UNDERFLOW_BOUND))
 
 
-def broken(n: float, text: str) -> tuple[Condition, ...]:
-    """Of R1 to R5, those that fail: Psi is smooth at s = 0 and s = inf for whole n only."""
+def failed_conditions(n: float, text: str) -> tuple[Condition, ...]:
+    """Return those of R1 to R5 that fail: Psi is smooth at s = 0 and s = inf for whole n only."""
     if float(n).is_integer():
         return ()
     k = math.ceil(n)
@@ -139,7 +139,7 @@ def broken(n: float, text: str) -> tuple[Condition, ...]:
 
 FAMILY = Family(
     name="hill", title="3/(3 + (4s)ⁿ)", formula="3/(3+(4*s)**n)", kernel=Hill, batched=True,
-    gain=gain, gain_whole=gain_whole, derivatives=derivatives, broken=broken,
+    gain=gain, gain_whole=gain_whole, derivatives=derivatives, broken=failed_conditions,
     parameter=Parameter("n", 1e-2, 1000.0, shown=(0.5, 6.0), default=2.0, note="the paper uses 1 to 4"),
     compared=(1.0, 2.0, 3.0, 4.0),
 )  # fmt: skip

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from ..kernel import TINY, Kernel
+from ..kernel import UNDERFLOW_BOUND, Kernel
 from .record import Array, Family
 
 
@@ -42,7 +42,7 @@ def derivatives(s: Array, _: float) -> tuple[Array, Array, Array]:
 def gain(r2, w, _):
     """``e_Psi = gain p`` at ``|p|^2 = r2``."""
     w2 = w * w
-    return 1.0 / math.sqrt(max(r2 + w2 * w2 / max(r2 + w2, TINY), TINY))
+    return 1.0 / math.sqrt(max(r2 + w2 * w2 / max(r2 + w2, UNDERFLOW_BOUND), UNDERFLOW_BOUND))
 
 
 FAMILY = Family(

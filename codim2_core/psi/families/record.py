@@ -1,4 +1,4 @@
-"""What a family of Psi is: a record. To add one: a file beside this one that holds it, and its line in `LISTED`."""
+"""The record of a family of Psi. To add one: a file beside this one that holds it, and its line in `LISTED`."""
 
 from __future__ import annotations
 
@@ -116,9 +116,9 @@ class Family:
         return f"Family({self.name!r})"
 
     def __reduce__(self) -> tuple[Any, ...]:
-        from . import listed  # a record stands for what is listed under its name, in another process too
+        from . import family_of_name  # a record stands for what is listed under its name, in another process too
 
-        return listed, (self.name,)
+        return family_of_name, (self.name,)
 
     @property
     def typed(self) -> bool:

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ..kernel import TINY, Kernel
+from ..kernel import UNDERFLOW_BOUND, Kernel
 from .record import Array, Family
 
-_CIRCLE = np.exp(2j * np.pi * np.arange(32) / 32)
+_CONTOUR = np.exp(2j * np.pi * np.arange(32) / 32)
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Tanh(Kernel):
 
     def root(self, lib: Any, zeta: Any) -> Any:
         # zeta/sinh(zeta) by expm1, which neither cancels at 0 nor overflows
-        z = lib.maximum(lib.minimum(zeta, 1e4), TINY)
+        z = lib.maximum(lib.minimum(zeta, 1e4), UNDERFLOW_BOUND)
         return 2.0 * z * lib.exp(-z) / -lib.expm1(-2.0 * z)
 
     def kappa(self, lib: Any, zeta: Any) -> Any:
@@ -53,18 +53,18 @@ class Tanh(Kernel):
 
 def derivatives(s: Array, _: float) -> tuple[Array, Array, Array]:
     """First three derivatives of Psi, analytic for s > -pi^2: Cauchy's integral on a unit circle."""
-    w = s[:, None] + _CIRCLE
+    w = s[:, None] + _CONTOUR
     root = np.sqrt(w)
     decay = np.exp(-2.0 * root)
     values = 4.0 * w * decay / (1.0 - decay) ** 2
-    first, second, third = (math.factorial(j) * (values * _CIRCLE**-j).mean(axis=1).real for j in (1, 2, 3))
+    first, second, third = (math.factorial(j) * (values * _CONTOUR**-j).mean(axis=1).real for j in (1, 2, 3))
     return first, second, third
 
 
 def gain(r2, w, _):
     """``e_Psi = gain p`` at ``|p|^2 = r2``: e = tanh(zeta) p/|p|, with zeta = |p|/w."""
     r = max(math.sqrt(r2), 1e-150)
-    m = expm1(-2.0 * min(r / max(abs(w), TINY), 350.0))
+    m = expm1(-2.0 * min(r / max(abs(w), UNDERFLOW_BOUND), 350.0))
     return -m / ((2.0 + m) * r)
 
 

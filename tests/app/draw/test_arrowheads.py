@@ -3,7 +3,7 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw import glyphs
-from codim2_app.draw.lines.arrowheads import CLEARANCE, SHORTEST, STRETCH, _place, arrowheads
+from codim2_app.draw.lines.arrowheads import CLEARANCE, MIN_LINE_LENGTH, STRETCH, _place, arrowheads
 from codim2_app.draw.packing import PIXEL, WINDOW
 
 import codim2_core as c2
@@ -21,7 +21,7 @@ def test_an_arrowhead_sits_in_the_middle_and_points_with_time():
 
 
 def test_short_empty_and_resting_curves_have_none():
-    short, rest, none, single = LINE * 0.9 * SHORTEST * PIXEL, np.ones((4, 2)), np.zeros((0, 2)), np.ones((1, 2))
+    short, rest, none, single = LINE * 0.9 * MIN_LINE_LENGTH * PIXEL, np.ones((4, 2)), np.zeros((0, 2)), np.ones((1, 2))
     assert place(none, short, single, LINE, rest, none)[:, 0].tolist() == pytest.approx([0.5])
     assert place().shape == (0, 3)
 

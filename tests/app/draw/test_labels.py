@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from codim2_app.draw.vector.labels import TRIED, LabelBox, clear_of, width_of
+from codim2_app.draw.vector.labels import LABEL_OFFSETS, LabelBox, clear_of, width_of
 
 SIZE = 10.0
 
@@ -45,11 +45,11 @@ def test_widths_of_texts():
 
 
 def test_places_that_are_tried_lie_on_rings_the_nearest_first():
-    away = np.hypot(*np.array(TRIED).T)
-    assert TRIED[0] == (0.0, 0.0)
-    assert len(TRIED) == 1 + 7 * 12
+    away = np.hypot(*np.array(LABEL_OFFSETS).T)
+    assert LABEL_OFFSETS[0] == (0.0, 0.0)
+    assert len(LABEL_OFFSETS) == 1 + 7 * 12
     np.testing.assert_allclose(away[1:], 0.7 * np.repeat(np.arange(1, 8), 12))
-    angle = np.arctan2(*np.array(TRIED[1:13]).T[::-1]) % (2.0 * math.pi)
+    angle = np.arctan2(*np.array(LABEL_OFFSETS[1:13]).T[::-1]) % (2.0 * math.pi)
     np.testing.assert_allclose(angle, np.arange(12) * math.pi / 6, rtol=0.0, atol=1e-12)
 
 
@@ -81,7 +81,7 @@ def test_labels_avoid_what_is_taken_and_stay_in_the_drawing():
         wide, high = width_of("Q₁", SIZE), 1.1 * SIZE
         free = [
             (across, up)
-            for across, up in TRIED
+            for across, up in LABEL_OFFSETS
             if (one := LabelBox(x - wide / 2 + across * SIZE, y - high / 2 + up * SIZE, wide, high)).within(
                 200.0, 150.0
             )

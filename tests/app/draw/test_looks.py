@@ -8,41 +8,55 @@ import numpy as np
 import pytest
 from bokeh.core.validation import check_integrity
 from codim2_app.draw.figure import make_figure
-from codim2_app.draw.layers import LAYERS, TRACES, painted, shown, swatches, table
+from codim2_app.draw.layers import LAYERS, TRACES, default_layers, layers_in_paint_order, swatches, table
 from codim2_app.draw.shapes import OPEN, shape
-from codim2_app.draw.theme import HATCHES, NEAREST, REACH, RING, VIEW, WIDEST, custom_properties, themes
+from codim2_app.draw.theme import (
+    HALF_VIEW,
+    HATCHES,
+    MAX_HALF_VIEW,
+    NEAREST,
+    PICTURE_REACH,
+    RING,
+    custom_properties,
+    themes,
+)
 from codim2_app.draw.vector.paper import DASHES, paper
 
 
 def test_layers_lie_above_each_other_as_the_legend_says():
-    assert [layer.name for layer in painted()] == [
+    assert [layer.name for layer in layers_in_paint_order()] == [
         "basins", "outcomes", "lines", "rho", "theta", "conics", "outside", "inside", "continuations", "separatrices",
         "cycles", "launched", "equator", "critical",
     ]  # fmt: skip
-    assert [row["name"] for row in table()] == [layer.name for layer in painted()]
-    assert set(LAYERS) - set(shown()) == {"separatrices", "conics", "outcomes", "basins"}
+    assert [row["name"] for row in table()] == [layer.name for layer in layers_in_paint_order()]
+    assert set(LAYERS) - set(default_layers()) == {"separatrices", "conics", "outcomes", "basins"}
 
 
 def test_what_is_told_of_a_point_is_drawn_thicker_than_what_only_fills_the_picture():
-    widths = {part.name: part.width for layer in painted() for part in layer.parts}
+    widths = {part.name: part.width for layer in layers_in_paint_order() for part in layer.parts}
     expected = {
         "outside": 1.2, "inside": 1.4, "continuations": 1.6, "lines_inside": 1.8, "lines_outside": 1.4,
         "rho_inside": 1.8, "rho_outside": 1.8, "theta_inside": 1.8, "theta_outside": 1.8, "separatrices_stable": 2.0,
         "separatrices_unstable": 2.0, "conics": 2.4, "cycles": 2.8, **{f"launched_{k}": 2.4 for k in range(1, 7)},
     }  # fmt: skip
     assert widths == expected
-    dashes = {part.name: part.dash for layer in painted() for part in layer.parts if part.dash}
+    dashes = {part.name: part.dash for layer in layers_in_paint_order() for part in layer.parts if part.dash}
     assert dashes == {"separatrices_stable": (7, 4), "conics": (9, 3)}
-    assert {layer.name for layer in painted() if layer.hidden} == {"separatrices", "conics", "outcomes", "basins"}
-    assert {layer.name for layer in painted() if not layer.compiled} == {
+    assert {layer.name for layer in layers_in_paint_order() if layer.hidden} == {
+        "separatrices",
+        "conics",
+        "outcomes",
+        "basins",
+    }
+    assert {layer.name for layer in layers_in_paint_order() if not layer.compiled} == {
         "lines", "rho", "theta", "conics", "equator", "critical", "outcomes", "basins",
     }  # fmt: skip
-    assert [layer.name for layer in painted() if layer.optional] == ["launched"]
+    assert [layer.name for layer in layers_in_paint_order() if layer.optional] == ["launched"]
 
 
 def test_parts_take_from_the_scene_what_is_theirs():
     """Separatrices within, by their direction; nullclines by their kind; launched orbits in turn by their colour."""
-    parts = {part.name: part.pieces for layer in painted() for part in layer.parts}
+    parts = {part.name: part.pieces for layer in layers_in_paint_order() for part in layer.parts}
 
     def one(k, **more):
         return SimpleNamespace(points=np.full((k + 2, 2), float(k)), **more)
@@ -97,7 +111,7 @@ def test_colours_of_light_and_dark(name, light, dark):
 def test_the_ring_is_told_apart_by_hatches_and_lies_just_outside_the_equator():
     assert HATCHES == {"slide": "", "cross": "/", "depends": "x", "undecided": ".", "misses": ""}
     assert RING == (1.03, 1.075)
-    assert pytest.approx(VIEW * math.sqrt(2.0), rel=0.02) == REACH  # to the corners of the square picture
+    assert pytest.approx(HALF_VIEW * math.sqrt(2.0), rel=0.02) == PICTURE_REACH  # to the corners of the square picture
 
 
 def test_bokeh_has_no_warning_for_the_hosts_log():
@@ -112,7 +126,7 @@ def test_the_figure_is_empty_and_sends_nothing_back():
     assert len(list(plot.references())) < 16
     assert not any(model.syncable for model in plot.references())
     for given in (plot.x_range, plot.y_range):
-        assert (given.start, given.end, given.min_interval, given.max_interval) == (-VIEW, VIEW, 0.1, 24.0)
+        assert (given.start, given.end, given.min_interval, given.max_interval) == (-HALF_VIEW, HALF_VIEW, 0.1, 24.0)
     wheel = next(tool for tool in plot.tools if type(tool).__name__ == "WheelZoomTool")
     assert wheel.modifiers == {"ctrl": True}
     assert next(tool for tool in plot.tools if type(tool).__name__ == "BoxZoomTool").match_aspect
@@ -122,9 +136,9 @@ def test_nothing_stands_around_the_picture():
     plot = make_figure()
     assert (plot.min_border, plot.title, plot.toolbar_location, plot.lod_threshold) == (0, None, None, None)
     assert (plot.outline_line_color, plot.background_fill_color, plot.border_fill_color) == (None, None, None)
-    assert [axis.end for axis in (plot.x_range, plot.y_range)] == [VIEW, VIEW]
-    assert [axis.start for axis in (plot.x_range, plot.y_range)] == [-VIEW, -VIEW]
-    assert (plot.x_range.min_interval, plot.x_range.max_interval) == (2 * NEAREST, 2 * WIDEST)
+    assert [axis.end for axis in (plot.x_range, plot.y_range)] == [HALF_VIEW, HALF_VIEW]
+    assert [axis.start for axis in (plot.x_range, plot.y_range)] == [-HALF_VIEW, -HALF_VIEW]
+    assert (plot.x_range.min_interval, plot.x_range.max_interval) == (2 * NEAREST, 2 * MAX_HALF_VIEW)
 
 
 def corners(name, size=12.0):
@@ -156,7 +170,7 @@ def test_the_mark_beside_a_layers_control_has_the_layers_colours_in_their_order(
 
 def test_in_black_and_white_lines_that_colours_tell_apart_differ():
     looks = {}
-    for layer in painted():
+    for layer in layers_in_paint_order():
         for part in layer.parts:
             look = (paper()[part.colour], part.dash or DASHES.get(part.colour, ()), part.width)
             looks.setdefault(look, set()).add(part.name.removesuffix("_inside").removesuffix("_outside"))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw import glyphs
-from codim2_app.draw.packing import EXTENT, STEP, Polylines, pack, quantise, unpack
+from codim2_app.draw.packing import INT16_RANGE, INT16_STEP, Polylines, pack, quantise, unpack
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -21,7 +21,7 @@ def test_packing_round_trip():
     header, blocks = unpack(buffer)
     assert (header["id"], header["words"]) == (3, "θ")
     assert blocks["n"].tolist() == [101]
-    assert np.abs(blocks["xy"].reshape(-1, 2) * STEP - points).max() <= STEP / 2 * 1.001
+    assert np.abs(blocks["xy"].reshape(-1, 2) * INT16_STEP - points).max() <= INT16_STEP / 2 * 1.001
 
 
 @given(st.lists(st.tuples(POLYLINES, st.booleans()), max_size=4))
@@ -44,13 +44,13 @@ def test_layers_packed_together_are_the_layers_alone(layers):
 
 def test_far_points_move_to_the_edge_and_nan_is_refused():
     assert quantise(np.array([[1e300, -1e300]])).tolist() == [[32767, -32767]]
-    assert pytest.approx(EXTENT) == 32767 * STEP
+    assert pytest.approx(INT16_RANGE) == 32767 * INT16_STEP
     with pytest.raises(ValueError, match="not JSON compliant"):
         pack({"x": math.nan}, {})
 
 
 def test_lines_and_arrays_are_packed_side_by_side():
-    line = np.array([[0.5, -0.25], [0.75, 1.0], [-EXTENT, 9.0]])
+    line = np.array([[0.5, -0.25], [0.75, 1.0], [-INT16_RANGE, 9.0]])
     blocks = {
         "a": Polylines(np.array([0, 3]), line, True),
         "b": Polylines(np.array([0, 1, 1]), line[:1]),

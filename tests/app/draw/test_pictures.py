@@ -9,8 +9,8 @@ from codim2_app.draw import layers
 from codim2_app.draw.layers import Layer, Part
 from codim2_app.draw.overlay import elements, holoviews
 from codim2_app.draw.svg import SMALL_SIDE, content, draw, small
-from codim2_app.draw.theme import VIEW, custom_properties, themes
-from codim2_app.draw.vector.parts import SIDE, Placement
+from codim2_app.draw.theme import HALF_VIEW, custom_properties, themes
+from codim2_app.draw.vector.parts import VIEWBOX_SIDE, Placement
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.markup import config, stylesheet
 from codim2_app.view.refresh import Frames
@@ -57,10 +57,10 @@ def test_svg_curves_are_those_of_the_core(setting, layer, colour, of):
     svg, scene = picture(setting, layer)
     expected = [np.asarray(piece) for piece in of(scene) if len(piece) > 1]
     strokes = [one for one in attributes(svg) if one.get("stroke") == f"var(--{colour})"]
-    found = pieces(strokes[0]["d"], SIDE, VIEW)
+    found = pieces(strokes[0]["d"], VIEWBOX_SIDE, HALF_VIEW)
     assert [len(piece) for piece in found] == [len(piece) for piece in expected]
     for one, other in zip(found, expected, strict=True):
-        assert np.abs(one - other).max() < 2 * VIEW / SIDE
+        assert np.abs(one - other).max() < 2 * HALF_VIEW / VIEWBOX_SIDE
 
 
 @SETTINGS
@@ -68,9 +68,9 @@ def test_svg_curves_are_those_of_the_core(setting, layer, colour, of):
 def test_svg_orbits_are_parts_of_the_cores(setting, layer, colour):
     svg, scene = picture(setting, layer)
     [stroke] = [one for one in attributes(svg) if one.get("stroke") == f"var(--{colour})"]
-    found = pieces(stroke["d"], SIDE, VIEW)
+    found = pieces(stroke["d"], VIEWBOX_SIDE, HALF_VIEW)
     assert len(found) > 10
-    assert gaps(np.concatenate(found), scene[layer].points).max() < 2 * VIEW / SIDE
+    assert gaps(np.concatenate(found), scene[layer].points).max() < 2 * HALF_VIEW / VIEWBOX_SIDE
 
 
 def test_svg_separatrices_differ_by_dashes():
@@ -79,8 +79,11 @@ def test_svg_separatrices_differ_by_dashes():
     for direction, stroke in zip(("stable", "unstable"), strokes, strict=True):
         assert ("stroke-dasharray" in stroke) == (direction == "stable")
         expected = [b.points for b in scene["separatrices"] if b.inside and b.direction == direction]
-        found = pieces(stroke["d"], SIDE, VIEW)
-        assert max(np.abs(one - other).max() for one, other in zip(found, expected, strict=True)) < 2 * VIEW / SIDE
+        found = pieces(stroke["d"], VIEWBOX_SIDE, HALF_VIEW)
+        assert (
+            max(np.abs(one - other).max() for one, other in zip(found, expected, strict=True))
+            < 2 * HALF_VIEW / VIEWBOX_SIDE
+        )
 
 
 @SETTINGS
@@ -89,7 +92,7 @@ def test_svg_arrowheads_point_with_time(setting):
     [heads] = [one for one in attributes(svg) if one.get("fill") == "var(--orbit)"]
     begins = np.concatenate([piece[:-1] for piece in scene["inside"].points])
     steps = np.concatenate([np.diff(piece, axis=0) for piece in scene["inside"].points])
-    triangles = pieces(heads["d"].replace("Z", ""), SIDE, VIEW)
+    triangles = pieces(heads["d"].replace("Z", ""), VIEWBOX_SIDE, HALF_VIEW)
     assert len(triangles) > 20
     for triangle in triangles:
         way = triangle[0] - triangle[1:].mean(axis=0)
@@ -101,7 +104,10 @@ def test_svg_arrowheads_point_with_time(setting):
 
 @SETTINGS
 def test_svg_marks_have_their_place_colour_and_inside(setting):
-    for svg, scene, side, view in [(*picture(setting, "equator", "critical"), SIDE, VIEW), _small(setting)]:
+    for svg, scene, side, view in [
+        (*picture(setting, "equator", "critical"), VIEWBOX_SIDE, HALF_VIEW),
+        _small(setting),
+    ]:
         marks = [one for one in attributes(svg) if "transform" in one]
         q = scene["equator"]
         assert len(marks) == len(q.theta) + 1
@@ -144,7 +150,7 @@ def test_the_ring_lies_where_the_trajectories_arrive():
     found = [one for one in attributes(svg) if one.get("fill") in {*colours.values(), "var(--depends)"}]
     assert len(found) == len(arcs) > 1
     for (start, end, outcome), one in zip(arcs, found, strict=True):
-        [points] = pieces(one["d"], SIDE, VIEW)
+        [points] = pieces(one["d"], VIEWBOX_SIDE, HALF_VIEW)
         middle = points[: len(points) // 2].mean(axis=0)
         side = 1 if end - start < math.pi else -1  # of more than half a turn, the mean lies opposite
         assert side * math.cos(math.atan2(middle[1], middle[0]) - (start + end) / 2) > 0.99
@@ -190,7 +196,7 @@ def test_holoviews_has_equal_axes_of_the_pictures_window_and_its_widths():
     scene = Frames(ExplorerState(**NODE)).scene
     made, drawn = elements(scene), hv.render(holoviews(scene), backend="bokeh")
     for axis in (drawn.x_range, drawn.y_range):
-        assert (axis.start, axis.end) == (-VIEW, VIEW)
+        assert (axis.start, axis.end) == (-HALF_VIEW, HALF_VIEW)
     plot = holoviews(scene).opts.get("plot").kwargs
     assert (plot["data_aspect"], plot["frame_width"]) == (1, 500)
     assert "launched" not in made  # nobody has asked for one
@@ -198,7 +204,7 @@ def test_holoviews_has_equal_axes_of_the_pictures_window_and_its_widths():
     circle = made["hemisphere"].array()
     assert np.hypot(*circle.T) == pytest.approx(np.ones(len(circle)))
     widths = {name: element.opts.get("style").kwargs["line_width"] for name, element in made.items()}
-    curves = {part.name: part.width for layer in layers.painted() for part in layer.parts}
+    curves = {part.name: part.width for layer in layers.layers_in_paint_order() for part in layer.parts}
     for name in ("rho", "theta", "inside", "outside", "lines_inside", "lines_outside"):
         assert widths[name] == (curves[name] if name in curves else curves[f"{name}_inside"])
     assert widths["hemisphere"] == widths["equator"] == widths["critical"] == 2  # as marks have in the page
@@ -231,7 +237,7 @@ def test_labels_stand_farther_out_only_where_the_ring_is_shown():
 
     def radii(shown, beyond):
         texts = attributes(content(buffer, shown, Placement(beyond=beyond)), "text")
-        return [math.hypot(float(one["x"]) - SIDE / 2, float(one["y"]) - SIDE / 2) for one in texts]
+        return [math.hypot(float(one["x"]) - VIEWBOX_SIDE / 2, float(one["y"]) - VIEWBOX_SIDE / 2) for one in texts]
 
     plain = radii(["equator"], 1.0)
     assert len(plain) == len(frames.scene["equator"].theta)
@@ -252,8 +258,8 @@ def test_a_new_layer_is_one_row(monkeypatch):
     monkeypatch.setitem(layers.LAYERS, "spiral", row)
     svg, scene = picture({"a": -2.0}, "spiral")
     [stroke] = [one for one in attributes(svg) if one.get("stroke") == "var(--spiral)"]
-    [found] = pieces(stroke["d"], SIDE, VIEW)
-    assert np.abs(found - curve.points).max() < 2 * VIEW / SIDE
+    [found] = pieces(stroke["d"], VIEWBOX_SIDE, HALF_VIEW)
+    assert np.abs(found - curve.points).max() < 2 * HALF_VIEW / VIEWBOX_SIDE
     assert [one for one in attributes(svg) if one.get("fill") == "var(--spiral)"]
     assert np.array_equal(elements(scene)["spiral"].split(datatype="array")[0], curve.points)
     assert len(holoviews(scene)) == 12

@@ -50,18 +50,18 @@ def lengths(*steps):
 
 
 def test_a_thinned_line_keeps_a_point_for_each_allowed_length_and_turn():
-    far, near = 1.01 * plane_curves.LENGTH, 0.26 * plane_curves.LENGTH
+    far, near = 1.01 * plane_curves.ARROW_LENGTH, 0.26 * plane_curves.ARROW_LENGTH
     assert len(plane_curves.thin([lengths(*[far] * 6)], 1.0)[1]) == 7  # all
     assert len(plane_curves.thin([lengths(*[2.0 * far] * 6)], 2.0)[1]) == 7  # in units of the size
     assert [len(plane_curves.thin([lengths(*[1e-3] * k)], 1.0)[1]) for k in (2, 3, 4)] == [3, 2, 2]
     kept = plane_curves.thin([lengths(*[near] * 40)], 1.0)[1][:, 0]
     assert 10 <= len(kept) <= 13
-    assert np.diff(kept).max() <= plane_curves.LENGTH + near  # the first point at which it is that long
+    assert np.diff(kept).max() <= plane_curves.ARROW_LENGTH + near  # the first point at which it is that long
     angle = np.linspace(0.0, 6.0, 601)
     _, kept = plane_curves.thin([1e-3 * np.column_stack([np.cos(angle), np.sin(angle)])], 1.0)
     turns = np.diff(np.unwrap(np.arctan2(kept[:, 1], kept[:, 0])))
-    assert turns.max() <= 1.2 * plane_curves.TURN  # of so small a circle only the turns count
-    assert len(kept) < 1.2 * 6.0 / plane_curves.TURN
+    assert turns.max() <= 1.2 * plane_curves.MAX_TURN  # of so small a circle only the turns count
+    assert len(kept) < 1.2 * 6.0 / plane_curves.MAX_TURN
     corner = np.concatenate([lengths(*[near] * 10), [(10 * near, k * near) for k in range(1, 11)]])
     _, kept = plane_curves.thin([corner], 1.0)
     assert {(round(x / near), round(y / near)) for x, y in kept.tolist()} >= {

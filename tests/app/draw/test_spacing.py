@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from codim2_app.draw.lines.spacing import APART, EQUATOR, SHORTEST, evenly
+from codim2_app.draw.lines.spacing import EQUATOR_GUARD, MIN_PIECE, SEPARATION, evenly
 from codim2_app.draw.packing import PIXEL, WINDOW
 from scipy.spatial import cKDTree
 
@@ -30,7 +30,7 @@ def test_no_two_are_near_and_each_lies_on_one_that_was_there(name, layer, pixel)
     before, cycles = scene[layer], scene["closed_orbits"].cycles
     guards = None if not cycles else (np.array([0, len(cycles[0].points)]), cycles[0].points)
     offsets, points = evenly(before.offsets, before.buffer, pixel, WINDOW, guards)
-    apart = APART * pixel
+    apart = SEPARATION * pixel
     pieces = dense(offsets, points, apart / 2)
     assert len(pieces) > 5
     of = np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces])
@@ -38,10 +38,10 @@ def test_no_two_are_near_and_each_lies_on_one_that_was_there(name, layer, pixel)
     distance, other = cKDTree(places).query(places, k=12)
     # places are half the distance apart, so what lies between them is at most a quarter nearer
     assert distance[of[other] != of[:, None]].min() > 0.7 * apart
-    for guard in (EQUATOR[1], *(cycle.points for cycle in cycles)):
+    for guard in (EQUATOR_GUARD[1], *(cycle.points for cycle in cycles)):
         assert gaps(places[::7], [guard]).min() > 0.7 * apart
     for piece in pieces:
-        assert np.hypot(*np.diff(piece, axis=0).T).sum() >= 0.99 * SHORTEST * pixel
+        assert np.hypot(*np.diff(piece, axis=0).T).sum() >= 0.99 * MIN_PIECE * pixel
     assert gaps(points[:: max(1, len(points) // 200)], before.points).max() < 1e-9
 
 

@@ -8,8 +8,8 @@ from codim2_app.draw.packing import Polylines, pack
 from codim2_app.draw.still import page_of, still
 from codim2_app.draw.svg import draw, small
 from codim2_app.draw.theme import themes
-from codim2_app.draw.thumbnails import COUNT, MOST, PIXEL, thumbnails
-from codim2_app.draw.thumbnails import VIEW as SMALL_VIEW
+from codim2_app.draw.thumbnails import MAX_KEPT, THUMBNAIL_PIXEL, THUMBNAIL_SEEDS, thumbnails
+from codim2_app.draw.thumbnails import THUMBNAIL_HALF_VIEW as SMALL_VIEW
 
 import codim2_core as c2
 
@@ -91,5 +91,7 @@ def test_thumbnails_are_the_portraits_at_their_places():
     assert [row[:3] for row in made] == [[4, "CM4", [0.6, -0.3]], [2, "CM2", [-1.5, 0.9]]]
     for (_, _, (f1, f2)), (*_, svg) in zip(places, made, strict=True):
         there = c2.ELinear(-2.0, 0.3, -1.0, (f1, f2))
-        assert svg == small(c2.Scene(there, psi, (), count=COUNT, view=SMALL_VIEW * 1.4, pixel=PIXEL), SMALL_VIEW)
-    assert len(thumbnails(system, psi, (), ("f1", "f2"), places * 20)) == MOST == 24
+        assert svg == small(
+            c2.Scene(there, psi, (), count=THUMBNAIL_SEEDS, view=SMALL_VIEW * 1.4, pixel=THUMBNAIL_PIXEL), SMALL_VIEW
+        )
+    assert len(thumbnails(system, psi, (), ("f1", "f2"), places * 20)) == MAX_KEPT == 24

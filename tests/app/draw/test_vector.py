@@ -5,16 +5,16 @@ import re
 
 import numpy as np
 import pytest
-from codim2_app.draw.theme import RING, VIEW
+from codim2_app.draw.theme import HALF_VIEW, RING
 from codim2_app.draw.vector import parts as vector
-from codim2_app.draw.vector.parts import SIDE, Placement
+from codim2_app.draw.vector.parts import VIEWBOX_SIDE, Placement
 
 
 @pytest.mark.parametrize(("hatch", "strokes"), [("/", 1), ("x", 2), (".", 1), ("", 0)])
 def test_hatches_lie_on_the_ring_as_far_apart_on_any_screen(hatch, strokes):
     inner, outer = RING
     middle = (inner + outer) / 2
-    for place in (Placement(), Placement(side=500.0, unit=500 / 700), Placement(unit=SIDE / 350)):
+    for place in (Placement(), Placement(side=500.0, unit=500 / 700), Placement(unit=VIEWBOX_SIDE / 350)):
         found = vector._hatching(0.5, 2.0, hatch, place)
         step = vector.HATCH * place.unit / (middle * place.scale)  # of the angle
         assert len(found) == strokes * math.floor(1.5 / step + 0.5)
@@ -49,16 +49,18 @@ def test_no_label_stands_over_the_core_of_a_mark():
 def test_zoomed_in_a_label_stands_as_near_to_its_mark():
     columns = {"x": [0.6], "y": [0.8], "label": ["Q₁"], "label_x": [0.75], "label_y": [0.95]}
     offsets = []
-    for seen in ((-VIEW, VIEW, -VIEW, VIEW), (0.1, 1.1, 0.3, 1.3), (-7.0, 7.0, -7.0, 7.0)):
+    for seen in ((-HALF_VIEW, HALF_VIEW, -HALF_VIEW, HALF_VIEW), (0.1, 1.1, 0.3, 1.3), (-7.0, 7.0, -7.0, 7.0)):
         place = Placement(seen)
         [text] = vector.labels(columns, place, [], False)
         [(u, v)] = place.points([(0.6, 0.8)]).tolist()
         x, y = (float(re.search(rf' {name}="([^"]*)"', text)[1]) for name in "xy")
         offsets.append((x - u, y - 0.34 * place.text - v))
-    scale = SIDE / (2 * VIEW)
+    scale = VIEWBOX_SIDE / (2 * HALF_VIEW)
     assert offsets[0] == pytest.approx((0.15 * scale, -0.15 * scale), abs=0.6)
     assert offsets[1] == pytest.approx(offsets[0], abs=1.1)
-    assert offsets[2] == pytest.approx((0.15 * SIDE / 14, -0.15 * SIDE / 14), abs=1.1)  # smaller with all else
+    assert offsets[2] == pytest.approx(
+        (0.15 * VIEWBOX_SIDE / 14, -0.15 * VIEWBOX_SIDE / 14), abs=1.1
+    )  # smaller with all else
 
 
 @pytest.mark.parametrize("seen", [(-1.75, 1.75, -1.75, 1.75), (-0.5, 0.7, -0.3, 0.9)])

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 from codim2_app.export import film as films
 from codim2_app.export.figure import TITLE
-from codim2_app.export.film import POSITIONS, STYLE, film, joined, picture
+from codim2_app.export.film import POSITIONS, STYLE, encode_film, film, picture
+from codim2_app.export.live import Slider
 from codim2_app.export.play import CHART, PLAY, SCALE, scenery
-from codim2_app.export.small.chart import LEFT
+from codim2_app.export.small.chart import LEFT_MARGIN
 from codim2_app.export.view import view_of
 from codim2_app.server.cli import main
+from codim2_app.state.pace import MIN_PACE
 from PIL import Image, ImageSequence
 
 VIEW = view_of("case1-cm4")
@@ -33,7 +35,7 @@ def frames(made):
 @pytest.mark.parametrize("kind", [".gif", ".webp"])
 def test_it_goes_there_and_back_and_rests_at_the_ends(kind):
     colours = [(250, 10, 10), (10, 250, 10), (10, 10, 250)]
-    made = joined(solid(*colours), kind)
+    made = encode_film(solid(*colours), kind)
     seen = [np.asarray(frame.convert("RGB"))[15, 20].tolist() for frame in frames(made)]
     assert [colours[int(np.argmax(one))] for one in seen] == [colours[i] for i in (0, 1, 2, 1)]
     durations = [frame.info["duration"] for frame in frames(made)] if kind == ".gif" else None
@@ -49,10 +51,24 @@ def test_each_picture_is_the_figure_there():
     assert picture(VIEW.changed({"f1": 0.75}), "f1=-1,1", 0.75) == made[1]
 
 
+def test_it_goes_slowly_where_something_happens_and_shows_it():
+    chosen = Slider.of(VIEW, "f1=-2,6;1,3,9")
+    assert chosen.events == (1.0, 3.0)  # the other is not passed
+    values = np.array(chosen.values(81, -0.5))
+    steps = np.diff(values)
+    assert (values[0], values[-1]) == (-2.0, 6.0)
+    assert {1.0, 3.0} <= set(values)
+    near = [steps[np.argmin(abs(values[:-1] - at))] for at in (1.0, 3.0)]
+    assert near == pytest.approx([MIN_PACE * steps[0]] * 2, rel=0.5)
+    assert steps.min() > 0.0
+    with pytest.raises(ValueError, match="give NAME=LOW,HIGH"):
+        Slider.of(VIEW, "f1=-2,6;x")
+
+
 @pytest.mark.parametrize("value", [-1.5, -0.5])
 def test_small_marks_keep_their_colours(value):
     drawn = picture(VIEW, "f1=-2,2", value)
-    [shown] = frames(joined([drawn]))
+    [shown] = frames(encode_film([drawn]))
     apart = np.asarray(Image.open(io.BytesIO(drawn)).convert("RGB"), int) - np.asarray(shown.convert("RGB"), int)
     assert np.abs(apart).max() <= 24  # 8 bits; the median cut gives 71
 
@@ -82,9 +98,9 @@ def test_what_cannot_be_had_is_said_in_one_sentence(given, says):
 
 
 def test_one_that_is_too_large_is_refused(monkeypatch):
-    monkeypatch.setattr(films, "MOST", 100)
+    monkeypatch.setattr(films, "MAX_FILM_BYTES", 100)
     with pytest.raises(ValueError, match="fewer layers"):
-        joined(solid("red", "blue"))
+        encode_film(solid("red", "blue"))
 
 
 def test_the_command_writes_it_and_says_what_is_wrong(tmp_path, capsys, monkeypatch):
@@ -133,7 +149,7 @@ def test_a_dot_beyond_the_picture_is_not_drawn_on_the_chart():
     still = scenery(PLAYED.changed({"orbit": 2}), STYLE)
     assert np.hypot(*still.orbit.points[0]) > 1.75
     apart = np.abs(np.asarray(Image.open(io.BytesIO(still.at(0.0))), int) - np.asarray(still.drawn, int)).sum(axis=2)
-    assert np.nonzero(apart)[1].min() > still.corner[0] + CHART * LEFT / 2
+    assert np.nonzero(apart)[1].min() > still.corner[0] + CHART * LEFT_MARGIN / 2
 
 
 def test_a_film_of_play_runs_once_and_begins_anew(tmp_path):

@@ -6,9 +6,9 @@ import json
 import re
 
 import pytest
-from codim2_app.draw.packing import STEP, unpack
+from codim2_app.draw.packing import INT16_STEP, unpack
 from codim2_app.export import live as module
-from codim2_app.export.live import MOST, Slider, live
+from codim2_app.export.live import MAX_BYTES, Slider, live
 from codim2_app.export.view import view_of
 
 from tests.app.near import gaps
@@ -56,9 +56,9 @@ def test_its_frames_are_those_of_the_core(text, sliders):
         scene = there.scene().evolve(pixel=view.width / 700)
         header, blocks = frames[k]
         assert header["portrait"]["name"] == scene["classification"].name
-        drawn = blocks["inside.xy"].reshape(-1, 2) * (1 if header.get("exact") else STEP)
+        drawn = blocks["inside.xy"].reshape(-1, 2) * (1 if header.get("exact") else INT16_STEP)
         assert len(drawn)
-        near = 1e-6 if header.get("exact") else STEP
+        near = 1e-6 if header.get("exact") else INT16_STEP
         assert gaps(drawn[::20], scene["inside"].points).max() <= near
     for slider, present in zip(settings["sliders"], map(view.number, names), strict=True):
         at = slider["values"][slider["at"]]
@@ -75,12 +75,12 @@ def test_a_file_that_would_be_too_large_has_fewer_positions(monkeypatch):
     monkeypatch.setattr(module, "ONE", 9)
     view = view_of("layers=inside,outside&trajectories=120")
     whole = live(view, ["f1"])
-    assert len(whole) < MOST
-    monkeypatch.setattr(module, "MOST", len(whole) - 20_000)
+    assert len(whole) < MAX_BYTES
+    monkeypatch.setattr(module, "MAX_BYTES", len(whole) - 20_000)
     smaller = live(view, ["f1"])
     assert len(smaller) < len(whole) - 20_000
     assert 3 <= len(held(smaller)[0]["sliders"][0]["values"]) < 9
-    monkeypatch.setattr(module, "MOST", module.AROUND + 3000)
+    monkeypatch.setattr(module, "MAX_BYTES", module.PAGE_BYTES + 3000)
     with pytest.raises(ValueError, match="fewer starting points"):
         live(view, ["f1"])
 

@@ -135,7 +135,7 @@ def test_a_scene_travels_by_its_inputs():
 
 def test_all_that_panels_ask_of_other_processes_can_travel():
     """Each panel in turn, of a typed and of an e-linear system: calls and results are pickled and read again."""
-    from codim2_app.panels.registry import PANELS
+    from codim2_app.panels.registry import PANELS_BY_NAME
 
     class Travels(Held):
         def submit(self, fn, /, *args, **kwargs):
@@ -154,7 +154,7 @@ def test_all_that_panels_ask_of_other_processes_can_travel():
         frames, _ = budgeted(values)
         executor = Travels()
         frames.jobs._given = Turns(executor)
-        for key in PANELS:
+        for key in PANELS_BY_NAME:
             said = header(frames, set={"panel": key}, rest=True)
             for _ in range(12):
                 if not executor.given:

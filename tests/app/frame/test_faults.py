@@ -40,8 +40,8 @@ def told(caplog):
 
 
 def test_a_panel_that_fails_leaves_the_picture(monkeypatch, caplog):
-    panel = registry.PANELS["psi"]
-    monkeypatch.setitem(registry.PANELS, "psi", replace(panel, add=broken))
+    panel = registry.PANELS_BY_NAME["psi"]
+    monkeypatch.setitem(registry.PANELS_BY_NAME, "psi", replace(panel, add=broken))
     header = asked(Frames(ExplorerState(panel="psi")))
     assert header["errors"] == {"": FAULT}
     assert header["portrait"]["name"]

@@ -6,7 +6,7 @@ from codim2_app.frame import load as module
 def test_the_load_is_the_share_of_time_at_work(monkeypatch, worked, share):
     clocks = {"perf_counter": 7.0, "taken": 3.0}
     monkeypatch.setattr(module.time, "perf_counter", lambda: clocks["perf_counter"])
-    monkeypatch.setattr(module, "taken", lambda: clocks["taken"])
+    monkeypatch.setattr(module, "processor_seconds", lambda: clocks["taken"])
     load = module.Load()
     clocks["perf_counter"] += 0.1
     assert load.measured() == 0.0  # too early to tell
@@ -20,8 +20,8 @@ def test_the_load_is_the_share_of_time_at_work(monkeypatch, worked, share):
 def test_work_counts_where_the_system_does_not_tell_the_waiting(monkeypatch, tmp_path):
     monkeypatch.setattr(module.time, "thread_time", lambda: 1.25)
     monkeypatch.setattr(module, "_STATISTICS", tmp_path / "none")
-    assert module.taken() == 1.25
+    assert module.processor_seconds() == 1.25
     told = tmp_path / "schedstat"
     told.write_text("2000000000 500000000 7\n")
     monkeypatch.setattr(module, "_STATISTICS", told)
-    assert module.taken() == 2.5
+    assert module.processor_seconds() == 2.5

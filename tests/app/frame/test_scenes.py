@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from codim2_app.frame.scenes import chosen_system, evolved, locked_controls, make_scene, settled
+from codim2_app.frame.scenes import chosen_system, complete_changes, evolve_scene, locked_controls, make_scene
 from codim2_app.state.cleaning import InputError
 from codim2_app.state.controls import ExplorerState
 
@@ -15,13 +15,13 @@ def values(**changes):
 
 def test_layers_and_preset_reach_no_computation():
     scene = make_scene(values())
-    assert evolved(scene, values(layers=[], preset="x"), ["layers", "preset"]) is scene
+    assert evolve_scene(scene, values(layers=[], preset="x"), ["layers", "preset"]) is scene
 
 
 def test_a_parameter_of_an_example_makes_no_new_system():
     start = values(system="ball_in_pool", z=4.0)
     scene = make_scene(start)
-    after = evolved(scene, {**start, "parameters": {"mu": 0.4}}, ["parameters"])
+    after = evolve_scene(scene, {**start, "parameters": {"mu": 0.4}}, ["parameters"])
     assert after.system.a is scene.system.a  # nothing was read again
     assert after["equator"].lambda_rho == pytest.approx(c2.equator_equilibria(
         c2.examples.ball_in_pool(mu=0.4), (4.0, 0.0)).lambda_rho)  # fmt: skip
@@ -31,16 +31,16 @@ def test_coefficients_of_the_normal_form_do_not_reach_another_system():
     """Ball and turntable have parameters of their own, one of which may have the name of a coefficient."""
     start = values(system="unit_vector_control", z=1.0)
     scene = make_scene(start)
-    assert evolved(scene, {**start, "a": 3.0, "k1": 2.0}, ["a", "k1"]) is scene
+    assert evolve_scene(scene, {**start, "a": 3.0, "k1": 2.0}, ["a", "k1"]) is scene
 
 
 def test_another_system_starts_at_its_own_place_and_forgets_the_parameters():
     before = values(system="ball_in_pool", parameters={"mu": 0.4}, z=7.0)
-    changes = settled(before, {"system": "ball_on_turntable"})
+    changes = complete_changes(before, {"system": "ball_on_turntable"})
     assert changes["parameters"] == {}
     assert (changes["z"], changes["z3"]) == (1.0, 0.5)
-    assert settled(before, {"system": "ball_in_pool"}) == {"system": "ball_in_pool"}
-    assert settled(before, {"system": "normal", "z": 0.25})["z"] == 0.25
+    assert complete_changes(before, {"system": "ball_in_pool"}) == {"system": "ball_in_pool"}
+    assert complete_changes(before, {"system": "normal", "z": 0.25})["z"] == 0.25
 
 
 def test_slow_variables_without_a_slider_are_at_zero():

@@ -5,7 +5,7 @@ import weakref
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 
 import pytest
-from codim2_app.frame.turns import KEPT, Failed, KeptResults, Turns
+from codim2_app.frame.turns import MAX_KEPT_RESULTS, Failed, KeptResults, Turns
 
 
 class Held(Executor):
@@ -142,9 +142,9 @@ def test_what_is_done_holds_nobody_who_waited_for_it(error, wanted):
 
 def test_results_are_bounded_in_number_and_in_size():
     kept = KeptResults(most_bytes=10_000)
-    for i in range(3 * KEPT):
+    for i in range(3 * MAX_KEPT_RESULTS):
         kept.put(i, "x")
-    assert len(kept) == KEPT
+    assert len(kept) == MAX_KEPT_RESULTS
     for i in range(20):
         kept.put(("big", i), b"x" * 3_000)
     assert len(kept) == 3

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from codim2_app.draw.glyphs import join
 from codim2_app.draw.packing import unpack
-from codim2_app.draw.theme import REACH
-from codim2_app.frame.window import PIXEL, Window, inputs
+from codim2_app.draw.theme import PICTURE_REACH
+from codim2_app.frame.window import MOVING_PIXEL, Window, inputs
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 from hypothesis import given
@@ -32,10 +32,10 @@ def test_the_whole_picture_is_as_without_a_window():
 def test_what_is_seen_is_in_reach_and_at_rest_as_fine_as_the_screen():
     near, wide = Window.read(NEAR), Window.read(WIDE)
     assert inputs(near, rest=True)["pixel"] == pytest.approx(NEAR[4], rel=0.2)
-    assert inputs(near, rest=False)["pixel"] == PIXEL
-    assert inputs(near, rest=True)["view"] == REACH
+    assert inputs(near, rest=False)["pixel"] == MOVING_PIXEL
+    assert inputs(near, rest=True)["view"] == PICTURE_REACH
     assert inputs(wide, rest=True)["view"] > np.hypot(8, 8)
-    assert inputs(wide, rest=False)["pixel"] > PIXEL
+    assert inputs(wide, rest=False)["pixel"] > MOVING_PIXEL
 
 
 @given(st.lists(st.integers(0, 12), max_size=5), st.integers(0, 9))

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from codim2_app.lessons.facts import FACTS, KNOWN, facts_of
+from codim2_app.lessons.facts import FACT_NAMES, FACTS, facts_of
 
 import codim2_core as c2
 
@@ -11,7 +11,7 @@ import codim2_core as c2
 def test_facts_of_every_portrait_agree_with_the_core(key):
     preset = c2.presets[key]
     scene = c2.Scene(preset.system, preset.psi, z=preset.z or (0.0,) * preset.system.m, count=0)
-    facts = facts_of(scene, KNOWN)
+    facts = facts_of(scene, FACT_NAMES)
     equator = c2.equator_equilibria(preset.system, scene.z)
     critical = c2.critical_sets(preset.system, preset.psi, scene.z)
     assert (facts["case"], facts["name"]) == preset.portrait[:2]

@@ -6,10 +6,10 @@ import re
 
 import pytest
 from codim2_app.frame.scenes import make_scene
-from codim2_app.lessons.asking import judge, pose, reached, right_option, stands
+from codim2_app.lessons.asking import goal_is_reached, judge, pose, right_option, stands
 from codim2_app.lessons.facts import facts_of
-from codim2_app.lessons.library import TEXT, built_in, from_folder
-from codim2_app.lessons.marks import MARKS, NEAR, gap
+from codim2_app.lessons.library import LESSON_FOLDER, built_in, from_folder
+from codim2_app.lessons.marks import MARK_TOLERANCE, MARKS, gap
 from codim2_app.lessons.reading import LessonError, read_lesson
 from codim2_app.state.controls import ExplorerState, preset_values
 
@@ -45,7 +45,7 @@ def test_exactly_one_answer_is_right_whatever_is_drawn(key, i):
         drawn = pose(question, values_of(lesson, {}), seed)
         assert drawn == pose(question, values_of(lesson, {}), seed)
         scene = make_scene(values_of(lesson, drawn))
-        assert not reached(question, scene)
+        assert not goal_is_reached(question, scene)
         answers = [*range(len(question.options)), *there(question, scene)]
         right = [answer for answer in answers if judge(question, scene, answer)["right"]]
         assert right, (seed, drawn)
@@ -63,7 +63,7 @@ def there(question, scene):
 def test_a_mark_is_right_near_its_place_and_told_how_far_it_is():
     question = COURSE["04-sliding"].questions[0]
     scene = make_scene(values_of(COURSE["04-sliding"], {"a": -1.0, "d": -1.0, "b": 0.0, "f1": 0.5, "f2": 0.0}))
-    assert judge(question, scene, (0.5 + NEAR - 0.01, 0.0))["right"]
+    assert judge(question, scene, (0.5 + MARK_TOLERANCE - 0.01, 0.0))["right"]
     far = judge(question, scene, (0.5, 0.41))
     assert (far["right"], far["why"]) == (False, "Your mark is 0.41 radii of the disc from it.")
     assert judge(question, scene, 0)["why"]  # there is one
@@ -129,8 +129,8 @@ def test_every_goal_can_be_reached():
         lesson = COURSE[key]
         question = next(question for question in lesson.questions if question.vary)
         drawn = pose(question, values_of(lesson, {}), seed=1)
-        assert not reached(question, make_scene(values_of(lesson, drawn)))
-        assert reached(question, make_scene(values_of(lesson, {**drawn, **solution}))), key
+        assert not goal_is_reached(question, make_scene(values_of(lesson, drawn)))
+        assert goal_is_reached(question, make_scene(values_of(lesson, {**drawn, **solution}))), key
 
 
 def test_what_a_lesson_shows_is_safe_and_complete():
@@ -203,4 +203,4 @@ def test_html_in_a_lesson_is_text(tmp_path):
 
 
 def test_every_file_of_the_folder_is_in_the_course():
-    assert {path.stem for path in TEXT.iterdir()} == set(COURSE)
+    assert {path.stem for path in LESSON_FOLDER.iterdir()} == set(COURSE)

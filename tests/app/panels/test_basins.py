@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.slow_layers.basins import CELLS, DISC, part_of
+from codim2_app.slow_layers.basins import CELLS_ACROSS, DISC, part_of
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
@@ -21,7 +21,7 @@ def test_the_box_holds_what_is_seen_and_is_not_much_larger(size, middle):
 
 
 def test_what_is_beside_the_disc_needs_no_box():
-    assert part_of((1.5, 1.8, 0.0, 0.3)) == part_of(None) == (DISC, CELLS)
+    assert part_of((1.5, 1.8, 0.0, 0.3)) == part_of(None) == (DISC, CELLS_ACROSS)
 
 
 def test_a_small_pan_keeps_the_box():

@@ -2,7 +2,7 @@
 
 import pytest
 from codim2_app.frame.scenes import make_scene
-from codim2_app.panels.census import LARGEST, _polynomial
+from codim2_app.panels.census import COEFFICIENT_RANGE, _polynomial
 from codim2_app.state.choices import CENSUSES, MOST_CENSUS
 from codim2_app.state.cleaning import clean
 from codim2_app.state.controls import ExplorerState
@@ -42,7 +42,7 @@ def test_each_example_opens_as_a_portrait_of_its_name(shown):
         values = {control: clean(control, value) for control, value in controls.items()}
         scene = make_scene({**ExplorerState().values(), **values})
         assert scene["classification"].full_name == name
-        assert all(abs(controls[one]) <= LARGEST for one in ("a", "b", "d", "f1", "f2") if one in controls)
+        assert all(abs(controls[one]) <= COEFFICIENT_RANGE for one in ("a", "b", "d", "f1", "f2") if one in controls)
 
 
 def test_the_present_portrait_is_told_and_followed():

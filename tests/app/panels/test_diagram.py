@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from codim2_app.panels.parameters import axes, diagram
-from codim2_app.state.choices import AXES
+from codim2_app.state.choices import SLIDER_AXES
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
@@ -51,6 +51,41 @@ def test_cycles_along_n_are_born_at_the_hopf_point():
     assert header["cycles_along"]["special"] == []
 
 
+def test_film_strip_has_a_portrait_at_each_special_value_and_between_each_two():
+    """Also at those of cycles, and each is of the system there."""
+    _, header = opened("diagram", along="f1")
+    assert [(value, name) for value, name, _ in header["film"]] == [
+        (-2.5, "NCM2"), (-2.0, "NCM2"), (-1.5, "CM2"), (-1.0, "CM2"), (0.0, "CM4"), (1.0, "CM2"),
+        (1.5, "CM2"), (2.0, "NCM2"), (2.5, "NCM2"),
+    ]  # fmt: skip
+    drawn = [svg for _, _, svg in header["film"]]
+    assert all(svg.startswith("<svg ") for svg in drawn)
+    assert len(set(drawn)) == len(drawn)
+    frames, header = opened("diagram", along="f2", **CASE3)
+    events = [s["value"] for s in (*header["diagram"]["special"], *header["cycles_along"]["special"])]
+    assert header["cycles_along"]["special"]
+    assert set(events) <= {value for value, _, _ in header["film"]}
+    assert ask(frames, f1=-80.0)["late"] == ["diagram"]
+
+
+def test_special_values_are_decimals_where_they_are_up_to_rounding():
+    assert [diagram.tidy(v) for v in (0.1 + 0.2, -1.0000000000000002, 284 / 129, 1e-17, 0.0)] == [
+        0.3,
+        -1.0,
+        284 / 129,
+        1e-17,
+        0.0,
+    ]
+
+
+def test_special_values_at_one_place_or_too_many_have_no_portrait_between():
+    assert [place for _, _, place in diagram.frames_of((0.0, 4.0), [1.0, 1.00390625, 1.0])] == [
+        (0.5,), (1.0,), (1.00390625,), (2.501953125,),
+    ]  # fmt: skip
+    assert [place for _, _, place in diagram.frames_of((0.0, 4.0), [])] == [(2.0,)]
+    assert len(diagram.frames_of((0.0, 1.0), np.linspace(0.1, 0.9, 13))) == 13
+
+
 def test_cycles_of_a_general_system_are_followed_too():
     system = c2.System(
         U=("m*c - s + 0.3*c**2 - 2*c*(c**2 + s**2)", "c + m*s - 0.2*c*s - 2*s*(c**2 + s**2)"), parameters={"m": 0.1}
@@ -88,7 +123,7 @@ def test_what_cannot_be_varied_is_said():
     assert "given by your system" in settled(frames, all=True)["unable"]["diagram"]
 
 
-@pytest.mark.parametrize("name", AXES)
+@pytest.mark.parametrize("name", SLIDER_AXES)
 def test_span_of_the_diagram_holds_the_value_and_rests_while_it_moves_a_little(name):
     low, high = ExplorerState.param[name].softbounds
 

@@ -15,7 +15,7 @@ from codim2_app.slow_layers.typed_start import launch_of
 from codim2_app.state.chosen import build
 from codim2_app.state.cleaning import InputError
 from codim2_app.state.controls import ExplorerState
-from codim2_app.state.opening import opening
+from codim2_app.state.opening import opening_values
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
@@ -32,7 +32,7 @@ class Now(Executor):
 
 def sent(panel, *, rest=True, **changes):
     """The header that a panel adds, after the second frame at rest (the first one asks)."""
-    values = {**ExplorerState().values(), **opening(changes.get("system", "normal")), **changes}
+    values = {**ExplorerState().values(), **opening_values(changes.get("system", "normal")), **changes}
     scene, jobs = make_scene(values), Jobs(Now())
     for _ in range(2):
         draft = Draft(scene, values, {}, {}, {}, jobs, rest, True, ())
@@ -60,7 +60,7 @@ def test_along_z_the_ball_slides_between_minus_and_plus_z_crit():
 def test_play_follows_the_attracting_set_that_it_was_on():
     """The two stable critical sets of sec:nonunique lie at opposite e; z drifts to either side."""
     now, header = {}, {}
-    shown = {**ExplorerState().values(), **opening("nonunique_sliding"), "system": "nonunique_sliding"}
+    shown = {**ExplorerState().values(), **opening_values("nonunique_sliding"), "system": "nonunique_sliding"}
 
     def drifts(**changes):
         values = {**shown, **changes}
@@ -178,7 +178,7 @@ def test_the_filippov_view_has_the_whole_interval_and_what_is_selected():
     for vertex, ends in zip(header["candidates"], header["combined"], strict=True):
         heights = [end[2] for end in ends]
         assert min(heights) - 1e-3 <= vertex <= max(heights) + 1e-3
-    assert len(header["curve"]) == filippov.POINTS
+    assert len(header["curve"]) == filippov.CURVE_POINTS
 
 
 @pytest.mark.parametrize("family", ["constant", "tanh", "exponential"])

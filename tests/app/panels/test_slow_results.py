@@ -117,7 +117,7 @@ def test_a_panel_that_cannot_be_drawn_yet_is_asked_again(typed, monkeypatch):
         if draft.fresh("one", 1):
             draft.header["one"] = draft.scene["certificates"] is not None
 
-    monkeypatch.setitem(registry.PANELS, "psi", Panel("psi", "One", add))
+    monkeypatch.setitem(registry.PANELS_BY_NAME, "psi", Panel("psi", "One", add))
     told = [at_rest(frames, executor, set={"panel": "psi"})[0].get("one") for _ in range(5)]
     assert told.count(True) == 1
     assert told[0] is None
@@ -129,7 +129,7 @@ def test_what_a_panel_lacks_of_a_wild_system_is_said_below_the_picture(typed, mo
     def add(draft):
         draft.header["one"] = draft.scene["certificates"] is not None
 
-    monkeypatch.setitem(registry.PANELS, "psi", Panel("psi", "One", add))
+    monkeypatch.setitem(registry.PANELS_BY_NAME, "psi", Panel("psi", "One", add))
     monkeypatch.setattr(budget, "wild", lambda scene: "it is wild")
     told = [at_rest(frames, executor, set={"panel": "psi"})[0].get("left_out", "") for _ in range(5)]
     assert "theorems" in told[-1]

@@ -6,7 +6,7 @@ import string
 
 import pytest
 from codim2_app.rooms import board as module
-from codim2_app.rooms.board import HEAD, PART, SILENT, Board
+from codim2_app.rooms.board import SEGMENT_BYTES, SEGMENT_HEAD, SILENT, Board
 
 
 def told(board, now=1.0):
@@ -30,8 +30,8 @@ def test_what_is_half_written_is_as_it_was_before():
     board = Board()
     board.write({"a": 1}, 1.0)
     assert told(board) == {0: {"a": 1}}
-    when, count, size, check = HEAD.unpack_from(board._memory, 0)
-    HEAD.pack_into(board._memory, 0, when, count + 1, size, check ^ 1)
+    when, count, size, check = SEGMENT_HEAD.unpack_from(board._memory, 0)
+    SEGMENT_HEAD.pack_into(board._memory, 0, when, count + 1, size, check ^ 1)
     assert told(board) == {0: {"a": 1}}
     fresh = Board()
     fresh._memory = board._memory
@@ -48,14 +48,14 @@ def test_a_process_that_writes_no_more_has_ended(later, there):
 def test_what_is_too_long_is_refused_and_one_that_is_started_again_begins_with_nothing():
     board = Board(2)
     board.belong(1)
-    assert not board.write({"long": os.urandom(PART).hex()}, 1.0)
+    assert not board.write({"long": os.urandom(SEGMENT_BYTES).hex()}, 1.0)
     assert board.write({"short": 1}, 1.0)
     board.belong(1)
     assert told(board) == {}
 
 
 def test_what_fits_is_read_by_all_and_writes_over_nobody(monkeypatch):
-    monkeypatch.setattr(module, "PART", 100)
+    monkeypatch.setattr(module, "SEGMENT_BYTES", 100)
     board, fits = Board(2), []
     words = "".join(random.Random(1).choices(string.ascii_letters, k=200))  # which cannot be packed by much
     for length in range(40, 140):

@@ -4,14 +4,14 @@ import pytest
 from codim2_app.rooms import rooms as module
 from codim2_app.rooms.board import Board
 from codim2_app.rooms.rooms import (
-    EVERY,
+    CLOSED_SECONDS,
     HOURS,
     LETTERS,
     LINGERS,
     LONGEST_ROW,
-    MISSED,
+    LOST_SECONDS,
     MOST_GUESTS,
-    REMEMBERED,
+    SHARING_SECONDS,
     RoomError,
     Rooms,
     code_of,
@@ -96,8 +96,8 @@ def test_all_are_told_when_a_room_is_closed_and_nothing_of_it_is_left(two):
         there.join(code, phone.look, phone.tell, 3.0)
     assert opened(here, 3.0, key)[1] != code  # it is not taken up again
     assert here.tick(3.0)
-    assert not there.tick(3.0 + EVERY)
-    here.tick(2.0 + REMEMBERED + 1.0)
+    assert not there.tick(3.0 + SHARING_SECONDS)
+    here.tick(2.0 + CLOSED_SECONDS + 1.0)
     assert code not in here.hosts
 
 
@@ -126,10 +126,10 @@ def test_a_lecturer_who_loads_the_page_again_has_his_room_also_from_another_proc
     here.tick(3.5)
     there.tick(3.5)
     assert phone.heard == [{"ended": code}]
-    for now in (3.0 + REMEMBERED, 3.0 + REMEMBERED + 2.0):
+    for now in (3.0 + CLOSED_SECONDS, 3.0 + CLOSED_SECONDS + 2.0):
         here.tick(now)
         there.tick(now)
-    assert code not in here._states(3.0 + REMEMBERED + 2.0)
+    assert code not in here._states(3.0 + CLOSED_SECONDS + 2.0)
 
 
 def test_the_first_page_of_a_room_that_is_open_twice_does_not_end_it():
@@ -166,9 +166,9 @@ def test_a_phone_waits_while_the_process_of_its_room_is_started_again(two):
     there.join(code, phone.look, phone.tell, 0.0)
     here.board.belong(0)  # begins with nothing
     there.tick(1.0)
-    there.tick(1.0 + MISSED)
+    there.tick(1.0 + LOST_SECONDS)
     assert phone.heard == []
-    there.tick(1.0 + MISSED + 1.0)
+    there.tick(1.0 + LOST_SECONDS + 1.0)
     assert phone.heard == [{"ended": code}]
 
 
@@ -238,7 +238,7 @@ def test_a_page_may_go_after_its_room_has_ended():
     rooms = Rooms()
     lecturer, code, _ = opened(rooms)
     rooms.close(code, 1.0)
-    rooms.tick(1.0 + REMEMBERED + 1.0)
+    rooms.tick(1.0 + CLOSED_SECONDS + 1.0)
     rooms.leave_open(code, lecturer.heard_by, 200.0)
     rooms.close(code, 200.0)
     assert not rooms.tick(200.0)

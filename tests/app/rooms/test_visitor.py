@@ -33,7 +33,7 @@ class Page:
 def fresh():
     kept = list(rooms._served)
     rooms.serve_with(Rooms())
-    yield rooms.here()
+    yield rooms.process_rooms()
     rooms._served[:] = kept
 
 
@@ -56,6 +56,26 @@ def test_what_a_lecturer_sees_of_a_phone(fresh):
     phone.visitor.leave()
     fresh.tick()
     assert lecturer.heard[-1] == {"rows": []}
+
+
+def test_a_phone_that_follows_is_told_what_the_lecturer_shows_whenever_that_changes(fresh):
+    lecturer, phone = Page(), Page()
+    code = lecturer.ask({"open": ""})["open"]
+    assert phone.ask({"follow": True}) == {}  # who is in no room
+    phone.ask({"join": code})
+    lecturer.frames.answer({"set": {"f1": 0.75}})
+    fresh.tick()
+    assert phone.ask({"follow": True})["view"]["f1"] == 0.75
+    phone.heard.clear()
+    fresh.tick()
+    assert phone.heard == []  # nothing has changed
+    lecturer.frames.answer({"set": {"f1": 0.5}})
+    fresh.tick()
+    assert [message["view"]["f1"] for message in phone.heard] == [0.5]
+    phone.ask({"follow": False})
+    lecturer.frames.answer({"set": {"f1": 0.25}})
+    fresh.tick()
+    assert phone.heard == []
 
 
 def row_of(fresh, answered=(), scene=None, **values):

@@ -15,7 +15,7 @@ import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.server import scripts as scripts_module
 from codim2_app.server.headers import embedders, policy
-from codim2_app.server.live import FULL
+from codim2_app.server.live import CLOSE_FULL
 from codim2_app.view.markup import digest
 from PIL import Image
 from tornado.websocket import websocket_connect
@@ -187,7 +187,7 @@ def test_more_pages_than_places_are_asked_to_wait(full):
         try:
             late = await websocket_connect(f"ws://localhost:{port}/live")  # whose page was sent before
             assert await late.read_message() is None
-            assert late.close_code == FULL
+            assert late.close_code == CLOSE_FULL
             late.close()
             urlopen(address)
         except HTTPError as error:

@@ -21,7 +21,7 @@ sys.exit(main(["serve", "--port", "0", "--processes", "2"]))
 """
 
 
-@pytest.mark.skipif(not ports.SHARED, reason="sockets are shared out by Linux only")
+@pytest.mark.skipif(not ports.CAN_SHARE_PORT, reason="sockets are shared out by Linux only")
 def test_visitors_are_shared_out_among_the_processes():
     process = subprocess.Popen(
         [sys.executable, "-c", CODE], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
@@ -55,8 +55,8 @@ def who(port):
 
 def test_one_process_binds_its_port_alone(monkeypatch):
     kept = ports.bokeh_server.bind_sockets
-    with ports.shared(1):
+    with ports.share_port(1):
         assert ports.bokeh_server.bind_sockets is kept
-    with ports.shared(2):
-        assert (ports.bokeh_server.bind_sockets is not kept) == ports.SHARED
+    with ports.share_port(2):
+        assert (ports.bokeh_server.bind_sockets is not kept) == ports.CAN_SHARE_PORT
     assert ports.bokeh_server.bind_sockets is kept

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from codim2_app.server.process.logs import JsonLines
-from codim2_app.server.settings import SETTINGS, add_settings, table, unknown
+from codim2_app.server.settings import SETTINGS, add_settings, table, unknown_settings
 
 
 def read(arguments=(), **environment):
@@ -54,7 +54,8 @@ def test_what_is_wrong_is_said_in_words(given, words, capsys):
 
 
 def test_a_variable_that_is_no_setting_is_told():
-    assert unknown({"CODIM2_SESSION": "5", "CODIM2_PORT": "1", "CODIM2_XYZ": "", "HOME": "/", "CODIM2_PAPER": "x"}) == [
+    given = {"CODIM2_SESSION": "5", "CODIM2_PORT": "1", "CODIM2_XYZ": "", "HOME": "/", "CODIM2_PAPER": "x"}
+    assert unknown_settings(given) == [
         "CODIM2_SESSION is no setting; is CODIM2_SESSIONS meant?", "CODIM2_XYZ is no setting.",
     ]  # fmt: skip
 

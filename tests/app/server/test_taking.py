@@ -27,7 +27,7 @@ def test_png_and_pdf(tmp_path, name, begins):
     ("arguments", "status", "said"),
     [
         (["case9", "-o", "fig.svg"], 2, "no preset and no link"),
-        (["case1-cm0", "-o", "fig.jpg"], 2, ".svg, .png, .pdf"),
+        (["case1-cm0", "-o", "fig.jpg"], 2, ".svg, .png, .pdf, .tikz"),
         (["case1-cm0", "-o", "fig.svg", "--theme", "red"], 2, "light, dark, paper"),
         (["case1-cm0", "-o", "nowhere/fig.svg"], 1, "cannot be written"),
     ],

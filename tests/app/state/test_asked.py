@@ -4,9 +4,9 @@ import json
 
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.state.asked import LONGEST, MOST_CONTROLS, read_request
+from codim2_app.state.asked import MAX_TEXT_CHARACTERS, MOST_CONTROLS, read_request
 from codim2_app.state.cleaning import InputError, clean
-from codim2_app.state.controls import NAMES, ExplorerState
+from codim2_app.state.controls import CONTROL_NAMES, ExplorerState
 from codim2_app.view.refresh import Frames
 from hypothesis import given
 from hypothesis import strategies as st
@@ -51,8 +51,10 @@ def test_an_odd_number_of_a_request_is_not_sent_back(frames, number):
     assert len(answer) < 20_000
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("value", [None, True, [], [[]], [{}], {}, {"a": []}, 1e400, 10**400, "1e400", "x" * LONGEST])
+@pytest.mark.parametrize("name", CONTROL_NAMES)
+@pytest.mark.parametrize(
+    "value", [None, True, [], [[]], [{}], {}, {"a": []}, 1e400, 10**400, "1e400", "x" * MAX_TEXT_CHARACTERS]
+)
 def test_every_control_takes_a_value_or_says_why_not(name, value):
     refused = None
     try:
@@ -70,7 +72,7 @@ def test_no_request_is_too_odd_to_be_read(given_):
     assert len(sentence) < 400
 
 
-@given(st.dictionaries(st.sampled_from(NAMES), SMALL, max_size=3))
+@given(st.dictionaries(st.sampled_from(CONTROL_NAMES), SMALL, max_size=3))
 def test_no_value_is_too_odd_to_be_answered(frames, values):
     header, _ = unpack(frames.answer({"id": 3, "set": values}))
     assert header["id"] == 3

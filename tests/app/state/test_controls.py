@@ -4,7 +4,7 @@ import pytest
 from codim2_app.state import portraits as state_portraits
 from codim2_app.state.chosen_psi import build_psi
 from codim2_app.state.cleaning import InputError, clean
-from codim2_app.state.controls import NAMES, NUMBERS, ExplorerState, preset_values
+from codim2_app.state.controls import CONTROL_NAMES, NUMBERS, ExplorerState, preset_values
 from codim2_app.state.portraits import portraits
 from codim2_app.state.slider_range import slider_range
 
@@ -61,7 +61,7 @@ def test_mappings_that_cannot_be_used_name_their_control(name, value):
 @pytest.mark.parametrize("key", KEYS)
 def test_a_portrait_is_every_value(key):
     values = preset_values(key)
-    assert set(values) == set(NAMES)
+    assert set(values) == set(CONTROL_NAMES)
     assert {name: clean(name, value) for name, value in values.items()} == values
 
 

@@ -7,7 +7,7 @@ import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.frame.scenes import make_scene
 from codim2_app.state.controls import ExplorerState, first_values
-from codim2_app.state.grabbed import FARTHEST, push_for
+from codim2_app.state.grabbed import MAX_GRAB_RADIUS, push_for
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
@@ -33,7 +33,7 @@ def test_outside_there_is_none_and_e_is_the_place(place):
     a, b, d, f1, f2 = scene.coefficients.plane
     e = np.linalg.solve([[a, -b], [b, d]], [-f1, -f2])
     r = math.hypot(*place)
-    assert e == pytest.approx(np.array(place) * min(1.0, FARTHEST / r), abs=1e-3)
+    assert e == pytest.approx(np.array(place) * min(1.0, MAX_GRAB_RADIUS / r), abs=1e-3)
 
 
 @pytest.mark.parametrize("place", [None, "C", [1.0], [1.0, math.nan], [1.0, "x"], {"x": 1}])

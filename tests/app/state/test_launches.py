@@ -4,7 +4,7 @@ import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.state.cleaning import InputError, clean
 from codim2_app.state.controls import ExplorerState
-from codim2_app.state.launches import MOST, TYPED, Launch, chosen, read_launches
+from codim2_app.state.launches import MAX_LAUNCHES, TYPED, Launch, read_launches, selected_place
 from codim2_app.view.refresh import Frames
 
 
@@ -18,7 +18,7 @@ def test_orbits_are_read():
 
 
 @pytest.mark.parametrize(
-    "text", ["1", "1,2,3", "a,b", "nan,0", "9,9", "inf,1", ";".join(["0,0"] * (MOST + 1)), "0,0:" + "x" * 60]
+    "text", ["1", "1,2,3", "a,b", "nan,0", "9,9", "inf,1", ";".join(["0,0"] * (MAX_LAUNCHES + 1)), "0,0:" + "x" * 60]
 )
 def test_what_is_none_is_refused(text):
     with pytest.raises(ValueError, match=r"\.$"):
@@ -69,4 +69,4 @@ def test_without_orbits_a_slider_sends_nothing_of_them():
     ],
 )
 def test_the_chosen_orbit_has_its_place_among_those_that_are_shown(text, number, place):
-    assert chosen(read_launches(text), number) == place
+    assert selected_place(read_launches(text), number) == place

@@ -14,7 +14,16 @@ from codim2_app.draw.theme import NEAREST
 from codim2_app.frame.scenes import make_scene
 from codim2_app.state.chosen import BOXES, has_atlas, titles
 from codim2_app.state.controls import NUMBERS, ExplorerState, first_values, preset_values
-from codim2_app.state.links import FIRST, VERSION, Look, read_link, squeezed, unsqueezed, write_link
+from codim2_app.state.links import (
+    DEFAULTS_BY_VERSION,
+    MAX_VIEWS,
+    VERSION,
+    Look,
+    compress_query,
+    decompress_query,
+    read_link,
+    write_link,
+)
 from codim2_app.state.portraits import portraits
 from codim2_app.view.markup import config
 from hypothesis import assume, given
@@ -29,8 +38,8 @@ finite = st.floats(allow_nan=False, allow_infinity=False)
 
 
 def test_a_release_that_opens_otherwise_has_a_version_of_its_own():
-    assert dict(FIRST[VERSION]) == first_values()
-    assert max(FIRST) == VERSION
+    assert dict(DEFAULTS_BY_VERSION[VERSION]) == first_values()
+    assert max(DEFAULTS_BY_VERSION) == VERSION
 
 
 @given(st.fixed_dictionaries({}, optional={name: finite for name in NUMBERS}), st.sampled_from(["", *KEYS]))
@@ -89,7 +98,7 @@ def test_a_system_opens_on_a_panel_that_can_show_something(choice):
 @pytest.mark.parametrize("query", ["{}", "v=1&{}", "v=1&preset=ball-dynamic&{}", "v=1&system=ball_in_pool&{}"])
 def test_a_link_to_the_panel_time_opens_the_same_motion_in_orbits(query):
     carried = "orbits=0.4,0.3&orbit=1&orbit_eps=hide&launch=0.6,0.8,0.3&t_end=3&log_eps=-1.5"
-    for told in (f"panel=time&{carried}", squeezed(f"v=1&panel=time&{carried}")):
+    for told in (f"panel=time&{carried}", compress_query(f"v=1&panel=time&{carried}")):
         link = read_link(query.format(told))
         state = link.state
         assert link.errors == ()
@@ -127,16 +136,42 @@ def test_a_link_carries_what_is_seen(edges, embed, controls):
     assert all(math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-9) for a, b in zip(link.look.seen, look.seen, strict=True))
 
 
+def test_a_link_carries_kept_views_cleaned_and_that_the_picture_is_lifted():
+    view = {
+        "name": "CM2",
+        "set": {"f1": 1.25, "layers": ["inside"], "parameters": {"k": 2.0}},
+        "seen": [-1.0, 1.0, -0.5, 1.5],
+    }
+    link = read_link(write_link(first_values(), Look(lift=True, views=(view, {**view, "seen": None}))))
+    assert link.errors == ()
+    assert link.look.lift
+    assert link.look.views == (view, {**view, "seen": None})
+    odd = {"name": "<b>" * 200, "set": {"f1": "0.5", "unknown": 3}, "seen": None}
+    [found] = read_link({"views": json.dumps([odd])}).look.views
+    assert (found["set"], len(found["name"])) == ({"f1": 0.5}, 200)
+    assert len(read_link({"views": json.dumps([view] * 30)}).look.views) == MAX_VIEWS
+    assert read_link({"views": json.dumps([view]), "embed": "1"}).look.views == ()
+
+
+@pytest.mark.parametrize(
+    "text", ["[", "3", '{"set": {}}', "[3]", '[{"name": "a", "set": {"f1": "x"}, "seen": null}]', "[" * 3000]
+)
+def test_views_that_cannot_be_read_are_told(text):
+    link = read_link({"views": text, "f1": "0.5"})
+    assert (link.look.views, link.state.f1) == ((), 0.5)
+    assert "kept views" in str(link.errors[0])
+
+
 @given(st.text(max_size=300))
 def test_a_squeezed_link_is_the_link(text):
     query = write_link({**first_values(), "system": "own", "texts": {"U1": text[:200]}})
-    short = squeezed(query)
+    short = compress_query(query)
     assert len(short) <= len(query)
     assert read_link(short).state.values() == read_link(query).state.values()
 
 
 def test_a_link_that_would_swell_or_was_cut_is_told():
-    whole = squeezed(write_link({**first_values(), "system": "own", "texts": {"U1": "-2*c + sin(3*s)/4"}}))
+    whole = compress_query(write_link({**first_values(), "system": "own", "texts": {"U1": "-2*c + sin(3*s)/4"}}))
     assert "s=" in whole
     link = read_link(whole[:-9])
     assert ["copy the whole link" in str(e) for e in link.errors] == [True]
@@ -145,7 +180,7 @@ def test_a_link_that_would_swell_or_was_cut_is_told():
     bomb = urlsafe_b64encode(packer.compress(b"a" * 10_000_000) + packer.flush()).decode()
     for text in (bomb, "x" * 30_000, "\u00e9", "====", "AAAA"):
         with pytest.raises(ValueError, match="address"):
-            unsqueezed(text)
+            decompress_query(text)
 
 
 # Links as earlier releases wrote them, and what they show: address, tab, name of the portrait.

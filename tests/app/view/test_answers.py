@@ -60,7 +60,7 @@ def test_an_answer_comes_soon_without_its_picture_unless_nobody_waits_for_it(hel
     frames.jobs, made.visitor = SimpleNamespace(leave=lambda: None), SimpleNamespace(leave=lambda: None)
     made.answer({"id": 7})
     [(after, call)] = late
-    assert after == answers.PATIENCE
+    assert after == answers.PICTURE_WAIT_SECONDS
     if meanwhile == "left":
         made.leave()
     elif meanwhile == "answered":

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import pytest
 from codim2_app.view import alone, compiled_once
-from codim2_app.view.compiled_once import held, once
+from codim2_app.view.compiled_once import hold_name, once
 from numba import cfunc, njit
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
@@ -36,11 +36,11 @@ def folder(monkeypatch, tmp_path):
 
 
 def test_others_wait_for_a_kernel_and_for_no_other(folder):
-    with held("one kernel"):
+    with hold_name("one kernel"):
         assert asked("one kernel") == "held"
         assert asked("another") == "free"
     assert asked("one kernel") == "free"
-    with pytest.raises(ZeroDivisionError), held("one kernel"):
+    with pytest.raises(ZeroDivisionError), hold_name("one kernel"):
         raise ZeroDivisionError
     assert asked("one kernel") == "free"
 
@@ -48,7 +48,7 @@ def test_others_wait_for_a_kernel_and_for_no_other(folder):
 def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
     monkeypatch.setattr(alone.tempfile, "tempdir", str(folder / "none"))
     done = []
-    with held("one kernel"):
+    with hold_name("one kernel"):
         done.append(1)
     assert done == [1]
 
@@ -72,7 +72,7 @@ def test_what_is_kept_on_disk_is_looked_for_and_compiled_alone(folder, monkeypat
 
         monkeypatch.setattr(kind, "compile", once(compile_))
 
-    monkeypatch.setattr(compiled_once, "held", noted)
+    monkeypatch.setattr(compiled_once, "hold_name", noted)
     compiles(Dispatcher)
     compiles(CFunc)
     kept, not_kept = njit(cache=True)(twice), njit(twice)

@@ -6,7 +6,7 @@ from bokeh.document import Document
 from codim2_app import explorer
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.explorer import ExplorerView
-from codim2_app.view.shared import SHARED
+from codim2_app.view.shared import SHARED_CONTROLS
 
 
 def test_a_value_is_watched_and_set_as_any_parameter():
@@ -22,9 +22,11 @@ def test_a_value_is_watched_and_set_as_any_parameter():
 
 def test_every_value_of_the_state_is_there_and_none_is_sent_twice():
     view = explorer("case1-cm0")
-    assert {name: getattr(view, name) for name in SHARED} == {name: view.state.values()[name] for name in SHARED}
+    assert {name: getattr(view, name) for name in SHARED_CONTROLS} == {
+        name: view.state.values()[name] for name in SHARED_CONTROLS
+    }
     sent = view.get_root(Document()).data.properties()
-    assert not set(SHARED) & sent
+    assert not set(SHARED_CONTROLS) & sent
 
 
 def test_what_is_refused_leaves_view_and_state_as_they_were():

@@ -3,11 +3,11 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw.layers import LAYERS
-from codim2_app.draw.lines.spacing import APART
-from codim2_app.draw.packing import PIXEL, STEP, unpack
+from codim2_app.draw.lines.spacing import SEPARATION
+from codim2_app.draw.packing import INT16_STEP, PIXEL, unpack
 from codim2_app.frame.budget import Budget
 from codim2_app.frame.jobs import Jobs
-from codim2_app.frame.scenes import evolved, make_scene, settled
+from codim2_app.frame.scenes import complete_changes, evolve_scene, make_scene
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits
 from codim2_app.view.first_markup import Never
@@ -178,7 +178,7 @@ def test_cold_integrator_sends_closed_forms_then_the_rest():
         assert len(blocks[f"{name}.n"]) > 10
         sketch = frames.scene[f"{name}_sketch"]
         lines = np.split(sketch.buffer, sketch.offsets[1:-1])
-        assert gaps(STEP * blocks[f"{name}.xy"].reshape(-1, 2), lines).max() < STEP
+        assert gaps(INT16_STEP * blocks[f"{name}.xy"].reshape(-1, 2), lines).max() < INT16_STEP
     ready[0] = True
     header, sent = ask(frames)
     assert header["ready"] is True
@@ -242,9 +242,9 @@ def test_a_portrait_does_not_depend_on_what_was_open_before():
     fresh[""] = first_values(), make_scene(first_values())
     for before, (values, scene) in fresh.items():
         for key, (wanted, as_it_is) in fresh.items():
-            then = {**values, **settled(values, wanted)}
+            then = {**values, **complete_changes(values, wanted)}
             changed = [name for name in then if then[name] != values[name]]
-            reached = evolved(scene, then, changed)
+            reached = evolve_scene(scene, then, changed)
             assert then == wanted, (before, key)
             assert reached.key(*INPUTS) == as_it_is.key(*INPUTS), (before, key)
             assert (reached.system, reached.z) == (as_it_is.system, as_it_is.z), (before, key)
@@ -287,10 +287,10 @@ def test_orbits_keep_away_from_the_cycles_that_are_drawn_and_from_no_others():
     frames, fresh = Frames(ExplorerState()), Frames(ExplorerState())
     _, blocks = unpack(frames.answer({"set": values, "all": True}))
     (cycle,) = frames.scene["closed_orbits"].cycles
-    assert gaps(STEP * blocks["inside.xy"].reshape(-1, 2), [cycle.points]).min() > 0.9 * APART * PIXEL
+    assert gaps(INT16_STEP * blocks["inside.xy"].reshape(-1, 2), [cycle.points]).min() > 0.9 * SEPARATION * PIXEL
     hidden = {"layers": ["inside"], "f1": values["f1"] + 0.02}
     _, after = unpack(frames.answer({"set": hidden}))
-    assert gaps(STEP * after["inside.xy"].reshape(-1, 2), [cycle.points]).min() < 0.5 * APART * PIXEL
+    assert gaps(INT16_STEP * after["inside.xy"].reshape(-1, 2), [cycle.points]).min() < 0.5 * SEPARATION * PIXEL
     _, alone = unpack(fresh.answer({"set": {**values, **hidden}, "all": True}))
     assert after["inside.n"].tolist() == alone["inside.n"].tolist()
 

@@ -15,7 +15,7 @@ from codim2_app.export import film as films
 from codim2_app.export import taking as made
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.files import DATA
-from codim2_app.export.taking import TYPES, Wish, seen_by, taken
+from codim2_app.export.taking import TYPES, Wish, make_file, seen_by
 from codim2_app.export.view import WHOLE, view_of
 from codim2_app.frame.jobs import Jobs
 from codim2_app.state.links import read_link
@@ -119,7 +119,7 @@ def test_it_is_what_is_on_the_screen(executor):
         ({"kind": "svg", "theme": ["dark"]}, "light, dark, paper"),
         ({"kind": "svg", "theme": "red"}, "light, dark, paper"),
         ({"kind": "html", "sliders": ["a", "b", "d"]}, "at most 2 sliders"),
-        ({"kind": "html", "sliders": ["a" * 200]}, "NAME=LOW,HIGH"),
+        ({"kind": "html", "sliders": ["a" * 201]}, "NAME=LOW,HIGH"),
         ({"kind": "html", "sliders": [3]}, "NAME=LOW,HIGH"),
         ({"kind": "html", "sliders": ["q"]}, "no slider of this system"),
     ],
@@ -136,9 +136,9 @@ def test_a_window_that_is_none_is_the_whole_picture(window):
 
 
 def test_a_file_is_bounded(monkeypatch):
-    monkeypatch.setattr(made, "MOST", 1000)
+    monkeypatch.setattr(made, "MAX_FILE_BYTES", 1000)
     with pytest.raises(ValueError, match="show fewer layers"):
-        taken(view_of("v=1"), Wish("svg"))
+        make_file(view_of("v=1"), Wish("svg"))
 
 
 def test_a_newer_wish_replaces_an_older(executor):
@@ -183,7 +183,7 @@ def test_a_file_that_was_made_leaves_nothing_that_a_search_must_find(executor, m
     """What looks for it again and again must not hold itself: left out of searches, it would hold the page for ever."""
     monkeypatch.setattr(takings, "count_of", lambda slider: 6)
     monkeypatch.setattr(films, "picture", lambda view, slider, value, style: b"")
-    monkeypatch.setattr(takings, "joined", lambda *what: b"")
+    monkeypatch.setattr(takings, "encode_film", lambda *what: b"")
 
     class Page(list):
         """The answers that one page was given."""
@@ -209,7 +209,7 @@ def test_a_film_is_drawn_in_parts_and_is_that_of_the_command_line(executor, monk
     monkeypatch.setattr(takings, "count_of", lambda slider: 6)
     *progress, film = conversation(executor, FILM)
     assert [(one["taken"], one["done"], one["all"]) for one in progress] == [(3, 4, 6), (3, 6, 6)]
-    assert (film["name"], film["type"]) == ("codim2-case1-cm4.gif", "image/gif")
+    assert (film["name"], film["type"]) == ("codim2-case1-cm4-f1.gif", "image/gif")
     assert film["file"] == films.film(
         view_of("case1-cm4"), "f1=-1,1", style=replace(films.STYLE, theme="dark"), positions=6
     )
@@ -230,7 +230,7 @@ def test_a_film_that_is_stopped_draws_no_more(executor, monkeypatch):
     answers = conversation(executor, {**FILM, "sliders": ["f2=-1,1"]}, stop_after=2)
     assert [set(one) for one in answers] == [{"taken", "done", "all"}] * 2 + [{"taken", "error"}]
     assert "stopped" in answers[-1]["error"]
-    assert len(drawn) <= 3 * takings.PART
+    assert len(drawn) <= 3 * takings.FILE_MESSAGE
 
 
 @pytest.mark.parametrize("sliders", [[], ["nothing"]])

@@ -86,8 +86,8 @@ def test_each_step_is_told_and_held_by_one_process(folder, monkeypatch):
 
 def test_the_first_scene_is_computed_as_soon_as_it_can_be():
     names = [what for what, _ in warmup._steps()]
-    assert names[: warmup.FIRST] == ["arrowheads", "trajectories for Ψ = 1", "limit cycles"]
-    assert len(names) == len(set(names)) > warmup.FIRST
+    assert names[: warmup.FIRST_PRIORITY] == ["arrowheads", "trajectories for Ψ = 1", "limit cycles"]
+    assert len(names) == len(set(names)) > warmup.FIRST_PRIORITY
 
 
 @pytest.mark.parametrize(("done", "shown"), [((1, 8), [1, 8]), ((8, 8), None), (None, None)])

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 from codim2_core import ELinear, System, critical_sets, equator_cycle, equator_equilibria, psi, separatrices
 from codim2_core.continuation.branches import continue_cycles
 from codim2_core.cycles.limit_cycles import limit_cycles
-from codim2_core.layer_problem.vary import varied
+from codim2_core.layer_problem.vary import vary
 from codim2_core.words import recognise
 
 CASE_III = ELinear(172, 186, -200, (-86, -93))
@@ -101,7 +101,7 @@ def test_through_a_fold_to_the_equator(system, name, span):
     # every cycle closes, and has the multiplier that it is said to have
     inner = np.flatnonzero(np.isfinite(branch.period) & (branch.period < 12.0) & (branch.amplitude > 0.01))
     for i in [*inner[:: max(len(inner) // 4, 1)], int(np.flatnonzero(branch.value == fold.value)[0])]:
-        at, _, _ = varied(system, p, (), name, branch.value[i])
+        at, _, _ = vary(system, p, (), name, branch.value[i])
         missed, exponent = once_round(at, p, branch.section[i], branch.period[i])
         assert missed < 2e-8
         assert exponent == pytest.approx(branch.exponent[i], abs=1e-8)
@@ -110,10 +110,10 @@ def test_through_a_fold_to_the_equator(system, name, span):
     assert branch.stable[i - 1] != branch.stable[i + 1]
     step = 1e-6 * (span[1] - span[0])
     side = math.copysign(1.0, branch.value[i - 1] - fold.value)
-    assert len(limit_cycles(varied(system, p, (), name, fold.value + side * step)[0], p)) == 2
-    assert len(limit_cycles(varied(system, p, (), name, fold.value - side * step)[0], p)) == 0
+    assert len(limit_cycles(vary(system, p, (), name, fold.value + side * step)[0], p)) == 2
+    assert len(limit_cycles(vary(system, p, (), name, fold.value - side * step)[0], p)) == 0
     end = branch.end if branch.end.kind == "equator" else branch.start
-    assert abs(equator_cycle(varied(system, p, (), name, end.value)[0]).exponent) < 1e-12
+    assert abs(equator_cycle(vary(system, p, (), name, end.value)[0]).exponent) < 1e-12
     assert end.period == math.inf
 
 
@@ -208,7 +208,7 @@ def test_no_cycle_is_missing(family):
         special = [point.value for branch in found for point in branch.special]
         if min((abs(value - v) for v in special), default=1.0) < 1e-4:
             continue
-        assert found.count(value) == len(limit_cycles(varied(system, p, (), name, value)[0], p))
+        assert found.count(value) == len(limit_cycles(vary(system, p, (), name, value)[0], p))
     for branch in found:
         for one, two in pairwise(branch.value.tolist()):
             assert span[0] - 1e-9 <= min(one, two) <= max(one, two) <= span[1] + 1e-9

@@ -4,7 +4,7 @@ import pytest
 
 from codim2_core import ELinear, psi
 from codim2_core.continuation.varied_system import Question, VariedSystem, follow
-from codim2_core.layer_problem.vary import varied
+from codim2_core.layer_problem.vary import vary
 
 SYSTEM = ELinear(1.0, 1.3, -1.2, (0.33, 0.07))
 XI = [-3.0, -1.0, -0.4, 0.0, 0.5]
@@ -12,7 +12,7 @@ XI = [-3.0, -1.0, -0.4, 0.0, 0.5]
 
 def family(p, name):
     def at(value):
-        changed, member, _ = varied(SYSTEM, p, (), name, value)
+        changed, member, _ = vary(SYSTEM, p, (), name, value)
         return changed.at(()), member
 
     made = VariedSystem(at, 1.0)

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from scipy.integrate import dblquad
 
 import codim2_core as c2
-from codim2_core.counting.census import CHUNK, FEW
+from codim2_core.counting.census import CHUNK_SYSTEMS, FEW
 from codim2_core.counting.draws import normal, quadratic
-from codim2_core.counting.names import IMPOSSIBLE, NAMES, _filter
+from codim2_core.counting.names import IMPOSSIBLE, PORTRAIT_NAMES, _filter
 from codim2_core.counting.table import interval
 from codim2_core.counting.tally import margin_of
 
@@ -68,7 +68,7 @@ def test_what_the_filter_decides_is_what_classify_says(kind):
     for row, code in zip(plane.tolist(), codes, strict=True):
         if code:
             found = exact(row)
-            assert (found.case, found.name) == NAMES[code - 1], row
+            assert (found.case, found.name) == PORTRAIT_NAMES[code - 1], row
             # what is named degenerate by its coefficients is never decided here (a neutral trace or equator is no name)
             known = {"tr J = 0", "neutral equator"}
             assert {item.name for item in found.degeneracies} <= known, row
@@ -82,7 +82,7 @@ def test_almost_every_random_system_is_decided_by_the_filter():
 
 
 def test_the_table_does_not_depend_on_the_executor():
-    count = 2 * CHUNK + 12_345
+    count = 2 * CHUNK_SYSTEMS + 12_345
     alone = c2.census(count=count, seed=3)
     with ThreadPoolExecutor(2) as threads:
         assert c2.census(count=count, seed=3, executor=threads) == alone
@@ -248,7 +248,13 @@ def test_names_with_outcomes_tell_what_approach_tells():
 
 
 def test_five_names_contradict_the_index_and_none_occurs():
-    assert {" ".join(NAMES[code - 1]) for code in IMPOSSIBLE} == {"I NCM0", "II NCM0", "III NCM0", "II CM0", "II CM2"}
+    assert {" ".join(PORTRAIT_NAMES[code - 1]) for code in IMPOSSIBLE} == {
+        "I NCM0",
+        "II NCM0",
+        "III NCM0",
+        "II CM0",
+        "II CM2",
+    }
     assert c2.census(count=100_000, seed=8).contradictions == 0
     assert c2.census("quadratic", count=60, seed=8).contradictions == 0
 

@@ -10,7 +10,7 @@ from codim2_core.cycles.return_map import returns
 from codim2_core.cycles.turn_map import turns
 from codim2_core.stepping.fields import field
 from codim2_core.stepping.layout import LANES
-from codim2_core.stepping.numbers import SHARED
+from codim2_core.stepping.numbers import SHARED_SIZE
 
 SEVERAL = 2 * LANES + 1
 FIELD = field(psi.constant())
@@ -18,7 +18,7 @@ RTOL = 1e-12
 
 
 def parameters(a, b, d, f=(0.0, 0.0)):
-    shared = np.zeros(SHARED)
+    shared = np.zeros(SHARED_SIZE)
     shared[:5] = a, b, d, *f
     return shared
 

@@ -7,14 +7,14 @@ import pytest
 
 from codim2_core.cycles import lane_steps
 from codim2_core.stepping.layout import ERROR_3, ERROR_5, LANES, NEW
-from codim2_core.stepping.numbers import SHARED
+from codim2_core.stepping.numbers import SHARED_SIZE
 
 LANE = 2
 
 
 def filled():
     """A workspace in which no two numbers are alike, and its parameters."""
-    S, P = lane_steps.workspace(np.arange(1.0, SHARED + 1.0))
+    S, P = lane_steps.workspace(np.arange(1.0, SHARED_SIZE + 1.0))
     S[:] = np.random.default_rng(1).uniform(0.5, 1.5, len(S))
     return S, P
 
@@ -33,10 +33,12 @@ def test_an_error_is_that_of_the_method_in_units_of_what_is_allowed(height):
         T = S.copy()
         unit = rtol * np.array([1.0, 1.0, abs(height)])
         five, three = (float(np.sum((S[at(row)] / unit) ** 2)) for row in (ERROR_5, ERROR_3))
-        assert lane_steps.judged(T, LANE, rtol) == pytest.approx(five / math.sqrt(3 * (five + 0.01 * three)), rel=1e-12)
+        assert lane_steps.step_error(T, LANE, rtol) == pytest.approx(
+            five / math.sqrt(3 * (five + 0.01 * three)), rel=1e-12
+        )
         np.testing.assert_allclose(T[at(NEW)], S[at(NEW)] / np.linalg.norm(S[at(NEW)]), rtol=1e-15)
     S[at(ERROR_5)] = S[at(ERROR_3)] = 0.0
-    assert lane_steps.judged(S, LANE, 1e-9) == 0.0  # and not 0/0
+    assert lane_steps.step_error(S, LANE, 1e-9) == 0.0  # and not 0/0
 
 
 def test_the_next_step_would_have_the_error_that_is_allowed_but_for_a_margin():

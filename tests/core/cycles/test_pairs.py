@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, psi
 from codim2_core.cycles.limit_cycles import limit_cycles
-from codim2_core.cycles.resolution import unresolved
+from codim2_core.cycles.resolution import unresolved_intervals
 
 # (a, b, d), f, n of the Hill family, and how many cycles: each was missed by samples judged by their heights
 MISSED = [
@@ -110,7 +110,7 @@ def test_a_resolved_interval_hides_no_zero(coefficients, gaps):
     q = np.cumsum([-2.0, *gaps])
     cubic = np.polynomial.Polynomial(coefficients)
     shift = cubic(q)
-    doubtful = unresolved(q, shift, np.full(len(q), 1e-9))
+    doubtful = unresolved_intervals(q, shift, np.full(len(q), 1e-9))
     roots = [z.real for z in cubic.roots() if abs(z.imag) < 1e-12]
     for i in range(len(q) - 1):
         inside = sum(q[i] < z < q[i + 1] for z in roots)
@@ -123,4 +123,4 @@ def test_uneven_samples_of_a_parabola_below_zero_between_them():
     q = np.array([-3.0, -2.5, -2.0, -1.5, -1.0, -0.9, 0.4, 0.6, 1.0, 1.5])
     shift = q * q - 0.01
     assert (shift > 0.0).all()
-    assert 5 in unresolved(q, shift, np.full(len(q), 1e-9))
+    assert 5 in unresolved_intervals(q, shift, np.full(len(q), 1e-9))

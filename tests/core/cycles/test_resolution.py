@@ -10,7 +10,7 @@ from codim2_core.cycles.resolution import (
     near_fold,
     zeros,
 )
-from codim2_core.cycles.section import COARSE, FINE
+from codim2_core.cycles.section import COARSE_RTOL, FINE_RTOL
 
 from .sections import UNEVEN, Line
 
@@ -49,11 +49,11 @@ def test_a_fold_is_touched_and_a_map_too_wild_is_said_to_be():
     assert looked.resolve(lambda xi, shift: [i for i in (3, 9) if xi[i + 1] - xi[i] > 0.1])
     assert len(looked.xi) == 24 + 2 * 16
     # where nothing is doubtful, only signs are looked for
-    assert {rtol for _, rtol, _ in looked.section.asked} == {COARSE}
+    assert {rtol for _, rtol, _ in looked.section.asked} == {COARSE_RTOL}
     assert not looked.fine.any()
     doubtful = Samples(Line(lambda xi: (xi - 0.4) ** 2 + 1e-3), np.linspace(-3.0, 3.0, 24))
     assert doubtful.resolve(lambda xi, shift: [i for i in (3, 9) if xi[i + 1] - xi[i] > 0.1])
-    assert {rtol for _, rtol, _ in doubtful.section.asked[1:2]} == {FINE}
+    assert {rtol for _, rtol, _ in doubtful.section.asked[1:2]} == {FINE_RTOL}
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED
+from codim2_core.cycles.return_map import OUTWARD, RETURNED, TO_CRITICAL_SET
 
 from .spirals import SEVERAL, SPIRALS, Spiral, plane, sphere
 
@@ -39,13 +39,13 @@ def test_from_elsewhere_it_is_the_first_crossing(growth, b):
 
 
 def test_onto_the_centre_and_onto_the_equator_it_does_not_return():
-    for growth, expected in ((-5.0, INWARD), (5.0, OUTWARD)):
+    for growth, expected in ((-5.0, TO_CRITICAL_SET), (5.0, OUTWARD)):
         own = Spiral(growth, 1.0)
         x2 = np.array([0.3, 0.8, 0.5])[:, None] * own.ray
         ends, times, codes, steps = own.returns(x2, floor=1e-3, sunk=1e-3, record=100)
         assert (codes == expected).all()
         np.testing.assert_allclose(plane(ends), own.at(x2, times), rtol=1e-9)
-        if expected == INWARD:
+        if expected == TO_CRITICAL_SET:
             gone = np.hypot(*plane(ends).T) < 1e-3
             still = np.hypot(*plane(steps).T) >= 1e-3
         else:

@@ -54,7 +54,7 @@ def sought(displacement, trace=1.0, discriminant=1.0, backward=None):
             return super().displacement(xi, rtol, backward)
 
     against = backward
-    found, notes = search.search(search.shown(Ray(displacement)))
+    found, notes = search.search(search.sample_return_map(Ray(displacement)))
     assert all(not one.born or one.xi == -20.0 for one in found)
     return [(one.xi, one.repelling, one.touching) for one in found], [key for n in notes for key, _ in recognise(n)]
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles.return_map import INWARD, OUTWARD, RETURNED
-from codim2_core.cycles.section import COARSE, FINE, INNER, Section, rays
+from codim2_core.cycles.return_map import OUTWARD, RETURNED, TO_CRITICAL_SET
+from codim2_core.cycles.section import COARSE_RTOL, FINE_RTOL, INNER_RADIUS, Section, rays
 from codim2_core.cycles.turn_section import TurnSection
 from codim2_core.stepping.layout import LANES
 
@@ -50,7 +50,7 @@ def test_states_lie_on_the_ray_in_e(psi):
         )
         x2 = states[:, :2] / states[:, 2:]
         np.testing.assert_allclose(np.exp(q), (x2 - own.critical.x2) @ own.u, rtol=1e-6)
-        near = np.array([math.log(INNER / (1.0 - INNER))])
+        near = np.array([math.log(INNER_RADIUS / (1.0 - INNER_RADIUS))])
         away = own.states(near)[0]
         assert np.hypot(*(away[0, :2] / away[0, 2] - own.critical.x2)) == pytest.approx(own.inner, rel=0.5)
         assert (away[0, :2] / away[0, 2] - own.critical.x2) @ own.u == pytest.approx(own.inner, rel=1e-3)
@@ -59,7 +59,7 @@ def test_states_lie_on_the_ray_in_e(psi):
         np.testing.assert_allclose(np.hypot(*there[:, :2].T) / there[:, 2], far, rtol=0.1)
         grid = own.grid()
         assert (np.diff(grid) > 0.0).all()
-        assert grid[0] == pytest.approx(math.log(INNER))
+        assert grid[0] == pytest.approx(math.log(INNER_RADIUS))
         assert grid[-1] <= 600.0
         assert len(grid) <= 2 * LANES  # one more would be followed alone
         zeta = 1.0 / own.states(grid[grid >= math.log(9.0) - 1e-9])[0][:, 2]
@@ -74,9 +74,9 @@ def test_without_f_a_turn_multiplies_x2(psi, b, swap):
     own = section(psi, (0.0, 0.0), a=swap, b=b, d=-2.0 * swap)
     expected = -swap * math.pi / math.sqrt(7.0 - 0.25)
     for backward, sign in ((False, 1.0), (True, -1.0)):
-        np.testing.assert_allclose(own.displacement(XI, FINE, backward), sign * expected, rtol=0.0, atol=1e-8)
-    np.testing.assert_allclose(own.displacement(XI, COARSE), expected, rtol=0.0, atol=1e-6)
-    ends, times, codes, _ = own.turn(own.states(XI)[0], FINE)
+        np.testing.assert_allclose(own.displacement(XI, FINE_RTOL, backward), sign * expected, rtol=0.0, atol=1e-8)
+    np.testing.assert_allclose(own.displacement(XI, COARSE_RTOL), expected, rtol=0.0, atol=1e-6)
+    ends, times, codes, _ = own.turn(own.states(XI)[0], FINE_RTOL)
     assert (codes == RETURNED).all()
     np.testing.assert_allclose((ends**2).sum(axis=1), 1.0, rtol=0.0, atol=1e-13)
     assert (times > 0.0).all()
@@ -89,11 +89,11 @@ def test_without_f_a_turn_multiplies_x2(psi, b, swap):
 def test_orbits_that_do_not_return_are_told(psi, f):
     """A node, and outside a cycle's region the equator: inwards and outwards."""
     node = section(psi, f, a=-9.0, b=3.05, d=1.0)
-    shift = node.displacement(node.grid()[::8], COARSE)
+    shift = node.displacement(node.grid()[::8], COARSE_RTOL)
     assert not np.isnan(shift).any()
-    codes = node.turn(node.states(node.grid()[::8])[0], COARSE)[2]
+    codes = node.turn(node.states(node.grid()[::8])[0], COARSE_RTOL)[2]
     assert (np.isinf(shift) == (codes != RETURNED)).all()
-    assert (shift[codes == INWARD] == -np.inf).all()
+    assert (shift[codes == TO_CRITICAL_SET] == -np.inf).all()
     assert (shift[codes == OUTWARD] == np.inf).all()
     assert (codes != RETURNED).any()
 
@@ -121,7 +121,9 @@ def test_first_turns_of_a_general_system_without_f(psi, trace):
         x2 = math.exp(sign * math.pi * trace / omega) * r / np.sqrt(1.0 - r * r)
         p = x2 / np.hypot(1.0, x2)
         rest = 1.0 / (np.hypot(1.0, x2) * (np.hypot(1.0, x2) + x2))  # 1 - p
-        np.testing.assert_allclose(own.displacement(XI, FINE, backward), np.log(p / rest) - XI, rtol=0.0, atol=1e-6)
+        np.testing.assert_allclose(
+            own.displacement(XI, FINE_RTOL, backward), np.log(p / rest) - XI, rtol=0.0, atol=1e-6
+        )
 
 
 def test_a_ray_that_starts_just_inside_the_equator_has_all_its_digits():

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core.cycles.return_map import RETURNED, UNDECIDED
+from codim2_core.cycles.return_map import NO_RETURN_YET, RETURNED
 
 from .spirals import SEVERAL, SPIRALS, Spiral, followed, parameters, plane, sphere, turned
 
@@ -43,6 +43,6 @@ def test_a_turn_about_any_point_that_a_closed_orbit_surrounds(b):
         np.testing.assert_allclose(ends, begin, rtol=0.0, atol=1e-10)
     for centre in ((0.7, 0.0), (0.0, -0.62)):
         ends, times, codes, steps = followed(begin, parameters(0.0, b, 0.0), centre, t_max=30.0, record=200)
-        assert codes[0] == UNDECIDED
+        assert codes[0] == NO_RETURN_YET
         assert 30.0 <= times[0] < 30.0 + steps[-1, 3] + 1e-12
         np.testing.assert_allclose(ends[0, :2], turned(begin[0, :2], b * times[0]), rtol=0.0, atol=1e-9)

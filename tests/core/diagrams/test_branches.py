@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.examples import catalogue
-from codim2_core.layer_problem.vary import names, usual_span, value_of, varied
+from codim2_core.layer_problem.vary import names, usual_span, value_of, vary
 
 CASE3 = c2.presets["case3-n3"]
 SYSTEMS = {
@@ -39,7 +39,7 @@ def test_every_preset_and_example_has_branches(key):
     assert "not looked for" in found.cycles.reason
     at = found.span[0] + 0.517 * (found.span[1] - found.span[0])
     there = [C.kind for C in found.critical if C.value[0] <= at <= C.value[-1]]
-    assert sorted(there) == sorted(C.kind for C in c2.critical_sets(*varied(system, psi, z, along, at)))
+    assert sorted(there) == sorted(C.kind for C in c2.critical_sets(*vary(system, psi, z, along, at)))
 
 
 @pytest.mark.parametrize("family", c2.psi.FAMILIES)

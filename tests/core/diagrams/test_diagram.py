@@ -26,7 +26,7 @@ def found(D: Branches, kind: str) -> list[float]:
 
 def check(system: object, psi: c2.Psi, z: tuple[float, ...], D: Branches, value: float) -> None:
     """Branches at one value are what the exact functions say there."""
-    at, psi_at, z_at = vary.varied(system, psi, z, D.along, value)
+    at, psi_at, z_at = vary.vary(system, psi, z, D.along, value)
     equator, critical = c2.equator_equilibria(at, z_at), c2.critical_sets(at, psi_at, z_at)
     branches = [b for b in D.limit_directions if b.value[0] <= value <= b.value[-1]]
     assert len(branches) == len(equator)
@@ -189,7 +189,7 @@ def test_branches_agree_with_the_exact_answers(
     for value in values:
         if len(special) and abs(special - value).min() < 1e-3:
             continue
-        at, psi_at, z_at = vary.varied(system, psi, z, name, value)
+        at, psi_at, z_at = vary.vary(system, psi, z, name, value)
         if (c2.equator_equilibria(at, z_at).multiplicity == 1).all() and not {
             d.name for d in c2.classify(at, psi_at, z_at).degeneracies
         } & {"all directions", "transcritical", "line of equilibria", "det A = 0"}:

@@ -7,14 +7,14 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.diagrams.standing import standing
-from codim2_core.layer_problem.vary import varied
+from codim2_core.layer_problem.vary import vary
 
 PARTS = np.array([1e-4, 1e-2, 0.2, 0.5, 0.8, 0.99, 0.9999])
 
 
 def still(system, psi, name, value):
     """Limit directions, those that attract radially, the side that a closed equator attracts, and the critical sets."""
-    at, psi_at, z = varied(system, psi, (), name, value)
+    at, psi_at, z = vary(system, psi, (), name, value)
     equator, closed = c2.equator_equilibria(at, z), c2.equator_cycle(at, z)
     kinds = sorted(C.kind for C in c2.critical_sets(at, psi_at, z))
     return (

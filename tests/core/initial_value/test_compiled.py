@@ -27,7 +27,7 @@ FORCED = System(U=("1.5*cos(z) - c", "-s"), W=("1",))
 @pytest.mark.parametrize(("psi", "eps"), [*zip(PSI, [1e-1, 1e-5, 1e-11] * 3, strict=False), (PSI[1], 1e-11)])
 def test_it_is_the_motion_in_python(monkeypatch, psi, eps):
     state0, span = (-1.0, 0.3, 10.0, 0.0), (0.0, 3.0)
-    monkeypatch.setattr(regularised, "PATIENCE", 10**9)
+    monkeypatch.setattr(regularised, "PYTHON_STEPS", 10**9)
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
     own = simulate(BALL, psi, eps, state0, span, rtol=1e-9)
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: True)
@@ -43,7 +43,7 @@ def test_it_is_the_motion_in_python(monkeypatch, psi, eps):
 )
 def test_a_slide_takes_few_steps_whatever_eps_and_tolerance(psi, eps):
     for rtol, most in ((1e-3, 80), (1e-6, 120), (1e-9, 260)):
-        run = simulate(BALL, psi, eps, [(-1.0, 0.3, 10.0, 0.0)] * regularised.MANY, (0.0, 3.0), rtol=rtol)[0]
+        run = simulate(BALL, psi, eps, [(-1.0, 0.3, 10.0, 0.0)] * regularised.MANY_MOTIONS, (0.0, 3.0), rtol=rtol)[0]
         assert len(run.times) < most, (rtol, len(run.times))
         assert run.evaluations < 24 * most
 
@@ -51,7 +51,7 @@ def test_a_slide_takes_few_steps_whatever_eps_and_tolerance(psi, eps):
 @pytest.mark.parametrize("eps", [1e-2, 1e-5])
 def test_dense_output_of_all_steps_joins_and_solves_the_equations(eps):
     """Between the ends of steps, explicit or not, the slope of the curve is the rate at it."""
-    psi, states = families.rational(), [(-1.0, 0.3, 10.0, 0.0)] * regularised.MANY
+    psi, states = families.rational(), [(-1.0, 0.3, 10.0, 0.0)] * regularised.MANY_MOTIONS
     motion = simulate(BALL, psi, eps, states, (0.0, 3.0), rtol=1e-9)[0].motion
     problem = plane_problem(field(BALL), psi, eps, 1e-9, 1e-9)
     powers = np.arange(1, motion.polynomials.shape[2] + 1)
@@ -74,7 +74,7 @@ def test_as_many_slow_variables_as_there_may_be(monkeypatch):
 
 def test_a_long_motion_goes_on_compiled(monkeypatch):
     system = System(U=("1.4*cos(z) - c", "-s/2"), W=("1",))
-    monkeypatch.setattr(regularised, "PATIENCE", 30)
+    monkeypatch.setattr(regularised, "PYTHON_STEPS", 30)
     run = simulate(system, families.tanh(), 1e-4, (0.5, 0.0, 0.0), (0.0, 20.0))
     assert is_compiled(field(system))
     assert run.status is SimulationStatus.T_END

@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 
 from codim2_core import ELinear, System, critical_sets, equator_cycle, hemisphere, psi, sliding_flow
 from codim2_core.layer_problem.location import Existence, locate
-from codim2_core.numerics.trigonometric import ROUNDING
+from codim2_core.numerics.trigonometric import INPUT_ROUNDING
 from tests.core.strategies import regularisations, systems
 
 
@@ -88,7 +88,7 @@ def test_on_the_equator_means_within_the_rounding_of_the_coefficients():
             at = [gap(*(v * (1 + k * (j == i)) for j, v in enumerate(exact))) for k in (-2, -1, 1, 2)]
             return (8 * (at[2] - at[1]) - (at[3] - at[0])) / 12
 
-        level = abs(gap(*exact)) / (sum(abs(slope(i)) for i in range(5)) / 2) / Fraction(2 * ROUNDING)
+        level = abs(gap(*exact)) / (sum(abs(slope(i)) for i in range(5)) / 2) / Fraction(2 * INPUT_ROUNDING)
         found = locate(ELinear(a, b, d, tuple(plane[3:])).at()).existence
         if found in (Existence.INSIDE, Existence.NONE, Existence.EQUATOR) and not Fraction(999, 1000) < level < 1:
             seen.add(found)

@@ -13,7 +13,7 @@ from codim2_core.layer_problem.linearisation import (
     matrix_determinant,
     spectrum,
 )
-from codim2_core.numerics.trigonometric import ROUNDING
+from codim2_core.numerics.trigonometric import INPUT_ROUNDING
 
 RANDOM = np.random.default_rng(11)
 
@@ -34,7 +34,7 @@ def test_determinants_have_all_digits(scale):
         size = abs(Fraction(m11) * Fraction(m22)) + abs(Fraction(m12) * Fraction(m21))
         found, sign = matrix_determinant(m11, m12, m21, m22)
         assert abs(Fraction(found) - exact) <= abs(exact) * Fraction(1e-12) + Fraction(5e-324)
-        blurred = abs(exact) <= 2 * Fraction(ROUNDING) * size
+        blurred = abs(exact) <= 2 * Fraction(INPUT_ROUNDING) * size
         assert sign == (0 if blurred else math.copysign(1, exact))
         signs.add(sign)
         # det of (a, -b; b, d): with the off-diagonal terms as -b * b
@@ -43,7 +43,7 @@ def test_determinants_have_all_digits(scale):
         exact = Fraction(a) * Fraction(d) + Fraction(b) ** 2
         weight = abs(Fraction(a) * Fraction(d)) + Fraction(b) ** 2
         assert abs(Fraction(exact_determinant(a, b, d)) - exact) <= abs(exact) * Fraction(1e-12) + Fraction(5e-324)
-        blurred = abs(exact) <= 2 * Fraction(ROUNDING) * weight
+        blurred = abs(exact) <= 2 * Fraction(INPUT_ROUNDING) * weight
         assert determinant_sign(a, b, d) == (0 if blurred else math.copysign(1, exact))
     assert signs == {-1, 0, 1}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import codim2_core as c2
-from codim2_core.layer_problem.vary import limits, names, value_of, varied
+from codim2_core.layer_problem.vary import limits, names, value_of, vary
 
 TEXT = c2.ELinear(1.0, "k*z1", -2, f=(0.1, "z2"), g=(0, 1), parameters={"k": 2.0})
 HILL = c2.psi.hill(2)
@@ -17,7 +17,7 @@ def test_only_numbers_parameters_and_given_slow_variables_can_be_varied() -> Non
     assert names(c2.ELinear.from_matrix([[1, 2], [3, 4]], f=(1, 2)), HILL) == ("f1", "f2", "n")
     owner = c2.ELinear("n", 1, 1, parameters={"n": 4})
     assert names(owner, HILL) == ("b", "d", "f1", "f2", "n")
-    assert varied(owner, HILL, (), "n", 7)[0].at().a == 7
+    assert vary(owner, HILL, (), "n", 7)[0].at().a == 7
     assert limits(owner, HILL, "n")[1] > limits(TEXT, HILL, "n")[1] == 1000
     for psi in (HILL, c2.psi.tanh()):  # with a parameter, and without
         assert limits(TEXT, psi, "a") == limits(TEXT, psi, "z1") == (-1e150, 1e150)
@@ -26,7 +26,7 @@ def test_only_numbers_parameters_and_given_slow_variables_can_be_varied() -> Non
 @pytest.mark.parametrize("name", ["a", "d", "f1", "k", "z1", "z2", "n"])
 def test_varied_changes_that_one_thing(name: str) -> None:
     z = (0.3, 0.4)
-    system, psi, slow = varied(TEXT, HILL, z, name, 5.5)
+    system, psi, slow = vary(TEXT, HILL, z, name, 5.5)
     for other in names(TEXT, HILL, z):
         wanted = 5.5 if other == name else value_of(TEXT, HILL, z, other)
         assert value_of(system, psi, slow, other) == wanted
@@ -37,10 +37,10 @@ def test_varied_changes_that_one_thing(name: str) -> None:
 
 def test_a_frozen_system_and_short_names() -> None:
     frozen = TEXT.at((0.3, 0.4))
-    assert varied(frozen, HILL, (), "b", 9)[0].plane == (1, 9, -2, 0.1, 0.4)
-    assert varied(TEXT, HILL, (0.3, 0.4), "z", 9)[2] == (9, 0.4)
+    assert vary(frozen, HILL, (), "b", 9)[0].plane == (1, 9, -2, 0.1, 0.4)
+    assert vary(TEXT, HILL, (0.3, 0.4), "z", 9)[2] == (9, 0.4)
     assert value_of(TEXT, HILL, (0.3, 0.4), "z") == 0.3
-    assert varied(c2.ELinear("z", 1, 1), HILL, 0.5, "z1", 2)[2] == (2,)
+    assert vary(c2.ELinear("z", 1, 1), HILL, 0.5, "z1", 2)[2] == (2,)
 
 
 @pytest.mark.parametrize(
@@ -60,7 +60,7 @@ def test_a_frozen_system_and_short_names() -> None:
 )
 def test_what_cannot_be_is_explained(system: object, name: str, value: float, message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        varied(system, HILL, (0.3, 0.4), name, value)
+        vary(system, HILL, (0.3, 0.4), name, value)
 
 
 def test_a_z_that_does_not_fit_is_told_by_what_varies_something():

@@ -39,7 +39,7 @@ def by_phase(monkeypatch):
 
     def run(system, state, rtol, own):
         with monkeypatch.context() as only:
-            only.setattr(nonsmooth, "_followed", lambda asked, states: iter([asked.one(states[0], compiled=True)]))
+            only.setattr(nonsmooth, "_run_motions", lambda asked, states: iter([asked.one(states[0], compiled=True)]))
             only.setattr(nonsmooth, "waited_for", lambda formulas: 0)
             return simulate_nonsmooth(system, state, SPAN, own, rtol=rtol, atol=rtol)
 
@@ -56,8 +56,8 @@ def _told(phase: Phase) -> tuple[str, str | None, str]:
 def test_it_is_the_motion_phase_by_phase(monkeypatch, by_phase, case, own):
     system, state, is_decided = CASES[case]
     monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)
-    steps, count = [], courses.followed
-    monkeypatch.setattr(courses, "followed", lambda *given: steps.append(count(*given)) or steps[-1])
+    steps, count = [], courses.run_hybrid
+    monkeypatch.setattr(courses, "run_hybrid", lambda *given: steps.append(count(*given)) or steps[-1])
     rtol = 1e-8
     found, other = (
         simulate_nonsmooth(system, state, SPAN, own, rtol=rtol, atol=rtol),

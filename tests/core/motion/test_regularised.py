@@ -12,7 +12,7 @@ from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
 from codim2_core.initial_value.events import Event
 from codim2_core.motion import regularised
-from codim2_core.motion.drawn import MAX_POINTS, SAMPLES
+from codim2_core.motion.drawn import MAX_POINTS, MIN_TIMES
 from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus
 from tests.core.strategies import coefficient, regularisations
@@ -146,7 +146,7 @@ def test_a_limit_cycle_ends_at_the_step_limit():
 
 
 def test_frozen_systems_and_no_slow_variables(monkeypatch):
-    monkeypatch.setattr(regularised, "PATIENCE", 10**9)  # both in Python, whatever was asked for before
+    monkeypatch.setattr(regularised, "PYTHON_STEPS", 10**9)  # both in Python, whatever was asked for before
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
     for system in (ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), System(U=("-c - s/2 + 1/10", "c/2 - s"))):
         run = simulate(system, families.constant(), 0.01, (1.0, 0.2), (0.0, 2.0))
@@ -184,7 +184,7 @@ def test_wrong_arguments_say_so(changes, message):
 def test_a_drawn_motion_is_even_in_time_and_of_bounded_length():
     run = simulate(ELinear(-1.0, 0.25, -1.75), families.rational(), 0.5, (0.3, 0.2), (0.0, 5.0))
     drawn = run.drawn()
-    assert np.diff(drawn.times).max() <= 5.0 / (SAMPLES - 1) * (1.0 + 1e-9)
+    assert np.diff(drawn.times).max() <= 5.0 / (MIN_TIMES - 1) * (1.0 + 1e-9)
     assert (drawn.times[0], drawn.times[-1]) == (0.0, 5.0)
     assert len(drawn.times) <= MAX_POINTS
     np.testing.assert_allclose(drawn.states, run.dense(drawn.times))

@@ -58,7 +58,7 @@ NAMES = [case[0].__name__ for case in CASES]
 
 def in_one_way(monkeypatch, compiled):
     """Follow both motions in Python, or both compiled, whatever has been asked for before."""
-    monkeypatch.setattr(regularised, "PATIENCE", 10**9)
+    monkeypatch.setattr(regularised, "PYTHON_STEPS", 10**9)
     monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: compiled)
 
 

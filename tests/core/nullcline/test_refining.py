@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, System, psi
-from codim2_core.nullcline.refining import MOST
+from codim2_core.nullcline.refining import MAX_BRANCH_POINTS
 from codim2_core.scene import Scene
 
 HALF = 2.0  # half the width of the whole picture
@@ -77,7 +77,7 @@ def test_what_is_not_seen_costs_nothing_and_what_is_seen_is_bounded():
     elsewhere = scene.evolve(window=(1.5, 1.51, 1.5, 1.51))["nullclines_inside"]
     assert sum(len(branch.points) for branch in elsewhere) == before
     close = scene.evolve(window=window(scene["nullclines_inside"][0].points[30], 1e6))["nullclines_inside"]
-    assert all(len(branch.points) <= MOST for branch in close)
+    assert all(len(branch.points) <= MAX_BRANCH_POINTS for branch in close)
     assert sum(len(branch.points) for branch in close) < 2 * before
 
 
@@ -99,4 +99,4 @@ def test_the_hyperbola_is_as_fine_as_it_is_seen(times):
         value = (system.d - system.a) * x * y + 0.7 * x + 0.5 * y + 0.5
         slope = np.hypot((system.d - system.a) * y + 0.7, (system.d - system.a) * x + 0.5)
         assert (np.abs(value) / slope).max() < pixel
-        assert len(piece) <= MOST
+        assert len(piece) <= MAX_BRANCH_POINTS

@@ -5,7 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.orbits.duration import LEAST, MOST, drawn_duration
+from codim2_core.orbits.duration import MAX_DURATION, MIN_DURATION, drawn_duration
 from codim2_core.orbits.trajectories import Status
 
 CASE_III = c2.ELinear(172, 186, -200, f=(-86, -93))
@@ -36,7 +36,7 @@ def test_the_time_is_bounded_where_something_never_ends():
     for system in (c2.ELinear(0, 1, 0), c2.ELinear(-1e-9, 1, -1e-9), c2.ELinear(0, 0, 0), c2.ELinear(-1, 0, -1)):
         at = system.at()
         longest = drawn_duration(at, c2.equator_equilibria(at), c2.critical_sets(at, psi.constant()))
-        assert LEAST <= longest * (at.size or 1.0) <= MOST * (1.0 + 1e-15)
+        assert MIN_DURATION <= longest * (at.size or 1.0) <= MAX_DURATION * (1.0 + 1e-15)
 
 
 STIFF = [

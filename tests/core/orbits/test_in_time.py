@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from codim2_core import psi
 from codim2_core.figures.presets import presets
 from codim2_core.motion.regularised import simulate
-from codim2_core.orbits.in_time import FAR, in_time
+from codim2_core.orbits.in_time import MAX_RADIUS, in_time
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 
@@ -81,7 +81,7 @@ def test_its_points_lie_on_the_line_that_is_drawn_and_its_times_are_those_told(n
 def test_an_orbit_from_infinity_is_followed_ten_eps_out_and_a_far_seed_farther():
     away = ELinear(-1.0, 0.0, -1.0)
     near = in_time(away, psi.constant(), (0.5, 0.0), (-50.0, 1.0))
-    assert 0.9 * FAR < np.hypot(*near.xy.T).max() <= FAR
+    assert 0.9 * MAX_RADIUS < np.hypot(*near.xy.T).max() <= MAX_RADIUS
     p = 50.0 / math.hypot(1.0, 50.0)
     far = in_time(away, psi.constant(), (p, 0.0), (-50.0, 1.0))
     assert 130.0 < far.xy[0, 0] <= 150.0

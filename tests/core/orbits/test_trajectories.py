@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import psi
-from codim2_core.orbits.trajectories import Status, is_warm, joined, trajectories, warm
+from codim2_core.orbits.trajectories import Status, concatenate, is_warm, trajectories, warm
 from codim2_core.systems.elinear import ELinear
 
 from .seeds import CASE_I, FAMILIES, PIXEL, ends, only, ring, sunflower
@@ -136,11 +136,11 @@ def test_results_are_read_only_views_and_join():
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 0
     assert all(line.base is result.buffer for line in result.points)
-    both = joined([result, trajectories(CASE_I, psi.constant(), [], backward=True), result])
+    both = concatenate([result, trajectories(CASE_I, psi.constant(), [], backward=True), result])
     assert len(both) == 128
     assert np.array_equal(both.points[70], result.points[6])
     assert both.status == result.status * 2
-    assert len(joined([])) == 0
+    assert len(concatenate([])) == 0
     assert trajectories(CASE_I, psi.constant(), []).points == []
 
 

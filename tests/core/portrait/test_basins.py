@@ -5,7 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.portrait import basins as module
-from codim2_core.portrait.basins import OUTSIDE, UNDECIDED, basins
+from codim2_core.portrait.basins import OUTSIDE, UNDECIDED_CELL, basins
 
 
 def centres(n):
@@ -67,7 +67,7 @@ def test_cells_that_lead_nowhere_are_told_by_negative_numbers():
     found = basins(c2.ELinear(0.0, 1.0, 0.0), c2.psi.constant(), n=32)
     inside = np.hypot(*np.moveaxis(centres(32), -1, 0)) < 1.0
     np.testing.assert_array_equal(found.cells, np.where(inside, -1, -2))
-    assert (OUTSIDE, UNDECIDED, found.destinations, found.slow_flow) == (-2, -1, (), ())
+    assert (OUTSIDE, UNDECIDED_CELL, found.destinations, found.slow_flow) == (-2, -1, (), ())
 
 
 @pytest.mark.parametrize(("n", "friction"), [(32, 0.1), (64, 0.5)])
@@ -120,7 +120,7 @@ def test_shares_are_parts_of_the_cells_of_the_disc():
     found = basins(c2.examples.nonunique_sliding(), c2.psi.tanh(), (0.4,), n=64)
     assert found.shares == (0.5, 0.5)
     cells = np.full((4, 4), OUTSIDE, np.int8)
-    cells[1:3] = [[UNDECIDED, 0, 0, 1], [UNDECIDED, 0, 1, 0]]
+    cells[1:3] = [[UNDECIDED_CELL, 0, 0, 1], [UNDECIDED_CELL, 0, 1, 0]]
     assert module.Basins(cells, ("C1", "C2"), (None, None), 0).shares == (0.5, 0.25)
     nothing = np.full((4, 4), OUTSIDE, np.int8)
     assert module.Basins(nothing, ("C1",), (None,), 0).shares == (0.0,)

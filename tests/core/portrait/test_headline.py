@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.words import named, recognise
+from codim2_core.words import recognise, written_label
 
 FAMILIES = (psi.constant(), psi.rational(), psi.hill(3.0), psi.tanh(), psi.exponential())
 
@@ -38,7 +38,7 @@ def held(system, family, z=()):
 
 def surrounded(critical, cycles, sets):
     """Count the cycles about just these sets: their names stand in the sentence."""
-    labels = ["C"] if len(critical) == 1 else [named(f"C{i + 1}") for i in range(len(critical))]
+    labels = ["C"] if len(critical) == 1 else [written_label(f"C{i + 1}") for i in range(len(critical))]
     wanted = [C.p for C, label in zip(critical, labels, strict=True) if label in sets.replace(" and", ",").split(", ")]
     assert wanted
     return sum(sum(inside(p, cycle.points) for p in wanted) == len(wanted) for cycle in cycles)

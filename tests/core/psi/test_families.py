@@ -11,9 +11,9 @@ import pytest
 import codim2_core as c2
 from codim2_core.expressions.expression import parse
 from codim2_core.layer_problem.lyapunov import psi_derivatives
-from codim2_core.layer_problem.vary import limits, names, value_of, varied
+from codim2_core.layer_problem.vary import limits, names, value_of, vary
 from codim2_core.psi import FAMILIES, Family, make, register, unregister
-from codim2_core.psi.constructors import compared
+from codim2_core.psi.constructors import comparison_families
 
 from ..additions import FROM_FORMULA, WRITTEN_OUT, added_family
 
@@ -61,7 +61,7 @@ def test_an_added_family_is_listed_and_made_everywhere(family):
     assert make("power").parameter == 2.0
     assert pickle.loads(pickle.dumps(psi)) == psi
     assert psi.check().holds
-    assert make("power", 2.0) in compared()
+    assert make("power", 2.0) in comparison_families()
     with pytest.raises(ValueError, match=r"k is 60; allowed is 0.5 <= k <= 50"):
         c2.psi.power(60)
     with pytest.raises(ValueError, match="there is a family 'power' already"):
@@ -71,7 +71,7 @@ def test_an_added_family_is_listed_and_made_everywhere(family):
 def test_an_added_family_varies_by_its_parameter(family):
     psi = c2.psi.power(3.0)
     assert names(CASE3, psi)[-1] == "k"
-    assert varied(CASE3, psi, (), "k", 4.0)[1] == c2.psi.power(4.0)
+    assert vary(CASE3, psi, (), "k", 4.0)[1] == c2.psi.power(4.0)
     assert value_of(CASE3, psi, (), "k") == 3.0
     assert limits(CASE3, psi, "k") == (0.5, 50.0)
     found = c2.bifurcations.parameter_changes(at_hopf(psi), psi)

@@ -5,7 +5,7 @@ import time
 import numpy as np
 import pytest
 from codim2_app.draw import plane_curves
-from codim2_app.draw.packing import STEP, unpack
+from codim2_app.draw.packing import INT16_STEP, unpack
 from codim2_app.panels.parameters import atlas_columns
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
@@ -34,7 +34,7 @@ def atlas_of(frames, rest=False, **values):
 
 
 def lines(blocks, name, size):
-    points = blocks[f"{name}.xy"].reshape(-1, 2) * STEP * size
+    points = blocks[f"{name}.xy"].reshape(-1, 2) * INT16_STEP * size
     return np.split(points, np.cumsum(blocks[f"{name}.n"], dtype=int)[:-1])
 
 

@@ -121,6 +121,12 @@ test("what moves lies over the chart, with its path and its name, and hides the 
   assert.deepEqual(covered(), [true, false])
 })
 
+test("a name that has no room is looked for no farther than it may be", () => {
+  const asked = (within) => { let count = 0; made([{...PLOT, labels: [{text: "never", near: [1, 15], within, allowed: () => { count++; return false }}]}]); return count }
+  const all = asked(undefined), some = asked([[0.9, 1.2], [14.5, 16]])
+  assert.ok(some > 3 && some < all / 20, `${some} of ${all}`)
+})
+
 test("names stand within the chart, where they are allowed, and a band's within the band", () => {
   const one = made([{...PLOT, bands: [{name: "b", from: -1, to: 0.5, word: "sliding"}, {name: "c", from: 0.5, to: 0.6, word: "too narrow"}], labels: [{text: "right", near: [-1, 12], allowed: (x, y) => x > 1.5 && y > 14}, {text: "never", near: [0, 15], allowed: () => false}, {text: "beside", at: [1, 17]}]}])
   const [plot] = one.plots()

@@ -1,13 +1,14 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {holds, meet} from "../../../../app/static/chart/regions.js"
+import {extent, holds, meet} from "../../../../app/static/chart/regions.js"
 
 test("a region with a hole, and one that reaches to infinity", () => {
   const square = (r) => [[-r, -r], [r, -r], [r, r], [-r, r]]
   const ring = {loops: [square(2), square(1)], bounded: true}
   assert.deepEqual([[0, 0], [1.5, 0.2], [0.3, -1.5], [3, 0]].map((p) => holds(ring, p)), [false, true, true, false])
   assert.equal(holds({loops: [square(1)], bounded: false}, [5, 3]), true)
+  assert.deepEqual([extent({loops: [square(1), [[3, 0.5]]], bounded: true}), extent({loops: [square(1)], bounded: false})], [[[-1, 3], [-1, 1]], undefined])
 })
 
 test("boxes meet when both shares overlap", () => {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Grab, left} from "../../../../app/static/hands/grab.js"
+import {Grab, left, turnedTo} from "../../../../app/static/hands/grab.js"
 import {page} from "../played/page.js"
 
 const VALUES = {a: -2, b: 0.5, d: -1, f1: 1, f2: -1, z: 0.5, k1: 2, k2: -1}
@@ -11,6 +11,15 @@ test("where C has left to solves A e + f + z k = 0, outside the disc only", () =
   assert.ok(Math.hypot(a * c - b * s + f1 + z * k1, b * c + d * s + f2 + z * k2) < 1e-14)
   assert.equal(left({...VALUES, f1: -0.9, f2: 0.4}), null)
   assert.equal(left({...VALUES, a: 1, b: 0, d: 0}), null) // A is singular: there is no such place
+})
+
+test("a limit direction is turned to where it is held, by the least change of f", () => {
+  const theta = ({a, b, d, f1, f2, z, k1, k2}, [c, s]) => c * (b * c + d * s + f2 + z * k2) - s * (a * c - b * s + f1 + z * k1)
+  for (const at of [0.3, 2, -1.1]) {
+    const place = /** @type {[number, number]} */ ([Math.cos(at), Math.sin(at)]), now = {...VALUES, ...turnedTo(VALUES, {x: 1.7 * place[0], y: 1.7 * place[1]})}
+    assert.ok(Math.abs(theta(now, place)) < 1e-4)
+    assert.ok(Math.abs((now.f1 - VALUES.f1) * place[0] + (now.f2 - VALUES.f2) * place[1]) < 1e-4) // across it
+  }
 })
 
 function held({one = /** @type {any} */ ({x: 0.5, y: -0.25}), values = {...VALUES, f1: -1, f2: 0.5}, free = true} = {}) {

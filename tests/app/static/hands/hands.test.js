@@ -15,7 +15,7 @@ function played(text = "", frame = 300, marks = [[-9, -9]]) {
   }
   const at = (x, y) => x < 0 || x > frame ? null : {x: x / 100, y: -y / 100, unit: 0.01}
   const orbits = {get: () => text, set: (now) => { text = now; log.push(now) }, begin: (i) => log.push(`begin ${i}`), end: () => log.push("end")}
-  const objects = {under: ({clientX, clientY}) => { const i = marks.findIndex(([x, y]) => Math.hypot(clientX - x, clientY - y) <= 10); return i < 0 ? null : {name: `Q${i + 1}`} }, toggle: ({name}) => log.push(`pin ${name}`)}
+  const objects = {under: ({clientX, clientY}) => { const i = marks.findIndex(([x, y]) => Math.hypot(clientX - x, clientY - y) <= 10); return i < 0 ? null : {name: `Q${i + 1}`} }, toggle: ({name}) => log.push(`pin ${name}`), turns: ({name}) => name === "Q2" ? ({x, y}) => log.push(`turn ${x},${y}`) : null}
   const hands = new Hands(element, {at}, orbits, objects)
   return {
     hands, captured,
@@ -47,6 +47,22 @@ test("a press launches an orbit, which follows and is let go", () => {
   assert.deepEqual(one.log(), ["begin 1", "0.5,-0.1;1,0", "end"])
   one.tell("pointerdown", 200, 0); one.tell("pointermove", -5, 0) // out of the frame: it stays
   assert.deepEqual(one.log(), ["begin 2", "0.5,-0.1;1,0;2,0"])
+})
+
+test("an object that can be turned is, by mouse and finger, once it is drawn farther than in a click", () => {
+  for (const pointerType of ["mouse", "touch"]) {
+    const one = played("", 300, [[-9, -9], [50, 60]])
+    assert.equal(one.tell("pointerdown", 51, 60, {pointerType}).prevented, true)
+    assert.notEqual(one.hands.held, null) // a finger does not scroll
+    one.tell("pointermove", 53, 60, {pointerType})
+    assert.deepEqual(one.log(), [])
+    one.tell("pointermove", 80, 70, {pointerType})
+    one.tell("pointerup", 80, 70, {pointerType})
+    assert.deepEqual([one.log(), one.hands.held], [["turn 0.8,-0.7"], null])
+    one.tell("pointerdown", 51, 60, {pointerType})
+    one.tell("pointerup", 51, 60, {pointerType})
+    assert.deepEqual([one.log(), one.hands.held], [["pin Q2"], null])
+  }
 })
 
 test("a start within reach is taken, and nothing else moves; the reach is the pointer's", () => {

@@ -32,6 +32,8 @@ test("what is seen has six digits; a frame in another page names its controls", 
   assert.deepEqual(said({}, null, {embed: true, controls: ["f1", "z"]}), {v: "3", embed: "1", controls: "f1,z"})
   assert.deepEqual(said({}, null, {embed: false, controls: ["f1"]}), {v: "3"})
   assert.deepEqual(said({}, null, {embed: false, controls: [], beamer: 2}), {v: "3", beamer: "2"})
+  assert.deepEqual(said({}, null, {embed: false, controls: [], lift: true, views: [{name: "CM4", set: {f1: 1}, seen: null}]}), {v: "3", lift: "1", views: '[{"name":"CM4","set":{"f1":1},"seen":null}]'})
+  assert.deepEqual(said({}, null, {embed: false, controls: [], lift: false, views: []}), {v: "3"})
 })
 
 test("a long link is carried compressed, a short one as it is", async () => {

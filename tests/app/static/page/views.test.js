@@ -13,14 +13,15 @@ test("between two views of one system there are numbers, its own too; between tw
   assert.equal(between(FIRST, {...FIRST, psi: "tanh", f1: 1}), null)
 })
 
-function views(still = false) {
+function views(still = false, brought = /** @type {any[]} */ ([]), kept = "") {
   const there = page('<div class="codim2"><span class="views"></span><input type="range"><dialog></dialog></div>', {matchMedia: () => ({matches: still})})
+  if (kept) localStorage.setItem("codim2-views", kept)
   const root = /** @type {any} */ (there.document.querySelector(".codim2")), values = structuredClone(FIRST), said = []
   let shown = true
   const move = (wanted) => { Object.assign(values, wanted); said.push(wanted) }
-  new Views(root, {values, first: FIRST, shown: () => shown, name: () => "CM4", seen: () => null, move, open: (view, seen) => { Object.assign(values, view); said.push(["open", view.f1, seen]) }})
+  const all = new Views(root, {values, first: FIRST, brought, shown: () => shown, name: () => "CM4", seen: () => null, move, open: (view, seen) => { Object.assign(values, view); said.push(["open", view.f1, seen]) }})
   const key = (name, from = root) => there.fire(there.document, "keydown", {key: name, composedPath: () => [from]})
-  return {...there, root, values, said: () => said.splice(0), key, hide: () => { shown = false }, texts: () => [...root.querySelectorAll(".views button")].map((it) => it.textContent)}
+  return {...there, root, values, all, said: () => said.splice(0), key, hide: () => { shown = false }, texts: () => [...root.querySelectorAll(".views button")].map((it) => it.textContent)}
 }
 
 test("views are kept, run through by keys and dropped", () => {
@@ -42,6 +43,14 @@ test("views are kept, run through by keys and dropped", () => {
   one.key("PageDown")
   one.tick(2000)
   assert.deepEqual(one.said(), [])
+})
+
+test("views that a link brings are kept beside one's own, each once; a link carries no more than 24", () => {
+  const view = (f1) => ({name: "CM4", set: {f1}, seen: null})
+  const one = views(false, [view(1), view(2)], JSON.stringify([view(3), view(2)]))
+  assert.deepEqual([one.texts(), JSON.parse(localStorage.getItem("codim2-views") ?? "").map(({set}) => set.f1)], [["+", "1", "2", "3"], [3, 2, 1]])
+  const many = Array.from({length: 30}, (_, i) => view(i))
+  assert.deepEqual(views(false, many).all.carried, many.slice(0, 24))
 })
 
 test("who wants no motion is shown the next view at once", () => {

@@ -32,12 +32,56 @@ test("the panel diagram: branches, bands and special points are where the data s
   near(all[1].marks.map(({at}) => at), [[3, 0.5]], 0.03)
   assert.equal(all[1].marks[0].title, "Hopf at 3. A pair crosses.")
   assert.equal(one.find(".diagram").style.height, "310px")
-  assert.deepEqual(one.texts(".special-list span:nth-of-type(2)"), ["f₁ = 1", "f₁ = 3"])
+  assert.deepEqual(one.texts(".frames span"), ["1", "3"])
   const value = one.find(".diagram .value").getAttribute("d")
   near([all[0].x.of(Number(value.match(/M([\d.]+)/)[1]))], [2.5], 0.03)
   assert.equal(one.find(".diagram").getAttribute("aria-valuetext"), "f₁ = 2.5")
   one.set({f1: 3})
-  assert.deepEqual(one.all(".special-list button").map((item) => item.classList.contains("here")), [false, true])
+  assert.deepEqual(one.all(".frames button").map((item) => item.classList.contains("here")), [false, true])
+})
+
+test("the panel diagram: a film strip holds the portraits before, at and after, and a sentence for the nearest", () => {
+  const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0}, {film: true, settings: {slow: 0.25, near: 0.05}})
+  const here = () => one.all(".frames button").findIndex((item) => item.classList.contains("here")), told = () => one.find(".happens").textContent
+  one.frame({diagram: {...DIAGRAM, special: []}, ...AXES})
+  assert.equal(told(), "Nothing that stands still changes in this range.")
+  one.frame({diagram: DIAGRAM})
+  assert.deepEqual([here(), told()], [-1, "Before Hopf, f₁ = 3: A pair crosses."]) // nothing is drawn between yet
+  one.frame({film: [[-0.5, "CM2", "<svg></svg>"], [1, "", ""], [2, "CM4", ""], [3, "", ""], [4.5, "CM0", ""]]})
+  assert.deepEqual(one.texts(".frames span"), ["CM2", "1", "CM4", "3", "CM0"])
+  assert.equal(one.all(".frames button")[3].getAttribute("title"), "Hopf at f₁ = 3. A pair crosses.")
+  const seen = (f1) => { one.set({f1}); return [here(), told().split(",")[0]] }
+  assert.deepEqual([-1, 1, 1.5, 3, 5].map(seen), [[0, "Before saddle-node"], [1, "At saddle-node"], [2, "After saddle-node"], [3, "At Hopf"], [4, "After Hopf"]])
+  one.said()
+  one.fire(one.all(".frames button")[2], "click")
+  assert.deepEqual(one.said(), [["move", {f1: 2}]])
+  one.frame({diagram: DIAGRAM}) // of another system: its portraits are not there yet
+  assert.deepEqual(one.texts(".frames span"), ["1", "3"])
+})
+
+test("the panel diagram: play goes through the range, slowly near a special value, rests there, and ends", () => {
+  const one = opened("diagram", {along: "f1", f1: 1.9, n: 3, zoom: 0}, {settings: {slow: 0.25, near: 0.05}})
+  one.frame({diagram: DIAGRAM, ...AXES})
+  one.fire(one.find(".play"), "click")
+  const steps = [one.values.f1]
+  for (let i = 0; i < 900 && one.find(".play").getAttribute("aria-pressed") === "true"; i++) { one.tick(20); one.frame({}); steps.push(one.values.f1) }
+  const by = steps.slice(1).map((v, i) => v - steps[i]), near3 = steps.findIndex((v) => v > 2.95)
+  assert.equal(steps.at(-1), 6)
+  assert.ok(Math.abs(Math.max(...by) - 0.02 * 8 / 9) < 1e-6) // 8 wide in 9 seconds
+  assert.ok(Math.abs(by[near3 - 1] - by[1] / 4) < 0.1 * by[1])
+  assert.ok(steps.filter((v) => v === 3).length >= 1000 / 20)
+})
+
+test("the panel diagram: a film of it is asked for with its range and special values", async () => {
+  const wishes = []
+  const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0}, {film: true, take: async (wish, progress) => { wishes.push(wish); progress(1, 2); return {error: "Too large."} }})
+  one.frame({diagram: DIAGRAM, ...AXES})
+  assert.equal(one.find(".gif").hidden, false)
+  one.fire(one.find(".gif"), "click")
+  assert.equal(one.find(".making").textContent, "Drawing the film: 1 of 2 pictures …")
+  await Promise.resolve()
+  await Promise.resolve()
+  assert.deepEqual([wishes, one.find(".making").textContent, one.find(".gif").disabled], [[{kind: "gif", sliders: ["f1=-2,6;1,3"]}], "Too large.", false])
 })
 
 test("the panel diagram: limit cycles by amplitude and period, stable ones full", () => {
@@ -54,15 +98,15 @@ test("the panel diagram: limit cycles by amplitude and period, stable ones full"
   near(all[3].lines.map(({points}) => points), [[[2, 7], [3, 9], [4, 14]], [[4, 14], [5, 8]]], 0.2)
   assert.deepEqual(all[2].lines.map(({name}) => name), ["branch cycle", "branch cycle unstable"])
   near(all[2].marks.map(({at}) => at), [[4, 0.45]], 0.03)
-  assert.deepEqual(one.texts(".special-list span:nth-of-type(1)"), ["saddle-node", "Hopf", "fold"]) // in the order of the parameter
-  one.fire(one.all(".special-list button")[2], "click")
+  assert.deepEqual(one.texts(".frames span"), ["1", "3", "4"]) // in the order of the parameter
+  one.fire(one.all(".frames button")[2], "click")
   assert.deepEqual(one.said(), [["move", {f1: 4}]])
   one.frame({unable: {"cycles along": "Not of these."}})
   assert.equal(one.find(".diagram-note").textContent, "Not of these.")
   one.frame({unable: {diagram: "Choose another."}})
   one.frame({cycles_along: CYCLES}) // late: there is no diagram any more
   one.frame({unable: {"cycles along": "Not of these."}})
-  assert.deepEqual([one.find(".diagram-note").textContent, one.find(".diagram").hasAttribute("hidden"), one.find(".special-list").innerHTML], ["Choose another.", true, ""])
+  assert.deepEqual([one.find(".diagram-note").textContent, one.find(".diagram").hasAttribute("hidden"), one.find(".frames").innerHTML], ["Choose another.", true, ""])
   one.frame({diagram: DIAGRAM})
   assert.deepEqual([one.find(".diagram-note").textContent, one.find(".diagram").hasAttribute("hidden")], ["", false])
 })

@@ -52,7 +52,7 @@ const HANDS = {
   ],
   diagram: [
     [".diagram", "pointerdown", {clientX: 222, clientY: 60}], [".diagram", "pointerup"], [".diagram", "keydown", {key: "ArrowLeft"}], [".diagram", "keydown", {key: "ArrowUp", shiftKey: true}],
-    [".diagram .special", "pointerdown"], [".diagram .special@2", "pointerdown"], [".special-list button@1", "click"], [".diagram", "pointermove", {clientX: 100, clientY: 90}],
+    [".diagram .special", "pointerdown"], [".diagram .special@2", "pointerdown"], [".frames button@1", "click"], [".diagram", "pointermove", {clientX: 100, clientY: 90}],
     ["select.along", "change"], [".zoom .in", "click"], ["values", {f1: 1.25, n: 2.5, zoom: 6}],
   ],
   lessons: [

@@ -114,7 +114,7 @@ function dress(window, document) {
   get(all, {clientWidth: () => WIDTH, clientHeight: () => HEIGHT, offsetWidth: () => WIDTH, offsetHeight: () => HEIGHT, offsetLeft: () => 0})
   all.getBoundingClientRect = () => ({x: 0, y: 0, left: 0, top: 0, width: WIDTH, height: HEIGHT})
   Object.defineProperty(all, "tabIndex", {get() { return Number(this.getAttribute("tabindex") ?? -1) }, set(value) { this.setAttribute("tabindex", value) }, configurable: true})
-  all.setPointerCapture = () => {}
+  all.setPointerCapture = all.scrollIntoView = () => {}
   all.focus = function () { active = this }
   get(Object.getPrototypeOf(document), {activeElement: () => active})
   const canvas = Object.getPrototypeOf(document.createElement("canvas"))

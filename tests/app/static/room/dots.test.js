@@ -30,10 +30,16 @@ test("a dot stands at f₁ to the right and f₂ upward, and says which portrait
   assert.deepEqual(one.dots().map(({r, many, title}) => [r, many, title]), [[5, undefined, ". Click: open these settings"], [5, undefined, "CM2. Click: open these settings"]])
 })
 
-test("full dots come first, hollow ones are those whose A or Ψ is another", () => {
+test("a phone whose A or Ψ is another has no dot, and is told", () => {
   const one = atlas([phone("CM4", -1, 0, {a: 3}), phone("CM4", 1, 0)])
-  assert.deepEqual(one.dots().map(({name}) => name), ["phone", "phone other"])
-  near(one.dots().map(({at}) => at), [[1, 0], [-1, 0]])
+  near(one.dots().map(({at}) => at), [[1, 0]])
+  assert.match(one.find(".crowd-list").textContent, / 1 not on this chart/)
+})
+
+test("answers to a question are a bar: how many of those who have answered are right", () => {
+  const one = atlas([[1, "CM4", {}, ["Ball", 1, true]], [2, "CM4", {}, ["Ball", 1, false]], [3, "CM4", {}, ["Ball", -1, false]]])
+  assert.equal(one.find(".crowd-list h3").textContent, "Ball: 3 there")
+  assert.deepEqual([...one.find(".crowd-list .bar").children].map((it) => it.textContent || it.getAttribute("style")), ["question 2", "width:50%", "1 of 2 right"])
 })
 
 test("phones at one place are one dot with their number, larger the more there are, within bounds", () => {

@@ -13,29 +13,28 @@ const FIRST = {a: -2, b: 0, d: -1, f1: -0.5, f2: 0, system: "normal", texts: {},
 const NAMES = Object.keys(FIRST), FAMILIES = {constant: {}, hill: {parameter: "n"}, custom: {typed: true}}
 const row = (number, name, own, lesson = null) => /** @type {import("../../../../app/static/room/crowd.js").Row} */ ([number, name, own, lesson])
 const on = (axes, plane = false) => ({axes, plane, first: FIRST, names: NAMES, families: FAMILIES})
-const spots = (rows, mine, chart) => placed(rows, {...FIRST, ...mine}, chart).map(({x, y, alike}) => [x, y, alike])
+const spots = (rows, mine, chart) => placed(rows, {...FIRST, ...mine}, chart).map(({row: [number], x, y}) => [number, x, y])
 
-test("in the plane of f a phone is at its f(z), and hollow where A or Ψ is another", () => {
+test("in the plane of f a phone is at its f(z), if A and Ψ are the lecturer's", () => {
   const rows = [row(1, "CM4", {}), row(2, "CM2", {f1: 1, f2: -0.5, z: 2, k2: 0.25}), row(3, "CM0", {a: 1}), row(4, "CM4", {psi: "hill"}), row(5, "CM4", {B1: 3, n: 4})]
-  near(spots(rows, {f1: 9, z: 0.5}, on(["f1", "f2"], true)).map(([x, y]) => [x, y]), [[-0.5, 0], [2, 0], [-0.5, 0], [-0.5, 0], [-0.5, 0]])
-  assert.deepEqual(spots(rows, {f1: 9, z: 0.5}, on(["f1", "f2"], true)).map(([, , alike]) => alike), [true, true, false, false, true])
-  assert.deepEqual(spots(rows, {psi: "hill"}, on(["f1", "f2"], true)).map(([, , alike]) => alike), [false, false, false, true, false])
+  near(spots(rows, {f1: 9, z: 0.5}, on(["f1", "f2"], true)), [[1, -0.5, 0], [2, 2, 0], [5, -0.5, 0]])
+  assert.deepEqual(spots(rows, {psi: "hill"}, on(["f1", "f2"], true)).map(([number]) => number), [4])
 })
 
 test("over two other parameters all else is compared, and f as f(z)", () => {
   const rows = [row(1, "CM4", {}), row(2, "CM4", {a: 1, d: 2}), row(3, "CM4", {f1: 0}), row(4, "CM4", {f1: -1, z: 1})]
-  assert.deepEqual(spots(rows, {a: 3}, on(["a", "d"])), [[-2, -1, true], [1, 2, true], [-2, -1, false], [-2, -1, true]])
-  assert.deepEqual(spots(rows, {z: 1}, on(["f1", "a"])), [[-1, -2, true], [-1, 1, false], [-0.5, -2, true], [-1, -2, true]])
-  assert.deepEqual(spots(rows, {}, on(["z", "f1"])), [[0, -0.5, true], [0, -0.5, false], [0, 0, true], [1, -1, true]])
-  assert.deepEqual(spots([row(1, "CM4", {psi: "hill", n: 3})], {psi: "hill"}, on(["n", "a"])), [[3, -2, true]])
+  assert.deepEqual(spots(rows, {a: 3}, on(["a", "d"])), [[1, -2, -1], [2, 1, 2], [4, -2, -1]])
+  assert.deepEqual(spots(rows, {z: 1}, on(["f1", "a"])), [[1, -1, -2], [3, -0.5, -2], [4, -1, -2]])
+  assert.deepEqual(spots(rows, {}, on(["z", "f1"])), [[1, 0, -0.5], [3, 0, 0], [4, 1, -1]])
+  assert.deepEqual(spots([row(1, "CM4", {psi: "hill", n: 3})], {psi: "hill"}, on(["n", "a"])), [[1, 3, -2]])
 })
 
 test("a system of one's own is compared by its texts and parameters; another system is on no chart", () => {
   const own = (mu, more = {}) => ({system: "own", texts: {U1: "c"}, parameters: {mu, k: 1}, ...more})
-  const rows = [row(1, "CM4", own(0.5)), row(2, "CM4", own(0.5, {z: 1, z2: 3})), row(3, "CM4", own(2, {texts: {}})), row(4, "CM4", {}), row(5, "CM4", null)]
-  assert.deepEqual(spots(rows, own(9), on(["z", "own:mu"])), [[0, 0.5, true], [1, 0.5, false], [0, 2, false]])
+  const rows = [row(1, "CM4", own(0.5)), row(2, "CM4", own(0.5, {z: 1, z2: 3})), row(3, "CM4", own(2, {texts: {}})), row(4, "CM4", {}), row(5, "CM4", null), row(6, "CM4", own(0.7, {z: 2}))]
+  assert.deepEqual(spots(rows, own(9), on(["z", "own:mu"])), [[1, 0, 0.5], [6, 2, 0.7]])
   assert.deepEqual(spots([row(1, "CM4", {...own(0.5), parameters: {k: 1}})], own(9), on(["z", "own:mu"])), [])
-  assert.deepEqual(spots([row(1, "CM4", {...own(0.5), parameters: {mu: 1, k: 2}})], own(9), on(["z", "own:mu"])), [[0, 1, false]])
+  assert.deepEqual(spots([row(1, "CM4", {...own(0.5), parameters: {mu: 1, k: 2}})], own(9), on(["z", "own:mu"])), [])
 })
 
 test("all settings of a phone, and how many show what", () => {
@@ -43,11 +42,11 @@ test("all settings of a phone, and how many show what", () => {
   assert.equal(settings(row(1, "CM4", null), FIRST, NAMES), null)
   const rows = [row(1, "CM2", {}, ["Ball", -1, false]), row(2, "CM4", {}, ["Ball", 1, true]), row(3, "CM4", {}, ["Ball", 1, false]), row(4, "CM0", {}, ["A", 0, true])]
   assert.deepEqual(tally(rows).map(([name, some]) => [name, some.length]), [["CM4", 2], ["CM0", 1], ["CM2", 1]])
-  assert.deepEqual(lessons(rows), ["A: 1 there; question 1: 1 of 1 right", "Ball: 3 there; question 2: 1 of 2 right"])
+  assert.deepEqual(lessons(rows), [["A", 1, [[0, 1, 1]]], ["Ball", 3, [[1, 2, 1]]]])
 })
 
 test("settings are alike to nine digits, whatever their size; a typed Ψ by its text", () => {
-  const alike = (own, mine) => placed([row(1, "CM4", own)], {...FIRST, ...mine}, on(["f1", "f2"]))[0].alike
+  const alike = (own, mine) => placed([row(1, "CM4", own)], {...FIRST, ...mine}, on(["f1", "f2"])).length > 0
   assert.deepEqual([1 + 1e-10, 1 + 1e-8].map((times) => alike({a: 3e6 * times}, {a: 3e6})), [true, false])
   assert.deepEqual([1e-10, 1e-8].map((more) => alike({a: more}, {a: 0})), [true, false])
   const own = (text) => ({psi: "custom", psi_text: text})
@@ -56,7 +55,7 @@ test("settings are alike to nine digits, whatever their size; a typed Ψ by its 
 
 test("questions of a lesson are told in their order", () => {
   const at = (i, right) => row(i, "CM4", {}, ["Ball", i, right])
-  assert.deepEqual(lessons([at(2, true), at(0, false), at(10, true), at(1, true), at(2, false)]), ["Ball: 5 there; question 1: 0 of 1 right; question 2: 1 of 1 right; question 3: 1 of 2 right; question 11: 1 of 1 right"])
+  assert.deepEqual(lessons([at(2, true), at(0, false), at(10, true), at(1, true), at(2, false)]), [["Ball", 5, [[0, 1, 0], [1, 1, 1], [2, 2, 1], [10, 1, 1]]]])
 })
 
 const REGIONS = {atlas_of: ["f1", "f2", true], atlas_size: 2, regions: {name: ["CM4"], inside: [[0, 0]], bounded: [false], loops: [0], size: 2}}
@@ -71,14 +70,14 @@ test("in the atlas: dots, those that meet as one with their number; a click open
   rows = [row(1, "CM4", {}), row(2, "CM4", {f1: -0.49}), row(3, "CM2", {f1: 1, a: 4}), row(4, "<CM0>", {system: "ball"})]
   one.set({})
   const shown = () => one.all(".crowd .phone").map((it) => [it.getAttribute("class"), it.querySelector("text")?.textContent ?? "1"])
-  assert.deepEqual(shown(), [["phone", "2"], ["phone other", "1"]])
+  assert.deepEqual(shown(), [["phone", "2"]])
   one.set({f1: -0.495}) // the handle is there: it can be taken, and the dots are seen on it
-  assert.deepEqual(shown(), [["phone held", "2"], ["phone other", "1"]])
+  assert.deepEqual(shown(), [["phone held", "2"]])
   one.set({f1: 0.75})
   const first = one.find(".crowd .phone").getAttribute("transform")
   assert.equal(one.find(".crowd-list h2").textContent, "4 phones in the room")
   assert.deepEqual(one.texts(".crowd-list li button"), ["CM42", "<CM0>1", "CM21"])
-  assert.match(one.find(".crowd-list .note").textContent, / 1 not on this chart/)
+  assert.match(one.find(".crowd-list .note").textContent, / 2 not on this chart/)
   one.set({f1: 0.25}) // the lecturer's own slider moves none of them
   assert.equal(one.find(".crowd .phone").getAttribute("transform"), first)
   one.said()
@@ -91,9 +90,9 @@ test("in the atlas: dots, those that meet as one with their number; a click open
   one.fire(one.all(".crowd-list li button")[2], "click")
   assert.deepEqual(one.said(), [["open", {...FIRST, f1: 1, a: 4, preset: ""}]])
   one.set({a: 4})
-  assert.deepEqual(shown(), [["phone", "1"], ["phone other", "2"]])
+  assert.deepEqual(shown(), [["phone", "1"]])
   one.frame({...REGIONS, atlas_size: 3}, BLOCKS) // the chart is drawn anew
-  assert.equal(shown().length, 2)
+  assert.equal(shown().length, 1)
   rows = null
   one.set({})
   assert.equal(one.find(".crowd-list").hidden, true)
@@ -106,7 +105,7 @@ function room(kept = "{}", hostname = "h", search = "?v=1&room=bcdf") {
   const root = /** @type {any} */ (there.document.querySelector(".codim2")), dialog = root.querySelector("dialog")
   dialog.showModal = () => { dialog.open = true }
   dialog.close = () => { dialog.open = false }
-  const made = new Room(root, {send: ({room: wish}) => said.push(wish), query: () => "v=1&f1=1", version: 1, changed: () => said.push("changed"), opened: () => said.push("opened"), open: (view) => said.push(["open", view])})
+  const made = new Room(root, {send: ({room: wish}) => said.push(wish), query: () => "v=1&f1=1", version: 1, changed: () => said.push("changed"), opened: () => said.push("opened"), open: (view) => said.push(["open", view]), follow: (view) => said.push(["follow", view])})
   const show = made.show.bind(made), showing = []
   made.show = () => { showing.push(show()); return showing[0] }
   return {...there, root, dialog, room: made, shown: () => Promise.all(showing), bar: root.querySelector(".room-bar"), said: () => said.splice(0), kept: () => JSON.parse(sessionStorage.getItem("")), press: (act) => there.fire(root.querySelector(`[data-room=${act}]`), "click")}
@@ -174,7 +173,7 @@ test("a student is told that he is in a room, and leaves it", () => {
   one.room.begin("bcdf")
   assert.deepEqual(one.said(), [{join: "bcdf"}])
   one.room.hear({room: {joined: "BCDF"}})
-  assert.match(one.bar.textContent, /^You are in room BCDF: the lecturer sees your settings as a dot, no name\.Leave$/)
+  assert.match(one.bar.textContent, /^Room BCDF: the lecturer sees your settings as a dot, no name\.FollowLeave$/)
   assert.deepEqual(one.kept(), {in: "BCDF"})
   one.press("leave")
   assert.deepEqual([one.said(), one.kept(), one.bar.hidden], [[{leave: true}], {}, true])
@@ -185,6 +184,23 @@ test("a student is told that he is in a room, and leaves it", () => {
   one.room.begin("zzzz")
   one.room.hear({room: {error: "There is no <room>."}})
   assert.deepEqual([one.bar.textContent, one.bar.hidden, one.kept()], ["There is no <room>.OK", false, {}])
+})
+
+test("a student follows the lecturer, until he sets something himself or the switch is let go", () => {
+  const one = room(), pressed = () => one.bar.querySelector("[data-room=follow]").getAttribute("aria-pressed")
+  one.room.hear({room: {joined: "BCDF"}})
+  one.room.hear({room: {view: {f1: 1}}}) // it was on its way
+  one.room.stray()
+  assert.deepEqual([one.said(), pressed()], [[], "false"])
+  one.press("follow")
+  one.room.hear({room: {view: {f1: 2}}})
+  assert.deepEqual([one.said(), pressed()], [[{follow: true}, ["follow", {f1: 2}]], "true"])
+  assert.match(one.bar.textContent, /^Room BCDF: you see what the lecturer shows\./)
+  one.room.stray()
+  assert.deepEqual([one.said(), pressed()], [[{follow: false}], "false"])
+  one.press("follow")
+  one.press("follow")
+  assert.deepEqual([one.said(), pressed()], [[{follow: true}, {follow: false}], "false"])
 })
 
 test("a page that is loaded again while its server starts asks some times", () => {
@@ -224,7 +240,7 @@ test("the explorer enters the room of its address; an embedded one does not", ()
   const link = new URLSearchParams(shown.root.explorer.room.tools.query())
   assert.deepEqual(["v", "embed", "beamer"].map((name) => link.get(name)), ["1", null, null]) // a phone is no beamer, and no frame
   one.tell({room: {joined: "BCDF"}})
-  assert.match(one.find(".room-bar").textContent, /^You are in room BCDF/)
+  assert.match(one.find(".room-bar").textContent, /^Room BCDF/)
   one.tell({room: {rows: [row(1, "CM4", {})]}})
   assert.equal(one.root.explorer.room.rows.length, 1)
   const embedded = wired({look: {embed: true, controls: [], seen: []}}, HEADER, at)

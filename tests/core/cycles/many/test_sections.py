@@ -8,9 +8,9 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.cycles import orbit
-from codim2_core.cycles.many.sections import NODES, Sections, located
+from codim2_core.cycles.many.sections import STEP_NODES, Sections, critical_points
 from codim2_core.cycles.orbit import path
-from codim2_core.cycles.section import FINE, Section
+from codim2_core.cycles.section import FINE_RTOL, Section
 
 # (a, b, d, f1, f2): foci of all senses, in the middle and out of it.
 PLANES = np.array(
@@ -30,7 +30,7 @@ def _one(plane, psi, ray):
 
 
 def _all(psi, ray, own=None):
-    e, complement = located(PLANES)
+    e, complement = critical_points(PLANES)
     return Sections(PLANES, e, complement, psi, own, ray)
 
 
@@ -44,8 +44,8 @@ def _all(psi, ray, own=None):
     ],
 )
 def test_where_no_cycle_can_be_the_complement_is_not_positive(plane):
-    assert located(np.array([plane, PLANES[0]]))[1][0] <= 0.0
-    assert located(np.array([plane, PLANES[0]]))[1][1] > 0.0
+    assert critical_points(np.array([plane, PLANES[0]]))[1][0] <= 0.0
+    assert critical_points(np.array([plane, PLANES[0]]))[1][1] > 0.0
 
 
 @pytest.mark.parametrize("near", [1e-3, 1e-12, 1e-15])
@@ -57,7 +57,7 @@ def test_near_the_equator_and_near_a_double_zero_all_digits_are_kept(near):
         for a, b, d in ((1.0, 3.0, -2.0), (1.0, math.sqrt(2.0) * (1.0 + near), -2.0)):
             f = -np.array([[a, -b], [b, d]]) @ [r * math.cos(angle), r * math.sin(angle)]
             rows.append((a, b, d, *f))
-    e, complement = located(np.array(rows))
+    e, complement = critical_points(np.array(rows))
     for row, place, gap in zip(rows, e, complement, strict=True):
         a, b, d, f1, f2 = map(Fraction, row)
         det, n1, n2 = a * d + b * b, d * f1 + b * f2, a * f2 - b * f1
@@ -69,23 +69,23 @@ def test_near_the_equator_and_near_a_double_zero_all_digits_are_kept(near):
 @pytest.mark.parametrize("back", [False, True])
 def test_turns_are_those_of_one_system(back, monkeypatch):
     """Ends, and the nodes of all steps; those that do not return are left out."""
-    monkeypatch.setattr(orbit, "NODES", NODES)
+    monkeypatch.setattr(orbit, "STEP_NODES", STEP_NODES)
     psi, ray = c2.psi.hill(3), 0
     many, backward = _all(psi, ray), np.full(5, back)
     backward[1] = not back
     xi = np.array([0.0, -1.0, 0.5, -0.5, -2.0])
     starts = np.array([_one(plane, psi, ray).states(x[None])[0][0] for plane, x in zip(PLANES, xi, strict=True)])
-    rows, ways = many.turned(starts, FINE, backward)
-    paths = [path(_one(p, psi, ray), s, FINE, bool(b)) for p, s, b in zip(PLANES, starts, backward, strict=True)]
+    rows, ways = many.turned(starts, FINE_RTOL, backward)
+    paths = [path(_one(p, psi, ray), s, FINE_RTOL, bool(b)) for p, s, b in zip(PLANES, starts, backward, strict=True)]
     assert rows.tolist() == [i for i, one in enumerate(paths) if one is not None]
     assert len(rows) > 2
     assert ways.first[0] == 0
-    assert ways.first[-1] == len(ways.whose) == len(ways.inner) == NODES * len(ways.h)
+    assert ways.first[-1] == len(ways.whose) == len(ways.inner) == STEP_NODES * len(ways.h)
     for k, i in enumerate(rows):
         own = slice(ways.first[k], ways.first[k + 1])
         assert (ways.whose[own] == k).all()
         np.testing.assert_allclose(ways.ends[k], paths[i].end, rtol=1e-7, atol=1e-9)
-        lengths = ways.h[own.start // NODES : own.stop // NODES]
+        lengths = ways.h[own.start // STEP_NODES : own.stop // STEP_NODES]
         assert lengths.sum() == pytest.approx(paths[i].time, rel=1e-8)
         if len(lengths) == len(paths[i].h):
             np.testing.assert_allclose(ways.inner[own], paths[i].inner, atol=1e-6)  # of other steps by rounding

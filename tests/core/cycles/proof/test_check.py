@@ -147,5 +147,5 @@ def test_what_is_changed_at_random_is_refused_or_still_true(seed):
 
 def test_its_work_is_bounded(monkeypatch):
     one = certificate("one")
-    monkeypatch.setattr(checker, "MOST_CELLS", 20)
+    monkeypatch.setattr(checker, "MAX_CELLS", 20)
     assert not accepted(one)

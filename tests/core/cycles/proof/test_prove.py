@@ -130,4 +130,4 @@ def test_a_cycle_that_was_overlooked_is_not_proved_away(system, family, kept):
     problem = LayerProblem(system.at(), family)
     lines = [cycle.points for cycle in c2.limit_cycles(system, family)]
     assert len(lines) > kept
-    assert not prove.proved(problem, lines[:kept], None)
+    assert not prove.prove_count(problem, lines[:kept], None)

@@ -22,10 +22,10 @@ TANH, HILL = families.tanh(), families.hill(3)
 
 def placed(system, z, psi=TANH):
     """The workspace that the kernels read, with z in place."""
-    S, own = np.zeros(slow.EXTENT), functions_of(field(system), psi).addresses
+    S, own = np.zeros(slow.SLOW_EXTENT), functions_of(field(system), psi).addresses
     S[slow.VALUE : slow.SLOPES + 1] = own[:2].view(float)
-    S[slow.SLOW] = len(z)
-    S[slow.PLACE + 4 : slow.PLACE + 4 + len(z)] = z
+    S[slow.SLOW_RATES] = len(z)
+    S[slow.SET_PLACE + 4 : slow.SET_PLACE + 4 + len(z)] = z
     return S
 
 

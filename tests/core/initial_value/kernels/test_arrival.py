@@ -23,7 +23,7 @@ def _slides(system, theta, psi=None, affine=False, line=(0.0, 0.0), z=()):
     P[PSI] = (psi or TANH).parameter
     gain = int(functions_of(field(system), psi or TANH).addresses[2])
     found = slides(S, P, gain, 2 + len(z), affine, psi is not None, *line, theta)
-    return bool(found), (float(S[slow.PLACE]), float(S[slow.PLACE + 1]))
+    return bool(found), (float(S[slow.SET_PLACE]), float(S[slow.SET_PLACE + 1]))
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from .placing import TANH
 def _followed(system, first, t_end, rtol=1e-3, most=10000, psi=TANH):
     first, own = np.atleast_2d(np.array(first, float)), field(system)
     lines = [invariant_line(own, state) for state in first]
-    return courses.followed(own, psi, lines, first, (0.0, t_end), rtol, 0.01, most)
+    return courses.run_hybrid(own, psi, lines, first, (0.0, t_end), rtol, 0.01, most)
 
 
 def test_without_slow_variables_a_slide_stays_to_the_end():

@@ -27,9 +27,9 @@ from .placing import placed
 def test_a_step_along_which_a_set_may_end_otherwise_is_not_sure(U, c, low, high, n):
     system = System(U=U, W=("1",))
     S, values, polynomial = placed(system, (0.0,)), np.empty((ends.GAUGES, 5)), np.zeros((3, 7))
-    for end, what in ((0.8 * low, ends.SAFE), (high, ends.UNSURE)):
+    for end, what in ((0.8 * low, ends.SAFE), (high, ends.UNSURE_END)):
         polynomial[2, 0] = end - low
         assert ends.step_end(S, np.array([c, 0.0, low]), polynomial, 1.0, *n, values)[0] == what
     if n == (0.0, 0.0):
         polynomial[2, 0] = -0.2 * low
-        assert ends.step_end(S, np.array([c, 0.0, low]), polynomial, -1.0, *n, values)[0] == ends.UNSURE
+        assert ends.step_end(S, np.array([c, 0.0, low]), polynomial, -1.0, *n, values)[0] == ends.UNSURE_END

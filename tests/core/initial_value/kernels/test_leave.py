@@ -7,7 +7,7 @@ import pytest
 
 from codim2_core import System
 from codim2_core.initial_value.kernels.leave import leave
-from codim2_core.initial_value.leaving import START, TILT
+from codim2_core.initial_value.leaving import FAST_START, TILT
 
 from .placing import placed
 
@@ -29,7 +29,7 @@ def test_a_way_out_turns_as_the_field_outside_and_z_make_it(faster):
     theta, n, t = math.atan2(0.8, 0.6), np.array([0.6, 0.8]), np.array([-0.8, 0.6])
     turning = t @ (M @ n + N @ W) / 4.0
     h = leave(S, 2, 0.0, 0.0, theta, 1e9, linear, square)
-    expected = START / faster if faster else TILT / abs(turning)
+    expected = FAST_START / faster if faster else TILT / abs(turning)
     assert h == pytest.approx(expected, rel=1e-9)
     np.testing.assert_allclose(linear[:2] / h, n + t * turning * h, atol=1e-10)
     np.testing.assert_allclose(linear[2:], W * h, rtol=1e-12)

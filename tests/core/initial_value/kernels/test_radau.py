@@ -11,7 +11,7 @@ from codim2_core.initial_value.kernels import radau
 from codim2_core.initial_value.kernels.stages import tableau_of, workspace
 from codim2_core.initial_value.problem import plane_problem
 from codim2_core.numerics import radau as in_python
-from codim2_core.numerics.radau import FAILED, GROW, SHRINK
+from codim2_core.numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE
 
 from .placing import CURVED, TANH, motion_of
 
@@ -27,8 +27,8 @@ class Begun:
         self.motion = motion_of(system, TANH, eps, rtol)
         self.problem = plane_problem(field(system), TANH, eps, rtol, 0.01 * rtol)
         self.work, self.clock = workspace(n, 0.0), np.zeros(4)
-        radau.linearised(self.motion, self.y, h, self.clock, self.work)
-        self.here = in_python._linearised(self.problem, self.y)
+        radau.linearise(self.motion, self.y, h, self.clock, self.work)
+        self.here = in_python._linearise(self.problem, self.y)
 
     def tried(self, refine=False, previous=None):
         """Whether it is accepted, and the factor; the same in Python, and its stages."""
@@ -52,6 +52,6 @@ def test_it_takes_the_steps_that_are_taken_in_python(y, eps, refine):
             assert change == pytest.approx(factor, rel=2e-2)
             if Z is not None:
                 np.testing.assert_allclose(step.work.Z / step.work.size, Z / step.here.size, atol=3e-2 * rtol)
-            told.append((bool(accepted), change not in (FAILED, GROW, SHRINK)))
+            told.append((bool(accepted), change not in (FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE)))
     assert {accepted for accepted, _ in told} == {False, True}
     assert any(between for _, between in told)

@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import PeriodicStatus, System, periodic_motion, psi, simulate_nonsmooth
-from codim2_core.motion.periodic.multipliers import matched
+from codim2_core.motion.periodic.multipliers import matching_distances
 from codim2_core.words import recognise
 
 from .closed_forms import CIRCLE, LINE, PLANE, DenHartog, Rotating
@@ -20,7 +20,7 @@ def keys(found):
 
 def close(found, expected):
     """Hold multipliers to closed forms, within their own errors."""
-    apart = matched(found.multipliers, np.asarray(expected, complex))
+    apart = matching_distances(found.multipliers, np.asarray(expected, complex))
     assert (apart <= 10.0 * found.multiplier_errors + 1e-9).all(), (apart, found.multiplier_errors)
     assert found.multiplier_errors.max() < 1e-7
 
@@ -100,7 +100,7 @@ def test_through_stops_it_returns_and_its_multipliers_are_those_of_differences(m
     end = lambda h: simulate_nonsmooth(system, first + h, (0.0, period), rtol=1e-12, atol=1e-13).states[-1][2:4]
     by = [(end(h) - end(-h)) / 2e-6 for h in 1e-6 * np.eye(5)[2:4]]
     expected = [*np.linalg.eigvals(np.transpose(by)), 0.0, 0.0]
-    assert matched(found.multipliers, np.array(expected, complex)).max() < 1e-4
+    assert matching_distances(found.multipliers, np.array(expected, complex)).max() < 1e-4
 
 
 def test_a_multiple_of_the_period_is_told():

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from codim2_core.scene import Scene
 from codim2_core.words import subscript
 
-from .describe import facts
-from .view import View
+from ..describe import facts
+from ..view import View
 
 _GREEK = {
     "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "varepsilon", "θ": "theta", "λ": "lambda",
@@ -17,13 +17,14 @@ _GREEK = {
     "ω": "omega", "Δ": "Delta", "Θ": "Theta", "Σ": "Sigma", "Φ": "Phi", "Ψ": "Psi", "Ω": "Omega",
 }  # fmt: skip
 #: Letters of the explorer's words as LaTeX writes them.
-SIGNS = {
+LATEX_SIGNS = {
     **{letter: rf"$\{name}$" for letter, name in _GREEK.items()},
     **{subscript(k): f"$_{k}$" for k in range(10)},
     **dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", (f"$^{{{k}}}$" for k in (*range(10), "-")), strict=True)),
     "−": "$-$", "·": r"$\cdot$", "×": r"$\times$", "′": "$'$", "≤": r"$\le$", "≥": r"$\ge$", "≠": r"$\ne$",
     "√": r"$\surd$", "°": r"$^\circ$", "±": r"$\pm$", "→": r"$\to$", "∞": r"$\infty$", "∈": r"$\in$",
-    "|": r"$|$", "–": "--", "’": "'", "“": "``", "”": "''", "…": r"\dots{}", "<": "$<$", ">": "$>$",
+    "⊙": r"$\odot$", "⊗": r"$\otimes$",
+    "ⁿ": "$^n$", "|": r"$|$", "–": "--", "’": "'", "“": "``", "”": "''", "…": r"\dots{}", "<": "$<$", ">": "$>$",
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "%": r"\%", "&": r"\&", "#": r"\#", "$": r"\$", "_": r"\_",
     "^": r"\^{}", "~": r"\~{}",
 }  # fmt: skip
@@ -31,7 +32,7 @@ SIGNS = {
 
 def in_latex(text: str) -> str:
     """Return words of the explorer as LaTeX text; a letter that it has no word for is left out."""
-    return "".join(SIGNS.get(letter, letter if letter.isascii() else "") for letter in text)
+    return "".join(LATEX_SIGNS.get(letter, letter if letter.isascii() else "") for letter in text)
 
 
 def number(value: float) -> str:
@@ -45,7 +46,7 @@ def latex(view: View) -> str:
     """Return two tabulars in one table: limit directions, and critical sets with their linearisation."""
     scene = view.scene()
     about = "".join(f"% {name}: {said}\n" for name, said in facts(view).items())
-    about = re.sub(r"[^\x00-\x7f]", lambda letter: SIGNS.get(letter[0], "").replace("$", ""), about)
+    about = re.sub(r"[^\x00-\x7f]", lambda letter: LATEX_SIGNS.get(letter[0], "").replace("$", ""), about)
     equator = scene["equator"]
     directions = [
         [f"$Q_{{{i + 1}}}$", *map(number, (equator.theta[i], equator.lambda_rho[i], equator.lambda_theta[i])),

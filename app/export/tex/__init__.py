@@ -1,0 +1,1 @@
+"""What LaTeX reads: a table of a view, and its picture."""
