@@ -193,7 +193,7 @@ export class Pointing {
       return `<li><svg viewBox="0 0 26 16" width="26" height="16" aria-hidden="true"><path d="M0 8H${head === "out" ? 20 : 26}" stroke="var(--${colour})" stroke-width="2.4" stroke-dasharray="${dash.join(" ")}"/><path d="${arrow}" fill="var(--${colour})"/></svg> ${escape(eigenWords(where, value))}</li>`
     })
     return `<b>${escape(one.label)}</b>${escape(title.slice(one.label.length))}${listed(rows)}`
-      + (lines.length ? `<ul>${lines.join("")}</ul>` : "") + [...notes, ...(hint ? [hint] : [])].map((note) => `<p>${escape(note)}</p>`).join("")
+      + (lines.length ? `<ul>${lines.join("")}</ul>` : "") + notes.map((note) => `<p>${escape(note)}</p>`).join("") + (hint ? `<p class="hint">${escape(hint)}</p>` : "")
   }
 
   // The legend knows the layers by name, and what the colours of the ring mean.

@@ -16,7 +16,7 @@ def test_only_the_open_panel_is_sent(panel):
     expected = {
         "atlas": {"regions", "atlas_size", "curves_of_psi", "thumbnails"},
         "numbers": {"outcomes"},
-        "diagram": {"diagram", "cycles_along"},
+        "diagram": {"diagram", "cycles_along", "film"},
     }.get(panel, {panel})
     assert OF_PANELS & header.keys() == expected
     assert header.get("unable", {}) == {}
