@@ -1,4 +1,4 @@
-"""How fast a parameter moves in play and in films: slowly near special values."""
+"""The pace of a parameter in play and in films: slow near special values."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is zero along each kind of curve, with derivatives: in (theta, u, v) on the equator, in (c, s, u, v) within it.
+"""Equations of each kind of curve, with derivatives: in (theta, u, v) on the equator, in (c, s, u, v) within it.
 
 With n = e and t across it on the equator, Theta = t.U, and by theta
 

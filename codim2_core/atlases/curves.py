@@ -32,11 +32,11 @@ def curves_of(family: Family, lines: Sequence[Line], seeds: Seeds = NO_SEEDS) ->
     They are begun in cells of the net, and from the seeds.
     """
     on, through, turning = starts.on_equator(family, lines)
-    folds, hopfs, foci = starts.within(family, lines)
+    folds, hopfs, foci = starts.interior_cells(family, lines)
     found = _true(
         tracing.saddle_nodes(family, on, seeds.equator) + tracing.through_equator(family, through, seeds.equator), lines
     )
-    points = [point for one in found.curves for point in special.along(family, one)]
+    points = [point for one in found.curves for point in special.special_points_along(family, one)]
     corners = special.corners(points)
     if family.affine:
         kept = [one for one in found.curves if one.kind != "transcritical" or not _singular(family, one)]
@@ -54,7 +54,7 @@ def curves_of(family: Family, lines: Sequence[Line], seeds: Seeds = NO_SEEDS) ->
     turned = tracing.in_the_plane("neutral equator", neutral, starts.on_steps(neutral, turning))
     more += Found([_to_ends(one, ends) for one in turned.curves], turned.unfinished)
     more = _true(more, lines)
-    points += [point for one in more.curves for point in special.along(family, one)]
+    points += [point for one in more.curves for point in special.special_points_along(family, one)]
     return found + more, [one for one in points if not any(line.holds(one.plane) for line in lines)]
 
 
@@ -120,12 +120,12 @@ def _each_once(found: list[Followed]) -> list[Followed]:
     """Leave out curves that lie on an earlier one of their kind: a symmetry makes them."""
     kept: list[Followed] = []
     for one in found:
-        if not any(one.kind == other.kind and _on(one.plane, other.plane) for other in kept):
+        if not any(one.kind == other.kind and _lies_on_line(one.plane, other.plane) for other in kept):
             kept.append(one)
     return kept
 
 
-def _on(points: Array, line: Array) -> bool:
+def _lies_on_line(points: Array, line: Array) -> bool:
     """Whether all points lie on a line but for its bends."""
     few = points[np.linspace(0, len(points) - 1, 9).astype(int)]
     bend = 0.02 * (np.diff(line, axis=0) ** 2).sum(axis=1).max()

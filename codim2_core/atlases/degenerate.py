@@ -54,17 +54,17 @@ class Line(NamedTuple):
 
 def degenerate_lines(family: Family) -> tuple[Line, ...]:
     """All degenerate lines; none where the whole plane is degenerate."""
-    return tuple(line for axis in (0, 1) for line in _along(family, axis))
+    return tuple(line for axis in (0, 1) for line in _lines_along(family, axis))
 
 
-def without(cells: Array, lines: Sequence[Line], half: float) -> Array:
+def drop_touching(cells: Array, lines: Sequence[Line], half: float) -> Array:
     """Leave out cells (k, n), of so wide a half, that touch one of some lines."""
     for line in lines:
         cells = cells[~line.holds(cells[:, -2:], half + NEAR)]
     return cells
 
 
-def _along(family: Family, axis: int) -> list[Line]:
+def _lines_along(family: Family, axis: int) -> list[Line]:
     def speeds(t: float) -> tuple[Array, Array]:
         """Theta and lambda_rho, of all angles and places along the line."""
         place = np.full((2, len(ALONG)), t)

@@ -71,7 +71,7 @@ class Net:
                 near[v].discard(u)
                 if len(near[v]) == 1:
                     loose.append(v)
-        return _bounded(self.places, _rings(self.places, near))
+        return _bounded_faces(self.places, _rings(self.places, near))
 
 
 def area(ring: Array) -> float:
@@ -82,7 +82,7 @@ def area(ring: Array) -> float:
 
 def net_of(lines: Sequence[Array]) -> Net:
     """Cut lines (m, 2) of the unit square, and its frame, where they cross."""
-    every = [FRAME, *(_joined(i, lines) for i in range(len(lines)))]
+    every = [FRAME, *(_extend_to_lines(i, lines) for i in range(len(lines)))]
     start = np.concatenate([line[:-1] for line in every])
     end = np.concatenate([line[1:] for line in every])
     of = np.concatenate([np.full(len(line) - 1, i) for i, line in enumerate(every)])
@@ -113,7 +113,7 @@ def net_of(lines: Sequence[Array]) -> Net:
     return Net(np.array(places), frozenset(edges))
 
 
-def _joined(i: int, lines: Sequence[Array]) -> Array:
+def _extend_to_lines(i: int, lines: Sequence[Array]) -> Array:
     """Return a line, drawn on to what its ends all but reach."""
     line = lines[i]
     if np.abs(line[0] - line[-1]).max() < BEYOND:
@@ -192,7 +192,7 @@ def _rings(places: Array, near: dict[int, set[int]]) -> list[list[int]]:
     return rings
 
 
-def _bounded(places: Array, rings: list[list[int]]) -> list[Face]:
+def _bounded_faces(places: Array, rings: list[list[int]]) -> list[Face]:
     shapes = [places[ring] for ring in rings]
     sizes = [area(shape) for shape in shapes]
     outer = sorted((i for i, size in enumerate(sizes) if size > 0.0), key=lambda i: sizes[i])
@@ -202,7 +202,7 @@ def _bounded(places: Array, rings: list[list[int]]) -> list[Face]:
             continue
         corners = set(rings[i])
         for k in outer:  # the smallest one around it that is no part of the same lines
-            if sizes[k] > -size and not corners & set(rings[k]) and within(shapes[i][:1], [shapes[k]])[0]:
+            if sizes[k] > -size and not corners & set(rings[k]) and inside_polygons(shapes[i][:1], [shapes[k]])[0]:
                 holes[k].append(i)
                 break
     out = []
@@ -213,7 +213,7 @@ def _bounded(places: Array, rings: list[list[int]]) -> list[Face]:
     return out
 
 
-def within(points: Array, rings: Sequence[Array]) -> NDArray[np.bool_]:
+def inside_polygons(points: Array, rings: Sequence[Array]) -> NDArray[np.bool_]:
     """Whether points (k, 2) lie within polygons, holes being polygons too."""
     inside = np.zeros(len(points), bool)
     x, y = points[:, 0, None], points[:, 1, None]

@@ -91,13 +91,13 @@ class Family:
 
     @property
     def read(self) -> tuple[bool, bool]:
-        """Which parameters U reads."""
+        """Return which of the two parameters U reads."""
         first, second = (any(name in row.names for row in self.rows) for name in self.names)
         return first, second
 
     @cached_property
     def of_psi(self) -> tuple[bool, bool]:
-        """Which parameters are that of Psi."""
+        """Return which of the two parameters is that of Psi."""
         own = self.psi.record.parameter
         first, second = (
             own is not None and name == own.name and name not in self.system.variable for name in self.names
@@ -115,7 +115,7 @@ class Family:
         return found[0], found[1]
 
     def jet(self, c: float, s: float, u: float, v: float) -> tuple[float, ...]:
-        """Of U1, then of U2: the value, and derivatives by c, s, u, v, cc, cs, cu, cv, ss, su, sv.
+        """Return U1, then U2: the value, and derivatives by c, s, u, v, cc, cs, cu, cv, ss, su, sv.
 
         Where one is undefined, as that of abs(c) at 0, all are taken just beside.
         """
@@ -234,7 +234,7 @@ def _rows(system: Any, names: Sequence[str]) -> list[Expression]:
         return rows_of(system, kept)[:2]
     own = [(name, value) for name, value in system.parameters if name not in kept]
 
-    def known(value: Any, name: str = "") -> Expression:
+    def as_expression(value: Any, name: str = "") -> Expression:
         if name in kept:
             return parse(name, (name,))
         row = value if isinstance(value, Expression) else parse(repr(value), ())
@@ -247,6 +247,6 @@ def _rows(system: Any, names: Sequence[str]) -> list[Expression]:
     for i, entries in enumerate(given):
         row = parse("row_c*c + row_s*s + row_f", ("c", "s", *_PARTS))
         for name, value in zip(_PARTS, (*entries, system.f[i]), strict=True):
-            row = row.substitute(name, known(value, f"f{i + 1}" if name == "row_f" else ""))
+            row = row.substitute(name, as_expression(value, f"f{i + 1}" if name == "row_f" else ""))
         found.append(row)
     return found

@@ -1,4 +1,4 @@
-"""What is told along a curve beside its place in the plane: where on the portrait it happens, and a number."""
+"""Numbers along a curve: its place on the portrait, and one value for each kind."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def places(family: Family, curve: Followed) -> Array:
     if v.shape[1] == 3:
         p = np.stack([np.cos(v[:, 0]), np.sin(v[:, 0])], axis=-1)
     else:
-        p = np.array([_placed(family, at) for at in v])
+        p = np.array([_place_on_portrait(family, at) for at in v])
     if family.turns:
         angles = [family.frozen(at[-2:]).turn for at in v]
         c, s = np.cos(angles), np.sin(angles)
@@ -33,7 +33,7 @@ def places(family: Family, curve: Followed) -> Array:
     return p
 
 
-def _placed(family: Family, at: Array) -> Array:
+def _place_on_portrait(family: Family, at: Array) -> Array:
     e, modulus = at[:2], math.hypot(*at[:2])
     complement = (1.0 - modulus) * (1.0 + modulus)
     if modulus == 0.0 or complement <= 0.0:

@@ -1,4 +1,4 @@
-"""What is zero along curves that belong to no place on the portrait: functions of both parameters alone."""
+"""Equations of curves without a place on the portrait: functions of both parameters alone."""
 
 from __future__ import annotations
 

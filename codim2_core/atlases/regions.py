@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..curves.polyline import distance, feet
 from ..diagrams.classes import Classes, classes_over
-from .faces import Face, middle, net_of, within
+from .faces import Face, inside_polygons, middle, net_of
 from .family import Family
 from .result import AtlasRegion, Looked
 
@@ -44,7 +44,7 @@ def regions_of(
     """
     lines = [family.units(line) for line in curves]
     marks = family.units(np.reshape(points, (-1, 2)))
-    net = net_of([_through(line, marks) for line in lines])
+    net = net_of([_insert_marks(line, marks) for line in lines])
     faces = net.faces()
     found = [middle(face) for face in faces]
     classes = classes_over(family.system, family.psi, family.z, family.names, family.ranges)
@@ -79,7 +79,7 @@ def _unlike(
         near |= distance(NET, line) < ASIDE
     owner = np.full(len(NET), -1)
     for i, face in enumerate(faces):
-        owner[within(NET, face.rings)] = i
+        owner[inside_polygons(NET, face.rings)] = i
     return tuple(
         (float(x), float(y))
         for (x, y), code, beside, i in zip(family.values(NET), codes, near, owner.tolist(), strict=True)
@@ -87,7 +87,7 @@ def _unlike(
     )
 
 
-def _through(line: Array, marks: Array) -> Array:
+def _insert_marks(line: Array, marks: Array) -> Array:
     """Put those of some points into a line on which they lie, but for its bends: also at a tip, between two of its."""
     added: list[tuple[float, Array]] = []
     for mark in marks:
@@ -97,7 +97,7 @@ def _through(line: Array, marks: Array) -> Array:
             continue
         where = i + float(part[i])
         if where == round(where) and 0 < (k := round(where)) < len(line) - 1 and gap[i] > 0.0:
-            where += 0.5 if _added(line[k], mark, line[k + 1]) < _added(line[k - 1], mark, line[k]) else -0.5  # a tip
+            where += 0.5 if _detour(line[k], mark, line[k + 1]) < _detour(line[k - 1], mark, line[k]) else -0.5  # a tip
         if where != round(where):
             added.append((where, mark))
     for where, mark in sorted(added, key=lambda pair: -pair[0]):
@@ -105,7 +105,7 @@ def _through(line: Array, marks: Array) -> Array:
     return line
 
 
-def _added(before: Array, point: Array, after: Array) -> float:
+def _detour(before: Array, point: Array, after: Array) -> float:
     """Return how much longer the way between two points is by way of another."""
     return math.dist(before, point) + math.dist(point, after) - math.dist(before, after)
 

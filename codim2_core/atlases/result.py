@@ -1,4 +1,4 @@
-"""What `atlas` returns: curves on which the portrait changes, points where they meet, and the regions between."""
+"""The result of `atlas`: curves on which the portrait changes, points where they meet, and the regions between."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ class AtlasRegion(Tabled):
 
 @dataclass(frozen=True, slots=True)
 class Looked:
-    """Where an atlas was compared with the portrait.
+    """A report on the places at which an atlas was compared with the portrait.
 
     Attributes
     ----------

@@ -46,7 +46,7 @@ class Special:
         return self.v[-2:]
 
 
-def along(family: Family, curve: Followed) -> list[Special]:
+def special_points_along(family: Family, curve: Followed) -> list[Special]:
     """Find the special points along one curve."""
     if curve.kind in ("saddle-node", "pitchfork"):
         found = _zeros(curve, lambda v: OnEquator(family, v).radial, _corner)
@@ -107,7 +107,7 @@ def _zeros(
 
 
 def _cusps_of_sets(family: Family, curve: Followed) -> list[Special]:
-    """Where det J = 0 keeps its place to first order along its own null vector."""
+    """Find where det J = 0 keeps its place to first order along its own null vector."""
     found = []
     points = curve.points
     for i in range(len(points) - 1):
@@ -123,13 +123,13 @@ def _cusps_of_sets(family: Family, curve: Followed) -> list[Special]:
 
 
 def crossings(curves: Sequence[Followed]) -> list[Special]:
-    """Where two curves cross, or one crosses itself, at two places of the portrait."""
+    """Find where two curves cross, or one crosses itself, at two places of the portrait."""
     found = []
     told = [one for one in curves if one.kind not in SILENT]
     for i, one in enumerate(told):
         for other in told[i:]:
             for j, k in _meetings(one, other):
-                at = _met(one, other, j, k)
+                at = _solve_crossing(one, other, j, k)
                 if at is not None:
                     kinds = sorted((one.kind, other.kind))
                     found.append(Special("crossing", say("two at once", one=kinds[0], other=kinds[1]), at))
@@ -153,7 +153,7 @@ def _meetings(one: Followed, other: Followed) -> list[tuple[int, int]]:
     return [(int(i), int(j)) for i, j in np.argwhere(met)]
 
 
-def _met(one: Followed, other: Followed, j: int, k: int) -> Array | None:
+def _solve_crossing(one: Followed, other: Followed, j: int, k: int) -> Array | None:
     """Solve both curves' equations at one place of the square, from two pieces that cross."""
     n, m = one.points.shape[1], other.points.shape[1]
 
@@ -172,12 +172,12 @@ def _met(one: Followed, other: Followed, j: int, k: int) -> Array | None:
     found = newton(both, start, REACH * 10.0)
     if found is None or found[-2:].min() < -ASIDE or found[-2:].max() > 1.0 + ASIDE:
         return None
-    if n == m and np.abs(_apart(found[: n - 2] - found[n - 2 : -2], n)).max(initial=0.0) < SAME and n > 2:
+    if n == m and np.abs(_distances(found[: n - 2] - found[n - 2 : -2], n)).max(initial=0.0) < SAME and n > 2:
         return None  # one place: what happens there is told as a point along one of them
     return found[-2:]
 
 
-def _apart(away: Array, n: int) -> Array:
+def _distances(away: Array, n: int) -> Array:
     return away - 2.0 * math.pi * np.round(away / (2.0 * math.pi)) if n == 3 else away
 
 
@@ -191,7 +191,7 @@ def corners(found: Sequence[Special]) -> list[Array]:
 
 
 def _same(one: Array, other: Array) -> bool:
-    return bool(np.abs(_apart(one - other, 3)).max() < SAME)
+    return bool(np.abs(_distances(one - other, 3)).max() < SAME)
 
 
 def each_once(found: Sequence[Special]) -> list[Special]:

@@ -1,4 +1,4 @@
-"""Where curves are looked for: cells of a net in which all that is zero along them changes its sign.
+"""Seeds of curves: cells of a net in which all of a curve's equations change their signs.
 
 On the equator the net is over (theta, u, v), within it over (c, s, u, v). A curve that keeps within one cell may be
 missed: it is looked for once more from seeds, beside places whose portrait is not that of their region.
@@ -19,7 +19,7 @@ from ..layer_problem.critical import critical_sets
 from ..numerics.root_between import root_between
 from ..psi.constructors import many
 from .degenerate import NEAR as BESIDE
-from .degenerate import Line, without
+from .degenerate import Line, drop_touching
 from .family import CENTRE, NEAR, Family
 
 Array = NDArray[np.float64]
@@ -58,11 +58,11 @@ def on_equator(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array
     turning, radial = c * V - s * U, c * U + s * V
     slope = s * s * a - s * c * (b + p) + c * c * q - radial
     grids = theta, side, side
-    on, through = (without(_cells(of, grids), lines, 0.5 / SIDES) for of in ((turning, slope), (U, V)))
-    return on, through, _apart(_turns(turning[:-1], radial[:-1], side), lines)
+    on, through = (drop_touching(_cells(of, grids), lines, 0.5 / SIDES) for of in ((turning, slope), (U, V)))
+    return on, through, _drop_degenerate(_turns(turning[:-1], radial[:-1], side), lines)
 
 
-def _apart(steps: Array, lines: Sequence[Line]) -> Array:
+def _drop_degenerate(steps: Array, lines: Sequence[Line]) -> Array:
     """Leave out steps (k, 2, 2) that come to a degenerate line."""
     for line in lines:
         away = steps[..., line.axis] - line.at
@@ -91,11 +91,11 @@ def _turns(turning: Array, radial: Array, side: Array) -> Array:
 
 
 def cell_within(family: Family) -> Array:
-    """Width (4,) of the cells of `within`."""
+    """Width (4,) of the cells of `interior_cells`."""
     return AFFINE_CELL if family.affine else CELL
 
 
-def within(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Array]:
+def interior_cells(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Array]:
     """Cells in which U comes to zero, and with it det DU, T, or T^2 - 4 sigma det DU: centres (k, 4) of each."""
     if family.affine:
         return np.zeros((0, 4)), *_within_affine(family, lines)
@@ -110,7 +110,7 @@ def within(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Ar
     grids = place, place, side, side
     found = [_cells((U, V, third), grids) for third in (det, trace, focus)]
     still = [line for line in lines if line.still]
-    found = [without(cells, still, 0.5 / CELLS) for cells in found]
+    found = [drop_touching(cells, still, 0.5 / CELLS) for cells in found]
     first, second, third = (cells[np.hypot(*cells[:, :2].T) < 1.0 + CELL[0]] for cells in found)
     return first, second, third
 
@@ -134,7 +134,7 @@ def _within_affine(family: Family, lines: Sequence[Line]) -> tuple[Array, Array]
             kept.append(np.concatenate([middle[mixed], cells[mixed]], axis=1))
         cells = (cells[wide][:, None] + 0.5 * half * CORNERS).reshape(-1, 2)
     still = [line for line in lines if line.still]
-    first, second = (without(np.concatenate(kept), still, 0.5 / FINE) for kept in found)
+    first, second = (drop_touching(np.concatenate(kept), still, 0.5 / FINE) for kept in found)
     return first, second
 
 

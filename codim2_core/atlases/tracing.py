@@ -131,7 +131,7 @@ def folds(family: Family, cells: Array, seeds: Sequence[Array] = ()) -> Found:
 def hopfs(family: Family, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> Found:
     """Curves on which tr J = 0, of saddles too."""
     sought = Sought("Hopf", conditions.hopf(family), _edges(4, NEAR))
-    sure = [*(_beside(family, v, 0.0) for v in corners), *seeds]
+    sure = [*(_seed_beside_corner(family, v, 0.0) for v in corners), *seeds]
     return _all_to_equator(family, _curves((sought,), cells, starts.cell_within(family), WITHIN, sure))
 
 
@@ -151,11 +151,11 @@ def node_foci(family: Family, cells: Array, corners: Sequence[Array], seeds: Seq
         )
         for sign in (1.0, -1.0)
     ]  # fmt: skip
-    sure = [*(_beside(family, v, sign) for v in corners for sign in (2.0, -2.0)), *seeds]
+    sure = [*(_seed_beside_corner(family, v, sign) for v in corners for sign in (2.0, -2.0)), *seeds]
     return _all_to_equator(family, _curves(both, cells, starts.cell_within(family), WITHIN, sure))
 
 
-def _beside(family: Family, corner: Array, level: float) -> Array | None:
+def _seed_beside_corner(family: Family, corner: Array, level: float) -> Array | None:
     """Find the place (4,) with T = level sqrt(sigma det DU) a little within a corner."""
     theta, *place = corner.tolist()
     size = math.sqrt(1.0 - INWARD)
@@ -242,7 +242,7 @@ def _curves(
 
 
 def _beside_curve(points: Array, cells: Array, reach: Array, steps: Steps) -> NDArray[np.bool_]:
-    """Which cells (k, n) are as near to a curve as `reach` (n,), in each unknown."""
+    """Return which cells (k, n) are as near to a curve as `reach` (n,), in each unknown."""
     along = np.diff(points, axis=0)
     parts = np.ceil(np.abs(along / reach).max(axis=1)).astype(int)
     dense = [at + np.arange(n + 1)[:, None] / max(n, 1) * way for at, way, n in zip(points, along, parts, strict=False)]

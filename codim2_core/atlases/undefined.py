@@ -24,10 +24,10 @@ def borders(family: Family) -> list[Array]:
     The cells of a finer net are cut into triangles: where U has a value at one corner and none at another, a border
     crosses two of its edges.
     """
-    if _defined(family, _net(SIDES)).all():
+    if _is_defined(family, _net(SIDES)).all():
         return []
     places = _net(CELLS)
-    known = _defined(family, places)
+    known = _is_defined(family, places)
     first = (np.arange(CELLS)[:, None] * (CELLS + 1) + np.arange(CELLS)).ravel()
     right, up, across = first + CELLS + 1, first + 1, first + CELLS + 2
     triangles = np.concatenate([np.stack([first, right, across], axis=1), np.stack([first, across, up], axis=1)])
@@ -35,7 +35,7 @@ def borders(family: Family) -> list[Array]:
     crossed = known[edges[..., 0]] != known[edges[..., 1]]  # two of a triangle, or none
     unique, pieces = np.unique(edges[crossed], axis=0, return_inverse=True)
     points = _crossings(family, places[unique[:, 0]], places[unique[:, 1]], known[unique[:, 0]])
-    return [_straightened(points[line]) for line in _chains(pieces.reshape(-1, 2))]
+    return [_straighten(points[line]) for line in _chains(pieces.reshape(-1, 2))]
 
 
 def _net(cells: int) -> Array:
@@ -43,7 +43,7 @@ def _net(cells: int) -> Array:
     return np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
-def _defined(family: Family, at: Array) -> NDArray[np.bool_]:
+def _is_defined(family: Family, at: Array) -> NDArray[np.bool_]:
     """Whether U has a value at places (k, 2) of the square."""
     c, s = PLACES[:, :, None].swapaxes(0, 1)
     with np.errstate(all="ignore"):
@@ -56,7 +56,7 @@ def _crossings(family: Family, start: Array, end: Array, known: NDArray[np.bool_
     low, high = np.zeros(len(start)), np.ones(len(start))
     for _ in range(HALVINGS):
         t = 0.5 * (low + high)
-        same = _defined(family, start + t[:, None] * (end - start)) == known
+        same = _is_defined(family, start + t[:, None] * (end - start)) == known
         low, high = np.where(same, t, low), np.where(same, high, t)
     return start + 0.5 * (low + high)[:, None] * (end - start)
 
@@ -82,7 +82,7 @@ def _chains(pairs: Indices) -> list[list[int]]:
     return lines
 
 
-def _straightened(line: Array) -> Array:
+def _straighten(line: Array) -> Array:
     """Leave out points between neighbours that lie on a straight line with them."""
     kept = [0]
     for i in range(1, len(line) - 1):

@@ -173,9 +173,11 @@ def _anticlockwise(halves: list[Half], plane: Geometry) -> list[list[int]]:
     rays = [halves[i] for around in crowded for i in around]
     counts = [len(around) for around in crowded]
     starts = np.cumsum([0, *counts[:-1]])
-    angles = dict(zip((i for around in crowded for i in around), _leaving(rays, counts, starts, plane), strict=True))
+    angles = dict(
+        zip((i for around in crowded for i in around), _leaving_angles(rays, counts, starts, plane), strict=True)
+    )
 
-    def ordered(around: list[int]) -> list[int]:
+    def order_around(around: list[int]) -> list[int]:
         if len(around) <= 2:
             return around
         round_ = [i for i in around if halves[i].on_ellipse]
@@ -189,7 +191,7 @@ def _anticlockwise(halves: list[Half], plane: Geometry) -> list[list[int]]:
 
         return sorted(around, key=key)
 
-    return [ordered(around) for around in groups]
+    return [order_around(around) for around in groups]
 
 
 def _turning_right(half: Half, plane: Geometry) -> float:
@@ -197,7 +199,7 @@ def _turning_right(half: Half, plane: Geometry) -> float:
     return -math.copysign(1.0, (half.high - half.low) * plane.determinant_sign)
 
 
-def _leaving(rays: list[Half], counts: list[int], starts: NDArray[np.intp], plane: Geometry) -> list[float]:
+def _leaving_angles(rays: list[Half], counts: list[int], starts: NDArray[np.intp], plane: Geometry) -> list[float]:
     """Angles at which arcs are seen from the vertices that they leave, so many from each, at one distance from it."""
     group = np.repeat(np.arange(len(counts)), counts)
     round_, low = np.array([ray.on_ellipse for ray in rays]), np.array([ray.low for ray in rays])

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ..words import say
-from .curve import BifurcationCurve, SpecialPoint, frozen, matrix, place
+from .curve import BifurcationCurve, SpecialPoint, matrix, place, read_only
 from .geometry import Geometry
 
 _TOGETHER = 1e-6  # radians, between directions that rounding keeps apart
@@ -47,7 +47,7 @@ def saddle_node(a: float, b: float, d: float) -> BifurcationCurve:
     if a == d and b == 0.0:
         point = SpecialPoint("all directions", (0.0, 0.0), say("nothing turns at f = 0"))
         return BifurcationCurve(
-            "saddle-node", "saddle-node: the point f = 0", label, frozen([np.zeros((1, 2))]), (point,), (),
+            "saddle-node", "saddle-node: the point f = 0", label, read_only([np.zeros((1, 2))]), (point,), (),
             say("two for every f"),
         )  # fmt: skip
     special: list[SpecialPoint] = []
@@ -71,10 +71,10 @@ def saddle_node(a: float, b: float, d: float) -> BifurcationCurve:
             branches[-1][-1] = branches[-1][0]
     if a == d:
         return BifurcationCurve(
-            "saddle-node", "saddle-node: the circle |f| = |b|", label, frozen(branches), tuple(special), (),
+            "saddle-node", "saddle-node: the circle |f| = |b|", label, read_only(branches), tuple(special), (),
             f"{sentence} {say('on the circle')}",
         )  # fmt: skip
-    return BifurcationCurve("saddle-node", "saddle-node", label, frozen(branches), tuple(special), (), sentence)
+    return BifurcationCurve("saddle-node", "saddle-node", label, read_only(branches), tuple(special), (), sentence)
 
 
 def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
@@ -108,7 +108,7 @@ def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
         branch = np.zeros((1, 2)) if degenerate else np.stack([-reach, reach])
         name = "transcritical: the point f = 0" if degenerate else "transcritical: a segment (det A = 0)"
         sentence = say("still at f = 0") if degenerate else say("line on a segment")
-        return BifurcationCurve("transcritical", name, label, frozen([branch]), (), (), sentence)
+        return BifurcationCurve("transcritical", name, label, read_only([branch]), (), (), sentence)
     phi = np.linspace(0.0, _TAU, 361)
     branch = plane.ellipse(phi)
     branch[-1] = branch[0]
@@ -124,4 +124,4 @@ def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
     ]
     name = "transcritical: the circle |f| = |b|, also the saddle-node curve" if plane.coincide else "transcritical"
     sentence = say("reaches the equator")
-    return BifurcationCurve("transcritical", name, label, frozen([branch]), tuple(special), (), sentence)
+    return BifurcationCurve("transcritical", name, label, read_only([branch]), tuple(special), (), sentence)

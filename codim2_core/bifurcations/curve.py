@@ -1,4 +1,4 @@
-"""What the bifurcation functions return: curves in the plane (f1, f2), and the points on them that are special."""
+"""Results of the bifurcation functions: curves in the plane (f1, f2), and their special points."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def matrix(a: object, b: object, d: object) -> tuple[float, float, float]:
     return found.a, found.b, found.d
 
 
-def frozen(arrays: Iterable[Array]) -> tuple[Array, ...]:
+def read_only(arrays: Iterable[Array]) -> tuple[Array, ...]:
     """Make arrays read-only."""
     out = []
     for array in arrays:

@@ -15,7 +15,7 @@ from ..cycles.section import Section
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
 from ..words import say
-from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
+from .curve import Array, BifurcationCurve, SpecialPoint, matrix, place, read_only
 from .equator import coefficients_at, neutral_loop
 from .fold_of_cycles import Folds
 from .geometry import Geometry
@@ -68,7 +68,7 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     lines, sizes, special = found.result()
     name = "folds of cycles" if lines else "folds of cycles: none"
     sentence = say("two cycles meet") if lines else say("no fold of cycles", lines=LINES)
-    return BifurcationCurve("fold of cycles", name, label, frozen(lines), tuple(special), frozen(sizes), sentence)
+    return BifurcationCurve("fold of cycles", name, label, read_only(lines), tuple(special), read_only(sizes), sentence)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Where limit cycles reach the equator, as curves in (f1, f2): its own change of stability, and loops of half-saddles.
+"""Curves in (f1, f2) on which limit cycles reach the equator: its change of stability, and loops of half-saddles.
 
 The equator is closed where sign(b) Theta > 0 at all theta, and Theta is affine in f: for f in a convex set. On its
 border, a part of the saddle-node curve, the exponent is infinite, with the sign of lambda_rho at the double zero of
@@ -25,7 +25,7 @@ from ..numerics.root_between import root_between
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..words import say
-from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
+from .curve import Array, BifurcationCurve, SpecialPoint, matrix, place, read_only
 from .geometry import Geometry
 
 BORDER, TURN = 1440, 256  # tangents to the border of closed equators, and angles at which Theta is looked at
@@ -50,7 +50,7 @@ def coefficients_at(a: float, b: float, d: float, f: Array) -> Coefficients:
 
 
 def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
-    """Where the closed equator changes its stability: a limit cycle is born from it, whatever Psi (thm:geneps0(c)).
+    """Return the curve on which the closed equator changes stability and emits a limit cycle (thm:geneps0(c)).
 
     The exponent, d times the integral of cos^2/|Theta| plus a times that of sin^2/|Theta|, is zero.
 
@@ -79,7 +79,7 @@ def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
         lines = [line * f for f in touching if f[1] > 0.0]
         lines = [f for f in lines if equator_cycle(coefficients_at(a, b, d, f[100])) is not None]
         return BifurcationCurve(
-            "equator", "closed equator: reversible", label, frozen(lines),
+            "equator", "closed equator: reversible", label, read_only(lines),
             sentence=say("reversible, equator"),
         )  # fmt: skip
 
@@ -94,7 +94,7 @@ def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
     branches = _curves(mean, OF_EQUATORS, _on_border(plane, mean, A), A, corners)
     sentence = say("equator turns") if branches else say("equator keeps")
     name = "closed equator" if branches else "closed equator: none"
-    return BifurcationCurve("equator", name, label, frozen(branches), (), (), sentence)
+    return BifurcationCurve("equator", name, label, read_only(branches), (), (), sentence)
 
 
 def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
@@ -132,7 +132,7 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
 
     A = np.array([[a, -b], [b, d]])
 
-    def missing(rtol: float) -> Callable[[Array], float]:
+    def gap_function(rtol: float) -> Callable[[Array], float]:
         def miss(e: Array) -> float:
             coefficients = coefficients_at(a, b, d, -A @ e)
             arcs = loops(coefficients)
@@ -140,9 +140,9 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
 
         return miss
 
-    sought = _sign_changes(missing(COARSE), missing(FINE))
-    branches = _curves(missing(FINE), OF_LOOPS, sought, A, touching)
-    condition = finite_differences(missing(FINE), DIFFERENCE)
+    sought = _sign_changes(gap_function(COARSE), gap_function(FINE))
+    branches = _curves(gap_function(FINE), OF_LOOPS, sought, A, touching)
+    condition = finite_differences(gap_function(FINE), DIFFERENCE)
     values, special = [], []
     for branch in branches:
         e = -np.linalg.solve(A, branch.T).T
@@ -156,7 +156,9 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
             special.append(SpecialPoint("resonant loop", place(at), text))
     sentence = say("loop through the equator") if branches else say("no loop")
     name = "heteroclinic cycle through the equator" if branches else "heteroclinic: none"
-    return BifurcationCurve("heteroclinic", name, label, frozen(branches), tuple(special), frozen(values), sentence)
+    return BifurcationCurve(
+        "heteroclinic", name, label, read_only(branches), tuple(special), read_only(values), sentence
+    )
 
 
 def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | None:

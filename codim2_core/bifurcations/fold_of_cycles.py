@@ -111,7 +111,7 @@ class Folds:
 def _edges(corners: Sequence[Array]) -> list[Edge]:
     unit = np.eye(3)
 
-    def beside(v: Array, corner: Array) -> tuple[float, Array]:
+    def corner_distance(v: Array, corner: Array) -> tuple[float, Array]:
         away = v[1:] - corner
         gap = math.hypot(*away)
         return ARRIVED - gap, np.array([0.0, *(-away / max(gap, 1e-300))])
@@ -119,5 +119,5 @@ def _edges(corners: Sequence[Array]) -> list[Edge]:
     return [
         Edge("C", lambda v: (INNER - float(v[0]), -unit[0])),
         Edge("equator", lambda v: (float(v[0]) - OUTER, unit[0])),
-        *(Edge("corner", lambda v, corner=corner: beside(v, corner)) for corner in corners),
+        *(Edge("corner", lambda v, corner=corner: corner_distance(v, corner)) for corner in corners),
     ]

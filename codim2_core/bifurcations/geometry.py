@@ -1,4 +1,4 @@
-"""How the saddle-node curve and the ellipse |A^-1 f| = 1 lie in the plane (f1, f2): all in closed form.
+"""The saddle-node curve and the ellipse |A^-1 f| = 1 in the plane (f1, f2), in closed form.
 
 With k = a - d the curve eq:tangencies is ``f(theta) = (b sin - k cos^3, k sin^3 - b cos)``. Its derivative is
 ``(cos, sin) r`` with ``r = b + 3 k sin cos``: theta is the direction of its tangent and r its radius of curvature,

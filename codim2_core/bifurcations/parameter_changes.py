@@ -1,4 +1,4 @@
-"""Where the parameter of Psi, such as n of the Hill family, changes the kind of the critical set (fig:bads)."""
+"""Values of the parameter of Psi, such as n of the Hill family, at which the critical set changes kind (fig:bads)."""
 
 from __future__ import annotations
 

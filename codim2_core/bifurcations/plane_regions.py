@@ -20,7 +20,7 @@ from ..psi.constructors import constant
 from ..systems.coefficients import Coefficients
 from ..tables import Results, Tabled, point
 from .arrangement import arrangement, borders
-from .curve import Array, frozen, matrix
+from .curve import Array, matrix, read_only
 from .geometry import Geometry
 
 _THIN = 1e-6  # of the size: regions with a smaller mean width are left out; nobody could see them
@@ -114,7 +114,7 @@ def regions(a: float, b: float, d: float) -> Regions:
         free.pop(0)
         if abs(outer[1][1]) - abs(within) > thin * _length(hole):
             faces[-1].append(hole)
-            between = _between(plane)
+            between = _point_between(plane)
         else:
             faces.pop()
     border = np.concatenate([h.points for h in halves[::2]] or [np.zeros((1, 2))])
@@ -129,7 +129,7 @@ def _length(loop: Array) -> float:
     return 0.5 * float(np.hypot(*(np.roll(loop, -1, axis=0) - loop).T).sum())
 
 
-def _between(plane: Geometry) -> tuple[float, float] | None:
+def _point_between(plane: Geometry) -> tuple[float, float] | None:
     """Find a point between an oval saddle-node curve and the ellipse around it, where they are farthest apart."""
     if plane.cusps:
         return None
@@ -153,18 +153,18 @@ def _region(
         if found is None:
             return None
         inside = found
-    if locate(_at(plane, inside)).existence is Existence.SINGULAR_LINE:
+    if locate(_coefficients_at(plane, inside)).existence is Existence.SINGULAR_LINE:
         # det A = 0: on the line f = A e only, which passes through the region
-        inside = _beside(plane, inside, border)
-    at = _at(plane, inside)
-    return Region(portrait_name(LayerProblem(at, constant())).name, inside, frozen(boundary), bounded, at)
+        inside = _point_beside(plane, inside, border)
+    at = _coefficients_at(plane, inside)
+    return Region(portrait_name(LayerProblem(at, constant())).name, inside, read_only(boundary), bounded, at)
 
 
-def _at(plane: Geometry, f: tuple[float, float]) -> Coefficients:
+def _coefficients_at(plane: Geometry, f: tuple[float, float]) -> Coefficients:
     return Coefficients(plane.a, plane.b, plane.d, *f, *_NOTHING)
 
 
-def _beside(plane: Geometry, f: tuple[float, float], border: Array) -> tuple[float, float]:
+def _point_beside(plane: Geometry, f: tuple[float, float], border: Array) -> tuple[float, float]:
     """Return a point a tenth of the way from the line {A e} to the border."""
     u, v = max((plane.a, plane.b), (-plane.b, plane.d), key=lambda column: math.hypot(*column))
     step = 0.1 * float(np.hypot(border[:, 0] - f[0], border[:, 1] - f[1]).min()) / math.hypot(u, v)

@@ -25,7 +25,7 @@ from ..numerics.root_between import root_between
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
 from ..words import say
-from .curve import Array, BifurcationCurve, SpecialPoint, frozen, matrix, place
+from .curve import Array, BifurcationCurve, SpecialPoint, matrix, place, read_only
 
 _GRID = 256  # moduli between which zeros are looked for
 _POINTS = 160  # points along one piece, at least
@@ -245,7 +245,7 @@ def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     else:
         sentence = say("Hopf curve")
     name = "Hopf" if branches else "Hopf: none"
-    return BifurcationCurve("hopf", name, label, frozen(branches), tuple(special), frozen(values), sentence)
+    return BifurcationCurve("hopf", name, label, read_only(branches), tuple(special), read_only(values), sentence)
 
 
 def _lyapunov(level: _Level, e: Array) -> Array:
@@ -259,7 +259,7 @@ def _lyapunov(level: _Level, e: Array) -> Array:
 
 
 def _bautin(level: _Level, e: Array, values: Array) -> list[SpecialPoint]:
-    """Where the coefficient changes sign between neighbours, by the secant through the curve's own equation."""
+    """Find where the coefficient changes sign between neighbours, by the secant through the curve's own equation."""
     found = []
     # next to the equator, and where it underflows, its sign means nothing
     solid = (abs(values) > 1e-12 * abs(values).max()) & (np.hypot(e[:, 0], e[:, 1]) < 1.0 - 1e-6)
@@ -328,7 +328,7 @@ def node_focus(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
             branches += [-e @ level.A.T for e in _branches(level)]
     sentence = say("node-focus curve") if branches or special else say("one kind")
     name = "node-focus" if branches or special else "node-focus: none"
-    return BifurcationCurve("node-focus", name, label, frozen(branches), special, (), sentence)
+    return BifurcationCurve("node-focus", name, label, read_only(branches), special, (), sentence)
 
 
 def _check(psi: object) -> None:

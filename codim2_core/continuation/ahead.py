@@ -1,4 +1,4 @@
-"""Where points of a curve of cycles are expected, ahead and in between: by some of its points and their tangents."""
+"""Predictor for curves of cycles: points ahead and in between, by some of its points and their tangents."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Place(NamedTuple):
     nu: float
 
 
-def ahead(
+def predict(
     lengths: Sequence[float],
     places: Sequence[Place],
     tangents: Sequence[Place],
@@ -53,12 +53,12 @@ def ahead(
         if lengths[rows[-1]] - lengths[i] > APART * steps[0]:
             rows.append(i)
     at = [lengths[i] for i in rows]
-    return placed(
+    return interpolate(
         at, [places[i] for i in rows], [tangents[i] for i in rows], rate, (lengths[-1] + np.cumsum(steps)).tolist()
     )
 
 
-def placed(
+def interpolate(
     lengths: Sequence[float], places: Sequence[Place], tangents: Sequence[Place], rate: float, where: Sequence[float]
 ) -> list[Place]:
     """Find the curve through some points at other lengths; as far as the section goes.

@@ -51,7 +51,7 @@ def rounds(
     return [found[i] for i in range(len(searches))]
 
 
-def answered(
+def run_batched(
     searches: Sequence[Generator[Question, Answer, Found]], answer: Callable[[list[Question]], list[Answer]]
 ) -> list[Found]:
     """Run searches side by side until all have ended.

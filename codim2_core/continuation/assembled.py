@@ -20,7 +20,9 @@ def row(turn: Turn) -> Row:
     return turn.value, turn.period, turn.amplitude, turn.exponent, *turn.p
 
 
-def assembled(name: str, rows: Sequence[Row], folds: Sequence[Turn], start: CyclePoint, end: CyclePoint) -> CycleBranch:
+def build_branch(
+    name: str, rows: Sequence[Row], folds: Sequence[Turn], start: CyclePoint, end: CyclePoint
+) -> CycleBranch:
     """Make a branch of its rows in order, limits at ends that are no cycles among them."""
     table = np.array(rows)
     points = []

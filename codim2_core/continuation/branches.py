@@ -26,13 +26,13 @@ from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..words import say
-from .asking import answered
-from .assembled import Row, assembled, row
+from .asking import run_batched
+from .assembled import Row, build_branch, row
 from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
-from .path import LEVEL, all_traced, traced
-from .points import Guess, Trace, passing, reversed_trace
+from .path import LEVEL, all_traced, trace_branch
+from .points import Guess, Trace, points_at_value, reversed_trace
 from .result import CycleBranch, CycleBranches, CyclePoint
-from .sought import sought
+from .sought import admissible_interval
 from .trace import Tracer
 from .turns import Turn
 from .varied_system import Asking, Straight, VariedSystem, follow, reversible, side_by_side
@@ -115,7 +115,7 @@ def continue_cycles(
     for value in (low, high):
         at(value)
     bounds = limits(system, psi, name)
-    part = sought(VariedSystem(at, high - low, bounds, straight), low, high)
+    part = admissible_interval(VariedSystem(at, high - low, bounds, straight), low, high)
     family = VariedSystem(at, part[1] - part[0], bounds, straight)
     allowed = family.allowed(values(*part))
     if all(reversible(at(v)[0]) for v in allowed):
@@ -125,7 +125,7 @@ def continue_cycles(
         return CycleBranches(name, (low, high), (), sentence or say("no cycle on the span"))
     middle = allowed[len(allowed) // 2]
     family.ray = family.section(middle).ray
-    (found,) = answered([_Search(family, name, part, (low, high)).run()], follow)
+    (found,) = run_batched([_Search(family, name, part, (low, high)).run()], follow)
     return found
 
 
@@ -144,14 +144,14 @@ def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list
     """
     searches = []
     for line in lines:
-        family = VariedSystem(partial(_on, line), high - low, straight=line)
+        family = VariedSystem(partial(_system_on, line), high - low, straight=line)
         allowed = family.allowed(values(low, high))
         if not all(reversible(family.at(v)[0]) for v in allowed):
             family.ray = family.section(allowed[len(allowed) // 2]).ray
             searches.append(_Search(family, "t", (low, high), (low, high)))
         else:
             searches.append(None)
-    answered([search.run() for search in searches if search is not None], follow)
+    run_batched([search.run() for search in searches if search is not None], follow)
     return [
         []
         if search is None
@@ -160,7 +160,7 @@ def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list
     ]
 
 
-def _on(line: Straight, value: float) -> tuple[Coefficients, Psi]:
+def _system_on(line: Straight, value: float) -> tuple[Coefficients, Psi]:
     a, b, d, f1, f2 = (line.origin + value * line.slope).tolist()
     return Coefficients(a, b, d, f1, f2, np.zeros((0, 2)), np.zeros(0)), line.psi
 
@@ -243,7 +243,7 @@ class _Search:
             if old or (yield from self._known(first, self.found[passed:])):
                 continue
             point = self.tracer.point(*first, (1.0, 0.0))
-            trace = yield from traced(self.tracer, point)
+            trace = yield from trace_branch(self.tracer, point)
             if trace.reason == "closed":
                 special = CyclePoint(
                     "closed", point.turn.value, point.turn.period, point.turn.amplitude, say("branch closed")
@@ -251,7 +251,7 @@ class _Search:
                 self.found.append((trace, special, special, None, None))
                 continue
             turned = (-point.tangent[0], -point.tangent[1])
-            other = yield from traced(self.tracer, self.tracer.point(*first, turned))
+            other = yield from trace_branch(self.tracer, self.tracer.point(*first, turned))
             start, end = self._end(other)
             back = reversed_trace(other)
             joined = Trace(
@@ -269,7 +269,9 @@ class _Search:
         if reason_for_none(self.family.at(value)[0], problem.critical, problem.location) is not None:
             return []
         samples, nu = sample_return_map(self.family.section(value)), self._nu(value)
-        expected = sorted(guess.xi for trace, *_ in self.found for _, guess in passing(trace, nu, self.tracer.width))
+        expected = sorted(
+            guess.xi for trace, *_ in self.found for _, guess in points_at_value(trace, nu, self.tracer.width)
+        )
         places = [(samples.xi[i], samples.xi[j]) for i, j in samples.changes]
         explained = samples.certain == len(expected) and all(
             low < xi < high for xi, (low, high) in zip(expected, places, strict=False)
@@ -280,7 +282,7 @@ class _Search:
     def _known(self, first: tuple[Turn, float], entries: Sequence[Entry]) -> Asking[bool]:
         """Whether a branch passes a cycle: its own at this value is computed where that is not plain."""
         turn, nu = first
-        for chi, guess in chain.from_iterable(passing(trace, nu, self.tracer.width) for trace, *_ in entries):
+        for chi, guess in chain.from_iterable(points_at_value(trace, nu, self.tracer.width) for trace, *_ in entries):
             if abs(chi - turn.chi) > FAR:
                 continue
             found = yield from self.tracer.corrected(guess)
@@ -340,7 +342,7 @@ class _Search:
             rows.insert(0, self._limit(first, rows[0]))
         if last is not None:
             rows.append(self._limit(last, rows[-1]))
-        return assembled(self.name, rows, [trace.points[i].turn for i in trace.folds], start, end)
+        return build_branch(self.name, rows, [trace.points[i].turn for i in trace.folds], start, end)
 
     def _limit(self, end: End, beside: Row) -> Row:
         """Row of the arrays at an end that is no cycle: C, or a loop on the equator."""

@@ -1,4 +1,4 @@
-"""Where branches of limit cycles can begin and end, found for themselves: roots along the parameter.
+"""Find where branches of limit cycles can begin and end: roots along the parameter.
 
 On the closed hemisphere a cycle of the e-linear layer problem can only shrink to C (Hopf), meet another (fold), or
 reach the equator: the closed equator where its exponent changes sign, a loop through two half-saddles
@@ -223,7 +223,7 @@ def _nearest(arcs: tuple[Loop, ...], loop: Loop, ray: int | None = None) -> Loop
 def at_equator(
     family: VariedSystem, value: float, direction: float, width: float, known: list[End], reach: float
 ) -> End | None:
-    """How a branch ends that has come to the equator near a value.
+    """Name the end of a branch that has come to the equator near a value.
 
     Parameters
     ----------

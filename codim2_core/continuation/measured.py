@@ -19,7 +19,7 @@ def _across(v0, v1, w0, w1):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _lifted(c, s, radial, tangential, along, v0, v1):
+def _lift_change(c, s, radial, tangential, along, v0, v1):
     """Find dx2 for a change v of e, at the direction (c, s) of x2; its part along x2 is given apart, with its digits.
 
     Far out ``dx2/dr`` and dx2/dmu at fixed r are huge, both along x2, while orbits see only small differences of them.
@@ -100,7 +100,7 @@ def _extent(inner, p0, p1, first, last, out):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def measured(
+def turn_quadratures(
     plane, changes, rho, e, u, room, centre, x2, starts, ends, first, h, inner, radial, tangential, swelling, sign,
     weights, matrix,
 ):  # fmt: skip
@@ -173,9 +173,9 @@ def measured(
         last_r = math.hypot(d * G0 + b * G1, a * G1 - b * G0) / (a * d + b * b)
         # dx2/dr there, and d ln y/dr
         c, v = _direction(x2[i, 0], x2[i, 1])
-        t0, t1 = _lifted(c, v, radial[s], tangential[s], c * u0 + v * u1, u0, u1)
+        t0, t1 = _lift_change(c, v, radial[s], tangential[s], c * u0 + v * u1, u0, u1)
         C, V = _direction(z0, z1)
-        l0, l1 = _lifted(C, V, radial[t], tangential[t], C * u0 + V * u1, u0, u1)
+        l0, l1 = _lift_change(C, V, radial[t], tangential[t], C * u0 + V * u1, u0, u1)
         rise, last_rise = (u0 * t0 + u1 * t1) / y, (u0 * l0 + u1 * l1) / after
         by_r = r * rest / R  # dr/dxi
         q_xi, across = rise * by_r, _across(G0, G1, l0, l1)
@@ -198,7 +198,7 @@ def measured(
                 swell_s, swell_t, swell_m = swelling[j, s], swelling[j, t], swelling[j, m]
             # dy/dmu at fixed x2
             p0, p1 = _direction(centre[i, 0], centre[i, 1])
-            n0, n1 = _lifted(p0, p1, radial[m], tangential[m], p0 * c0 + p1 * c1 - swell_m, c0, c1)
+            n0, n1 = _lift_change(p0, p1, radial[m], tangential[m], p0 * c0 + p1 * c1 - swell_m, c0, c1)
             drawn = u0 * n0 + u1 * n1
             still, last_still = w0 * away[0] + w1 * away[1] - drawn, w0 * away[2] + w1 * away[3] - drawn
             # the start moves along s_0 with mu: xi is fixed there, and so is 1 - |e|^2 but for its factors
@@ -206,7 +206,7 @@ def measured(
             turned0, turned1 = c0 + r * (w0 + share * u0), c1 + r * (w1 + share * u1)
             widened = gap * (share + (r * share + by_S) / (r + S))
             modulus = min(math.hypot(e0 + r * u0, e1 + r * u1), 1.0)
-            s0, s1 = _lifted(c, v, radial[s], tangential[s], -0.5 * widened / modulus - swell_s, turned0, turned1)
+            s0, s1 = _lift_change(c, v, radial[s], tangential[s], -0.5 * widened / modulus - swell_s, turned0, turned1)
             q_0 = (u0 * s0 + u1 * s1 + still) / y
             f0, f1 = _level(
                 C, V, radial[t], tangential[t], swell_t, c0 + last_r * w0, c1 + last_r * w1, u0, u1, last_still

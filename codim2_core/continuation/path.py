@@ -42,7 +42,7 @@ LEAST_EXPONENT_RATIO = (
 )
 
 
-def traced(tracer: Tracer, start: Point) -> Asking[Trace]:
+def trace_branch(tracer: Tracer, start: Point) -> Asking[Trace]:
     """Follow a branch from a point along its tangent until it ends.
 
     Parameters
@@ -75,7 +75,7 @@ def all_traced(tracer: Tracer, starts: Sequence[Point]) -> Asking[list[tuple[Tra
         for i, j in combinations(range(len(paths)), 2):
             if i in met or j in met or not (paths[i] in going or paths[j] in going):
                 continue
-            points = _joined(tracer, paths[i].points, paths[j].points)
+            points = _join_ways(tracer, paths[i].points, paths[j].points)
             if points is not None:
                 paths[i].points, paths[i].reason, paths[j].reason = points, "met", "met"
                 met[i], met[j] = j, i
@@ -85,9 +85,9 @@ def all_traced(tracer: Tracer, starts: Sequence[Point]) -> Asking[list[tuple[Tra
     return [found.get(i) for i in range(len(paths))]
 
 
-def _joined(tracer: Tracer, first: list[Point], other: list[Point]) -> list[Point] | None:
+def _join_ways(tracer: Tracer, first: list[Point], other: list[Point]) -> list[Point] | None:
     """Join two ways along one branch whose ends have passed one another; None where they have not."""
-    last = _turned(other[-1])
+    last = _reverse_point(other[-1])
     for i, (here, there) in enumerate(pairwise(first)):
         step = distance(here, there)
         part = _part(here, there, last)
@@ -102,17 +102,17 @@ def _joined(tracer: Tracer, first: list[Point], other: list[Point]) -> list[Poin
             length += missed[0] * last.tangent[0] + missed[1] * last.tangent[1]
         cosine = here.tangent[0] * last.tangent[0] + here.tangent[1] * last.tangent[1]
         if cosine > TURNED and math.hypot(*missed) < SAME * step:
-            return [*first[: i + 1 if part > 0.2 or i == 0 else i], *map(_turned, reversed(other))]
+            return [*first[: i + 1 if part > 0.2 or i == 0 else i], *map(_reverse_point, reversed(other))]
     return None
 
 
-def _turned(point: Point) -> Point:
+def _reverse_point(point: Point) -> Point:
     """Return the same point on the way back."""
     return replace(point, tangent=(-point.tangent[0], -point.tangent[1]))
 
 
 def _part(here: Point, there: Point, place: Point) -> float:
-    """Where a point is between two others: 0 beside the first of them, 1 beside the second."""
+    """Return the share of the way from one point to another: 0 beside the first of them, 1 beside the second."""
     x, y = there.turn.chi - here.turn.chi, there.nu - here.nu
     square = x * x + y * y
     return ((place.turn.chi - here.turn.chi) * x + (place.nu - here.nu) * y) / square if square > 0.0 else -1.0
@@ -217,7 +217,7 @@ class _Path:
             around = self.points[i - 1 : i + 2]
             exponents = [point.turn.exponent for point in around]
             length = _least(Course(self.tracer, around).lengths, exponents)
-            if length is None or tried == HALVINGS or _rounded(around[1]):
+            if length is None or tried == HALVINGS or _may_be_rounding(around[1]):
                 tried, i = 0, i + 1
                 continue
             first = max(i - 2, 0)
@@ -308,20 +308,20 @@ class _Path:
         self.reason = "span" if sought.edge else self._over(here, point)
 
     def _over(self, here: Point, there: Point) -> str | None:
-        """Why the branch ends with the step between two points, or None."""
+        """Return the reason why the branch ends with the step between two points, or None."""
         lowest = LOW if there.turn.chi > LARGE else LOWEST
         if there.turn.amplitude < SMALL and there.tangent[0] < 0.0:
             return "C"
         if there.turn.height < lowest and there.turn.height < here.turn.height:
             return "equator"
-        if len(self.points) > 8 and _round(self.points[0], here, there):
+        if len(self.points) > 8 and _has_come_round(self.points[0], here, there):
             self.points.append(self.points[0])
             return "closed"
         return self._at_once(there)
 
     @staticmethod
     def _at_once(point: Point) -> str | None:
-        """Why a branch ends at a point, whatever was before it, or None."""
+        """Return the reason why a branch ends at a point, whatever was before it, or None."""
         if point.turn.height < LEVEL and point.tangent[0] > 0.0 and abs(point.turn.exponent) < DEAD:
             return "equator"
         beyond = point.nu <= 0.0 if point.tangent[1] < 0.0 else point.nu >= 1.0
@@ -338,7 +338,7 @@ class _Path:
             found = yield from self.tracer.fold(place.xi, place.nu, near, nearby)
             if found is not None and -FOLD_SLACK < _part(here, there, found) < 1.0 + FOLD_SLACK:
                 return found
-            if _rounded(here, there):
+            if _may_be_rounding(here, there):
                 return None
             place, near = course.between(0.5 * (course.lengths[k - 1] + course.lengths[k]))
             guess = Guess(place.xi, place.nu, self.tracer.across(near), near.turn.exponent > 0.0)
@@ -369,7 +369,7 @@ def _growth(here: Point, there: Point, sought: _Sought) -> float:
     return max(min(GROWTH, BEND / max(turn, 1e-9), (OFF / max(off, 1e-9)) ** 0.25), SHRINKAGE)
 
 
-def _rounded(*points: Point) -> bool:
+def _may_be_rounding(*points: Point) -> bool:
     """Whether the sign of an exponent may be rounding's."""
     return all(point.turn.height < LEVEL and abs(point.turn.exponent) < UNSURE for point in points)
 
@@ -408,7 +408,7 @@ def _turns_twice(one: Point, two: Point) -> bool:
     return expected > BENT and rise < expected / 6.0
 
 
-def _round(start: Point, here: Point, there: Point) -> bool:
+def _has_come_round(start: Point, here: Point, there: Point) -> bool:
     """Whether a step has passed the start in the start's direction."""
     ux, un = here.turn.chi - start.turn.chi, here.nu - start.nu
     vx, vn = there.turn.chi - start.turn.chi, there.nu - start.nu

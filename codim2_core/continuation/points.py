@@ -1,4 +1,4 @@
-"""What a branch of cycles is made of: its points, and guesses of the next ones."""
+"""Points of a branch of cycles, and guesses of the next ones."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Guess:
-    """Where a closed turn is looked for, on the line through (xi, nu) across the covector `along` (xi, nu)."""
+    """A guess of a closed turn, on the line through (xi, nu) across the covector `along` (xi, nu)."""
 
     xi: float
     nu: float
@@ -51,7 +51,7 @@ def reversed_trace(trace: Trace) -> Trace:
     return Trace(points, tuple(sorted(last - i for i in trace.folds)), "")
 
 
-def passing(trace: Trace, nu: float, width: float) -> list[tuple[float, Guess]]:
+def points_at_value(trace: Trace, nu: float, width: float) -> list[tuple[float, Guess]]:
     """Return the chi at which a branch passes nu, between its points, and guesses of its cycles there.
 
     Parameters

@@ -1,4 +1,4 @@
-"""What `continue_cycles` and `continue_typed` return: branches of limit cycles, and their special points."""
+"""The result of `continue_cycles` and `continue_typed`: branches of limit cycles, and their special points."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ BESIDE = 0.05  # of the part: how far it is looked beyond its ends
 STEPS, GOLDEN = 48, 0.5 * (math.sqrt(5.0) - 1.0)
 
 
-def sought(family: VariedSystem, low: float, high: float) -> tuple[float, float]:
+def admissible_interval(family: VariedSystem, low: float, high: float) -> tuple[float, float]:
     """Return the part of a span on which cycles are to be looked for: the whole span where it is no narrow part.
 
     C with det A > 0 is on the hemisphere where |adj(A) f| < det A. Along f this margin is concave, so that its
@@ -53,7 +53,7 @@ def sought(family: VariedSystem, low: float, high: float) -> tuple[float, float]
 
 
 def _greatest(function: Callable[[float], float], low: float, high: float) -> tuple[float, float]:
-    """Where a function is greatest, and that value, by golden sections; it stops where the value is positive."""
+    """Maximise a function by golden sections; return where and the value, at the latest where it is positive."""
     one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_one, at_two = function(one), function(two)
     for _ in range(STEPS):

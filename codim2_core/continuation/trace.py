@@ -14,7 +14,7 @@ from itertools import accumulate, pairwise
 from typing import Any
 
 from ..numerics.root_between import root_through
-from .ahead import Place, ahead, placed
+from .ahead import Place, interpolate, predict
 from .points import Guess, Point
 from .turns import Turn
 from .varied_system import Asking, Question
@@ -199,14 +199,14 @@ class Course:
 
     def ahead(self, steps: list[float]) -> list[Place]:
         """Predict points after the last one, so many steps from one another."""
-        return ahead(self.lengths, self.places, self.tangents, self.points[-1].turn.rate, steps, BEHIND)
+        return predict(self.lengths, self.places, self.tangents, self.points[-1].turn.rate, steps, BEHIND)
 
     def between(self, length: float) -> tuple[Place, Point]:
         """Interpolate; also return the nearest point."""
         rows = sorted(range(len(self.points)), key=lambda i: abs(self.lengths[i] - length))
         lengths, near = [self.lengths[i] for i in rows], self.points[rows[0]]
         places, tangents = ([column[i] for i in rows] for column in (self.places, self.tangents))
-        found = placed(lengths, places, tangents, near.turn.rate, [length])
+        found = interpolate(lengths, places, tangents, near.turn.rate, [length])
         return (found[0] if found else places[0]), near
 
     def neutral(self, k: int) -> float:

@@ -136,7 +136,7 @@ def turns(
         Steps after which a turn is given up.
     """
     from ..cycles.many import placing
-    from .measured import measured
+    from .measured import turn_quadratures
 
     start, x2 = sections.starts(xi)
     states = placing.hemisphere(x2)
@@ -153,7 +153,7 @@ def turns(
     if swelling is not None:
         swell = swelling(places, rows[whose])[None]
     _, weights, matrix = gauss(STEP_NODES)
-    numbers = measured(
+    numbers = turn_quadratures(
         sections.plane, changes / sections.rate[:, None], sections.rate, sections.e, sections.u, sections.room,
         sections.x2, x2, start, ways.ends, ways.first, ways.h, ways.inner, radial, tangential, swell,
         np.where(backward[rows], -1.0, 1.0), weights, matrix,

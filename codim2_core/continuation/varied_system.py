@@ -56,7 +56,7 @@ class Question(NamedTuple):
 
 
 class Placed(NamedTuple):
-    """Where C is at those of some values, `rows` of them, at which no theorem forbids cycles, and their Psi.
+    """Critical sets at those of some values, `rows` of them, at which no theorem forbids cycles, and their Psi.
 
     Its parameters (k,) are those of each one's Psi, of one family.
     """
@@ -99,7 +99,10 @@ def follow(questions: list[Question]) -> list[list[Turn | None]]:
         values = [part.question.values[i] for part in parts for i in part.placed.rows]
         xi = np.array([part.question.xi[i] for part in parts for i in part.placed.rows])
         backward = np.array([part.question.backward[i] for part in parts for i in part.placed.rows])
-        swelling, sections = parts[0].swelling, _together([part.placed for part in parts], [part.ray for part in parts])
+        swelling, sections = (
+            parts[0].swelling,
+            _join_sections([part.placed for part in parts], [part.ray for part in parts]),
+        )
         changes = np.concatenate([part.changes for part in parts], axis=1)
         limit = max(part.question.limit for part in parts)
         result = turns(sections, xi, backward, changes, swelling, limit).each(values)
@@ -109,7 +112,7 @@ def follow(questions: list[Question]) -> list[list[Turn | None]]:
     return found
 
 
-def _together(places: list[Placed], rays: list[Indices]) -> Sections:
+def _join_sections(places: list[Placed], rays: list[Indices]) -> Sections:
     """Make the sections of several families with one Psi."""
     _, planes, e, complement, psi, parameters = zip(*places, strict=True)
     planes, e, complement = np.concatenate(planes), np.concatenate(e), np.concatenate(complement)

@@ -26,7 +26,7 @@ SAME = 1e-12  # part of a step, of a place between two points
 
 @dataclass(frozen=True)
 class Edge:
-    """Where a curve ends.
+    """A boundary at which a curve ends.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ def square_edges(n: int) -> list[Edge]:
 
 @dataclass(frozen=True)
 class Steps:
-    """How long steps may be.
+    """Bounds of the steps along a curve.
 
     Attributes
     ----------
@@ -166,8 +166,8 @@ def trace_one_way(
     here, along, step = start, first, FIRST_STEP * steps.longest
     before: tuple[Array, Array] | None = None
     while len(points) < steps.most:
-        expected = here + step * along if before is None else _predicted(*before, here, along, step)
-        found = _stepped(condition, expected, along, step, steps)
+        expected = here + step * along if before is None else _predict(*before, here, along, step)
+        found = _correct(condition, expected, along, step, steps)
         if found is None or float(found[1] @ along) < math.cos(steps.turn):
             step *= SHRINKAGE
             if step < steps.least:
@@ -193,7 +193,7 @@ def trace_one_way(
     return points, "many"
 
 
-def _predicted(before: Array, leaving: Array, here: Array, along: Array, step: float) -> Array:
+def _predict(before: Array, leaving: Array, here: Array, along: Array, step: float) -> Array:
     """Predict the point a step further by the cubic through the last two points and their tangents."""
     chord = here - before
     length = math.sqrt(chord @ chord)
@@ -203,7 +203,7 @@ def _predicted(before: Array, leaving: Array, here: Array, along: Array, step: f
     return here + step * along + part * part * (away + length * along - chord + part * away)
 
 
-def _stepped(
+def _correct(
     condition: Condition, expected: Array, along: Array, step: float, steps: Steps
 ) -> tuple[Array, Array, bool] | None:
     """Return the point of a curve across `along` from where it is expected, the tangent, and if that was quick."""

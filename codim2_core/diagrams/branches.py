@@ -8,7 +8,7 @@ from ..layer_problem.vary import check_name, usual_span
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .result import Branches
-from .standing import standing
+from .standing import equilibrium_branches
 
 __all__ = ["Branches", "branches"]
 
@@ -62,5 +62,5 @@ def branches(
     """
     check_name(system, psi, z, "along", along)
     span = usual_span(system, psi, z, along) if span is None else span
-    found = standing(system, psi, along, span, z)
+    found = equilibrium_branches(system, psi, along, span, z)
     return found.with_cycles() if with_cycles else found

@@ -14,7 +14,7 @@ from ..psi.function import Psi
 from ..tables import Tabled, number
 from .classes import classes_over
 from .critical import OFF_CENTRE
-from .standing import standing
+from .standing import equilibrium_branches
 
 __all__ = ["Stretch", "class_line"]
 
@@ -70,7 +70,7 @@ def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: Array
     ValueError
         The name cannot be varied, the span is empty, or z does not fit.
     """
-    found = standing(system, psi, name, span, z)
+    found = equilibrium_branches(system, psi, name, span, z)
     low, high = found.span
     values = [one.value for one in found.special] + [v for gap in found.gaps for v in gap]
     ends = [low]

@@ -48,7 +48,7 @@ class AffineClasses:
 
 
 class Portrait(NamedTuple):
-    """What makes a class of a general system.
+    """The class of a general system.
 
     Attributes
     ----------
@@ -68,7 +68,7 @@ class Portrait(NamedTuple):
     closed: int | None
 
     def radial(self, word: str) -> int:
-        """How many limit directions are radially so."""
+        """Return the number of limit directions that are radially so."""
         return sum(many for kind, many in self.directions if kind.startswith(f"radially {word}"))
 
 

@@ -32,7 +32,7 @@ OFF_CENTRE = 0.4567  # in the middle of a piece symmetry likes to put something 
 
 
 class Borders:
-    """Where the critical set begins, ends, or is not isolated.
+    """Values at which the critical set begins, ends, or is not isolated.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ def critical_part(
         hopf = trace[border_functions(path(trace), exponent)[1] > 1e-12]
         u, v = pieces[k]
         inner = inner[(inner - u > _BESIDE[-1] * (v - u)) & (v - inner > _BESIDE[-1] * (v - u))]
-        parts, kinds = _cut(path, inner, pieces[k], np.sort(np.concatenate([hopf, shape])))
+        parts, kinds = _cut_at_changes(path, inner, pieces[k], np.sort(np.concatenate([hopf, shape])))
         branches += [_branch(path, part, kind) for part, kind in zip(parts, kinds, strict=True)]
         special += [_hopf_point(path, v) for v in hopf.tolist()]
         special += [_focus_point(path, v) for v in shape.tolist()]
@@ -119,7 +119,7 @@ def critical_part(
     return branches, special
 
 
-def _cut(path: Line, x: Array, ends: tuple[float, float], changes: Array) -> tuple[list[Array], list[str]]:
+def _cut_at_changes(path: Line, x: Array, ends: tuple[float, float], changes: Array) -> tuple[list[Array], list[str]]:
     """Values of each part between changes of kind, and the kinds; parts of one kind are joined."""
     stops = [ends[0], *changes.tolist(), ends[1]]
     middles = np.array([u + OFF_CENTRE * (v - u) for u, v in pairwise(stops)])
@@ -139,19 +139,19 @@ def _cut(path: Line, x: Array, ends: tuple[float, float], changes: Array) -> tup
 
 def _branch(path: Line, values: Array, kind: str) -> CriticalBranch:
     for _ in range(_HALVINGS):
-        found, e, p = _placed(path, values)
+        found, e, p = _sets_at(path, values)
         far = np.flatnonzero(np.hypot(*np.diff(p, axis=0).T) > _STEP)
         if not len(far):
             break
         values = np.sort(np.concatenate([values, 0.5 * (values[far] + values[far + 1])]))
-    found, e, p = _placed(path, values)
+    found, e, p = _sets_at(path, values)
     arrays = values, e, p, found.trace, found.determinant
     for array in arrays:
         array.flags.writeable = False
     return CriticalBranch(*arrays, kind)
 
 
-def _placed(path: Line, values: Array) -> tuple[Linearisation, Array, Array]:
+def _sets_at(path: Line, values: Array) -> tuple[Linearisation, Array, Array]:
     """Critical sets, e and p at the values of a branch, whose ends may lie on the equator or where det A = 0."""
     plane = path(values)
     found = linearise(plane)

@@ -1,4 +1,4 @@
-"""How the linearisation of the critical set moves as one thing varies: the trails of fig:bads."""
+"""The path of the critical set's linearisation as one parameter varies: the trails of fig:bads."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from .result import ClosedEquator, DirectionBranch, SpecialValue
 from .sweep import Line, Plane, discriminant, equator_counts
 from .theta_zeros import Meeting, lambda_rho, meetings, theta_slope, theta_value, theta_zeros
 
-__all__ = ["equator_part", "linked"]
+__all__ = ["equator_part", "link_zeros"]
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ def equator_part(
     flat = abs(values) <= _FLAT * size**6
     # a share of the span: where something was looked for again, samples crowd
     if plane.rigid or np.average(flat, weights=np.gradient(grid)) > 0.5:
-        return _unchanging(path, grid, cuts)
+        return _constant_zeros(path, grid, cuts)
     everywhere = _all_directions(path, grid, plane)
     found = _meetings(path, grid, values, flat, plane, exponent, span)
     width = span[1] - span[0]
@@ -58,7 +58,7 @@ def equator_part(
         middle = path(np.array([low + OFF_CENTRE * (high - low)])).coefficients(0)
         count = len(tangential_zeros(*middle.plane).theta)
         if count:
-            inner, theta = _sampled(path, low, high, count)
+            inner, theta = _sample_zeros(path, low, high, count)
             x = np.concatenate([[low], inner, [high]])
             theta = np.concatenate([
                 _end(path, low, theta[:1], [m.theta for m in found if m.value == low]),
@@ -67,7 +67,7 @@ def equator_part(
             ])  # fmt: skip
             branches += [part for j in range(count) for part in _split(path, x, theta[:, j], cuts)]
         else:
-            pieces, neutral = _closed(path, low, high)
+            pieces, neutral = _closed_pieces(path, low, high)
             closed += pieces
             special += neutral
     return branches, closed, special
@@ -148,19 +148,19 @@ def _special(path: Line, m: Meeting) -> SpecialValue:
     return SpecialValue("cusp", m.value, place, say("passes a cusp", at=at))
 
 
-def _sampled(path: Line, low: float, high: float, count: int) -> tuple[Array, Array]:
+def _sample_zeros(path: Line, low: float, high: float, count: int) -> tuple[Array, Array]:
     """Values inside a piece and the zeros there, (k, count), more densely where these move fast."""
     x = low + (high - low) * SPREAD
     for _ in range(_HALVINGS):
-        theta = linked(theta_zeros(path(x), count))
+        theta = link_zeros(theta_zeros(path(x), count))
         far = np.flatnonzero(abs(np.diff(theta, axis=0)).max(axis=1) > _TURN)
         if not len(far):
             break
         x = np.sort(np.concatenate([x, 0.5 * (x[far] + x[far + 1])]))
-    return x, linked(theta_zeros(path(x), count))
+    return x, link_zeros(theta_zeros(path(x), count))
 
 
-def linked(theta: Array) -> Array:
+def link_zeros(theta: Array) -> Array:
     """Follow each zero from row to row: between meetings they keep their cyclic order."""
     k, count = theta.shape
     if k > 1:
@@ -241,7 +241,7 @@ def _branch(x: Array, theta: Array, rho: Array, slope: Array) -> DirectionBranch
     return DirectionBranch(x, theta, rho, slope, f"{first}, {then}")
 
 
-def _closed(path: Line, low: float, high: float) -> tuple[list[ClosedEquator], list[SpecialValue]]:
+def _closed_pieces(path: Line, low: float, high: float) -> tuple[list[ClosedEquator], list[SpecialValue]]:
     """Exponent of the closed equator on a piece, cut where it changes sign."""
 
     def exponent(v: float) -> float:
@@ -273,7 +273,7 @@ def _closed_branch(x: Array, y: Array) -> ClosedEquator:
     return ClosedEquator(x, y, kind)
 
 
-def _unchanging(
+def _constant_zeros(
     path: Line, grid: Array, cuts: Borders
 ) -> tuple[list[DirectionBranch], list[ClosedEquator], list[SpecialValue]]:
     """Zeros of Theta that stay as they are, or stay multiple, along the whole path: the exact answer at each value."""
@@ -289,10 +289,10 @@ def _unchanging(
         count = len(rows[len(x) // 2].theta)
         good = np.array([len(row.theta) == count for row in rows])
         if count and good.sum() > 1:
-            theta = linked(np.array([row.theta for row, ok in zip(rows, good, strict=True) if ok]))
+            theta = link_zeros(np.array([row.theta for row, ok in zip(rows, good, strict=True) if ok]))
             branches += [part for j in range(count) for part in _split(path, x[good], theta[:, j], cuts)]
         elif not count and not rows[len(x) // 2].identically_zero:
-            pieces, more = _closed(path, low, high)
+            pieces, more = _closed_pieces(path, low, high)
             closed += pieces
             special += more
     return branches, closed, special

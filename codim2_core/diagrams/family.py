@@ -157,7 +157,7 @@ class Sweep:
         if self.system.given_matrix is None:
             a, b, d, f1, f2 = full
             return Plane(a, b, d, f1, f2, self.psi, n, defined)
-        a, b, d, f1, f2, turn = _rotated(*full)
+        a, b, d, f1, f2, turn = _rotate_to_normal_form(*full)
         half_turns = np.rint((self.axes - turn) / np.pi)
         sign = 1.0 - 2.0 * (half_turns % 2.0)
         told = 0.0 * turn if self.own_axes else turn
@@ -303,7 +303,7 @@ def _rows(system: ELinear, z: ArrayLike, values: Mapping[str, Array]) -> list[An
     return [number("", v) for row in system.given_matrix for v in row] + [f1, f2]
 
 
-def _rotated(a11: Array, a12: Array, a21: Array, a22: Array, f1: Array, f2: Array) -> tuple[Array, ...]:
+def _rotate_to_normal_form(a11: Array, a12: Array, a21: Array, a22: Array, f1: Array, f2: Array) -> tuple[Array, ...]:
     """Return a, b, d, f1, f2 in the normal form (lem:normalform), as `ELinear.from_matrix` makes it, and the angle."""
     shear, stretch = a12 + a21 + 0.0, a22 - a11 + 0.0
     phi = 0.5 * np.arctan2(shear, stretch)

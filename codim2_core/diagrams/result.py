@@ -1,4 +1,4 @@
-"""What `branches` returns: all that stands still along one parameter, limit cycles, and the points that are special."""
+"""The result of `branches`: equilibria along one parameter, limit cycles, and special points."""
 
 from __future__ import annotations
 
@@ -180,7 +180,7 @@ class Branches:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was not decided, and where nothing is defined."""
+        """Return notes on what was not decided, and where nothing is defined."""
         return (*(say("gap", name=self.along, low=low, high=high) for low, high in self.gaps), *self.cycles.notes)
 
     def with_cycles(self) -> Branches:
@@ -198,7 +198,10 @@ class Branches:
             for part in zip(ends[::2], ends[1::2], strict=True)
             if part[0] < part[1]
         ]
-        found, notes = [_told(b, path) for part in parts for b in part], [note for part in parts for note in part.notes]
+        found, notes = (
+            [_in_own_axes(b, path) for part in parts for b in part],
+            [note for part in parts for note in part.notes],
+        )
         reason = f" {say('elsewhere')} ".join(dict.fromkeys(part.reason for part in parts))
         return replace(self, cycles=CycleBranches(self.along, self.span, tuple(found), reason, tuple(notes)))
 
@@ -250,7 +253,7 @@ class Branches:
         return (self._repr_svg_() or "") + special + paragraphs([self.cycles.reason, *self.notes])
 
 
-def _told(branch: CycleBranch, path: Line) -> CycleBranch:
+def _in_own_axes(branch: CycleBranch, path: Line) -> CycleBranch:
     """Return a branch with its places in the axes in which they are told."""
     angle = path(branch.value).back
     c, s = np.cos(angle), np.sin(angle)

@@ -1,4 +1,4 @@
-"""What lies on either side of a degenerate setting, along one thing that can be varied."""
+"""Portraits on either side of a degenerate setting, along one parameter."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 _AUDITS = 5  # times that special values are looked for
 
 
-def standing(system: Any, psi: Psi, along: str, span: Sequence[float], z: ArrayLike = ()) -> Branches:
+def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float], z: ArrayLike = ()) -> Branches:
     """Find everything that stands still along one parameter; see `branches`, which takes the same.
 
     Special values are found on a grid of 512 steps and then to the last digits. Two of one kind between neighbouring
@@ -36,7 +36,7 @@ def standing(system: Any, psi: Psi, along: str, span: Sequence[float], z: ArrayL
     low, high = (float(v) for v in span)
     if not (np.isfinite([low, high]).all() and low < high):
         raise ValueError(f"the span of {along} is {low:g} to {high:g}; give two finite numbers, the smaller one first.")
-    directions, orbits, sets, special, gaps = _found(system, psi, along, (low, high), z)
+    directions, orbits, sets, special, gaps = _find_parts(system, psi, along, (low, high), z)
     special.sort(key=lambda s: s.value)
     none = CycleBranches(along, (low, high), (), say("cycles not looked for"))
     slow = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
@@ -48,7 +48,7 @@ Parts = tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], 
 Gaps = list[tuple[float, float]]
 
 
-def _found(
+def _find_parts(
     system: Any, psi: Psi, along: str, span: tuple[float, float], z: ArrayLike
 ) -> tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue], Gaps]:
     """Find branches, special values and gaps, in any order."""
@@ -65,7 +65,7 @@ def _found(
     critical: list[CriticalBranch] = []
     special: list[SpecialValue] = []
     for run in runs:
-        directions, orbits, sets, found = _marked(path, run, exponent)
+        directions, orbits, sets, found = _mark_run(path, run, exponent)
         equator += directions
         closed += orbits
         critical += sets
@@ -73,7 +73,7 @@ def _found(
     return equator, closed, critical, special, gaps
 
 
-def _marked(path: Line, run: Array, exponent: int) -> Parts:
+def _mark_run(path: Line, run: Array, exponent: int) -> Parts:
     """Branches and special values of a run, looked for again where something changes between them."""
     extra = np.zeros(0)
     parts: Parts = [], [], [], []

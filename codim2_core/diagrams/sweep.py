@@ -1,4 +1,4 @@
-"""What decides the portrait of the e-linear system, for many parameter values at once.
+"""Quantities that decide the portrait of the e-linear system, for many parameter values at once.
 
 Signs of five smooth functions do it: the discriminant of Theta and the sign of a resolvent (how many equilibria there
 are on the equator), ``det(A)^2 - |adj(A) f|^2`` (whether there is a critical set, thm:lineps1(a)), det A, tr J and the

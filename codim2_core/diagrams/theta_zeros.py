@@ -129,7 +129,7 @@ def meetings(path: Line, span: tuple[float, float], near: Array, step: float) ->
                 if (apart <= 1e-10 and turn <= 1e-6) or (m.kind != kind and apart <= 1e-5 and turn <= 1e-2):
                     break
             else:
-                found.append(Meeting(_turned(kind, path, span, t, v), v, t % (2.0 * math.pi)))
+                found.append(Meeting(_name_crossing(kind, path, span, t, v), v, t % (2.0 * math.pi)))
 
     plain = _solve("saddle-node", path, span, theta0, value0, 1.5 * step)
     rest = ~plain.regular
@@ -143,7 +143,7 @@ def meetings(path: Line, span: tuple[float, float], near: Array, step: float) ->
 
 def _starts(path: Line, near: Array, step: float, span: tuple[float, float]) -> tuple[Array, Array]:
     """Extrema of Theta that may become zero within a step."""
-    rows, first, second = _along(path, span, near)
+    rows, first, second = _theta_coefficients(path, span, near)
     most = 2.0 * abs(first).sum(axis=1) * step + 4.0 * abs(second).sum(axis=1) * step**2 + 1e-9 * abs(rows).sum(axis=1)
     theta: list[float] = []
     value: list[float] = []
@@ -156,11 +156,11 @@ def _starts(path: Line, near: Array, step: float, span: tuple[float, float]) -> 
     return np.array(theta), np.array(value)
 
 
-def _turned(kind: str, path: Line, span: tuple[float, float], theta: float, value: float) -> str:
+def _name_crossing(kind: str, path: Line, span: tuple[float, float], theta: float, value: float) -> str:
     """Tell two zeros that pass through each other from two that exist at one value only: a saddle or an extremum."""
     if kind != "exchange":
         return kind
-    rows, first, second = _along(path, span, np.array([value]))
+    rows, first, second = _theta_coefficients(path, span, np.array([value]))
     basis = _basis(np.array([theta]))
     bend = (basis[2] * rows).sum() * (basis[0] * second).sum() - (basis[1] * first).sum() ** 2
     return "exchange" if bend <= 0.0 else "touch"
@@ -186,7 +186,7 @@ def _basis(theta: Array) -> Array:
     )
 
 
-def _along(path: Line, span: tuple[float, float], value: Array) -> tuple[Array, Array, Array]:
+def _theta_coefficients(path: Line, span: tuple[float, float], value: Array) -> tuple[Array, Array, Array]:
     """Coefficients of Theta with their first and second derivative along the path, by differences of order 6."""
     if path.affine:
         unit = np.array([[float(path.names[0] == name) for name in ("b", "f2", "f1", "d")]]) * [1.0, 1.0, -1.0, 1.0]
@@ -212,7 +212,7 @@ def _solve(kind: str, path: Line, span: tuple[float, float], theta: Array, value
     """Newton's or Gauss and Newton's method."""
     start, width = value, span[1] - span[0]
     for _ in range(10):
-        rows, first, second = _along(path, span, value)
+        rows, first, second = _theta_coefficients(path, span, value)
         basis = _basis(theta)
         t0, t1, t2, t3 = (basis * rows).sum(axis=-1)
         v0, v1, v2, _ = (basis * first).sum(axis=-1)
@@ -233,7 +233,7 @@ def _solve(kind: str, path: Line, span: tuple[float, float], theta: Array, value
         theta, value = theta - up, np.clip(value - across, *span)
         if (abs(up).max() < 1e-15) and (abs(across).max() <= 1e-16 * width):
             break
-    rows, first, _ = _along(path, span, value)
+    rows, first, _ = _theta_coefficients(path, span, value)
     basis = _basis(theta)
     t0, t1, t2, _ = abs((basis * rows).sum(axis=-1))
     v0 = abs((basis[0] * first).sum(axis=-1)) * width

@@ -19,7 +19,9 @@ MAX_CORRECTION = 0.6  # in e: no set is looked for if Newton's first step is lon
 SAME_SET_DISTANCE = 1e-2  # in e: sets as near to each other are one
 
 
-def solved(field: Field, e: Array, z: Array, far: float = MAX_CORRECTION, most: int = MAX_NEWTON) -> Array | None:
+def solve_critical(
+    field: Field, e: Array, z: Array, far: float = MAX_CORRECTION, most: int = MAX_NEWTON
+) -> Array | None:
     """Critical set near e, by Newton's method; None where there is none near: a step is longer than `far`."""
     e, slow, before = np.array(e, float), z.tolist(), math.inf
     for _ in range(most):
@@ -61,7 +63,7 @@ class Sheet:
 
     def at(self, z: Array) -> Array | None:
         """Return e at z, or None where the set is not found."""
-        return solved(self.field, self.e + self.slope @ (z - self.z), z, far=1.0, most=FURTHER)
+        return solve_critical(self.field, self.e + self.slope @ (z - self.z), z, far=1.0, most=FURTHER)
 
     def joined(self, other: Sheet) -> bool:
         """Whether another one may be the same set: each is not far from where the slope of the other leads."""

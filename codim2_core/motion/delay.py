@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..initial_value.field import Field
-from ..initial_value.sheet import solved
+from ..initial_value.sheet import solve_critical
 from ..numerics.dense import Dense
 from ..tables import Tabled, point
 from ..words import say
@@ -104,7 +104,7 @@ def delay(
     z = motion(t)[:, 2:]
     e = np.stack([np.interp(t, known[0], column) for column in known[1].T], axis=-1)
     for i, guess in enumerate(e):
-        found = solved(formulas, guess, z[i])
+        found = solve_critical(formulas, guess, z[i])
         e[i] = guess if found is None else found
     flow = np.array(
         [formulas.value(*place, 0.0, 0.0, *slow)[2:] for place, slow in zip(e.tolist(), z.tolist(), strict=True)]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..initial_value.field import Field
-from ..initial_value.sheet import solved
+from ..initial_value.sheet import solve_critical
 from ..psi.function import Psi
 
 Array = NDArray[np.float64]
@@ -93,7 +93,7 @@ def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> F
     """
     z = state[2:]
     own_e, own_p = place(psi, eps, float(state[0]), float(state[1]))
-    e = solved(field, own_e, z)
+    e = solve_critical(field, own_e, z)
     if e is None or not math.hypot(e[0], e[1]) < 1.0:
         return None
     p = in_disc(psi, e)

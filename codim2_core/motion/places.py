@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..cycles.limit_cycles import limit_cycles
 from ..initial_value.field import field
-from ..initial_value.sheet import solved
+from ..initial_value.sheet import solve_critical
 from ..layer_problem.equator import equator_equilibria
 from ..numerics.dense import Dense
 from ..orbits.trajectories import continuation, trajectories
@@ -110,7 +110,7 @@ class OnSet:
         formulas, z = field(self.system), self.motion(t)[:, 2:]
         found = np.stack([np.interp(t, self.times, column) for column in self.e.T], axis=-1)
         for i, guess in enumerate(found):
-            e = solved(formulas, guess, z[i])
+            e = solve_critical(formulas, guess, z[i])
             if e is not None and math.hypot(e[0], e[1]) <= 1.0:
                 found[i] = e
         return found, np.array([in_disc(self.psi, e) for e in found]).reshape(-1, 2)

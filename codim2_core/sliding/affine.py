@@ -66,7 +66,7 @@ def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:
     at = system.at(z)
     if not isinstance(at, Coefficients):
         return None
-    matrix, offset = _frozen(np.concatenate([at.A, at.B])), _frozen(np.concatenate([at.f, at.g]))
+    matrix, offset = _read_only(np.concatenate([at.A, at.B])), _read_only(np.concatenate([at.f, at.g]))
     location = locate(at)
     if location.singular:
         return AffinePlane(matrix, offset, None, None, False, _SINGULAR)
@@ -75,10 +75,10 @@ def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:
     sentence = _SENTENCES[location.existence]
     point = at.B @ place + at.g
     return AffinePlane(
-        matrix, offset, _frozen(place), _frozen(point), location.existence is not Existence.NONE, sentence
+        matrix, offset, _read_only(place), _read_only(point), location.existence is not Existence.NONE, sentence
     )
 
 
-def _frozen(array: Array) -> Array:
+def _read_only(array: Array) -> Array:
     array.flags.writeable = False
     return array

@@ -206,14 +206,16 @@ def _without_narrow(pieces: list[Piece], points: list[SlowPoint], width: float) 
         else:
             kept.pop()
             if kept:
-                changes[-1] = _through(changes[-1], kept[-1][1][-1], narrow, piece[1][0])
+                changes[-1] = _pass_through(changes[-1], kept[-1][1][-1], narrow, piece[1][0])
         kept.append(piece)
     if len(kept) > 1 and kept[-1][0][-1] - kept[-1][0][0] <= width:
         return kept[:-1], changes[:-1]
     return kept, changes
 
 
-def _through(into: SlowPoint, before: Sequence[CriticalSet], narrow: Piece, after: Sequence[CriticalSet]) -> SlowPoint:
+def _pass_through(
+    into: SlowPoint, before: Sequence[CriticalSet], narrow: Piece, after: Sequence[CriticalSet]
+) -> SlowPoint:
     """Name what happens where the critical sets are those of `narrow` at one z only; `into` is how they become so."""
     z, at = 0.5 * (narrow[0][0] + narrow[0][-1]), narrow[1][0]
     if _kinds(before) != _kinds(after):
@@ -234,7 +236,7 @@ def _change(z: float, before: Sequence[CriticalSet], after: Sequence[CriticalSet
             return SlowPoint("equator", z, *_place(outermost), None, sentence)
         flattest = min(more, key=lambda C: abs(C.determinant))
         return SlowPoint("fold", z, *_place(flattest), None, say("along: fold"))
-    pairs = _matching(before, after)
+    pairs = _match_sets(before, after)
     old, new = next(((p, q) for p, q in pairs if _kind(p) != _kind(q)), pairs[0])
     if {_kind(old).split()[0], _kind(new).split()[0]} == {"stable", "unstable"}:
         return SlowPoint("Hopf", z, *_place(new), None, say("along: Hopf", kind=_article(_kind(new))))
@@ -249,7 +251,7 @@ def _place(C: CriticalSet) -> tuple[tuple[float, float], tuple[float, ...]]:
     return (float(C.e[0]), float(C.e[1])), tuple(C.slow_flow.tolist())
 
 
-def _matching(before: Sequence[CriticalSet], after: Sequence[CriticalSet]) -> list[tuple[CriticalSet, CriticalSet]]:
+def _match_sets(before: Sequence[CriticalSet], after: Sequence[CriticalSet]) -> list[tuple[CriticalSet, CriticalSet]]:
     """Pair the critical sets at two neighbouring z, each with the one that moved least."""
     from scipy.optimize import linear_sum_assignment  # imported late: it takes longer than all of this package
 
@@ -262,7 +264,7 @@ def _follow(values: list[float], sets: list[tuple[CriticalSet, ...]]) -> list[Sl
     """Follow each critical set along a piece on which their number and kinds stay."""
     chains = [[C] for C in sets[0]]
     for after in sets[1:]:
-        then = dict((id(p), q) for p, q in _matching([chain[-1] for chain in chains], after))
+        then = dict((id(p), q) for p, q in _match_sets([chain[-1] for chain in chains], after))
         for chain in chains:
             chain.append(then[id(chain[-1])])
     branches = []

@@ -91,9 +91,9 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
     at = system.at(z)
     field = _Field(at)
     m = field.W.shape[1]
-    none, theta = _separating(field)
+    none, theta = _separating_line(field)
     if none:
-        return FilippovSliding(_frozen(np.zeros((0, m))), (), (), False, _NONE)
+        return FilippovSliding(_read_only(np.zeros((0, m))), (), (), False, _NONE)
     vertices: list[Array] = []
     combinations: list[tuple[Array, Array]] = []
     for count, n in enumerate(_normals(m)):
@@ -101,7 +101,7 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
             break  # all axes agree: one point
         found = _extreme(field, theta, n)
         if found is None:
-            return FilippovSliding(_frozen(np.zeros((0, m))), (), (), False, _TOUCHES)
+            return FilippovSliding(_read_only(np.zeros((0, m))), (), (), False, _TOUCHES)
         vertex, directions, weight = found
         if not any(np.abs(vertex - other).max() <= UNIQUE * field.size for other in vertices):
             vertices.append(vertex)
@@ -113,9 +113,9 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
         order = sorted(range(len(vertices)), key=lambda i: math.atan2(*(vertices[i] - centre)[::-1]))
         vertices, combinations = [vertices[i] for i in order], [combinations[i] for i in order]
     return FilippovSliding(
-        _frozen(np.array(vertices)),
-        tuple(_frozen(directions) for directions, _ in combinations),
-        tuple(_frozen(weight) for _, weight in combinations),
+        _read_only(np.array(vertices)),
+        tuple(_read_only(directions) for directions, _ in combinations),
+        tuple(_read_only(weight) for _, weight in combinations),
         unique,
         sentence,
     )
@@ -125,7 +125,7 @@ _TOUCHES = say("Filippov: touches")
 _NONE = say("Filippov: none")
 
 
-def _frozen(values: Array) -> Array:
+def _read_only(values: Array) -> Array:
     values.flags.writeable = False
     return values
 
@@ -166,7 +166,7 @@ class _Field:
         return self._at.U(e), self._at.W(e)
 
 
-def _separating(field: _Field) -> tuple[bool, Array]:
+def _separating_line(field: _Field) -> tuple[bool, Array]:
     """Whether a line through 0 has all of U on one side, and directions whose U otherwise has 0 in its hull."""
     from scipy.optimize import linprog  # imported late: it takes longer than all of this package
 
@@ -224,12 +224,14 @@ def _extreme(field: _Field, theta: Array, n: Array) -> tuple[Array, Array, Array
         theta = np.concatenate([theta, peaks[fresh]])
         weights = np.append(weights, np.zeros(int(fresh.sum())))
     # Newton's method may creep where the whole curve lies in the face: balancing afterwards leaves rounding only
-    theta, weights = _balanced(field, *(_polished(field, n, *_merged(theta, weights), slope) or (theta, weights)))
+    theta, weights = _balance(
+        field, *(_polish_support(field, n, *_merge_directions(theta, weights), slope) or (theta, weights))
+    )
     used = weights > WEIGHTLESS  # balancing and polishing may leave one that combines nothing
     return weights @ field(theta)[1], theta[used], weights[used]
 
 
-def _balanced(field: _Field, theta: Array, weights: Array) -> tuple[Array, Array]:
+def _balance(field: _Field, theta: Array, weights: Array) -> tuple[Array, Array]:
     """Remove what the linear programme's tolerance left of the mean of U, by the least change of the weights used."""
     used = weights > WEIGHTLESS
     theta, weights = theta[used] % (2.0 * math.pi), weights[used]
@@ -238,7 +240,7 @@ def _balanced(field: _Field, theta: Array, weights: Array) -> tuple[Array, Array
     return theta, np.maximum(weights, 0.0)
 
 
-def _merged(theta: Array, weights: Array) -> tuple[Array, Array]:
+def _merge_directions(theta: Array, weights: Array) -> tuple[Array, Array]:
     """Return the combined directions; neighbours that stand for one maximum between them become one."""
     used = weights > WEIGHTLESS
     theta, weights = theta[used] % (2.0 * math.pi), weights[used]
@@ -255,7 +257,7 @@ def _merged(theta: Array, weights: Array) -> tuple[Array, Array]:
     return np.bincount(group, weights * theta) / total, total / total.sum()
 
 
-def _polished(field: _Field, n: Array, theta: Array, weights: Array, slope: Array) -> tuple[Array, Array] | None:
+def _polish_support(field: _Field, n: Array, theta: Array, weights: Array, slope: Array) -> tuple[Array, Array] | None:
     """Newton's method on the conditions of optimality, past the tolerance of the linear programme (1e-10).
 
     Unknown are the directions, their weights and the face ``n.W + slope.U = level``; the height of the curve over the

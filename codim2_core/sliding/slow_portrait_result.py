@@ -89,7 +89,7 @@ class SlowInterval(Tabled):
 
 @dataclass(frozen=True, slots=True)
 class SlowPortrait:
-    """What happens on Sigma along one slow variable; made by `slow_portrait`."""
+    """The slow flow on Sigma along one slow variable, made by `slow_portrait`."""
 
     branches: tuple[SlowBranch, ...]
     points: tuple[SlowPoint, ...]

@@ -16,7 +16,7 @@ import numpy as np
 
 import codim2_core as c2
 from codim2_core.continuation.branches import continue_cycles
-from codim2_core.diagrams.standing import standing
+from codim2_core.diagrams.standing import equilibrium_branches
 
 PERIODS = {3: 0.5044751410092433, 4: 0.6066957493683202}  # of Case III's cycle, by extrapolation at 22 digits
 CLEAR = 1e-4  # exponent from which a period is known better than its value is rounded
@@ -74,8 +74,8 @@ def standing_row(repeats: int) -> tuple[float, float]:
     psi, span = c2.psi.hill(3), (0.2, 0.5)
     numbers = {"a": 1.0, "b": 1.3, "d": -1.2, "f1": 0.33, "f2": 0.07}
     twin = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=numbers)
-    cost, found = timed(lambda: standing(twin, psi, "f1", span), max(repeats // 3, 1))
-    exact = [one.value for one in standing(FOLDING, psi, "f1", span).special]
+    cost, found = timed(lambda: equilibrium_branches(twin, psi, "f1", span), max(repeats // 3, 1))
+    exact = [one.value for one in equilibrium_branches(FOLDING, psi, "f1", span).special]
     values = [one.value for one in found.special]
     return cost, max(map(abs, np.subtract(values, exact)), default=0.0) if len(values) == len(exact) else np.inf
 
@@ -95,7 +95,7 @@ def report(quick: bool = False) -> str:
     lines.append(f"| what stands still along f1 of the same system, general, as text | {cost:.0f} | {error:.0e} |")
     if not quick:
         ring = c2.examples.spinning_annulus()
-        cost, along = timed(lambda: standing(ring, c2.psi.constant(), "eta", (0.5, 1.5)), 1)
+        cost, along = timed(lambda: equilibrium_branches(ring, c2.psi.constant(), "eta", (0.5, 1.5)), 1)
         count = len(along.special)
         lines.append(f"| the same of the spinning annulus, eta through 1: {count} special values | {cost:.0f} | |")
         cost, curve = timed(lambda: c2.bifurcations.cycle_folds(1.0, 1.3, -1.2, psi), 1)

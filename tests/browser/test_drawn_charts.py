@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.diagrams.standing import standing
+from codim2_core.diagrams.standing import equilibrium_branches
 
 from .asymmetric import PSI, at, equator, size, system
 from .drawn import SCRIPTS, colour, numbers, plots, table
@@ -115,7 +115,7 @@ def test_special_points_of_the_diagram(opened, setting):
     page = opened("diagram", along="f1")
     drawn = [mark for plot in plots(page, ".diagram") for mark in plot.marks()]
     flat = c2.ELinear(setting["a"], setting["b"], setting["d"], (setting["f1"], setting["f2"]))
-    found = standing(flat, PSI, "f1", (-3.0, 3.0), ()).special
+    found = equilibrium_branches(flat, PSI, "f1", (-3.0, 3.0), ()).special
     assert sum(len(mark["words"].splitlines()) for _, mark in drawn) == len(found) > 3
     near = plots(page, ".diagram")[-1].near[0]
     for one in found:

@@ -11,7 +11,8 @@ from .drawn import plots
 TOO_WIDE = """() => {
     const all = (root) => [...root.querySelectorAll('*')].flatMap((e) => e.shadowRoot ? [e, ...all(e.shadowRoot)] : [e])
     return all(document)
-        .filter((e) => e.closest('.inspector') && !(innerWidth < 500 && e.matches('.tabs')) && !e.matches('.frames') && e.offsetParent)
+        .filter((e) => e.closest('.inspector') && !(innerWidth < 500 && e.matches('.tabs')) && e.offsetParent)
+        .filter((e) => !e.matches('.frames')) // the film strip scrolls
         .filter((e) => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== 'inline')
         .map((e) => e.className) }"""
 

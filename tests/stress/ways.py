@@ -14,7 +14,7 @@ import numpy as np
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.atlases.faces import within
+from codim2_core.atlases.faces import inside_polygons
 from codim2_core.motion.agreement import agreement
 
 FAMILIES = (psi.constant(), psi.rational(), psi.tanh(), psi.hill(3.0))
@@ -104,7 +104,7 @@ def atlas_and_portraits(rng: random.Random) -> tuple[str, list[str]]:
         at = np.array([[p, z]])
         if any(_off(curve.points, at[0]) < 4.0 * ASIDE for curve in found.curves):
             continue
-        names = [region.name for region in found.regions if within(at, region.boundary)[0]]
+        names = [region.name for region in found.regions if inside_polygons(at, region.boundary)[0]]
         there = system.evolve(p=p)
         equator, sets = c2.equator_equilibria(there, (z,)), c2.critical_sets(there, family, (z,))
         count = "NCM" if not sets else "CM" if len(sets) == 1 else f"{len(sets)}CM"

@@ -8,7 +8,7 @@ import pytest
 import codim2_core as c2
 from codim2_core import ELinear, System, bifurcations, psi
 from codim2_core.diagrams.result import SpecialValue
-from codim2_core.diagrams.standing import standing
+from codim2_core.diagrams.standing import equilibrium_branches
 from codim2_core.words import recognise
 
 from .read_back import number
@@ -154,7 +154,7 @@ AT_A_VALUE = {
 def test_at_a_value_of_one_parameter(key):
     system, family, name, span = ALONG[key]
     said = set()
-    special = standing(system, family, name, span, (0.1,) * system.m).special
+    special = equilibrium_branches(system, family, name, span, (0.1,) * system.m).special
     values = np.array([*span, *(s.value for s in special)])
     for one in special:
         gaps = np.abs(values - one.value)

@@ -1,1 +1,1 @@
-"""What LaTeX reads: a table of a view, and its picture."""
+"""LaTeX exports of a view: its table, and its picture."""

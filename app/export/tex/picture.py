@@ -33,7 +33,7 @@ def tikz(svg: str) -> str:
         "\\usepackage{tikz}\n\\pagestyle{empty}\n\\parindent=0pt\n\\begin{document}\n"
         f"{defined}\\colorlet{{cpage}}{{{page}}}\n\\begin{{tikzpicture}}[x=1pt,y=-1pt,line join=round]\n"
         f"\\useasboundingbox (0,0) rectangle ({width:g},{height:g});\n"
-        f"{''.join(_drawn(whole, _shadings(whole), _clips(whole)))}\\end{{tikzpicture}}\n\\end{{document}}\n"
+        f"{''.join(_draw_elements(whole, _shadings(whole), _clips(whole)))}\\end{{tikzpicture}}\n\\end{{document}}\n"
     )
 
 
@@ -45,31 +45,33 @@ def _clips(whole: Svg.Element) -> dict[str, Svg.Element]:
     return {it.attrib["id"]: it[0] for it in whole.iter(f"{NS}clipPath")}
 
 
-def _drawn(parent: Svg.Element, shadings: dict[str, Svg.Element], clips: dict[str, Svg.Element]) -> Iterator[str]:
+def _draw_elements(
+    parent: Svg.Element, shadings: dict[str, Svg.Element], clips: dict[str, Svg.Element]
+) -> Iterator[str]:
     """Return what is drawn in an element, a line or more for each that it holds."""
     for it in parent:
         name, of = it.tag.removeprefix(NS), it.attrib
         if name == "g":
-            yield f"\\begin{{scope}}[{_moved(of.get('transform', ''))}]\n"
+            yield f"\\begin{{scope}}[{_transform_options(of.get('transform', ''))}]\n"
             if clip := of.get("clip-path"):
-                yield f"\\clip {_outline(clips[_named(clip)])};\n"
-            yield from _drawn(it, shadings, clips)
+                yield f"\\clip {_outline(clips[_reference_name(clip)])};\n"
+            yield from _draw_elements(it, shadings, clips)
             yield "\\end{scope}\n"
         elif name == "text":
             yield _words(it)
         elif name in ("circle", "rect", "path"):
             fill = of.get("fill", "none")
             if fill.startswith("url"):
-                yield _shaded(it, shadings[_named(fill)])
+                yield _shade_circle(it, shadings[_reference_name(fill)])
             else:
                 yield f"\\path[{_look(of, fill)}] {_outline(it)};\n"
 
 
-def _named(reference: str) -> str:
+def _reference_name(reference: str) -> str:
     return reference.removeprefix("url(#").removesuffix(")")
 
 
-def _moved(transform: str) -> str:
+def _transform_options(transform: str) -> str:
     """Return a transform of SVG as options; lengths are those of the picture, y downward."""
     found = dict(re.findall(r"(\w+)\(([^)]*)\)", transform))
     x, y = found.get("translate", "0 0").split()
@@ -92,7 +94,7 @@ def _look(of: dict[str, str], fill: str) -> str:
     if "opacity" in of:
         options.append(f"opacity={of['opacity']}")
     if "transform" in of:
-        options.append(_moved(of["transform"]))
+        options.append(_transform_options(of["transform"]))
     return ",".join(options)
 
 
@@ -146,7 +148,7 @@ def _words(it: Svg.Element) -> str:
     return f"\\node[{','.join(look)}] at ({of['x']},{of['y']}) {{{in_latex(it.text or '')}}};\n"
 
 
-def _shaded(it: Svg.Element, shading: Svg.Element) -> str:
+def _shade_circle(it: Svg.Element, shading: Svg.Element) -> str:
     """Return a circle shaded as the hemisphere, on the page's colour."""
     stops = []
     for stop in shading:

@@ -12,8 +12,8 @@ from ...layer_problem.problem import LayerProblem
 from ...words import say
 from ..family import Family
 from ..result import AtlasCurve, AtlasPoint, read_only
-from .following import Curve, through
-from .lines import STANDING, Search, Seed, beside, straight
+from .following import Curve, trace_connection
+from .lines import STANDING, Search, Seed, lines_beside_takens, straight
 from .splitting import Pair
 
 Array = NDArray[np.float64]
@@ -42,13 +42,13 @@ def connection_curves(
     found: list[Curve] = []
     missed: list[Seed] = []
 
-    def known(place: Array, pair: Pair) -> bool:
+    def is_known(place: Array, pair: Pair) -> bool:
         return any(one.passes(place, pair) for one in found)
 
-    search = Search(family, known)
-    for line in [*beside(family, takens, curves), *straight(family, curves)]:
+    search = Search(family, is_known)
+    for line in [*lines_beside_takens(family, takens, curves), *straight(family, curves)]:
         for seed in search.along(line):
-            one = through(seed) if seed.settled and len(found) < MOST else None
+            one = trace_connection(seed) if seed.settled and len(found) < MOST else None
             if one is None:
                 missed.append(seed)
             else:
@@ -59,19 +59,19 @@ def connection_curves(
         kind = kinds[0] if len(set(kinds)) == 1 else CONNECTION
         plane, places, ratios = one.plane, np.array([pair.leaving.p for pair in one.pairs]), one.ratios
         for end, i in zip(one.ends, (0, -1), strict=True):
-            born = _born(one, takens, i) if kind == LOOP else None
+            born = _birth_point(one, takens, i) if kind == LOOP else None
             if born is not None:
                 order = 1 if i else -1
                 plane = np.concatenate([plane[::order], born[0][None]])[::order]
                 places = np.concatenate([places[::order], born[1][None]])[::order]
                 ratios = np.append(ratios[::order], 1.0)[::order]
             elif end in ("lost", "many"):
-                told.append(_ended(family, one.plane[i], kind, curves))
+                told.append(_end_point(family, one.plane[i], kind, curves))
         numbers = ratios if kind != CONNECTION else np.zeros(0)
         out.append(AtlasCurve(kind, read_only(family.values(plane)), read_only(places), read_only(numbers)))
         if kind != CONNECTION:
             told += [_point(family, "neutral loop", at, say("neutral connection", kind=kind)) for at in one.neutral()]
-    lost = [_kind(seed.pair) for seed in missed if not known(seed.place, seed.pair)]
+    lost = [_kind(seed.pair) for seed in missed if not is_known(seed.place, seed.pair)]
     return out, told, tuple(dict.fromkeys([*lost, *(KINDS if search.crowded else ())]))
 
 
@@ -89,7 +89,7 @@ def _kind(pair: Pair) -> str:
     return CONNECTION
 
 
-def _born(one: Curve, takens: Sequence[Array], i: int) -> tuple[Array, Array] | None:
+def _birth_point(one: Curve, takens: Sequence[Array], i: int) -> tuple[Array, Array] | None:
     """Return the Bogdanov-Takens point at which a curve of loops ends, and about where the loop shrinks to."""
     pair = one.pairs[i]
     section = pair.section
@@ -99,7 +99,7 @@ def _born(one: Curve, takens: Sequence[Array], i: int) -> tuple[Array, Array] | 
     return near, 0.5 * (section.origin + pair.leaving.p)
 
 
-def _ended(family: Family, place: Array, kind: str, curves: Sequence[AtlasCurve]) -> AtlasPoint:
+def _end_point(family: Family, place: Array, kind: str, curves: Sequence[AtlasCurve]) -> AtlasPoint:
     """Say where a curve could be followed no further, and beside what."""
     gaps = {
         one.kind: float(np.hypot(*(family.units(one.points) - place).T).min())

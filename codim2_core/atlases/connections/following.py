@@ -69,7 +69,7 @@ class Curve:
         return [zero_between(self.splitting.condition, test, self.plane[i], self.plane[i + 1]) for i in rows]
 
 
-def through(seed: Seed) -> Curve | None:
+def trace_connection(seed: Seed) -> Curve | None:
     """Return the curve through a seed; None if it is not caught."""
     splitting = seed.splitting
     first = newton(splitting.condition, seed.place, REACH)

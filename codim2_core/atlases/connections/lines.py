@@ -1,4 +1,4 @@
-"""Where connections are begun: changes of sign of the splitting along lines of the plane."""
+"""Seeds of connection curves: sign changes of the splitting along lines of the plane."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...continuation.typed.foot import corrected
+from ...continuation.typed.foot import correct_zero
 from ...curves.polyline import feet
 from ...layer_problem.problem import LayerProblem
 from ...numerics.root_between import root_between
@@ -52,7 +52,7 @@ class Seed:
 
 @dataclass(frozen=True, eq=False)
 class Sample:
-    """What a place of a line has; `known` are splittings that were computed."""
+    """A place on a line, with its saddles' branches; `known` are splittings that were computed."""
 
     place: Array
     problem: LayerProblem
@@ -60,12 +60,12 @@ class Sample:
 
     @cached_property
     def branches(self) -> list[Branch]:
-        """Of all saddles."""
+        """Return the branches of all saddles."""
         return branches(self.problem)
 
     @cached_property
     def lines(self) -> list[Array]:
-        """Of each branch."""
+        """Return the points of each branch."""
         sets = [C.p for C in self.problem.critical]
         apart = [math.dist(one, other) for i, one in enumerate(sets) for other in sets[:i]]
         return lines_of(self.branches, min(apart, default=1.0))
@@ -100,7 +100,7 @@ class Sample:
         return self.known[places]
 
     def followed(self, here: Sample) -> tuple[dict[int, int], dict[int, int]]:
-        """Which branches and which feet of a place nearby are those of this one."""
+        """Match the branches and feet of a place nearby with those of this one."""
         branches_, feet = {}, {}
         among: dict[tuple[float, ...], list[int]] = {}  # of each saddle
         for i, one in enumerate(self.branches):
@@ -111,7 +111,7 @@ class Sample:
             if ours:
                 branches_[i] = max(ours, key=lambda j, way=one.way: float(here.branches[j].way @ way))
         for i, foot in enumerate(self.feet):
-            e = corrected(here.problem.at, foot)
+            e = correct_zero(here.problem.at, foot)
             for j, other in enumerate(here.feet):
                 if e is not None and math.dist(e, other) < SAME:
                     feet[i] = j
@@ -139,7 +139,7 @@ def straight(family: Family, curves: Sequence[AtlasCurve]) -> list[Array]:
     return found
 
 
-def beside(family: Family, takens: Sequence[Array], curves: Sequence[AtlasCurve]) -> list[Array]:
+def lines_beside_takens(family: Family, takens: Sequence[Array], curves: Sequence[AtlasCurve]) -> list[Array]:
     """Short lines that leave folds of critical sets through the Hopf curve, beside Bogdanov-Takens points.
 
     In the normal form x' = y, y' = p + q x + x^2 - x y the fold is p = q^2/4, Hopf p = 0, and the loop

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...continuation.typed.foot import corrected
+from ...continuation.typed.foot import correct_zero
 from ...curves.newton import newton
 from ...layer_problem.critical import CriticalSet, set_at
 from ...layer_problem.eigendirections import to_disc
@@ -73,18 +73,18 @@ class Branch:
 
     @property
     def signature(self) -> Array:
-        """What is another for each branch, (4,)."""
+        """Return four numbers (4,) by which branches differ."""
         return np.concatenate([self.p, self.way])
 
     def among(self, others: Sequence[Branch]) -> list[int]:
-        """Which of others, at a place nearby, belong to the same saddle, as its critical set or theta is followed."""
+        """Return which of others, at a place nearby, belong to the same saddle, by its critical set or theta."""
         if not others:
             return []
         at = others[0].at
         if self.critical is None:
             theta = _zero_of_theta(at, self.theta)
             return [i for i, one in enumerate(others) if abs(math.remainder(one.theta - theta, 2.0 * math.pi)) < SAME]
-        e = corrected(at, self.critical.e)
+        e = correct_zero(at, self.critical.e)
         sets = [one.critical for one in others]
         return [] if e is None else [i for i, C in enumerate(sets) if C is not None and math.dist(C.e, e) < SAME]
 
@@ -96,7 +96,7 @@ class Branch:
         """Return the same branch of another system nearby; None where its saddle is none any more."""
         if self.critical is None:
             return _half_saddle(at, psi, _zero_of_theta(at, self.theta), self.backward)
-        e = corrected(at, self.critical.e)
+        e = correct_zero(at, self.critical.e)
         if e is None:
             return None
         C = set_at(at, psi, e)

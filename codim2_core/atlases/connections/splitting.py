@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ...continuation.typed.foot import corrected, e_at, placed
+from ...continuation.typed.foot import correct_zero, e_at, hemisphere_place
 from ...psi.function import Psi
 from ...systems.frozen import AtZ
 from ..family import Family
@@ -58,7 +58,7 @@ class Section:
         return (math.log(at) if at > 0.0 else math.nan) if self.half else at
 
     def first(self, line: Array) -> tuple[int, float, bool] | None:
-        """Which piece of a line crosses it first, at which part of that, and in which sense; None if none does."""
+        """Return the first piece of a line that crosses it, at which part, and in which sense; None if none does."""
         side = self.side(line)
         rows = np.flatnonzero(side[1:] * side[:-1] < 0.0)
         part = side[rows] / (side[rows] - side[rows + 1])
@@ -80,7 +80,7 @@ class Pair:
     def followed(self, at: AtZ, psi: Psi) -> Pair | None:
         """Return the same of another system nearby; None where one of them is no more."""
         leaving, entering = self.leaving.followed(at, psi), self.entering.followed(at, psi)
-        foot = None if self.foot is None else corrected(at, self.foot)
+        foot = None if self.foot is None else correct_zero(at, self.foot)
         if leaving is None or entering is None or (foot is None) != (self.foot is None):
             return None
         return Pair(leaving, entering, foot)
@@ -92,7 +92,7 @@ class Pair:
         if self.foot is None:
             origin, way = 0.5 * (A + B), B - A
         else:
-            origin = placed(self.leaving.psi, self.foot).p
+            origin = hemisphere_place(self.leaving.psi, self.foot).p
             way = origin - A
         scale = math.hypot(*way)
         if scale == 0.0:
@@ -108,7 +108,7 @@ class Pair:
         section = self.section
         if section is None:
             return math.nan
-        out, back = _crossing(self.leaving, section), _crossing(self.entering, section)
+        out, back = _first_crossing(self.leaving, section), _first_crossing(self.entering, section)
         if out is None or back is None or out[1] != back[1]:
             return math.nan
         return section.coordinate(out[0]) - section.coordinate(back[0])
@@ -174,8 +174,8 @@ class Splitting:
         return np.array([here]), slope
 
 
-def _crossing(branch: Branch, section: Section) -> tuple[Array, bool] | None:
-    """Where a branch first crosses a section, and in which sense as time goes on."""
+def _first_crossing(branch: Branch, section: Section) -> tuple[Array, bool] | None:
+    """Return where a branch first crosses a section, and in which sense as time goes on."""
     at, psi = branch.at, branch.psi
     line, times = branch.line(section.scale)
     first = section.first(line)
@@ -188,7 +188,7 @@ def _crossing(branch: Branch, section: Section) -> tuple[Array, bool] | None:
         step = -float(section.side(state[:2])) / rate if rate else math.inf
         if not abs(step) * at.speed < 1.0:
             return None
-        state = _stepped(at, psi, state, step)
+        state = _runge_kutta_step(at, psi, state, step)
         if abs(step) * at.speed < CLOSE:  # its error is the square
             return state[:2], upwards != branch.backward
     return None
@@ -202,7 +202,7 @@ def _field(at: AtZ, psi: Psi, state: Array) -> Array:
     return np.append(U - p * outward, -w * outward)
 
 
-def _stepped(at: AtZ, psi: Psi, y: Array, h: float) -> Array:
+def _runge_kutta_step(at: AtZ, psi: Psi, y: Array, h: float) -> Array:
     """One step of the classical Runge-Kutta method."""
     a = _field(at, psi, y)
     b = _field(at, psi, y + 0.5 * h * a)

@@ -12,7 +12,7 @@ from copy import copy
 import numpy as np
 from numpy.typing import NDArray
 
-from ...continuation.typed.foot import Place, corrected, placed
+from ...continuation.typed.foot import Place, correct_zero, hemisphere_place
 from ...continuation.typed.ray import Ray
 from ...continuation.typed.turn import Course, turn
 from ...systems.frozen import AtZ
@@ -45,7 +45,7 @@ class Around:
     def __init__(self, family: Family, place: Array, e: Array, u: Array, critical: bool = True) -> None:
         self.family, self.u = family, u
         self._known = [(np.array(place, float), np.array(e, float))]
-        self._still = None if critical else placed(family.psi_at(place), self._known[0][1])
+        self._still = None if critical else hemisphere_place(family.psi_at(place), self._known[0][1])
 
     def towards(self, u: Array) -> Around:
         """Return the same in another direction."""
@@ -65,12 +65,12 @@ class Around:
 
     def _followed(self, at: AtZ, place: Array) -> Place | None:
         nearest = min(self._known, key=lambda one: math.dist(one[0], place))
-        e = corrected(at, nearest[1])
+        e = correct_zero(at, nearest[1])
         if e is None:
             return None
         if math.dist(nearest[0], place) > KNOWN:
             self._known.append((place.copy(), e))
-        return placed(self.family.psi_at(place), e)
+        return hemisphere_place(self.family.psi_at(place), e)
 
     def turn(self, v: Array) -> Course | None:
         """Follow one turn; None if it does not return."""

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ...words import say
 from ..family import Family
 from ..result import AtlasCurve, AtlasPoint, read_only
-from .following import CENTRE, Curve, through
-from .lines import Seed, along_lines, beside
+from .following import CENTRE, Curve, trace_fold
+from .lines import Seed, along_lines, seeds_beside_bautin
 
 Array = NDArray[np.float64]
 
@@ -42,15 +42,15 @@ def cycle_curves(
     found: list[Curve] = []
     for place in born:
         if not any(_comes_to(one, place) for one in found):
-            caught = (through(family, seed.start) for seed in beside(family, place))
+            caught = (trace_fold(family, seed.start) for seed in seeds_beside_bautin(family, place))
             found += islice((one for one in caught if one is not None), 1)
     for seed in along_lines(family, curves):
         if not any(_passes(one, seed) for one in found):
-            one = through(family, seed.start)
+            one = trace_fold(family, seed.start)
             found += [one] if one is not None else []
     out, lost = [], []
     for one in found:
-        plane, sizes, ends = _ended(one, born)
+        plane, sizes, ends = _extend_to_births(one, born)
         places = np.full((len(plane), 2), math.nan)
         out.append(AtlasCurve(KIND, read_only(family.values(plane)), read_only(places), read_only(sizes)))
         for across, up in family.values(np.array(ends).reshape(-1, 2)).tolist():
@@ -72,7 +72,7 @@ def _away(plane: Array, place: Array) -> Array:
     return np.hypot(*(plane - place).T)
 
 
-def _ended(one: Curve, born: Sequence[Array]) -> tuple[Array, Array, list[Array]]:
+def _extend_to_births(one: Curve, born: Sequence[Array]) -> tuple[Array, Array, list[Array]]:
     """Return a curve drawn on to the points where it is born, and its ends that are at none."""
     plane, sizes, lost = one.plane, one.sizes, []
     for end, i in zip(one.ends, (0, -1), strict=True):

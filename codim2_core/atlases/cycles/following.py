@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...continuation.typed.foot import e_at
-from ...continuation.typed.ray import crossing, room
+from ...continuation.typed.ray import best_crossing, room
 from ...curves.arclength import Edge, Steps, square_edges, tangent, trace_one_way
 from ...curves.newton import newton
 from ...layer_problem.critical import critical_sets
@@ -28,7 +28,7 @@ BETTER = 1.3  # times as well another ray is crossed that is worth taking
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """Where a curve is begun: on a ray, near v."""
+    """The seed of a curve: a place on a ray, near v."""
 
     around: Around
     v: Array
@@ -43,7 +43,7 @@ class Curve:
     ends: tuple[str, str]
 
 
-def through(family: Family, start: Start) -> Curve | None:
+def trace_fold(family: Family, start: Start) -> Curve | None:
     """Return the curve through a start; None if it is not caught."""
     first = newton(start.around.fold, start.v, REACH)
     along = None if first is None else tangent(start.around.fold, first)
@@ -83,13 +83,13 @@ def _again(family: Family, around: Around, last: Array, way: Array) -> tuple[Aro
     closed = np.concatenate([turned.states, turned.states[:1]])[:, :2]
     arounds = [around, *_inside(family, last[1:], closed)]
     rays = [one.ray(last[1:]) for one in arounds]
-    crossed = [(*crossing(closed, found.critical), one) for one, found in zip(arounds, rays, strict=True) if found]
+    crossed = [(*best_crossing(closed, found.critical), one) for one, found in zip(arounds, rays, strict=True) if found]
     quality, index, best = max(crossed, key=lambda one: one[0])
     step = closed[1] - closed[-2]
     here = abs(float(step[0] * around.u[1] - step[1] * around.u[0])) / max(math.hypot(*step), 1e-300)
     if quality < BETTER * here:
         return None
-    start = _on(best, last[1:], closed[index])
+    start = _start_on_ray(best, last[1:], closed[index])
     if start is None:
         return None
     found = newton(start.around.fold, start.v, REACH)
@@ -111,7 +111,7 @@ def _inside(family: Family, place: Array, closed: Array) -> list[Around]:
     ]
 
 
-def _on(around: Around, place: Array, point: Array) -> Start | None:
+def _start_on_ray(around: Around, place: Array, point: Array) -> Start | None:
     """Return the start at a point of a cycle, on the ray from another point through it."""
     ray = around.ray(place)
     if ray is None:

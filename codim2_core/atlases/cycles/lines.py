@@ -1,4 +1,4 @@
-"""Where folds of cycles are begun: at generalised Hopf points, and on branches of cycles along a few lines."""
+"""Seeds of folds of cycles: at generalised Hopf points, and on branches of cycles along a few lines."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Seed:
     size: float
 
 
-def beside(family: Family, place: Array) -> list[Seed]:
+def seeds_beside_bautin(family: Family, place: Array) -> list[Seed]:
     """Places where the fold may be caught that begins at a generalised Hopf point."""
     at, psi = family.frozen(place), family.psi_at(place)
     critical = critical_sets(at, psi)
@@ -60,18 +60,18 @@ def beside(family: Family, place: Array) -> list[Seed]:
 
 def along_lines(family: Family, curves: Sequence[AtlasCurve]) -> list[Seed]:
     """Folds on branches of cycles along some lines across the square, among its curves."""
-    return [seed for axis in (0, 1) for at in LINES for seed in _along(family, curves, axis, at)]
+    return [seed for axis in (0, 1) for at in LINES for seed in _seeds_along(family, curves, axis, at)]
 
 
-def _along(family: Family, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[Seed]:
+def _seeds_along(family: Family, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[Seed]:
     def place(value: float) -> Array:
         return np.array([value, at] if axis == 0 else [at, value])
 
     @cache
-    def there(value: float) -> tuple[AtZ, Psi]:
+    def system_at(value: float) -> tuple[AtZ, Psi]:
         return family.frozen(place(value)), family.psi_at(place(value))
 
-    search = Search(there, family.names[axis], (0.0, 1.0), (0.0, 1.0), marks(family, curves, axis, at))
+    search = Search(system_at, family.names[axis], (0.0, 1.0), (0.0, 1.0), marks(family, curves, axis, at))
     search.run()
     every = [piece for pieces, *_ in search.found for piece in pieces]
     folds = [(piece.tracer.family, piece.trace.points[k].turn) for piece in every for k in piece.trace.folds]
@@ -85,7 +85,7 @@ def _seed(family: Family, ray: VariedRay, turn: Turn, where: Array) -> Seed:
 
 
 def marks(family: Family, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[Mark]:
-    """Where curves of what stands still cross a line."""
+    """Return where curves of equilibria cross a line."""
     found = []
     for curve in curves:
         plane = family.units(curve.points)

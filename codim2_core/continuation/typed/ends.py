@@ -1,4 +1,4 @@
-"""How a branch of cycles of a general system begins or ends where it can be followed no further."""
+"""Name the beginning or end of a branch of cycles of a general system."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ class Marked(Protocol):
 
     @property
     def kind(self) -> str:
-        """What happens."""
+        """Return the kind of the bifurcation."""
         ...
 
     @property
     def value(self) -> float:
-        """Of the parameter."""
+        """Return the value of the parameter."""
         ...
 
     @property
@@ -111,44 +111,46 @@ def loop_end(name: str, last: Last, problem: LayerProblem, marked: Sequence[Mark
     turn = last.turn
     if turn.period < SLOWER * last.before.period:
         return None
-    ahead = {m.kind: m for m in reversed(marked) if _ahead(m, last, width)}  # the first of each kind
+    ahead = {m.kind: m for m in reversed(marked) if _lies_ahead(m, last, width)}  # the first of each kind
     fold, meeting = ahead.get("fold of critical sets"), ahead.get("saddle-node")
     if fold is not None and min(_gaps([fold.place], last.states)) < NEAR:
-        return _ended("saddle-node on the cycle", say("meets two sets", name=name, value=fold.value), turn, fold.value)
-    sunk, settled = _sunk(last), abs(turn.value - last.before.value) < SETTLED * width
+        return _make_end(
+            "saddle-node on the cycle", say("meets two sets", name=name, value=fold.value), turn, fold.value
+        )
+    sunk, settled = _comes_to_equator(last), abs(turn.value - last.before.value) < SETTLED * width
     value = turn.value if last.limit is None else last.limit
     reached = meeting is not None and abs(meeting.value - turn.value) < BEYOND * abs(value - turn.value)
     if sunk and meeting is not None and (reached or not settled):
         sentence = say("meets a saddle-node", name=name, value=meeting.value)
-        return _ended("saddle-node on the equator", sentence, turn, meeting.value)
+        return _make_end("saddle-node on the equator", sentence, turn, meeting.value)
     saddles = [C.p for C in problem.critical if C.kind == "saddle"]
     # What cycles of growing periods tend to holds an equilibrium: one on the equator where there is no saddle within.
     coming_down = sunk or (not saddles and turn.height < last.before.height)
     if coming_down and len(problem.equator) and (settled or 0.0 < abs(turn.value - value) < SETTLED * width):
         how = "attracting" if turn.exponent < 0.0 else "repelling"
         sentence = say("becomes a loop", how=how, name=name, value=value)
-        return _ended("heteroclinic cycle through the equator", sentence, turn, value)
+        return _make_end("heteroclinic cycle through the equator", sentence, turn, value)
     pairs = zip(_gaps(saddles, last.states), _gaps(saddles, last.earlier), strict=True)
     near = sum(now < NEAR and now < before for now, before in pairs)
     if near and settled:
         kind = "homoclinic" if near == 1 else "heteroclinic"
-        return _ended(f"{kind} cycle", say(f"becomes {kind}", name=name, value=turn.value), turn, turn.value)
+        return _make_end(f"{kind} cycle", say(f"becomes {kind}", name=name, value=turn.value), turn, turn.value)
     return None
 
 
-def _sunk(last: Last) -> bool:
+def _comes_to_equator(last: Last) -> bool:
     """Whether cycles come down to the equator."""
     return last.turn.height < SUNK and last.turn.height < last.before.height
 
 
-def _ahead(mark: Marked, last: Last, width: float) -> bool:
+def _lies_ahead(mark: Marked, last: Last, width: float) -> bool:
     """Whether a special value lies ahead, and the last cycles come to it: a loop is where their values accumulate."""
     way = last.turn.value - last.before.value
     ahead = (mark.value - last.turn.value) * math.copysign(1.0, way)
     return 0.0 <= ahead < min(REACH * width, COMING * abs(way))
 
 
-def _ended(kind: str, sentence: str, turn: Turn, value: float) -> Ended:
+def _make_end(kind: str, sentence: str, turn: Turn, value: float) -> Ended:
     point = CyclePoint(kind, value, math.inf, turn.amplitude, sentence)
     return Ended(point, (value, math.inf, turn.amplitude, math.copysign(math.inf, turn.exponent), *turn.p))
 

@@ -31,7 +31,7 @@ class Place:
 
 
 class Foot:
-    """Where a point is at each value.
+    """The base point of a section, as a function of the parameter.
 
     A critical set is followed from where it is known; where it ceases to be one, its last place goes on. So the foot
     depends on the parameter alone, without a jump.
@@ -51,11 +51,11 @@ class Foot:
         self.at, self.critical = at, critical
         self._values, self._places = [value], [np.array(e, float)]
         self._ends = (-math.inf, math.inf)  # it is no critical set beyond
-        self._still = None if critical else placed(at(value)[1], self._places[0])
+        self._still = None if critical else hemisphere_place(at(value)[1], self._places[0])
 
     def place(self, value: float) -> Place:
-        """Where it is at a value."""
-        return placed(self.at(value)[1], self.e(value)) if self._still is None else self._still
+        """Return the base point at a value."""
+        return hemisphere_place(self.at(value)[1], self.e(value)) if self._still is None else self._still
 
     def e(self, value: float) -> Array:
         """(c, s) of the critical set at a value."""
@@ -66,7 +66,7 @@ class Foot:
         step, tried = value - here, 0
         while here != value and tried < HALVINGS:
             there = value if abs(step) >= abs(value - here) else here + step
-            found = corrected(self.at(there)[0], e)
+            found = correct_zero(self.at(there)[0], e)
             if found is None:
                 step, tried = 0.5 * (there - here), tried + 1
             else:
@@ -80,13 +80,13 @@ class Foot:
         return e
 
 
-def corrected(system: AtZ, start: Array) -> Array | None:
+def correct_zero(system: AtZ, start: Array) -> Array | None:
     """Newton's method for U = 0 from a place (c, s) nearby; None if it is not found."""
     e = newton(lambda e: (system.U(e), system.DU(e)), start, FAR, CLOSE)
     return e if e is not None and math.hypot(*e) < INSIDE else None
 
 
-def placed(psi: Psi, e: Array) -> Place:
+def hemisphere_place(psi: Psi, e: Array) -> Place:
     """Return the point of the hemisphere where e_Psi = e."""
     modulus = math.hypot(*e)
     zeta = float(psi.radius(modulus, (1.0 - modulus) * (1.0 + modulus)))
@@ -95,6 +95,6 @@ def placed(psi: Psi, e: Array) -> Place:
 
 
 def e_at(psi: Psi, x2: Array) -> Array:
-    """Return (c, s) = e_Psi at a point x2: the inverse of `placed`."""
+    """Return (c, s) = e_Psi at a point x2: the inverse of `hemisphere_place`."""
     zeta = math.hypot(*x2)
     return np.asarray(x2 / max(zeta, 1e-300) * float(psi.modulus(zeta)))

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...cycles.limit_cycles import surrounds
 from ...layer_problem.problem import LayerProblem
-from ..asking import answered
+from ..asking import run_batched
 from ..points import Guess, Point, Trace
 from ..trace import Tracer
 from ..turns import Turn
@@ -30,7 +30,9 @@ def line_of(tracer: Tracer, turn: Turn) -> Array | None:
     return None if course is None else np.concatenate([[turn.p], course.states[:, :2], [turn.p]])
 
 
-def passed(tracer: Tracer, trace: Trace, problem: Callable[[float], LayerProblem]) -> tuple[Trace, Trace] | None:
+def split_at_homoclinic(
+    tracer: Tracer, trace: Trace, problem: Callable[[float], LayerProblem]
+) -> tuple[Trace, Trace] | None:
     """Part a trace at the first loop that it has passed; None if it has passed none.
 
     Parameters
@@ -45,7 +47,7 @@ def passed(tracer: Tracer, trace: Trace, problem: Callable[[float], LayerProblem
     before, after : Trace
         Both with points close to the loop.
     """
-    rounds = [_round(tracer, point.turn, problem) for point in trace.points]
+    rounds = [_count_surrounded(tracer, point.turn, problem) for point in trace.points]
     for i in range(1, len(rounds)):
         one, two = rounds[i - 1], rounds[i]
         if one is None or two is None or one[1] != two[1] or one[0] == two[0]:
@@ -55,8 +57,8 @@ def passed(tracer: Tracer, trace: Trace, problem: Callable[[float], LayerProblem
             here, there = before[-1], after[0]
             if abs(here.nu - there.nu) < CLOSE:
                 break
-            found = _between(tracer, here, there)
-            inside = None if found is None else _round(tracer, found.turn, problem)
+            found = _middle_point(tracer, here, there)
+            inside = None if found is None else _count_surrounded(tracer, found.turn, problem)
             if found is None or inside not in (one, two):
                 break
             if inside == one:
@@ -69,16 +71,16 @@ def passed(tracer: Tracer, trace: Trace, problem: Callable[[float], LayerProblem
     return None
 
 
-def _round(tracer: Tracer, turn: Turn, problem: Callable[[float], LayerProblem]) -> tuple[int, int] | None:
+def _count_surrounded(tracer: Tracer, turn: Turn, problem: Callable[[float], LayerProblem]) -> tuple[int, int] | None:
     """Count the critical sets that a cycle surrounds, and all; None if there is nothing to tell."""
     critical = problem(turn.value).critical
     line = line_of(tracer, turn) if len(critical) > 1 else None
     return None if line is None else (sum(surrounds(line, C.p) for C in critical), len(critical))
 
 
-def _between(tracer: Tracer, here: Point, there: Point) -> Point | None:
+def _middle_point(tracer: Tracer, here: Point, there: Point) -> Point | None:
     """Find the point of the branch half way between two."""
     dx, dn = there.turn.xi - here.turn.xi, there.nu - here.nu
     guess = Guess(0.5 * (here.turn.xi + there.turn.xi), 0.5 * (here.nu + there.nu), (dx, dn), here.turn.exponent > 0.0)
-    (found,) = answered([tracer.corrected(guess)], follow)
+    (found,) = run_batched([tracer.corrected(guess)], follow)
     return None if found is None else tracer.point(*found, here.tangent)

@@ -40,7 +40,7 @@ def room(foot: Place, u: Array) -> tuple[float, float]:
     return reach, gap / reach
 
 
-def crossing(points: Array, foot: Place) -> tuple[float, int]:
+def best_crossing(points: Array, foot: Place) -> tuple[float, int]:
     """Find where a cycle crosses a ray from a point best: how well, and at which of its points.
 
     An orbit from there turns by 2 pi about the point just when it is back, and not sooner, if no earlier point of the

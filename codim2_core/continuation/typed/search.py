@@ -21,11 +21,11 @@ from ...psi.function import Psi
 from ...systems.frozen import AtZ
 from ...systems.kinds import AnySystem
 from ...words import say
-from ..asking import answered
-from ..assembled import Row, assembled, row
+from ..asking import run_batched
+from ..assembled import Row, build_branch, row
 from ..ends import values
-from ..path import LEVEL, traced
-from ..points import Guess, Point, Trace, passing, reversed_trace
+from ..path import LEVEL, trace_branch
+from ..points import Guess, Point, Trace, points_at_value, reversed_trace
 from ..result import CycleBranch, CycleBranches, CyclePoint
 from ..trace import Tracer
 from ..turns import Turn
@@ -33,9 +33,9 @@ from ..varied_system import KEPT
 from .ends import SLOWER, Ended, Last, Marked, equator_end, hopf_end, limit_value, loop_end
 from .family import VariedRay, follow
 from .foot import Array, At, Foot, Place, e_at
-from .passed import line_of, passed
-from .ray import crossing, room
-from .seen import Seen, met, same
+from .passed import line_of, split_at_homoclinic
+from .ray import best_crossing, room
+from .seen import Seen, distance_along_ray, same
 
 FIRST, LARGE = 1e-3, 0.05  # of the reach: where branches start at a critical set; ebar, where at the equator
 COLUMNS = 9  # values at which all cycles are looked for
@@ -131,7 +131,7 @@ class Search:
             return
         foot = Foot(self.at, mark.value, C.e)
         tracer = self._tracer(foot, foot, TurnSection(*self.at(mark.value), C, critical).u)
-        (first,) = answered(
+        (first,) = run_batched(
             [tracer.corrected(Guess(math.log(FIRST), self._nu(mark.value), (1.0, 0.0), backward=False))], follow
         )
         if first is None:
@@ -151,7 +151,7 @@ class Search:
             xi = math.log(reach * (reach + other)) - 2.0 * math.log(LARGE)
             tracer = self._tracer(foot, foot, u)
             for guess in (Guess(xi, self._nu(mark.value), (1.0, 0.0), backward) for backward in (False, True)):
-                (first,) = answered([tracer.corrected(guess)], follow)
+                (first,) = run_batched([tracer.corrected(guess)], follow)
                 if first is None or not 0.0 <= first[1] <= 1.0:
                     continue
                 start = equator_end(self.name, first[0], self.marked, self.width, foot)
@@ -183,12 +183,12 @@ class Search:
         turned = tracer.point(*first, (-point.tangent[0], -point.tangent[1]))
         back = self._followed(tracer, turned)
         start = self._end(back)
-        self._keep([*(_reversed(piece) for piece in reversed(back)), *onward], start)
+        self._keep([*(_reverse_piece(piece) for piece in reversed(back)), *onward], start)
 
     def _feet(self, value: float, points: Array) -> list[Foot]:
         """Find points inside a cycle: critical sets that are no saddles, others, and its middle."""
         sets = sorted(self.problem(value).critical, key=lambda C: C.kind == "saddle")
-        feet = [Foot(self.at, value, C.e) for C in sets if crossing(points, Place(C.p, C.x2))[0] > -1.0]
+        feet = [Foot(self.at, value, C.e) for C in sets if best_crossing(points, Place(C.p, C.x2))[0] > -1.0]
         middle = points[:-1].mean(axis=0)
         x2 = middle / math.sqrt(1.0 - float(middle @ middle))
         return [*feet, Foot(self.at, value, e_at(self.at(value)[1], x2), critical=False)]
@@ -203,7 +203,7 @@ class Search:
         along: tuple[float, float],
     ) -> tuple[Tracer, tuple[Turn, float]] | None:
         """Find a cycle, known as a line, on the ray that it crosses best."""
-        crossed = [(*crossing(points, foot.place(value)), foot) for foot in feet]
+        crossed = [(*best_crossing(points, foot.place(value)), foot) for foot in feet]
         for quality, index, foot in sorted(crossed, key=lambda one: -one[0]):
             if quality <= 0.0:
                 break
@@ -213,7 +213,7 @@ class Search:
             tracer = self._tracer(foot, centre, away / r)
             reach, _ = room(place, away / r)
             guess = Guess(math.log(r / max(reach - r, 1e-300)), self._nu(value), along, backward)
-            (first,) = answered([tracer.corrected(guess)], follow)
+            (first,) = run_batched([tracer.corrected(guess)], follow)
             if first is not None:
                 return tracer, first
         return None
@@ -222,7 +222,7 @@ class Search:
         """Follow a branch to its end, on as many rays as it takes."""
         pieces: list[Piece] = []
         for _ in range(RAYS):
-            (trace,) = answered([traced(tracer, point)], follow)
+            (trace,) = run_batched([trace_branch(tracer, point)], follow)
             if pieces and len(trace.points) == 1:  # no further than the ray before
                 break
             pieces.append(Piece(tracer, trace))
@@ -251,7 +251,7 @@ class Search:
         along = line[1] - line[-2]
         here = abs(float(along[0] * family.u[1] - along[1] * family.u[0])) / max(math.hypot(*along), 1e-300)
         feet = [family.foot, *self._feet(value, line)]
-        if max(crossing(line, foot.place(value))[0] for foot in feet) < BETTER * here:
+        if max(best_crossing(line, foot.place(value))[0] for foot in feet) < BETTER * here:
             return None
         fixed = (0.0, 1.0) if abs(last.tangent[1]) > 0.1 else (1.0, 0.0)
         found = self._on(value, line, feet, family.centre, last.turn.exponent > 0.0, fixed)
@@ -259,7 +259,7 @@ class Search:
             return None
         other, (turn, nu) = found
         place, u = other.family.foot.place(before.turn.value), other.family.u
-        r = met(earlier, place.p, u, turn.chi * room(place, u)[0])
+        r = distance_along_ray(earlier, place.p, u, turn.chi * room(place, u)[0])
         towards = (turn.chi - r / room(place, u)[0], nu - before.nu)
         return other, other.point(turn, nu, towards)
 
@@ -280,7 +280,7 @@ class Search:
         if self._band(pieces):
             return
         for k, piece in enumerate(pieces):
-            cut = passed(piece.tracer, piece.trace, self.problem)
+            cut = split_at_homoclinic(piece.tracer, piece.trace, self.problem)
             if cut is None:
                 continue
             before, after = (Piece(piece.tracer, trace) for trace in cut)
@@ -288,7 +288,7 @@ class Search:
             turn = after.trace.points[len(after.trace.points) // 2].turn
             line = line_of(piece.tracer, turn)
             if line is None or not self._known(Seen(line, turn.period), turn.value):
-                back = self._end([_reversed(after)])
+                back = self._end([_reverse_piece(after)])
                 self._keep([after, *pieces[k + 1 :]], back)
             return
         self.found.append((pieces, start, self._end(pieces)))
@@ -338,8 +338,8 @@ class Search:
         nu = self._nu(value)
         for pieces, *_ in self.found:
             for piece in pieces:
-                for _, guess in passing(piece.trace, nu, self.width):
-                    (found,) = answered([piece.tracer.corrected(guess)], follow)
+                for _, guess in points_at_value(piece.trace, nu, self.width):
+                    (found,) = run_batched([piece.tracer.corrected(guess)], follow)
                     if found is not None and same(found[0], cycle):
                         return True
         return False
@@ -352,8 +352,8 @@ class Search:
             folds += [piece.trace.points[k].turn for k in piece.trace.folds]
         if end.limit is not None:
             rows.append(end.limit)
-        return assembled(self.name, rows, folds, start.point, end.point)
+        return build_branch(self.name, rows, folds, start.point, end.point)
 
 
-def _reversed(piece: Piece) -> Piece:
+def _reverse_piece(piece: Piece) -> Piece:
     return Piece(piece.tracer, reversed_trace(piece.trace))

@@ -30,8 +30,8 @@ def same(turn: Turn, cycle: LimitCycle | Seen) -> bool:
     return bool(distance(np.array(turn.p), cycle.points) < CLOSE)
 
 
-def met(points: Array, foot: Array, u: Array, near: float) -> float:
-    """How far along a ray a closed line meets it, next to a distance."""
+def distance_along_ray(points: Array, foot: Array, u: Array, near: float) -> float:
+    """Return the distance along a ray at which a closed line meets it, next to a given distance."""
     away = points - foot
     side, along = away[:, 0] * u[1] - away[:, 1] * u[0], away @ u
     found = [

@@ -61,7 +61,7 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place
         return None
     sign = -1.0 if backward else 1.0
     _, weights, matrix = gauss()
-    e, D = _regularised(ray.psi, np.concatenate([way.inner, start, way.end[None]]))
+    e, D = _regularised_direction(ray.psi, np.concatenate([way.inner, start, way.end[None]]))
     F = sign * ray.field(e)
     J = ray.derivative(e[:-2]) @ D[:-2]
     rates = (sign * (J[:, 0, 0] + J[:, 1, 1]) / way.inner[:, 2]).reshape(-1, STEP_NODES)
@@ -74,7 +74,7 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place
     growth = np.exp(np.minimum(left.ravel(), MOST_EXPONENT))
     multiplier = math.exp(exponent)
 
-    def lifted(k: int, state: Array, v: Array) -> float:
+    def cross_with_change(k: int, state: Array, v: Array) -> float:
         """Cross F with the change of x2 that the change v of p makes."""
         p, h = state[:2], float(state[2])
         return float(_cross(F[k], (v + p * (p @ v) / (h * h)) / h))
@@ -83,16 +83,16 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place
     chi, r = 1.0 / (1.0 + math.exp(-xi)), ray.reach / (1.0 + math.exp(-xi))
     last = float((end[:2] - ray.critical.p) @ ray.u)
     rest = float(end[2]) ** 2 / (last + ray.other)
-    across = lifted(-1, end, ray.u)
+    across = cross_with_change(-1, end, ray.u)
     if not (last > 0.0 and rest > 0.0 and across != 0.0):
         return None
     steep = 1.0 / last + 1.0 / rest
-    by_r = multiplier * lifted(-2, begin, ray.u) / across
+    by_r = multiplier * cross_with_change(-2, begin, ray.u) / across
     by_value = math.nan
     if beside is not None:
         melnikov = float(way.weight @ (growth * _cross(sign * F[:-2], _change(way.inner, beside) / ray.rate)))
-        came = multiplier * lifted(-2, begin, beside.moved + chi * beside.widened * ray.u) + melnikov
-        by_value = steep * (came - lifted(-1, end, beside.moved)) / across - beside.widened / rest
+        came = multiplier * cross_with_change(-2, begin, beside.moved + chi * beside.widened * ray.u) + melnikov
+        by_value = steep * (came - cross_with_change(-1, end, beside.moved)) / across - beside.widened / rest
     found = Turn(
         xi=xi, value=value, shift=math.log(last / rest) - xi,
         by_xi=steep * by_r * r * (1.0 - chi) - 1.0, by_value=by_value,
@@ -108,7 +108,7 @@ def _cross(v: Array, w: Array) -> Array:
     return v[..., 0] * w[..., 1] - v[..., 1] * w[..., 0]
 
 
-def _regularised(psi: Psi, states: Array) -> tuple[Array, Array]:
+def _regularised_direction(psi: Psi, states: Array) -> tuple[Array, Array]:
     """Compute e_Psi (n, 2) and its derivative by x2 (n, 2, 2) at states (n, 3)."""
     x2 = states[:, :2] / states[:, 2:]
     zeta = np.hypot(x2[:, 0], x2[:, 1])

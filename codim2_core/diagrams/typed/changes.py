@@ -1,4 +1,4 @@
-"""Where what stands still in a general system changes: states are compared, and changes that may hide looked for."""
+"""Find where the equilibria of a general system change: compare states, and look for changes that may hide."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from ...layer_problem.critical import CriticalSet
 from ...numerics.sign_changes import lowest, vertex
-from ..equator import linked
-from .narrowing import narrowed
+from ..equator import link_zeros
+from .narrowing import narrow_change
 from .rounding import States
 from .state import State, Turns
 
-__all__ = ["BESIDE", "Change", "matched", "pieces_between"]
+__all__ = ["BESIDE", "Change", "match_sets", "pieces_between"]
 
 Array = NDArray[np.float64]
 Change = tuple[float, State, State]  # where, and what stands still on either side
@@ -47,9 +47,9 @@ def pieces_between(
     parts: list[list[State]] = []
     within: list[Change] = []
     for i, piece in enumerate(pieces):
-        known = _filled(state, piece)
+        known = _fill_piece(state, piece)
         for _ in range(rounds):
-            more = [state(v) for v in _suspected(known, _APART * width)]
+            more = [state(v) for v in _suspect_values(known, _APART * width)]
             known = sorted([*known, *more], key=lambda s: s.value)
             if not more or any(s.difference(known[0]) is not None for s in more):
                 break
@@ -63,7 +63,7 @@ def pieces_between(
     return parts, within
 
 
-def _filled(state: States, piece: Sequence[State]) -> list[State]:
+def _fill_piece(state: States, piece: Sequence[State]) -> list[State]:
     """Add states to a piece that has few, in order."""
     known = sorted(piece, key=lambda s: s.value)
     low, high = known[0].value, known[-1].value
@@ -72,7 +72,7 @@ def _filled(state: States, piece: Sequence[State]) -> list[State]:
     return known
 
 
-def _suspected(run: Sequence[State], least: float) -> list[float]:
+def _suspect_values(run: Sequence[State], least: float) -> list[float]:
     """Values at which something that is not zero at its neighbours may be: two changes that undo each other."""
     alike = [s for s in run if s.difference(run[0]) is None]
     if len(alike) < 3 or alike[-1].value - alike[0].value < len(alike) * least:
@@ -82,7 +82,7 @@ def _suspected(run: Sequence[State], least: float) -> list[float]:
     found: set[float] = set()
     for turns in ([s.near_directions for s in alike], [s.near_sets for s in alike]):
         lines += [(x[i : i + 3], y) for i in range(len(x) - 2) for y in _lined_up(turns[i : i + 3])]
-        found.update([*_ahead(x, turns), *_ahead(x[::-1], turns[::-1])])
+        found.update([*_extrapolated_zeros(x, turns), *_extrapolated_zeros(x[::-1], turns[::-1])])
     for x, y in lines:
         for i in lowest(x, y):
             # the extremum of the parabola, and where the lines from either side come to zero
@@ -95,7 +95,7 @@ def _suspected(run: Sequence[State], least: float) -> list[float]:
     return [v for v in sorted(found) if abs(known - v).min() > least]
 
 
-def _ahead(x: Array, turns: Sequence[Turns]) -> Iterator[float]:
+def _extrapolated_zeros(x: Array, turns: Sequence[Turns]) -> Iterator[float]:
     """Values just past where what turns back before zero comes to it, by its size at two values before.
 
     A pair may be born there, and another one vanish before the next value. Where it does not seem to come to zero and
@@ -130,7 +130,7 @@ def _functions(run: Sequence[State]) -> Iterator[Array]:
     """Smooth functions along a run of states whose zeros are special values."""
     theta = [s.equator.theta for s in run]
     if len(theta[0]):
-        rows = linked(np.array(theta))
+        rows = link_zeros(np.array(theta))
         for j in range(rows.shape[1]):
             own = [
                 int(abs(np.exp(1j * s.equator.theta) - np.exp(1j * t)).argmin())
@@ -142,7 +142,7 @@ def _functions(run: Sequence[State]) -> Iterator[Array]:
         yield np.array([s.exponent for s in run], float)
     sets = [list(run[0].critical)]
     for s in run[1:]:
-        sets.append(matched([C.p for C in sets[-1]], s.critical))
+        sets.append(match_sets([C.p for C in sets[-1]], s.critical))
     for column in zip(*sets, strict=True):
         trace, determinant = np.array([C.trace for C in column]), np.array([C.determinant for C in column])
         size = np.array([np.linalg.norm(C.jacobian) for C in column])
@@ -157,9 +157,9 @@ def _changes(state: States, left: State, right: State, width: float, deeper: int
     part = left.difference(right)
     if part is None or not deeper:
         return
-    value = narrowed(state, left, right, part, _NARROW * width)
+    value = narrow_change(state, left, right, part, _NARROW * width)
     state.check(value)
-    before, after = _beside(state, left, value, width), _beside(state, right, value, width)
+    before, after = _state_beside(state, left, value, width), _state_beside(state, right, value, width)
     for one, two in pairwise(_way(state, left, before, width)):
         yield from _changes(state, one, two, width, deeper - 1)
     yield value, before, after
@@ -167,7 +167,7 @@ def _changes(state: States, left: State, right: State, width: float, deeper: int
         yield from _changes(state, one, two, width, deeper - 1)
 
 
-def _beside(state: States, far: State, value: float, width: float) -> State:
+def _state_beside(state: States, far: State, value: float, width: float) -> State:
     """Return the state beside a special value, towards `far`: nearer where that differs, as one more lies between."""
     side = math.copysign(1.0, far.value - value)
     near = far if abs(far.value - value) <= BESIDE * width else state(value + side * BESIDE * width)
@@ -192,7 +192,7 @@ def _way(state: States, left: State, right: State, width: float) -> list[State]:
     return [left, *(state(left.value + t * room) for t in sorted(parts)), right]
 
 
-def matched(places: Sequence[Array], critical: Sequence[CriticalSet]) -> list[CriticalSet]:
+def match_sets(places: Sequence[Array], critical: Sequence[CriticalSet]) -> list[CriticalSet]:
     """Critical sets in the order of the places nearest to them."""
     left, out = list(critical), []
     for p in places:

@@ -17,7 +17,7 @@ _TOGETHER = 0.05  # radians, or distance in p, within which lies what is one at 
 _NEAR_EQUATOR = 1e-3  # 1 - |e| of a critical set that reaches the equator at the special value, beside it
 
 
-def named(value: float, before: State, after: State) -> list[SpecialValue]:
+def name_changes(value: float, before: State, after: State) -> list[SpecialValue]:
     """Name all that happens between two states beside each other."""
     return [*_on_equator(value, before, after), *_of_sets(value, before, after)]
 
@@ -28,12 +28,12 @@ def _on_equator(value: float, before: State, after: State) -> list[SpecialValue]
     one, two = before.equator.theta, after.equator.theta
     if len(one) != len(two):
         more, fewer = (one, two) if len(one) > len(two) else (two, one)
-        out += [_meeting(value, *met) for met in _meetings(more, fewer)]
+        out += [_meeting_value(value, *met) for met in _meetings(more, fewer)]
     elif len(one):
         # as many on both sides: some may have gone while others came
         away = abs(np.angle(np.exp(1j * (one[:, None] - two))))
         gone, come = one[away.min(axis=1) > _TOGETHER], two[away.min(axis=0) > _TOGETHER]
-        out += [_meeting(value, *met) for side in (gone, come) for met in _meetings(side, side[:0])]
+        out += [_meeting_value(value, *met) for side in (gone, come) for met in _meetings(side, side[:0])]
     if before.exponent is not None and after.exponent is not None and before.part(2) != after.part(2):
         out.append(SpecialValue("neutral equator", value, (0.0, 0.0), say("equator neutral")))
     return out
@@ -42,7 +42,7 @@ def _on_equator(value: float, before: State, after: State) -> list[SpecialValue]
 def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
     """Name what critical sets do: meet, reach the equator, or change their kind."""
     out = []
-    pairs, gone, come = _followed(before.critical, after.critical)
+    pairs, gone, come = _match_states(before.critical, after.critical)
     for side, other in ((gone, after), (come, before)):
         inner = []
         for C in side:
@@ -60,7 +60,7 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
         while len(inner) > 1:
             near = min(combinations(inner, 2), key=lambda pair: math.dist(pair[0].p, pair[1].p))
             inner = [C for C in inner if C is not near[0] and C is not near[1]]
-            third = _between(near, pairs)
+            third = _turned_set(near, pairs)
             if third is not None:  # it goes on, and turned where the two came to it
                 pairs.remove(third)
                 place = (float(third[1].p[0]), float(third[1].p[1]))
@@ -88,7 +88,7 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
     return out
 
 
-def _followed(
+def _match_states(
     before: Sequence[CriticalSet], after: Sequence[CriticalSet]
 ) -> tuple[list[tuple[CriticalSet, CriticalSet]], list[CriticalSet], list[CriticalSet]]:
     """Critical sets that go on from one state to the other, those that went, and those that came."""
@@ -104,7 +104,7 @@ def _followed(
 
 
 def _meetings(more: Array, fewer: Array) -> list[tuple[int, float]]:
-    """How many limit directions meet and where, from what lies on the two sides."""
+    """Return how many limit directions meet and where, by comparing the two sides."""
     away = np.abs(np.remainder(more[:, None] - fewer + math.pi, 2.0 * math.pi) - math.pi)
     own = away.argmin(axis=1) if len(fewer) else np.zeros(len(more), int)
     close = away.min(axis=1, initial=math.inf) < _TOGETHER
@@ -118,14 +118,14 @@ def _meetings(more: Array, fewer: Array) -> list[tuple[int, float]]:
     return sorted(met, key=lambda m: m[1])
 
 
-def _meeting(value: float, count: int, theta: float) -> SpecialValue:
+def _meeting_value(value: float, count: int, theta: float) -> SpecialValue:
     place, at = (math.cos(theta), math.sin(theta)), f"θ = {theta:.4g}"
     if count == 2:
         return SpecialValue("saddle-node", value, place, say("meet at", at=at))
     return SpecialValue("pitchfork", value, place, say("splits", at=at))
 
 
-def _between(
+def _turned_set(
     near: tuple[CriticalSet, CriticalSet], pairs: Sequence[tuple[CriticalSet, CriticalSet]]
 ) -> tuple[CriticalSet, CriticalSet] | None:
     """Return the critical set that turned between two of the other kind, which came from it or went into it."""

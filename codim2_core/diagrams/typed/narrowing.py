@@ -14,7 +14,7 @@ _SECANTS, _WIDER = 10, 5  # steps towards a zero; times that it is enclosed ten 
 _ENCLOSED = 0.4  # of what is narrow enough: how far to either side of a zero it is looked whether the part changes
 
 
-def narrowed(state: States, left: State, right: State, part: int, narrow: float) -> float:
+def narrow_change(state: States, left: State, right: State, part: int, narrow: float) -> float:
     """Find a value, within `narrow`, at which that part is no longer what it is at `left`.
 
     Where something goes smoothly through zero there, some secants come to it, and a look to either side shows that it

@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...psi.function import Psi
-from ..equator import linked
+from ..equator import link_zeros
 from ..result import ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
-from .changes import BESIDE, matched, pieces_between
-from .named import named
+from .changes import BESIDE, match_sets, pieces_between
+from .named import name_changes
 from .rounding import RoughError, States
 from .state import State
 
@@ -38,7 +38,7 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
             break
         except RoughError as found:
             state.leave_out(found.zone)
-    special = [one for change in changes for one in named(*change)]
+    special = [one for change in changes for one in name_changes(*change)]
     equator: list[DirectionBranch] = []
     closed: list[ClosedEquator] = []
     critical: list[CriticalBranch] = []
@@ -50,7 +50,7 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
         if states[0].exponent is not None:
             sign = states[len(states) // 2].exponent or 0.0
             kind = "attracting from outside" if sign < 0 else "repelling from outside" if sign > 0 else "neutral"
-            x, y = _frozen(values, [s.exponent for s in states])
+            x, y = _read_only(values, [s.exponent for s in states])
             closed.append(ClosedEquator(x, y, kind))
     return equator, closed, critical, special
 
@@ -59,7 +59,7 @@ def _directions(values: Array, states: list[State]) -> list[DirectionBranch]:
     first = states[0].equator
     if not len(first):
         return []
-    theta = linked(np.array([s.equator.theta for s in states]))
+    theta = link_zeros(np.array([s.equator.theta for s in states]))
     out = []
     for j in range(len(first)):
         own = [
@@ -68,7 +68,7 @@ def _directions(values: Array, states: list[State]) -> list[DirectionBranch]:
         ]
         rho = [s.equator.lambda_rho[i] for s, i in zip(states, own, strict=True)]
         slope = [s.equator.lambda_theta[i] for s, i in zip(states, own, strict=True)]
-        x, t, rho_, slope_ = _frozen(values, theta[:, j], rho, slope)
+        x, t, rho_, slope_ = _read_only(values, theta[:, j], rho, slope)
         out.append(DirectionBranch(x, t, rho_, slope_, first.kind(own[0])))
     return out
 
@@ -76,16 +76,16 @@ def _directions(values: Array, states: list[State]) -> list[DirectionBranch]:
 def _sets(values: Array, states: list[State]) -> list[CriticalBranch]:
     rows = [list(states[0].critical)]
     for s in states[1:]:
-        rows.append(matched([C.p for C in rows[-1]], s.critical))
+        rows.append(match_sets([C.p for C in rows[-1]], s.critical))
     out = []
     for column in zip(*rows, strict=True):
-        x, e, p = _frozen(values, [C.e for C in column], [C.p for C in column])
-        trace, determinant = _frozen([C.trace for C in column], [C.determinant for C in column])
+        x, e, p = _read_only(values, [C.e for C in column], [C.p for C in column])
+        trace, determinant = _read_only([C.trace for C in column], [C.determinant for C in column])
         out.append(CriticalBranch(x, e, p, trace, determinant, column[0].kind))
     return out
 
 
-def _frozen(*rows: Any) -> tuple[Array, ...]:
+def _read_only(*rows: Any) -> tuple[Array, ...]:
     out = tuple(np.array(row, float) for row in rows)
     for array in out:
         array.flags.writeable = False

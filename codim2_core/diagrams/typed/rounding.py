@@ -1,4 +1,4 @@
-"""Where along a parameter the formulas of U lose their digits, and what stands still is not looked for.
+"""Zones along a parameter in which U loses its digits, and in which no equilibria are sought.
 
 A formula such as ``(F(eta) - F(1))/(1 - eta)`` goes smoothly through eta = 1, but beside it its digits are lost: there
 limit directions and critical sets come and go by rounding, which a finite difference of U shows and no derivative does.
@@ -29,7 +29,7 @@ _ASIDE = 2.0 ** np.arange(-32.0, -5.0)  # of the span: how far from a rough valu
 
 
 class RoughError(ArithmeticError):
-    """What was found at a value is rounding; `zone` is where it may be."""
+    """The result at a value is rounding error; `zone` is where it may be."""
 
     def __init__(self, zone: tuple[float, float]) -> None:
         super().__init__(zone)
@@ -37,7 +37,7 @@ class RoughError(ArithmeticError):
 
 
 class States:
-    """What stands still at values along a parameter, but for zones in which U is rounding: beside them it is told.
+    """States along a parameter outside of zones in which U is rounding.
 
     Parameters
     ----------

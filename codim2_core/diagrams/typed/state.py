@@ -1,4 +1,4 @@
-"""What stands still in a general system at one value of a parameter, and what is about to appear."""
+"""Equilibria of a general system at one value of a parameter, and those that are about to appear."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _STENCIL = _STEP * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0
 
 
 class State:
-    """What stands still at one value; each part is found when it is asked for."""
+    """Equilibria at one value; each part is computed when it is first read."""
 
     def __init__(self, system: Any, psi: Psi, name: str, value: float, z: ArrayLike) -> None:
         self.value = value
@@ -52,7 +52,7 @@ class State:
 
     @cached_property
     def near_directions(self) -> Turns:
-        """Where |Theta| turns back before zero, and how large it is: there two limit directions may appear."""
+        """Return where |Theta| has a positive minimum, and its size: there two limit directions may appear."""
         U, _ = self._field(_CIRCLE)
         value = _CIRCLE[:, 0] * U[:, 1] - _CIRCLE[:, 1] * U[:, 0]
         size, before, after = np.abs(value), np.roll(value, 1), np.roll(value, -1)
@@ -64,7 +64,7 @@ class State:
 
     @cached_property
     def near_sets(self) -> Turns:
-        """Where |U| turns back before zero in the disc, and how large it is: there two critical sets may appear."""
+        """Return where |U| has a positive minimum in the disc, and its size: there two critical sets may appear."""
         size = np.hypot(*np.moveaxis(self._field(_NET)[0], -1, 0))
         padded = np.pad(size, 1, constant_values=math.inf)
         around = [padded[i : i + _SIDE, j : j + _SIDE] for i in range(3) for j in range(3) if (i, j) != (1, 1)]
@@ -90,7 +90,7 @@ class State:
 
     @property
     def exponent(self) -> float | None:
-        """Of a closed equator; None where there is none."""
+        """Return the exponent of a closed equator; None where there is none."""
         cycle = self._problem.equator_cycle
         return None if cycle is None else cycle.exponent
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...initial_value.field import Field
-from ...initial_value.sheet import complement, solved
+from ...initial_value.sheet import complement, solve_critical
 from ...numerics.dense import Dense, dense, gather_steps
 from ...numerics.radau import Step, truncate_step
 from ...numerics.root_between import root_between
@@ -141,7 +141,7 @@ class Growth:
     def place(self, t: float) -> Array:
         """E of the set at a time."""
         guess = np.array([np.interp(t, self.motion.times, column) for column in self.e.T])
-        e = solved(self.field, guess, self.motion(t)[2:])
+        e = solve_critical(self.field, guess, self.motion(t)[2:])
         return guess if e is None else e
 
     def linear(self, t: float) -> tuple[float, float]:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.atlases.faces import within
+from codim2_core.atlases.faces import inside_polygons
 from codim2_core.diagrams.classes import classes_over
 
 ONE = c2.psi.constant()
@@ -54,7 +54,7 @@ def test_what_happens_at_a_corner_of_u_is_seen_to_be_missing():
     assert found.looked.unlike
     classes = classes_over(system, ONE, (), ("mu", "k"), found.ranges)
     for place in found.looked.unlike:
-        (own,) = [one for one in found.regions if within(np.array([place]), one.boundary)[0]]
+        (own,) = [one for one in found.regions if inside_polygons(np.array([place]), one.boundary)[0]]
         assert classes.name(int(classes.decided(np.array([place]))[0])) != own.name
     assert not c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).looked.unlike
 
@@ -90,5 +90,5 @@ def test_a_curve_along_an_edge_is_found_from_the_portraits_beside_it():
     counts = [len(c2.equator_equilibria(system.evolve(p=p))) for p in (-2.0, value - 1e-6, value + 1e-6, -1.9)]
     assert counts == [4, 4, 2, 2]
     for p in (-1.9999, -1.995):
-        (region,) = [one for one in found.regions if within(np.array([[p, 3.1]]), one.boundary)[0]]
+        (region,) = [one for one in found.regions if inside_polygons(np.array([[p, 3.1]]), one.boundary)[0]]
         assert region.name.startswith("NCM4")

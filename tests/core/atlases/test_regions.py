@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.atlases.faces import middle, net_of, within
+from codim2_core.atlases.faces import inside_polygons, middle, net_of
 from codim2_core.diagrams.classes import classes_over
 
 QUADRATIC = c2.System(U=("mu*c**2 - c + s/3 - 0.2", "-s + k*c*s + 0.3*c"), parameters={"mu": 1.0, "k": 1.0})
@@ -35,7 +35,7 @@ def test_every_place_is_in_the_region_of_its_class(plane):
     count = 60 if plane == "quadratic" else 2000
     places = np.random.default_rng(5).uniform(*np.array(ranges).T, (count, 2))
     codes = classes.decided(places)
-    owned = np.stack([within(places, region.boundary) for region in found.regions])
+    owned = np.stack([inside_polygons(places, region.boundary) for region in found.regions])
     assert (owned.sum(axis=0) == 1).mean() > 0.999
     wrong = [
         place
@@ -68,7 +68,7 @@ def test_circles_cut_the_square():
     assert sum(areas) == pytest.approx(1.0, abs=1e-12)
     for face in faces:
         at, room = middle(face)
-        assert within(at[None], face.rings)[0]
+        assert inside_polygons(at[None], face.rings)[0]
         assert room > 0.02
 
 
@@ -85,7 +85,7 @@ def test_a_lobe_that_is_pinched_at_a_tip_is_a_region_of_its_own():
     found = c2.atlas(system, c2.psi.constant(), "p", "z1", ((-2, 2), (-2, 2)), z=(0.0,))
     tip = next(point.place for point in found.points if point.kind == "fold on the equator" and point.place[0] > 1.0)
     for place in ((1.0676, 0.1858), (tip[0] - 0.004, tip[1] - 0.012)):
-        (region,) = [one for one in found.regions if within(np.array([place]), one.boundary)[0]]
+        (region,) = [one for one in found.regions if inside_polygons(np.array([place]), one.boundary)[0]]
         there = system.evolve(p=place[0])
         assert region.name == "4CM4, 2 saddles, stable node, unstable focus; 3 arrive, 1 leaves"
         assert len(c2.critical_sets(there, c2.psi.constant(), (place[1],))) == 4

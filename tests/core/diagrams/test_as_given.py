@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, critical_sets, psi
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
-from codim2_core.diagrams.standing import standing
+from codim2_core.diagrams.standing import equilibrium_branches
 
 halves = st.integers(-9, 9).map(lambda k: 0.5 * k)
 
@@ -19,7 +19,7 @@ def typed(A, f):
 
 @pytest.mark.parametrize("A", [[[1.0, -1.0], [-2.0, 2.0]], [[-1.0, -3.0], [-1.5, -4.5]], [[0.5, 3.5], [1.5, 10.5]]])
 def test_no_critical_set_along_a_line_of_singular_systems(A):
-    found = standing(ELinear.from_matrix(A, (0.3, 0.7)), psi.hill(3), "f1", (-3.0, 3.0))
+    found = equilibrium_branches(ELinear.from_matrix(A, (0.3, 0.7)), psi.hill(3), "f1", (-3.0, 3.0))
     assert found.critical == ()
     assert not {s.kind for s in found.special} & {"transcritical", "Hopf", "det A = 0"}
 

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 import codim2_core as c2
 from codim2_core.diagrams.result import Branches
-from codim2_core.diagrams.standing import standing
+from codim2_core.diagrams.standing import equilibrium_branches
 from codim2_core.layer_problem import vary
 from tests.core.general_systems import NONUNIQUE
 
@@ -49,7 +49,7 @@ def check(system: object, psi: c2.Psi, z: tuple[float, ...], D: Branches, value:
 
 
 def test_pitchforks_and_transcriticals_of_the_symmetric_case() -> None:
-    D = standing(c2.ELinear(-1, 0, -1.5), c2.psi.constant(), "f1", (-2, 2))
+    D = equilibrium_branches(c2.ELinear(-1, 0, -1.5), c2.psi.constant(), "f1", (-2, 2))
     assert_allclose(found(D, "pitchfork"), [-0.5, 0.5], rtol=0.0, atol=1e-12)
     assert_allclose(found(D, "transcritical"), [-1, 1], rtol=0.0, atol=1e-12)
     assert len(D.special) == 4
@@ -61,7 +61,7 @@ def test_pitchforks_and_transcriticals_of_the_symmetric_case() -> None:
 
 def test_saddle_nodes_lie_on_the_paper_s_curve() -> None:
     a, b, d, f2 = -1.0, 0.2, -1.5, 0.05
-    D = standing(c2.ELinear(a, b, d, f=(0, f2)), c2.psi.tanh(), "f1", (-2, 2))
+    D = equilibrium_branches(c2.ELinear(a, b, d, f=(0, f2)), c2.psi.tanh(), "f1", (-2, 2))
     nodes = [s for s in D.special if s.kind == "saddle-node"]
     assert len(nodes) == 2
     for s in nodes:
@@ -71,7 +71,7 @@ def test_saddle_nodes_lie_on_the_paper_s_curve() -> None:
 
 
 def test_two_saddle_nodes_at_one_value_and_a_closed_equator() -> None:
-    D = standing(c2.ELinear(-1, 0, -1.5), c2.psi.constant(), "b", (-2, 2))
+    D = equilibrium_branches(c2.ELinear(-1, 0, -1.5), c2.psi.constant(), "b", (-2, 2))
     assert_allclose(found(D, "saddle-node"), [-0.25, -0.25, 0.25, 0.25], rtol=0.0, atol=1e-12)
     assert_allclose(found(D, "node-focus"), [-0.25, 0.25], rtol=0.0, atol=1e-12)
     assert [b.kind for b in D.closed] == ["attracting from outside"] * 2
@@ -79,7 +79,7 @@ def test_two_saddle_nodes_at_one_value_and_a_closed_equator() -> None:
 
 
 def test_the_paper_s_case_iii_along_n() -> None:
-    D = standing(BAD, c2.psi.hill(1), "n", (1, 4))
+    D = equilibrium_branches(BAD, c2.psi.hill(1), "n", (1, 4))
     changes = {c.n: c.type for c in c2.bifurcations.hill_changes(BAD) if 1 <= c.n <= 4}
     assert [s.kind for s in D.special] == list(changes.values())
     assert_allclose([s.value for s in D.special], list(changes), rtol=1e-13)
@@ -91,7 +91,7 @@ def test_the_paper_s_case_iii_along_n() -> None:
 
 def test_hopf_values_lie_on_the_hopf_curve_with_its_coefficient() -> None:
     psi = c2.psi.hill(2)
-    D = standing(BAD, psi, "f1", (-400, 400))
+    D = equilibrium_branches(BAD, psi, "f1", (-400, 400))
     hopf = [s for s in D.special if s.kind == "Hopf"]
     assert len(hopf) == 1
     curve = c2.bifurcations.hopf(172, 186, -200, psi)
@@ -104,28 +104,30 @@ def test_hopf_values_lie_on_the_hopf_curve_with_its_coefficient() -> None:
 
 
 def test_det_a_zero_and_a_line_of_critical_points() -> None:
-    D = standing(c2.ELinear(-1, 0.2, -1.5), c2.psi.constant(), "a", (-2, 2))
+    D = equilibrium_branches(c2.ELinear(-1, 0.2, -1.5), c2.psi.constant(), "a", (-2, 2))
     assert_allclose(found(D, "line of equilibria"), [0.04 / 1.5], rtol=1e-13)
     assert [b.kind for b in D.critical][-1] == "saddle"
-    D = standing(c2.ELinear(-1, 0.2, -1.5, f=(1, 0)), c2.psi.constant(), "a", (-2, 2))
+    D = equilibrium_branches(c2.ELinear(-1, 0.2, -1.5, f=(1, 0)), c2.psi.constant(), "a", (-2, 2))
     assert_allclose(found(D, "det A = 0"), [0.04 / 1.5], rtol=1e-13)
 
 
 def test_all_directions_exchange_cusp_and_neutral_equator() -> None:
-    ball = standing(c2.ELinear(-1, "z", -1, f=("z", 0)), c2.psi.tanh(), "z1", (-1, 1), z=(0.5,))
+    ball = equilibrium_branches(c2.ELinear(-1, "z", -1, f=("z", 0)), c2.psi.tanh(), "z1", (-1, 1), z=(0.5,))
     assert_allclose(found(ball, "all directions"), [0], rtol=0.0, atol=1e-12)
     # theta = 0 is always a limit direction, and another one passes through it
-    D = standing(c2.ELinear(-1, 0.5, -1.5, f=(0.3, -0.5)), c2.psi.tanh(), "f1", (-2, 2))
+    D = equilibrium_branches(c2.ELinear(-1, 0.5, -1.5, f=(0.3, -0.5)), c2.psi.tanh(), "f1", (-2, 2))
     assert_allclose(found(D, "exchange of limit directions"), [-0.5], rtol=0.0, atol=1e-11)
     # through the end of the saddle-node curve
-    D = standing(c2.ELinear(-1, 0, -1.5, f=(-0.5, 0)), c2.psi.constant(), "b", (-1, 1))
+    D = equilibrium_branches(c2.ELinear(-1, 0, -1.5, f=(-0.5, 0)), c2.psi.constant(), "b", (-1, 1))
     assert_allclose(found(D, "pitchfork"), [0], rtol=0.0, atol=1e-9)
     cusp = c2.bifurcations.saddle_node(-1, 0.2, -1.5).special[0]
     assert cusp.type == "cusp"
     f1, f2 = cusp.place
-    D = standing(c2.ELinear(-1, 0.2, -1.5, f=(f"{f1!r} + z", f"{f2!r} - 2*z")), c2.psi.tanh(), "z", (-0.3, 0.2), z=0)
+    D = equilibrium_branches(
+        c2.ELinear(-1, 0.2, -1.5, f=(f"{f1!r} + z", f"{f2!r} - 2*z")), c2.psi.tanh(), "z", (-0.3, 0.2), z=0
+    )
     assert_allclose(found(D, "cusp"), [0], rtol=0.0, atol=1e-9)
-    D = standing(c2.ELinear(1, 2, -1), c2.psi.tanh(), "a", (0, 3))
+    D = equilibrium_branches(c2.ELinear(1, 2, -1), c2.psi.tanh(), "a", (0, 3))
     assert_allclose(found(D, "neutral equator"), [1], rtol=0.0, atol=1e-12)
     assert [b.kind for b in D.closed] == ["attracting from outside", "repelling from outside"]
 
@@ -134,19 +136,19 @@ def test_a_close_pair_between_two_grid_points_is_found() -> None:
     for gap in (1e-3, 1e-5, 1e-6):
         # |A^-1 f| = |1 - u^2 + gap^2| passes 1 twice, at u = +-gap (and at u = sqrt(2)), with u = z - 0.1234
         text = f"1 - (z - 0.1234)**2 + {gap**2!r}"
-        D = standing(c2.ELinear(-1, 0, -1, f=(text, 0)), c2.psi.tanh(), "z1", (-1, 1), z=(0,))
+        D = equilibrium_branches(c2.ELinear(-1, 0, -1, f=(text, 0)), c2.psi.tanh(), "z1", (-1, 1), z=(0,))
         assert_allclose(found(D, "transcritical"), [0.1234 - gap, 0.1234 + gap], rtol=0.0, atol=max(1e-12, 1e-15 / gap))
 
 
 def test_a_critical_set_that_touches_the_equator_and_turns_back() -> None:
-    D = standing(c2.ELinear(1.5, 0, 1, f=(0, 1)), c2.psi.hill(3), "b", (-3, 3))
+    D = equilibrium_branches(c2.ELinear(1.5, 0, 1, f=(0, 1)), c2.psi.hill(3), "b", (-3, 3))
     assert_allclose(found(D, "touching the equator"), [0], rtol=0.0, atol=1e-10)
     assert found(D, "transcritical") == []
     assert [(b.value[0], b.value[-1]) for b in D.critical if 0 in (b.value[0], b.value[-1])] or len(D.critical) >= 2
 
 
 def test_poles_are_gaps() -> None:
-    D = standing(c2.ELinear("1/z", 1, 1, f=(0.1, 0.2)), c2.psi.tanh(), "z1", (-2, 2), z=(1,))
+    D = equilibrium_branches(c2.ELinear("1/z", 1, 1, f=(0.1, 0.2)), c2.psi.tanh(), "z1", (-2, 2), z=(1,))
     assert len(D.gaps) == 1
     low, high = D.gaps[0]
     assert low < 0 < high
@@ -156,11 +158,11 @@ def test_poles_are_gaps() -> None:
 
 def test_persistently_degenerate_systems_have_their_branches() -> None:
     # Theta has a double zero all along: f1 = -b, a = d, f2 = 0
-    D = standing(c2.ELinear("z", 1, "z", f=(0, -1)), c2.psi.tanh(), "z1", (-2, 2), z=(1,))
+    D = equilibrium_branches(c2.ELinear("z", 1, "z", f=(0, -1)), c2.psi.tanh(), "z1", (-2, 2), z=(1,))
     assert {b.kind.split(", ")[1] for b in D.limit_directions} == {"angularly non-hyperbolic"}
-    D = standing(c2.ELinear("z", 0, "z"), c2.psi.tanh(), "z1", (-2, 2), z=(1,))
+    D = equilibrium_branches(c2.ELinear("z", 0, "z"), c2.psi.tanh(), "z1", (-2, 2), z=(1,))
     assert D.limit_directions == ()
-    D = standing(c2.ELinear(0, 1, 0, f=(0.2, 0.1)), c2.psi.tanh(), "f1", (-2, 2))
+    D = equilibrium_branches(c2.ELinear(0, 1, 0, f=(0.2, 0.1)), c2.psi.tanh(), "f1", (-2, 2))
     assert {b.kind for b in D.critical} == {"centre (linear)"}
     assert {b.kind for b in D.closed} == {"neutral"}
 
@@ -183,7 +185,7 @@ def test_branches_agree_with_the_exact_answers(
     if name == "z1":
         system = c2.ELinear(f"{a} + z*{d}", f"{b} - z**2/3", d, f=(f"{f1}*sin(3*z) + 0.17", f"{f2} + 0.31"))
     z = (0,) if name == "z1" else ()
-    D = standing(system, psi, name, (-3, 3), z=z)
+    D = equilibrium_branches(system, psi, name, (-3, 3), z=z)
     assert list(D.special) == sorted(D.special, key=lambda s: s.value)
     special = np.array([s.value for s in D.special])
     for value in values:
@@ -199,7 +201,7 @@ def test_branches_agree_with_the_exact_answers(
 def test_values_are_located_to_the_last_digits() -> None:
     """Every special value again, by 50 digits of the closed condition behind it."""
     mp = pytest.importorskip("mpmath")
-    D = standing(c2.ELinear(-1.3, 0.7, 0.9, f=(0.35, -0.42)), c2.psi.hill(2), "b", (-3, 3))
+    D = equilibrium_branches(c2.ELinear(-1.3, 0.7, 0.9, f=(0.35, -0.42)), c2.psi.hill(2), "b", (-3, 3))
     with mp.workdps(50):
         a, d, f1, f2 = mp.mpf(-1.3), mp.mpf(0.9), mp.mpf(0.35), mp.mpf(-0.42)
         for s in D.special:
@@ -224,9 +226,9 @@ def test_values_are_located_to_the_last_digits() -> None:
 )
 def test_wrong_input_is_explained(name: str, span: tuple[float, float], message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        standing(c2.ELinear(1, 2, 3), c2.psi.tanh(), name, span)
+        equilibrium_branches(c2.ELinear(1, 2, 3), c2.psi.tanh(), name, span)
     with pytest.raises(ValueError, match="beyond"):
-        standing(c2.ELinear(1, 2, 3), c2.psi.hill(1), "n", (-1, 2))
+        equilibrium_branches(c2.ELinear(1, 2, 3), c2.psi.hill(1), "n", (-1, 2))
 
 
 _PLANE = ("a", "b", "d", "f1", "f2")
@@ -244,8 +246,8 @@ def test_typed_systems_have_the_special_values_of_their_e_linear_twins(hundredth
     )
     values = dict(zip(_PLANE, (a, b, d, f1, f2), strict=True))
     span = (values[name] - 1.013, values[name] + 0.971)
-    D = standing(_TYPED.evolve(**values), c2.psi.tanh(), name, span)
-    E = standing(c2.ELinear(a, b, d, (f1, f2)), c2.psi.tanh(), name, span)
+    D = equilibrium_branches(_TYPED.evolve(**values), c2.psi.tanh(), name, span)
+    E = equilibrium_branches(c2.ELinear(a, b, d, (f1, f2)), c2.psi.tanh(), name, span)
     kinds = ("saddle-node", "transcritical", "Hopf", "neutral equator")
     # closer than the brackets of a typed diagram, two events are told at one value: see the test below
     assume(min(np.diff(sorted(v for kind in kinds for v in found(E, kind))), default=1.0) > 1e-6)
@@ -259,16 +261,16 @@ def test_events_closer_than_a_bracket_are_both_told_with_their_values() -> None:
     """A saddle-node and a transcritical bifurcation 1.4e-8 apart, held against the e-linear system's."""
     values = dict(zip(_PLANE, (0.0037, 0.3911, 1.4859, -0.6877, 1.4543), strict=True))
     span = (-1.0093, 0.9747)
-    D = standing(_TYPED.evolve(**values), c2.psi.tanh(), "a", span)
+    D = equilibrium_branches(_TYPED.evolve(**values), c2.psi.tanh(), "a", span)
     a, b, d, *f = values.values()
-    wanted = standing(c2.ELinear(a, b, d, f), c2.psi.tanh(), "a", span).special[:2]
+    wanted = equilibrium_branches(c2.ELinear(a, b, d, f), c2.psi.tanh(), "a", span).special[:2]
     assert [s.kind for s in D.special] == [s.kind for s in wanted] == ["transcritical", "saddle-node"]
     assert_allclose([s.value for s in D.special], [s.value for s in wanted], rtol=0.0, atol=1e-11)
 
 
 def test_pitchforks_of_a_general_system_are_both_named() -> None:
     """sec:nonunique with the errata: 8 limit directions become 4 at |z| = 2^(-1/4), in two pitchforks."""
-    D = standing(NONUNIQUE, c2.psi.tanh(), "z1", (-1.5, 1.5), 0.3)
+    D = equilibrium_branches(NONUNIQUE, c2.psi.tanh(), "z1", (-1.5, 1.5), 0.3)
     forks = [s for s in D.special if s.kind == "pitchfork"]
     assert_allclose([s.value for s in forks], 2**-0.25 * np.array([-1, -1, 1, 1]), atol=1e-7)
     assert_allclose([s.place for s in forks], [(1, 0), (-1, 0)] * 2, atol=1e-2)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.diagrams.standing import standing
+from codim2_core.diagrams.standing import equilibrium_branches
 from codim2_core.layer_problem.vary import vary
 
 PARTS = np.array([1e-4, 1e-2, 0.2, 0.5, 0.8, 0.99, 0.9999])
@@ -24,7 +24,7 @@ def still(system, psi, name, value):
 
 def hidden(system, psi, name, span, closest):
     """Intervals between marked values on which something changes; `closest`: to a marked value, of the span."""
-    marked = [s.value for s in standing(system, psi, name, span).special]
+    marked = [s.value for s in equilibrium_branches(system, psi, name, span).special]
     beside = closest * (span[1] - span[0])
     out = []
     for low, high in pairwise([span[0], *sorted(set(marked)), span[1]]):
@@ -67,13 +67,17 @@ def test_all_that_happens_close_to_where_the_critical_set_reaches_the_equator(sp
     """A Hopf and a node-focus point 7e-4 and 9e-5 before it, in the last step of the samples of a branch."""
     f = (-0.528402726408638, -0.4461231082055761)
     system = c2.ELinear(-1.7358329509185673, -1.6547962306324093, 1.1149965797797612, f)
-    found = {(s.kind, round(s.value, 6)) for s in standing(system, c2.psi.rational(), "b", span).special}
+    found = {(s.kind, round(s.value, 6)) for s in equilibrium_branches(system, c2.psi.rational(), "b", span).special}
     assert {("Hopf", -1.409604), ("node-focus", -1.408953), ("transcritical", -1.408867)} <= found
 
 
 def test_two_folds_at_one_value_are_both_told():
     system = c2.System(U=("p+c-c**2", "s**2-0.04"), parameters={"p": 0.0})
-    folds = [s for s in standing(system, c2.psi.tanh(), "p", (-0.5, 0.2)).special if s.kind == "fold of critical sets"]
+    folds = [
+        s
+        for s in equilibrium_branches(system, c2.psi.tanh(), "p", (-0.5, 0.2)).special
+        if s.kind == "fold of critical sets"
+    ]
     assert [s.value for s in folds] == pytest.approx([-0.25, -0.25], abs=1e-9)
     heights = sorted(s.place[1] for s in folds)
     assert heights[0] == pytest.approx(-heights[1], abs=1e-3)
@@ -85,7 +89,7 @@ def test_two_saddle_nodes_that_undo_each_other_within_a_step():
         "1.641 + 0.246*c + 0.313*s - 1.223*c**2 + 0.104*c*s + 0.094*s**2 + p",
         "-1.644 + 1.928*c + 0.286*s - 1.974*c**2 + 1.091*c*s + 1.913*s**2",
     )
-    special = standing(c2.System(U=U, parameters={"p": 0.0}), c2.psi.tanh(), "p", (-1.5, 1.5)).special
+    special = equilibrium_branches(c2.System(U=U, parameters={"p": 0.0}), c2.psi.tanh(), "p", (-1.5, 1.5)).special
     nodes = [s.value for s in special if s.kind == "saddle-node"]
     assert nodes[:2] == pytest.approx([-1.4280734, -1.4087529], abs=1e-6)
 
@@ -93,7 +97,7 @@ def test_two_saddle_nodes_that_undo_each_other_within_a_step():
 def test_two_saddle_nodes_where_what_turns_back_before_zero_is_no_more_at_the_next_value():
     system = c2.ELinear(1.492, -0.54, 0.774, (0.0, -0.536))
     text = c2.System(U=("1.492*c+0.54*s+f1+k*c*s", "0.774*s-0.54*c-0.536"), parameters={"f1": 0.0, "k": 0.0})
-    special = [standing(one, c2.psi.constant(), "f1", (-1.5, 1.5)).special for one in (system, text)]
+    special = [equilibrium_branches(one, c2.psi.constant(), "f1", (-1.5, 1.5)).special for one in (system, text)]
     exact, nodes = ([one.value for one in some if one.kind == "saddle-node"] for some in special)
     assert len(exact) == 4
     assert nodes == pytest.approx(exact, abs=1e-9)
@@ -109,7 +113,7 @@ def test_two_saddle_nodes_where_what_turns_back_before_zero_is_no_more_at_the_ne
 )
 def test_a_closed_equator_turns_its_stability_just_before_limit_directions_appear(plane, psi, name, value):
     system = c2.ELinear(*plane[:3], plane[3:])
-    special = standing(system, psi, name, (-3.0, 3.0)).special
+    special = equilibrium_branches(system, psi, name, (-3.0, 3.0)).special
     assert min(abs(s.value - value) for s in special if s.kind == "neutral equator") < 2e-3
     assert hidden(system, psi, name, (-3.0, 3.0), 4e-8) == []
 
@@ -130,7 +134,7 @@ CLOSE = {
 @pytest.mark.parametrize("gap", [1e-4, 3e-8, 1e-9, 1e-10])
 def test_two_events_each_have_their_own_value_however_close(kind, gap):
     U, first = CLOSE[kind]
-    special = standing(typed(U, gap), c2.psi.constant(), "p", (-0.3, 0.4)).special
+    special = equilibrium_branches(typed(U, gap), c2.psi.constant(), "p", (-0.3, 0.4)).special
     places = [(s.value - first) / gap for s in special if s.kind == kind]
     assert places == pytest.approx([0.0, 1.0], abs=0.02 + 1e-12 / gap)
 
@@ -139,7 +143,7 @@ def test_two_events_each_have_their_own_value_however_close(kind, gap):
 @pytest.mark.parametrize("middle", [0.123, -0.456])
 def test_two_folds_that_undo_each_other_within_a_step(width, middle):
     U = "s+0.2*p*c", f"(c-0.3)**2+(p-{middle})**2-{width}**2"
-    special = standing(typed(U), c2.psi.constant(), "p", (-2.0, 2.0)).special
+    special = equilibrium_branches(typed(U), c2.psi.constant(), "p", (-2.0, 2.0)).special
     folds = [s.value for s in special if s.kind == "fold of critical sets"]
     assert folds == pytest.approx([middle - width, middle + width], abs=1e-9)
 
@@ -152,7 +156,7 @@ def test_two_folds_that_undo_each_other_beside_a_special_value():
         "1.8893 - 2.0319*p - 1.2819*s + 0.3261*s**2 + (0.4046 - 1.3064*p)*c - 0.7762*c*s + (0.7898 + 0.1294*p)*c*s**2"
         "- 0.8687*c**2 + (0.6823 - 1.1556*p)*c**2*s + (-1.1112 + 1.5368*p)*c**3",
     ))  # fmt: skip
-    special = standing(system, c2.psi.hill(6), "p", (-2.0, 2.0)).special
+    special = equilibrium_branches(system, c2.psi.hill(6), "p", (-2.0, 2.0)).special
     assert [s.kind for s in special].count("fold of critical sets") == 2
     for low, high in pairwise([0.6986, *(s.value for s in special if 0.6986 < s.value < 1.6), 1.6]):
         x = low + (high - low) * PARTS[1:-1]
