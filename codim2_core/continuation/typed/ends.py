@@ -89,7 +89,7 @@ def limit_value(turns: Sequence[Turn]) -> float | None:
     """Extrapolate the values of cycles whose periods grow, as v + C period^-r through three; None if they do not."""
     three = [turns[-1]]
     for turn in reversed(turns[:-1]):
-        if len(three) < 3 and FARTHER * turn.period < three[-1].period:
+        if len(three) < 3 and 0.0 < FARTHER * turn.period < three[-1].period:  # one carried too far may be negative
             three.append(turn)
     last, middle, first = (three * 3)[:3]
     way = middle.value - last.value
