@@ -34,7 +34,7 @@ def _parse_fields(key: str) -> tuple[tuple[str, str | None, str | None], ...]:
     return tuple((text, name, format_) for text, name, format_, _ in Formatter().parse(SENTENCES[key].says))
 
 
-def _written(value: object, format_: str) -> str:
+def _write_field(value: object, format_: str) -> str:
     """Numbers and names are written in one way."""
     if isinstance(value, float):
         return power(value) if format_.endswith("e") else number(value, int(format_.strip(".g") or 6))
@@ -44,7 +44,7 @@ def _written(value: object, format_: str) -> str:
 def say(key: str, **fields: object) -> str:
     """Return a sentence with its fields filled in."""
     return "".join(
-        text if name is None else text + _written(fields[name], format_ or "")
+        text if name is None else text + _write_field(fields[name], format_ or "")
         for text, name, format_ in _parse_fields(key)
     )
 
