@@ -27,7 +27,7 @@ def hungry(view, wish):
     while True:
         held.append({block})
 
-taking.taken = hungry
+taking.make_file = hungry
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))
 """
