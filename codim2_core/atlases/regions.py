@@ -12,7 +12,7 @@ from ..curves.polyline import distance, feet
 from ..diagrams.classes import Classes, classes_over
 from .faces import Face, inside_polygons, middle, net_of
 from .family import Family
-from .result import AtlasRegion, Looked
+from .result import AtlasRegion, Looked, read_only
 
 Array = NDArray[np.float64]
 
@@ -59,7 +59,7 @@ def regions_of(
     for face in joined:
         at, _ = middle(face)
         kind = code[next(owner[edge] for edge in face.edges if edge in owner)]
-        boundary = tuple(_read_only(family.values(ring)) for ring in face.rings)
+        boundary = tuple(read_only(family.values(ring)) for ring in face.rings)
         place = family.values(at)
         area = face.area * float(np.prod(family.widths))
         out.append(AtlasRegion(classes.name(kind), (float(place[0]), float(place[1])), area, boundary))
@@ -120,8 +120,3 @@ def _give(faces: Sequence[Face], owner: dict[tuple[int, int], int], code: dict[i
                 votes[code[other]] = votes.get(code[other], 0) + 1
         if votes:
             code[i] = max(votes, key=lambda kind: votes[kind])
-
-
-def _read_only(array: Array) -> Array:
-    array.flags.writeable = False
-    return array

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -17,7 +18,6 @@ Array = NDArray[np.float64]
 #: Fractions of the first ebar. Below the first an orbit is so close that the equator decides what becomes of it: it is
 #: gone, or it comes back however near it passes (cycles of ordinary systems do at ebar = exp(-33)), down to the second.
 SUNK, LOST = 1e-9, 1e-250
-FULL_TURN = 2.0 * np.pi
 MIN_HEIGHT = 1e-290  # ebar: its reciprocal, |x2|, is finite
 
 
@@ -61,12 +61,12 @@ class EquatorPull:
         draws, sign = self.draws[backward], -1.0 if backward else 1.0
         if self.everywhere or not draws.any():
             return np.full(len(states), not self.everywhere)
-        theta = np.arctan2(states[:, 1], states[:, 0]) % FULL_TURN
+        theta = np.arctan2(states[:, 1], states[:, 0]) % math.tau
         U = sign * field(states[:, :2])
         onward = states[:, 0] * U[:, 1] > states[:, 1] * U[:, 0]
         ahead = np.searchsorted(self.theta, theta)
         end = np.where(onward, ahead, ahead - 1) % len(draws)
-        way = np.where(onward, (self.theta[end] - theta) % FULL_TURN, -((theta - self.theta[end]) % FULL_TURN))
+        way = np.where(onward, (self.theta[end] - theta) % math.tau, -((theta - self.theta[end]) % math.tau))
         passed = theta[:, None] + way[:, None] * ON_THE_WAY
         e = np.stack([np.cos(passed), np.sin(passed)], axis=-1)
         radial = sign * (e * field(e.reshape(-1, 2)).reshape(e.shape)).sum(axis=-1)

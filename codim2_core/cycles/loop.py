@@ -29,7 +29,6 @@ from .equator_pull import SUNK
 from .section import MAX_STEPS, MAX_TURN_TIME, SUNK_INWARD, Array, Section, rays
 
 RTOL = 1e-12
-FULL_TURN = 2.0 * math.pi
 
 
 @dataclass(frozen=True)
@@ -74,8 +73,8 @@ def loops(coefficients: Coefficients) -> tuple[Loop, ...]:
         if not (rho[j] > 0.0 and theta[j] > 0.0 and rho[i] < 0.0):  # theta[i] < 0 then: simple zeros alternate
             continue
         P, Q = float(equator.theta[j]), float(equator.theta[i])
-        width = (sense * (Q - P)) % FULL_TURN
-        outside = [k for k in range(4) if (sense * (ends[k] - P)) % FULL_TURN > width]
+        width = (sense * (Q - P)) % math.tau
+        outside = [k for k in range(4) if (sense * (ends[k] - P)) % math.tau > width]
         if outside:
             ratio = float(rho[j] / theta[j] * theta[i] / rho[i])
             arcs.append(Loop(P, Q, ratio, max(outside, key=lambda k: found[k][0])))

@@ -31,7 +31,6 @@ from .return_map import NO_RETURN_YET, OUTWARD, RETURNED, TO_CRITICAL_SET
 
 DONE, STEPPING, REFINING = range(3)
 MAX_STEP_ANGLE = 2.0  # radians about the point in one step: more could be a turn unseen
-FULL_TURN = 2.0 * math.pi
 REST_SPEED = 3.0  # times the tolerance: a speed at which an orbit has come to rest
 
 
@@ -105,7 +104,7 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                 finished, code = False, RETURNED
                 if phase[k] == REFINING:
                     tries[k] += 1
-                    g = abs(angle[k] + swept) - FULL_TURN
+                    g = abs(angle[k] + swept) - math.tau
                     narrow(k, g < 0.0, g, step, low, at_low, high, at_high, side)
                     if abs(g) > 1e-15 and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
                         step[k] = next_length(k, low, at_low, high, at_high)
@@ -119,9 +118,9 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                     if abs(swept) > MAX_STEP_ANGLE:
                         step[k] *= 0.5
                         continue
-                    if abs(angle[k] + swept) >= FULL_TURN:
-                        low[k], at_low[k] = 0.0, abs(angle[k]) - FULL_TURN
-                        high[k], at_high[k] = h, abs(angle[k] + swept) - FULL_TURN
+                    if abs(angle[k] + swept) >= math.tau:
+                        low[k], at_low[k] = 0.0, abs(angle[k]) - math.tau
+                        high[k], at_high[k] = h, abs(angle[k] + swept) - math.tau
                         step[k] = h * at_low[k] / (at_low[k] - at_high[k])
                         phase[k], tries[k], side[k] = REFINING, 0, 0
                         continue

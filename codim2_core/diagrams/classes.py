@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..layer_problem.vary import limits, names, vary
+from ..layer_problem.vary import check_varying, vary
 from ..psi.function import Psi
 from ..systems.affine import as_elinear
 from .family import Sweep, family
@@ -140,22 +140,12 @@ def classes_over(
     Raises
     ------
     ValueError
-        A name cannot be vary, a value is beyond what it may be, or z does not fit.
+        A name cannot be varied, a value is beyond what it may be, or z does not fit.
     """
     linear = as_elinear(system)
     if linear is not None:
         return AffineClasses(family(linear, psi, z, *varying, spans=spans))
-    varying = ["z1" if name == "z" else name for name in varying]
-    there = names(system, psi, z)
-    for i, name in enumerate(varying):
-        if name not in there:
-            raise ValueError(f"{name!r} cannot be vary here; choose one of {', '.join(there)}.")
-        if name in varying[:i]:
-            raise ValueError(f"{name!r} is given twice; choose two different names.")
-        low, high = limits(system, psi, name)
-        if not all(np.isfinite(v) and low <= v <= high for v in spans[i]):
-            raise ValueError(f"values of {name} are beyond {low:g} to {high:g}; give values between these.")
-    return GeneralClasses(system, psi, z, varying)
+    return GeneralClasses(system, psi, z, check_varying(system, psi, z, varying, spans))
 
 
 def _name(portrait: Portrait) -> str:

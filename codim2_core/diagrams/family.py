@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..expressions.expression import Expression
-from ..layer_problem.vary import limits, names
+from ..layer_problem.vary import check_varying
 from ..psi.function import Psi
 from ..systems.affine import as_elinear
 from ..systems.bounds import MAX_NUMBER
@@ -189,18 +189,7 @@ def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[A
     """
     if not isinstance(system, (ELinear, Coefficients)):
         raise ValueError(f"the system is of type {type(system).__name__}; give an e-linear one (ELinear).")
-    varying = tuple("z1" if name == "z" else name for name in varying)
-    known = names(system, psi, z)
-    for i, name in enumerate(varying):
-        if name not in known:
-            raise ValueError(f"{name!r} cannot be varied here; choose one of {', '.join(known)}.")
-        if name in varying[:i]:
-            raise ValueError(f"{name!r} is given twice; choose two different names.")
-    for name, given in zip(varying, spans, strict=False):
-        low, high = limits(system, psi, name)
-        values = np.asarray(given, float)
-        if not (np.isfinite(values).all() and (values >= low).all() and (values <= high).all()):
-            raise ValueError(f"values of {name} are beyond {low:g} to {high:g}; give values between these.")
+    varying = check_varying(system, psi, z, varying, spans)
     own = dict(getattr(system, "parameters", ()))
     fixed = None if isinstance(system, ELinear) and _needs(system, varying) else system.at(z).plane
     shape = "" if psi.record.parameter is None else psi.record.parameter.name

@@ -13,8 +13,6 @@ from numpy.typing import NDArray
 
 from .equator import EquatorEquilibria
 
-FULL_TURN = 2.0 * math.pi
-
 
 def cut_that_keeps_names(before: EquatorEquilibria, after: EquatorEquilibria, cut: float = 0.0) -> float:
     """Return the angle from which limit directions are counted after a change, so that each keeps its name.
@@ -39,10 +37,10 @@ def cut_that_keeps_names(before: EquatorEquilibria, after: EquatorEquilibria, cu
     theta = np.sort(after.theta)
     first = _first(before.theta, theta)
     for kept in (0.0, cut):
-        if int(np.argmin(np.mod(theta - kept, FULL_TURN))) == first:
+        if int(np.argmin(np.mod(theta - kept, math.tau))) == first:
             return kept
-    gap = float(np.mod(theta[first] - theta[first - 1], FULL_TURN)) or FULL_TURN
-    middle = float(np.mod(theta[first] - 0.5 * gap, FULL_TURN))
+    gap = float(np.mod(theta[first] - theta[first - 1], math.tau)) or math.tau
+    middle = float(np.mod(theta[first] - 0.5 * gap, math.tau))
     return round(middle, 2) if gap > 0.1 else middle  # short in a link
 
 
@@ -56,4 +54,4 @@ def _first(before: NDArray[np.float64], theta: NDArray[np.float64]) -> int:
 
 def _wrap_angle(angle: NDArray[np.float64]) -> NDArray[np.float64]:
     """Angles in [-pi, pi)."""
-    return np.mod(angle + math.pi, FULL_TURN) - math.pi
+    return np.mod(angle + math.pi, math.tau) - math.pi

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 from ..systems.bounds import MAX_NUMBER
 
-__all__ = ["check_name", "limits", "names", "usual_span", "value_of", "vary"]
+__all__ = ["check_name", "check_varying", "limits", "names", "usual_span", "value_of", "vary"]
 
 PLANE_COEFFICIENTS = ("a", "b", "d", "f1", "f2")
 
@@ -115,6 +116,25 @@ def check_name(system: Any, psi: Psi, z: ArrayLike, parameter: str, name: str) -
     if name not in allowed and not (name == "z" and "z1" in allowed):
         known = f"choose one of {', '.join(allowed)}" if allowed else "nothing of this system and its Ψ can be varied"
         raise ValueError(f"{parameter} is {name!r}; {known}.")
+
+
+def check_varying(
+    system: Any, psi: Psi, z: ArrayLike, varying: Sequence[str], values: Sequence[ArrayLike] = ()
+) -> tuple[str, ...]:
+    """Return different names that can be varied, "z" as z1; refuse others, and values beyond their limits."""
+    varying = tuple("z1" if name == "z" else name for name in varying)
+    allowed = names(system, psi, z)
+    for i, name in enumerate(varying):
+        if name not in allowed:
+            raise ValueError(f"{name!r} cannot be varied here; choose one of {', '.join(allowed)}.")
+        if name in varying[:i]:
+            raise ValueError(f"{name!r} is given twice; choose two different names.")
+    for name, given in zip(varying, values, strict=False):
+        low, high = limits(system, psi, name)
+        given = np.asarray(given, float)
+        if not (np.isfinite(given).all() and (given >= low).all() and (given <= high).all()):
+            raise ValueError(f"values of {name} are beyond {low:g} to {high:g}; give values between these.")
+    return varying
 
 
 def usual_span(system: Any, psi: Psi, z: ArrayLike, name: str) -> tuple[float, float]:

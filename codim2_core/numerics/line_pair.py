@@ -10,8 +10,6 @@ import math
 
 __all__ = ["line_pair", "starts_of"]
 
-_FULL_TURN = 2.0 * math.pi
-
 
 def starts_of(
     m: float, c1: float, s1: float, c2: float, s2: float, r1: float, r2: float, clear: float
@@ -77,7 +75,7 @@ def line_pair(m: float, c1: float, s1: float, c2: float, s2: float) -> tuple[flo
 def _chord(h: float, g: float, nu: float) -> list[float]:
     """Return the two zeros of h cos(theta - nu) + g, brought near [-pi, pi]."""
     half = math.acos(-g / h)
-    return [math.remainder(nu + half, _FULL_TURN), math.remainder(nu - half, _FULL_TURN)]
+    return [math.remainder(nu + half, math.tau), math.remainder(nu - half, math.tau)]
 
 
 def _pencil_root(b: float, c: float, d: float) -> float:
@@ -88,7 +86,7 @@ def _pencil_root(b: float, c: float, d: float) -> float:
         root = math.sqrt(p)
         angle = math.acos(max(-1.0, min(1.0, -q / (root * p)))) / 3.0
         # Increasing order; the outer two are at least as steep as the middle one, but may lie outside [0, 1].
-        guesses = [2.0 * root * math.cos(angle + k * _FULL_TURN / 3.0) - third for k in (1, 2, 0)]
+        guesses = [2.0 * root * math.cos(angle + k * math.tau / 3.0) - third for k in (1, 2, 0)]
         inside = [y for y in guesses if -1e-9 <= y <= 1.0 + 1e-9] or [0.5]
         y = max(inside, key=lambda y: abs((3.0 * y + 2.0 * b) * y + c))
     else:

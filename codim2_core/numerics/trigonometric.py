@@ -33,7 +33,6 @@ __all__ = [
     "tangential_zeros",
 ]
 
-_FULL_TURN = 2.0 * math.pi
 _FILTER = 2.0**-49  # 16 half-ulps: covers the rounding of the discriminant and the inputs' own ROUNDING
 GENERAL_PATTERNS = ((2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (0, 0, 2, 0, 0), (0, 0, 0, 2, 0), (0, 0, 0, 0, 2))
 # Rows for b, f2, f1, a, d.
@@ -192,8 +191,8 @@ def _finish(
 def _wrap_angle(theta: float) -> float:
     """Bring an angle of (-2 pi, 2 pi) to [0, 2 pi); -1e-17 becomes 0.0."""
     if theta < 0.0:
-        theta += _FULL_TURN
-    return theta if 0.0 < theta < _FULL_TURN else 0.0
+        theta += math.tau
+    return theta if 0.0 < theta < math.tau else 0.0
 
 
 def _fast(

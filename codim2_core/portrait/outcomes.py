@@ -19,7 +19,6 @@ __all__ = ["Outcome", "Outcomes"]
 
 Array = NDArray[np.float64]
 
-FULL_TURN = 2.0 * math.pi
 AT_ZERO = 1e-9  # angle to a limit direction that counts as that direction
 
 
@@ -140,17 +139,17 @@ class Outcomes:
             raise ValueError(f"theta is {theta}; give a finite angle in radians.")
         if self.whole is not None:
             return None
-        angle = theta % FULL_TURN
+        angle = theta % math.tau
         for i, zero in enumerate(self.equator.theta.tolist()):
-            if abs(math.remainder(angle - zero, FULL_TURN)) <= AT_ZERO:
+            if abs(math.remainder(angle - zero, math.tau)) <= AT_ZERO:
                 return i
-        if any((angle - first) % FULL_TURN <= (last - first) % FULL_TURN for first, last in self.equator.arcs.tolist()):
+        if any((angle - first) % math.tau <= (last - first) % math.tau for first, last in self.equator.arcs.tolist()):
             return None
         cuts = self._cuts
         after = bisect.bisect([cut for cut, _ in cuts], angle) % len(cuts)
         (begin, before), (end, beyond) = cuts[after - 1], cuts[after]
         # Theta has one sign between its zeros; near a multiple one rounding would decide
-        middle = 0.5 * (begin + end + (0.0 if end > begin else FULL_TURN))
+        middle = 0.5 * (begin + end + (0.0 if end > begin else math.tau))
         c, s = math.cos(middle), math.sin(middle)
         u, v = self._at.U(np.array([c, s])).tolist()
         return beyond if c * v > s * u else before
@@ -176,9 +175,9 @@ class Outcomes:
     def arcs(self) -> tuple[tuple[float, float, Outcome], ...]:
         """The circle of approach angles, cut at the limit directions: (from, to, outcome), to > from."""
         if self.whole is not None:
-            return ((0.0, FULL_TURN, self.whole),)
+            return ((0.0, math.tau, self.whole),)
         angles = [angle for angle, _ in self._cuts]
-        ends = [*angles[1:], angles[0] + FULL_TURN]
+        ends = [*angles[1:], angles[0] + math.tau]
         return tuple((t, e, self.outcome(0.5 * (t + e))) for t, e in zip(angles, ends, strict=True))
 
 

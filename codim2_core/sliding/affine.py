@@ -11,6 +11,7 @@ from ..layer_problem.location import Existence, locate
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..words import say
+from .filippov import read_only
 
 Array = NDArray[np.float64]
 
@@ -66,7 +67,7 @@ def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:
     at = system.at(z)
     if not isinstance(at, Coefficients):
         return None
-    matrix, offset = _read_only(np.concatenate([at.A, at.B])), _read_only(np.concatenate([at.f, at.g]))
+    matrix, offset = read_only(np.concatenate([at.A, at.B])), read_only(np.concatenate([at.f, at.g]))
     location = locate(at)
     if location.singular:
         return AffinePlane(matrix, offset, None, None, False, _SINGULAR)
@@ -75,10 +76,5 @@ def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:
     sentence = _SENTENCES[location.existence]
     point = at.B @ place + at.g
     return AffinePlane(
-        matrix, offset, _read_only(place), _read_only(point), location.existence is not Existence.NONE, sentence
+        matrix, offset, read_only(place), read_only(point), location.existence is not Existence.NONE, sentence
     )
-
-
-def _read_only(array: Array) -> Array:
-    array.flags.writeable = False
-    return array

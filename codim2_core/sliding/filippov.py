@@ -93,7 +93,7 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
     m = field.W.shape[1]
     none, theta = _separating_line(field)
     if none:
-        return FilippovSliding(_read_only(np.zeros((0, m))), (), (), False, _NONE)
+        return FilippovSliding(read_only(np.zeros((0, m))), (), (), False, _NONE)
     vertices: list[Array] = []
     combinations: list[tuple[Array, Array]] = []
     for count, n in enumerate(_normals(m)):
@@ -101,7 +101,7 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
             break  # all axes agree: one point
         found = _extreme(field, theta, n)
         if found is None:
-            return FilippovSliding(_read_only(np.zeros((0, m))), (), (), False, _TOUCHES)
+            return FilippovSliding(read_only(np.zeros((0, m))), (), (), False, _TOUCHES)
         vertex, directions, weight = found
         if not any(np.abs(vertex - other).max() <= UNIQUE * field.size for other in vertices):
             vertices.append(vertex)
@@ -113,9 +113,9 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
         order = sorted(range(len(vertices)), key=lambda i: math.atan2(*(vertices[i] - centre)[::-1]))
         vertices, combinations = [vertices[i] for i in order], [combinations[i] for i in order]
     return FilippovSliding(
-        _read_only(np.array(vertices)),
-        tuple(_read_only(directions) for directions, _ in combinations),
-        tuple(_read_only(weight) for _, weight in combinations),
+        read_only(np.array(vertices)),
+        tuple(read_only(directions) for directions, _ in combinations),
+        tuple(read_only(weight) for _, weight in combinations),
         unique,
         sentence,
     )
@@ -125,7 +125,8 @@ _TOUCHES = say("Filippov: touches")
 _NONE = say("Filippov: none")
 
 
-def _read_only(values: Array) -> Array:
+def read_only(values: Array) -> Array:
+    """Make an array read-only."""
     values.flags.writeable = False
     return values
 
