@@ -1,22 +1,26 @@
 """The budget of the thread that answers all visitors: which layers it computes itself, and which go to a worker.
 
-Layers of an e-linear system are bounded: their frames take milliseconds, whatever the sliders say. Of typed formulas
-nobody knows beforehand. So the first picture of a formula is computed beside the frames, where its layers are timed;
-the frames that follow compute those that turned out to be quick, unless the formula has become wilder meanwhile.
+Each layer is timed, here or beside the frames, and the frames that follow compute those that turned out to be quick.
+Of typed formulas nobody knows beforehand: their first picture is computed beside the frames, and so is what has become
+wilder meanwhile. Most layers of an e-linear system take milliseconds, whatever the sliders say, and are computed here
+at first; those that follow what winds or creeps for long are as a formula's.
 """
 
 from __future__ import annotations
 
+import math
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
+from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.kinds import AnySystem
 
 from ..phrases import say
@@ -34,11 +38,12 @@ FOLLOWING = frozenset(
     {"nullclines_inside", "nullclines_outside", "continuations", "closed_orbits", "cycles", "separatrices", "outcomes",
      "certificates", "eigendirections", "classification"}
 )  # fmt: skip
-#: Layers of e-linear systems that search for cycles: quick unless there may be some, in Case III.
+#: Layers of e-linear systems that search for cycles, which there may be in Case III; and all that may take long.
 SEARCHING = frozenset({"outcomes", "certificates"})
+LONG = SEARCHING | {"launched"}
 #: Directions on which a formula is looked at to see how wild it is.
 COST_NET = 512
-#: Formulas whose layers have been timed, of one browser.
+#: Formulas whose layers have been timed, of one browser; all e-linear systems are one.
 REMEMBERED_SCENES = 4
 
 WORDS = {
@@ -141,7 +146,18 @@ def wild(scene: Scene) -> str:
 
 
 def wildness(scene: Scene) -> int:
-    """Count how often U1 and U2 turn along a net of directions: what computing a layer costs grows with it."""
+    """Return what computing a layer costs more with: how often U1 and U2 turn along a net of directions.
+
+    Of e-linear systems: how many times slower than all else the slowest approach is.
+    """
+    if isinstance(scene.coefficients, Coefficients):
+        a, b, d, *f = scene.coefficients.plane
+        fast = max(map(abs, (a, b, d, *f)))
+        if not fast:
+            return 0
+        mean, half, b = 0.5 * (a / fast + d / fast), 0.5 * (a / fast - d / fast), b / fast
+        root = math.sqrt(max(0.0, (half - b) * (half + b)))
+        return int(1.0 / max(min(abs(mean - root), abs(mean + root)), 1e-9))
     U = scene.coefficients.U(_DIRECTIONS)
     steps = np.diff(U, axis=0, append=U[:1])
     return int(np.count_nonzero(np.diff(np.sign(steps), axis=0)) + np.count_nonzero(np.diff(np.sign(U), axis=0)))
@@ -160,14 +176,14 @@ class Budget:
         self._elsewhere = elsewhere
         self._timed: OrderedDict[Hashable, tuple[int, dict[str, float]]] = OrderedDict()
         self._left_out: OrderedDict[Hashable, Mapping[str, str]] = OrderedDict()
-        self._spent = 0.0
+        self._spent = self._timed_so_far = 0.0  # by what layers cost before; by the clock
 
     def begin(self) -> None:
         """Begin a frame."""
-        self._spent = 0.0
+        self._spent = self._timed_so_far = 0.0
 
-    def before(self, scene: Scene, name: str) -> None:
-        """Let a layer be computed here and now, or raise.
+    def before(self, scene: Scene, name: str) -> Callable[[], None] | None:
+        """Let a layer be computed here and now, or raise; return what is to be called when it is.
 
         Raises
         ------
@@ -179,17 +195,27 @@ class Budget:
         why = self._left_out.get(self.key(scene), {}).get(name)
         if why is not None:
             raise LeftOut(WORDS.get(name, name), why)
-        if self.bounded(scene):
-            if name in SEARCHING and scene["name"].case == "III":
-                raise NotYet(name)
-            return
-        wildest, took = self._timed.get(self._formula(scene), (0, {}))
-        cost = took.get(name)
-        if cost is None or cost > LAYER or self._spent + cost > FRAME or wildness(scene) > wildest:
+        bounded, formula = self.bounded(scene), self._formula(scene)
+        if bounded and name == "launched" and not len(scene.launch):
+            return None  # nothing says how long an orbit would take
+        if bounded and name in SEARCHING and scene["name"].case == "III":
             raise NotYet(name)
-        if self._elsewhere(scene.psi, scene.system):
+        wildest, took = self._timed.get(formula, (0, {}))
+        if bounded and name not in LONG:
+            cost = took.get(name, 0.0)
+        else:
+            cost = took.get(name, math.inf) if wildness(scene) <= wildest else math.inf
+        if cost > LAYER or self._spent + cost > FRAME or self._elsewhere(scene.psi, scene.system):
             raise NotYet(name)
         self._spent += cost
+        return partial(self._computed, formula, name, time.thread_time(), self._timed_so_far)
+
+    def _computed(self, formula: Hashable, name: str, began: float, before_it: float) -> None:
+        """Note what a layer took here, without the layers that it asked for."""
+        took = time.thread_time() - began
+        own, self._timed_so_far = took - (self._timed_so_far - before_it), before_it + took
+        _, before = self._timed.setdefault(formula, (0, {}))
+        before[name] = max(own, 0.5 * before.get(name, 0.0))
 
     @staticmethod
     def bounded(scene: Scene) -> bool:
@@ -219,5 +245,7 @@ class Budget:
 
     @staticmethod
     def _formula(scene: Scene) -> Hashable:
+        if Budget.bounded(scene):
+            return None
         typed = scene.coefficients.typed
         return (None if typed is None else typed.U), scene.psi

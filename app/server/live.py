@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import logging
+from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from typing import Any
@@ -20,9 +21,12 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from ..frame.budget import Budget
 from ..phrases import say
+from ..state.asked import MOST_CONTROLS
+from ..state.chosen import NORMAL
 from ..state.cleaning import InputError
 from ..state.controls import ExplorerState
 from ..state.links import Link, read_link
+from ..state.opening import opening_values
 from ..view.answers import Answers
 from ..view.markup import offered_text, settings
 from ..view.refresh import Frames
@@ -31,8 +35,8 @@ from .rota import Rota
 
 #: Bytes of one message from a browser: a request is a few hundred.
 MOST_SENT = 200_000
-#: What else a page may ask for at once: files, and a room.
-MOST_ERRANDS = 8
+#: What a page may ask for at once: a frame, files, and a room.
+MOST_ASKED = 8
 #: Why a connection is closed before its page has begun, as codes of websockets: all places are taken; a fault here.
 CLOSE_FULL, CLOSE_FAILED, REFUSED = 1013, 1011, 1008
 
@@ -67,6 +71,19 @@ def open_page(link: Link) -> tuple[Frames, str, bytes]:
     frames.publish()  # what cannot be drawn is not in the state
     config = {**settings(link.state, frames.locked, link.look), "page": True, "refused": frames.refused, "dark": False}
     return frames, f'{{"config":{json.dumps(config)},"offered":{offered_text()}}}', first
+
+
+def merge_requests(kept: Mapping[str, Any], newer: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the request for a frame in place of two: what both set, in the order in which it was set."""
+    merged = dict(newer)
+    merged["all"] = kept.get("all") is True or newer.get("all") is True
+    old, new = kept.get("set"), newer.get("set")
+    if isinstance(old, dict):
+        new = new if isinstance(new, dict) else {}
+        gone = opening_values(NORMAL) if "system" in new else ()  # what another system brings is newer
+        both = {**{name: value for name, value in old.items() if name not in new and name not in gone}, **new}
+        merged["set"] = both if len(both) <= MOST_CONTROLS else new
+    return merged
 
 
 class Places:
@@ -106,7 +123,7 @@ class Live(WebSocketHandler):
         self.places = places
         self.answers: Answers | None = None
         self._request: dict[str, Any] | None = None  # for a frame, with all that has been set since the last one
-        self._errands: list[Callable[[], None]] = []
+        self._asked: deque[Callable[[], None]] = deque()  # in the order in which it came; `_request` is one of them
         self._writing = False
 
     def check_origin(self, origin: str) -> bool:
@@ -147,34 +164,27 @@ class Live(WebSocketHandler):
         if not isinstance(request, dict):
             self._refuse("a message is no JSON object")
         elif "take" in request or "room" in request:
-            if len(self._errands) < MOST_ERRANDS:
-                self._errands.append(lambda: self._answer(request))
-                self._ask()
-        else:
-            given, before = request.get("set"), self._request
+            if len(self._asked) < MOST_ASKED:
+                self._errand(lambda: self._answer(request))
+        elif self._request is None:
             self._request = request
-            if before is not None:
-                kept = before.get("set")
-                if isinstance(kept, dict) and isinstance(given, dict):
-                    request["set"] = {**kept, **given}
-                elif isinstance(kept, dict):
-                    request["set"] = kept
-                request["all"] = bool(before.get("all") or request.get("all"))
-            self._ask()
+            self._errand(self._answer_request)
+        else:
+            self._request = merge_requests(self._request, request)
 
     def _ask(self) -> None:
-        if self.answers is not None and not self._writing:
+        if self._asked and self.answers is not None and not self._writing:
             self.places.rota.ask(self)
 
     def turn(self) -> None:
-        """Answer what has been asked for longest: one errand, or the newest request for a frame."""
-        if self._errands:
-            self._errands.pop(0)()
-        elif self._request is not None:
-            request, self._request = self._request, None
-            self._answer(request)
-        if self._errands or self._request is not None:
+        """Answer what has been asked for longest, a request for a frame by its newest values."""
+        if self._asked:
+            self._asked.popleft()()
             self._ask()
+
+    def _answer_request(self) -> None:
+        request, self._request = self._request, None
+        self._answer(request)
 
     def _answer(self, request: Any) -> None:
         if self.answers is not None:
@@ -185,8 +195,8 @@ class Live(WebSocketHandler):
         self._loop.add_callback(self._errand, function)
 
     def _errand(self, function: Callable[[], None]) -> None:
-        if self.answers is not None:
-            self._errands.append(function)
+        if self in self.places.open:
+            self._asked.append(function)
             self._ask()
 
     def _send(self, message: dict[str, Any]) -> None:
@@ -213,8 +223,7 @@ class Live(WebSocketHandler):
         if sent.exception() is not None or sent is not self._last:
             return
         self._writing = False
-        if self._errands or self._request is not None:
-            self._ask()
+        self._ask()
 
     def _refuse(self, why: str) -> None:
         _log.warning("%s; its connection is closed.", why)
@@ -225,7 +234,6 @@ class Live(WebSocketHandler):
         self.places.open.discard(self)
         self.places.rota.leave(self)
         answers, self.answers = self.answers, None
-        self._errands.clear()
-        self._request = None
+        self._asked.clear()
         if answers is not None:
             answers.leave()

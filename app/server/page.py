@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import gc
+import json
 import logging
 import os
 import sys
+from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from functools import partial
@@ -31,6 +33,7 @@ from .headers import transform
 from .live import MOST_SENT, Live, Places
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
+from .process.door import Door
 from .process.ports import listen_by_own, share_port
 from .process.standing_back import stand_back
 from .scripts import routes
@@ -42,7 +45,7 @@ PRELOAD = ("codim2_app.server.worker",)
 #: after each of its kernels; by default they are 5 ms.
 SWITCH = 0.0005
 
-#: Seconds for which a connection may say nothing before its next request; no websocket.
+#: Seconds for which a connection may say nothing before its next request, or go on with one; no websocket.
 HEADERS = 20.0
 #: Seconds between two signs of life to each page: proxies close a line on which nothing is said for a minute.
 BEAT = 37.0
@@ -56,13 +59,18 @@ class ToRoom(RequestHandler):
         self.redirect("./?room=new")
 
 
+def health() -> dict[str, str]:
+    """Return what the process says of itself."""
+    return {"status": "ok", "version": version("codim2"), "edition": edition()}
+
+
 class Health(RequestHandler):
     """Answers 200 while the process serves: a container that does not is started again."""
 
     def get(self) -> None:
         """Say that it is there, and which version it is; pages that come back look whether it is still theirs."""
         self.set_header("Cache-Control", "no-store")
-        self.write({"status": "ok", "version": version("codim2"), "edition": edition()})
+        self.write(health())
 
     head = get
 
@@ -137,10 +145,11 @@ def make_server(
     parent = os.getpid()
     board = Board(processes)
     places = Places(sessions)
-    with share_port(processes):
+    door = partial(Door, counts=Counter(), places=sessions, health=json.dumps(health()))
+    with share_port(processes, door):
         server = _server(port, address, allow_origin, processes, prefix, places, options)
     keep_steady(server.io_loop)
-    listen_by_own(server, address)
+    listen_by_own(server, address, door)
     board.belong(task_id() or 0)
     kept = Rooms(board, rooms)
     _keep(kept)
@@ -229,6 +238,6 @@ def _server(
         prefix=prefix,
         compress_response=True,
         start=False,
-        http_server_kwargs={"idle_connection_timeout": HEADERS},
+        http_server_kwargs={"idle_connection_timeout": HEADERS, "body_timeout": HEADERS},
         **options,
     )

@@ -11,6 +11,7 @@ from codim2_core.systems.elinear import ELinear
 
 #: The request's name for it, and how far from the centre it can be held: as far as the picture goes.
 GRAB, MAX_GRAB_RADIUS = "grab", 2.5
+PUSH = ("f1", "f2")  # what it moves
 F_DIGITS, MAX_F_DIGITS = 4, 12  # of f: finer than a pixel; where 1 - |e|^2 is small, as many more as that has zeros
 
 
@@ -46,4 +47,4 @@ def push_for(scene: Scene, values: Mapping[str, Any], place: Any) -> dict[str, f
     c, s = (stretch * v for v in held)
     a, b, d = values["a"], values["b"], values["d"]
     f1, f2 = b * s - a * c - values["z"] * values["k1"], -b * c - d * s - values["z"] * values["k2"]
-    return {"f1": round(f1, digits) + 0.0, "f2": round(f2, digits) + 0.0}
+    return {name: round(f, digits) + 0.0 for name, f in zip(PUSH, (f1, f2), strict=True)}

@@ -40,7 +40,7 @@ from ..state.choices import SLIDER_AXES
 from ..state.chosen import GIVEN, System_, describe
 from ..state.cleaning import InputError, clean
 from ..state.controls import TYPED_IN, ExplorerState, first_values, preset_values
-from ..state.grabbed import GRAB, push_for
+from ..state.grabbed import GRAB, PUSH, push_for
 from . import warmup
 from .notices import left_out
 
@@ -125,8 +125,6 @@ class Frames:
         is what belongs to no control.
         """
         request, asked, left = read_request(request)
-        if GRAB in asked:
-            asked |= push_for(self.scene, self.values, asked.pop(GRAB))
         self.window = Window.read(request.get("window"))
         sent = {} if request.get("all") else self._sent
         if asked:
@@ -135,10 +133,12 @@ class Frames:
         notices = " ".join(filter(None, (*self._notices, left)))
         errors: dict[str, str] = {"": notices} if notices else {}
         good: dict[str, Any] = {}
-        wanted, self.refused = {**self.refused, **asked}, {}
-        for name, value in wanted.items():
+        refused = {name: value for name, value in self.refused.items() if GRAB not in asked or name not in PUSH}
+        wanted, self.refused = {**refused, **asked}, {}
+        for name, value in wanted.items():  # in the order in which they were set
             try:
-                good[name] = clean(name, value)
+                held = name == GRAB
+                good |= push_for(self.scene, self.values | good, value) if held else {name: clean(name, value)}
             except InputError as error:
                 self.refused[name], errors[error.control] = value, str(error)
         rest = request.get("rest", False) or request.get("all", False)

@@ -22,12 +22,12 @@ class Memory:
     runs : Counter of str
         How often each layer has been computed, for tests and benchmarks.
     before : callable, optional
-        ``before(scene, layer)`` is called before a layer is computed; it may raise.
+        ``before(scene, layer)`` is called before a layer is computed; it may raise, or return what is called after.
     """
 
     results: dict[str, OrderedDict[Hashable, Any]] = field(default_factory=dict)
     runs: Counter[str] = field(default_factory=Counter)
-    before: Callable[[Any, str], None] | None = None
+    before: Callable[[Any, str], Callable[[], None] | None] | None = None
     lock: Lock = field(default_factory=Lock)  # the jobs beside the frames read the same memory
 
     def result(self, layer: str, key: Hashable, compute: Callable[[], Any]) -> Any:

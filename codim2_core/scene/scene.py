@@ -177,9 +177,11 @@ class Scene:
         layer = layers[name]
 
         def compute() -> Any:
-            if self._memory.before is not None:
-                self._memory.before(self, name)
-            return layer.compute(self)
+            after = None if self._memory.before is None else self._memory.before(self, name)
+            result = layer.compute(self)
+            if after is not None:
+                after()
+            return result
 
         self._own[name] = self._memory.result(name, self.key(*layer.inputs), compute)
         return self._own[name]
@@ -215,8 +217,11 @@ class Scene:
         """Be pickled, and copied, by the inputs: what has been computed stays here."""
         return _again, ({name: getattr(self, name) for name in _PARAMETERS},)
 
-    def ask_before(self, before: Callable[[Scene, str], None]) -> None:
-        """Let ``before(scene, name)`` be called before a layer of this lineage is computed; it may raise."""
+    def ask_before(self, before: Callable[[Scene, str], Callable[[], None] | None]) -> None:
+        """Let ``before(scene, name)`` be called before a layer of this lineage is computed.
+
+        It may raise, or return what is called when the layer has been computed.
+        """
         self._memory.before = before
 
     def results(self) -> dict[str, Any]:

@@ -16,3 +16,9 @@ def many_files() -> None:
         _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
         with suppress(ValueError, OSError):  # macOS names a limit that it does not allow
             resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
+
+
+def max_files() -> int:
+    """Return how many files this process may have open, as far as that is bounded."""
+    most = 512 if resource is None else resource.getrlimit(resource.RLIMIT_NOFILE)[0]
+    return most if most > 0 else 2**20

@@ -84,6 +84,7 @@ export class Requests {
   holds(name) { return name in this.waiting || [...this.out.values()].some(({set}) => name in set) }
 
   set(name, value) {
+    delete this.waiting[name] // what is set last stands last: the server draws as if each had come alone
     this.waiting[name] = value
     this.polls = 0
     this.onAsk()

@@ -124,6 +124,51 @@ def test_frames_of_e_linear_systems_are_computed_at_once(preset):
     assert "picture" not in header(frames, all=True).get("late", [])
 
 
+SPIRAL = {"a": -0.0489, "b": -28.19, "d": -0.0108, "f1": -0.9785, "f2": 0.2402, "psi": "hill", "n": 8.0}
+
+
+def test_outcomes_of_a_slow_spiral_are_computed_beside_the_frames_until_they_are_known_to_be_quick():
+    values = {**preset_values("case2-saddle"), "layers": ["equator", "outcomes"], "panel": "psi"}
+    frames, executor = budgeted(values)
+    assert "picture" in header(frames, all=True)["late"]
+    executor.run()
+    header(frames, rest=True)
+    frames.budget._timed[None][1]["outcomes"] = 0.001
+    assert "picture" not in header(frames, set={"a": 2.1}).get("late", [])  # as quick as it was
+    assert "picture" in header(frames, set=SPIRAL)["late"]  # winds for longer than any that was timed
+    frames.budget.told(frames.scene, Layers({}, {"outcomes": 5 * LAYER}, {}))
+    assert "picture" in header(frames, set={"a": -0.05})["late"]
+    assert not frames.scene.runs["outcomes"] - 1
+
+
+def test_orbits_that_are_launched_are_timed_before_they_are_computed_here():
+    frames, executor = budgeted({**preset_values("case1-cm4"), "layers": ["launched"], "panel": "psi"})
+    assert "picture" not in header(frames, all=True).get("late", [])  # there is none
+    assert "picture" in header(frames, set={"orbits": "0.3,0.2"})["late"]
+    executor.run()
+    frames.budget._timed.clear()
+    frames.budget.told(frames.scene, Layers({}, {"launched": 0.001}, {}))
+    assert "picture" not in header(frames, set={"orbits": "0.31,0.2"}).get("late", [])
+
+
+def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_for(monkeypatch):
+    """What took long here is computed beside the next frame, and here again once it is quick: believed by halves."""
+    clock = iter(range(1000))
+    monkeypatch.setattr("codim2_app.frame.budget.time.thread_time", lambda: 0.01 * LAYER * next(clock))
+    scene, budget = make_scene(preset_values("case1-cm4")), Budget()
+    scene.ask_before(budget.before)
+    budget.begin()
+    scene["classification"]
+    _, took = budget._timed[None]
+    assert took.keys() >= {"equator", "critical", "classification"}
+    assert sum(took.values()) == pytest.approx(0.01 * LAYER * (next(clock) - 1))  # no second counted twice
+    took["equator"] = 2 * LAYER
+    with pytest.raises(NotYet):
+        scene.evolve(f1=-0.6)["equator"]
+    budget.told(scene, Layers({}, {"equator": 0.0}, {}))
+    assert len(scene.evolve(f1=-0.7)["equator"]) > 0
+
+
 def test_a_scene_travels_by_its_inputs():
     scene = make_scene(typed())
     again = pickle.loads(pickle.dumps(scene))

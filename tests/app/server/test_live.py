@@ -4,6 +4,8 @@ import asyncio
 from urllib.request import urlopen
 
 from codim2_app.draw.packing import unpack
+from codim2_app.server.live import merge_requests
+from codim2_app.state.asked import MOST_CONTROLS
 from tornado.httpclient import HTTPClientError, HTTPRequest
 
 from tests.benchmarks.wire import Wire
@@ -32,6 +34,42 @@ def test_a_flood_is_answered_with_its_newest_values_and_holds_nobody_up(server):
     assert heard == [0, 1, 2]
     assert frames < 250  # requests that came while others had their turns are one
     assert "a=-1.299&b=0.5" in link
+
+
+def test_requests_that_are_one_lose_nothing_of_either():
+    grab = {"id": 1, "set": {"f1": 1.0, "grab": [0.1, 0.2]}, "all": True, "rest": True, "window": None}
+    slider = {"id": 2, "set": {"f1": 0.3}, "rest": False, "window": [0, 1, 0, 1, 0.01]}
+    merged = merge_requests(grab, slider)
+    assert merged == {**slider, "set": {"grab": [0.1, 0.2], "f1": 0.3}, "all": True}
+    assert list(merged["set"]) == ["grab", "f1"]  # in the order in which they were set
+    assert merge_requests(grab, {"id": 2, "set": [1]})["set"] == grab["set"]
+    assert merge_requests({"set": "x"}, slider)["set"] == slider["set"]
+
+
+def test_what_another_system_brings_stays_as_it_is_brought():
+    merged = merge_requests({"set": {"a": 1.0, "z": 2.0, "parameters": {"k": 1.0}}}, {"set": {"system": "ball"}})
+    assert merged["set"] == {"a": 1.0, "system": "ball"}
+
+
+def test_requests_that_are_one_hold_no_more_than_one_may():
+    """Who reads nothing, and names something else each time, has nothing of it kept."""
+    merged = {"set": {"a": 1.0}}
+    for i in range(1000):
+        merged = merge_requests(merged, {"set": {f"x{i}": "x"}})
+    assert len(merged["set"]) <= MOST_CONTROLS
+
+
+def test_a_file_has_what_was_set_before_it_was_asked_for(server):
+    async def take():
+        wire = await Wire.connect(server.port)
+        for i in range(20):
+            await wire.send({"id": i, "set": {"a": -1.0 - 0.01 * i}})
+        await wire.send({"take": {"kind": "json", "id": 1}})
+        link = (await wire.message())["file"].decode()
+        await wire.close()
+        return link
+
+    assert "a=-1.19" in talk(take())
 
 
 def test_who_reads_nothing_is_answered_no_further(server):

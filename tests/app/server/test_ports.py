@@ -3,6 +3,7 @@
 import socket
 import subprocess
 import sys
+from contextlib import closing, nullcontext
 
 import pytest
 from codim2_app.server.process import ports
@@ -53,10 +54,14 @@ def who(port):
     return answer.rsplit(b"\r\n", 1)[1]
 
 
-def test_one_process_binds_its_port_alone(monkeypatch):
+@pytest.mark.parametrize("processes", [1, 2])
+def test_a_port_can_be_bound_again_by_several_processes_only(processes):
     kept = ports.bokeh_server.bind_sockets
-    with ports.share_port(1):
-        assert ports.bokeh_server.bind_sockets is kept
-    with ports.share_port(2):
-        assert (ports.bokeh_server.bind_sockets is not kept) == ports.CAN_SHARE_PORT
+    with ports.share_port(processes, lambda one: one):
+        (own,), port = ports.bokeh_server.bind_sockets("127.0.0.1", 0)
     assert ports.bokeh_server.bind_sockets is kept
+    with (
+        closing(own),
+        nullcontext() if processes > 1 and ports.CAN_SHARE_PORT else pytest.raises(OSError, match="in use"),
+    ):
+        socket.create_server(("127.0.0.1", port), reuse_port=ports.CAN_SHARE_PORT).close()

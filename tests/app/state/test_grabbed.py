@@ -55,3 +55,29 @@ def test_a_frame_moves_f_and_tells_the_sliders():
     assert {name: getattr(frames.state, name) for name in header["set"]} == header["set"]
     header, _ = unpack(frames.answer({"id": 2, "set": {"grab": ["x"]}}))
     assert "set" not in header
+
+
+@pytest.mark.parametrize("order", [("grab", "f1"), ("f1", "grab"), ("a", "grab", "f2")])
+def test_what_is_set_with_it_counts_in_its_order(order):
+    """Requests that came one after the other are one for the server; it is drawn as if each had been."""
+    asked = {"grab": [0.4, -0.2], "f1": 0.3, "f2": -0.1, "a": -2.5}
+    together, apart = Frames(ExplorerState()), Frames(ExplorerState())
+    together.answer({"set": {name: asked[name] for name in order}})
+    for name in order:
+        apart.answer({"set": {name: asked[name]}})
+    one, other = ({**each.values, "cut": None} for each in (together, apart))  # names follow the way that was drawn
+    assert one == other
+
+
+def test_what_is_no_number_beside_it_is_told():
+    frames = Frames(ExplorerState())
+    header, _ = unpack(frames.answer({"set": {"a": "x", "grab": [0.4, -0.2]}}))
+    assert header["errors"].keys() == {"a"}
+    assert header["set"].keys() - {"cut"} == {"f1", "f2"}
+
+
+def test_what_f_was_refused_before_is_forgotten_once_it_is_held():
+    frames = Frames(ExplorerState())
+    frames.answer({"set": {"f1": "x"}})
+    header, _ = unpack(frames.answer({"set": {"grab": [0.4, -0.2]}}))
+    assert header["errors"] == {}
