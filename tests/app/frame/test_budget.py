@@ -5,10 +5,19 @@ import pickle
 import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
-from codim2_app.frame.budget import LAYER, MOST_STANDING, WORDS, Budget, Layers, NotYet, layers_of, wildness
+from codim2_app.frame.budget import (
+    LAYER,
+    MOST_STANDING,
+    WORDS,
+    BackgroundLayers,
+    Budget,
+    PendingLayer,
+    layers_of,
+    wildness,
+)
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
-from codim2_app.frame.turns import Turns
+from codim2_app.frame.turns import WorkQueue
 from codim2_app.state.controls import ExplorerState, preset_values
 from codim2_app.view.refresh import Frames
 
@@ -27,7 +36,7 @@ def budgeted(values):
     executor = Held()
     frames = Frames(ExplorerState(**values), budget=Budget())
     frames.jobs = Jobs()
-    frames.jobs._given = Turns(executor)
+    frames.jobs._given = WorkQueue(executor)
     return frames, executor
 
 
@@ -62,10 +71,10 @@ def test_what_was_quick_is_computed_with_the_frame_until_the_formula_is_wilder()
     budget.told(scene, type(found)(found.results, quick, {}))
     assert len(scene.evolve(k=1.1)["equator"]) > 0  # computed here
     assert scene.runs["equator"] == 1
-    with pytest.raises(NotYet):
+    with pytest.raises(PendingLayer):
         scene.evolve(k=1000.0)["equator"]
     budget.told(scene, type(found)({}, dict.fromkeys(quick, 2 * LAYER), {}))
-    with pytest.raises(NotYet):
+    with pytest.raises(PendingLayer):
         scene.evolve(k=1.2)["equator"]
 
 
@@ -74,10 +83,10 @@ def test_that_a_layer_has_become_quick_is_believed_by_halves():
     scene, budget = make_scene(typed()), Budget()
     scene.ask_before(budget.before)
     for took in (8.0 * LAYER, 0.0, 0.0):
-        budget.told(scene, Layers({}, {"location": 0.0, "equator": took}, {}))
-        with pytest.raises(NotYet):
+        budget.told(scene, BackgroundLayers({}, {"location": 0.0, "equator": took}, {}))
+        with pytest.raises(PendingLayer):
             scene["equator"]
-    budget.told(scene, Layers({}, {"equator": 0.0}, {}))
+    budget.told(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
     assert len(scene["equator"]) > 0
 
 
@@ -86,9 +95,9 @@ def test_what_is_compiled_elsewhere_is_not_computed_here_however_quick_it_is():
     budget = Budget(lambda psi, system: bool(full))
     scene.ask_before(budget.before)
     quick = dict.fromkeys(("equator", "location", "critical"), 0.001)
-    budget.told(scene, Layers({}, quick, {}))
+    budget.told(scene, BackgroundLayers({}, quick, {}))
     full.append(True)
-    with pytest.raises(NotYet):
+    with pytest.raises(PendingLayer):
         scene["equator"]
     full.clear()
     assert len(scene["equator"]) > 0
@@ -153,7 +162,7 @@ def test_all_that_panels_ask_of_other_processes_can_travel():
         values = {**ExplorerState.of(start).values(), "layers": ["critical", "equator", "outcomes"]}
         frames, _ = budgeted(values)
         executor = Travels()
-        frames.jobs._given = Turns(executor)
+        frames.jobs._given = WorkQueue(executor)
         for key in PANELS_BY_NAME:
             said = header(frames, set={"panel": key}, rest=True)
             for _ in range(12):
