@@ -24,8 +24,8 @@ from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.kinds import AnySystem
 
 from ..phrases import say
-from .alarm import at_most
 from .faults import FAILURES
+from .time_limit import at_most
 
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
 LAYER, FRAME = 0.008, 0.02

@@ -11,7 +11,7 @@ from concurrent.futures import Executor, Future
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from .turns import WorkQueue, in_a_thread
+from .work_queue import WorkQueue, in_a_thread
 
 _served: list[WorkQueue] = []
 _given: WeakKeyDictionary[Executor, WorkQueue] = WeakKeyDictionary()

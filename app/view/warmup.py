@@ -26,7 +26,7 @@ from ..draw.lines.arrowheads import arrowheads
 from ..draw.lines.spacing import evenly
 from ..frame.scenes import make_scene
 from ..state.controls import first_values
-from .alone import alone
+from .compile_lock import alone
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 

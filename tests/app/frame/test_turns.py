@@ -5,7 +5,7 @@ import weakref
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 
 import pytest
-from codim2_app.frame.turns import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue
+from codim2_app.frame.work_queue import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue
 
 
 class Held(Executor):
