@@ -2,7 +2,8 @@
 
 The section is the ray ``e = e_C + r u`` of `cycles.fixed_point_search`, ``r = R/(1 + exp(-xi))``; all of it depends
 on the value mu of the parameter that varies. With ``F = x2'``, ``D = D e_Psi`` and ``F x v = F1 v2 - F2 v1``, a
-deviation obeys 
+deviation obeys
+
     F x delta(end) = exp(E) F x delta(0) + M,    E = int div dtau,    M = int exp(E(tau, end)) F x U_mu dtau
 
 (Liouville's formula, Melnikov's integral), and both ends lie on the section: along ``t = D^-1 u`` when r changes, along
