@@ -113,7 +113,7 @@ export class NumberControl {
 
 // What a long sentence says first, and what stands behind "more": the list of what is allowed, or what follows it.
 export function folded(sentence) {
-  const listed = sentence.match(/^(.*?\.) (Allowed are .*?\.)(?: (Mend: .*))?$/s)
+  const listed = sentence.match(/^(.*?\.) (Allowed are .*?\.)(?: (.*))?$/s)
   if (listed) return [[listed[1], listed[3]].filter(Boolean).join(" "), listed[2]]
   const end = sentence.length > LONG ? sentence.indexOf(". ", 40) : -1
   return end < 0 ? [sentence, ""] : [sentence.slice(0, end + 1), sentence.slice(end + 2)]

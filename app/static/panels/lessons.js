@@ -142,7 +142,7 @@ class Lessons {
       option.classList.toggle("right", k === truth)
       option.classList.toggle("wrong", k === choice && k !== truth)
     }
-    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not so."}</b> ${lowered([why, explain].filter(Boolean).join(" "))}</p>`
+    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not quite."}</b> ${lowered([why, explain].filter(Boolean).join(" "))}</p>`
     const vary = section.querySelector(".vary")
     if (vary) vary.hidden = false
     section.querySelector(".verdict").scrollIntoView({block: "nearest"})

@@ -2,6 +2,7 @@
 
 import math
 import pickle
+import re
 import sys
 
 import pytest
@@ -36,7 +37,7 @@ def test_hostile_text_is_refused_quickly(text):
     assert isinstance(error, ValueError)
     assert f"column {error.column}" in str(error)
     assert "Allowed are" in str(error)
-    assert "Mend: " in str(error)
+    assert re.search(r"Allowed are .*\. [A-Z].*[.?]$", str(error))
     assert error.column >= 1
     assert len(str(error)) < 700
     assert str(error).isascii()
@@ -104,7 +105,7 @@ def test_mends_are_named():
         ("snh(s)", "did you mean sinh"),
         ("sin s", "write sin(...)"),
     ]:
-        with pytest.raises(ExpressionError, match="Mend: ") as caught:
+        with pytest.raises(ExpressionError, match=r"Allowed are .*\. [A-Z].*[.?]$") as caught:
             parse(text, ("s",))
         assert mend in str(caught.value)
     error = ExpressionError("m", "1+?", 3)

@@ -155,7 +155,7 @@ def test_a_block_is_told_as_an_engineer_would(pull, key):
 def test_a_block_that_is_pulled_up_comes_off():
     grip = block((1.0, 0.0), normal="m*g - 25").grip()
     assert not grip.sticks
-    assert grip.sentence == "The contact opens: to stick, the normal force would have to be −5."
+    assert grip.sentence == "The contact opens: sticking would need a normal force of −5."
 
 
 def test_a_cone_and_not_a_pyramid():

@@ -7,8 +7,8 @@ import {page} from "../played/page.js"
 
 test("a long error is one sentence and how to mend it; the list of what is allowed stands behind more", () => {
   const list = "Allowed are numbers, c, s, z, z1, pi, e, + - * / ** ( ) | | and sin cos."
-  const [told, rest] = folded(`cannot read '-2*c +': at column 7, the text ends where a name should be. ${list} Mend: complete the formula.`)
-  assert.equal(told, "cannot read '-2*c +': at column 7, the text ends where a name should be. Mend: complete the formula.")
+  const [told, rest] = folded(`cannot read '-2*c +': at column 7, the text ends where a name should be. ${list} Complete the formula.`)
+  assert.equal(told, "cannot read '-2*c +': at column 7, the text ends where a name should be. Complete the formula.")
   assert.equal(rest, list)
 })
 

@@ -136,7 +136,7 @@ test("where there is no storage the list lives in the page, and says so; there i
   const one = wired({values: CUSTOM}, {...FIRST, system: OWN}, {localStorage: none})
   write(one, "-c*2")
   assert.equal(one.find(".yours summary").textContent, "Yours (1)")
-  assert.equal(one.find(".yours .note").textContent, "What you have typed, kept until this page is closed.")
+  assert.equal(one.find(".yours .note").textContent, "What you have typed is stored until this page is closed.")
   assert.equal(one.find(".banner").hidden, true)
   const full = {getItem: () => null, setItem() { throw new Error("quota") }}, two = wired({values: CUSTOM}, {...FIRST, system: OWN}, {localStorage: full})
   write(two, "-c*2"); write(two, "-c*3")

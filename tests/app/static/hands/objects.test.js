@@ -92,7 +92,7 @@ test("an object says its name and numbers, and why it has no eigenvectors", () =
   assert.deepEqual(facts.rows, [["θ", "0.9273 (53.13°)"], ["λ_ρ", "−1.5000"], ["λ_θ", "−0.3000"]])
   assert.deepEqual(facts.notes, [])
   assert.deepEqual(factsOf(q2, HEADER).rows.at(-1), ["multiplicity", "2"])
-  assert.deepEqual(factsOf(q2, HEADER).notes, ["The linearisation does not decide: no eigenvectors are drawn."])
+  assert.deepEqual(factsOf(q2, HEADER).notes, ["The linearisation does not decide, so no eigenvectors are drawn."])
   assert.equal(factsOf(c, HEADER, ["v"]).title, "C stable node")
   assert.deepEqual(factsOf(c, HEADER, ["v"]).rows.map(([name, value]) => `${name} ${value}`), ["(c, s) (0.200, −0.300)", "(x₂, y₂) (0.210, −0.330)", "tr J −3.000", "det J 2.000", "eigenvalues −1.000, −2.000", "v′ 0.400"])
   const of = (more) => factsOf(c, {...HEADER, eigen: {...EIGEN, critical: [{directions: [], turning: 0, every: false, ...more}]}}).notes

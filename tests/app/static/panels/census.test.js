@@ -46,8 +46,8 @@ test("what is drawn, and how many, are two lists", () => {
 test("what cannot be counted is said", () => {
   const one = census()
   one.frame({census: {draw: "normal", rows: ROWS}})
-  one.frame({unable: {census: "This takes too long, and was stopped."}})
-  assert.equal(one.find(".census-said").textContent, "This takes too long, and was stopped.")
+  one.frame({unable: {census: "This took too long and was stopped."}})
+  assert.equal(one.find(".census-said").textContent, "This took too long and was stopped.")
   assert.equal(one.all(".census-list button").length, 0)
 })
 

@@ -62,7 +62,7 @@ test("the panel solid: what the Filippov view shows is told under the pointer, a
   const hover = (point, more = {}) => { one.fire(one.canvas, "pointermove", {...at(point), ...more}); return told().textContent }
   assert.equal(hover([0, 1, lift(0)]), "F*(θ), θ = 90.00°: the limit vector (U₁, U₂, W) = (0, 1.000, 0)")
   assert.match(hover([0, 0, lift(0.125)]), /critical set.*\(stable node\), z′ = 0\.1250*$/)
-  assert.match(hover([0, 0, lift(-0.25)]), /^An end.*z′ = −0\.250*$/)
+  assert.match(hover([0, 0, lift(-0.25)]), /^An extreme convex combination.*z′ = −0\.250*$/)
   assert.match(hover([9, 9, 9]), /^Point at/)
   one.fire(one.canvas, "pointerdown", {...at([0, 0, lift(0.25)]), pointerType: "touch"}) // a finger has no hover
   assert.match(told().textContent, /z′ = 0\.250*$/)
@@ -78,7 +78,7 @@ test("the panel solid: Enter tells one thing of the Filippov view after the othe
   const press = (more = {}) => { one.fire(one.canvas, "keydown", {key: "Enter", ...more}); return told() }
   const rings = () => paths(one.drawn()).filter(({how, points}) => how === "stroke" && points.length === 1).length
   const none = rings()
-  assert.match(press(), /^An end.*−0\.250*$/)
+  assert.match(press(), /^An extreme convex combination.*−0\.250*$/)
   assert.equal(rings(), none + 1)
   assert.match(press(), /z′ = 0\.250*$/)
   assert.match(press(), /stable node/)
