@@ -18,10 +18,8 @@ from typing import Any
 
 import numpy as np
 
-from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
-from codim2_core.systems.kinds import AnySystem
 
 from ..phrases import say
 from .alarm import at_most
@@ -169,10 +167,10 @@ class Budget:
     Parameters
     ----------
     elsewhere : callable, optional
-        Says whether formulas, of Psi or of a system, are compiled in other processes only; by default in this one too.
+        Says whether the formulas of a scene are compiled in other processes only; by default in this one too.
     """
 
-    def __init__(self, elsewhere: Callable[[Psi, AnySystem], bool] = lambda _psi, _system: False) -> None:
+    def __init__(self, elsewhere: Callable[[Scene], bool] = lambda _scene: False) -> None:
         self._elsewhere = elsewhere
         self._timed: OrderedDict[Hashable, tuple[int, dict[str, float]]] = OrderedDict()
         self._left_out: OrderedDict[Hashable, Mapping[str, str]] = OrderedDict()
@@ -205,7 +203,7 @@ class Budget:
             cost = took.get(name, 0.0)
         else:
             cost = took.get(name, math.inf) if wildness(scene) <= wildest else math.inf
-        if cost > LAYER or self._spent + cost > FRAME or self._elsewhere(scene.psi, scene.system):
+        if cost > LAYER or self._spent + cost > FRAME or self._elsewhere(scene):
             raise NotYet(name)
         self._spent += cost
         return partial(self._computed, formula, name, time.thread_time(), self._timed_so_far)

@@ -83,7 +83,7 @@ def test_that_a_layer_has_become_quick_is_believed_by_halves():
 
 def test_what_is_compiled_elsewhere_is_not_computed_here_however_quick_it_is():
     scene, full = make_scene(typed(layers=["critical", "equator"])), []
-    budget = Budget(lambda psi, system: bool(full))
+    budget = Budget(lambda _scene: bool(full))
     scene.ask_before(budget.before)
     quick = dict.fromkeys(("equator", "location", "critical"), 0.001)
     budget.told(scene, Layers({}, quick, {}))
