@@ -22,7 +22,7 @@ class Tabled:
         raise NotImplementedError
 
     def _repr_html_(self) -> str:
-        return rows([self])
+        return result_rows([self])
 
 
 Kind = TypeVar("Kind", bound=Tabled)
@@ -34,16 +34,16 @@ class Results(tuple[Kind, ...]):
     __slots__ = ()
 
     def _repr_html_(self) -> str:
-        return rows(self) or "<p>none</p>"
+        return result_rows(self) or "<p>none</p>"
 
 
-def rows(results: Iterable[Tabled]) -> str:
+def result_rows(results: Iterable[Tabled]) -> str:
     """Return results of one kind as a table, a row each; nothing if there are none."""
     found = list(results)
-    return table(found[0]._head_, [one._row_() for one in found]) if found else ""
+    return html_table(found[0]._head_, [one._row_() for one in found]) if found else ""
 
 
-def number(value: float) -> str:
+def table_number(value: float) -> str:
     """Return a number to six digits, with a minus sign; zero has none."""
     return f"{value + 0.0:.6g}".replace("-", "−")
 
@@ -52,11 +52,11 @@ def point(values: Iterable[float]) -> str:
     """Return the coordinates of a point; a dash if there are none. What is rounding beside the largest is 0."""
     values = list(values)
     least = NEGLIGIBLE * max(map(abs, values), default=0.0)
-    shown = ", ".join(number(0.0 if abs(value) < least else value) for value in values)
+    shown = ", ".join(table_number(0.0 if abs(value) < least else value) for value in values)
     return f"({shown})" if shown else "–"
 
 
-def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+def html_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Return a table, or nothing if it has no rows; of many rows the first are shown, and how many there are.
 
     Parameters
@@ -73,8 +73,8 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
         return ""
     left = f"<p>and {len(rows) - MAX_ROWS} more</p>" if len(rows) > MAX_ROWS else ""
     return (
-        f"<table><thead>{_row('th', head)}</thead>"
-        f"<tbody>{''.join(_row('td', row) for row in rows[:MAX_ROWS])}</tbody></table>{left}"
+        f"<table><thead>{_table_row('th', head)}</thead>"
+        f"<tbody>{''.join(_table_row('td', row) for row in rows[:MAX_ROWS])}</tbody></table>{left}"
     )
 
 
@@ -83,7 +83,7 @@ def paragraphs(sentences: Iterable[str]) -> str:
     return "".join(f"<p>{escape(sentence)}</p>" for sentence in sentences if sentence)
 
 
-def write(path: str | Path, records: Iterable[Mapping[str, Any]]) -> None:
+def write_csv(path: str | Path, records: Iterable[Mapping[str, Any]]) -> None:
     """Write records of the same names as CSV, with a line of these; what is None is left empty."""
     import csv
 
@@ -110,5 +110,5 @@ def frame(records: Iterable[Mapping[str, Any]] | Mapping[str, Any]) -> Any:
     return pandas.DataFrame(records if isinstance(records, Mapping) else list(records))
 
 
-def _row(kind: str, cells: Sequence[str]) -> str:
+def _table_row(kind: str, cells: Sequence[str]) -> str:
     return f"<tr>{''.join(f'<{kind}>{escape(cell)}</{kind}>' for cell in cells)}</tr>"

@@ -125,13 +125,13 @@ def _accessible(page: str) -> str:
 def _write_sources(source: Path, portraits: bool) -> None:
     shutil.copytree(TEXT_FOLDER, source)
     if portraits:
-        gallery.write(source)
+        gallery.write_gallery(source)
         static = source / "_static"
         shutil.move(source / "portraits", static / "portraits")
     else:
         (source / "gallery.md").write_text(gallery.GALLERY_HEAD, encoding="utf-8")
     (source / "lessons.md").write_text(_lessons(), encoding="utf-8")
-    reference.write(source)
+    reference.write_reference(source)
 
 
 LESSONS = """# Lessons

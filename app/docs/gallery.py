@@ -23,7 +23,7 @@ serves this page; `codim2 figure KEY -o FILE` draws it for print.
 """
 
 
-def write(folder: Path) -> None:
+def write_gallery(folder: Path) -> None:
     """Write the page, and each portrait light and dark, into a folder of sources."""
     pictures = folder / "portraits"
     pictures.mkdir()

@@ -10,7 +10,7 @@ PACKAGED_SITE = Path(__file__).parent / "site"
 _offered: list[Path] = []
 
 
-def offer(folder: Path | None) -> None:
+def serve_folder(folder: Path | None) -> None:
     """Serve the site of a folder; None: the package's own."""
     _offered[:] = [] if folder is None else [folder]
 

@@ -26,7 +26,7 @@ MODULES = {
 }
 
 
-def write(folder: Path) -> None:
+def write_reference(folder: Path) -> None:
     """Write the pages of the reference into a folder of sources."""
     core = [name for name in codim2_core.__all__ if not inspect.ismodule(getattr(codim2_core, name))]
     app = import_module(__name__.partition(".")[0])  # its face imports what is asked for: no circle

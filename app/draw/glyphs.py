@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codim2_core.layer_problem.eigendirections import Linearised
-from codim2_core.scene.launched import Launched
+from codim2_core.scene.launched import LaunchedOrbits
 from codim2_core.words import subscript
 
 Points = NDArray[np.float64]
@@ -208,7 +208,7 @@ def eigen_columns(objects: Sequence[Linearised]) -> list[dict[str, Any]]:
     ]
 
 
-def launched_columns(seeds: NDArray[np.float64], launched: Launched) -> dict[str, Any]:
+def launched_columns(seeds: NDArray[np.float64], launched: LaunchedOrbits) -> dict[str, Any]:
     """Return where each launched orbit starts, and what is said of it, as columns."""
     return {
         "x": seeds[:, 0].tolist(),

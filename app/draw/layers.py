@@ -100,7 +100,7 @@ class Layer:
     tip: str = ""
 
 
-def _orbits(result: Any) -> Pieces:
+def _orbit_lines(result: Any) -> Pieces:
     return result.offsets, result.buffer
 
 
@@ -108,11 +108,11 @@ def _closed_curves(result: Any) -> Pieces:
     return glyphs.join([cycle.points for cycle in result.cycles])
 
 
-def _kinds(*kinds: str) -> Callable[[Any], Pieces]:
+def _lines_of_kinds(*kinds: str) -> Callable[[Any], Pieces]:
     return lambda branches: glyphs.join([branch.points for branch in branches if branch.kind in kinds])
 
 
-def _direction(direction: str) -> Callable[[Any], Pieces]:
+def _direction_lines(direction: str) -> Callable[[Any], Pieces]:
     return lambda branches: glyphs.join([b.points for b in branches if b.inside and b.direction == direction])
 
 
@@ -128,8 +128,8 @@ def _nullcline(name: str, colours: tuple[str, str], widths: tuple[float, float],
 
     several = by_kind if len(kinds) > 1 else None
     return (
-        Part(f"{name}_inside", colours[0], widths[0], "nullclines_inside", _kinds(*kinds), owners=several),
-        Part(f"{name}_outside", colours[1], widths[1], "nullclines_outside", _kinds(*kinds), owners=several),
+        Part(f"{name}_inside", colours[0], widths[0], "nullclines_inside", _lines_of_kinds(*kinds), owners=several),
+        Part(f"{name}_outside", colours[1], widths[1], "nullclines_outside", _lines_of_kinds(*kinds), owners=several),
     )
 
 
@@ -147,26 +147,28 @@ LAUNCH_COLOURS = 6
 _ROWS = (
     Layer(
         "outside", "Orbits outside", 50, compiled=True, first=True, colours={"outside": ("#a3b1c2", "#5c6a7d")},
-        parts=(Part("outside", "outside", 1.2, "outside", _orbits, arrows=True, even=True, sketch="outside_sketch"),),
+        parts=(
+            Part("outside", "outside", 1.2, "outside", _orbit_lines, arrows=True, even=True, sketch="outside_sketch"),
+        ),
         tip="The system without regularisation, at radius 1 + |(x, y)|; arrows tell the sense of time.",
     ),
     Layer(
         "inside", "Orbits inside", 60, compiled=True, first=True, colours={"orbit": ("#5f7186", "#aebccc")},
-        parts=(Part("inside", "orbit", 1.4, "inside", _orbits, arrows=True, even=True, sketch="inside_sketch"),),
+        parts=(Part("inside", "orbit", 1.4, "inside", _orbit_lines, arrows=True, even=True, sketch="inside_sketch"),),
         tip="Orbits of the layer problem, projected from the hemisphere.",
     ),
     Layer(
         "continuations", "Up the hemisphere", 70, compiled=True, colours={"continuation": ("#b3123f", "#ff6b8f")},
-        parts=(Part("continuations", "continuation", 1.6, "continuations", _orbits, arrows=True),),
+        parts=(Part("continuations", "continuation", 1.6, "continuations", _orbit_lines, arrows=True),),
         tip="From each direction along which an open set of trajectories arrives: where they go on the hemisphere.",
     ),
     Layer(
         "separatrices", "Separatrices", 80, compiled=True, hidden=True, colours={"separatrix": ("#6d28d9", "#b794ff")},
         parts=(
-            Part("separatrices_stable", "separatrix", 2.0, "separatrices", _direction("stable"), (7, 4), arrows=True,
-                 owners=_of_direction("stable")),
-            Part("separatrices_unstable", "separatrix", 2.0, "separatrices", _direction("unstable"), arrows=True,
-                 owners=_of_direction("unstable")),
+            Part("separatrices_stable", "separatrix", 2.0, "separatrices", _direction_lines("stable"), (7, 4),
+                 arrows=True, owners=_of_direction("stable")),
+            Part("separatrices_unstable", "separatrix", 2.0, "separatrices", _direction_lines("unstable"),
+                 arrows=True, owners=_of_direction("unstable")),
         ),
         tip="Stable (dashed) and unstable (full) branches of saddles and half-saddles.",
     ),
@@ -256,7 +258,7 @@ def default_layers() -> list[str]:
     return [layer.name for layer in LAYERS.values() if not layer.hidden]
 
 
-def table() -> list[dict[str, Any]]:
+def layer_table() -> list[dict[str, Any]]:
     """Return what the browser must know of each layer, from bottom to top."""
     return [{"name": layer.name, "parts": looks(layer.parts)} for layer in layers_in_paint_order()]
 

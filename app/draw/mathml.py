@@ -24,7 +24,7 @@ _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(1, 6)  # how tightly a piece binds
 _MINUS = "<mo>−</mo>"
 _LARGEST_DIVISOR, _MOST = 12, 99  # of fractions of pi, and over pi, that are told from other numbers
 
-Piece = tuple[str, int]
+MarkupPiece = tuple[str, int]
 
 
 def symbol(name: str, dot: bool = False) -> str:
@@ -54,30 +54,30 @@ def mathml(expression: Expression, named: Mapping[Expression, str] = MappingProx
     named : mapping of Expression to str
         Parts that are written as a name: definitions.
     """
-    pieces: list[Piece] = []
+    pieces: list[MarkupPiece] = []
     tape = expression.tape
     for k, (op, *args) in enumerate(tape):
         name = named.get(Expression(compact(list(tape), k))) if named and args and op not in ("num", "name") else None
         if name is not None:
             pieces.append((symbol(name), _ATOM))
         elif op == "num":
-            pieces.append(_number(args[0]))
+            pieces.append(_number_piece(args[0]))
         elif op == "name":
             pieces.append((symbol(args[0]), _ATOM))
         elif len(args) == 1:
-            pieces.append(_function(op, pieces[args[0]]))
+            pieces.append(_apply_function(op, pieces[args[0]]))
         else:
             left, right = pieces[args[0]], pieces[args[1]]
             pieces.append(_binary(op, left, right, tape[args[0]][0] == "num", tape[args[1]][0] == "num"))
     return pieces[-1][0]
 
 
-def _number(value: float) -> Piece:
-    size = _size(abs(value))
+def _number_piece(value: float) -> MarkupPiece:
+    size = _magnitude(abs(value))
     return size if value >= 0.0 else (_MINUS + size[0], _SIGN)
 
 
-def _size(value: float) -> Piece:
+def _magnitude(value: float) -> MarkupPiece:
     text = f"{value:.12g}"
     if len(text) >= 12:  # more digits than anyone types
         for divisor in range(1, _LARGEST_DIVISOR + 1):
@@ -88,14 +88,14 @@ def _size(value: float) -> Piece:
     return f"<mn>{text}</mn>", _ATOM
 
 
-def _by_pi(times: int, divisor: int) -> Piece:
+def _by_pi(times: int, divisor: int) -> MarkupPiece:
     text = _times_pi(times)
     if divisor > 1:
         return f"<mfrac><mrow>{text}</mrow><mn>{divisor}</mn></mfrac>", _ATOM
     return text, _ATOM if times == 1 else _PRODUCT
 
 
-def _over_pi(times: int, divisor: int) -> Piece:
+def _over_pi(times: int, divisor: int) -> MarkupPiece:
     return f"<mfrac><mn>{times}</mn><mrow>{_times_pi(divisor)}</mrow></mfrac>", _ATOM
 
 
@@ -103,17 +103,17 @@ def _times_pi(times: int) -> str:
     return "<mi>π</mi>" if times == 1 else f"<mn>{times}</mn><mo>&#8290;</mo><mi>π</mi>"
 
 
-def _parenthesise(piece: Piece, least: int) -> str:
+def _parenthesise(piece: MarkupPiece, least: int) -> str:
     text, binding = piece
     return f"<mrow>{text}</mrow>" if binding >= least else f"<mrow><mo>(</mo>{text}<mo>)</mo></mrow>"
 
 
-def _after_minus(piece: Piece) -> str:
+def _after_minus(piece: MarkupPiece) -> str:
     """Close what is taken away: a second sign would stand behind the first."""
     return _parenthesise(piece, _POWER if piece[1] == _SIGN else _PRODUCT)
 
 
-def _function(op: str, inside: Piece) -> Piece:
+def _apply_function(op: str, inside: MarkupPiece) -> MarkupPiece:
     if op == "neg":
         return f"{_MINUS}{_after_minus(inside)}", _SIGN
     if op == "sqrt":
@@ -125,7 +125,7 @@ def _function(op: str, inside: Piece) -> Piece:
     return f"<mrow><mi>{op}</mi><mo>(</mo>{inside[0]}<mo>)</mo></mrow>", _ATOM
 
 
-def _binary(op: str, left: Piece, right: Piece, left_number: bool, right_number: bool) -> Piece:
+def _binary(op: str, left: MarkupPiece, right: MarkupPiece, left_number: bool, right_number: bool) -> MarkupPiece:
     if op in FUNCTIONS_OF_TWO:
         return f"<mrow><mi>{op}</mi><mo>(</mo>{left[0]}<mo>,</mo>{right[0]}<mo>)</mo></mrow>", _ATOM
     if op == "+":
@@ -188,7 +188,7 @@ def _meanings(system: ELinear | System) -> dict[str, Expression]:
     return {name: System(U=(name, "0"), **given).without_clock[0][0] for name, _ in system.definitions}
 
 
-def _row(left: str, right: str) -> str:
+def _markup_row(left: str, right: str) -> str:
     return (
         f'<mtr><mtd style="text-align:right">{left}</mtd><mtd><mo>=</mo></mtd>'
         f'<mtd style="text-align:left"><mrow>{right}</mrow></mtd></mtr>'
@@ -201,10 +201,10 @@ def equations_mathml(system: ELinear | System) -> str:
     plain = (lambda e: e.substitute("z1", parse("z", ("z",))) if "z1" in e.names else e) if alone else lambda e: e
     meanings = {plain(meaning): name for name, meaning in _meanings(system).items()}
     rows = [
-        _row(symbol("z" if alone and left == "z1" else left, dot=True), mathml(plain(right), meanings))
+        _markup_row(symbol("z" if alone and left == "z1" else left, dot=True), mathml(plain(right), meanings))
         for left, right in equations(system)
     ]
     for k, (meaning, name) in enumerate(meanings.items()):
         before = dict(list(meanings.items())[:k])
-        rows.append(_row(symbol(name), mathml(meaning, before)))
+        rows.append(_markup_row(symbol(name), mathml(meaning, before)))
     return f'<math display="block"><mtable displaystyle="true">{"".join(rows)}</mtable></math>'

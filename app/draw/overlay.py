@@ -36,10 +36,10 @@ def elements(scene: Scene) -> dict[str, Any]:
         for colour in colours if asked else ():
             parts = [part for part in layer.parts if part.colour == colour]
             label = layer.name if len(colours) == 1 else parts[0].name
-            pieces = [piece for part in parts for piece in _pieces(*part.pieces(scene[part.scene]))]
+            pieces = [piece for part in parts for piece in _split_pieces(*part.pieces(scene[part.scene]))]
             made[label] = _paths(pieces, label, _light(colour), parts[0].width)
-    made["equator"] = _equator(scene)
-    made["critical"] = _critical(scene)
+    made["equator"] = _equator_circle(scene)
+    made["critical"] = _critical_points(scene)
     return made
 
 
@@ -77,7 +77,7 @@ def holoviews(scene: Scene) -> Any:
     return overlay
 
 
-def _pieces(offsets: Any, points: Any) -> list[Any]:
+def _split_pieces(offsets: Any, points: Any) -> list[Any]:
     return np.split(points, offsets[1:-1]) if len(points) else []
 
 
@@ -94,7 +94,7 @@ def _paths(pieces: list[Any], label: str, colour: str, width: float) -> Any:
     return _apply_style(path, color=colour, line_width=width)
 
 
-def _equator(scene: Scene) -> Any:
+def _equator_circle(scene: Scene) -> Any:
     q = glyphs.equator_columns(scene["equator"])
     colours, fills = _mark_colours(q)
     columns = (q["x"], q["y"], q["label"], q["type"], q["theta"], q["lambda_rho"], q["lambda_theta"],
@@ -105,7 +105,7 @@ def _equator(scene: Scene) -> Any:
                    size=11, line_width=2, tools=["hover"])  # fmt: skip
 
 
-def _critical(scene: Scene) -> Any:
+def _critical_points(scene: Scene) -> Any:
     c = glyphs.critical_columns(scene["critical"])
     colours, fills = _mark_colours(c)
     columns = (c["x"], c["y"], c["label"], c["kind"], c["trace"], c["determinant"], c["discriminant"],

@@ -31,7 +31,7 @@ INT16_STEP = INT16_RANGE / 32767
 Rectangle = tuple[float, float, float, float]
 
 #: Where arrowheads are placed in the whole picture: as it looks at 700 px.
-PIXEL, WINDOW = HALF_VIEW / 350, (-PICTURE_REACH, PICTURE_REACH, -PICTURE_REACH, PICTURE_REACH)
+PACKING_PIXEL, WINDOW = HALF_VIEW / 350, (-PICTURE_REACH, PICTURE_REACH, -PICTURE_REACH, PICTURE_REACH)
 
 #: Angles of arrowheads travel as int16 multiples of this.
 ANGLE_STEP = np.pi / 32767
@@ -70,7 +70,7 @@ def quantise(points: NDArray[np.float64]) -> NDArray[np.int16]:
 
 
 #: No arrowheads.
-NO_POINTS = np.zeros((0, 3))
+EMPTY_POLYLINE = np.zeros((0, 3))
 #: Names of the types in use (`dtype.name` takes 3 µs).
 _DTYPE_NAMES = {np.dtype(name).char: name for name in ("int16", "uint16", "float32", "float64")}
 
@@ -79,7 +79,7 @@ def pack(
     header: Mapping[str, Any],
     blocks: Blocks,
     window: Rectangle | None = None,
-    pixel: float = PIXEL,
+    pixel: float = PACKING_PIXEL,
     heads: bool = True,
     guards: Pieces | None = None,
 ) -> bytes:
@@ -108,7 +108,7 @@ def pack(
     listing: dict[str, Any] = {}
     parts = [b"", b""]
     if lines:
-        listing["lines"], data = _run(lines, window, pixel, heads, guards)
+        listing["lines"], data = _pack_layers(lines, window, pixel, heads, guards)
         if window is not None:
             listing["exact"] = True
         parts += (data, b"\0" * (-len(data) % 4))
@@ -123,7 +123,7 @@ def pack(
     return b"".join(parts)
 
 
-def _run(
+def _pack_layers(
     lines: Mapping[str, Polylines], window: Rectangle | None, pixel: float, may: bool, guards: Pieces | None
 ) -> tuple[list[tuple[str, int, int, int | None]], bytes]:
     """Return [name, pieces, points, arrowheads] of each layer, and the data of all.
@@ -138,11 +138,11 @@ def _run(
             for name, line in lines.items()
         }
     for name, (offsets, points, arrows, _) in lines.items():
-        placed = None if not arrows else arrowheads(offsets, points, pixel, seen) if may else NO_POINTS
+        placed = None if not arrows else arrowheads(offsets, points, pixel, seen) if may else EMPTY_POLYLINE
         if placed is not None:
             heads.append(placed)
         rows.append((name, len(offsets) - 1, len(points), None if placed is None else len(placed)))
-    all_heads = np.concatenate(heads) if heads else NO_POINTS
+    all_heads = np.concatenate(heads) if heads else EMPTY_POLYLINE
     places = np.concatenate([*(layer.points for layer in lines.values()), all_heads[:, :2]])
     counts = np.concatenate([np.diff(layer.offsets) for layer in lines.values()]).astype(np.uint16).tobytes()
     data = (

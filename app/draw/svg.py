@@ -65,7 +65,7 @@ def content(buffer: bytes, layers: Collection[str], place: Placement, labelled: 
     parts += [vector.heads(part, blocks, place) for part in drawn]
     parts += vector.equator(header, place)
     if "launched" in layers:
-        parts += vector.starts(header.get("launched"), LAYERS["launched"].parts, place)
+        parts += vector.launch_marks(header.get("launched"), LAYERS["launched"].parts, place)
     taken: list[vector.LabelBox] = []
     marked = [header[name] for name in ("equator", "critical") if name in layers and header.get(name)]
     for columns in marked:

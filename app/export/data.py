@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from .describe import facts
-from .tables import Table, rows, tables
+from .tables import Table, table_rows, tables
 from .view import View
 
 #: When the files of a zip were made, so that the same view gives the same file.
@@ -45,7 +45,7 @@ def csv_zip(view: View) -> bytes:
                 text.write(f"# {line}\n")
             writer = csv.writer(text, lineterminator="\n")
             writer.writerow(table.columns)
-            writer.writerows(rows(table))
+            writer.writerows(table_rows(table))
             put(f"{name}.csv", text.getvalue())
     return packed.getvalue()
 
@@ -66,7 +66,7 @@ def json_text(view: View) -> bytes:
 
 def npz(view: View) -> bytes:
     """Return all columns as NumPy arrays ``TABLE.COLUMN``; ``about`` is text, and so are ``TABLE.COLUMN.meaning``."""
-    arrays: dict[str, Any] = {"about": np.array(_lines(facts(view)))}
+    arrays: dict[str, Any] = {"about": np.array(_header_lines(facts(view)))}
     for name, table in data_of(view).items():
         for column, (unit, said) in table.columns.items():
             arrays[f"{name}.{column}"] = table.data[column]
@@ -76,5 +76,5 @@ def npz(view: View) -> bytes:
     return packed.getvalue()
 
 
-def _lines(told: Mapping[str, str]) -> str:
+def _header_lines(told: Mapping[str, str]) -> str:
     return "\n".join(f"{name}: {said}" for name, said in told.items())

@@ -9,7 +9,7 @@ from typing import Any
 from codim2_core import __version__
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
-from codim2_core.words import number
+from codim2_core.words import written_number
 
 from ..draw.mathml import plain_symbol
 from ..state.chosen import NORMAL
@@ -18,7 +18,7 @@ from .view import View
 
 def plain(value: float) -> str:
     """Return a number with a minus sign, to six digits."""
-    return number(float(value), 6)
+    return written_number(float(value), 6)
 
 
 def system_words(view: View) -> str:
@@ -43,12 +43,12 @@ def system_words(view: View) -> str:
 
 def _normal_form(values: Mapping[str, Any]) -> str:
     """Return the e-linear normal form with the numbers of the sliders."""
-    f = ", ".join(_line(values[f"f{i}"], values[f"k{i}"], "z") for i in (1, 2))
+    f = ", ".join(_affine_text(values[f"f{i}"], values[f"k{i}"], "z") for i in (1, 2))
     a, b, d, B1, B2, g = (plain(values[name]) for name in ("a", "b", "d", "B1", "B2", "g0"))
     return f"(x, y)′ = A e + f with a = {a}, b = {b}, d = {d}, f = ({f}); z′ = B e + g with B = ({B1}, {B2}), g = {g}"
 
 
-def _line(constant: float, slope: float, name: str) -> str:
+def _affine_text(constant: float, slope: float, name: str) -> str:
     if not slope:
         return plain(constant)
     return f"{plain(constant)} {'+' if slope > 0 else '−'} {plain(abs(slope))} {name}"

@@ -108,7 +108,7 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
     y += place.height + (30.0 if style.ticks else 0.0)
     width = left + side + right
     if style.legend:
-        columns = _columns(entries(header, blocks, layers), side)
+        columns = _legend_columns(entries(header, blocks, layers), side)
         parts += _legend(columns, place, left, y + 6.0, side)
         y += 6.0 + LINE * max((len(column) for _, column in columns), default=0) + 4.0
     if style.caption:
@@ -157,7 +157,7 @@ def _clear(drawn: str) -> str:
     return drawn.replace("<text ", '<text paint-order="stroke" stroke="var(--page)" stroke-width="2.6" ')
 
 
-def _columns(shown: list[Entry], side: float) -> list[tuple[float, list[Entry]]]:
+def _legend_columns(shown: list[Entry], side: float) -> list[tuple[float, list[Entry]]]:
     """Return the columns of the legend, as many as there is room for: where each begins, and its entries."""
     lines = sum(entry.part is not None for entry in shown)
     found: list[tuple[float, list[Entry]]] = []
@@ -196,11 +196,11 @@ def _ticks(place: Placement) -> Iterator[str]:
     for value in _round_steps(left, right):
         [[u, _]] = place.points((value, 0.0)).tolist()
         yield f'<path d="M{u} {place.height:.2f}v-4M{u} 0v4" {line}/>'
-        yield vector.words(u, place.height + 11.0, _number(value), SMALL_SIZE, "middle")
+        yield vector.words(u, place.height + 11.0, _svg_number(value), SMALL_SIZE, "middle")
     for value in _round_steps(bottom, top):
         [[_, v]] = place.points((0.0, value)).tolist()
         yield f'<path d="M0 {v}h4M{place.side:.2f} {v}h-4" {line}/>'
-        yield vector.words(-4.0, v + 0.34 * SMALL_SIZE, _number(value), SMALL_SIZE, "end")
+        yield vector.words(-4.0, v + 0.34 * SMALL_SIZE, _svg_number(value), SMALL_SIZE, "end")
     yield vector.words(
         place.side / 2, place.height + 24.0, "x̄ = p₁ inside, (1 + ρ) cos θ outside", SMALL_SIZE, "middle"
     )
@@ -218,5 +218,5 @@ def _round_steps(low: float, high: float) -> list[float]:
     return [k * step for k in range(first, math.floor((high - margin) / step) + 1)]
 
 
-def _number(value: float) -> str:
+def _svg_number(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-12 else value:.6g}".replace("-", "−")

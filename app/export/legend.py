@@ -65,7 +65,9 @@ class Entry:
 
 def entries(header: Mapping[str, Any], blocks: Mapping[str, Any], layers: Collection[str]) -> list[Entry]:
     """Return the entries for what one frame shows, lines first."""
-    found = [entry for layer in layers_in_paint_order() if layer.name in layers for entry in _lines(layer, blocks)]
+    found = [
+        entry for layer in layers_in_paint_order() if layer.name in layers for entry in _line_entries(layer, blocks)
+    ]
     for name in ("equator", "critical"):
         if name in layers and header.get(name):
             found += _marks(header[name], "Q" if name == "equator" else "C")
@@ -75,11 +77,11 @@ def entries(header: Mapping[str, Any], blocks: Mapping[str, Any], layers: Collec
         kinds = dict.fromkeys(header["outcomes"]["kind"])
         found += [Entry(f"From there: {OUTCOMES[kind]}", area=kind) for kind in kinds]
     if "basins" in layers and header.get("basins"):
-        found += _basins(header["basins"])
+        found += _basin_entries(header["basins"])
     return found
 
 
-def _lines(layer: Any, blocks: Mapping[str, Any]) -> Iterator[Entry]:
+def _line_entries(layer: Any, blocks: Mapping[str, Any]) -> Iterator[Entry]:
     told = set()
     for part in layer.parts:
         words = LEGEND_PARTS.get(part.name, layer.words)
@@ -94,7 +96,7 @@ def _marks(columns: Mapping[str, Any], letter: str) -> Iterator[Entry]:
         yield Entry(f"{letter}: {kind}", mark=(columns, kinds.index(kind)))
 
 
-def _basins(found: Mapping[str, Any]) -> Iterator[Entry]:
+def _basin_entries(found: Mapping[str, Any]) -> Iterator[Entry]:
     colours = found["colours"][2:]  # the first two are of what is outside the disc, and of what is undecided
     for colour in dict.fromkeys(colours):
         names = [written_label(name) for name, its in zip(found["destinations"], colours, strict=True) if its == colour]

@@ -17,7 +17,7 @@ from typing import Any
 from codim2_core import __version__
 
 from ..draw.bundle import bundle
-from ..draw.layers import table
+from ..draw.layers import layer_table
 from ..draw.mathml import plain_symbol
 from ..draw.packing import pack, unpack
 from ..draw.theme import MEASURES, themes
@@ -176,10 +176,10 @@ def _page(
     title = view.title or header["portrait"]["name"] or "codim2"
     settings: dict[str, Any] = {
         "sliders": [
-            {"name": slider.name, "symbol": slider.symbol, "values": values, "at": _nearest(values, view, slider)}
+            {"name": slider.name, "symbol": slider.symbol, "values": values, "at": _nearest_index(values, view, slider)}
             for slider, values in zip(chosen, places, strict=True)
         ],
-        "sizes": sizes, "seen": view.seen, "layers": view.values["layers"], "table": table(), "themes": themes(),
+        "sizes": sizes, "seen": view.seen, "layers": view.values["layers"], "table": layer_table(), "themes": themes(),
         "measures": MEASURES,
     }  # fmt: skip
     data = json.dumps(settings, separators=(",", ":")).replace("<", "\\u003c")
@@ -198,6 +198,6 @@ def _page(
     )
 
 
-def _nearest(values: Sequence[float], view: View, slider: Slider) -> int:
+def _nearest_index(values: Sequence[float], view: View, slider: Slider) -> int:
     present = view.number(slider.name)
     return min(range(len(values)), key=lambda i: abs(values[i] - present))

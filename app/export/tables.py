@@ -101,10 +101,10 @@ def tables(scene: Scene, layers: Collection[str] | None = None) -> dict[str, Tab
     if "equator" in drawn:
         found["limit_directions"] = _select_columns(DIRECTION_COLUMNS, glyphs.equator_columns(scene["equator"]))
     if "critical" in drawn:
-        found["critical_sets"] = _critical(scene)
+        found["critical_sets"] = _critical_table(scene)
     for layer in layers_in_paint_order():
         if layer.name in drawn and not (layer.optional and not len(scene.launch)):
-            found |= {part.name: _curves(part, scene) for part in layer.parts}
+            found |= {part.name: _curve_table(part, scene) for part in layer.parts}
     if "cycles" in drawn:
         cycles = glyphs.cycle_columns(scene["closed_orbits"])
         found["limit_cycles"] = _select_columns(CYCLES, {**cycles, "curve": list(range(len(cycles["kind"])))})
@@ -112,9 +112,9 @@ def tables(scene: Scene, layers: Collection[str] | None = None) -> dict[str, Tab
         launched = glyphs.launched_columns(scene.launch, scene["launched"])
         found["launched"] = _select_columns(LAUNCHED, {**launched, "px": launched["x"], "py": launched["y"]})
     if "outcomes" in drawn:
-        found["outcomes"] = _select_columns(ARCS, outcomes.columns(scene["outcomes"]))
+        found["outcomes"] = _select_columns(ARCS, outcomes.outcome_columns(scene["outcomes"]))
     if "basins" in drawn:
-        found["basins"] = _basins(scene)
+        found["basins"] = _basin_table(scene)
     return {name: table for name, table in found.items() if len(table)}
 
 
@@ -133,14 +133,14 @@ def _select_columns(columns: Mapping[str, tuple[str, str]], data: Mapping[str, A
     return Table(columns, {name: np.asarray(data[name]) for name in columns})
 
 
-def _curves(part: Part, scene: Scene) -> Table:
+def _curve_table(part: Part, scene: Scene) -> Table:
     offsets, points = part.pieces(scene[part.scene])
     sizes = np.diff(offsets)
     data = {"curve": np.repeat(np.arange(len(sizes)), sizes), "px": points[:, 0], "py": points[:, 1]}
     return Table(PLACE_COLUMNS, data)
 
 
-def _critical(scene: Scene) -> Table:
+def _critical_table(scene: Scene) -> Table:
     columns = glyphs.critical_columns(scene["critical"])
     count = len(columns["label"])
     pairs = {name: np.asarray(columns[name], float).reshape(count, 2) for name in ("e", "x2")}
@@ -156,8 +156,8 @@ def _critical(scene: Scene) -> Table:
     return _select_columns({**CRITICAL, **said}, {**data, **slow})
 
 
-def _basins(scene: Scene) -> Table:
-    header, runs = basins.columns(scene)
+def _basin_table(scene: Scene) -> Table:
+    header, runs = basins.basin_columns(scene)
     cells = header["cells"]
     which = np.repeat(runs[:, 1], runs[:, 0]).astype(int)
     names = np.array(["", "", *header["destinations"]])
@@ -167,6 +167,6 @@ def _basins(scene: Scene) -> Table:
     return Table(BASIN_COLUMNS, {"px": px, "py": py, "destination": names[which[inside]]})
 
 
-def rows(table: Table) -> Iterator[tuple[Any, ...]]:
+def table_rows(table: Table) -> Iterator[tuple[Any, ...]]:
     """Return the rows of a table as plain values."""
     return zip(*(column.tolist() for column in table.data.values()), strict=True)

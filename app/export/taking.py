@@ -39,7 +39,7 @@ SHOWN = (PROOF, "motion")
 
 
 @dataclass(frozen=True)
-class Wish:
+class ExportRequest:
     """One request for a file.
 
     Attributes
@@ -72,7 +72,7 @@ class Wish:
         return replace(STYLE, theme=self.style.theme)
 
     @classmethod
-    def read(cls, request: Any) -> Wish:
+    def read(cls, request: Any) -> ExportRequest:
         """Return the wish of a request.
 
         Raises
@@ -107,7 +107,7 @@ def seen_by(request: Any, values: Mapping[str, Any], system: System_ | None) -> 
     return View(dict(values), seen, system)
 
 
-def make_file(view: View, wish: Wish) -> tuple[str, bytes]:
+def make_file(view: View, wish: ExportRequest) -> tuple[str, bytes]:
     """Return the file's name and what it holds.
 
     Raises
@@ -130,7 +130,7 @@ def make_file(view: View, wish: Wish) -> tuple[str, bytes]:
     return file_name(view, wish), made
 
 
-def file_name(view: View, wish: Wish) -> str:
+def file_name(view: View, wish: ExportRequest) -> str:
     """Return the name of a file: letters, figures and dashes, which no system and no command line minds."""
     name = view.values["preset"] or view.scene()["name"].name.lower()
     moves = wish.slider.partition("=")[0] if wish.kind == "gif" else ""  # two films of one portrait are two files

@@ -97,9 +97,9 @@ class View:
         window = Window(self.seen, scene.pixel)
         header, blocks, _ = make_frame(scene, self.values, {}, ready=True, window=window)
         if "outcomes" in self.values["layers"]:
-            header["outcomes"] = outcomes.columns(scene["outcomes"])
+            header["outcomes"] = outcomes.outcome_columns(scene["outcomes"])
         if "basins" in self.values["layers"]:
-            header["basins"], blocks["basins"] = basins.columns(scene)
+            header["basins"], blocks["basins"] = basins.basin_columns(scene)
         if whole and self.seen == WHOLE:
             return pack(header, blocks)
         return pack(header, blocks, self.seen, self.width / 700)

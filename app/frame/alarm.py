@@ -17,7 +17,7 @@ from numba.core.compiler_lock import global_compiler_lock
 AGAIN = 0.05
 
 
-class Compiling(event.Listener):
+class CompileClock(event.Listener):
     """A clock of the time in which this thread compiled kernels: it is not counted against a formula.
 
     Numba tells every listener of what any thread compiles.
@@ -56,7 +56,7 @@ def at_most(seconds: float) -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
         yield
         return
-    compiling, began = Compiling(), time.thread_time()
+    compiling, began = CompileClock(), time.thread_time()
 
     def stop(*_: object) -> None:
         # Not while this thread holds the compiler's lock: what is raised as it is taken leaves it taken for ever.

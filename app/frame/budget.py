@@ -72,15 +72,15 @@ _theta = np.arange(COST_NET) * (2.0 * np.pi / COST_NET)
 _DIRECTIONS = np.stack([np.cos(_theta), np.sin(_theta)], axis=-1)
 
 
-class NotYet(Exception):
+class PendingLayer(Exception):
     """A layer is to be computed beside the frames."""
 
 
-class LeftOut(Exception):
+class OmittedLayer(Exception):
     """A layer is not drawn of this system: what it is called, and why."""
 
     @staticmethod
-    def sentence(left_out: Iterable[LeftOut]) -> str:
+    def sentence(left_out: Iterable[OmittedLayer]) -> str:
         """Say in one sentence for each reason what is left out."""
         reasons: dict[str, list[str]] = {}
         for each in left_out:
@@ -91,7 +91,7 @@ class LeftOut(Exception):
 
 
 @dataclass(frozen=True)
-class Layers:
+class BackgroundLayers:
     """Layers computed beside the frames.
 
     Attributes
@@ -110,7 +110,7 @@ class Layers:
 
 def layers_of(
     scene: Scene, names: Iterable[str], known: Mapping[str, Any], seconds: float = MAX_LAYER_SECONDS
-) -> Layers:
+) -> BackgroundLayers:
     """Compute layers, one after the other, each for at most so long; what stands still comes first."""
     scene.give(known)
     took: dict[str, float] = {}
@@ -128,11 +128,11 @@ def layers_of(
             left_out[name] = say("too long a layer", seconds=seconds)
             if name in first:
                 others = dict.fromkeys((one for one in (*first, *names) if one not in took), left_out[name])
-                return Layers(scene.results(), took, {**others, **left_out})
+                return BackgroundLayers(scene.results(), took, {**others, **left_out})
         except FAILURES as error:
             left_out[name] = str(error)
         took[name] = time.thread_time() - began
-    return Layers(scene.results(), took, left_out)
+    return BackgroundLayers(scene.results(), took, left_out)
 
 
 def wild(scene: Scene) -> str:
@@ -185,26 +185,26 @@ class Budget:
 
         Raises
         ------
-        NotYet
+        PendingLayer
             It is to be computed beside the frames.
-        LeftOut
+        OmittedLayer
             It is not drawn of this system.
         """
         why = self._left_out.get(self.key(scene), {}).get(name)
         if why is not None:
-            raise LeftOut(WORDS.get(name, name), why)
+            raise OmittedLayer(WORDS.get(name, name), why)
         bounded, formula = self.bounded(scene), self._formula(scene)
         if bounded and name == "launched" and not len(scene.launch):
             return None  # nothing says how long an orbit would take
         if bounded and name in SEARCHING and scene["name"].case == "III":
-            raise NotYet(name)
+            raise PendingLayer(name)
         wildest, took = self._timed.get(formula, (0, {}))
         if bounded and name not in LONG:
             cost = took.get(name, 0.0)
         else:
             cost = took.get(name, math.inf) if wildness(scene) <= wildest else math.inf
         if cost > LAYER or self._spent + cost > FRAME or self._elsewhere(scene):
-            raise NotYet(name)
+            raise PendingLayer(name)
         self._spent += cost
         return partial(self._computed, formula, name, time.thread_time(), self._timed_so_far)
 
@@ -220,7 +220,7 @@ class Budget:
         """Whether nothing in this scene was typed, so that all sizes are known beforehand."""
         return scene.coefficients.typed is None and scene.psi.expression is None
 
-    def told(self, scene: Scene, found: Layers) -> None:
+    def told(self, scene: Scene, found: BackgroundLayers) -> None:
         """Remember what layers of a scene took beside the frames, and keep them.
 
         A shorter time than before is believed by halves: a worker that has found something for one frame has it for

@@ -12,13 +12,13 @@ from codim2_core.systems.typed import System
 from codim2_core.words import printed_sentence
 
 from ..state.chosen import System_
-from .budget import LeftOut
+from .budget import OmittedLayer
 from .jobs import Jobs
-from .turns import Failed
+from .turns import FailedResult
 
 
 @dataclass(frozen=True)
-class Draft:
+class FrameContext:
     """A frame under way, as a panel sees it.
 
     Attributes
@@ -39,7 +39,7 @@ class Draft:
         Controls that the system does not have.
     missing : list of str
         Layers of the scene that are to be computed beside the frames, as they have been asked for in vain.
-    left_out : list of LeftOut
+    left_out : list of OmittedLayer
         Layers of the scene that are not drawn of this system, and why; told below the picture.
     """
 
@@ -53,7 +53,7 @@ class Draft:
     ready: bool
     locked: tuple[str, ...]
     missing: list[str] = field(default_factory=list)
-    left_out: list[LeftOut] = field(default_factory=list)
+    left_out: list[OmittedLayer] = field(default_factory=list)
 
     @property
     def system(self) -> System_ | None:
@@ -88,7 +88,7 @@ class Draft:
             self.late(name)
             return None
         self.now[name] = key
-        if isinstance(result, Failed):
+        if isinstance(result, FailedResult):
             self.unable(name, result.sentence)
             return None
         return result

@@ -11,13 +11,13 @@ from concurrent.futures import Executor, Future
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from .turns import Turns, in_a_thread
+from .turns import WorkQueue, in_a_thread
 
-_served: list[Turns] = []
-_given: WeakKeyDictionary[Executor, Turns] = WeakKeyDictionary()
+_served: list[WorkQueue] = []
+_given: WeakKeyDictionary[Executor, WorkQueue] = WeakKeyDictionary()
 
 
-def serve_with(turns: Turns) -> None:
+def serve_with(turns: WorkQueue) -> None:
     """Give the jobs of this process these turns: a server shares its worker processes by them."""
     _served[:] = [turns]
 
@@ -36,7 +36,7 @@ class Jobs:
         self._wishes: dict[str, tuple[Hashable, Future[Any]]] = {}
 
     @property
-    def turns(self) -> Turns:
+    def turns(self) -> WorkQueue:
         """Return the turns that all browsers share."""
         if self._given is not None:
             return self._given
@@ -89,6 +89,6 @@ class Jobs:
         self.turns.leave(id(self))
 
 
-def _turns_of(executor: Executor) -> Turns:
+def _turns_of(executor: Executor) -> WorkQueue:
     """Return the turns of an executor, the same ones for all that name it."""
-    return _given.setdefault(executor, Turns(executor))
+    return _given.setdefault(executor, WorkQueue(executor))

@@ -22,7 +22,7 @@ from ..draw.layers import LAYERS
 from ..draw.packing import Polylines
 from ..phrases import say
 from ..state.launches import read_launches
-from .budget import LeftOut, NotYet
+from .budget import OmittedLayer, PendingLayer
 from .window import Window
 
 Blocks = dict[str, NDArray[Any] | Polylines]
@@ -47,22 +47,22 @@ def breaks(psi: Psi) -> str:
     return " ".join([say("outside the class", which=names), *(one.sentence for one in missed)]) if missed else ""
 
 
-class Asked:
+class RequestedLayers:
     """The layers of a scene as a frame asks for them: which are to be computed beside it, and which are left out."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self.missing: list[str] = []
-        self.left_out: list[LeftOut] = []
+        self.left_out: list[OmittedLayer] = []
 
     def get(self, name: str) -> Any:
         """Return a layer, `LATER` if it is not to be had now, or `NOT_DRAWN` if it is left out."""
         try:
             return self.scene[name]
-        except NotYet:
+        except PendingLayer:
             self.missing.append(name)
             return LATER
-        except LeftOut as why:
+        except OmittedLayer as why:
             self.left_out.append(why)
             return NOT_DRAWN
 
@@ -79,7 +79,7 @@ def make_frame(
     sent: Mapping[str, Any],
     ready: bool = True,
     window: Window | None = None,
-    asked: Asked | None = None,
+    asked: RequestedLayers | None = None,
 ) -> tuple[dict[str, Any], Blocks, dict[str, Any]]:
     """Return header and blocks of one frame, and what the browser then holds.
 
@@ -88,7 +88,7 @@ def make_frame(
     the picture is added by `panels.registry.add`. Layers that are not to be had now stay as they are in the browser,
     and are noted in `asked`; of those that are left out nothing is drawn.
     """
-    asked = Asked(scene) if asked is None else asked
+    asked = RequestedLayers(scene) if asked is None else asked
     now = dict(sent)
     header: dict[str, Any] = {"ready": ready}
     blocks = _changed_blocks(values["layers"], now, ready, window, asked, header)
@@ -122,7 +122,7 @@ def _changed_blocks(
     now: dict[str, Any],
     ready: bool,
     window: Window | None,
-    asked: Asked,
+    asked: RequestedLayers,
     header: dict[str, Any],
 ) -> Blocks:
     """Return the layers that are seen and are others than those that the browser holds, as blocks.
@@ -167,7 +167,7 @@ def orbit_labels(orbits: str) -> dict[str, list[Any]]:
     return {"number": [number for number, _ in rows], "called": [name for _, name in rows]}
 
 
-def _portrait(asked: Asked, ready: bool) -> Any:
+def _portrait_text(asked: RequestedLayers, ready: bool) -> Any:
     """Return the portrait's name and sentence, without a sentence where the search for limit cycles is left out."""
     name = asked.get("name")
     if isinstance(name, PortraitName):
@@ -178,11 +178,11 @@ def _portrait(asked: Asked, ready: bool) -> Any:
     return name
 
 
-def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: Asked, ready: bool) -> None:
+def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: RequestedLayers, ready: bool) -> None:
     """Add what is said of the setting: limit directions, critical sets, the portrait's name, the slow flow."""
     equator, cycle, critical = (asked.get(name) for name in ("equator", "equator_cycle", "critical"))
     eigen = asked.get("eigendirections")
-    name, flow = _portrait(asked, ready), asked.get("slow_flow")
+    name, flow = _portrait_text(asked, ready), asked.get("slow_flow")
     if equator is NOT_DRAWN:
         equator, cycle = no_directions(), None
     if equator is not LATER and cycle is not LATER and _fresh(now, "equator", equator):

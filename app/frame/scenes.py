@@ -17,7 +17,7 @@ from ..state.chosen_psi import build_psi
 from ..state.cleaning import InputError
 from ..state.launches import read_launches
 from ..state.opening import opening_values
-from .budget import LeftOut, NotYet
+from .budget import OmittedLayer, PendingLayer
 
 #: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:
 #: the numbers travel as parameters of the system.
@@ -135,7 +135,7 @@ def cut_after(before: Scene, scene: Scene, changed: Collection[str]) -> float:
         return scene.cut
     try:
         return cut_that_keeps_names(before["equator"], scene["equator"], scene.cut)
-    except (NotYet, LeftOut):  # not to be had in this frame
+    except (PendingLayer, OmittedLayer):  # not to be had in this frame
         return scene.cut
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from codim2_core.diagrams.sides import Sides
+from codim2_core.diagrams.sides import NeighbouringPortraits
 from codim2_core.diagrams.sides import sides as portraits_beside
 from codim2_core.examples import catalogue
 from codim2_core.layer_problem.vary import names
@@ -39,7 +39,7 @@ def sides(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, An
     """
     moved = f"z{SLOW_CONTROLS.index(control) + 1}" if control in SLOW_CONTROLS else control.removeprefix("own:")
     had = _controls(scene, values)
-    found: Sides | None = None
+    found: NeighbouringPortraits | None = None
     for name in [moved] if moved in had else had:
         beside = portraits_beside(scene.system, scene.psi, scene.z, name)
         found = found or beside

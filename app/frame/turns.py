@@ -29,7 +29,7 @@ KEPT_BYTES = 64_000_000
 
 
 @dataclass(frozen=True, slots=True)
-class Failed:
+class FailedResult:
     """In place of a result that cannot be had: the sentence that says why."""
 
     sentence: str
@@ -56,7 +56,7 @@ class KeptResults:
     def put(self, key: Hashable, result: Any) -> None:
         """Keep a result, and forget those not used for longest."""
         self.size -= self._kept.pop(key, (None, 0))[1]
-        size = _size(result)
+        size = _result_size(result)
         if size is None or size > self.most_bytes:
             return
         self._kept[key] = result, size
@@ -65,7 +65,7 @@ class KeptResults:
             self.size -= self._kept.popitem(last=False)[1][1]
 
 
-def _size(result: Any) -> int | None:
+def _result_size(result: Any) -> int | None:
     """Return about how many bytes a result holds; what cannot be sent by a process has no size that is known."""
     try:
         return len(pickle.dumps(result, pickle.HIGHEST_PROTOCOL))
@@ -74,7 +74,7 @@ def _size(result: Any) -> int | None:
 
 
 @dataclass(eq=False)
-class Wanted:
+class QueuedWork:
     """One thing to compute: its call, those who want it, and the future that they wait for."""
 
     key: Hashable
@@ -86,7 +86,7 @@ class Wanted:
     again: bool = True  # if its worker is lost
 
 
-class Turns:
+class WorkQueue:
     """Work by owner: the one who has been served least comes next, and has one work under way at a time.
 
     Parameters
@@ -102,10 +102,10 @@ class Turns:
         self.executor, self.at_once = executor, at_once
         self.results = KeptResults()
         self._lock = RLock()
-        self._works: dict[Hashable, Wanted] = {}
-        self._queues: OrderedDict[Hashable, deque[Wanted]] = OrderedDict()
+        self._works: dict[Hashable, QueuedWork] = {}
+        self._queues: OrderedDict[Hashable, deque[QueuedWork]] = OrderedDict()
         self._used: dict[Hashable, float] = {}
-        self._running: dict[Wanted, Hashable] = {}
+        self._running: dict[QueuedWork, Hashable] = {}
 
     def result(self, key: Hashable) -> Any:
         """Return a result that is kept, or None."""
@@ -117,7 +117,7 @@ class Turns:
         with self._lock:
             work = self._works.get(key)
             if work is None:
-                work = self._works[key] = Wanted(key, (function, *args), {owner})
+                work = self._works[key] = QueuedWork(key, (function, *args), {owner})
                 if owner not in self._queues:
                     self._queues[owner] = deque()
                     least = min((self._used[one] for one in self._queues if one in self._used), default=0.0)
@@ -185,7 +185,7 @@ class Turns:
                 return
             work.under_way.add_done_callback(lambda done, work=work: self._done(work, done))
 
-    def _done(self, work: Wanted, done: Future[Any]) -> None:
+    def _done(self, work: QueuedWork, done: Future[Any]) -> None:
         result, lost = _outcome(done)
         with self._lock:
             owner = self._running.pop(work, None)
@@ -215,27 +215,27 @@ def _outcome(done: Future[Any]) -> tuple[Any, bool]:
     if error is None:
         return done.result(), False
     if isinstance(error, TimeoutError):
-        return Failed(str(error) or say("stopped")), False
+        return FailedResult(str(error) or say("stopped")), False
     if isinstance(error, BrokenExecutor | CancelledError):
-        return Failed(say("lost")), True
+        return FailedResult(say("lost")), True
     # of the host's executor: a panel says so, the picture stands, the log has the rest
     logging.getLogger(__name__).error("work beside the frames failed", exc_info=error)
-    return Failed(FAULT), False
+    return FailedResult(FAULT), False
 
 
 def compute(function: Callable[..., Any], *args: Any) -> Any:
-    """Return the result, or `Failed` where there is none; runs where the executor runs."""
+    """Return the result, or `FailedResult` where there is none; runs where the executor runs."""
     # a scene goes by its inputs, also within a process: what others compute in it meanwhile is theirs
     own = [copy(each) if isinstance(each, Scene) else each for each in args]
     try:
         return function(*own)
     except MemoryError:
-        return Failed(say("memory"))
+        return FailedResult(say("memory"))
     except Exception as error:  # a panel must not take the picture with it
-        return Failed(sentence_of(error, "a panel"))
+        return FailedResult(sentence_of(error, "a panel"))
 
 
 @cache
-def in_a_thread() -> Turns:
+def in_a_thread() -> WorkQueue:
     """Return the turns of a notebook: one thread of this process, made when first needed (a fork has none)."""
-    return Turns(ThreadPoolExecutor(1, thread_name_prefix="codim2-panels"))
+    return WorkQueue(ThreadPoolExecutor(1, thread_name_prefix="codim2-panels"))

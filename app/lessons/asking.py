@@ -12,7 +12,7 @@ from ..frame.scenes import make_scene
 from ..phrases import say
 from .condition import FactCondition
 from .facts import FACTS, Fact, facts_of
-from .lesson import Question, portrait_of
+from .lesson import LessonQuestion, portrait_of
 from .marks import MARK_TOLERANCE, Point, gap
 from .words import fill_facts
 
@@ -20,7 +20,7 @@ MOST_DRAWN = 60  # tries to fulfil what a question requires
 DRAWN_DIGITS = 2  # of drawn numbers: what a slider shows
 
 
-def pose(question: Question, values: Mapping[str, Any], seed: int) -> dict[str, Any]:
+def pose(question: LessonQuestion, values: Mapping[str, Any], seed: int) -> dict[str, Any]:
     """Return the values of controls about which a question is asked: each option is the right one equally often.
 
     (As far as systems for it are found; an option may be there that never holds.)
@@ -58,13 +58,13 @@ def _holds(condition: FactCondition | None, scene: Scene, default: bool = False)
     return default if condition is None else condition(facts_of(scene, condition.names))
 
 
-def _answer(question: Question, scene: Scene) -> int | None:
+def _answer(question: LessonQuestion, scene: Scene) -> int | None:
     """Return the index of the option that holds, one more where a place is to be marked instead."""
     holding = [i for i, option in enumerate(question.options) if _holds(option.when, scene)]
     return holding[0] if holding else len(question.options) if question.mark else None
 
 
-def _varies(question: Question) -> bool:
+def _varies(question: LessonQuestion) -> bool:
     return any(isinstance(value, tuple) for value in question.draw.values())
 
 
@@ -72,7 +72,7 @@ def _draw_value(chance: random.Random, value: Any) -> Any:
     return round(chance.uniform(*value), DRAWN_DIGITS) if isinstance(value, tuple) else value
 
 
-def judge(question: Question, scene: Scene, answer: int | Point) -> dict[str, Any]:
+def judge(question: LessonQuestion, scene: Scene, answer: int | Point) -> dict[str, Any]:
     """Return what the present scene says of an answer.
 
     Parameters
@@ -100,18 +100,18 @@ def judge(question: Question, scene: Scene, answer: int | Point) -> dict[str, An
     return {"right": right, "truth": truth, "why": why, "explain": fill_facts(question.explain, facts)}
 
 
-def right_option(question: Question, facts: Mapping[str, Fact]) -> int | None:
+def right_option(question: LessonQuestion, facts: Mapping[str, Fact]) -> int | None:
     """Return the index of the option that holds; None where none does, or several do."""
     holding = [i for i, option in enumerate(question.options) if option.when(facts)]
     return holding[0] if len(holding) == 1 else None
 
 
-def goal_is_reached(question: Question, scene: Scene) -> bool:
+def goal_is_reached(question: LessonQuestion, scene: Scene) -> bool:
     """Say whether the present scene reaches the goal of `vary`."""
     return question.vary is not None and _holds(question.vary.goal, scene)
 
 
-def stands(question: Question, scene: Scene) -> str:
+def stands(question: LessonQuestion, scene: Scene) -> str:
     """Return where the present scene stands with what the goal of `vary` reads."""
     names = sorted(question.vary.goal.names) if question.vary else []
     facts = facts_of(scene, names)

@@ -38,7 +38,7 @@ class FactCondition:
 
     def __call__(self, facts: Mapping[str, Any]) -> bool:
         """Say whether the facts fulfil it; a comparison with a fact that is not there (None) fails."""
-        return bool(_value(self._tree, facts))
+        return bool(_evaluate_node(self._tree, facts))
 
 
 def condition(text: str, known: frozenset[str]) -> FactCondition:
@@ -63,12 +63,12 @@ def condition(text: str, known: frozenset[str]) -> FactCondition:
     except SyntaxError as error:
         raise ValueError(f"the condition {text!r} cannot be read: {error.msg}.") from error
     names: set[str] = set()
-    _check(tree, text, known, names)
+    _check_node(tree, text, known, names)
     return FactCondition(text, frozenset(names), tree)
 
 
-def _check(node: ast.expr, text: str, known: frozenset[str], names: set[str]) -> None:
-    """Refuse all that `_value` does not evaluate, and gather the names."""
+def _check_node(node: ast.expr, text: str, known: frozenset[str], names: set[str]) -> None:
+    """Refuse all that `_evaluate_node` does not evaluate, and gather the names."""
     children: list[ast.expr]
     match node:
         case ast.Name(id=name):
@@ -93,41 +93,41 @@ def _check(node: ast.expr, text: str, known: frozenset[str], names: set[str]) ->
         case _:
             raise ValueError(f"the condition {text!r} may hold comparisons, and, or, not, + - * and abs() only.")
     for child in children:
-        _check(child, text, known, names)
+        _check_node(child, text, known, names)
 
 
-def _value(node: ast.expr, facts: Mapping[str, Any]) -> Any:
+def _evaluate_node(node: ast.expr, facts: Mapping[str, Any]) -> Any:
     match node:
         case ast.Name(id=name):
             return facts[name]
         case ast.Constant(value=value):
             return value
         case ast.BoolOp(op=ast.And(), values=values):
-            return all(_value(one, facts) for one in values)
+            return all(_evaluate_node(one, facts) for one in values)
         case ast.BoolOp(values=values):
-            return any(_value(one, facts) for one in values)
+            return any(_evaluate_node(one, facts) for one in values)
         case ast.UnaryOp(op=ast.Not(), operand=operand):
-            return not _value(operand, facts)
+            return not _evaluate_node(operand, facts)
         case ast.UnaryOp(operand=operand):
-            value = _value(operand, facts)
+            value = _evaluate_node(operand, facts)
             return None if value is None else -value
         case ast.BinOp(left=left, op=op, right=right):
-            a, b = _value(left, facts), _value(right, facts)
+            a, b = _evaluate_node(left, facts), _evaluate_node(right, facts)
             return None if a is None or b is None else _COMPUTE[type(op)](a, b)
         case ast.Tuple(elts=elements):
-            return tuple(_value(one, facts) for one in elements)
+            return tuple(_evaluate_node(one, facts) for one in elements)
         case ast.Call(args=[argument]):
-            value = _value(argument, facts)
+            value = _evaluate_node(argument, facts)
             return None if value is None else abs(value)
         case ast.Compare(left=left, ops=ops, comparators=others):
-            a = _value(left, facts)
+            a = _evaluate_node(left, facts)
             for op, other in zip(ops, others, strict=True):
-                b = _value(other, facts)
+                b = _evaluate_node(other, facts)
                 if not _holds(op, a, b):
                     return False
                 a = b
             return True
-    raise AssertionError(node)  # `_check` admits nothing else
+    raise AssertionError(node)  # `_check_node` admits nothing else
 
 
 def _holds(op: ast.cmpop, a: Any, b: Any) -> bool:

@@ -20,7 +20,7 @@ def _count(values: Any) -> int:
     return int(np.count_nonzero(values))
 
 
-def _kinds(scene: Scene, *beginnings: str) -> int:
+def _count_kinds(scene: Scene, *beginnings: str) -> int:
     return sum(C.kind.startswith(beginnings) for C in scene["critical"])
 
 
@@ -38,7 +38,7 @@ def _of_only(read: Callable[[Any], Fact]) -> Callable[[Scene], Fact]:
     return fact
 
 
-def _slow(scene: Scene) -> float | None:
+def _slow_fact(scene: Scene) -> float | None:
     C = _only(scene)
     return float(C.slow_flow[0]) if C is not None and len(C.slow_flow) else None
 
@@ -58,7 +58,7 @@ def _force_ratio(scene: Scene) -> float | None:
     return float(np.hypot(*np.linalg.solve(at.A, at.f)))
 
 
-def _equator(scene: Scene) -> str:
+def _equator_fact(scene: Scene) -> str:
     if scene["equator"].all_directions:
         return "every direction"
     cycle = scene["equator_cycle"]
@@ -84,7 +84,7 @@ FACTS: dict[str, tuple[str, str, Callable[[Scene], Fact]]] = {
     "equator": (
         "equator",
         "limit directions, every direction, attracting, repelling, neutral (a closed orbit)",
-        _equator,
+        _equator_fact,
     ),
     "arriving": (
         "limit directions with λ_ρ < 0",
@@ -107,14 +107,14 @@ FACTS: dict[str, tuple[str, str, Callable[[Scene], Fact]]] = {
         lambda s: _count((s["equator"].lambda_rho < 0.0) & (s["equator"].lambda_theta < 0.0)),
     ),
     "critical_sets": ("critical sets", "number of critical sets", lambda s: len(s["critical"])),
-    "stable": ("stable critical sets", "number of stable critical sets", lambda s: _kinds(s, "stable")),
-    "unstable": ("unstable nodes and foci", "number of unstable nodes and foci", lambda s: _kinds(s, "unstable")),
-    "saddles": ("saddles", "number of critical sets that are saddles", lambda s: _kinds(s, "saddle")),
+    "stable": ("stable critical sets", "number of stable critical sets", lambda s: _count_kinds(s, "stable")),
+    "unstable": ("unstable nodes and foci", "number of unstable nodes and foci", lambda s: _count_kinds(s, "unstable")),
+    "saddles": ("saddles", "number of critical sets that are saddles", lambda s: _count_kinds(s, "saddle")),
     "kind": ("kind of C", "the kind of the only critical set", _of_only(lambda C: C.kind)),
     "trace": ("tr J", "tr J of the only critical set", _of_only(lambda C: float(C.trace))),
     "determinant": ("det J", "det J of the only critical set", _of_only(lambda C: float(C.determinant))),
     "radius": ("|e| on C", "|e| of the only critical set", _of_only(lambda C: float(np.hypot(*C.e)))),
-    "slow_flow": ("z′ on C", "z' on the only critical set", _slow),
+    "slow_flow": ("z′ on C", "z' on the only critical set", _slow_fact),
     "fastest": ("fastest z′ of stable sliding", "the largest z' on a stable critical set", _fastest),
     "force_ratio": ("|A⁻¹f|", "|A^-1 f| of the e-linear system: it slides below 1", _force_ratio),
     "cycles": ("limit cycles", "number of limit cycles found", lambda s: len(s["cycles"])),

@@ -47,7 +47,7 @@ class Vary:
 
 
 @dataclass(frozen=True)
-class Question:
+class LessonQuestion:
     """Predict, reveal, explain, vary.
 
     Attributes
@@ -122,7 +122,7 @@ class Lesson:
     title: str
     summary: str
     values: Mapping[str, Any]
-    parts: tuple[Prose | Question, ...]
+    parts: tuple[Prose | LessonQuestion, ...]
 
     @property
     def live(self) -> frozenset[str]:
@@ -130,6 +130,6 @@ class Lesson:
         return frozenset(name for part in self.parts if isinstance(part, Prose) for name in SHOWN.findall(part.html))
 
     @property
-    def questions(self) -> tuple[Question, ...]:
+    def questions(self) -> tuple[LessonQuestion, ...]:
         """The questions, in order."""
-        return tuple(part for part in self.parts if isinstance(part, Question))
+        return tuple(part for part in self.parts if isinstance(part, LessonQuestion))

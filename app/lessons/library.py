@@ -22,7 +22,7 @@ def lessons() -> Mapping[str, Lesson]:
     return MappingProxyType({**built_in(), **_own})
 
 
-def offer(found: Mapping[str, Lesson]) -> None:
+def add_lessons(found: Mapping[str, Lesson]) -> None:
     """Offer lessons besides the course, as `codim2 serve --lessons DIR` does; one of the same key replaces another."""
     _own.update(found)
     lessons.cache_clear()

@@ -19,13 +19,13 @@ Point = tuple[float, float]
 MARK_TOLERANCE = 0.2
 
 
-def _critical(*kinds: str) -> Callable[[Scene], list[Point]]:
+def _critical_marks(*kinds: str) -> Callable[[Scene], list[Point]]:
     return lambda scene: [
         (float(C.p[0]), float(C.p[1])) for C in scene["critical"] if C.kind.startswith(kinds or ("",))
     ]
 
 
-def _directions(chosen: Callable[[Any], Any]) -> Callable[[Scene], list[Point]]:
+def _direction_marks(chosen: Callable[[Any], Any]) -> Callable[[Scene], list[Point]]:
     def places(scene: Scene) -> list[Point]:
         theta = scene["equator"].theta[chosen(scene["equator"])]
         return [(math.cos(angle), math.sin(angle)) for angle in theta]
@@ -35,15 +35,15 @@ def _directions(chosen: Callable[[Any], Any]) -> Callable[[Scene], list[Point]]:
 
 #: What is marked: what it says (for authors), and where it is; by the name of the fact that counts it.
 MARKS: dict[str, tuple[str, Callable[[Scene], list[Point]]]] = {
-    "critical_sets": ("a critical set", _critical()),
-    "stable": ("a stable critical set", _critical("stable")),
-    "saddles": ("a saddle", _critical("saddle")),
-    "limit_directions": ("a limit direction", _directions(lambda equator: np.full(len(equator.theta), True))),
-    "arriving": ("a limit direction with λ_ρ < 0", _directions(lambda equator: equator.lambda_rho < 0.0)),
-    "leaving": ("a limit direction with λ_ρ > 0", _directions(lambda equator: equator.lambda_rho > 0.0)),
+    "critical_sets": ("a critical set", _critical_marks()),
+    "stable": ("a stable critical set", _critical_marks("stable")),
+    "saddles": ("a saddle", _critical_marks("saddle")),
+    "limit_directions": ("a limit direction", _direction_marks(lambda equator: np.full(len(equator.theta), True))),
+    "arriving": ("a limit direction with λ_ρ < 0", _direction_marks(lambda equator: equator.lambda_rho < 0.0)),
+    "leaving": ("a limit direction with λ_ρ > 0", _direction_marks(lambda equator: equator.lambda_rho > 0.0)),
     "along_an_open_set": (
         "a limit direction along which an open set of trajectories arrives",
-        _directions(lambda equator: (equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)),
+        _direction_marks(lambda equator: (equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)),
     ),
 }
 #: Those that lie on the equator: a mark beside it counts by its angle.

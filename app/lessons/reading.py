@@ -15,7 +15,7 @@ from ..state.cleaning import InputError, clean
 from ..state.controls import CONTROL_NAMES
 from .condition import FactCondition, condition
 from .facts import COMPILED, FACT_NAMES
-from .lesson import Lesson, Option, Prose, Question, Vary, portrait_of
+from .lesson import Lesson, LessonQuestion, Option, Prose, Vary, portrait_of
 from .markdown import LinkError, button, draggable, inline, live, parser, render_html
 from .marks import MARKS
 from .words import fields
@@ -56,7 +56,7 @@ def read_lesson(path: Path) -> Lesson:
         raise LessonError(path, 1, "a lesson begins with a line ---, then title: and summary:, then a line ---.")
     head = _mapping(path, 1, tokens[0].content, HEAD_FIELDS, needed=("title", "summary"))
     values = _start(path, head)
-    parts: list[Prose | Question] = []
+    parts: list[Prose | LessonQuestion] = []
     gathered: list[Token] = []
     where = 1
 
@@ -80,12 +80,12 @@ def _start(path: Path, head: Mapping[str, Any]) -> dict[str, Any]:
     values: dict[str, Any] = {}
     key = head.get("portrait")
     if key is not None:
-        values.update(_portrait(path, 1, str(key)))
+        values.update(_read_portrait(path, 1, str(key)))
     values.update(_values(path, 1, head.get("set") or {}))
     return values
 
 
-def _portrait(path: Path, line: int, key: str) -> dict[str, Any]:
+def _read_portrait(path: Path, line: int, key: str) -> dict[str, Any]:
     found = portrait_of(key)
     if not found:
         raise LessonError(path, line, f"there is no portrait {key!r}; `codim2 presets` lists them.")
@@ -143,7 +143,7 @@ def _keys(path: Path, line: int, found: Any, known: frozenset[str], needed: tupl
     return found
 
 
-def _question(path: Path, line: int, text: str) -> Question:
+def _question(path: Path, line: int, text: str) -> LessonQuestion:
     found = _mapping(path, line, text, OF_QUESTION, ("ask", "explain"))
     mark, options = found.get("mark") or "", found.get("options") or []
     if mark and mark not in MARKS:
@@ -157,14 +157,14 @@ def _question(path: Path, line: int, text: str) -> Question:
         raise LessonError(path, line, f"hide: no layer {unknown[0]!r}; they are {', '.join(LAYERS)}.")
     explain = _explanation_html(path, line, "explain", found["explain"])
     require = found.get("require")
-    return Question(
-        html=_line(path, line, found["ask"]),
+    return LessonQuestion(
+        html=_read_line(path, line, found["ask"]),
         options=tuple(made),
         explain=explain,
         draw=_draw(path, line, found.get("draw") or {}),
         require=None if require is None else _condition(path, line, require),
         hide=hide,
-        hint=_line(path, line, found.get("hint") or ""),
+        hint=_read_line(path, line, found.get("hint") or ""),
         vary=_vary(path, line, found["vary"]) if found.get("vary") else None,
         mark=mark,
     )
@@ -173,12 +173,12 @@ def _question(path: Path, line: int, text: str) -> Question:
 def _option(path: Path, line: int, given: Any) -> Option:
     words = _keys(path, line, given, OF_OPTION, ("say", "when"))
     wrong = _explanation_html(path, line, "wrong", words.get("wrong") or "")
-    return Option(_line(path, line, words["say"]), _condition(path, line, words["when"]), wrong)
+    return Option(_read_line(path, line, words["say"]), _condition(path, line, words["when"]), wrong)
 
 
 def _explanation_html(path: Path, line: int, key: str, text: Any) -> str:
     """Return the HTML of words with facts in them."""
-    html = _line(path, line, text)
+    html = _read_line(path, line, text)
     if unknown := [name for name in fields(html) if name not in FACT_NAMES]:
         raise LessonError(path, line, f"{key}: no fact {unknown[0]!r}; facts are {', '.join(sorted(FACT_NAMES))}.")
     return html
@@ -186,8 +186,8 @@ def _explanation_html(path: Path, line: int, key: str, text: Any) -> str:
 
 def _vary(path: Path, line: int, found: Any) -> Vary:
     words = _keys(path, line, found, OF_VARY, ("say", "goal"))
-    hint = _line(path, line, words.get("hint") or "")
-    return Vary(_line(path, line, words["say"]), _condition(path, line, words["goal"]), hint)
+    hint = _read_line(path, line, words.get("hint") or "")
+    return Vary(_read_line(path, line, words["say"]), _condition(path, line, words["goal"]), hint)
 
 
 def _condition(path: Path, line: int, text: Any) -> FactCondition:
@@ -204,7 +204,7 @@ def _html(path: Path, line: int, tokens: list[Token]) -> str:
         raise LessonError(path, line, str(error)) from error
 
 
-def _line(path: Path, line: int, text: Any) -> str:
+def _read_line(path: Path, line: int, text: Any) -> str:
     try:
         return inline(str(text).strip(), _resolver(path, line))
     except LinkError as error:
@@ -216,7 +216,7 @@ def _resolver(path: Path, line: int):
         target = unquote(target)
         match scheme:
             case "portrait":
-                return button(_portrait(path, line, target), words)
+                return button(_read_portrait(path, line, target), words)
             case "set":
                 pairs = dict(pair.split("=", 1) for pair in target.split(",") if "=" in pair)
                 if "layers" in pairs:  # commas stand between controls: layers are joined by +

@@ -19,7 +19,7 @@ from codim2_core.sliding.over import slow_plane
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
 from codim2_core.words import written_label
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 from ..phrases import say
 from ..slow_layers.short import short
 from ..state.choices import SLOW_CONTROLS
@@ -31,7 +31,7 @@ ARROWS_PER_AXIS = 15  # arrows along each axis of the plane
 NO_SLOW_VARIABLE = say("no slow variable")
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the slow portrait along the chosen slow variable, once nothing moves."""
     system, values = draft.system, draft.values
     if system is None or not system.m:
@@ -57,7 +57,7 @@ def add(draft: Draft) -> None:
             draft.header["slow_plane"] = plane
 
 
-def _add_drift(draft: Draft) -> None:
+def _add_drift(draft: FrameContext) -> None:
     """Add the slow flow that play follows: that of the attracting set which the frame before was on."""
     scene = draft.scene
     if not draft.ready:
@@ -83,10 +83,10 @@ def line(
 ) -> dict[str, Any]:
     """Return what the browser draws along one slow variable."""
     found = slow_portrait(system, psi, spans[axis], others, axis)
-    return {"control": SLOW_CONTROLS[axis], "m": system.m, "span": list(spans[axis]), **columns(found, axis)}
+    return {"control": SLOW_CONTROLS[axis], "m": system.m, "span": list(spans[axis]), **slow_columns(found, axis)}
 
 
-def columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
+def slow_columns(found: SlowPortrait, axis: int) -> dict[str, Any]:
     """Return a slow portrait as numbers and words."""
     width = found.intervals[-1].high - found.intervals[0].low
     return {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from codim2_core.counting.census import census
-from codim2_core.counting.table import Row
+from codim2_core.counting.table import CensusRow
 from codim2_core.layer_problem.problem import LayerProblem
 from codim2_core.portrait.classify import portrait_name
 from codim2_core.psi import constructors
@@ -13,7 +13,7 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
 from ..draw.thumbnails import thumbnail
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 from ..state.choices import CENSUSES, MOST_CENSUS
 from ..state.chosen import NORMAL, OWN_SYSTEM
 from .panel import Panel
@@ -23,7 +23,7 @@ COEFFICIENT_RANGE = 2.5
 PSI = constructors.constant()  # a portrait's name is the same under every other
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the census that is asked for, then the portraits of its examples, once nothing moves."""
     key = draft.values["census"], draft.values["census_size"]
     found = draft.slow("census", key, _census_rows, *key)
@@ -42,7 +42,7 @@ def add(draft: Draft) -> None:
         draft.header["census_here"] = here
 
 
-def _census_rows(draw: str, size: int) -> tuple[list[list[Any]], tuple[Row, ...]]:
+def _census_rows(draw: str, size: int) -> tuple[list[list[Any]], tuple[CensusRow, ...]]:
     """Return each portrait's name, count, share, ends of its interval and controls of its example; and the rows."""
     table = census(draw, count=CENSUSES[draw][1] * 10**size).table
     shown = [[row.name, row.count, *map(_six, (row.share, row.low, row.high)), controls(row)] for row in table]
@@ -53,12 +53,12 @@ def _six(value: float) -> float:
     return float(f"{value:.6g}")
 
 
-def _portraits(rows: tuple[Row, ...]) -> dict[str, str]:
+def _portraits(rows: tuple[CensusRow, ...]) -> dict[str, str]:
     """Return a small portrait of each example, by name, as SVG."""
     return {row.name: thumbnail(_system_of_row(row, _control_numbers(row)), PSI, ()) for row in rows}
 
 
-def _control_numbers(row: Row) -> tuple[float, ...]:
+def _control_numbers(row: CensusRow) -> tuple[float, ...]:
     """Return the numbers of an example as its controls have them: a, b, d, f1, f2 or all twelve.
 
     They have three digits, or as many more as its name needs.
@@ -72,14 +72,14 @@ def _control_numbers(row: Row) -> tuple[float, ...]:
     return tuple(value / scale for value in numbers)
 
 
-def _system_of_row(row: Row, numbers: tuple[float, ...]) -> ELinear | System:
+def _system_of_row(row: CensusRow, numbers: tuple[float, ...]) -> ELinear | System:
     if isinstance(row.example, tuple):
         a, b, d, f1, f2 = numbers
         return ELinear(a, b, d, (f1, f2))
     return row.example.evolve(parameters=dict(zip(dict(row.example.parameters), numbers, strict=True)))
 
 
-def controls(row: Row) -> dict[str, Any]:
+def controls(row: CensusRow) -> dict[str, Any]:
     """Return the controls with which the example of a portrait opens."""
     numbers = _control_numbers(row)
     if isinstance(row.example, tuple):

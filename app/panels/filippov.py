@@ -16,7 +16,7 @@ from codim2_core.psi.function import Psi
 from codim2_core.sliding.affine import AffinePlane, affine_plane
 from codim2_core.sliding.filippov import filippov_sliding
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 from ..slow_layers.short import short
 from ..state.chosen import System_
 
@@ -26,7 +26,7 @@ MAX_HALF_SIDE = (
 )
 
 
-def add(draft: Draft, system: System_) -> None:
+def add_filippov(draft: FrameContext, system: System_) -> None:
     """Add the limit vectors and the candidates at the present z, once nothing moves."""
     scene = draft.scene
     z, psi = scene.z, scene.psi
@@ -45,7 +45,9 @@ def vectors(system: System_, psi: Psi, z: tuple[float, ...]) -> dict[str, Any]:
         return [short((*u, w[0]), 4) for u, w in zip(at.U(e), at.W(e), strict=True)]
 
     found, plane = filippov_sliding(system, z), affine_plane(system, z)
-    corners = [] if plane is None else [_square(plane, vertex) for vertex in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+    corners = (
+        [] if plane is None else [_square_corner(plane, vertex) for vertex in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+    )
     return {
         "plane": corners,
         "cross": None if plane is None or plane.point is None else short(plane.point[:1], 4)[0],
@@ -57,7 +59,7 @@ def vectors(system: System_, psi: Psi, z: tuple[float, ...]) -> dict[str, Any]:
     }
 
 
-def _square(plane: AffinePlane, vertex: tuple[int, int]) -> list[float]:
+def _square_corner(plane: AffinePlane, vertex: tuple[int, int]) -> list[float]:
     """Return the combination at a corner of a square in (lambda1, lambda2) that holds the unit disc and the cross."""
     reach = 1.15 if plane.place is None else min(MAX_HALF_SIDE, max(1.15, 1.15 * float(np.abs(plane.place).max())))
     return short((plane.matrix @ (reach * np.array(vertex)) + plane.offset)[:3], 4)

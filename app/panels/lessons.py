@@ -6,10 +6,10 @@ from typing import Any, NamedTuple
 
 from codim2_core.scene import Scene
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 from ..lessons.asking import goal_is_reached, judge, pose, stands
 from ..lessons.facts import COMPILED, facts_of
-from ..lessons.lesson import Lesson, Prose, Question, portrait_of
+from ..lessons.lesson import Lesson, LessonQuestion, Prose, portrait_of
 from ..lessons.library import lessons
 from ..lessons.marks import Point
 from ..lessons.words import fill_facts
@@ -28,7 +28,7 @@ class Quiz(NamedTuple):
     answer: int | Point | None
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the list of lessons or the open one, and what its facts and questions need, when the browser lacks it."""
     course = lessons()
     lesson = course.get(draft.values["lesson"])
@@ -79,7 +79,7 @@ def _entry(lesson: Lesson) -> dict[str, Any]:
     }
 
 
-def _part(part: Prose | Question) -> dict[str, Any]:
+def _part(part: Prose | LessonQuestion) -> dict[str, Any]:
     if isinstance(part, Prose):
         return {"html": part.html}
     return {
@@ -92,7 +92,7 @@ def _part(part: Prose | Question) -> dict[str, Any]:
     }
 
 
-def _add_facts(draft: Draft, lesson: Lesson) -> None:
+def _add_facts(draft: FrameContext, lesson: Lesson) -> None:
     facts = facts_of(draft.scene, lesson.live)
     words = {name: fill_facts(f"{{{name}}}", facts) for name in facts}
     if draft.now.get("facts") != words:
@@ -100,7 +100,7 @@ def _add_facts(draft: Draft, lesson: Lesson) -> None:
         draft.header["facts"] = words
 
 
-def _add_quiz(draft: Draft, lesson: Lesson, quiz: Quiz) -> None:
+def _add_quiz(draft: FrameContext, lesson: Lesson, quiz: Quiz) -> None:
     question = lesson.questions[quiz.question]
     key = (lesson.key, *quiz)
     answer = quiz.answer
@@ -126,14 +126,14 @@ def _add_quiz(draft: Draft, lesson: Lesson, quiz: Quiz) -> None:
         }
 
 
-def _question_values(lesson: Lesson, question: Question, seed: int) -> dict[str, Any]:
+def _question_values(lesson: Lesson, question: LessonQuestion, seed: int) -> dict[str, Any]:
     """Return the values about which a question is asked: those of the lesson, and what is drawn over them."""
     start = ExplorerState.of(lesson.values).values()
     drawn = pose(question, start, seed)
     return {**lesson.values, **portrait_of(drawn.get("preset")), **drawn}
 
 
-def _judge_answer(question: Question, scene: Scene, answer: int | Point) -> dict[str, Any]:
+def _judge_answer(question: LessonQuestion, scene: Scene, answer: int | Point) -> dict[str, Any]:
     """Judge an answer in a scene of its own, without what others compute meanwhile: jobs run beside the frames."""
     return judge(question, Scene(scene.system, scene.psi, scene.z), answer)
 

@@ -12,9 +12,9 @@ from codim2_core.motion.regularised import simulate
 from codim2_core.orbits.angle_along import LEAST_RADIUS, angle_along
 from codim2_core.orbits.in_time import in_time
 from codim2_core.psi.function import Psi
-from codim2_core.systems.kinds import AtZ
+from codim2_core.systems.kinds import FrozenSystem
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 from ..phrases import say
 from ..slow_layers import typed_start
 from ..slow_layers.short import short
@@ -28,7 +28,7 @@ CONTINUATION_FACTOR = (
 )
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the chosen orbit over time, and its motion for eps > 0 if it is wanted, once nothing moves."""
     i = selected_place(read_launches(draft.values["orbits"]), draft.values["orbit"])
     if i is None:
@@ -66,7 +66,7 @@ def add(draft: Draft) -> None:
             draft.header["orbit_motion"] = {"index": i, **motion}
 
 
-def over_time(at: AtZ, psi: Psi, seed: tuple[float, float], span: tuple[float, float]) -> dict[str, Any]:
+def over_time(at: FrozenSystem, psi: Psi, seed: tuple[float, float], span: tuple[float, float]) -> dict[str, Any]:
     """Return an orbit over time as the browser draws it."""
     orbit = in_time(at, psi, seed, span)
     return {

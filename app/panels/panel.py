@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 
 PANEL_SCRIPTS = Path(__file__).parents[1] / "static" / "panels"
 
@@ -34,7 +34,7 @@ class Panel:
 
     key: str
     title: str
-    add: Callable[[Draft], None]
+    add: Callable[[FrameContext], None]
     tip: str = ""
     settings: Mapping[str, Any] = field(default_factory=dict)
     folder: Path = PANEL_SCRIPTS

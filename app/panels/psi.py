@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 from ..slow_layers.short import short
 from .panel import Panel
 
@@ -13,7 +13,7 @@ S = np.linspace(0.0, 4.0, 81)
 ZETA = np.concatenate([np.linspace(0.0, 3.0, 61), np.geomspace(3.2, 400.0, 24)])
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add Psi(s) and |e_Psi|(zeta), which change with Psi only."""
     psi = draft.scene.psi
     if draft.now.get("psi_curves") != psi:

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from importlib import import_module
 
-from ..frame.budget import LeftOut, NotYet
-from ..frame.draft import Draft
+from ..frame.budget import OmittedLayer, PendingLayer
+from ..frame.draft import FrameContext
 from ..frame.faults import FAILURES, sentence_of
 from ..slow_layers import basins, outcomes
-from ..state.controls import offer
+from ..state.controls import set_options
 from .panel import Panel
 
 #: Modules beside this one that end with a `PANEL`, in the order of the tabs: a new panel is one more name here.
@@ -39,10 +39,10 @@ def register(panel: Panel) -> None:
     if not panel.script.is_file():
         raise ValueError(f"The panel {panel.key!r} has no script: write {panel.script.name} in its folder.")
     PANELS_BY_NAME[panel.key] = panel
-    offer("panel", PANELS_BY_NAME)
+    set_options("panel", PANELS_BY_NAME)
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add what the open panel and the visible layers show to a frame.
 
     What one has noted as sent before it ends early may not have been: the browser is sent it again.
@@ -56,12 +56,12 @@ def add(draft: Draft) -> None:
         try:
             each(draft)
             continue
-        except NotYet as name:
+        except PendingLayer as name:
             draft.missing.append(str(name))
             draft.late(draft.values["panel"])
-        except LeftOut as why:
+        except OmittedLayer as why:
             draft.left_out.append(why)
-            draft.unable(draft.values["panel"], LeftOut.sentence([why]))
+            draft.unable(draft.values["panel"], OmittedLayer.sentence([why]))
         except FAILURES:
             raise
         except Exception as error:  # the picture is drawn without it

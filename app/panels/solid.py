@@ -18,7 +18,7 @@ from codim2_core.scene import Scene
 from codim2_core.sliding.along import slow_portrait
 from codim2_core.sliding.over import directions_along
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 from ..state.choices import SLOW_CONTROLS, SOLIDS
 from ..state.chosen import System_
 from . import filippov
@@ -31,7 +31,7 @@ Z_VALUES = 121  # values of z at which limit directions are followed
 MIN_SPACING = 6e-3  # of the disc: points of a line nearer than this are left out
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the stack along the slow variable, once nothing moves."""
     scene = draft.scene
     system = draft.system
@@ -40,7 +40,7 @@ def add(draft: Draft) -> None:
             draft.header.setdefault("unable", {}).update(stack=NO_SLOW_VARIABLE, filippov=NO_SLOW_VARIABLE)
         return
     if draft.values["solid"] == "filippov":
-        filippov.add(draft, system)
+        filippov.add_filippov(draft, system)
     axis = min(SLOW_CONTROLS.index(draft.values["drift"]), system.m - 1, len(SLOW_CONTROLS) - 1)
     span = slow_spans(system, draft.values)[axis]
     others = tuple(0.0 if i == axis else v for i, v in enumerate(scene.z))
@@ -69,7 +69,7 @@ def stack_of_discs(
     discs = []
     for value in np.linspace(low, high, SLICES):
         scene = Scene(system, psi, z_at(value), count=SEEDS)
-        discs.append({"z": float(value), "lines": [_flat(line) for line in _lines(scene["inside"])]})
+        discs.append({"z": float(value), "lines": [_flat(line) for line in _orbit_lines(scene["inside"])]})
     found = directions_along(system, span, others, axis, Z_VALUES)
     columns = (found.z, found.theta, found.lambda_rho, found.lambda_theta)
     directions = [
@@ -79,7 +79,7 @@ def stack_of_discs(
     portrait = slow_portrait(system, psi, span, others, axis)
     sets = [
         {
-            "points": [[*_short(p), share(z)] for z, p in zip(branch.z, branch.p, strict=True)],
+            "points": [[*_short_list(p), share(z)] for z, p in zip(branch.z, branch.p, strict=True)],
             "stable": branch.stable,
             "flow": float(np.sign(branch.flow[len(branch.z) // 2, axis])),
         }
@@ -88,7 +88,7 @@ def stack_of_discs(
     return {"span": [low, high], "discs": discs, "directions": directions, "sets": sets}
 
 
-def _lines(orbits: Any) -> list[NDArray[np.float64]]:
+def _orbit_lines(orbits: Any) -> list[NDArray[np.float64]]:
     offsets, points = orbits.offsets, orbits.buffer
     return [_thin(points[a:b]) for a, b in pairwise(offsets) if b - a > 1]
 
@@ -103,10 +103,10 @@ def _thin(line: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _flat(line: NDArray[np.float64]) -> list[list[float]]:
-    return [_short(point) for point in line]
+    return [_short_list(point) for point in line]
 
 
-def _short(values: Any) -> list[float]:
+def _short_list(values: Any) -> list[float]:
     return [round(float(v), 3) for v in values]
 
 

@@ -7,21 +7,21 @@ from collections.abc import Sequence
 from codim2_core.paper import cite
 from codim2_core.theorems.certificates import Certificate
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 from .panel import Panel
 
-Row = tuple[str, str, str, str, list[tuple[str, float]]]
+CertificateRow = tuple[str, str, str, str, list[tuple[str, float]]]
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the certificates in the order of the paper, once the integrator is ready: prop:LC asks for cycles."""
     scene = draft.scene
     if not draft.ready or not draft.fresh("certificates", scene["certificates"]):
         return
-    draft.header["theorems"] = rows(scene["certificates"])
+    draft.header["theorems"] = certificate_rows(scene["certificates"])
 
 
-def rows(certificates: Sequence[Certificate]) -> list[Row]:
+def certificate_rows(certificates: Sequence[Certificate]) -> list[CertificateRow]:
     """Return theorem, statement, verdict, sentence and numbers (name, value) of each."""
     return [
         (cite(c.theorem), c.statement, c.verdict.value, c.sentence, [(name, float(value)) for name, value in c.numbers])

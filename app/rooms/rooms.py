@@ -31,7 +31,7 @@ MOST_TRIES = 20  # of one page: codes are not to be guessed
 SHARING_SECONDS = 0.5  # seconds
 
 #: ``[number, name of the portrait, settings or None, [lesson, question, right] or None]``
-Row = list[Any]
+GuestRow = list[Any]
 Tell = Callable[[dict[str, Any]], None]
 
 
@@ -64,7 +64,7 @@ class Guest:
 
     number: int
     code: str
-    look: Callable[[], Row]
+    look: Callable[[], GuestRow]
     tell: Tell
     missed: float = 0.0
     follows: bool = False
@@ -144,7 +144,7 @@ class Rooms:
 
     # Who is in it ----------------------------------------------------------------------------------------------
 
-    def join(self, code: str, look: Callable[[], Row], tell: Tell, now: float | None = None) -> Guest:
+    def join(self, code: str, look: Callable[[], GuestRow], tell: Tell, now: float | None = None) -> Guest:
         """Enter a room.
 
         Parameters
@@ -237,11 +237,11 @@ class Rooms:
             self._ticks()
 
     def _write(self, now: float) -> None:
-        rows: dict[str, list[Row]] = {}
+        rows: dict[str, list[GuestRow]] = {}
         for guest in self.guests.values():
-            rows.setdefault(guest.code, []).append(_row(guest))
+            rows.setdefault(guest.code, []).append(_guest_row(guest))
         hosts = {host.code: [host.opened, host.there(now), host.closed, host.mark] for host in self.hosts.values()}
-        views = {host.code: _short(host.view()) for host in self.hosts.values() if host.tell is not None}
+        views = {host.code: _short_settings(host.view()) for host in self.hosts.values() if host.tell is not None}
         if not self.board.write({"hosts": hosts, "rows": rows, "views": views}, now):
             bare = {code: [[row[0], row[1], None, row[3]] for row in all_] for code, all_ in rows.items()}
             self.board.write({"hosts": hosts, "rows": bare, "views": {}}, now)
@@ -262,7 +262,7 @@ class Rooms:
         told = [told["hosts"][code] for _, _, told in self.board.read(now) if code in told["hosts"]]
         return [(opened, mark) for opened, _, _, mark in told]
 
-    def _rows(self, code: str, now: float) -> list[Row]:
+    def _rows(self, code: str, now: float) -> list[GuestRow]:
         return [row for _, _, told in self.board.read(now) for row in told["rows"].get(code, ())]
 
 
@@ -281,12 +281,17 @@ def mark_of(key: str) -> str:
     return hashlib.sha256(b"mark " + key.encode()).hexdigest()[:24]
 
 
-def _row(guest: Guest) -> Row:
+def _guest_row(guest: Guest) -> GuestRow:
     name, settings, lesson = guest.look()
-    return [guest.number, name, _short(settings), lesson]  # without settings it is counted, but cannot be opened
+    return [
+        guest.number,
+        name,
+        _short_settings(settings),
+        lesson,
+    ]  # without settings it is counted, but cannot be opened
 
 
-def _short(settings: Any) -> Any:
+def _short_settings(settings: Any) -> Any:
     """Return settings, or None where they are too long to be shared."""
     return settings if len(json.dumps(settings)) <= LONGEST_ROW else None
 

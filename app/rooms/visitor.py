@@ -15,13 +15,13 @@ from ..phrases import say
 from ..state.choices import SETTING
 from ..state.chosen import NORMAL
 from ..state.controls import CONTROL_NAMES, first_values
-from .rooms import MOST_TRIES, Guest, RoomError, Row, code_of, process_rooms, settings_of
+from .rooms import MOST_TRIES, Guest, GuestRow, RoomError, code_of, process_rooms, settings_of
 
 MAX_KEY_CHARACTERS = 64  # characters of a key or a code
-_first = cache(first_values)
+_default_values = cache(first_values)
 
 
-class Shown(Protocol):
+class SharedView(Protocol):
     """The view of a browser, as far as a room shows it."""
 
     values: dict[str, Any]
@@ -43,11 +43,11 @@ class Visitor:
 
     Parameters
     ----------
-    frames : Shown
+    frames : SharedView
         What it shows.
     """
 
-    def __init__(self, frames: Shown) -> None:
+    def __init__(self, frames: SharedView) -> None:
         self.frames = frames
         self._tries = 0
         self._opened: tuple[str, Callable[[dict[str, Any]], None]] | None = None
@@ -109,7 +109,7 @@ class Visitor:
         self._guest = guest
         return guest.code
 
-    def _row(self) -> Row:
+    def _row(self) -> GuestRow:
         """Return what the room shows of this browser, but for its number."""
         frames = self.frames
         values = self._values()
@@ -118,7 +118,7 @@ class Visitor:
         if open_one is None or key != open_one.key:
             question, right = -1, False
         lesson = None if open_one is None else [open_one.title, question, right]
-        return [frames.named, settings_of(values, _first(), SETTING), lesson]
+        return [frames.named, settings_of(values, _default_values(), SETTING), lesson]
 
     def _values(self) -> dict[str, Any]:
         frames = self.frames
@@ -129,7 +129,7 @@ class Visitor:
 
     def _view(self) -> dict[str, Any]:
         """Return what this browser shows, as far as it is other than at first."""
-        return settings_of(self._values(), _first(), CONTROL_NAMES)
+        return settings_of(self._values(), _default_values(), CONTROL_NAMES)
 
     def _leave_guest(self) -> None:
         if self._guest is not None:

@@ -69,7 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     for sentence in unknown_settings():
         print(f"codim2: {sentence}", file=sys.stderr)
-    place.offer(chosen.docs)
+    place.serve_folder(chosen.docs)
     log_to_stderr(chosen.log_json, chosen.log_level)
     try:
         _try_to_listen(chosen.address, chosen.port)
@@ -158,7 +158,7 @@ def _serve(chosen: argparse.Namespace) -> None:
 
 def _offer_lessons(folder: Path) -> bool:
     """Offer the lessons of a folder; say what is wrong with those that cannot be read."""
-    from ..lessons.library import from_folder, offer
+    from ..lessons.library import add_lessons, from_folder
 
     try:
         found, errors = from_folder(folder)
@@ -167,7 +167,7 @@ def _offer_lessons(folder: Path) -> bool:
         return False
     for error in errors:
         print(f"codim2: left out: {error}")
-    offer(found)
+    add_lessons(found)
     print(f"codim2: {len(found)} lesson{'s' * (len(found) != 1)} from {folder}")
     return True
 

@@ -16,7 +16,7 @@ import codim2_core as c2
 from codim2_core.counting.draws import DRAWS
 from codim2_core.paper import cite
 from codim2_core.psi import FAMILIES, make
-from codim2_core.words import number, subscript
+from codim2_core.words import subscript, written_number
 
 from ..frame.cluster import ClusterError, cluster
 
@@ -190,7 +190,7 @@ def prove(chosen: argparse.Namespace) -> int:
 
 
 def _six(value: float) -> str:
-    return number(float(value), 6)
+    return written_number(float(value), 6)
 
 
 def presets(chosen: argparse.Namespace) -> int:

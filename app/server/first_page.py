@@ -18,7 +18,7 @@ from ..phrases import say
 from ..view import warmup
 from ..view.first_markup import page_markup
 from ..view.markup import address_of_script, page_template
-from .live import Places, is_known, link_of, query_of
+from .live import LivePages, is_known, link_of, query_of
 from .scripts import PREVIEW
 
 MARKUP, NOTICE = "<!-- codim2 markup -->", "<!-- codim2 notice -->"
@@ -69,7 +69,7 @@ def _page_frame() -> str:
 class Page(RequestHandler):
     """Answers with the page as text."""
 
-    def initialize(self, places: Places) -> None:
+    def initialize(self, places: LivePages) -> None:
         """Take what `make_server` gives."""
         self.places = places
 

@@ -27,7 +27,7 @@ from ..state.cleaning import InputError
 from ..state.controls import ExplorerState
 from ..state.links import Link, read_link
 from ..state.opening import opening_values
-from ..view.answers import Answers
+from ..view.answers import AnswerQueue
 from ..view.markup import offered_text, settings
 from ..view.refresh import Frames
 from ..view.warmup import Share, is_ready_for_all
@@ -86,21 +86,21 @@ def merge_requests(kept: Mapping[str, Any], newer: Mapping[str, Any]) -> dict[st
     return merged
 
 
-class Places:
+class LivePages:
     """The pages that are open in this process, and their turns.
 
     Attributes
     ----------
     most : int
         Pages that there may be.
-    open : set of Live
+    open : set of LiveConnection
     rota : Rota
     frames, openings, refused : int
         How many have been sent, were let in, and found no place.
     """
 
     def __init__(self, most: int) -> None:
-        self.most, self.open, self.rota = most, set[Live](), Rota()
+        self.most, self.open, self.rota = most, set[LiveConnection](), Rota()
         self.frames = self.openings = self.refused = 0
 
     def beat(self) -> None:
@@ -115,13 +115,13 @@ class Places:
         return len(self.open) >= self.most
 
 
-class Live(WebSocketHandler):
+class LiveConnection(WebSocketHandler):
     """One page's connection."""
 
-    def initialize(self, places: Places) -> None:
+    def initialize(self, places: LivePages) -> None:
         """Take what `make_server` gives."""
         self.places = places
-        self.answers: Answers | None = None
+        self.answers: AnswerQueue | None = None
         self._request: dict[str, Any] | None = None  # for a frame, with all that has been set since the last one
         self._asked: deque[Callable[[], None]] = deque()  # in the order in which it came; `_request` is one of them
         self._writing = False
@@ -151,7 +151,7 @@ class Live(WebSocketHandler):
             self.close(CLOSE_FAILED, "a page could not be opened")
             return
         self.places.openings += 1
-        self.answers = Answers(frames, self._send, self._later)
+        self.answers = AnswerQueue(frames, self._send, self._later)
         self._write(config)
         self._write(first)
 

@@ -14,10 +14,10 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metri
 from tornado.web import RequestHandler
 
 from ..frame.load import load
-from ..frame.turns import Turns
+from ..frame.turns import WorkQueue
 from ..rooms.rooms import Rooms
 from ..view import warmup
-from .live import Places
+from .live import LivePages
 
 CONTENT_TYPE = "text/plain; version=0.0.4; charset=utf-8"
 #: Seconds.
@@ -29,12 +29,12 @@ class Metrics:
 
     Parameters
     ----------
-    places : Places
+    places : LivePages
     turns : Turns
     rooms : Rooms
     """
 
-    def __init__(self, places: Places, turns: Turns, rooms: Rooms) -> None:
+    def __init__(self, places: LivePages, turns: WorkQueue, rooms: Rooms) -> None:
         self.places, self.turns, self.rooms = places, turns, rooms
         self.registry = CollectorRegistry()
         self.registry.register(self)

@@ -21,7 +21,7 @@ from tornado.web import RequestHandler
 
 from ..docs.served import Docs, ToDocs
 from ..frame.jobs import serve_with
-from ..frame.turns import Turns
+from ..frame.turns import WorkQueue
 from ..frame.workers import Workers, processors
 from ..rooms.board import Board
 from ..rooms.rooms import MOST_ROOMS, SHARING_SECONDS, Rooms
@@ -30,7 +30,7 @@ from ..view import warmup
 from ..view.markup import edition
 from .first_page import Page
 from .headers import transform
-from .live import MOST_SENT, Live, Places
+from .live import MOST_SENT, LiveConnection, LivePages
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
 from .process.door import Door
@@ -136,7 +136,7 @@ def make_server(
     if executor is None:
         at_once = workers or max(1, processors() // processes)
         executor = Workers(at_once, preload=PRELOAD, first=warmup.wait)
-    turns = Turns(executor, at_once)
+    turns = WorkQueue(executor, at_once)
     serve_with(turns)
     warmup_now = processes == 1
     begin = partial(warmup.start, partial(_report_warm_up, told), patience=warmup.POLL_SECONDS)
@@ -144,7 +144,7 @@ def make_server(
         begin()
     parent = os.getpid()
     board = Board(processes)
-    places = Places(sessions)
+    places = LivePages(sessions)
     door = partial(Door, counts=Counter(), places=sessions, health=json.dumps(health()))
     with share_port(processes, door):
         server = _server(port, address, allow_origin, processes, prefix, places, options)
@@ -157,7 +157,7 @@ def make_server(
     application.settings["metrics"] = Metrics(places, turns, kept)
     application.add_handlers(".*", routes(server.prefix))
     application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
-    application.settings["log_function"] = _log
+    application.settings["log_function"] = _log_request
     if not warmup_now:
         server.io_loop.add_callback(begin)
     server.io_loop.add_callback(PeriodicCallback(places.beat, 1000 * BEAT).start)
@@ -190,7 +190,7 @@ def _keep(rooms: Rooms) -> None:
     serve_rooms(rooms)
 
 
-def _log(handler: RequestHandler) -> None:
+def _log_request(handler: RequestHandler) -> None:
     """Log a request that failed; probes that are told to wait have not."""
     status = handler.get_status()
     if status >= 400 and not isinstance(handler, (Health, Ready)):
@@ -215,7 +215,7 @@ def _server(
     allow_origin: Sequence[str],
     processes: int,
     prefix: str,
-    places: Places,
+    places: LivePages,
     options: dict[str, Any],
 ) -> Any:
     return pn.io.server.get_server(
@@ -226,7 +226,7 @@ def _server(
         num_procs=processes,
         extra_patterns=[
             (r"/?", Page, {"places": places}),
-            (r"/live", Live, {"places": places}),
+            (r"/live", LiveConnection, {"places": places}),
             (r"/health", Health),
             (r"/ready", Ready),
             (r"/metrics", MetricsPage),

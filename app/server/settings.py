@@ -136,7 +136,7 @@ def unknown_settings(environment: Mapping[str, str] = os.environ) -> list[str]:
     return found
 
 
-def table() -> str:
+def settings_table() -> str:
     """Return all settings as a Markdown table."""
     rows = ["| flag | variable | default | what |", "|---|---|---|---|"]
     for setting in SETTINGS:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from codim2_core.portrait.basins import DISC, Box, basins_of
 from codim2_core.scene import Scene
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 
 BASIN_COLOUR_COUNT = 4  # colours of the theme
 CELLS_ACROSS = 128  # across the disc: smoothed, five pixels of a picture of 640
@@ -19,14 +19,14 @@ FINE_CELLS_ACROSS = 256  # across a part of it, of which between three and six e
 NEAR_WINDOW = 1.5  # a window narrower than this, in radii, is near
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the basins, once nothing moves."""
     if not draft.ready:
         return
     scene = draft.scene
     system, part = scene.key("plane", "slow", "psi"), part_of(scene.window)
     same = draft.now.get("basins", (None,))[0] == system
-    found = draft.slow("basins", (system, part), columns, scene, *part)
+    found = draft.slow("basins", (system, part), basin_columns, scene, *part)
     late = draft.header.get("late", [])
     if same and "basins" in late:
         late[late.index("basins")] = "window"  # what the browser has is coarse, or a part of what is seen, but true
@@ -56,7 +56,9 @@ def part_of(window: tuple[float, ...] | None) -> tuple[Box, int]:
     return (x, x + side, y, y + side), FINE_CELLS_ACROSS
 
 
-def columns(scene: Scene, box: Box = DISC, cells: int = CELLS_ACROSS) -> tuple[dict[str, Any], NDArray[np.uint16]]:
+def basin_columns(
+    scene: Scene, box: Box = DISC, cells: int = CELLS_ACROSS
+) -> tuple[dict[str, Any], NDArray[np.uint16]]:
     """Return words and colours of the basins, and the cells of a box row by row as runs: how many, of which.
 
     Rows rise with y. The colours are keys of the themes, "" for none: outside the disc, undecided, each destination.

@@ -9,7 +9,7 @@ from codim2_core.scene import Scene
 from codim2_core.words import written_label
 
 from ..frame.budget import wild
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 
 #: The kinds that the ring tells apart, and what the table says of each.
 WORDS = {
@@ -27,7 +27,7 @@ UNDECIDED_TEXTS = {
 }
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add rows and arcs: with every frame where a theorem answers for every Ψ, else (Case III) at rest."""
     scene = draft.scene
     if not draft.ready:
@@ -40,7 +40,7 @@ def add(draft: Draft) -> None:
         found = draft.slow("outcomes", scene.key("plane", "slow", "psi"), _scene_outcomes, scene)
         if found is None:
             return
-    draft.header["outcomes"] = columns(found)
+    draft.header["outcomes"] = outcome_columns(found)
 
 
 def _scene_outcomes(scene: Scene) -> Outcomes:
@@ -61,7 +61,7 @@ def kind(outcome: Outcome) -> str:
     return "slide" if outcome.verdict == "cycle" else outcome.verdict
 
 
-def columns(outcomes: Outcomes) -> dict[str, Any]:
+def outcome_columns(outcomes: Outcomes) -> dict[str, Any]:
     """Return the rows of the table and the arcs of the ring.
 
     Returns
@@ -73,14 +73,14 @@ def columns(outcomes: Outcomes) -> dict[str, Any]:
     shown = outcomes.directions if outcomes.whole is None else (outcomes.whole,)
     arcs = outcomes.arcs
     return {
-        "rows": [_row(outcome) for outcome in shown],
+        "rows": [_outcome_row(outcome) for outcome in shown],
         "start": [start for start, _, _ in arcs],
         "end": [end for _, end, _ in arcs],
         "kind": [kind(outcome) for _, _, outcome in arcs],
     }
 
 
-def _row(outcome: Outcome) -> list[Any]:
+def _outcome_row(outcome: Outcome) -> list[Any]:
     label = written_label(outcome.label)
     by_verdict: dict[str, list[str]] = {}
     for text, verdict, onto in outcome.families if outcome.depends_on_psi else ():

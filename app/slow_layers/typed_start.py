@@ -21,7 +21,7 @@ from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
-from ..frame.draft import Draft
+from ..frame.draft import FrameContext
 from ..state.chosen import System_, slow_symbols
 from ..state.cleaning import InputError
 from ..state.launches import TYPED
@@ -32,7 +32,7 @@ RTOL = 1e-7
 EPS = round(math.log10(SMALLEST_EPS)), round(math.log10(LARGEST_EPS))
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the motion in the limit and, if it is wanted, the one for eps > 0, once nothing moves."""
     values, system = draft.values, draft.system
     if system is None:

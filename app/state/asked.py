@@ -26,7 +26,7 @@ def read_request(given: Any) -> tuple[dict[str, Any], dict[str, Any], str]:
         What was left out, and why; "" if nothing was.
     """
     if given is not None and not isinstance(given, Mapping):
-        return {"id": 0}, {}, say("request of a wrong kind", kind=_kind(given))
+        return {"id": 0}, {}, say("request of a wrong kind", kind=_asked_kind(given))
     given = given or {}
     number = given.get("id", 0)
     whole = isinstance(number, (int, float)) and not isinstance(number, bool) and abs(number) <= LARGEST_NUMBER
@@ -40,7 +40,7 @@ def read_request(given: Any) -> tuple[dict[str, Any], dict[str, Any], str]:
     if asked is None:
         return request, {}, ""
     if not isinstance(asked, Mapping):
-        return request, {}, say("values of a wrong kind", kind=_kind(asked))
+        return request, {}, say("values of a wrong kind", kind=_asked_kind(asked))
     if len(asked) > MOST_CONTROLS:
         return request, {}, say("too many values", count=len(asked), most=MOST_CONTROLS)
     values: dict[str, Any] = {}
@@ -56,7 +56,7 @@ def read_request(given: Any) -> tuple[dict[str, Any], dict[str, Any], str]:
     return request, values, say("values left out", names=", ".join(refused[:3])) if refused else ""
 
 
-def _kind(value: Any) -> str:
+def _asked_kind(value: Any) -> str:
     return "nothing" if value is None else type(value).__name__
 
 
@@ -79,4 +79,4 @@ def _too_large(value: Any, depth: int = 0) -> str:
         return next(filter(None, (_too_large(part, 1) for part in parts)), "")
     if depth == 1 and isinstance(value, (list, tuple)) and len(value) == 2:  # the ends of a range
         return next(filter(None, (_too_large(part, 2) for part in value)), "")
-    return f"{_kind(value)} is no value of a control"
+    return f"{_asked_kind(value)} is no value of a control"

@@ -55,19 +55,19 @@ def clean(name: str, value: Any) -> Any:
         raise InputError(name, f"There is no control {name!r}; the controls are {', '.join(CONTROL_NAMES)}.")
     declared = ExplorerState.param[name]
     if name in NUMBERS:
-        return _finite(name, declared.label, value)
+        return _clean_number(name, declared.label, value)
     if type(declared) is param.Integer:
         return _whole_number(name, declared, value)
     if type(declared) is param.Selector:
         return _one_of(name, declared, value)
     if type(declared) is Angle:
-        return _finite(name, declared.label, value) % (2.0 * math.pi)
+        return _clean_number(name, declared.label, value) % (2.0 * math.pi)
     return _READ.get(name, _short_text)(name, declared.label, value)
 
 
 def _whole_number(name: str, declared: Any, value: Any) -> int:
     """Return a whole number within the bounds of its declaration."""
-    count = _finite(name, declared.label, value)
+    count = _clean_number(name, declared.label, value)
     low, high = declared.bounds  # all are declared with both
     if count != int(count) or not low <= count <= high:
         raise InputError(name, f"{declared.label}: {value} given; give a whole number from {low} to {high}.")
@@ -86,7 +86,7 @@ def _one_of(name: str, declared: Any, value: Any) -> str:
     return str(value)
 
 
-def _portrait(name: str, _label: str | None, value: Any) -> str:
+def _clean_portrait(name: str, _label: str | None, value: Any) -> str:
     """Return the key of a portrait, or ""."""
     value = value if isinstance(value, str) else str(value)[:40]
     if value != "" and value not in portrait_keys():
@@ -128,7 +128,7 @@ def _pinned_name(name: str, _label: str | None, value: Any) -> str:
     return str(value)
 
 
-def _orbits(name: str, label: str | None, value: Any) -> str:
+def _clean_orbits(name: str, label: str | None, value: Any) -> str:
     """Return launched orbits as they came, if they can be read."""
     if not isinstance(value, str) or len(value) > LONGEST_TEXT:
         raise InputError(name, f"{label}: give text of at most {LONGEST_TEXT} characters.")
@@ -159,7 +159,7 @@ def _ranges(name: str, label: str | None, value: Any) -> dict[str, list[float]]:
     for key, ends in value.items():
         if not isinstance(ends, (list, tuple)) or len(ends) != 2:
             raise InputError(name, f"{label}: {key}: give two numbers, [low, high].")
-        low, high = (_finite(name, f"{label}: {key}", end) for end in ends)
+        low, high = (_clean_number(name, f"{label}: {key}", end) for end in ends)
         if not low < high or math.isinf(high - low):
             raise InputError(name, f"{label}: {key}: {low:g} to {high:g} given; give [low, high] with low < high.")
         found[key] = [low, high]
@@ -191,13 +191,13 @@ def _mapping(name: str, label: str | None, value: Any) -> dict[str, Any]:
     if not isinstance(value, Mapping) or len(value) > MOST_ENTRIES or not all(isinstance(key, str) for key in value):
         raise InputError(name, f"{label}: give at most {MOST_ENTRIES} values by name.")
     if name == "parameters":
-        return {key: _finite(name, key, entry) for key, entry in value.items()}
+        return {key: _clean_number(name, key, entry) for key, entry in value.items()}
     if not all(isinstance(entry, str) and len(entry) <= LONGEST_TEXT for entry in value.values()):
         raise InputError(name, f"{label}: give texts of at most {LONGEST_TEXT} characters.")
     return dict(value)
 
 
-def _finite(name: str, label: str | None, value: Any) -> float:
+def _clean_number(name: str, label: str | None, value: Any) -> float:
     """Return a finite float, or say what to type."""
     try:
         number = float(value)
@@ -215,7 +215,7 @@ def _finite(name: str, label: str | None, value: Any) -> float:
 #: How a control is read that is neither a number nor a choice among options; all others are short texts.
 _READ: Mapping[str, Callable[[str, str | None, Any], Any]] = MappingProxyType(
     {
-        "preset": _portrait,
+        "preset": _clean_portrait,
         "layers": _layers,
         "along": _axis,
         "across": _axis,
@@ -224,7 +224,7 @@ _READ: Mapping[str, Callable[[str, str | None, Any], Any]] = MappingProxyType(
         "ranges": _ranges,
         "texts": _mapping,
         "parameters": _mapping,
-        "orbits": _orbits,
+        "orbits": _clean_orbits,
         "beside": _own_values,
     }
 )

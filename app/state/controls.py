@@ -23,7 +23,7 @@ from .opening import opening_values
 from .portraits import portrait_keys, portrait_values
 
 
-def _number(default: float, low: float, high: float, symbol: str, doc: str) -> Any:
+def _number_parameter(default: float, low: float, high: float, symbol: str, doc: str) -> Any:
     """Declare a number: the slider starts with [low, high], and a typed value may widen it."""
     return param.Number(default, softbounds=(low, high), step=0.01, label=symbol, doc=doc)
 
@@ -35,25 +35,25 @@ class Angle(param.Number):
 class ExplorerState(param.Parameterized):
     """Values of all controls. The defaults are the paper's fig:simCM4 (preset case1-cm4)."""
 
-    a = _number(-2.0, -4, 4, "a", "First entry of A = [[a, −b], [b, d]].")
-    b = _number(0.0, -4, 4, "b", "Rotation in A = [[a, −b], [b, d]].")
-    d = _number(-1.0, -4, 4, "d", "Last entry of A = [[a, −b], [b, d]].")
-    f1 = _number(-0.5, -3, 3, "f₁", "First component of f at z = 0.")
-    f2 = _number(0.0, -3, 3, "f₂", "Second component of f at z = 0.")
+    a = _number_parameter(-2.0, -4, 4, "a", "First entry of A = [[a, −b], [b, d]].")
+    b = _number_parameter(0.0, -4, 4, "b", "Rotation in A = [[a, −b], [b, d]].")
+    d = _number_parameter(-1.0, -4, 4, "d", "Last entry of A = [[a, −b], [b, d]].")
+    f1 = _number_parameter(-0.5, -3, 3, "f₁", "First component of f at z = 0.")
+    f2 = _number_parameter(0.0, -3, 3, "f₂", "Second component of f at z = 0.")
     system = param.Selector(
         default=NORMAL, objects=list(titles()), check_on_set=False, label="System", doc="Which system is drawn."
     )
     texts = param.Dict({}, label="Formulas", doc="Typed formulas, by box, as far as they differ from the first ones.")
     parameters = param.Dict({}, label="Parameters", doc="Parameters of the chosen system, by name.")
-    z = _number(0.0, -4, 4, "z", "Position along the discontinuity set.")
-    z2 = _number(0.0, -4, 4, "z₂", "Second slow variable.")
-    z3 = _number(0.0, -4, 4, "z₃", "Third slow variable.")
-    z4 = _number(0.0, -4, 4, "z₄", "Fourth slow variable.")
-    k1 = _number(0.5, -2, 2, "k₁", "f(z) = f + z k: how f₁ changes along z.")
-    k2 = _number(0.0, -2, 2, "k₂", "f(z) = f + z k: how f₂ changes along z.")
-    B1 = _number(1.0, -3, 3, "B₁", "z′ = B e + g: weight of cos θ.")
-    B2 = _number(0.0, -3, 3, "B₂", "z′ = B e + g: weight of sin θ.")
-    g0 = _number(0.0, -3, 3, "g", "z′ = B e + g: constant part of the slow flow.")
+    z = _number_parameter(0.0, -4, 4, "z", "Position along the discontinuity set.")
+    z2 = _number_parameter(0.0, -4, 4, "z₂", "Second slow variable.")
+    z3 = _number_parameter(0.0, -4, 4, "z₃", "Third slow variable.")
+    z4 = _number_parameter(0.0, -4, 4, "z₄", "Fourth slow variable.")
+    k1 = _number_parameter(0.5, -2, 2, "k₁", "f(z) = f + z k: how f₁ changes along z.")
+    k2 = _number_parameter(0.0, -2, 2, "k₂", "f(z) = f + z k: how f₂ changes along z.")
+    B1 = _number_parameter(1.0, -3, 3, "B₁", "z′ = B e + g: weight of cos θ.")
+    B2 = _number_parameter(0.0, -3, 3, "B₂", "z′ = B e + g: weight of sin θ.")
+    g0 = _number_parameter(0.0, -3, 3, "g", "z′ = B e + g: constant part of the slow flow.")
     psi = param.Selector(
         default="constant",
         objects=list(psi_families.FAMILIES),
@@ -61,7 +61,7 @@ class ExplorerState(param.Parameterized):
         label="Ψ",
         doc="Regularisation function Ψ(s), s = (x² + y²)/ε².",
     )
-    n = _number(2.0, 0.5, 6, "n", "Parameter of Ψ, such as the exponent of 3/(3 + (4s)ⁿ).")
+    n = _number_parameter(2.0, 0.5, 6, "n", "Parameter of Ψ, such as the exponent of 3/(3 + (4s)ⁿ).")
     psi_text = param.String("1/(1+s)**2", label="Ψ(s) =", doc="Your own Ψ(s), positive, with s Ψ′(s) < Ψ(s).")
     trajectories = param.Integer(
         64, bounds=(0, MAX_TRAJECTORIES), label="Starting points", doc="Number of trajectories."
@@ -93,7 +93,7 @@ class ExplorerState(param.Parameterized):
 
     solid = param.Selector(default="sphere", objects=list(SOLIDS), label="3-D", doc="What the panel “3-D” shows.")
     drift = param.Selector(default="z", objects=list(SLOW_CONTROLS), label="Along", doc="Slow variable of “Along z”.")
-    log_eps = _number(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region.")
+    log_eps = _number_parameter(-2.0, -10, 0, "log₁₀ ε", "Size of the regularised region.")
     launch = param.String("0.6, 0.8, 0", label="Start", doc="State (x, y, z₁, …) from which a motion starts.")
     orbits = param.String("", label="Orbits", doc="Launched orbits: x,y of each, joined by semicolons.")
     orbit = param.Integer(
@@ -110,7 +110,7 @@ class ExplorerState(param.Parameterized):
     )
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")
     quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the lesson; a mark is X.Y.")
-    t_end = _number(8.0, 0, 40, "until t", "How long a motion is followed.")
+    t_end = _number_parameter(8.0, 0, 40, "until t", "How long a motion is followed.")
     cut = Angle(0.0, label="Cut", doc="Limit directions are counted from this angle: Q₁ is the first at or after it.")
     ranges = param.Dict({}, label="Ranges", doc="Ranges of sliders, by name: [low, high].")
     beside = param.String(
@@ -153,7 +153,7 @@ def first_values() -> dict[str, Any]:
     return ExplorerState().values()
 
 
-def offer(name: str, options: Iterable[str]) -> None:
+def set_options(name: str, options: Iterable[str]) -> None:
     """Let a control offer these options: what is registered on a higher floor, such as the panels."""
     ExplorerState.param[name].objects = list(options)
 

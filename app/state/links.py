@@ -119,7 +119,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
         given.pop(name, None)
     if "v" not in given and given.get("lesson"):  # typed by hand: pages write a version, and leave out the first panel
         given.setdefault("panel", "lessons")
-    first = _first(given.pop("v", ""), errors)
+    first = _defaults_of(given.pop("v", ""), errors)
     look = _look(given, errors)
     for (name, text), now in SAID_BEFORE.items():
         if given.get(name) == text:
@@ -192,7 +192,7 @@ def decompress_query(text: str) -> str:
         raise ValueError(sentence) from error
 
 
-def _first(version: str, errors: list[InputError]) -> Mapping[str, Any]:
+def _defaults_of(version: str, errors: list[InputError]) -> Mapping[str, Any]:
     """Return what a link of this version leaves out; one without a version, typed or old, leaves out nothing."""
     if version == "":
         return {}

@@ -18,7 +18,7 @@ import codim2_core
 config: Any = numba_config  # its names are made at run time
 
 
-def place() -> Path:
+def lock_path() -> Path:
     """Return the file that stands for the folder of compiled kernels, and is held by whoever compiles into it."""
     user = os.getuid() if hasattr(os, "getuid") else 0
     folder = f"{config.CACHE_DIR} {codim2_core.__file__} {sys.version}"
@@ -34,7 +34,7 @@ def alone() -> Iterator[None]:
     try:
         import fcntl
 
-        held = os.open(place(), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        held = os.open(lock_path(), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
     except (ImportError, OSError):  # Windows; a machine without a folder for such files
         yield
         return

@@ -11,13 +11,13 @@ from tornado.ioloop import IOLoop
 from ..frame.later import Later
 from ..rooms.visitor import Visitor
 from .refresh import Frames
-from .taking import Reply, Taking
+from .taking import ExportJobs, Reply
 
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
 PICTURE_WAIT_SECONDS = 0.25
 
 
-class _Held:
+class _PendingAnswer:
     """An answer that waits. Who keeps what it waits for keeps nothing of its page once it is given, or the page gone.
 
     Parameters
@@ -45,7 +45,7 @@ class _Held:
         self._waits = None
 
 
-class Answers:
+class AnswerQueue:
     """The answers to one browser, whose page shows one model.
 
     Parameters
@@ -60,9 +60,9 @@ class Answers:
 
     def __init__(self, frames: Frames, send: Reply, later: Later) -> None:
         self.frames, self._send, self._later = frames, send, later
-        self.taking = Taking(frames)
+        self.taking = ExportJobs(frames)
         self.visitor = Visitor(frames)
-        self._held: _Held | None = None  # the frame that waits; a newer one replaces it
+        self._held: _PendingAnswer | None = None  # the frame that waits; a newer one replaces it
 
     def answer(self, request: Any) -> None:
         """Answer a request: for a file (``take``), of a room (``room``), else for a frame; see `Frames.answer`."""
@@ -104,7 +104,7 @@ class Answers:
             self._reply(self.frames.answer(request))
             self.frames.publish()
 
-        held = self._held = _Held(self._later, answer)
+        held = self._held = _PendingAnswer(self._later, answer)
         IOLoop.current().call_later(PICTURE_WAIT_SECONDS, held.come)
         pending.add_done_callback(held.come)
 

@@ -18,7 +18,7 @@ from numba.core import caching, compiler_lock
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
 
-from .alone import place
+from .alone import lock_path
 
 _one_thread: Any = compiler_lock.global_compiler_lock
 
@@ -56,7 +56,7 @@ def hold_name(name: str) -> Iterator[None]:
     try:
         import fcntl
 
-        file, byte = _open_lock(place().with_suffix(".kernels")), zlib.crc32(name.encode())
+        file, byte = _open_lock(lock_path().with_suffix(".kernels")), zlib.crc32(name.encode())
         fcntl.lockf(file, fcntl.LOCK_EX, 1, byte)
     except (ImportError, OSError):  # Windows; no folder for such files; a file system without locks
         yield

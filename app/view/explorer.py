@@ -24,7 +24,7 @@ from panel.viewable import Child
 from param.parameterized import resolve_value
 
 from codim2_core.scene import Scene
-from codim2_core.scene.launched import Launched
+from codim2_core.scene.launched import LaunchedOrbits
 
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
@@ -34,7 +34,7 @@ from ..frame.picture import make_frame
 from ..phrases import say
 from ..state.chosen import System_
 from ..state.controls import CONTROL_NAMES, ExplorerState
-from .answers import Answers
+from .answers import AnswerQueue
 from .cell import Cell, kernel
 from .first_markup import first_words
 from .markup import SCRIPT_FOLDER, digest, explorer_html, offered_text, script, settings
@@ -96,7 +96,7 @@ class ExplorerView(JSComponent):
         self._system = system
         self._given_params = params
         self.frames = Frames(self.state, system, is_ready)
-        self._answers: Answers | None = None
+        self._answers: AnswerQueue | None = None
         self._cell: Cell | None = None
         self._first_values = self.state.values()
         own = (SCRIPT_FOLDER / "notebook.css").read_text(encoding="utf-8")
@@ -117,7 +117,7 @@ class ExplorerView(JSComponent):
         return self.frames.scene
 
     @property
-    def orbits(self) -> Launched:
+    def orbits(self) -> LaunchedOrbits:
         """The launched orbits: their lines, and where each goes to and comes from."""
         return self.frames.scene["launched"]
 
@@ -248,7 +248,7 @@ class ExplorerView(JSComponent):
             self._handle_msg(event.data)
         else:
             if self._answers is None:
-                self._answers = Answers(self.frames, partial(_send, model), later(model.document))
+                self._answers = AnswerQueue(self.frames, partial(_send, model), later(model.document))
                 model.document.on_session_destroyed(lambda _: self._leave())
             self._answers.answer(event.data or {})
 

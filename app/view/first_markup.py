@@ -20,7 +20,7 @@ from .warmup import is_ready_for_all
 def page_markup(link: Link) -> tuple[str, bool]:
     """Return the markup of the page of an address, with its first picture, and whether all of the picture is in it."""
     frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget())
-    frames.jobs = Jobs(Never())
+    frames.jobs = Jobs(NoBackground())
     first = frames.answer({"all": True})
     frames.publish()
     header, _ = unpack(first)
@@ -29,7 +29,7 @@ def page_markup(link: Link) -> tuple[str, bool]:
     return explorer_html(link.state, words, (), link.look, docs=site() is not None), complete
 
 
-class Never(Executor):
+class NoBackground(Executor):
     """Computes nothing: what takes long is no part of a page."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:  # noqa: ARG002

@@ -18,7 +18,7 @@ from codim2_core.psi import FAMILIES
 
 from ..draw.bundle import bundle
 from ..draw.gallery import FIRST_PRESET, gallery
-from ..draw.layers import LAYERS, TRACES, looks, swatches, table
+from ..draw.layers import LAYERS, TRACES, layer_table, looks, swatches
 from ..draw.theme import MEASURES, custom_properties, themes
 from ..export.printing import has_typst
 from ..panels.registry import PANELS_BY_NAME
@@ -98,7 +98,7 @@ def front_end_constants() -> dict[str, Any]:
         "setting": list(SETTING),
         "opening": OPENING,
         "first": FIRST_PRESET,
-        "layers": table(),
+        "layers": layer_table(),
         "traces": looks(TRACES),
         "families": {
             name: {"typed": family.typed, "parameter": family.parameter and family.parameter.name}
@@ -139,7 +139,7 @@ def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | No
     }
 
 
-def config(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
+def page_config(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
     """Return all that the front end must know."""
     return {**front_end_constants(), **settings(state, locked, look)}
 

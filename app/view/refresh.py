@@ -22,15 +22,15 @@ from codim2_core.words import printed_sentence
 from ..draw import glyphs
 from ..draw.lines import arrowheads, spacing
 from ..draw.packing import pack
-from ..frame.budget import Budget, Layers, LeftOut, layers_of
-from ..frame.draft import Draft
+from ..frame.budget import BackgroundLayers, Budget, OmittedLayer, layers_of
+from ..frame.draft import FrameContext
 from ..frame.faults import sentence_of
 from ..frame.jobs import Jobs
 from ..frame.load import load
-from ..frame.picture import Asked, Blocks, make_frame
+from ..frame.picture import Blocks, RequestedLayers, make_frame
 from ..frame.scenes import complete_changes, cut_after, evolve_scene, locked_controls, make_scene
 from ..frame.sides import sides
-from ..frame.turns import Failed
+from ..frame.turns import FailedResult
 from ..frame.window import Window, inputs, resample_for_window
 from ..panels import registry
 from ..panels.parameters.axes import opening_axes
@@ -225,17 +225,17 @@ class Frames:
         blocks: Blocks = {}
         now_sent = dict(sent)
         for _ in range(MOST_ROUNDS if drawable else 0):
-            asked = Asked(scene)
+            asked = RequestedLayers(scene)
             if self.budget is not None:
                 self.budget.begin()
             header, blocks, now_sent = make_frame(scene, values, sent, ready, self.window, asked)
             if header.get("portrait", {}).get("degeneracies"):
                 self._add_sides(header, scene, values)
             late = asked.missing, asked.left_out
-            draft = Draft(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked, *late)
+            draft = FrameContext(scene, values, header, blocks, now_sent, self.jobs, rest, ready, self.locked, *late)
             registry.add(draft)
             if asked.left_out:
-                header["left_out"] = LeftOut.sentence(asked.left_out)
+                header["left_out"] = OmittedLayer.sentence(asked.left_out)
             if not asked.missing or not self._beside(scene, asked.missing, header):
                 break
         self._tell_system(header, scene, values, now_sent)
@@ -253,7 +253,7 @@ class Frames:
         found = self.jobs.ask("sides", key, _sides_of, scene, dict(values), self._moved)
         if found is None:
             header.setdefault("late", []).append("sides")
-        elif not isinstance(found, Failed):
+        elif not isinstance(found, FailedResult):
             (header["portrait"]["sides"],) = found
 
     def _beside(self, scene: Scene, missing: Sequence[str], header: dict[str, Any]) -> bool:
@@ -265,8 +265,8 @@ class Frames:
         if found is None:
             header.setdefault("late", []).append("picture")
             return False
-        if isinstance(found, Failed):
-            found = Layers({}, {}, dict.fromkeys(names, found.sentence.rstrip(".")))
+        if isinstance(found, FailedResult):
+            found = BackgroundLayers({}, {}, dict.fromkeys(names, found.sentence.rstrip(".")))
         self.budget.told(scene, found)
         return True
 

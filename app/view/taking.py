@@ -9,10 +9,10 @@ from typing import Any
 
 from ..export.film import count_of, encode_film, part_of, pictures
 from ..export.play import PLAY
-from ..export.taking import PROOF, SHOWN, TYPES, Wish, file_name, make_file, seen_by
+from ..export.taking import PROOF, SHOWN, TYPES, ExportRequest, file_name, make_file, seen_by
 from ..export.view import View
 from ..frame.later import Later
-from ..frame.turns import Failed
+from ..frame.turns import FailedResult
 from ..phrases import say
 from .refresh import Frames
 
@@ -25,18 +25,18 @@ Reply = Callable[[dict[str, Any]], None]
 
 
 @dataclass(frozen=True, eq=False)
-class _Film:
+class _FilmJob:
     """A film that is drawn: what its messages begin with, what it is of, its pictures, and those of one turn."""
 
     about: dict[str, Any]
     view: View
-    wish: Wish
+    wish: ExportRequest
     key: str
     count: int
     part: int
 
 
-class Taking:
+class ExportJobs:
     """The files that one browser asks for.
 
     Parameters
@@ -47,7 +47,7 @@ class Taking:
 
     def __init__(self, frames: Frames) -> None:
         self.frames = frames
-        self._film: _Film | None = None
+        self._film: _FilmJob | None = None
 
     def answer(self, request: Any, reply: Reply, later: Later) -> None:
         """Answer a request, now or once the file is made.
@@ -74,7 +74,7 @@ class Taking:
             reply({**about, "error": say("proof stopped" if of_proof else "film stopped")})
             return
         try:
-            wish = Wish.read(request)
+            wish = ExportRequest.read(request)
         except ValueError as error:
             reply({**about, "error": str(error)})
             return
@@ -82,15 +82,17 @@ class Taking:
         key = repr((view, wish))
         if wish.kind == "gif":
             count, part = count_of(wish.slider), max(FILE_MESSAGE, part_of(wish.slider))
-            self._film = _Film(about, view, wish, key, count, part)
+            self._film = _FilmJob(about, view, wish, key, count, part)
             self._draw(self._film, (), reply, later)
             return
         self._make(about, view, wish, key, reply, later)
 
-    def _make(self, about: dict[str, Any], view: View, wish: Wish, key: str, reply: Reply, later: Later) -> None:
+    def _make(
+        self, about: dict[str, Any], view: View, wish: ExportRequest, key: str, reply: Reply, later: Later
+    ) -> None:
         """Answer with a file, once it is made."""
         result = self.frames.jobs.ask(wish.job, key, make_file, view, wish)
-        if isinstance(result, Failed):
+        if isinstance(result, FailedResult):
             reply({**about, "error": result.sentence})
         elif result is not None:
             name, data = result
@@ -108,7 +110,7 @@ class Taking:
         if future is not None:
             future.add_done_callback(lambda _: later(look))
 
-    def _draw(self, film: _Film, drawn: tuple[bytes, ...], reply: Reply, later: Later) -> None:
+    def _draw(self, film: _FilmJob, drawn: tuple[bytes, ...], reply: Reply, later: Later) -> None:
         """Answer with a film, drawn a part at a time: others have their turns between, and it can be stopped."""
         if self._film is not film:
             return
@@ -119,7 +121,7 @@ class Taking:
             result = jobs.ask(JOB, (film.key, first), pictures, *which)
         else:
             result = jobs.ask(JOB, (film.key, "film"), encode_film, drawn, ".gif", wish.slider == PLAY)
-        if isinstance(result, Failed):
+        if isinstance(result, FailedResult):
             reply({**film.about, "error": result.sentence})
         elif result is None:
             self._again(JOB, later, partial(self._draw, film, drawn, reply, later))

@@ -207,7 +207,7 @@ def start(told: Told = _nobody, patience: float = 0.0) -> None:
     """
     with _lock:
         if constant() not in _threads:
-            _begin(constant(), _first_scene, told, patience)
+            _start_thread(constant(), _first_scene, told, patience)
 
 
 def wait() -> None:
@@ -218,7 +218,7 @@ def wait() -> None:
         _pictures.wait()
 
 
-def _begin(key: Hashable, target: Callable[..., None], *arguments: Any) -> None:
+def _start_thread(key: Hashable, target: Callable[..., None], *arguments: Any) -> None:
     _threads[key] = threading.Thread(target=target, args=arguments, name="codim2-compile", daemon=True)
     _threads[key].start()
 
@@ -297,7 +297,7 @@ def _is_compiled(key: Hashable, target: Callable[..., None], *arguments: Any) ->
             for old in _threads.keys() - alive.keys() - {constant(), GENERAL}:
                 del _threads[old]
         if len(alive) < MOST_THREADS:
-            _begin(key, target, *arguments)
+            _start_thread(key, target, *arguments)
             if key != GENERAL:
                 _formulas.add(key)
     return False

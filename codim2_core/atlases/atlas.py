@@ -8,9 +8,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..arguments import short_repr
+from ..arrays import Array, read_only
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
@@ -18,23 +19,30 @@ from .connections.connection_curves import KINDS, connection_curves
 from .curves import curves_of
 from .cycles.cycle_curves import KIND, cycle_curves
 from .degenerate import degenerate_lines
-from .family import Family, Ranges
-from .numbers import numbers, places
+from .family import PlaneFamily, Ranges
+from .numbers import curve_numbers, places
 from .regions import regions_of
-from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, read_only
+from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .special import crossings, each_once
-from .starts import NO_SEEDS, Seeds, seeds_beside
-from .undefined import borders
+from .starts import NO_SEEDS, CurveSeeds, seeds_beside
+from .undefined import undefined_borders
 
 __all__ = [
     "Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_bifurcations_of_cycles",
     "with_connections", "with_folds_of_cycles", "with_regions",
 ]  # fmt: skip
 
-Array = NDArray[np.float64]
 
-PLACES = (0.5, 0.5), (0.21, 0.33), (0.83, 0.27), (0.29, 0.79), (0.71, 0.89)  # where U is tried, in the unit square
-AROUND = 2.0  # range on either side of a parameter's value where none is given, or the value if that is more
+TRIAL_PLACES = (
+    (0.5, 0.5),
+    (0.21, 0.33),
+    (0.83, 0.27),
+    (0.29, 0.79),
+    (0.71, 0.89),
+)  # where U is tried, in the unit square
+DEFAULT_HALF_RANGE = (
+    2.0  # range on either side of a parameter's value where none is given, or the value if that is more
+)
 
 
 def atlas(
@@ -98,16 +106,16 @@ def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None,
     return _curves_over(family_over(system, psi, z, across, up, ranges))
 
 
-def _curves_over(family: Family, seeds: Seeds = NO_SEEDS) -> Atlas:
+def _curves_over(family: PlaneFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
     lines = degenerate_lines(family)
     found, special = curves_of(family, lines, seeds)
     curves = [
         AtlasCurve(one.kind, read_only(family.values(one.plane)),
-                   read_only(places(family, one)), read_only(numbers(family, one)))
+                   read_only(places(family, one)), read_only(curve_numbers(family, one)))
         for one in found.curves
     ]  # fmt: skip
     curves += [_nowhere(family, "degenerate", line.points) for line in lines]
-    curves += [_nowhere(family, "undefined", line) for line in borders(family)]
+    curves += [_nowhere(family, "undefined", line) for line in undefined_borders(family)]
     met = [one for one in crossings(found.curves) if not any(line.holds(one.plane) for line in lines)]
     points = [
         AtlasPoint(one.kind, (float(at[0]), float(at[1])), one.sentence)
@@ -119,7 +127,7 @@ def _curves_over(family: Family, seeds: Seeds = NO_SEEDS) -> Atlas:
     return Atlas(family.names, family.ranges, tuple(curves), tuple(points), (), kinds, degenerate)
 
 
-def _nowhere(family: Family, kind: str, plane: Array) -> AtlasCurve:
+def _nowhere(family: PlaneFamily, kind: str, plane: Array) -> AtlasCurve:
     """Return a curve that belongs to no place of the portrait."""
     places = read_only(np.full((len(plane), 2), math.nan))
     return AtlasCurve(kind, read_only(family.values(plane)), places, read_only(np.zeros(0)))
@@ -139,7 +147,7 @@ def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atla
     return whole
 
 
-def _with_regions(family: Family, found: Atlas) -> Atlas:
+def _with_regions(family: PlaneFamily, found: Atlas) -> Atlas:
     still = [one.points for one in found.curves if one.kind not in (KIND, *KINDS)]
     regions, looked = regions_of(family, still, [one.place for one in found.points])
     return replace(found, regions=regions, looked=looked)
@@ -175,7 +183,7 @@ def with_bifurcations_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLik
     return with_connections(system, psi, with_folds_of_cycles(system, psi, found, z), z)
 
 
-def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> Family:
+def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> PlaneFamily:
     """Check what `atlas` is given, and return what all of it is computed from."""
     slow = tuple(np.ravel(np.asarray(z, float)).tolist())
     for what, name in (("across", across), ("up", up)):
@@ -185,15 +193,15 @@ def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, range
     both = first, second
     if both[0] == both[1]:
         raise ValueError(f"across and up are both {both[0]!r}; choose two different names.")
-    family = Family(system, psi, slow, both, _ranges(system, psi, slow, both, ranges))
+    family = PlaneFamily(system, psi, slow, both, _ranges(system, psi, slow, both, ranges))
     _check_somewhere(family)
     return family
 
 
-def _check_somewhere(family: Family) -> None:
+def _check_somewhere(family: PlaneFamily) -> None:
     """Say what is wrong if U has no value at any of a few places."""
     wrong: ValueError | None = None
-    for place in PLACES:
+    for place in TRIAL_PLACES:
         try:
             at, _, slow = family.at(np.array(place))
             at.at(slow)
@@ -213,7 +221,7 @@ def _ranges(system: Any, psi: Psi, z: Sequence[float], names: Sequence[str], giv
         least, most = limits(system, psi, name)
         if given is None:
             value = value_of(system, psi, z, name)
-            reach = max(AROUND, abs(value))
+            reach = max(DEFAULT_HALF_RANGE, abs(value))
             found.append((max(value - reach, least), min(value + reach, most)))
             continue
         try:

@@ -17,17 +17,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..curves.newton import Condition
-from .family import Family
+from .family import PlaneFamily
 
-Array = NDArray[np.float64]
-
-STEP = 1e-5  # for derivatives of Theta''
+DIFFERENCE_STEP = 1e-5  # for derivatives of Theta''
 
 
-class OnEquator:
+class EquatorEquations:
     """U on the equator at a place (theta, u, v).
 
     Attributes
@@ -44,7 +42,7 @@ class OnEquator:
         Derivatives of Theta and Theta' by u and v.
     """
 
-    def __init__(self, family: Family, v: Array) -> None:
+    def __init__(self, family: PlaneFamily, v: Array) -> None:
         theta, across, up = v.tolist()
         c, s = math.cos(theta), math.sin(theta)
         U, Uc, Us, Uu, Uv, Ucc, Ucs, Ucu, Ucv, Uss, Usu, Usv, *rest = family.jet(c, s, across, up)
@@ -67,51 +65,52 @@ class OnEquator:
         )
 
 
-def saddle_node(family: Family) -> Condition:
+def saddle_node(family: PlaneFamily) -> Condition:
     """Theta = Theta' = 0."""
 
     def condition(v: Array) -> tuple[Array, Array]:
-        at = OnEquator(family, v)
+        at = EquatorEquations(family, v)
         return np.array([at.turning, at.slope]), np.array([[at.slope, *at.turning_by], [at.curvature, *at.slope_by]])
 
     return condition
 
 
-def pitchfork(family: Family) -> Condition:
+def pitchfork(family: PlaneFamily) -> Condition:
     """Theta' = Theta'' = 0: where a symmetry keeps Theta = 0 along the curve, Theta does not tell."""
 
     def condition(v: Array) -> tuple[Array, Array]:
-        at = OnEquator(family, v)
+        at = EquatorEquations(family, v)
         second = [
-            (OnEquator(family, v + h).curvature - OnEquator(family, v - h).curvature) / (2.0 * STEP)
-            for h in STEP * np.eye(3)
+            (EquatorEquations(family, v + h).curvature - EquatorEquations(family, v - h).curvature)
+            / (2.0 * DIFFERENCE_STEP)
+            for h in DIFFERENCE_STEP * np.eye(3)
         ]
         return np.array([at.slope, at.curvature]), np.array([[at.curvature, *at.slope_by], second])
 
     return condition
 
 
-def through_equator(family: Family) -> Condition:
+def through_equator(family: PlaneFamily) -> Condition:
     """U = 0 on the equator."""
 
     def condition(v: Array) -> tuple[Array, Array]:
-        at = OnEquator(family, v)
+        at = EquatorEquations(family, v)
         return np.array(at.U), at.U_slopes
 
     return condition
 
 
-def equator_corner(family: Family) -> Condition:
+def equator_corner(family: PlaneFamily) -> Condition:
     """U = 0 and Theta' = 0 on the equator."""
 
     def condition(v: Array) -> tuple[Array, Array]:
-        at = OnEquator(family, v)
+        at = EquatorEquations(family, v)
         return np.array([*at.U, at.slope]), np.vstack([at.U_slopes, (at.curvature, *at.slope_by)])
 
     return condition
 
 
-class Within:
+class InteriorEquations:
     """U at a place (c, s, u, v) within the equator.
 
     Attributes
@@ -123,7 +122,7 @@ class Within:
     determinant_slopes : list of float (4,)
     """
 
-    def __init__(self, family: Family, v: Array) -> None:
+    def __init__(self, family: PlaneFamily, v: Array) -> None:
         c, s, across, up = v.tolist()
         U, Uc, Us, Uu, Uv, Ucc, Ucs, Ucu, Ucv, Uss, Usu, Usv, *rest = family.jet(c, s, across, up)
         V, Vc, Vs, Vu, Vv, Vcc, Vcs, Vcu, Vcv, Vss, Vsu, Vsv = rest
@@ -181,17 +180,17 @@ class Within:
         return out
 
 
-def fold(family: Family) -> Condition:
+def fold(family: PlaneFamily) -> Condition:
     """U = 0 and det J = 0."""
 
     def condition(v: Array) -> tuple[Array, Array]:
-        at = Within(family, v)
+        at = InteriorEquations(family, v)
         return np.append(at.U, at.determinant), np.vstack([at.U_slopes, at.determinant_slopes])
 
     return condition
 
 
-def pitchfork_of_sets(family: Family) -> Condition:
+def pitchfork_of_sets(family: PlaneFamily) -> Condition:
     """U along the range of DU, det J, and the derivative of that along the null vector of DU.
 
     Where a symmetry keeps U = 0 along the curve, U and det J have no regular zero: the part of U across that range
@@ -199,34 +198,35 @@ def pitchfork_of_sets(family: Family) -> Condition:
     """
 
     def condition(v: Array) -> tuple[Array, Array]:
-        at = Within(family, v)
+        at = InteriorEquations(family, v)
         along, slopes = at.along_range()
         row = at.larger_row
         by = [
-            (Within(family, v + h).along_null(row) - Within(family, v - h).along_null(row)) / (2.0 * STEP)
-            for h in STEP * np.eye(4)
+            (InteriorEquations(family, v + h).along_null(row) - InteriorEquations(family, v - h).along_null(row))
+            / (2.0 * DIFFERENCE_STEP)
+            for h in DIFFERENCE_STEP * np.eye(4)
         ]
         return np.array([along, at.determinant, at.along_null(row)]), np.array([slopes, at.determinant_slopes, by])
 
     return condition
 
 
-def hopf(family: Family) -> Condition:
+def hopf(family: PlaneFamily) -> Condition:
     """U = 0 and tr J = 0."""
 
     def condition(v: Array) -> tuple[Array, Array]:
-        at, ratio = Within(family, v), family.ratio(float(v[:2] @ v[:2]), v[2:])
+        at, ratio = InteriorEquations(family, v), family.ratio(float(v[:2] @ v[:2]), v[2:])
         return np.append(at.U, at.trace(ratio.bend)), np.vstack([at.U_slopes, at.trace_slopes(*ratio)])
 
     return condition
 
 
-def node_focus(family: Family) -> Condition:
+def node_focus(family: PlaneFamily) -> Condition:
     """U = 0 and tr(J)^2 = 4 det J."""
 
     def condition(v: Array) -> tuple[Array, Array]:
         square = float(v[:2] @ v[:2])
-        at, ratio = Within(family, v), family.ratio(square, v[2:])
+        at, ratio = InteriorEquations(family, v), family.ratio(square, v[2:])
         det, trace, sigma = at.determinant, at.trace(ratio.bend), 1.0 - ratio.bend * square
         rise = -2.0 * (ratio.by_square * square + ratio.bend)
         sigma_slopes = [rise * float(v[0]), rise * float(v[1]), *(-r * square for r in ratio.by_parameters)]

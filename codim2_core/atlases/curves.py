@@ -6,27 +6,27 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..curves.arclength import Traced, zero_between
+from ..arrays import Array
+from ..curves.arclength import TracedLine, zero_between
 from ..curves.polyline import distance
 from . import conditions, plane_conditions, special, starts, tracing
-from .degenerate import Line
-from .family import Family
-from .special import Special
-from .starts import NO_SEEDS, Seeds
-from .tracing import Followed, Found
+from .degenerate import DegenerateLine
+from .family import PlaneFamily
+from .special import SpecialPlace
+from .starts import NO_SEEDS, CurveSeeds
+from .tracing import TracedCurve, TracedCurves
 
-Array = NDArray[np.float64]
-
-LAST = 0.04  # of the ranges: last step of the curve of a neutral equator, whose mean takes ever more angles
-POINT = 1e-7  # of the ranges: a curve that keeps within this is a point
-SAME = 1e-6  # two curves of one kind that are as near as this everywhere are one
-SINGULAR = 1e-9  # of det DU, all along a curve through the equator: there critical sets fill a line
-STILL = 1e-9  # of det DU, all along a curve of tr J = 0: there critical sets fill a line
+LAST_STEP = 0.04  # of the ranges: last step of the curve of a neutral equator, whose mean takes ever more angles
+POINT_SIZE = 1e-7  # of the ranges: a curve that keeps within this is a point
+SAME_CURVE_DISTANCE = 1e-6  # two curves of one kind that are as near as this everywhere are one
+SINGULAR_DETERMINANT = 1e-9  # of det DU, all along a curve through the equator: there critical sets fill a line
+LINE_DETERMINANT = 1e-9  # of det DU, all along a curve of tr J = 0: there critical sets fill a line
 
 
-def curves_of(family: Family, lines: Sequence[Line], seeds: Seeds = NO_SEEDS) -> tuple[Found, list[Special]]:
+def curves_of(
+    family: PlaneFamily, lines: Sequence[DegenerateLine], seeds: CurveSeeds = NO_SEEDS
+) -> tuple[TracedCurves, list[SpecialPlace]]:
     """All curves, in unknowns of their own, and the special points along them; none that lies on a degenerate line.
 
     They are begun in cells of the net, and from the seeds.
@@ -40,50 +40,50 @@ def curves_of(family: Family, lines: Sequence[Line], seeds: Seeds = NO_SEEDS) ->
     corners = special.corners(points)
     if family.affine:
         kept = [one for one in found.curves if one.kind != "transcritical" or not _singular(family, one)]
-        found = Found(kept, found.unfinished)
+        found = TracedCurves(kept, found.unfinished)
         singular = plane_conditions.singular_matrix(family)
         more = tracing.in_the_plane("det A = 0", singular, starts.of_plane(singular))
     else:
         more = tracing.folds(family, folds, seeds.within)
     turning_points = tracing.hopfs(family, hopfs, corners, seeds.within)
     real = [part for one in turning_points.curves for part in _with_positive_determinant(family, one)]
-    more += Found(real, turning_points.unfinished) + tracing.node_foci(family, foci, corners, seeds.within)
+    more += TracedCurves(real, turning_points.unfinished) + tracing.node_foci(family, foci, corners, seeds.within)
     meetings = special.crossings([one for one in found.curves if one.kind == "saddle-node"])
     ends = [v[1:] for v in corners] + [one.plane for one in meetings]
     neutral = plane_conditions.neutral_equator(family)
     turned = tracing.in_the_plane("neutral equator", neutral, starts.on_steps(neutral, turning))
-    more += Found([_to_ends(one, ends) for one in turned.curves], turned.unfinished)
+    more += TracedCurves([_to_ends(one, ends) for one in turned.curves], turned.unfinished)
     more = _true(more, lines)
     points += [point for one in more.curves for point in special.special_points_along(family, one)]
     return found + more, [one for one in points if not any(line.holds(one.plane) for line in lines)]
 
 
-def _true(found: Found, lines: Sequence[Line]) -> Found:
+def _true(found: TracedCurves, lines: Sequence[DegenerateLine]) -> TracedCurves:
     """Leave out what keeps to one point or to a degenerate line, and what another one covers."""
-    wide = [one for one in found.curves if np.ptp(one.plane, axis=0).max() > POINT]
+    wide = [one for one in found.curves if np.ptp(one.plane, axis=0).max() > POINT_SIZE]
     own = [one for one in wide if not any(line.holds(one.plane).all() for line in lines)]
-    return Found(_each_once(own), found.unfinished)
+    return TracedCurves(_each_once(own), found.unfinished)
 
 
-def _to_ends(one: Followed, ends: list[Array]) -> Followed:
+def _to_ends(one: TracedCurve, ends: list[Array]) -> TracedCurve:
     """Go on from where the equator all but has limit directions to where it has: at a corner, or two at once."""
     points = one.points
     for end, i in zip(one.curve.ends, (0, -1), strict=True):
         near = min(ends, key=lambda v, i=i: math.dist(v, points[i]), default=None)
-        if end == "lost" and near is not None and math.dist(near, points[i]) < LAST:
+        if end == "lost" and near is not None and math.dist(near, points[i]) < LAST_STEP:
             points = np.concatenate([near[None], points] if i == 0 else [points, near[None]])
-    return Followed(one.kind, one.condition, Traced(points, one.curve.closed, one.curve.ends))
+    return TracedCurve(one.kind, one.condition, TracedLine(points, one.curve.closed, one.curve.ends))
 
 
-def _singular(family: Family, one: Followed) -> bool:
-    return all(abs(conditions.OnEquator(family, v).determinant) < SINGULAR for v in one.points)
+def _singular(family: PlaneFamily, one: TracedCurve) -> bool:
+    return all(abs(conditions.EquatorEquations(family, v).determinant) < SINGULAR_DETERMINANT for v in one.points)
 
 
-def _with_positive_determinant(family: Family, one: Followed) -> list[Followed]:
+def _with_positive_determinant(family: PlaneFamily, one: TracedCurve) -> list[TracedCurve]:
     """Parts of a curve along which det J > 0, with the ends at which it is 0."""
 
     def determinant(v: Array) -> float:
-        return conditions.Within(family, v).determinant
+        return conditions.InteriorEquations(family, v).determinant
 
     points = one.points
     value = np.array([determinant(v) for v in points])
@@ -95,7 +95,7 @@ def _with_positive_determinant(family: Family, one: Followed) -> list[Followed]:
         points = np.concatenate([points[first:], points[1 : first + 1]])
         value = np.concatenate([value[first:], value[1 : first + 1]])
         good = value > 0.0
-    found: list[Followed] = []
+    found: list[TracedCurve] = []
     i = 0
     while i < len(points):
         if not good[i]:
@@ -110,15 +110,15 @@ def _with_positive_determinant(family: Family, one: Followed) -> list[Followed]:
         if j + 1 < len(points):
             part.append(zero_between(one.condition, determinant, points[j], points[j + 1]))
         ends = ("det J = 0" if i > 0 else one.curve.ends[0], "det J = 0" if j + 1 < len(points) else one.curve.ends[1])
-        if len(part) > 1 and value[i : j + 1].max() > STILL:
-            found.append(Followed(one.kind, one.condition, Traced(np.array(part), False, ends)))
+        if len(part) > 1 and value[i : j + 1].max() > LINE_DETERMINANT:
+            found.append(TracedCurve(one.kind, one.condition, TracedLine(np.array(part), False, ends)))
         i = j + 1
     return found
 
 
-def _each_once(found: list[Followed]) -> list[Followed]:
+def _each_once(found: list[TracedCurve]) -> list[TracedCurve]:
     """Leave out curves that lie on an earlier one of their kind: a symmetry makes them."""
-    kept: list[Followed] = []
+    kept: list[TracedCurve] = []
     for one in found:
         if not any(one.kind == other.kind and _lies_on_line(one.plane, other.plane) for other in kept):
             kept.append(one)
@@ -129,4 +129,4 @@ def _lies_on_line(points: Array, line: Array) -> bool:
     """Whether all points lie on a line but for its bends."""
     few = points[np.linspace(0, len(points) - 1, 9).astype(int)]
     bend = 0.02 * (np.diff(line, axis=0) ** 2).sum(axis=1).max()
-    return bool((distance(few, line) < SAME + bend).all())
+    return bool((distance(few, line) < SAME_CURVE_DISTANCE + bend).all())

@@ -10,19 +10,19 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..curves.polyline import distance, feet
 
-Array = NDArray[np.float64]
 Edge = tuple[int, int]
 
 FRAME = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]])
-BEYOND = 1e-6  # that lines go on beyond their ends, so that they cross what they end on
-NEAR = 6e-3  # a line that ends so near to another ends on it
-DIGITS = 9  # of places: nearer ones are one
-TOUCHING = 2e-9  # a place so near to a piece lies on it
-CHUNK = 256
-ASIDE = 0.479  # of a stretch across a face: its middle is a round number where the face has a symmetry
-LINES = 24  # across a face, along which a place far from its border is looked for
+END_EXTENSION = 1e-6  # that lines go on beyond their ends, so that they cross what they end on
+LINE_END_DISTANCE = 6e-3  # a line that ends so near to another ends on it
+PLACE_DIGITS = 9  # of places: nearer ones are one
+ON_PIECE_DISTANCE = 2e-9  # a place so near to a piece lies on it
+CHUNK_SIZE = 256
+OFF_CENTRE = 0.479  # of a stretch across a face: its middle is a round number where the face has a symmetry
+INTERIOR_LINES = 24  # across a face, along which a place far from its border is looked for
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,16 +47,16 @@ class Face:
 
 
 @dataclass(frozen=True, eq=False)
-class Net:
+class EdgeNet:
     """Places (k, 2), and the edges between them, each once."""
 
     places: Array
     edges: frozenset[Edge]
 
-    def without(self, edges: set[Edge]) -> Net:
+    def without(self, edges: set[Edge]) -> EdgeNet:
         """Leave out some edges, given in either direction."""
         both = edges | {(v, u) for u, v in edges}
-        return Net(self.places, frozenset(edge for edge in self.edges if edge not in both))
+        return EdgeNet(self.places, frozenset(edge for edge in self.edges if edge not in both))
 
     def faces(self) -> list[Face]:
         """All bounded faces."""
@@ -80,7 +80,7 @@ def area(ring: Array) -> float:
     return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
 
 
-def net_of(lines: Sequence[Array]) -> Net:
+def net_of(lines: Sequence[Array]) -> EdgeNet:
     """Cut lines (m, 2) of the unit square, and its frame, where they cross."""
     every = [FRAME, *(_extend_to_lines(i, lines) for i in range(len(lines)))]
     start = np.concatenate([line[:-1] for line in every])
@@ -91,7 +91,7 @@ def net_of(lines: Sequence[Array]) -> Net:
 
     def number(x: float, y: float) -> int:
         x, y = min(max(x, 0.0), 1.0), min(max(y, 0.0), 1.0)
-        key = round(x, DIGITS) + 0.0, round(y, DIGITS) + 0.0
+        key = round(x, PLACE_DIGITS) + 0.0, round(y, PLACE_DIGITS) + 0.0
         if key not in numbers:
             numbers[key] = len(places)
             places.append((x, y))
@@ -100,7 +100,7 @@ def net_of(lines: Sequence[Array]) -> Net:
     on: list[list[tuple[float, int]]] = [
         [(0.0, number(*one)), (1.0, number(*other))] for one, other in zip(start.tolist(), end.tolist(), strict=True)
     ]
-    for i, j, t, w in _crossings(start, end, of):
+    for i, j, t, w in _piece_crossings(start, end, of):
         at = number(*(start[i] + t * (end[i] - start[i])).tolist())
         on[i].append((t, at))
         on[j].append((w, at))
@@ -110,13 +110,13 @@ def net_of(lines: Sequence[Array]) -> Net:
     for points in on:
         chain = [at for _, at in sorted(points)]
         edges |= {(min(u, v), max(u, v)) for u, v in pairwise(chain) if u != v}
-    return Net(np.array(places), frozenset(edges))
+    return EdgeNet(np.array(places), frozenset(edges))
 
 
 def _extend_to_lines(i: int, lines: Sequence[Array]) -> Array:
     """Return a line, drawn on to what its ends all but reach."""
     line = lines[i]
-    if np.abs(line[0] - line[-1]).max() < BEYOND:
+    if np.abs(line[0] - line[-1]).max() < END_EXTENSION:
         return line
     ahead, behind = _onward(line[-1], line[-2], i, lines), _onward(line[0], line[1], i, lines)
     return np.concatenate([behind[None], line, ahead[None]])
@@ -124,9 +124,11 @@ def _extend_to_lines(i: int, lines: Sequence[Array]) -> Array:
 
 def _onward(end: Array, before: Array, i: int, lines: Sequence[Array]) -> Array:
     way = (end - before) / max(math.dist(end, before), 1e-300)
-    if min(end.min(), 1.0 - end.max()) < BEYOND:  # on the frame: straight out of it
-        return np.where(end < BEYOND, -BEYOND, np.where(end > 1.0 - BEYOND, 1.0 + BEYOND, end))
-    best, least = end + BEYOND * way, NEAR
+    if min(end.min(), 1.0 - end.max()) < END_EXTENSION:  # on the frame: straight out of it
+        return np.where(
+            end < END_EXTENSION, -END_EXTENSION, np.where(end > 1.0 - END_EXTENSION, 1.0 + END_EXTENSION, end)
+        )
+    best, least = end + END_EXTENSION * way, LINE_END_DISTANCE
     for k, other in enumerate(lines):
         if k == i:
             continue
@@ -134,17 +136,17 @@ def _onward(end: Array, before: Array, i: int, lines: Sequence[Array]) -> Array:
         j = int(gap.argmin())
         if gap[j] < least:
             least = float(gap[j])
-            best = foot[j] + BEYOND * ((foot[j] - end) / least if least > BEYOND else way)
+            best = foot[j] + END_EXTENSION * ((foot[j] - end) / least if least > END_EXTENSION else way)
     return best
 
 
-def _crossings(start: Array, end: Array, of: NDArray[np.intp]) -> list[tuple[int, int, float, float]]:
+def _piece_crossings(start: Array, end: Array, of: NDArray[np.intp]) -> list[tuple[int, int, float, float]]:
     """Pieces i < j that cross, and at which parts of both."""
     along = end - start
     found: list[tuple[int, int, float, float]] = []
     rows = np.arange(len(start))
-    for i in range(0, len(start), CHUNK):
-        own = rows[i : i + CHUNK, None]
+    for i in range(0, len(start), CHUNK_SIZE):
+        own = rows[i : i + CHUNK_SIZE, None]
         away = start[None] - start[own[:, 0], None]
         r, s = along[own[:, 0], None], along[None]
         across = r[..., 0] * s[..., 1] - r[..., 1] * s[..., 0]
@@ -163,12 +165,12 @@ def _touches(places: Array, start: Array, end: Array) -> list[tuple[int, int, fl
     along = end - start
     size = np.maximum(np.sqrt((along**2).sum(axis=1)), 1e-100)
     found: list[tuple[int, int, float]] = []
-    for i in range(0, len(start), CHUNK):
-        r, own = along[i : i + CHUNK, None], size[i : i + CHUNK, None]
-        away = places[None] - start[i : i + CHUNK, None]
+    for i in range(0, len(start), CHUNK_SIZE):
+        r, own = along[i : i + CHUNK_SIZE, None], size[i : i + CHUNK_SIZE, None]
+        away = places[None] - start[i : i + CHUNK_SIZE, None]
         part = (away * r).sum(axis=2) / own**2
         gap = np.abs(away[..., 0] * r[..., 1] - away[..., 1] * r[..., 0]) / own
-        met = (gap < TOUCHING) & (part * own > TOUCHING) & ((1.0 - part) * own > TOUCHING)
+        met = (gap < ON_PIECE_DISTANCE) & (part * own > ON_PIECE_DISTANCE) & ((1.0 - part) * own > ON_PIECE_DISTANCE)
         found += [(i + k, j, float(part[k, j])) for k, j in np.argwhere(met).tolist()]
     return found
 
@@ -240,7 +242,7 @@ def middle(face: Face) -> tuple[Array, float]:
 def _chords(rings: Sequence[Array], axis: int) -> Array:
     """Places (k, 2) near the middles of stretches within polygons on lines along one axis."""
     low, high = rings[0][:, 1 - axis].min(), rings[0][:, 1 - axis].max()
-    level = low + (high - low) * (np.arange(LINES)[:, None] + 0.5137) / LINES
+    level = low + (high - low) * (np.arange(INTERIOR_LINES)[:, None] + 0.5137) / INTERIOR_LINES
     start, end = np.concatenate(rings), np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
     (p0, q0), (p1, q1) = start[:, [axis, 1 - axis]].T, end[:, [axis, 1 - axis]].T
     line, piece = np.nonzero((q0 > level) != (q1 > level))
@@ -248,5 +250,5 @@ def _chords(rings: Sequence[Array], axis: int) -> Array:
     crossed = p0[piece] + share * (p1[piece] - p0[piece])
     order = np.lexsort((crossed, line))  # an even number on each line
     one, other = crossed[order][::2], crossed[order][1::2]
-    found = np.stack([one + ASIDE * (other - one), level[line[order][::2], 0]], axis=-1)
+    found = np.stack([one + OFF_CENTRE * (other - one), level[line[order][::2], 0]], axis=-1)
     return found if axis == 0 else found[:, ::-1]

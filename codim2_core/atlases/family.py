@@ -12,8 +12,8 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.expression import Expression, parse
 from ..expressions.names import SLOW_NAMES
 from ..initial_value.field import function_of, rows_of
@@ -21,18 +21,17 @@ from ..layer_problem.vary import vary
 from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 
-Array = NDArray[np.float64]
 Ranges = tuple[tuple[float, float], tuple[float, float]]
 
-DIFFERENCE = 1e-5  # of ln s and of the parameter of Psi, for derivatives by them
-BESIDE = 1e-10  # in e, where derivatives are taken for those of a point that has none
-CENTRE = 1e-16  # |e|^2 below which it counts as this
-NEAR = 1.0 - 1e-6  # |e|^2 up to which curves that ask for Psi are followed: they end on the equator
+DIFFERENCE_STEP = 1e-5  # of ln s and of the parameter of Psi, for derivatives by them
+KINK_OFFSET = 1e-10  # in e, where derivatives are taken for those of a point that has none
+MIN_RADIUS_SQUARED = 1e-16  # |e|^2 below which it counts as this
+MAX_RADIUS_SQUARED = 1.0 - 1e-6  # |e|^2 up to which curves that ask for Psi are followed: they end on the equator
 AXES: tuple[str, str] = ("across_unit", "up_unit")
-_PARTS = ("row_c", "row_s", "row_f")
+_TAPE_ROWS = ("row_c", "row_s", "row_f")
 
 
-class Ratio(NamedTuple):
+class EigenvalueRatio(NamedTuple):
     """sigma, the ratio of the radial to the tangential eigenvalue of D e_Psi, written ``1 - bend |e|^2``.
 
     Attributes
@@ -50,7 +49,7 @@ class Ratio(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Family:
+class PlaneFamily:
     """A system and Psi over two parameters.
 
     Attributes
@@ -70,7 +69,7 @@ class Family:
     @cached_property
     def rows(self) -> tuple[Expression, Expression]:
         """U1 and U2 on Sigma, in c, s and the names of both parameters."""
-        first, second = (self._on_sigma(row) for row in _rows(self.system, self.names))
+        first, second = (self._on_sigma(row) for row in _formula_rows(self.system, self.names))
         return first, second
 
     def _on_sigma(self, row: Expression) -> Expression:
@@ -120,7 +119,7 @@ class Family:
         Where one is undefined, as that of abs(c) at 0, all are taken just beside.
         """
         found = self._jet(c, s, u, v)
-        return found if math.isfinite(sum(found)) else self._jet(c + BESIDE, s + BESIDE, u, v)
+        return found if math.isfinite(sum(found)) else self._jet(c + KINK_OFFSET, s + KINK_OFFSET, u, v)
 
     @cached_property
     def _jet(self) -> Callable[..., tuple[float, ...]]:
@@ -179,15 +178,15 @@ class Family:
             return self.psi
         return with_parameter(self.psi, float(self.values(np.clip(u, 0.0, 1.0))[self.of_psi.index(True)]))
 
-    def ratio(self, square: float, u: Array) -> Ratio:
-        """Return what sigma is where |e|^2 is `square`; from `NEAR` on its tangent there goes on, for steps too far."""
-        held = min(max(square, CENTRE), NEAR)
+    def ratio(self, square: float, u: Array) -> EigenvalueRatio:
+        """Return sigma at |e|^2 = `square`; beyond `MAX_RADIUS_SQUARED` it goes on along its tangent."""
+        held = min(max(square, MIN_RADIUS_SQUARED), MAX_RADIUS_SQUARED)
         first, second = (self._ratio_by(k, held, u) if own else 0.0 for k, own in enumerate(self.of_psi))
         bend, by_square = _bend(self.psi_at(u), held)
-        return Ratio(bend + by_square * max(square - NEAR, 0.0), by_square, (first, second))
+        return EigenvalueRatio(bend + by_square * max(square - MAX_RADIUS_SQUARED, 0.0), by_square, (first, second))
 
     def _ratio_by(self, k: int, square: float, u: Array) -> float:
-        step, held = DIFFERENCE * np.eye(2)[k], np.clip(u, 0.0, 1.0)
+        step, held = DIFFERENCE_STEP * np.eye(2)[k], np.clip(u, 0.0, 1.0)
         low, high = np.clip(held - step, 0.0, 1.0), np.clip(held + step, 0.0, 1.0)
         rise = _bend(self.psi_at(high), square)[0] - _bend(self.psi_at(low), square)[0]
         return rise / float(high[k] - low[k])
@@ -221,12 +220,12 @@ def _bend(psi: Psi, square: float) -> tuple[float, float]:
     modulus = math.sqrt(square)
     zeta = float(psi.radius(modulus, (1.0 - modulus) * (1.0 + modulus)))
     k = psi.steepness(zeta)
-    higher, lower = (psi.steepness(zeta * math.exp(0.5 * sign * DIFFERENCE)) for sign in (1.0, -1.0))
-    rise = (higher - lower) / (2.0 * DIFFERENCE)  # d k/d ln s
+    higher, lower = (psi.steepness(zeta * math.exp(0.5 * sign * DIFFERENCE_STEP)) for sign in (1.0, -1.0))
+    rise = (higher - lower) / (2.0 * DIFFERENCE_STEP)  # d k/d ln s
     return 1.0 + k - k / square, (k - rise / (1.0 + k)) / (square * square)
 
 
-def _rows(system: Any, names: Sequence[str]) -> list[Expression]:
+def _formula_rows(system: Any, names: Sequence[str]) -> list[Expression]:
     """U1 and U2 as formulas in which two names stay; of a matrix that was given in its own axes."""
     kept = [name for name in names if name in system.variable]
     given = getattr(system, "given_matrix", None)  # of e-linear systems only
@@ -245,8 +244,8 @@ def _rows(system: Any, names: Sequence[str]) -> list[Expression]:
 
     found = []
     for i, entries in enumerate(given):
-        row = parse("row_c*c + row_s*s + row_f", ("c", "s", *_PARTS))
-        for name, value in zip(_PARTS, (*entries, system.f[i]), strict=True):
+        row = parse("row_c*c + row_s*s + row_f", ("c", "s", *_TAPE_ROWS))
+        for name, value in zip(_TAPE_ROWS, (*entries, system.f[i]), strict=True):
             row = row.substitute(name, as_expression(value, f"f{i + 1}" if name == "row_f" else ""))
         found.append(row)
     return found

@@ -7,17 +7,15 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.lyapunov import first_lyapunov
 from . import conditions
-from .family import AXES, Family
-from .tracing import Followed
-
-Array = NDArray[np.float64]
+from .family import AXES, PlaneFamily
+from .tracing import TracedCurve
 
 
-def places(family: Family, curve: Followed) -> Array:
+def places(family: PlaneFamily, curve: TracedCurve) -> Array:
     """Points (m, 2) of the projected hemisphere."""
     v = curve.points
     if v.shape[1] == 2:
@@ -33,7 +31,7 @@ def places(family: Family, curve: Followed) -> Array:
     return p
 
 
-def _place_on_portrait(family: Family, at: Array) -> Array:
+def _place_on_portrait(family: PlaneFamily, at: Array) -> Array:
     e, modulus = at[:2], math.hypot(*at[:2])
     complement = (1.0 - modulus) * (1.0 + modulus)
     if modulus == 0.0 or complement <= 0.0:
@@ -42,13 +40,13 @@ def _place_on_portrait(family: Family, at: Array) -> Array:
     return e * (zeta / math.hypot(1.0, zeta) / modulus)
 
 
-def numbers(family: Family, curve: Followed) -> Array:
+def curve_numbers(family: PlaneFamily, curve: TracedCurve) -> Array:
     """One number a point, see `AtlasCurve`."""
     v = curve.points
     if curve.kind in ("saddle-node", "pitchfork"):
-        return np.array([conditions.OnEquator(family, at).radial for at in v])
+        return np.array([conditions.EquatorEquations(family, at).radial for at in v])
     if curve.kind == "transcritical":
-        return np.array([conditions.OnEquator(family, at).slope for at in v])
+        return np.array([conditions.EquatorEquations(family, at).slope for at in v])
     if curve.kind in ("fold of critical sets", "pitchfork of critical sets", "node-focus"):
         return np.array([math.copysign(1.0, trace(family, at)) for at in v])
     if curve.kind == "Hopf":
@@ -56,12 +54,12 @@ def numbers(family: Family, curve: Followed) -> Array:
     return np.zeros(0)
 
 
-def trace(family: Family, at: Array) -> float:
+def trace(family: PlaneFamily, at: Array) -> float:
     """Return T at (c, s, u, v)."""
-    return conditions.Within(family, at).trace(family.ratio(float(at[:2] @ at[:2]), at[2:]).bend)
+    return conditions.InteriorEquations(family, at).trace(family.ratio(float(at[:2] @ at[:2]), at[2:]).bend)
 
 
-def lyapunov(family: Family, v: Array) -> Array:
+def lyapunov(family: PlaneFamily, v: Array) -> Array:
     """First Lyapunov coefficients (m,) at places (m, 4) where tr J = 0 < det J; on the equator that beside it."""
     inner = np.hypot(v[:, 0], v[:, 1]) < 1.0
     if not inner.all():

@@ -7,19 +7,17 @@ from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..curves.newton import Condition
-from .family import AXES, Family
+from .family import AXES, PlaneFamily
 
-Array = NDArray[np.float64]
-
-FEW, MANY = 64, 2**12  # angles of the mean rule
-SETTLED = np.array([1e-13, 1e-9, 1e-9])  # of the mean, and of its slopes
-NOWHERE = np.full(1, math.nan), np.full((1, 2), math.nan)
+MIN_ANGLES, MAX_ANGLES = 64, 2**12  # angles of the mean rule
+MEAN_TOLERANCES = np.array([1e-13, 1e-9, 1e-9])  # of the mean, and of its slopes
+NO_VALUE = np.full(1, math.nan), np.full((1, 2), math.nan)
 
 
-def singular_matrix(family: Family) -> Condition:
+def singular_matrix(family: PlaneFamily) -> Condition:
     """Det A = 0, of an e-linear system."""
 
     def condition(v: Array) -> tuple[Array, Array]:
@@ -31,25 +29,25 @@ def singular_matrix(family: Family) -> Condition:
     return condition
 
 
-def neutral_equator(family: Family) -> Condition:
+def neutral_equator(family: PlaneFamily) -> Condition:
     """Find where the mean of lambda_rho/|Theta| over the equator is zero, of a closed equator (thm:geneps0(c)).
 
     Means over equally spaced angles, twice as many until they stand; NaNs where there are limit directions.
     """
     means = _affine_means(family) if family.affine else _means(family)
-    enough = [FEW]
+    enough = [MIN_ANGLES]
 
     def condition(v: Array) -> tuple[Array, Array]:
         count = enough[0]  # for the last place: it is not far
         before = means(v, count)
-        while before is not None and count < MANY:
+        while before is not None and count < MAX_ANGLES:
             count *= 2
             now = means(v, count)
-            if now is not None and (np.abs(now - before) <= SETTLED * (1.0 + np.abs(now))).all():
-                enough[0] = max(count // 4, FEW)
+            if now is not None and (np.abs(now - before) <= MEAN_TOLERANCES * (1.0 + np.abs(now))).all():
+                enough[0] = max(count // 4, MIN_ANGLES)
                 return now[:1], now[None, 1:]
             before = now
-        return NOWHERE
+        return NO_VALUE
 
     return condition
 
@@ -58,7 +56,7 @@ def neutral_equator(family: Family) -> Condition:
 Means = Callable[[Array, int], "Array | None"]
 
 
-def _means(family: Family) -> Means:
+def _means(family: PlaneFamily) -> Means:
     rows = family.unit_rows
     slopes = [[row.derivative(name) for name in AXES] for row in rows]
 
@@ -80,7 +78,7 @@ def _means(family: Family) -> Means:
     return means
 
 
-def _affine_means(family: Family) -> Means:
+def _affine_means(family: PlaneFamily) -> Means:
     """Likewise: Theta and lambda_rho are sums of c, s, c^2, c s and s^2 with coefficients that a place decides."""
 
     def means(v: Array, count: int) -> Array | None:

@@ -6,32 +6,30 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array, read_only
 from ..curves.polyline import distance, feet
 from ..diagrams.classes import Classes, classes_over
 from .faces import Face, inside_polygons, middle, net_of
-from .family import Family
-from .result import AtlasRegion, Looked, read_only
+from .family import PlaneFamily
+from .result import AtlasRegion, SamplingReport
 
-Array = NDArray[np.float64]
-
-BESIDE = 1e-3  # of the ranges: a point that is as near as this to a curve's chord lies on the curve
-ASIDE = 0.01  # of the ranges: nearer to a curve than this nothing is compared
-STEPS = (np.arange(5) + 0.5) / 5.0 + 0.013 * np.sin(np.arange(1.0, 6.0))  # off round numbers
-EDGE = 5e-4  # of the ranges: how far from their borders these are looked along
-ENDS = np.array([EDGE, 1.0 - EDGE])
+CHORD_DISTANCE = 1e-3  # of the ranges: a point that is as near as this to a curve's chord lies on the curve
+MIN_CURVE_DISTANCE = 0.01  # of the ranges: nearer to a curve than this nothing is compared
+NET_OFFSETS = (np.arange(5) + 0.5) / 5.0 + 0.013 * np.sin(np.arange(1.0, 6.0))  # off round numbers
+EDGE_INSET = 5e-4  # of the ranges: how far from their borders these are looked along
+EDGE_OFFSETS = np.array([EDGE_INSET, 1.0 - EDGE_INSET])
 NET = np.concatenate([
-    np.stack(np.meshgrid(STEPS, STEPS[::-1] + 0.007, indexing="ij"), axis=-1).reshape(-1, 2),
+    np.stack(np.meshgrid(NET_OFFSETS, NET_OFFSETS[::-1] + 0.007, indexing="ij"), axis=-1).reshape(-1, 2),
     *(np.stack(np.meshgrid(one, other, indexing="ij"), axis=-1).reshape(-1, 2)
-      for one, other in ((ENDS, STEPS), (STEPS, ENDS), (ENDS, ENDS))),
+      for one, other in ((EDGE_OFFSETS, NET_OFFSETS), (NET_OFFSETS, EDGE_OFFSETS), (EDGE_OFFSETS, EDGE_OFFSETS))),
 ])  # fmt: skip
-THIN = 2e-4  # of the ranges: what is nowhere wider than twice this is given to a neighbour
+MIN_HALF_WIDTH = 2e-4  # of the ranges: what is nowhere wider than twice this is given to a neighbour
 
 
 def regions_of(
-    family: Family, curves: Sequence[Array], points: Sequence[tuple[float, float]]
-) -> tuple[tuple[AtlasRegion, ...], Looked]:
+    family: PlaneFamily, curves: Sequence[Array], points: Sequence[tuple[float, float]]
+) -> tuple[tuple[AtlasRegion, ...], SamplingReport]:
     """All regions, by falling area, and what the portrait is where they were looked at.
 
     Parameters
@@ -48,7 +46,7 @@ def regions_of(
     faces = net.faces()
     found = [middle(face) for face in faces]
     classes = classes_over(family.system, family.psi, family.z, family.names, family.ranges)
-    wide = [i for i, (_, room) in enumerate(found) if room > THIN]
+    wide = [i for i, (_, room) in enumerate(found) if room > MIN_HALF_WIDTH]
     codes = classes.decided(family.values(np.array([at for at, _ in found])))
     code = dict(enumerate(codes.tolist()))
     owner = {edge: i for i, face in enumerate(faces) for edge in face.edges}
@@ -65,18 +63,18 @@ def regions_of(
         out.append(AtlasRegion(classes.name(kind), (float(place[0]), float(place[1])), area, boundary))
         kinds.append(kind)
     unlike = _unlike(family, classes, joined, kinds, lines)
-    looked = Looked(len(wide) + len(NET), unlike, classes.unproved)
+    looked = SamplingReport(len(wide) + len(NET), unlike, classes.unproved)
     return tuple(sorted(out, key=lambda region: -region.area)), looked
 
 
 def _unlike(
-    family: Family, classes: Classes, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
+    family: PlaneFamily, classes: Classes, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
 ) -> tuple[tuple[float, float], ...]:
     """Places of a net and along its edges, away from all curves, whose class is not that of their region."""
     codes = classes.decided(family.values(NET)).tolist()
     near = np.zeros(len(NET), bool)
     for line in lines:
-        near |= distance(NET, line) < ASIDE
+        near |= distance(NET, line) < MIN_CURVE_DISTANCE
     owner = np.full(len(NET), -1)
     for i, face in enumerate(faces):
         owner[inside_polygons(NET, face.rings)] = i
@@ -93,7 +91,7 @@ def _insert_marks(line: Array, marks: Array) -> Array:
     for mark in marks:
         part, _, gap = feet(mark, line)
         i = int(gap.argmin())
-        if not gap[i] < BESIDE:
+        if not gap[i] < CHORD_DISTANCE:
             continue
         where = i + float(part[i])
         if where == round(where) and 0 < (k := round(where)) < len(line) - 1 and gap[i] > 0.0:

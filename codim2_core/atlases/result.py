@@ -4,22 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from .. import drawing
+from ..arrays import Array
 from ..paper import CHANGES, cite
-from ..tables import Tabled, number, paragraphs, point, rows
+from ..tables import Tabled, paragraphs, point, result_rows, table_number
 
-__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "Looked"]
-
-Array = NDArray[np.float64]
-
-
-def read_only(array: Array) -> Array:
-    """Return an array that cannot be written to any more."""
-    array.flags.writeable = False
-    return array
+__all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "SamplingReport"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,11 +108,11 @@ class AtlasRegion(Tabled):
     boundary: tuple[Array, ...] = field(repr=False)
 
     def _row_(self) -> tuple[str, ...]:
-        return self.name, point(self.sample), number(self.area)
+        return self.name, point(self.sample), table_number(self.area)
 
 
 @dataclass(frozen=True, slots=True)
-class Looked:
+class SamplingReport:
     """A report on the places at which an atlas was compared with the portrait.
 
     Attributes
@@ -159,7 +149,7 @@ class Atlas:
     degenerate : tuple of (str, float)
         Parameters, and values of them at which every direction is a limit direction: no curve and no point is told
         there.
-    looked : Looked
+    looked : SamplingReport
         Where the portrait was computed.
     """
 
@@ -170,12 +160,12 @@ class Atlas:
     regions: tuple[AtlasRegion, ...] = ()
     unfinished: tuple[str, ...] = ()
     degenerate: tuple[tuple[str, float], ...] = ()
-    looked: Looked = Looked()
+    looked: SamplingReport = SamplingReport()
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
         labels = dict.fromkeys(f"{one.kind}: {cite(one.label)}" for one in self.curves if cite(one.label))
-        tables = rows(self.regions) + rows(self.points) + rows(self.curves)
+        tables = result_rows(self.regions) + result_rows(self.points) + result_rows(self.curves)
         return (self._repr_svg_() or "") + tables + paragraphs(["; ".join(labels)])

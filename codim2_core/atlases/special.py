@@ -7,26 +7,24 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..curves.arclength import zero_between
 from ..curves.newton import newton
 from ..words import say
-from .conditions import OnEquator, Within
-from .family import Family
+from .conditions import EquatorEquations, InteriorEquations
+from .family import PlaneFamily
 from .numbers import lyapunov, trace
-from .tracing import Followed
+from .tracing import TracedCurve
 
-Array = NDArray[np.float64]
-
-SAME = 1e-6  # of the ranges: points of one kind nearer to each other are one
-ASIDE = 1e-7  # and so far from an end of both curves they cross
-REACH = 0.05  # that Newton's method may go from where two polylines cross
-SILENT = ("node-focus", "det A = 0")  # kinds whose crossings are no news
+SAME_POINT_DISTANCE = 1e-6  # of the ranges: points of one kind nearer to each other are one
+MIN_END_DISTANCE = 1e-7  # and so far from an end of both curves they cross
+MAX_CORRECTION = 0.05  # that Newton's method may go from where two polylines cross
+UNREPORTED_KINDS = ("node-focus", "det A = 0")  # kinds whose crossings are no news
 
 
 @dataclass(frozen=True, eq=False)
-class Special:
+class SpecialPlace:
     """A point of codimension two.
 
     Attributes
@@ -46,16 +44,18 @@ class Special:
         return self.v[-2:]
 
 
-def special_points_along(family: Family, curve: Followed) -> list[Special]:
+def special_points_along(family: PlaneFamily, curve: TracedCurve) -> list[SpecialPlace]:
     """Find the special points along one curve."""
     if curve.kind in ("saddle-node", "pitchfork"):
-        found = _zeros(curve, lambda v: OnEquator(family, v).radial, _corner)
+        found = _zeros(curve, lambda v: EquatorEquations(family, v).radial, _corner)
         if curve.kind == "saddle-node":
-            found += _zeros(curve, lambda v: OnEquator(family, v).curvature, _cusp)
+            found += _zeros(curve, lambda v: EquatorEquations(family, v).curvature, _cusp)
         return found
     if curve.kind == "transcritical":
-        found = _zeros(curve, lambda v: OnEquator(family, v).slope, _corner)
-        return found if family.affine else found + _zeros(curve, lambda v: OnEquator(family, v).determinant, _fold)
+        found = _zeros(curve, lambda v: EquatorEquations(family, v).slope, _corner)
+        return (
+            found if family.affine else found + _zeros(curve, lambda v: EquatorEquations(family, v).determinant, _fold)
+        )
     if curve.kind == "fold of critical sets":
         return _zeros(curve, lambda v: trace(family, v), _takens) + _cusps_of_sets(family, curve)
     if curve.kind == "pitchfork of critical sets":
@@ -70,24 +70,24 @@ def special_points_along(family: Family, curve: Followed) -> list[Special]:
     return []
 
 
-def _corner(v: Array) -> Special:
-    return Special("saddle-node on the equator", say("two borders touch", theta=_angle(v)), v)
+def _corner(v: Array) -> SpecialPlace:
+    return SpecialPlace("saddle-node on the equator", say("two borders touch", theta=_angle(v)), v)
 
 
-def _cusp(v: Array) -> Special:
-    return Special("cusp", say("cusp of directions", theta=_angle(v)), v)
+def _cusp(v: Array) -> SpecialPlace:
+    return SpecialPlace("cusp", say("cusp of directions", theta=_angle(v)), v)
 
 
-def _fold(v: Array) -> Special:
-    return Special("fold on the equator", say("fold on the equator", theta=_angle(v)), v)
+def _fold(v: Array) -> SpecialPlace:
+    return SpecialPlace("fold on the equator", say("fold on the equator", theta=_angle(v)), v)
 
 
-def _takens(v: Array) -> Special:
-    return Special("Bogdanov–Takens", say("both eigenvalues zero"), v)
+def _takens(v: Array) -> SpecialPlace:
+    return SpecialPlace("Bogdanov–Takens", say("both eigenvalues zero"), v)
 
 
-def _bautin(v: Array) -> Special:
-    return Special("generalised Hopf", say("Lyapunov turns"), v)
+def _bautin(v: Array) -> SpecialPlace:
+    return SpecialPlace("generalised Hopf", say("Lyapunov turns"), v)
 
 
 def _angle(v: Array) -> float:
@@ -95,8 +95,11 @@ def _angle(v: Array) -> float:
 
 
 def _zeros(
-    curve: Followed, test: Callable[[Array], float], make: Callable[[Array], Special], values: Array | None = None
-) -> list[Special]:
+    curve: TracedCurve,
+    test: Callable[[Array], float],
+    make: Callable[[Array], SpecialPlace],
+    values: Array | None = None,
+) -> list[SpecialPlace]:
     """Points between neighbours at which a function, of values at all points, changes its sign."""
     points = curve.points
     values = np.array([test(v) for v in points]) if values is None else values
@@ -106,37 +109,37 @@ def _zeros(
     return [make(zero_between(curve.condition, test, points[i], points[i + 1])) for i in rows]
 
 
-def _cusps_of_sets(family: Family, curve: Followed) -> list[Special]:
+def _cusps_of_sets(family: PlaneFamily, curve: TracedCurve) -> list[SpecialPlace]:
     """Find where det J = 0 keeps its place to first order along its own null vector."""
     found = []
     points = curve.points
     for i in range(len(points) - 1):
-        row = Within(family, points[i]).larger_row
+        row = InteriorEquations(family, points[i]).larger_row
 
         def along_null(v: Array, row: int = row) -> float:
-            return Within(family, v).along_null(row)
+            return InteriorEquations(family, v).along_null(row)
 
         if along_null(points[i]) * along_null(points[i + 1]) < 0.0:
             v = zero_between(curve.condition, along_null, points[i], points[i + 1])
-            found.append(Special("cusp", say("cusp of sets"), v))
+            found.append(SpecialPlace("cusp", say("cusp of sets"), v))
     return found
 
 
-def crossings(curves: Sequence[Followed]) -> list[Special]:
+def crossings(curves: Sequence[TracedCurve]) -> list[SpecialPlace]:
     """Find where two curves cross, or one crosses itself, at two places of the portrait."""
     found = []
-    told = [one for one in curves if one.kind not in SILENT]
+    told = [one for one in curves if one.kind not in UNREPORTED_KINDS]
     for i, one in enumerate(told):
         for other in told[i:]:
-            for j, k in _meetings(one, other):
+            for j, k in _crossing_pieces(one, other):
                 at = _solve_crossing(one, other, j, k)
                 if at is not None:
                     kinds = sorted((one.kind, other.kind))
-                    found.append(Special("crossing", say("two at once", one=kinds[0], other=kinds[1]), at))
+                    found.append(SpecialPlace("crossing", say("two at once", one=kinds[0], other=kinds[1]), at))
     return found
 
 
-def _meetings(one: Followed, other: Followed) -> list[tuple[int, int]]:
+def _crossing_pieces(one: TracedCurve, other: TracedCurve) -> list[tuple[int, int]]:
     """Pieces of two polylines that cross."""
     p, q = one.plane, other.plane
     r, s = np.diff(p, axis=0), np.diff(q, axis=0)
@@ -153,7 +156,7 @@ def _meetings(one: Followed, other: Followed) -> list[tuple[int, int]]:
     return [(int(i), int(j)) for i, j in np.argwhere(met)]
 
 
-def _solve_crossing(one: Followed, other: Followed, j: int, k: int) -> Array | None:
+def _solve_crossing(one: TracedCurve, other: TracedCurve, j: int, k: int) -> Array | None:
     """Solve both curves' equations at one place of the square, from two pieces that cross."""
     n, m = one.points.shape[1], other.points.shape[1]
 
@@ -169,10 +172,14 @@ def _solve_crossing(one: Followed, other: Followed, j: int, k: int) -> Array | N
         return np.append(first, second), slopes
 
     start = np.concatenate([one.points[j, : n - 2], other.points[k, : m - 2], one.plane[j]])
-    found = newton(both, start, REACH * 10.0)
-    if found is None or found[-2:].min() < -ASIDE or found[-2:].max() > 1.0 + ASIDE:
+    found = newton(both, start, MAX_CORRECTION * 10.0)
+    if found is None or found[-2:].min() < -MIN_END_DISTANCE or found[-2:].max() > 1.0 + MIN_END_DISTANCE:
         return None
-    if n == m and np.abs(_distances(found[: n - 2] - found[n - 2 : -2], n)).max(initial=0.0) < SAME and n > 2:
+    if (
+        n == m
+        and np.abs(_distances(found[: n - 2] - found[n - 2 : -2], n)).max(initial=0.0) < SAME_POINT_DISTANCE
+        and n > 2
+    ):
         return None  # one place: what happens there is told as a point along one of them
     return found[-2:]
 
@@ -181,24 +188,24 @@ def _distances(away: Array, n: int) -> Array:
     return away - 2.0 * math.pi * np.round(away / (2.0 * math.pi)) if n == 3 else away
 
 
-def corners(found: Sequence[Special]) -> list[Array]:
+def corners(found: Sequence[SpecialPlace]) -> list[Array]:
     """Places (theta, u, v) at which Hopf and node-focus curves, and that of a neutral equator, end on the equator."""
     kept: list[Array] = []
     for one in found:
-        if one.kind == "saddle-node on the equator" and not any(_same(one.v, other) for other in kept):
+        if one.kind == "saddle-node on the equator" and not any(_is_same_place(one.v, other) for other in kept):
             kept.append(one.v)
     return kept
 
 
-def _same(one: Array, other: Array) -> bool:
-    return bool(np.abs(_distances(one - other, 3)).max() < SAME)
+def _is_same_place(one: Array, other: Array) -> bool:
+    return bool(np.abs(_distances(one - other, 3)).max() < SAME_POINT_DISTANCE)
 
 
-def each_once(found: Sequence[Special]) -> list[Special]:
+def each_once(found: Sequence[SpecialPlace]) -> list[SpecialPlace]:
     """Leave out points of one kind and sentence at one place."""
-    kept: list[Special] = []
+    kept: list[SpecialPlace] = []
     for one in found:
         if not any(one.kind == other.kind and one.sentence == other.sentence and
-                   np.abs(one.plane - other.plane).max() < SAME for other in kept):  # fmt: skip
+                   np.abs(one.plane - other.plane).max() < SAME_POINT_DISTANCE for other in kept):  # fmt: skip
             kept.append(one)
     return kept

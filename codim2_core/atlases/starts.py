@@ -13,56 +13,58 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..curves.newton import Condition
 from ..diagrams.classes import classes_over
 from ..layer_problem.critical import critical_sets
 from ..numerics.root_between import root_between
 from ..psi.constructors import many
-from .degenerate import NEAR as BESIDE
-from .degenerate import Line, drop_touching
-from .family import CENTRE, NEAR, Family
+from .degenerate import ON_LINE_DISTANCE as BESIDE
+from .degenerate import DegenerateLine, drop_touching
+from .family import MAX_RADIUS_SQUARED, MIN_RADIUS_SQUARED, PlaneFamily
 
-Array = NDArray[np.float64]
-
-TURNS, SIDES = 64, 24  # cells round the equator, and along both parameters beside them
-CELLS = 16  # cells along each of c, s, u and v
-FINE, HALVED = 32, 4  # cells along u and v where U is affine in e: its one zero is known; how often they are halved
-FAR = 100.0  # e beyond this counts as this
-CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])
-MOST_STEPS = 32  # on which the curve of a neutral equator is looked for
-SUMS = 12  # of functions that are tried in a cell
-AWAY = 0.1  # of what a sum of them changes by in a cell: so far from zero it has none there
-OFF = 0.37  # of a cell: the net of e lies beside round numbers, on which degenerate systems like to lie
+EQUATOR_CELLS, PARAMETER_CELLS = 64, 24  # cells round the equator, and along both parameters beside them
+INTERIOR_CELLS = 16  # cells along each of c, s, u and v
+AFFINE_CELLS, MAX_HALVINGS = (
+    32,
+    4,
+)  # cells along u and v where U is affine in e: its one zero is known; how often they are halved
+MAX_E = 100.0  # e beyond this counts as this
+CELL_CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])
+MAX_NEUTRAL_STEPS = 32  # on which the curve of a neutral equator is looked for
+TRIAL_SUMS = 12  # of functions that are tried in a cell
+MIN_SUM_SHARE = 0.1  # of what a sum of them changes by in a cell: so far from zero it has none there
+NET_OFFSET = 0.37  # of a cell: the net of e lies beside round numbers, on which degenerate systems like to lie
 
 MAX_PLACES = 8  # from which curves are looked for
-LONGEST_WAY = 0.5  # of the ranges, along each axis
+MAX_WAY = 0.5  # of the ranges, along each axis
 MAX_BISECTIONS = 24
 SEED_ANGLES = 720
 MAX_SEEDS = 12  # of each kind at a place
 
-EQUATOR_CELL = np.array([2.0 * math.pi / TURNS, 1.0 / SIDES, 1.0 / SIDES])
+EQUATOR_CELL = np.array([2.0 * math.pi / EQUATOR_CELLS, 1.0 / PARAMETER_CELLS, 1.0 / PARAMETER_CELLS])
 PLANE_CELL = EQUATOR_CELL[1:]
-CELL = np.array([2.0 / CELLS, 2.0 / CELLS, 1.0 / CELLS, 1.0 / CELLS])
-AFFINE_CELL = np.array([2.0 / CELLS, 2.0 / CELLS, 1.0 / FINE, 1.0 / FINE])
+CELL = np.array([2.0 / INTERIOR_CELLS, 2.0 / INTERIOR_CELLS, 1.0 / INTERIOR_CELLS, 1.0 / INTERIOR_CELLS])
+AFFINE_CELL = np.array([2.0 / INTERIOR_CELLS, 2.0 / INTERIOR_CELLS, 1.0 / AFFINE_CELLS, 1.0 / AFFINE_CELLS])
 
 
-def on_equator(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Array]:
+def on_equator(family: PlaneFamily, lines: Sequence[DegenerateLine] = ()) -> tuple[Array, Array, Array]:
     """Cells in which Theta and Theta' come to zero, and those in which U does: centres (k, 3) of each.
 
     And steps (k, 2, 2) of the net, from where Theta has no zero, on which the mean of lambda_rho/|Theta| does.
     """
-    theta = (np.arange(TURNS + 1) + OFF) * EQUATOR_CELL[0]
-    side = np.linspace(0.0, 1.0, SIDES + 1)
+    theta = (np.arange(EQUATOR_CELLS + 1) + NET_OFFSET) * EQUATOR_CELL[0]
+    side = np.linspace(0.0, 1.0, PARAMETER_CELLS + 1)
     c, s = np.cos(theta)[:, None, None], np.sin(theta)[:, None, None]
     (U, V), ((a, b), (p, q)) = _on_net(family, c, s, side[:, None], side)
     turning, radial = c * V - s * U, c * U + s * V
     slope = s * s * a - s * c * (b + p) + c * c * q - radial
     grids = theta, side, side
-    on, through = (drop_touching(_cells(of, grids), lines, 0.5 / SIDES) for of in ((turning, slope), (U, V)))
-    return on, through, _drop_degenerate(_turns(turning[:-1], radial[:-1], side), lines)
+    on, through = (drop_touching(_cells(of, grids), lines, 0.5 / PARAMETER_CELLS) for of in ((turning, slope), (U, V)))
+    return on, through, _drop_degenerate(_stability_changes(turning[:-1], radial[:-1], side), lines)
 
 
-def _drop_degenerate(steps: Array, lines: Sequence[Line]) -> Array:
+def _drop_degenerate(steps: Array, lines: Sequence[DegenerateLine]) -> Array:
     """Leave out steps (k, 2, 2) that come to a degenerate line."""
     for line in lines:
         away = steps[..., line.axis] - line.at
@@ -70,7 +72,7 @@ def _drop_degenerate(steps: Array, lines: Sequence[Line]) -> Array:
     return steps
 
 
-def _turns(turning: Array, radial: Array, side: Array) -> Array:
+def _stability_changes(turning: Array, radial: Array, side: Array) -> Array:
     """Find the steps of the net, from closed equators, on which these change their stability.
 
     Where Theta gets a zero the mean goes to infinity, with the sign of lambda_rho there.
@@ -90,69 +92,69 @@ def _turns(turning: Array, radial: Array, side: Array) -> Array:
     return np.concatenate(found)
 
 
-def cell_within(family: Family) -> Array:
+def cell_within(family: PlaneFamily) -> Array:
     """Width (4,) of the cells of `interior_cells`."""
     return AFFINE_CELL if family.affine else CELL
 
 
-def interior_cells(family: Family, lines: Sequence[Line] = ()) -> tuple[Array, Array, Array]:
+def interior_cells(family: PlaneFamily, lines: Sequence[DegenerateLine] = ()) -> tuple[Array, Array, Array]:
     """Cells in which U comes to zero, and with it det DU, T, or T^2 - 4 sigma det DU: centres (k, 4) of each."""
     if family.affine:
         return np.zeros((0, 4)), *_within_affine(family, lines)
-    place = (np.arange(CELLS + 2) - OFF) * CELL[0] - 1.0
-    side = np.linspace(0.0, 1.0, CELLS + 1)
+    place = (np.arange(INTERIOR_CELLS + 2) - NET_OFFSET) * CELL[0] - 1.0
+    side = np.linspace(0.0, 1.0, INTERIOR_CELLS + 1)
     c, s = place[:, None, None, None], place[:, None, None]
     (U, V), ((a, b), (p, q)) = _on_net(family, c, s, side[:, None], side)
     det, square = a * q - b * p, c * c + s * s
     bend = _bends(family, square[..., 0, 0], side)
     trace = a + q - bend * (c * c * a + c * s * (b + p) + s * s * q)
-    focus = trace * trace - 4.0 * (1.0 - bend * np.minimum(square, NEAR)) * det
+    focus = trace * trace - 4.0 * (1.0 - bend * np.minimum(square, MAX_RADIUS_SQUARED)) * det
     grids = place, place, side, side
     found = [_cells((U, V, third), grids) for third in (det, trace, focus)]
     still = [line for line in lines if line.still]
-    found = [drop_touching(cells, still, 0.5 / CELLS) for cells in found]
+    found = [drop_touching(cells, still, 0.5 / INTERIOR_CELLS) for cells in found]
     first, second, third = (cells[np.hypot(*cells[:, :2].T) < 1.0 + CELL[0]] for cells in found)
     return first, second, third
 
 
-def _within_affine(family: Family, lines: Sequence[Line]) -> tuple[Array, Array]:
+def _within_affine(family: PlaneFamily, lines: Sequence[DegenerateLine]) -> tuple[Array, Array]:
     """Cells of the plane alone, in which T and T^2 - 4 sigma det DU of the one critical set change their signs.
 
     A cell through which that set goes far is halved.
     """
-    side = (np.arange(FINE) + 0.5) / FINE
+    side = (np.arange(AFFINE_CELLS) + 0.5) / AFFINE_CELLS
     cells = np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1).reshape(-1, 2)
     found: tuple[list[Array], list[Array]] = [np.zeros((0, 4))], [np.zeros((0, 4))]
-    for level in range(HALVED + 1):
-        half = 0.5 / (FINE << level)
-        e, functions = _of_set(family, cells[:, None] + half * CORNERS)
+    for level in range(MAX_HALVINGS + 1):
+        half = 0.5 / (AFFINE_CELLS << level)
+        e, functions = _of_set(family, cells[:, None] + half * CELL_CORNERS)
         middle, spread = e.mean(axis=1), np.ptp(e, axis=1).max(axis=1)
-        near = (np.hypot(*middle.T) < 1.0 + CELL[0] + spread) & ((level < HALVED) | (spread < 1.0))
-        wide = near & (spread > CELL[0]) & (level < HALVED)
+        near = (np.hypot(*middle.T) < 1.0 + CELL[0] + spread) & ((level < MAX_HALVINGS) | (spread < 1.0))
+        wide = near & (spread > CELL[0]) & (level < MAX_HALVINGS)
         for values, kept in zip(functions, found, strict=True):
             mixed = near & ~wide & (values.min(axis=1) <= 0.0) & (values.max(axis=1) >= 0.0)
             kept.append(np.concatenate([middle[mixed], cells[mixed]], axis=1))
-        cells = (cells[wide][:, None] + 0.5 * half * CORNERS).reshape(-1, 2)
+        cells = (cells[wide][:, None] + 0.5 * half * CELL_CORNERS).reshape(-1, 2)
     still = [line for line in lines if line.still]
-    first, second = (drop_touching(np.concatenate(kept), still, 0.5 / FINE) for kept in found)
+    first, second = (drop_touching(np.concatenate(kept), still, 0.5 / AFFINE_CELLS) for kept in found)
     return first, second
 
 
-def _of_set(family: Family, place: Array) -> tuple[Array, tuple[Array, Array]]:
+def _of_set(family: PlaneFamily, place: Array) -> tuple[Array, tuple[Array, Array]]:
     """Find the critical set e (..., 2) of an affine U, T and T^2 - 4 sigma det DU at places (..., 2) of the square."""
     zero = np.zeros(place.shape[:-1])
     (U, V), ((a, b), (p, q)) = _on_net(family, zero, zero, *np.moveaxis(place, -1, 0))
     det = a * q - b * p
     det = np.where(det == 0.0, 1e-300, det)
     with np.errstate(over="ignore", invalid="ignore"):
-        c, s = (np.clip(v / det, -FAR, FAR) for v in (b * V - q * U, p * U - a * V))
-    square = np.clip(c * c + s * s, CENTRE, NEAR)
+        c, s = (np.clip(v / det, -MAX_E, MAX_E) for v in (b * V - q * U, p * U - a * V))
+    square = np.clip(c * c + s * s, MIN_RADIUS_SQUARED, MAX_RADIUS_SQUARED)
     bend = _bend_on_net(family, square, place)
     trace = a + q - bend * (c * c * a + c * s * (b + p) + s * s * q)
     return np.stack([c, s], axis=-1), (trace, trace * trace - 4.0 * (1.0 - bend * square) * det)
 
 
-def _bend_on_net(family: Family, square: Array, place: Array) -> Array:
+def _bend_on_net(family: PlaneFamily, square: Array, place: Array) -> Array:
     """``Ratio.bend`` where |e|^2 is `square` (...), at places (..., 2) of the unit square."""
     psi, modulus = family.psi, np.sqrt(square).ravel()
     if any(family.of_psi):
@@ -163,14 +165,14 @@ def _bend_on_net(family: Family, square: Array, place: Array) -> Array:
 
 def of_plane(condition: Condition) -> Array:
     """Cells of the unit square in which a function of both parameters comes to zero: centres (k, 2)."""
-    side = np.linspace(0.0, 1.0, SIDES + 1)
+    side = np.linspace(0.0, 1.0, PARAMETER_CELLS + 1)
     values = np.array([[condition(np.array([u, v]))[0][0] for v in side] for u in side])
     return _cells((values,), (side, side))
 
 
 def on_steps(condition: Condition, steps: Array) -> Array:
     """Places (k, 2) on some steps, from where a function is known, at which it changes its sign or is known no more."""
-    few = steps[np.linspace(0, len(steps) - 1, min(len(steps), MOST_STEPS)).astype(int)]
+    few = steps[np.linspace(0, len(steps) - 1, min(len(steps), MAX_NEUTRAL_STEPS)).astype(int)]
     found = []
     for start, end in few:
         sign = condition(start)[0][0] > 0.0
@@ -183,7 +185,7 @@ def on_steps(condition: Condition, steps: Array) -> Array:
     return np.array(found).reshape(-1, 2)
 
 
-def _on_net(family: Family, c: Array, s: Array, u: Array, v: Array) -> tuple[Array, Array]:
+def _on_net(family: PlaneFamily, c: Array, s: Array, u: Array, v: Array) -> tuple[Array, Array]:
     """U (2, ...) and its derivatives by e (2, 2, ...), NaN where one is not finite: no cell is begun from there."""
     shape = np.broadcast_shapes(c.shape, s.shape, u.shape, v.shape)
     U, D = family.on_net(c, s, u, v)
@@ -191,9 +193,9 @@ def _on_net(family: Family, c: Array, s: Array, u: Array, v: Array) -> tuple[Arr
     return np.where(np.isfinite(speeds), speeds, np.nan), np.where(np.isfinite(slopes), slopes, np.nan)
 
 
-def _bends(family: Family, square: Array, side: Array) -> Array:
+def _bends(family: PlaneFamily, square: Array, side: Array) -> Array:
     """``Ratio.bend`` for each |e|^2 (n, n) and place along the parameter of Psi, (n, n, ..., ...)."""
-    kinds, where = np.unique(np.clip(square, CENTRE, NEAR), return_inverse=True)
+    kinds, where = np.unique(np.clip(square, MIN_RADIUS_SQUARED, MAX_RADIUS_SQUARED), return_inverse=True)
     places = [np.zeros(2)]
     if any(family.of_psi):
         places = [np.where(family.of_psi, t, 0.0) for t in side]
@@ -232,28 +234,28 @@ def _on_one_side(corners: Array) -> NDArray[np.bool_]:
     nearest = unit.mean(axis=1)
     apart = np.zeros(len(unit), bool)
     rows = np.arange(len(unit))
-    for _ in range(SUMS):
+    for _ in range(TRIAL_SUMS):
         along = np.einsum("kij,kj->ki", unit, nearest)
         least = along.argmin(axis=1)
         low = along[rows, least]
-        apart |= low > AWAY * (along.max(axis=1) - low)
+        apart |= low > MIN_SUM_SHARE * (along.max(axis=1) - low)
         step = unit[rows, least] - nearest
         part = -(nearest * step).sum(axis=1) / np.maximum((step * step).sum(axis=1), 1e-300)
         nearest = nearest + np.clip(part, 0.0, 1.0)[:, None] * step
     return apart
 
 
-class Seeds(NamedTuple):
+class CurveSeeds(NamedTuple):
     """Places at which curves are begun: (theta, u, v) on the equator, (c, s, u, v) within it."""
 
     equator: tuple[Array, ...]
     within: tuple[Array, ...]
 
 
-NO_SEEDS = Seeds((), ())
+NO_SEEDS = CurveSeeds((), ())
 
 
-def seeds_beside(family: Family, places: Sequence[tuple[float, float]]) -> Seeds:
+def seeds_beside(family: PlaneFamily, places: Sequence[tuple[float, float]]) -> CurveSeeds:
     """Return seeds near places (values of the parameters) at which the portrait is not that of the region around.
 
     Along each axis the place nearest to one of them is looked for at which the class changes.
@@ -270,9 +272,9 @@ def seeds_beside(family: Family, places: Sequence[tuple[float, float]]) -> Seeds
         own = class_at(start)
         for way in (*np.eye(2), *-np.eye(2)):
             length = 1e-3
-            while length < LONGEST_WAY and _in_square(start + length * way) and class_at(start + length * way) == own:
+            while length < MAX_WAY and _in_square(start + length * way) and class_at(start + length * way) == own:
                 length *= 2.0
-            if not (length < LONGEST_WAY and _in_square(start + length * way)):
+            if not (length < MAX_WAY and _in_square(start + length * way)):
                 continue
             low, high = 0.0, length
             for _ in range(MAX_BISECTIONS):
@@ -281,14 +283,14 @@ def seeds_beside(family: Family, places: Sequence[tuple[float, float]]) -> Seeds
             equator += _equator_seeds(family, start + high * way)
             for at in (low, high):
                 within += _interior_seeds(family, start + at * way)
-    return Seeds(tuple(equator), tuple(within))
+    return CurveSeeds(tuple(equator), tuple(within))
 
 
 def _in_square(u: Array) -> bool:
     return bool((u >= 0.0).all() and (u <= 1.0).all())
 
 
-def _equator_seeds(family: Family, u: Array) -> list[Array]:
+def _equator_seeds(family: PlaneFamily, u: Array) -> list[Array]:
     """Angles at which Theta, or U, is locally least in size, the least first."""
     theta = 2.0 * math.pi * np.arange(SEED_ANGLES) / SEED_ANGLES
     c, s = np.cos(theta), np.sin(theta)
@@ -300,7 +302,7 @@ def _equator_seeds(family: Family, u: Array) -> list[Array]:
     return found
 
 
-def _interior_seeds(family: Family, u: Array) -> list[Array]:
+def _interior_seeds(family: PlaneFamily, u: Array) -> list[Array]:
     system, psi, z = family.at(u)
     sets = sorted(critical_sets(system, psi, z), key=lambda C: abs(C.determinant))
     return [np.array([*C.e, *u]) for C in sets[:MAX_SEEDS]]

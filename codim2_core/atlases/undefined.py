@@ -5,36 +5,41 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .family import Family
+from ..arrays import Array
+from .family import PlaneFamily
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-ANGLES = 2.0 * np.pi * np.arange(12) / 12.0
-PLACES = np.concatenate([r * np.stack([np.cos(ANGLES), np.sin(ANGLES)], axis=-1) for r in (0.0, 0.5, 1.0)])
-SIDES, CELLS = 24, 96  # cells along each side of a first net, and of that by which borders are found
-INSET = 1e-7  # what lies on the very edge of the square is decided just inside
-HALVINGS = 32  # of an edge, until the border is found on it
-FLAT = 1e-6  # a part of the square; what turns less than this is straight
+CIRCLE_ANGLES = 2.0 * np.pi * np.arange(12) / 12.0
+TRIAL_PLACES = np.concatenate(
+    [r * np.stack([np.cos(CIRCLE_ANGLES), np.sin(CIRCLE_ANGLES)], axis=-1) for r in (0.0, 0.5, 1.0)]
+)
+FIRST_NET_CELLS, BORDER_NET_CELLS = (
+    24,
+    96,
+)  # cells along each side of a first net, and of that by which borders are found
+EDGE_INSET = 1e-7  # what lies on the very edge of the square is decided just inside
+MAX_HALVINGS = 32  # of an edge, until the border is found on it
+MIN_BEND = 1e-6  # a part of the square; what turns less than this is straight
 
 
-def borders(family: Family) -> list[Array]:
+def undefined_borders(family: PlaneFamily) -> list[Array]:
     """Borders, as lines (m, 2) of the unit square; none where U has a value at all places of a net.
 
     The cells of a finer net are cut into triangles: where U has a value at one corner and none at another, a border
     crosses two of its edges.
     """
-    if _is_defined(family, _net(SIDES)).all():
+    if _is_defined(family, _net(FIRST_NET_CELLS)).all():
         return []
-    places = _net(CELLS)
+    places = _net(BORDER_NET_CELLS)
     known = _is_defined(family, places)
-    first = (np.arange(CELLS)[:, None] * (CELLS + 1) + np.arange(CELLS)).ravel()
-    right, up, across = first + CELLS + 1, first + 1, first + CELLS + 2
+    first = (np.arange(BORDER_NET_CELLS)[:, None] * (BORDER_NET_CELLS + 1) + np.arange(BORDER_NET_CELLS)).ravel()
+    right, up, across = first + BORDER_NET_CELLS + 1, first + 1, first + BORDER_NET_CELLS + 2
     triangles = np.concatenate([np.stack([first, right, across], axis=1), np.stack([first, across, up], axis=1)])
     edges = np.sort(np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1), axis=-1)
     crossed = known[edges[..., 0]] != known[edges[..., 1]]  # two of a triangle, or none
     unique, pieces = np.unique(edges[crossed], axis=0, return_inverse=True)
-    points = _crossings(family, places[unique[:, 0]], places[unique[:, 1]], known[unique[:, 0]])
+    points = _edge_crossings(family, places[unique[:, 0]], places[unique[:, 1]], known[unique[:, 0]])
     return [_straighten(points[line]) for line in _chains(pieces.reshape(-1, 2))]
 
 
@@ -43,18 +48,18 @@ def _net(cells: int) -> Array:
     return np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
-def _is_defined(family: Family, at: Array) -> NDArray[np.bool_]:
+def _is_defined(family: PlaneFamily, at: Array) -> NDArray[np.bool_]:
     """Whether U has a value at places (k, 2) of the square."""
-    c, s = PLACES[:, :, None].swapaxes(0, 1)
+    c, s = TRIAL_PLACES[:, :, None].swapaxes(0, 1)
     with np.errstate(all="ignore"):
-        U = family.speed_on_net(c, s, *np.clip(at, INSET, 1.0 - INSET).T)
+        U = family.speed_on_net(c, s, *np.clip(at, EDGE_INSET, 1.0 - EDGE_INSET).T)
     return np.asarray(np.isfinite(U).all(axis=(0, 1)))
 
 
-def _crossings(family: Family, start: Array, end: Array, known: NDArray[np.bool_]) -> Array:
+def _edge_crossings(family: PlaneFamily, start: Array, end: Array, known: NDArray[np.bool_]) -> Array:
     """Places (k, 2) on edges at which U begins, or ceases, to have a value; `known`: it has one at the start."""
     low, high = np.zeros(len(start)), np.ones(len(start))
-    for _ in range(HALVINGS):
+    for _ in range(MAX_HALVINGS):
         t = 0.5 * (low + high)
         same = _is_defined(family, start + t[:, None] * (end - start)) == known
         low, high = np.where(same, t, low), np.where(same, high, t)
@@ -87,6 +92,6 @@ def _straighten(line: Array) -> Array:
     kept = [0]
     for i in range(1, len(line) - 1):
         way, onward = line[i] - line[kept[-1]], line[i + 1] - line[kept[-1]]
-        if abs(way[0] * onward[1] - way[1] * onward[0]) > FLAT * np.hypot(*onward):
+        if abs(way[0] * onward[1] - way[1] * onward[0]) > MIN_BEND * np.hypot(*onward):
             kept.append(i)
     return line[[*kept, len(line) - 1]]

@@ -24,14 +24,14 @@ from .curve import Array
 from .geometry import Geometry
 
 TAU = 2.0 * math.pi
-ARC = 33  # points drawn along an arc, and more where it turns by more than a degree from one to the next
-TURN = TAU / 360
-SAME = 1e-9  # of the size: points of the two curves nearer than this are one vertex
-ROUNDS = 60  # of Newton's method between bounds
-BESIDE = 0.01  # angle between arcs of the two curves below which it is inside or outside that tells their order
+ARC_POINTS = 33  # points drawn along an arc, and more where it turns by more than a degree from one to the next
+ARC_STEP = TAU / 360
+SAME_VERTEX_DISTANCE = 1e-9  # of the size: points of the two curves nearer than this are one vertex
+MAX_ROUNDS = 60  # of Newton's method between bounds
+MIN_ARC_ANGLE = 0.01  # angle between arcs of the two curves below which it is inside or outside that tells their order
 
 
-class _Stop(NamedTuple):
+class _Vertex(NamedTuple):
     """A parameter value on a curve at a vertex, and its point: for both curves the same one."""
 
     parameter: float
@@ -40,7 +40,7 @@ class _Stop(NamedTuple):
 
 
 @dataclass
-class Half:
+class HalfEdge:
     """An arc in one direction: from `start` to `end`, with the face on its left."""
 
     on_ellipse: bool  # or on the saddle-node curve
@@ -59,7 +59,7 @@ class Half:
         return 0.5 * (self.low + self.high)
 
 
-def arrangement(plane: Geometry) -> list[Half]:
+def arrangement(plane: Geometry) -> list[HalfEdge]:
     """Return the half-arcs of both curves; twins are neighbours in the list (2i, 2i + 1).
 
     Parameters
@@ -70,13 +70,13 @@ def arrangement(plane: Geometry) -> list[Half]:
 
     def vertex(point: tuple[float, float]) -> int:
         for i, other in enumerate(vertices):
-            if math.dist(point, other) <= SAME * plane.size:
+            if math.dist(point, other) <= SAME_VERTEX_DISTANCE * plane.size:
                 return i
         vertices.append(point)
         return len(vertices) - 1
 
-    nodes: list[_Stop] = []  # on the saddle-node curve
-    others: list[_Stop] = []  # on the ellipse
+    nodes: list[_Vertex] = []  # on the saddle-node curve
+    others: list[_Vertex] = []  # on the ellipse
     point_only = plane.a == plane.d and plane.b == 0.0
     has_nodes = not point_only
     has_ellipse = plane.determinant_sign != 0 and not plane.inseparable
@@ -85,11 +85,11 @@ def arrangement(plane: Geometry) -> list[Half]:
         own = [*plane.cusps, *(t for pair in plane.double for t in pair)]
         for theta in (*common, *own):
             point = plane.saddle_node_at(theta)
-            nodes.append(_Stop(theta, vertex(point), point))
+            nodes.append(_Vertex(theta, vertex(point), point))
         for theta in common:
             point = plane.saddle_node_at(theta)
-            others.append(_Stop(plane.meeting(theta), vertex(point), point))
-    halves: list[Half] = []
+            others.append(_Vertex(plane.meeting(theta), vertex(point), point))
+    halves: list[HalfEdge] = []
     if has_nodes:
         _add_arcs(halves, plane, False, nodes, vertex)
     if has_ellipse:
@@ -98,16 +98,16 @@ def arrangement(plane: Geometry) -> list[Half]:
 
 
 def _add_arcs(
-    halves: list[Half],
+    halves: list[HalfEdge],
     plane: Geometry,
     on_ellipse: bool,
-    stops: list[_Stop],
+    stops: list[_Vertex],
     vertex: Callable[[tuple[float, float]], int],
 ) -> None:
     curve = plane.ellipse if on_ellipse else plane.saddle_node
     if not stops:
         point = (plane.ellipse_at if on_ellipse else plane.saddle_node_at)(0.0)
-        stops = [_Stop(0.0, vertex(point), point)]
+        stops = [_Vertex(0.0, vertex(point), point)]
     stops = sorted(stops)
     merged = [stops[0]]
     for stop in stops[1:]:
@@ -118,20 +118,20 @@ def _add_arcs(
     for i, (low, start, origin) in enumerate(merged):
         turned = merged[0]._replace(parameter=merged[0].parameter + TAU)
         high, end, there = merged[i + 1] if i + 1 < len(merged) else turned
-        points = curve(np.linspace(low, high, max(ARC, math.ceil((high - low) / TURN) + 1)))
-        if start == end and float(abs(points - points[0]).max()) <= SAME * plane.size:
+        points = curve(np.linspace(low, high, max(ARC_POINTS, math.ceil((high - low) / ARC_STEP) + 1)))
+        if start == end and float(abs(points - points[0]).max()) <= SAME_VERTEX_DISTANCE * plane.size:
             continue
         index = len(halves)
-        halves.append(Half(on_ellipse, low, high, start, end, index + 1, origin, points))
-        halves.append(Half(on_ellipse, high, low, end, start, index, there, points[::-1]))
+        halves.append(HalfEdge(on_ellipse, low, high, start, end, index + 1, origin, points))
+        halves.append(HalfEdge(on_ellipse, high, low, end, start, index, there, points[::-1]))
 
 
-def borders(halves: list[Half], plane: Geometry) -> list[tuple[Array, float]]:
+def face_borders(halves: list[HalfEdge], plane: Geometry) -> list[tuple[Array, float]]:
     """Return the borders of all faces, each with its signed area (negative: the outside of a connected piece).
 
     Parameters
     ----------
-    halves : list of Half
+    halves : list of HalfEdge
         As `arrangement` gives them.
     plane : Geometry
     """
@@ -157,7 +157,7 @@ def borders(halves: list[Half], plane: Geometry) -> list[tuple[Array, float]]:
     return out
 
 
-def _anticlockwise(halves: list[Half], plane: Geometry) -> list[list[int]]:
+def _anticlockwise(halves: list[HalfEdge], plane: Geometry) -> list[list[int]]:
     """Half-arcs leaving each vertex, in anticlockwise order: as they are seen at one small distance from it.
 
     Of two arcs in nearly one direction, that of the saddle-node curve is on the left of the ellipse's, or on its right,
@@ -185,7 +185,7 @@ def _anticlockwise(halves: list[Half], plane: Geometry) -> list[list[int]]:
         def key(i: int) -> tuple[float, float, float]:
             aside = [(math.remainder(angles[i] - angles[j], TAU), j) for j in round_ if not halves[i].on_ellipse]
             off, beside = min(aside, key=lambda pair: abs(pair[0]), default=(math.inf, i))
-            if abs(off) > BESIDE:
+            if abs(off) > MIN_ARC_ANGLE:
                 return angles[i], 0.0, 0.0
             return angles[beside], plane.outside(halves[i].middle) * _turning_right(halves[beside], plane), off
 
@@ -194,12 +194,12 @@ def _anticlockwise(halves: list[Half], plane: Geometry) -> list[list[int]]:
     return [order_around(around) for around in groups]
 
 
-def _turning_right(half: Half, plane: Geometry) -> float:
+def _turning_right(half: HalfEdge, plane: Geometry) -> float:
     """1 where the outside of the ellipse is on the left of a half-arc of it, else -1."""
     return -math.copysign(1.0, (half.high - half.low) * plane.determinant_sign)
 
 
-def _leaving_angles(rays: list[Half], counts: list[int], starts: NDArray[np.intp], plane: Geometry) -> list[float]:
+def _leaving_angles(rays: list[HalfEdge], counts: list[int], starts: NDArray[np.intp], plane: Geometry) -> list[float]:
     """Angles at which arcs are seen from the vertices that they leave, so many from each, at one distance from it."""
     group = np.repeat(np.arange(len(counts)), counts)
     round_, low = np.array([ray.on_ellipse for ray in rays]), np.array([ray.low for ray in rays])
@@ -213,7 +213,7 @@ def _leaving_angles(rays: list[Half], counts: list[int], starts: NDArray[np.intp
     radius = np.minimum.reduceat(reach, starts)[group]
     # Newton's method, kept between bounds, for the part of the step that leads as far as the shortest one
     u, below, above = np.ones(len(rays)), np.zeros(len(rays)), np.ones(len(rays))
-    for _ in range(ROUNDS):
+    for _ in range(MAX_ROUNDS):
         way, tangents = _along_curves(plane, round_, low, u * step)
         x, y = offset + way
         distance = np.hypot(x, y)

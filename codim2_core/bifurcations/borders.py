@@ -7,12 +7,12 @@ import math
 import numpy as np
 
 from ..words import say
-from .curve import BifurcationCurve, SpecialPoint, matrix, place, read_only
+from .curve import BifurcationCurve, SpecialPoint, matrix, plain_point, read_only_lines
 from .geometry import Geometry
 
-_TOGETHER = 1e-6  # radians, between directions that rounding keeps apart
+_SAME_ANGLE = 1e-6  # radians, between directions that rounding keeps apart
 _TAU = 2.0 * math.pi
-_TURN = _TAU / 360  # the tangent turns by at most this from point to point
+_MAX_TURN = _TAU / 360  # the tangent turns by at most this from point to point
 _CUSP = {
     True: say("pitchfork in the plane"),
     False: say("cusp in the plane"),
@@ -47,34 +47,36 @@ def saddle_node(a: float, b: float, d: float) -> BifurcationCurve:
     if a == d and b == 0.0:
         point = SpecialPoint("all directions", (0.0, 0.0), say("nothing turns at f = 0"))
         return BifurcationCurve(
-            "saddle-node", "saddle-node: the point f = 0", label, read_only([np.zeros((1, 2))]), (point,), (),
+            "saddle-node", "saddle-node: the point f = 0", label, read_only_lines([np.zeros((1, 2))]), (point,), (),
             say("two for every f"),
         )  # fmt: skip
     special: list[SpecialPoint] = []
     for theta in plane.cusps:
-        where = place(plane.saddle_node_at(theta))
+        where = plain_point(plane.saddle_node_at(theta))
         if plane.swallowtail:
             special.append(SpecialPoint("quadruple zero", where, say("two cusps have met")))
         else:
             special.append(SpecialPoint("pitchfork" if b == 0.0 else "cusp", where, _CUSP[b == 0.0]))
     special += [
-        SpecialPoint("double saddle-node", place(plane.saddle_node_at(theta)), say("two double zeros"))
+        SpecialPoint("double saddle-node", plain_point(plane.saddle_node_at(theta)), say("two double zeros"))
         for theta, _ in plane.double
     ]
     starts = [] if plane.swallowtail else plane.cusps
     branches = []
     for i, start in enumerate(starts or [0.0]):
         end = starts[i + 1] if i + 1 < len(starts) else (starts[0] if starts else 0.0) + _TAU
-        theta = np.linspace(start, end, max(2, math.ceil((end - start) / _TURN) + 1))
+        theta = np.linspace(start, end, max(2, math.ceil((end - start) / _MAX_TURN) + 1))
         branches.append(plane.saddle_node(theta))
         if not starts:
             branches[-1][-1] = branches[-1][0]
     if a == d:
         return BifurcationCurve(
-            "saddle-node", "saddle-node: the circle |f| = |b|", label, read_only(branches), tuple(special), (),
+            "saddle-node", "saddle-node: the circle |f| = |b|", label, read_only_lines(branches), tuple(special), (),
             f"{sentence} {say('on the circle')}",
         )  # fmt: skip
-    return BifurcationCurve("saddle-node", "saddle-node", label, read_only(branches), tuple(special), (), sentence)
+    return BifurcationCurve(
+        "saddle-node", "saddle-node", label, read_only_lines(branches), tuple(special), (), sentence
+    )
 
 
 def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
@@ -108,7 +110,7 @@ def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
         branch = np.zeros((1, 2)) if degenerate else np.stack([-reach, reach])
         name = "transcritical: the point f = 0" if degenerate else "transcritical: a segment (det A = 0)"
         sentence = say("still at f = 0") if degenerate else say("line on a segment")
-        return BifurcationCurve("transcritical", name, label, read_only([branch]), (), (), sentence)
+        return BifurcationCurve("transcritical", name, label, read_only_lines([branch]), (), (), sentence)
     phi = np.linspace(0.0, _TAU, 361)
     branch = plane.ellipse(phi)
     branch[-1] = branch[0]
@@ -116,12 +118,15 @@ def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
     crossing = say("reaches, and elsewhere they meet")
     # where the touching and the crossing direction have come together (a fourfold zero) nothing is elsewhere
     elsewhere = [
-        t for t in plane.crossing if all(abs(math.remainder(t - touch, _TAU)) > _TOGETHER for touch in plane.touching)
+        t for t in plane.crossing if all(abs(math.remainder(t - touch, _TAU)) > _SAME_ANGLE for touch in plane.touching)
     ]
     special = [
-        *(SpecialPoint("saddle-node on the equator", place(plane.saddle_node_at(t)), touching) for t in plane.touching),
-        *(SpecialPoint("saddle-node elsewhere", place(plane.saddle_node_at(t)), crossing) for t in elsewhere),
+        *(
+            SpecialPoint("saddle-node on the equator", plain_point(plane.saddle_node_at(t)), touching)
+            for t in plane.touching
+        ),
+        *(SpecialPoint("saddle-node elsewhere", plain_point(plane.saddle_node_at(t)), crossing) for t in elsewhere),
     ]
     name = "transcritical: the circle |f| = |b|, also the saddle-node curve" if plane.coincide else "transcritical"
     sentence = say("reaches the equator")
-    return BifurcationCurve("transcritical", name, label, read_only([branch]), tuple(special), (), sentence)
+    return BifurcationCurve("transcritical", name, label, read_only_lines([branch]), tuple(special), (), sentence)

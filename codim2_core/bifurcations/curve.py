@@ -7,14 +7,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import drawing
+from ..arrays import Array
 from ..paper import cite
 from ..systems.elinear import ELinear
-from ..tables import Tabled, paragraphs, point, rows
-
-Array = NDArray[np.float64]
+from ..tables import Tabled, paragraphs, point, result_rows
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +73,7 @@ class BifurcationCurve:
 
     def _repr_html_(self) -> str:
         said = paragraphs([f"{self.name} ({cite(self.label)})" if self.label else self.name, self.sentence])
-        return (self._repr_svg_() or "") + said + rows(self.special)
+        return (self._repr_svg_() or "") + said + result_rows(self.special)
 
     def __len__(self) -> int:
         return len(self.branches)
@@ -87,7 +85,7 @@ def matrix(a: object, b: object, d: object) -> tuple[float, float, float]:
     return found.a, found.b, found.d
 
 
-def read_only(arrays: Iterable[Array]) -> tuple[Array, ...]:
+def read_only_lines(arrays: Iterable[Array]) -> tuple[Array, ...]:
     """Make arrays read-only."""
     out = []
     for array in arrays:
@@ -97,7 +95,7 @@ def read_only(arrays: Iterable[Array]) -> tuple[Array, ...]:
     return tuple(out)
 
 
-def place(f: Array | tuple[float, float]) -> tuple[float, float]:
+def plain_point(f: Array | tuple[float, float]) -> tuple[float, float]:
     """Round -0 to 0 and make plain floats."""
     return float(f[0]) + 0.0, float(f[1]) + 0.0
 

@@ -10,23 +10,23 @@ import numpy as np
 
 from ..continuation.branches import folds_along
 from ..continuation.columns import AMPLITUDE, HEIGHT
-from ..continuation.varied_system import Straight
+from ..continuation.varied_system import AffineCoefficients
 from ..cycles.section import Section
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
 from ..words import say
-from .curve import Array, BifurcationCurve, SpecialPoint, matrix, place, read_only
+from .curve import Array, BifurcationCurve, SpecialPoint, matrix, plain_point, read_only_lines
 from .equator import coefficients_at, neutral_loop
-from .fold_of_cycles import Folds
+from .fold_of_cycles import FoldEquations
 from .geometry import Geometry
 from .trace import hopf
 
-SMALLEST = 2e-3  # amplitude of a cycle that is all but C
-SMALLER = 0.05  # amplitude below which a branch that breaks off beside a generalised Hopf point ends there
-FIRST = 0.02, 0.006, 0.06  # of the reach: places on the section beside a generalised Hopf point that are tried
-BESIDE, SAME = 0.08, 1e-9  # in A^-1 f: a curve passes; points are one
-NEAR = 0.03  # in A^-1 f: a branch that breaks off this close to a corner ends there
-LINES = 6  # across the disc of critical sets, on which folds are looked for
+MIN_AMPLITUDE = 2e-3  # amplitude of a cycle that is all but C
+HOPF_END_AMPLITUDE = 0.05  # amplitude below which a branch that breaks off beside a generalised Hopf point ends there
+RAY_STARTS = 0.02, 0.006, 0.06  # of the reach: places on the section beside a generalised Hopf point that are tried
+ON_CURVE_DISTANCE, SAME_POINT_DISTANCE = 0.08, 1e-9  # in A^-1 f: a curve passes; points are one
+CORNER_RADIUS = 0.03  # in A^-1 f: a branch that breaks off this close to a corner ends there
+SEED_LINES = 6  # across the disc of critical sets, on which folds are looked for
 TOUCHING = say("fold ends, saddle-node")
 CUSP = say("cusp of cycles")
 RESONANT = say("fold ends, neutral loop")
@@ -62,17 +62,19 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     if not curve.branches:
         return BifurcationCurve("fold of cycles", "folds of cycles: none", label, (), sentence=curve.sentence)
     points = [np.array(s.place) for s in curve.special if s.type == "generalised Hopf"]
-    found = _Curves(a, b, d, psi, points)
+    found = _FoldCurves(a, b, d, psi, points)
     found.from_hopf()
     found.from_lines()
     lines, sizes, special = found.result()
     name = "folds of cycles" if lines else "folds of cycles: none"
-    sentence = say("two cycles meet") if lines else say("no fold of cycles", lines=LINES)
-    return BifurcationCurve("fold of cycles", name, label, read_only(lines), tuple(special), read_only(sizes), sentence)
+    sentence = say("two cycles meet") if lines else say("no fold of cycles", lines=SEED_LINES)
+    return BifurcationCurve(
+        "fold of cycles", name, label, read_only_lines(lines), tuple(special), read_only_lines(sizes), sentence
+    )
 
 
 @dataclass(frozen=True, eq=False)
-class _Curve:
+class _FoldCurve:
     """A curve over e, and the generalised Hopf points at which it ends."""
 
     e: Array
@@ -81,7 +83,7 @@ class _Curve:
     born: list[int]
 
 
-class _Curves:
+class _FoldCurves:
     """Curves found so far over e; at -e there are the same."""
 
     def __init__(self, a: float, b: float, d: float, psi: Psi, points: list[Array]) -> None:
@@ -89,7 +91,7 @@ class _Curves:
         self.A = np.array([[a, -b], [b, d]])
         self.points = [self._e(f) for f in points]  # generalised Hopf points
         self.corners = [self._e(f) for f in map(Geometry(a, b, d).saddle_node_at, Geometry(a, b, d).touching)]
-        self.found: list[_Curve] = []
+        self.found: list[_FoldCurve] = []
         self.missed: list[tuple[str, Array, str]] = []
 
     def _e(self, f: Sequence[float] | Array) -> Array:
@@ -99,7 +101,9 @@ class _Curves:
         """Return lines in f, sizes of the cycles along them, and special points."""
         both = [(one, sign) for one in self.found for sign in (1.0, -1.0)]
         told = [*(point for one in self.found for point in one.special), *self.missed]
-        special = [SpecialPoint(k, place(-sign * self.A @ e), text) for k, e, text in told for sign in (1.0, -1.0)]
+        special = [
+            SpecialPoint(k, plain_point(-sign * self.A @ e), text) for k, e, text in told for sign in (1.0, -1.0)
+        ]
         return [-sign * one.e @ self.A.T for one, sign in both], [one.sizes for one, _ in both], special
 
     def from_hopf(self) -> None:
@@ -107,29 +111,29 @@ class _Curves:
         for k, e in enumerate(self.points):
             alike = self._born(e) | self._born(-e)
             if not any(alike & set(one.born) for one in self.found):
-                starts = (self._follow(e, math.log(first)) for first in FIRST)
+                starts = (self._follow(e, math.log(first)) for first in RAY_STARTS)
                 if not any(starts) and k == min(alike):
                     self.missed.append(("undecided", e, say("fold not caught")))
 
     def from_lines(self) -> None:
         """Begin at the folds on some lines across the disc that no curve has passed."""
-        angles = [math.pi * (k + 0.5) / LINES for k in range(LINES)]
+        angles = [math.pi * (k + 0.5) / SEED_LINES for k in range(SEED_LINES)]
         units = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
         origin = np.array([*self.plane, 0.0, 0.0])
-        lines = [Straight(origin, np.array([0.0, 0.0, 0.0, *(-self.A @ unit)]), self.psi) for unit in units]
+        lines = [AffineCoefficients(origin, np.array([0.0, 0.0, 0.0, *(-self.A @ unit)]), self.psi) for unit in units]
         for unit, found in zip(units, folds_along(lines, 0.01, 0.995), strict=True):
             for ray, turn in found:
                 e = turn.value * unit
-                if not any(_passes(one, sign * e, turn.amplitude) for one in self.found for sign in (1.0, -1.0)):
+                if not any(_passes_cycle(one, sign * e, turn.amplitude) for one in self.found for sign in (1.0, -1.0)):
                     self._follow(e, turn.xi, ray)
 
     def _born(self, e: Array) -> set[int]:
-        return {k for k, other in enumerate(self.points) if math.dist(e, other) < SAME}
+        return {k for k, other in enumerate(self.points) if math.dist(e, other) < SAME_POINT_DISTANCE}
 
     def _follow(self, e: Array, xi: float, ray: int | None = None) -> bool:
         """Add the curve through a fold beside a place on a ray, for any that was lost on it; whether there is one."""
         at = coefficients_at(*self.plane, -self.A @ e)
-        folds = Folds(Section(at, self.psi, critical_sets(at, self.psi)[0], ray))
+        folds = FoldEquations(Section(at, self.psi, critical_sets(at, self.psi)[0], ray))
         found = folds.trace(np.array([folds.x(xi), *e]), self.corners)
         if found is None or len(found.points) < 3:
             return False
@@ -137,7 +141,7 @@ class _Curves:
         places = np.insert(found.points, [i + 1 for i, _ in cusps], np.reshape([v for _, v in cusps], (-1, 3)), axis=0)
         special = [("cusp of cycles", v[1:], CUSP) for _, v in cusps]
         numbers = folds.turns(places)
-        seen = numbers[:, AMPLITUDE] > SMALLEST
+        seen = numbers[:, AMPLITUDE] > MIN_AMPLITUDE
         places, numbers, born = places[seen], numbers[seen], set()
         e, sizes = places[:, 1:], numbers[:, AMPLITUDE]
         for i, how in ((0, found.ends[0]), (len(places) - 1, found.ends[1])) if not found.closed else ():
@@ -146,7 +150,7 @@ class _Curves:
             special += [told] if told is not None else []
             born |= self._born(last) | self._born(-last)
         self.found = [one for one in self.found if not born & set(one.born)]
-        self.found.append(_Curve(e, sizes, special, sorted(born)))
+        self.found.append(_FoldCurve(e, sizes, special, sorted(born)))
         return True
 
     def _end(
@@ -154,22 +158,22 @@ class _Curves:
     ) -> tuple[Array, float, tuple[str, Array, str] | None]:
         """Place and size at the very end of a curve, and what is to be said about it."""
         other = min(self.points, key=lambda g: math.dist(g, e), default=None)
-        if other is not None and (how == "C" or (math.dist(other, e) < NEAR and size < SMALLER)):
+        if other is not None and (how == "C" or (math.dist(other, e) < CORNER_RADIUS and size < HOPF_END_AMPLITUDE)):
             return other, 0.0, None
         corner = min(self.corners, key=lambda g: math.dist(g, e))
-        if math.dist(corner, e) < NEAR:
+        if math.dist(corner, e) < CORNER_RADIUS:
             return corner, size, ("touching", corner, TOUCHING)
         # towards a neutral loop the fold runs along the curve of loops, closer than any power
         f = neutral_loop(*self.plane, self.psi, -self.A @ e) if height < 0.1 else None
-        if f is not None and math.dist(self._e(f), e) < 5.0 * NEAR:
+        if f is not None and math.dist(self._e(f), e) < 5.0 * CORNER_RADIUS:
             return self._e(f), size, ("resonant loop", self._e(f), RESONANT)
         if how == "equator":
             return e, size, ("equator", e, say("fold reaches the equator"))
         return e, size, ("undecided", e, say("fold followed no further"))
 
 
-def _passes(one: _Curve, e: Array, amplitude: float) -> bool:
+def _passes_cycle(one: _FoldCurve, e: Array, amplitude: float) -> bool:
     """Whether a curve passes near, with a cycle of about this size."""
     away = np.hypot(*(one.e - e).T)
     # of all that is near: the two arms beside a cusp all but coincide
-    return bool(((away < BESIDE) & (np.abs(one.sizes - amplitude) < 0.2)).any())
+    return bool(((away < ON_CURVE_DISTANCE) & (np.abs(one.sizes - amplitude) < 0.2)).any())

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from ..curves.arclength import Steps, trace_curve, zero_between
+from ..curves.arclength import StepBounds, trace_curve, zero_between
 from ..curves.newton import finite_differences, newton
 from ..curves.polyline import distance
 from ..cycles.loop import gap, loops
@@ -25,20 +25,28 @@ from ..numerics.root_between import root_between
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..words import say
-from .curve import Array, BifurcationCurve, SpecialPoint, matrix, place, read_only
+from .curve import Array, BifurcationCurve, SpecialPoint, matrix, plain_point, read_only_lines
 from .geometry import Geometry
 
-BORDER, TURN = 1440, 256  # tangents to the border of closed equators, and angles at which Theta is looked at
-WIDE = (30, 10, 3, 0)  # tangents between which a chord of that border is drawn, on either side of a change of sign
-INSIDE = 1e-6  # part of a chord of that border, from its ends, within which the exponent is not computed
-ANGLES, RADII = 24, 10  # of the half disc of critical sets in which loops are looked for by changes of sign
-COARSE, FINE = 1e-6, 1e-11  # tolerances there and on the curves
-STEP = 0.03  # of a curve in that disc
-OF_EQUATORS = Steps(STEP, 0.12, 400, close=1e-10, least=1e-5)
-OF_LOOPS = Steps(STEP, 0.3, 400, close=1e-9, least=1e-3)
-NEAR = 0.03  # a curve that breaks off this close to a corner ends there
+BORDER_TANGENTS, THETA_ANGLES = (
+    1440,
+    256,
+)  # tangents to the border of closed equators, and angles at which Theta is looked at
+CHORD_SPREADS = (
+    30,
+    10,
+    3,
+    0,
+)  # tangents between which a chord of that border is drawn, on either side of a change of sign
+CHORD_INSET = 1e-6  # part of a chord of that border, from its ends, within which the exponent is not computed
+NET_ANGLES, NET_RADII = 24, 10  # of the half disc of critical sets in which loops are looked for by changes of sign
+COARSE_RTOL, FINE_RTOL = 1e-6, 1e-11  # tolerances there and on the curves
+CURVE_STEP = 0.03  # of a curve in that disc
+EQUATOR_STEP_BOUNDS = StepBounds(CURVE_STEP, 0.12, 400, close=1e-10, least=1e-5)
+LOOP_STEP_BOUNDS = StepBounds(CURVE_STEP, 0.3, 400, close=1e-9, least=1e-3)
+CORNER_DISTANCE = 0.03  # a curve that breaks off this close to a corner ends there
 
-DIFFERENCE, CLOSE, REACH = 1e-6, 1e-9, 0.15  # of the search for a neutral loop, in that disc
+DIFFERENCE_STEP, LOOP_TOLERANCE, MAX_SEED_ERROR = 1e-6, 1e-9, 0.15  # of the search for a neutral loop, in that disc
 FAILED = np.full(2, math.nan)
 
 _NONE = say("no cycles at all")
@@ -79,7 +87,7 @@ def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
         lines = [line * f for f in touching if f[1] > 0.0]
         lines = [f for f in lines if equator_cycle(coefficients_at(a, b, d, f[100])) is not None]
         return BifurcationCurve(
-            "equator", "closed equator: reversible", label, read_only(lines),
+            "equator", "closed equator: reversible", label, read_only_lines(lines),
             sentence=say("reversible, equator"),
         )  # fmt: skip
 
@@ -91,10 +99,10 @@ def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
         found = equator_cycle(coefficients_at(a, b, d, -A @ e))
         return math.nan if found is None else found.exponent / found.period
 
-    branches = _curves(mean, OF_EQUATORS, _on_border(plane, mean, A), A, corners)
+    branches = _border_curves(mean, EQUATOR_STEP_BOUNDS, _on_border(plane, mean, A), A, corners)
     sentence = say("equator turns") if branches else say("equator keeps")
     name = "closed equator" if branches else "closed equator: none"
-    return BifurcationCurve("equator", name, label, read_only(branches), (), (), sentence)
+    return BifurcationCurve("equator", name, label, read_only_lines(branches), (), (), sentence)
 
 
 def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
@@ -140,9 +148,9 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
 
         return miss
 
-    sought = _sign_changes(gap_function(COARSE), gap_function(FINE))
-    branches = _curves(gap_function(FINE), OF_LOOPS, sought, A, touching)
-    condition = finite_differences(gap_function(FINE), DIFFERENCE)
+    sought = _sign_changes(gap_function(COARSE_RTOL), gap_function(FINE_RTOL))
+    branches = _border_curves(gap_function(FINE_RTOL), LOOP_STEP_BOUNDS, sought, A, touching)
+    condition = finite_differences(gap_function(FINE_RTOL), DIFFERENCE_STEP)
     values, special = [], []
     for branch in branches:
         e = -np.linalg.solve(A, branch.T).T
@@ -153,11 +161,11 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         for i in np.flatnonzero((row[1:] > 1.0) != (row[:-1] > 1.0)):
             at = -A @ zero_between(condition, lambda v: _ratio(a, b, d, -A @ v) - 1.0, e[i], e[i + 1])
             text = say("neutral loop")
-            special.append(SpecialPoint("resonant loop", place(at), text))
+            special.append(SpecialPoint("resonant loop", plain_point(at), text))
     sentence = say("loop through the equator") if branches else say("no loop")
     name = "heteroclinic cycle through the equator" if branches else "heteroclinic: none"
     return BifurcationCurve(
-        "heteroclinic", name, label, read_only(branches), tuple(special), read_only(values), sentence
+        "heteroclinic", name, label, read_only_lines(branches), tuple(special), read_only_lines(values), sentence
     )
 
 
@@ -182,13 +190,13 @@ def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | No
     def misses(e: Array) -> Array:
         coefficients = coefficients_at(a, b, d, -A @ e)
         arcs = loops(coefficients) if float(e @ e) < 1.0 else ()
-        return np.array([gap(coefficients, psi, arcs[0], FINE), math.log(arcs[0].ratio)]) if arcs else FAILED
+        return np.array([gap(coefficients, psi, arcs[0], FINE_RTOL), math.log(arcs[0].ratio)]) if arcs else FAILED
 
     def both(e: Array) -> tuple[Array, Array]:
         here = misses(e)
-        return here, np.stack([(misses(e + DIFFERENCE * v) - here) / DIFFERENCE for v in np.eye(2)], axis=1)
+        return here, np.stack([(misses(e + DIFFERENCE_STEP * v) - here) / DIFFERENCE_STEP for v in np.eye(2)], axis=1)
 
-    e = newton(both, np.asarray(-np.linalg.solve(A, f), float), REACH, CLOSE)
+    e = newton(both, np.asarray(-np.linalg.solve(A, f), float), MAX_SEED_ERROR, LOOP_TOLERANCE)
     return None if e is None else np.asarray(-A @ e, float)
 
 
@@ -199,8 +207,8 @@ def _ratio(a: float, b: float, d: float, f: Array) -> float:
 
 def _on_border(plane: Geometry, mean: Callable[[Array], float], A: Array) -> Iterator[Array]:
     """Places e = -A^-1 f on the curves of neutral equators, each beside one of their ends."""
-    theta = 2.0 * math.pi * (np.arange(BORDER) + 0.37) / BORDER
-    turn = 2.0 * math.pi * np.arange(TURN) / TURN
+    theta = 2.0 * math.pi * (np.arange(BORDER_TANGENTS) + 0.37) / BORDER_TANGENTS
+    turn = 2.0 * math.pi * np.arange(THETA_ANGLES) / THETA_ANGLES
     c, s = np.cos(turn), np.sin(turn)
     f = plane.saddle_node(theta)
     turning = (plane.b - plane.k * s * c + f[:, 1:] * c - f[:, :1] * s) * math.copysign(1.0, plane.b)
@@ -209,19 +217,19 @@ def _on_border(plane: Geometry, mean: Callable[[Array], float], A: Array) -> Ite
     e = -np.linalg.solve(A, f.T).T
     for k in range(len(rows)):
         # the longest chord about a change of sign that cuts off no other
-        for wide in WIDE:
+        for wide in CHORD_SPREADS:
             i, *between, j = np.take(rows, range(k - wide, k + 2 + wide), mode="wrap").tolist()
             signs = np.sign(radial[[i, *between, j]])
             if (signs[: wide + 1] == signs[0]).all() and (signs[wide + 1 :] == -signs[0]).all():
-                low, along = e[i] + INSIDE * (e[j] - e[i]), (1.0 - 2.0 * INSIDE) * (e[j] - e[i])
+                low, along = e[i] + CHORD_INSET * (e[j] - e[i]), (1.0 - 2.0 * CHORD_INSET) * (e[j] - e[i])
                 yield low + root_between(lambda t, p=low, v=along: mean(p + t * v), 0.0, 1.0, 1e-13) * along
                 break
 
 
 def _sign_changes(rough: Callable[[Array], float], function: Callable[[Array], float]) -> Iterator[Array]:
     """Zeros in half of the disc of critical sets, on the rays on which a rough function changes its sign."""
-    radii = np.sin(0.5 * math.pi * (np.arange(RADII) + 1.0) / (RADII + 1.0))
-    for angle in np.linspace(0.0, math.pi, ANGLES, endpoint=False):
+    radii = np.sin(0.5 * math.pi * (np.arange(NET_RADII) + 1.0) / (NET_RADII + 1.0))
+    for angle in np.linspace(0.0, math.pi, NET_ANGLES, endpoint=False):
         places = radii[:, None] * (math.cos(angle), math.sin(angle))
         values = [rough(e) for e in places]
         for i in range(len(places) - 1):
@@ -230,23 +238,23 @@ def _sign_changes(rough: Callable[[Array], float], function: Callable[[Array], f
                 yield low + root_between(lambda t, p=low, v=along: function(p + t * v), 0.0, 1.0, 1e-13) * along
 
 
-def _curves(
-    function: Callable[[Array], float], steps: Steps, starts: Iterator[Array], A: Array, corners: list[Array]
+def _border_curves(
+    function: Callable[[Array], float], steps: StepBounds, starts: Iterator[Array], A: Array, corners: list[Array]
 ) -> list[Array]:
     """All curves through some zeros, in f, with their mirror images at -f.
 
     The functions are of e = -A^-1 f: in the disc all directions count alike, however narrow the ellipse is.
     """
     ends = [np.asarray(-np.linalg.solve(A, f), float) for f in corners]
-    condition = finite_differences(function, DIFFERENCE)
+    condition = finite_differences(function, DIFFERENCE_STEP)
     found: list[Array] = []
     for e in starts:
-        if any(_passes(curve, e) for curve in found):
+        if any(_passes_point(curve, e) for curve in found):
             continue
         curve = trace_curve(condition, e, (), steps) if abs(function(e)) < 1e-3 else None
         if curve is not None:
             line = curve.points if curve.closed else _to_ends(curve.points, ends)
-            found += [line] if _passes(line, -e) else [line, -line]
+            found += [line] if _passes_point(line, -e) else [line, -line]
     return [-curve @ A.T for curve in found]
 
 
@@ -254,10 +262,10 @@ def _to_ends(line: Array, ends: list[Array]) -> Array:
     """Return a line, drawn on to the corners beside which it breaks off."""
     for i in (0, -1):
         end = min(ends, key=lambda t, i=i: math.dist(t, line[i]), default=None)
-        if end is not None and 0.0 < math.dist(end, line[i]) < NEAR:
+        if end is not None and 0.0 < math.dist(end, line[i]) < CORNER_DISTANCE:
             line = np.concatenate([end[None], line] if i == 0 else [line, end[None]])
     return line
 
 
-def _passes(curve: Array, e: Array) -> bool:
-    return bool(distance(e, curve) < 0.2 * STEP)
+def _passes_point(curve: Array, e: Array) -> bool:
+    return bool(distance(e, curve) < 0.2 * CURVE_STEP)

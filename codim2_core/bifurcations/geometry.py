@@ -22,7 +22,7 @@ from ..layer_problem.linearisation import determinant_sign
 from .curve import Array, angles_of_cosine
 
 # Two of these points nearer to each other than this (relative, in the squares compared) count as one.
-MEETING = 1e-12
+SAME_POINT_SHARE = 1e-12
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ class Geometry:
         if self.k == 0.0:
             return []
         ratio = -2.0 * self.b / (3.0 * self.k)
-        if abs(abs(ratio) - 1.0) <= MEETING:
+        if abs(abs(ratio) - 1.0) <= SAME_POINT_SHARE:
             first = 0.25 * math.copysign(math.pi, ratio) % math.pi
             return [first, first + math.pi]
         return angles_of_cosine(ratio, 0.5 * math.pi)
@@ -123,9 +123,9 @@ class Geometry:
             return []
         ratio = self.b / self.k
         cosine = 2.0 * (abs(ratio) - 1.0)
-        if abs(cosine + 1.0) <= MEETING:
+        if abs(cosine + 1.0) <= SAME_POINT_SHARE:
             cosine = -1.0
-        if not -1.0 <= cosine < 1.0 - MEETING:
+        if not -1.0 <= cosine < 1.0 - SAME_POINT_SHARE:
             return []
         half, middle = 0.5 * math.acos(cosine), math.copysign(0.25 * math.pi, -ratio)
         # Theta = C (1 - cos(theta - alpha)) (1 - cos(theta - beta)) with alpha + beta = -+ pi/2, harmonic by harmonic
@@ -150,7 +150,7 @@ class Geometry:
         k, p = abs(self.k), self.a + self.d
         q = math.hypot(p, 2.0 * self.b)
         # det A = (q^2 - k^2)/4, and the equation is cos(2 theta - middle) = (q^2 - 3 k^2)/(2 k q).
-        if k == 0.0 or self.determinant_sign <= 0 or q > 3.0 * k * (1.0 + MEETING):
+        if k == 0.0 or self.determinant_sign <= 0 or q > 3.0 * k * (1.0 + SAME_POINT_SHARE):
             return []
         middle = math.atan2(-2.0 * self.b * self.k, -self.k * p)
         if self.cusps_on_ellipse:
@@ -161,4 +161,4 @@ class Geometry:
     def cusps_on_ellipse(self) -> bool:
         """Whether (a + d)^2 + 4 b^2 = 9 (a - d)^2: two cusps lie on the ellipse (b = 0: a = 2d or d = 2a)."""
         k = 3.0 * abs(self.k)
-        return k > 0.0 and abs(math.hypot(self.a + self.d, 2.0 * self.b) - k) <= MEETING * k
+        return k > 0.0 and abs(math.hypot(self.a + self.d, 2.0 * self.b) - k) <= SAME_POINT_SHARE * k

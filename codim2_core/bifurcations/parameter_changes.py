@@ -15,10 +15,10 @@ from ..psi.constructors import hill, many, with_parameter
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
-from ..tables import Results, Tabled, number
+from ..tables import Results, Tabled, table_number
 from ..words import say
 
-STEPS = 241
+SEGMENT_STEPS = 241
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ class ParameterChange(Tabled):
     sentence: str
 
     def _row_(self) -> tuple[str, ...]:
-        return self.type, number(self.n), self.before, self.after, self.sentence
+        return self.type, table_number(self.n), self.before, self.after, self.sentence
 
 
 def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> Results[ParameterChange]:
@@ -69,7 +69,7 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
     e does not depend on Psi, and J only through ``sigma = (1 - |e|^2)(1 - s Psi'(s)/Psi(s))``. With
     ``alpha = e.diag(a, d) e/|e|^2`` and ``beta = a + d - alpha``: tr J = 0 at sigma = -beta/alpha, and the discriminant
     is zero at ``(alpha sigma + beta)^2 = 4 sigma det A``: the values of sigma are closed forms and n(sigma) a root,
-    looked for between `STEPS` values of n.
+    looked for between `SEGMENT_STEPS` values of n.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
         elif alpha == 0.0 and tau * beta > 0.0:
             wanted.append(("node-focus", (beta / (2.0 * root)) ** 2))
     spaced = np.geomspace if shape.low > 0.0 else np.linspace
-    grid = np.concatenate([[shape.low], spaced(shape.low, shape.high, STEPS)[1:-1], [shape.high]])
+    grid = np.concatenate([[shape.low], spaced(shape.low, shape.high, SEGMENT_STEPS)[1:-1], [shape.high]])
     values = sigma(grid)
     found: list[tuple[float, str]] = []
     for kind, target in wanted:
@@ -133,7 +133,7 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
     for i, (n, kind) in enumerate(found):
         low = 0.5 * (n + (found[i - 1][0] if i else shape.low))
         high = 0.5 * (n + (found[i + 1][0] if i + 1 < len(found) else shape.high))
-        before, after = (_kind(alpha, beta, root, v) for v in sigma(np.array([low, high])).tolist())
+        before, after = (_change_kind(alpha, beta, root, v) for v in sigma(np.array([low, high])).tolist())
         changes.append(
             ParameterChange(
                 kind, n, before, after, say("changes over Ψ", name=shape.name, value=n, before=before, after=after)
@@ -142,7 +142,7 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
     return Results(changes)
 
 
-def _kind(alpha: float, beta: float, root: float, sigma: float) -> str:
+def _change_kind(alpha: float, beta: float, root: float, sigma: float) -> str:
     trace, determinant = alpha * sigma + beta, sigma * root * root
     shape = "node" if trace * trace >= 4.0 * determinant else "focus"
     return ("stable " if trace < 0.0 else "unstable ") + shape

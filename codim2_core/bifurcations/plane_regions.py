@@ -19,13 +19,13 @@ from ..portrait.classify import Classification, classify, portrait_name
 from ..psi.constructors import constant
 from ..systems.coefficients import Coefficients
 from ..tables import Results, Tabled, point
-from .arrangement import arrangement, borders
-from .curve import Array, matrix, read_only
+from .arrangement import arrangement, face_borders
+from .curve import Array, matrix, read_only_lines
 from .geometry import Geometry
 
-_THIN = 1e-6  # of the size: regions with a smaller mean width are left out; nobody could see them
-_NOTHING = np.zeros((0, 2)), np.zeros(0)
-_LEVELS = np.array([0.07, 0.21, 0.35, 0.4987, 0.65, 0.79, 0.93])  # of the extent of a region: where it is cut
+_MIN_WIDTH = 1e-6  # of the size: regions with a smaller mean width are left out; nobody could see them
+_NO_POINTS = np.zeros((0, 2)), np.zeros(0)
+_CUT_LEVELS = np.array([0.07, 0.21, 0.35, 0.4987, 0.65, 0.79, 0.93])  # of the extent of a region: where it is cut
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,9 +100,9 @@ def regions(a: float, b: float, d: float) -> Regions:
         found = [_region(plane, [], np.zeros((1, 2)), (1.0, 0.0), bounded=False)]
         return Regions(region for region in found if region is not None)
     # a or d of next to nothing is taken for 0: the points of fourfold contact that it parts cannot be told apart
-    halves = arrangement(Geometry(*(0.0 if abs(v) <= _THIN * plane.size else v for v in (a, b, d))))
-    loops = borders(halves, plane)
-    thin = _THIN * plane.size
+    halves = arrangement(Geometry(*(0.0 if abs(v) <= _MIN_WIDTH * plane.size else v for v in (a, b, d))))
+    loops = face_borders(halves, plane)
+    thin = _MIN_WIDTH * plane.size
     faces = [[loop] for loop, area in loops if area > thin * _length(loop)]
     outer = [(loop, area) for loop, area in loops if area < 0.0]
     free = [loop for loop, _ in outer]
@@ -149,7 +149,7 @@ def _region(
     if known is not None:
         inside = known
     else:
-        found = _middle(boundary, border)
+        found = _interior_point(boundary, border)
         if found is None:
             return None
         inside = found
@@ -157,11 +157,11 @@ def _region(
         # det A = 0: on the line f = A e only, which passes through the region
         inside = _point_beside(plane, inside, border)
     at = _coefficients_at(plane, inside)
-    return Region(portrait_name(LayerProblem(at, constant())).name, inside, read_only(boundary), bounded, at)
+    return Region(portrait_name(LayerProblem(at, constant())).name, inside, read_only_lines(boundary), bounded, at)
 
 
 def _coefficients_at(plane: Geometry, f: tuple[float, float]) -> Coefficients:
-    return Coefficients(plane.a, plane.b, plane.d, *f, *_NOTHING)
+    return Coefficients(plane.a, plane.b, plane.d, *f, *_NO_POINTS)
 
 
 def _point_beside(plane: Geometry, f: tuple[float, float], border: Array) -> tuple[float, float]:
@@ -171,18 +171,18 @@ def _point_beside(plane: Geometry, f: tuple[float, float], border: Array) -> tup
     return f[0] - step * v, f[1] + step * u
 
 
-def _middle(boundary: list[Array], border: Array) -> tuple[float, float] | None:
+def _interior_point(boundary: list[Array], border: Array) -> tuple[float, float] | None:
     """Find a point well inside closed polygons and far from all curves: the best of the middles of several cuts."""
     loops = [np.concatenate([loop, loop[:1]]) for loop in boundary]
     first, second = (np.concatenate([loop[part] for loop in loops]).T for part in (slice(-1), slice(1, None)))
     low, high = boundary[0].min(axis=0), boundary[0].max(axis=0)
     # along each axis, cuts at some levels of the other one
-    levels = low[::-1, None] + (high - low)[::-1, None] * _LEVELS
+    levels = low[::-1, None] + (high - low)[::-1, None] * _CUT_LEVELS
     axis, level, at = np.nonzero((first[::-1, None] > levels[..., None]) != (second[::-1, None] > levels[..., None]))
     with np.errstate(invalid="ignore", over="ignore"):
         part = (levels[axis, level] - first[1 - axis, at]) / (second[1 - axis, at] - first[1 - axis, at])
         crossing = first[axis, at] + part * (second[axis, at] - first[axis, at])
-    ends = np.searchsorted(axis * len(_LEVELS) + level, np.arange(2 * len(_LEVELS) + 1)).tolist()
+    ends = np.searchsorted(axis * len(_CUT_LEVELS) + level, np.arange(2 * len(_CUT_LEVELS) + 1)).tolist()
     candidates: list[tuple[float, float]] = []
     halves: list[float] = []  # half the width of each cut: the border's points alone would miss how thin a sliver is
     places = crossing.tolist()
@@ -192,7 +192,7 @@ def _middle(boundary: list[Array], border: Array) -> tuple[float, float] | None:
         if pairs:
             left, right = max(pairs, key=lambda pair: pair[1] - pair[0])
             middle = 0.5 * (left + right)
-            candidates.append((middle, where) if k < len(_LEVELS) else (where, middle))
+            candidates.append((middle, where) if k < len(_CUT_LEVELS) else (where, middle))
             halves.append(0.5 * (right - left))
     if not candidates:
         return None

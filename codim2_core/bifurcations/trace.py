@@ -25,13 +25,16 @@ from ..numerics.root_between import root_between
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
 from ..words import say
-from .curve import Array, BifurcationCurve, SpecialPoint, matrix, place, read_only
+from .curve import Array, BifurcationCurve, SpecialPoint, matrix, plain_point, read_only_lines
 
-_GRID = 256  # moduli between which zeros are looked for
-_POINTS = 160  # points along one piece, at least
-_MOST = 1.0 - 2.0**-40  # the largest modulus followed; from there to the equator nothing can be seen
-_FLAT = 4 * 2.0**-53
-_STEP, _HALVINGS = 0.04, 60  # the curve moves by at most this between points, unless its moduli agree to all digits
+_MODULUS_CELLS = 256  # moduli between which zeros are looked for
+_MIN_POINTS = 160  # points along one piece, at least
+_MAX_MODULUS = 1.0 - 2.0**-40  # the largest modulus followed; from there to the equator nothing can be seen
+_ROUNDING = 4 * 2.0**-53
+_MAX_STEP, MAX_HALVINGS = (
+    0.04,
+    60,
+)  # the curve moves by at most this between points, unless its moduli agree to all digits
 
 
 def _ratio(psi: Psi, m: Array) -> Array:
@@ -41,7 +44,7 @@ def _ratio(psi: Psi, m: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class _Piece:
+class _ModulusInterval:
     """An interval of moduli on which 0 <= t(m) <= pi/2 exists; at its ends cos 2t = 1, -1, or neither (0)."""
 
     low: float
@@ -50,7 +53,7 @@ class _Piece:
     at_high: int
 
 
-class _Level:
+class _TraceLevel:
     """tr J = 2 tau sqrt(det J) as a curve t(m)."""
 
     def __init__(self, a: float, b: float, d: float, psi: Psi, tau: float) -> None:
@@ -63,7 +66,7 @@ class _Level:
     @property
     def has_circle(self) -> bool:
         """Whether tr J has the level on the whole circle where sigma = 1: p = 2 tau sqrt(det A)."""
-        return abs(self.p - 2.0 * self.tau * self.root) <= _FLAT * self.scale
+        return abs(self.p - 2.0 * self.tau * self.root) <= _ROUNDING * self.scale
 
     def sides(self, m: Array) -> tuple[Array, Array]:
         """(N, D) with ``cos 2t = N/D``; where they have a zero in common, sigma = 1, without it."""
@@ -78,7 +81,7 @@ class _Level:
         N, D = self.sides(m)
         return 0.5 * np.arctan2(np.sqrt(np.maximum((D - N) * (D + N), 0.0)), N * np.sign(D))
 
-    def pieces(self, m: Array) -> list[_Piece]:
+    def pieces(self, m: Array) -> list[_ModulusInterval]:
         """Intervals of moduli on which the curve exists, between the zeros of N - D and N + D.
 
         Where sigma passes 1, D changes its sign: there the curve stops at one angle and goes on from the other, however
@@ -90,25 +93,25 @@ class _Level:
             found = roots(lambda v, sign=sign: _difference(self.sides(v), sign), [m], [N - sign * D]).zeros[0]
             zeros += [(v, sign) for v in found.tolist()]
         stops = [(float(m[0]), 0), *sorted(zeros), (float(m[-1]), 0)]
-        pieces: list[_Piece] = []
+        pieces: list[_ModulusInterval] = []
         for (low, at_low), (high, at_high) in pairwise(stops):
-            if high - low <= 4.0 * _FLAT:
+            if high - low <= 4.0 * _ROUNDING:
                 continue
             N, D = self.sides(np.array([0.5 * (low + high)]))
             if abs(N[0]) <= abs(D[0]):
-                pieces.append(_Piece(low, high, at_low, at_high))
+                pieces.append(_ModulusInterval(low, high, at_low, at_high))
         return pieces
 
-    def sampled(self, piece: _Piece) -> tuple[Array, Array]:
+    def sampled(self, piece: _ModulusInterval) -> tuple[Array, Array]:
         """Moduli and angles along a piece, so close together that the curve moves little between them.
 
         Where |a + d| is much smaller than |a - d|, the angle turns within a very small part of the moduli.
         """
-        u = 0.5 * (1.0 - np.cos(np.linspace(0.0, math.pi, _POINTS)))
+        u = 0.5 * (1.0 - np.cos(np.linspace(0.0, math.pi, _MIN_POINTS)))
         m = piece.low + (piece.high - piece.low) * u
-        for _ in range(_HALVINGS):
+        for _ in range(MAX_HALVINGS):
             t = self._angles(m, piece)
-            far = np.flatnonzero(np.maximum(m[1:], m[:-1]) * np.abs(np.diff(t)) + np.diff(m) > _STEP)
+            far = np.flatnonzero(np.maximum(m[1:], m[:-1]) * np.abs(np.diff(t)) + np.diff(m) > _MAX_STEP)
             middle = 0.5 * (m[far] + m[far + 1])
             middle = middle[(middle > m[far]) & (middle < m[far + 1])]
             if not len(middle):
@@ -116,7 +119,7 @@ class _Level:
             m = np.sort(np.concatenate([m, middle]))
         return m, self._angles(m, piece)
 
-    def _angles(self, m: Array, piece: _Piece) -> Array:
+    def _angles(self, m: Array, piece: _ModulusInterval) -> Array:
         t = self.angle(m)
         for end, sign in ((0, piece.at_low), (-1, piece.at_high)):
             if sign:
@@ -128,7 +131,7 @@ def _difference(sides: tuple[Array, Array], sign: int) -> Array:
     return sides[0] - sign * sides[1]
 
 
-def _chains(piece: _Piece, t: Array) -> list[tuple[NDArray[np.intp], Array]]:
+def _chains(piece: _ModulusInterval, t: Array) -> list[tuple[NDArray[np.intp], Array]]:
     """Join the four mirror images of one piece where they meet: (index along the piece, angle) of each branch."""
     images = [t, -t, math.pi - t, math.pi + t]
     partner = {1: (1, 0, 3, 2), -1: (2, 3, 0, 1)}  # at t = 0: t with -t; at t = pi/2: t with pi - t
@@ -160,19 +163,21 @@ def _is_straight(e: Array) -> bool:
     return bool((e[0] == -e[-1]).all() and (e[len(e) // 2] == 0.0).all())
 
 
-def _branches(level: _Level) -> list[Array]:
+def _trace_branches(level: _TraceLevel) -> list[Array]:
     """All branches as critical sets e, (m, 2) each."""
     # u -> sin^2 u crowds both ends: the curve starts at the centre or ends on the equator with any slope
-    m = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, _GRID + 1)[1:-1])
-    m = np.unique(np.concatenate([[1e-6, 1e-4, 1e-3], m, 1.0 - np.geomspace(1e-4, 1.0 - _MOST, 12), [_MOST]]))
-    if abs(level.k) <= _FLAT * level.scale:
+    m = np.sin(0.5 * np.pi * np.linspace(0.0, 1.0, _MODULUS_CELLS + 1)[1:-1])
+    m = np.unique(
+        np.concatenate([[1e-6, 1e-4, 1e-3], m, 1.0 - np.geomspace(1e-4, 1.0 - _MAX_MODULUS, 12), [_MAX_MODULUS]])
+    )
+    if abs(level.k) <= _ROUNDING * level.scale:
         return _circles(level, m, lambda v: level.sides(v)[0])
     found: list[Array] = []
     if level.has_circle:
         found += _circles(level, m, lambda v: _ratio(level.psi, v) - 1.0)
         if level.p == 0.0 and level.tau == 0.0:
             ends = np.array([0.25, 0.75]) * math.pi
-            r = np.linspace(-1.0, 1.0, 2 * _POINTS + 1)[:, None]
+            r = np.linspace(-1.0, 1.0, 2 * _MIN_POINTS + 1)[:, None]
             return found + [r * np.array([math.cos(t), math.sin(t)]) for t in ends]
     for piece in level.pieces(m):
         along, t = level.sampled(piece)
@@ -182,13 +187,13 @@ def _branches(level: _Level) -> list[Array]:
     return found
 
 
-def _circles(level: _Level, m: Array, function: Callable[[Array], Array]) -> list[Array]:
+def _circles(level: _TraceLevel, m: Array, function: Callable[[Array], Array]) -> list[Array]:
     """Circles |e| = m through the zeros of a function of m."""
     values = function(m)
     size = float(abs(values).max())
-    if size <= 64 * _FLAT * (abs(level.p) + abs(level.root) + 1.0):
+    if size <= 64 * _ROUNDING * (abs(level.p) + abs(level.root) + 1.0):
         return []
-    t = np.linspace(0.0, 2.0 * math.pi, 2 * _POINTS + 1)
+    t = np.linspace(0.0, 2.0 * math.pi, 2 * _MIN_POINTS + 1)
     ring = np.stack([np.cos(t), np.sin(t)], axis=-1)
     ring[-1] = ring[0]
     solid = abs(values) > 1e-9 * size
@@ -216,7 +221,7 @@ def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         A coefficient is not a finite number, or psi is not a Psi.
     """
     a, b, d = matrix(a, b, d)
-    _check(psi)
+    _check_smooth(psi)
     label = "sec:case3"
     if a == d == 0.0 and b != 0.0:
         return BifurcationCurve(
@@ -228,9 +233,9 @@ def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
             "hopf", "Hopf: none", label, (),
             sentence=say("no Hopf outside Case III"),
         )  # fmt: skip
-    level = _Level(a, b, d, psi, 0.0)
+    level = _TraceLevel(a, b, d, psi, 0.0)
     branches, values, special = [], [], []
-    for e in _branches(level):
+    for e in _trace_branches(level):
         branches.append(-e @ level.A.T)
         if level.p == 0.0 and _is_straight(e):
             # a = -d, e at 45 degrees: reflecting in e and reversing time leaves the layer problem as it is
@@ -245,12 +250,14 @@ def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     else:
         sentence = say("Hopf curve")
     name = "Hopf" if branches else "Hopf: none"
-    return BifurcationCurve("hopf", name, label, read_only(branches), tuple(special), read_only(values), sentence)
+    return BifurcationCurve(
+        "hopf", name, label, read_only_lines(branches), tuple(special), read_only_lines(values), sentence
+    )
 
 
-def _lyapunov(level: _Level, e: Array) -> Array:
+def _lyapunov(level: _TraceLevel, e: Array) -> Array:
     modulus = np.hypot(e[:, 0], e[:, 1])
-    safe = np.clip(modulus, 1e-9, _MOST)
+    safe = np.clip(modulus, 1e-9, _MAX_MODULUS)
     with np.errstate(invalid="ignore", divide="ignore"):
         unit = np.where(modulus[:, None] > 0.0, e / modulus[:, None], np.array([math.sqrt(0.5), math.sqrt(0.5)]))
     x2 = level.psi.radius(safe)[:, None] * unit
@@ -258,7 +265,7 @@ def _lyapunov(level: _Level, e: Array) -> Array:
     return np.where(np.isfinite(values), values, 0.0)
 
 
-def _bautin(level: _Level, e: Array, values: Array) -> list[SpecialPoint]:
+def _bautin(level: _TraceLevel, e: Array, values: Array) -> list[SpecialPoint]:
     """Find where the coefficient changes sign between neighbours, by the secant through the curve's own equation."""
     found = []
     # next to the equator, and where it underflows, its sign means nothing
@@ -283,7 +290,7 @@ def _bautin(level: _Level, e: Array, values: Array) -> list[SpecialPoint]:
         e0 = on_curve(root_between(coefficient, 0.0, 1.0, 1e-9))[0]
         found.append(
             SpecialPoint(
-                "generalised Hopf", place(-(level.A @ e0)),
+                "generalised Hopf", plain_point(-(level.A @ e0)),
                 say("Bautin"),
             )
         )  # fmt: skip
@@ -311,7 +318,7 @@ def node_focus(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         A coefficient is not a finite number, or psi is not a Psi.
     """
     a, b, d = matrix(a, b, d)
-    _check(psi)
+    _check_smooth(psi)
     label = "fig:bads"
     if determinant_sign(a, b, d) <= 0:
         return BifurcationCurve(
@@ -324,13 +331,13 @@ def node_focus(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         special = (SpecialPoint("star node", (0.0, 0.0), say("both eigenvalues agree")),)
     else:
         for tau in (-1.0, 1.0):
-            level = _Level(a, b, d, psi, tau)
-            branches += [-e @ level.A.T for e in _branches(level)]
+            level = _TraceLevel(a, b, d, psi, tau)
+            branches += [-e @ level.A.T for e in _trace_branches(level)]
     sentence = say("node-focus curve") if branches or special else say("one kind")
     name = "node-focus" if branches or special else "node-focus: none"
-    return BifurcationCurve("node-focus", name, label, read_only(branches), special, (), sentence)
+    return BifurcationCurve("node-focus", name, label, read_only_lines(branches), special, (), sentence)
 
 
-def _check(psi: object) -> None:
+def _check_smooth(psi: object) -> None:
     if not isinstance(psi, Psi):
         raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")

@@ -7,16 +7,14 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..arrays import Array
 
-
-APART = 0.25  # of a step: how far from one another they are, at least: a fold may lie beside one
+MIN_SPACING = 0.25  # of a step: how far from one another they are, at least: a fold may lie beside one
 
 
-class Place(NamedTuple):
-    """A place of the curve, or its derivative by the length: xi and chi of `turns.Turn`, and nu."""
+class CurvePoint(NamedTuple):
+    """A place of the curve, or its derivative by the length: xi and chi of `turns.ReturnMapPoint`, and nu."""
 
     xi: float
     chi: float
@@ -25,19 +23,19 @@ class Place(NamedTuple):
 
 def predict(
     lengths: Sequence[float],
-    places: Sequence[Place],
-    tangents: Sequence[Place],
+    places: Sequence[CurvePoint],
+    tangents: Sequence[CurvePoint],
     rate: float,
     steps: Sequence[float],
     behind: int,
-) -> list[Place]:
+) -> list[CurvePoint]:
     """Predict points after the last one; fewer than asked for where the section ends before.
 
     Parameters
     ----------
     lengths : sequence of float
         Of the curve up to each of its points.
-    places, tangents : sequence of Place
+    places, tangents : sequence of CurvePoint
         Of these points.
     rate : float
         d chi/d xi at the last one.
@@ -50,7 +48,7 @@ def predict(
     for i in range(len(lengths) - 2, -1, -1):
         if len(rows) == behind:
             break
-        if lengths[rows[-1]] - lengths[i] > APART * steps[0]:
+        if lengths[rows[-1]] - lengths[i] > MIN_SPACING * steps[0]:
             rows.append(i)
     at = [lengths[i] for i in rows]
     return interpolate(
@@ -59,15 +57,19 @@ def predict(
 
 
 def interpolate(
-    lengths: Sequence[float], places: Sequence[Place], tangents: Sequence[Place], rate: float, where: Sequence[float]
-) -> list[Place]:
+    lengths: Sequence[float],
+    places: Sequence[CurvePoint],
+    tangents: Sequence[CurvePoint],
+    rate: float,
+    where: Sequence[float],
+) -> list[CurvePoint]:
     """Find the curve through some points at other lengths; as far as the section goes.
 
     Parameters
     ----------
     lengths : sequence of float
         Of the curve up to each of the points.
-    places, tangents : sequence of Place
+    places, tangents : sequence of CurvePoint
         Of these points, the first of them the nearest to what is wanted.
     rate : float
         d chi/d xi at the first one.
@@ -88,7 +90,7 @@ def interpolate(
     for rest, chi, nu in _hermite(at, np.array(values), np.array(slopes), wanted).tolist():
         if not 0.0 < chi < 1.0:
             break
-        found.append(Place(rest + math.log(chi) - outer * math.log(1.0 - chi), chi, nu))
+        found.append(CurvePoint(rest + math.log(chi) - outer * math.log(1.0 - chi), chi, nu))
     return found
 
 

@@ -8,17 +8,17 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Sequence
 from typing import TypeVar
 
-Question = TypeVar("Question")
+QuestionT = TypeVar("QuestionT")
 Answer = TypeVar("Answer")
-Found = TypeVar("Found")
-Asked = TypeVar("Asked")
+ResultT = TypeVar("ResultT")
+ItemT = TypeVar("ItemT")
 Told = TypeVar("Told")
 
 
 def rounds(
-    searches: Sequence[Generator[Question, Answer, Found]],
-    ask: Callable[[list[Question]], Generator[Asked, Told, list[Answer]]],
-) -> Generator[Asked, Told, list[Found]]:
+    searches: Sequence[Generator[QuestionT, Answer, ResultT]],
+    ask: Callable[[list[QuestionT]], Generator[ItemT, Told, list[Answer]]],
+) -> Generator[ItemT, Told, list[ResultT]]:
     """Run searches side by side, and ask what those that go on ask.
 
     Parameters
@@ -32,8 +32,8 @@ def rounds(
     list
         What each has found.
     """
-    found: dict[int, Found] = {}
-    asked: dict[int, Question] = {}
+    found: dict[int, ResultT] = {}
+    asked: dict[int, QuestionT] = {}
 
     def go_on(i: int, told: Answer | None) -> None:
         try:
@@ -52,8 +52,8 @@ def rounds(
 
 
 def run_batched(
-    searches: Sequence[Generator[Question, Answer, Found]], answer: Callable[[list[Question]], list[Answer]]
-) -> list[Found]:
+    searches: Sequence[Generator[QuestionT, Answer, ResultT]], answer: Callable[[list[QuestionT]], list[Answer]]
+) -> list[ResultT]:
     """Run searches side by side until all have ended.
 
     Parameters
@@ -68,7 +68,7 @@ def run_batched(
         What each has found.
     """
 
-    def as_they_are(questions: list[Question]) -> Generator[list[Question], list[Answer], list[Answer]]:
+    def as_they_are(questions: list[QuestionT]) -> Generator[list[QuestionT], list[Answer], list[Answer]]:
         return (yield questions)
 
     going = rounds(searches, as_they_are)

@@ -9,19 +9,19 @@ import numpy as np
 
 from ..words import say
 from .result import CycleBranch, CyclePoint
-from .turns import Turn
+from .turns import ReturnMapPoint
 
 #: Of one point: value, period, amplitude, exponent, and where the cycle crosses its section.
-Row = tuple[float, float, float, float, float, float]
+PointRow = tuple[float, float, float, float, float, float]
 
 
-def row(turn: Turn) -> Row:
+def point_row(turn: ReturnMapPoint) -> PointRow:
     """Return the row of a closed turn."""
     return turn.value, turn.period, turn.amplitude, turn.exponent, *turn.p
 
 
 def build_branch(
-    name: str, rows: Sequence[Row], folds: Sequence[Turn], start: CyclePoint, end: CyclePoint
+    name: str, rows: Sequence[PointRow], folds: Sequence[ReturnMapPoint], start: CyclePoint, end: CyclePoint
 ) -> CycleBranch:
     """Make a branch of its rows in order, limits at ends that are no cycles among them."""
     table = np.array(rows)

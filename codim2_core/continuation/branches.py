@@ -27,28 +27,31 @@ from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..words import say
 from .asking import run_batched
-from .assembled import Row, build_branch, row
-from .ends import End, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
-from .path import LEVEL, all_traced, trace_branch
-from .points import Guess, Trace, points_at_value, reversed_trace
+from .assembled import PointRow, build_branch, point_row
+from .ends import BranchEnd, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
+from .path import BAND_HEIGHT, all_traced, trace_branch
+from .points import BranchPoints, TurnGuess, points_at_value, reversed_trace
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .sought import admissible_interval
-from .trace import Tracer
-from .turns import Turn
-from .varied_system import Asking, Straight, VariedSystem, follow, reversible, side_by_side
+from .trace import BranchTracer
+from .turns import ReturnMapPoint
+from .varied_system import AffineCoefficients, Asking, ParameterFamily, reversible, run_batch, side_by_side
 
 __all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
 
-FIRST = 1e-3  # of the reach: where branches start at C
-# |x2| where they start at the equator: where 1 - |e|^2 comes to SEEN, as folds may lie far out
-OUTER, SEEN = np.array([5.0, 10.0, 20.0, 50.0, 100.0, 300.0, 1000.0, 3000.0]), 1e-24
+START_SHARE = 1e-3  # of the reach: where branches start at C
+# |x2| where they start at the equator: where 1 - |e|^2 comes to the second of these, as folds may lie far out
+START_HEIGHTS, MIN_HEIGHT_SQUARED = np.array([5.0, 10.0, 20.0, 50.0, 100.0, 300.0, 1000.0, 3000.0]), 1e-24
 PLANE = ("a", "b", "d", "f1", "f2")
-COLUMNS = 9  # values at which all cycles are looked for
+CENSUS_VALUES = 9  # values at which all cycles are looked for
 
 #: A branch: its points, its start and end, and what these are if they are no cycles.
-Entry = tuple[Trace, CyclePoint, CyclePoint, End | None, End | None]
+Entry = tuple[BranchPoints, CyclePoint, CyclePoint, BranchEnd | None, BranchEnd | None]
 
-FAR, SAME = 0.1, 1e-6  # distances in chi: a branch does not pass near a cycle; a cycle is that of the branch
+AVOIDED_DISTANCE, SAME_CHI = (
+    0.1,
+    1e-6,
+)  # distances in chi: a branch does not pass near a cycle; a cycle is that of the branch
 
 
 def continue_cycles(
@@ -96,7 +99,7 @@ def continue_cycles(
         # nothing else varies: coefficients are checked and evaluated once
         system, z = (coefficients := cast("Coefficients", system.at(z))), ()
         slope = np.eye(len(PLANE))[PLANE.index(name)]
-        straight = Straight((1.0 - slope) * coefficients.plane, slope, psi)
+        straight = AffineCoefficients((1.0 - slope) * coefficients.plane, slope, psi)
     elif name not in system.variable and psi.record.parameter is not None and name == psi.record.parameter.name:
         system, z = cast("Coefficients", system.at(z)), ()  # only Psi varies
 
@@ -115,8 +118,8 @@ def continue_cycles(
     for value in (low, high):
         at(value)
     bounds = limits(system, psi, name)
-    part = admissible_interval(VariedSystem(at, high - low, bounds, straight), low, high)
-    family = VariedSystem(at, part[1] - part[0], bounds, straight)
+    part = admissible_interval(ParameterFamily(at, high - low, bounds, straight), low, high)
+    family = ParameterFamily(at, part[1] - part[0], bounds, straight)
     allowed = family.allowed(values(*part))
     if all(reversible(at(v)[0]) for v in allowed):
         settings = (at(float(v)) for v in values(low, high))
@@ -125,11 +128,11 @@ def continue_cycles(
         return CycleBranches(name, (low, high), (), sentence or say("no cycle on the span"))
     middle = allowed[len(allowed) // 2]
     family.ray = family.section(middle).ray
-    (found,) = run_batched([_Search(family, name, part, (low, high)).run()], follow)
+    (found,) = run_batched([_BranchSearch(family, name, part, (low, high)).run()], run_batch)
     return found
 
 
-def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list[tuple[int, Turn]]]:
+def folds_along(lines: Sequence[AffineCoefficients], low: float, high: float) -> list[list[tuple[int, ReturnMapPoint]]]:
     """Find the folds on all branches of cycles along each of several lines.
 
     Parameters
@@ -144,14 +147,14 @@ def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list
     """
     searches = []
     for line in lines:
-        family = VariedSystem(partial(_system_on, line), high - low, straight=line)
+        family = ParameterFamily(partial(_system_on, line), high - low, straight=line)
         allowed = family.allowed(values(low, high))
         if not all(reversible(family.at(v)[0]) for v in allowed):
             family.ray = family.section(allowed[len(allowed) // 2]).ray
-            searches.append(_Search(family, "t", (low, high), (low, high)))
+            searches.append(_BranchSearch(family, "t", (low, high), (low, high)))
         else:
             searches.append(None)
-    run_batched([search.run() for search in searches if search is not None], follow)
+    run_batched([search.run() for search in searches if search is not None], run_batch)
     return [
         []
         if search is None
@@ -160,18 +163,20 @@ def folds_along(lines: Sequence[Straight], low: float, high: float) -> list[list
     ]
 
 
-def _system_on(line: Straight, value: float) -> tuple[Coefficients, Psi]:
+def _system_on(line: AffineCoefficients, value: float) -> tuple[Coefficients, Psi]:
     a, b, d, f1, f2 = (line.origin + value * line.slope).tolist()
     return Coefficients(a, b, d, f1, f2, np.zeros((0, 2)), np.zeros(0)), line.psi
 
 
-class _Search:
+class _BranchSearch:
     """One call of `continue_cycles`."""
 
-    def __init__(self, family: VariedSystem, name: str, part: tuple[float, float], span: tuple[float, float]) -> None:
+    def __init__(
+        self, family: ParameterFamily, name: str, part: tuple[float, float], span: tuple[float, float]
+    ) -> None:
         self.family, self.name, self.span = family, name, span
         low, high = self.low, self.high = part
-        self.tracer = Tracer(family, low, high)
+        self.tracer = BranchTracer(family, low, high)
         self.hopf = hopf_ends(family, low, high)
         self.closed = equator_ends(family, low, high)
         self.loops = loop_ends(family, low, high)
@@ -190,7 +195,7 @@ class _Search:
         self.notes += [say("loop without a cycle", name=self.name, value=e.value) for e in missed]
         kind = "no branch" if not branches else "one branch" if len(branches) == 1 else "branches"
         span = {"name": self.name, "low": self.span[0], "high": self.span[1]}
-        reason = say(kind, **span, count=len(branches) or COLUMNS)
+        reason = say(kind, **span, count=len(branches) or CENSUS_VALUES)
         return CycleBranches(self.name, self.span, branches, reason, tuple(self.notes))
 
     def _nu(self, value: float) -> float:
@@ -202,7 +207,9 @@ class _Search:
         towards = [1.0 if end.kind == "Hopf" else -1.0 for end in ends]
         firsts = yield from side_by_side([self._first(e, t) for e, t in zip(ends, towards, strict=True)])
         caught = [i for i, first in enumerate(firsts) if first is not None and -1e-12 <= first[1] <= 1.0 + 1e-12]
-        starts = [self.tracer.point(*cast("tuple[Turn, float]", firsts[i]), (towards[i], 0.0)) for i in caught]
+        starts = [
+            self.tracer.point(*cast("tuple[ReturnMapPoint, float]", firsts[i]), (towards[i], 0.0)) for i in caught
+        ]
         followed = yield from all_traced(self.tracer, starts)
         traces = dict(zip(caught, followed, strict=True))
         for i, end in enumerate(ends):
@@ -220,22 +227,22 @@ class _Search:
             elif firsts[i] is None:
                 self.notes.append(say("birth not caught", kind=end.kind, name=self.name, value=end.value))
 
-    def _first(self, end: End, towards: float) -> Asking[tuple[Turn, float] | None]:
+    def _first(self, end: BranchEnd, towards: float) -> Asking[tuple[ReturnMapPoint, float] | None]:
         """Find the first cycle of a branch: the parameter is what is solved for."""
-        xi, first = math.log(FIRST), None
+        xi, first = math.log(START_SHARE), None
         if end.kind != "Hopf":
             section = self.family.section(end.value)
-            outside = int((section.psi.complement(OUTER) > SEEN).sum())
-            xi = float(section.xi_at_radius(OUTER[[min(outside, len(OUTER) - 1)]])[0])
+            outside = int((section.psi.complement(START_HEIGHTS) > MIN_HEIGHT_SQUARED).sum())
+            xi = float(section.xi_at_radius(START_HEIGHTS[[min(outside, len(START_HEIGHTS) - 1)]])[0])
         for start in (xi, xi - 0.4 * towards * abs(xi)):
             first = first or (
-                yield from self.tracer.corrected(Guess(start, self._nu(end.value), (1.0, 0.0), backward=False))
+                yield from self.tracer.corrected(TurnGuess(start, self._nu(end.value), (1.0, 0.0), backward=False))
             )
         return first
 
     def _columns(self) -> Asking[None]:
         """Begin at each cycle that no branch has passed."""
-        guesses = [guess for value in values(self.low, self.high, COLUMNS) for guess in self._unexplained(value)]
+        guesses = [guess for value in values(self.low, self.high, CENSUS_VALUES) for guess in self._unexplained(value)]
         corrected = yield from side_by_side([self.tracer.corrected(guess) for guess in guesses])
         firsts, passed = [first for first in corrected if first is not None], len(self.found)
         known = yield from side_by_side([self._known(first, self.found) for first in firsts])
@@ -254,14 +261,14 @@ class _Search:
             other = yield from trace_branch(self.tracer, self.tracer.point(*first, turned))
             start, end = self._end(other)
             back = reversed_trace(other)
-            joined = Trace(
+            joined = BranchPoints(
                 back.points[:-1] + trace.points,
                 back.folds + tuple(i + len(back.points) - 1 for i in trace.folds),
                 trace.reason,
             )
             self._keep(joined, start, end)
 
-    def _unexplained(self, value: float) -> list[Guess]:
+    def _unexplained(self, value: float) -> list[TurnGuess]:
         """Guess the cycles at a value, if there are others than those of the branches."""
         if not self.family.allows(value):
             return []
@@ -277,24 +284,24 @@ class _Search:
             low < xi < high for xi, (low, high) in zip(expected, places, strict=False)
         )
         crossings = find_fixed_points(samples, samples.certain) if explained else search(samples)[0]
-        return [Guess(crossing.xi, nu, (0.0, 1.0), crossing.repelling) for crossing in crossings]
+        return [TurnGuess(crossing.xi, nu, (0.0, 1.0), crossing.repelling) for crossing in crossings]
 
-    def _known(self, first: tuple[Turn, float], entries: Sequence[Entry]) -> Asking[bool]:
+    def _known(self, first: tuple[ReturnMapPoint, float], entries: Sequence[Entry]) -> Asking[bool]:
         """Whether a branch passes a cycle: its own at this value is computed where that is not plain."""
         turn, nu = first
         for chi, guess in chain.from_iterable(points_at_value(trace, nu, self.tracer.width) for trace, *_ in entries):
-            if abs(chi - turn.chi) > FAR:
+            if abs(chi - turn.chi) > AVOIDED_DISTANCE:
                 continue
             found = yield from self.tracer.corrected(guess)
-            if found is not None and abs(found[0].chi - turn.chi) < SAME:
+            if found is not None and abs(found[0].chi - turn.chi) < SAME_CHI:
                 return True
         return False
 
-    def _keep(self, trace: Trace, start: CyclePoint, first: End | None) -> None:
+    def _keep(self, trace: BranchPoints, start: CyclePoint, first: BranchEnd | None) -> None:
         special, last = self._end(trace)
         self.found.append((trace, start, special, first, last))
 
-    def _end(self, trace: Trace) -> tuple[CyclePoint, End | None]:
+    def _end(self, trace: BranchPoints) -> tuple[CyclePoint, BranchEnd | None]:
         """Name the end of a trace."""
         last = trace.points[-1]
         turn, end = last.turn, None
@@ -302,7 +309,7 @@ class _Search:
             end = min(self.hopf, key=lambda e: abs(e.value - turn.value), default=None)
         elif trace.reason in ("equator", "stuck"):
             direction, width = math.copysign(1.0, last.tangent[1]), self.high - self.low
-            reach = width if trace.reason == "equator" else width * (0.02 if turn.height < LEVEL else 1e-4)
+            reach = width if trace.reason == "equator" else width * (0.02 if turn.height < BAND_HEIGHT else 1e-4)
             end = at_equator(self.family, turn.value, direction, width, self.closed + self.loops, reach)
             if trace.reason == "stuck" and end is None:
                 end = at_singular(self.family, turn.value, direction, width)
@@ -319,7 +326,7 @@ class _Search:
             self.notes.append(sentence)
         return CyclePoint(kind, turn.value, turn.period, turn.amplitude, sentence), None
 
-    def _special(self, end: End) -> CyclePoint:
+    def _special(self, end: BranchEnd) -> CyclePoint:
         at: dict[str, object] = {"name": self.name, "value": end.value}
         if end.kind == "Hopf":
             text = say("born, supercritical" if end.measure < 0.0 else "born, subcritical", number=end.measure, **at)
@@ -334,17 +341,17 @@ class _Search:
         return CyclePoint(end.kind, end.value, end.period, end.amplitude, text)
 
     def _branch(
-        self, trace: Trace, start: CyclePoint, end: CyclePoint, first: End | None, last: End | None
+        self, trace: BranchPoints, start: CyclePoint, end: CyclePoint, first: BranchEnd | None, last: BranchEnd | None
     ) -> CycleBranch:
         """Put in the limits at ends that are no cycles."""
-        rows = [row(point.turn) for point in trace.points]
+        rows = [point_row(point.turn) for point in trace.points]
         if first is not None:
             rows.insert(0, self._limit(first, rows[0]))
         if last is not None:
             rows.append(self._limit(last, rows[-1]))
         return build_branch(self.name, rows, [trace.points[i].turn for i in trace.folds], start, end)
 
-    def _limit(self, end: End, beside: Row) -> Row:
+    def _limit(self, end: BranchEnd, beside: PointRow) -> PointRow:
         """Row of the arrays at an end that is no cycle: C, or a loop on the equator."""
         found = self.family.problem(end.value).critical
         x, y = found[0].p.tolist() if end.kind == "Hopf" and found else beside[4:6]

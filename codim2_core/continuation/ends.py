@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..cycles.loop import Loop, gaps, loops
 from ..layer_problem.closed_equator import exponents as closed_exponents
 from ..layer_problem.closed_equator import slowest_turn
@@ -22,20 +22,18 @@ from ..layer_problem.equator import equator_cycle, number_of_directions
 from ..layer_problem.lyapunov import first_lyapunov
 from ..layer_problem.problem import LayerProblem, found_once
 from ..numerics.root_between import root_between, vertex_through
-from .varied_system import VariedSystem
+from .varied_system import ParameterFamily
 
-Array = NDArray[np.float64]
-
-SAMPLES = 129  # values at which traces and exponents are looked at
-COLUMNS = 9  # and gaps of loops
-CLEAR = 1e-6  # of the coefficients: by how much Theta may seem to vanish on an equator that is closed
-SIGN = 1e-7  # tolerance for the sign of a gap
+END_SAMPLES = 129  # values at which traces and exponents are looked at
+GAP_VALUES = 9  # and gaps of loops
+MIN_THETA_SHARE = 1e-6  # of the coefficients: by how much Theta may seem to vanish on an equator that is closed
+GAP_TOLERANCE = 1e-7  # tolerance for the sign of a gap
 NEAR_BORDER = (1e-10, 1e-8, 1e-6)  # of a distance between samples: how far from where a function ceases to be defined
-AHEAD = 0.1  # of the span: how far beyond the last cycle its end is looked for
+MAX_END_DISTANCE = 0.1  # of the span: how far beyond the last cycle its end is looked for
 
 
 @dataclass(frozen=True)
-class End:
+class BranchEnd:
     """A value of the parameter at which a cycle is born or dies.
 
     Attributes
@@ -56,12 +54,12 @@ class End:
     measure: float = 0.0
 
 
-def values(low: float, high: float, count: int = SAMPLES) -> list[float]:
+def values(low: float, high: float, count: int = END_SAMPLES) -> list[float]:
     """Values of the parameter at which a family is looked at, ends included."""
     return [low + (high - low) * i / (count - 1) for i in range(count)]
 
 
-def hopf_ends(family: VariedSystem, low: float, high: float) -> list[End]:
+def hopf_ends(family: ParameterFamily, low: float, high: float) -> list[BranchEnd]:
     """All Hopf points: tr J = 0 < det J.
 
     Parameters
@@ -81,11 +79,11 @@ def hopf_ends(family: VariedSystem, low: float, high: float) -> list[End]:
         coefficients, psi = family.at(value)
         (C,) = family.problem(value).critical
         number = float(first_lyapunov(coefficients.A, psi, C.x2[None, :])[0])
-        ends.append(End("Hopf", value, 2.0 * math.pi / math.sqrt(C.determinant), 0.0, number))
+        ends.append(BranchEnd("Hopf", value, 2.0 * math.pi / math.sqrt(C.determinant), 0.0, number))
     return ends
 
 
-def equator_ends(family: VariedSystem, low: float, high: float) -> list[End]:
+def equator_ends(family: ParameterFamily, low: float, high: float) -> list[BranchEnd]:
     """All values at which the closed equator has the exponent zero.
 
     Parameters
@@ -98,7 +96,7 @@ def equator_ends(family: VariedSystem, low: float, high: float) -> list[End]:
         out, placed = np.full(len(places), math.nan), family.placed(places)
         if placed is not None:
             # elsewhere there are equilibria on it, without asking further
-            closed = np.flatnonzero(slowest_turn(placed.planes) > -CLEAR)
+            closed = np.flatnonzero(slowest_turn(placed.planes) > -MIN_THETA_SHARE)
             quick = np.arctan(closed_exponents(placed.planes[closed])) if len(closed) > 1 else np.full(1, math.nan)
             for i, found in zip(closed.tolist(), quick.tolist(), strict=False):
                 row = placed.rows[i]
@@ -109,10 +107,10 @@ def equator_ends(family: VariedSystem, low: float, high: float) -> list[End]:
         return float(slowest_turn(family.planes([value]))[0])
 
     exponent = _exponent(family)
-    return [_on_equator(family, "equator", value) for value in _roots(exponents, turning, values(low, high))]
+    return [_equator_end(family, "equator", value) for value in _roots(exponents, turning, values(low, high))]
 
 
-def _exponent(family: VariedSystem) -> Callable[[float], float | None]:
+def _exponent(family: ParameterFamily) -> Callable[[float], float | None]:
     def exponent(value: float) -> float | None:
         found = equator_cycle(family.at(value)[0]) if family.allows(value) else None
         return None if found is None else math.atan(found.exponent)
@@ -121,42 +119,44 @@ def _exponent(family: VariedSystem) -> Callable[[float], float | None]:
 
 
 def _exchange_near(
-    family: VariedSystem, value: float, direction: float, width: float, ahead: float | None
-) -> End | None:
+    family: ParameterFamily, value: float, direction: float, width: float, ahead: float | None
+) -> BranchEnd | None:
     """Find the zero of the closed equator's exponent nearest to a value, ahead of it or just behind."""
     exponent = _exponent(family)
     here = exponent(value)
     for k in range(1, 11):
         for sign in (1.0, -1.0) if k < 8 else (1.0,):
-            there = value + sign * direction * width * 10.0 ** (0.8 * (k - 11.0)) * AHEAD
+            there = value + sign * direction * width * 10.0 ** (0.8 * (k - 11.0)) * MAX_END_DISTANCE
             if ahead is not None and sign > 0.0 and (there - ahead) * direction > 0.0:
                 there = ahead
             after = exponent(there)
             if here is not None and after is not None and here * after <= 0.0:
                 place = root_between(lambda v: exponent(v) or 0.0, min(value, there), max(value, there))
-                return _on_equator(family, "equator", place)
+                return _equator_end(family, "equator", place)
     return None
 
 
-def _on_equator(family: VariedSystem, kind: str, value: float, measure: float = 0.0) -> End:
+def _equator_end(family: ParameterFamily, kind: str, value: float, measure: float = 0.0) -> BranchEnd:
     found = family.problem(value).critical
     away = 1.0 + float(np.hypot(*found[0].p)) if found else 2.0
-    return End(kind, value, math.inf, away, measure)
+    return BranchEnd(kind, value, math.inf, away, measure)
 
 
-def loop_ends(family: VariedSystem, low: float, high: float) -> list[End]:
-    """All values found at which a loop closes: gaps that change sign between `COLUMNS` values.
+def loop_ends(family: ParameterFamily, low: float, high: float) -> list[BranchEnd]:
+    """All values found at which a loop closes: gaps that change sign between `GAP_VALUES` values.
 
     Parameters
     ----------
     family : VariedSystem
     low, high : float
     """
-    columns = values(low, high, COLUMNS)
+    columns = values(low, high, GAP_VALUES)
     arcs = [_arcs(family, v) for v in columns]
-    pairs = [(i, loop, _nearest(arcs[i + 1], loop)) for i in range(len(columns) - 1) for loop in arcs[i] if arcs[i + 1]]
+    pairs = [
+        (i, loop, _nearest_loop(arcs[i + 1], loop)) for i in range(len(columns) - 1) for loop in arcs[i] if arcs[i + 1]
+    ]
     asked = list(dict.fromkeys(place for i, loop, after in pairs for place in ((i, loop), (i + 1, after))))
-    found = gaps([(*family.at(columns[i]), loop) for i, loop in asked], SIGN)
+    found = gaps([(*family.at(columns[i]), loop) for i, loop in asked], GAP_TOLERANCE)
     sign = dict(zip(asked, found, strict=True))
     ends = []
     for i, loop, after in pairs:
@@ -167,7 +167,7 @@ def loop_ends(family: VariedSystem, low: float, high: float) -> list[End]:
     return ends
 
 
-def loop_end(family: VariedSystem, low: float, high: float, loop: Loop) -> End | None:
+def loop_end(family: ParameterFamily, low: float, high: float, loop: Loop) -> BranchEnd | None:
     """Find the value between two at which a loop closes, or None if the gap is not seen to change sign.
 
     Parameters
@@ -188,19 +188,19 @@ def loop_end(family: VariedSystem, low: float, high: float, loop: Loop) -> End |
     arcs = _arcs(family, value)
     if not arcs or abs(miss(value)) > 1e-6:
         return None
-    return _on_equator(family, "heteroclinic cycle through the equator", value, _nearest(arcs, loop).ratio)
+    return _equator_end(family, "heteroclinic cycle through the equator", value, _nearest_loop(arcs, loop).ratio)
 
 
-def _misses(family: VariedSystem, asked: Sequence[tuple[float, Loop]]) -> list[float]:
+def _misses(family: ParameterFamily, asked: Sequence[tuple[float, Loop]]) -> list[float]:
     """Find the arc tangents of gaps of the loops nearest to given ones, on their rays; NaN where there is none."""
     found = [_arcs(family, value) for value, _ in asked]
     there = [i for i, arcs in enumerate(found) if arcs]
-    ask = [(*family.at(asked[i][0]), _nearest(found[i], asked[i][1], asked[i][1].ray)) for i in there]
+    ask = [(*family.at(asked[i][0]), _nearest_loop(found[i], asked[i][1], asked[i][1].ray)) for i in there]
     out = dict(zip(there, map(math.atan, gaps(ask)), strict=True))
     return [out.get(i, math.nan) for i in range(len(asked))]
 
 
-def _arcs(family: VariedSystem, value: float) -> tuple[Loop, ...]:
+def _arcs(family: ParameterFamily, value: float) -> tuple[Loop, ...]:
     return _loops_of(family.problem(value)) if family.allows(value) else ()
 
 
@@ -210,7 +210,7 @@ def _loops_of(problem: LayerProblem) -> tuple[Loop, ...]:
     return () if coefficients is None else loops(coefficients)
 
 
-def _nearest(arcs: tuple[Loop, ...], loop: Loop, ray: int | None = None) -> Loop:
+def _nearest_loop(arcs: tuple[Loop, ...], loop: Loop, ray: int | None = None) -> Loop:
     def distance(other: Loop) -> float:
         return abs(math.remainder(other.sink - loop.sink, 2.0 * math.pi)) + abs(
             math.remainder(other.source - loop.source, 2.0 * math.pi)
@@ -221,8 +221,8 @@ def _nearest(arcs: tuple[Loop, ...], loop: Loop, ray: int | None = None) -> Loop
 
 
 def at_equator(
-    family: VariedSystem, value: float, direction: float, width: float, known: list[End], reach: float
-) -> End | None:
+    family: ParameterFamily, value: float, direction: float, width: float, known: list[BranchEnd], reach: float
+) -> BranchEnd | None:
     """Name the end of a branch that has come to the equator near a value.
 
     Parameters
@@ -234,14 +234,14 @@ def at_equator(
         +1 or -1: the sense in which the value moved.
     width : float
         Length of the span.
-    known : list of End
+    known : list of BranchEnd
         Those on the equator found before.
     reach : float
         How far from the value an end can be.
 
     Returns
     -------
-    End, or None
+    BranchEnd, or None
         None if no end explains it.
     """
     nearest = min((end for end in known), key=lambda end: abs(end.value - value), default=None)
@@ -252,8 +252,8 @@ def at_equator(
 
 
 def _equator_near(
-    family: VariedSystem, value: float, direction: float, width: float, known: list[End], reach: float
-) -> End | None:
+    family: ParameterFamily, value: float, direction: float, width: float, known: list[BranchEnd], reach: float
+) -> BranchEnd | None:
     """Find what becomes of cycles at the equator near a value: its exponent's zero, a loop, a saddle-node."""
     ahead = _saddle_node_ahead(family, value, direction, width)
     if equator_cycle(family.at(value)[0]) is not None:
@@ -274,10 +274,10 @@ def _equator_near(
             end = loop_end(family, min(value, there), max(value, there), loop)
             if end is not None:
                 return end
-    return None if ahead is None else _on_equator(family, "saddle-node on the equator", ahead)
+    return None if ahead is None else _equator_end(family, "saddle-node on the equator", ahead)
 
 
-def at_singular(family: VariedSystem, value: float, direction: float, width: float) -> End | None:
+def at_singular(family: ParameterFamily, value: float, direction: float, width: float) -> BranchEnd | None:
     """Find det A = 0 close ahead, with a whole line of equilibria through the cycle, or None."""
 
     def determinant(v: float) -> float:
@@ -288,15 +288,15 @@ def at_singular(family: VariedSystem, value: float, direction: float, width: flo
     if determinant(far) > 0.0:
         return None
     place = root_between(determinant, *sorted((value, far)))
-    return End("det A = 0", place, math.inf, math.nan)
+    return BranchEnd("det A = 0", place, math.inf, math.nan)
 
 
-def _saddle_node_ahead(family: VariedSystem, value: float, direction: float, width: float) -> float | None:
-    """Find the first value ahead at which the number of limit directions changes, within `AHEAD` of the span."""
+def _saddle_node_ahead(family: ParameterFamily, value: float, direction: float, width: float) -> float | None:
+    """Find the first value within `MAX_END_DISTANCE` ahead at which the number of limit directions changes."""
     count = number_of_directions(family.at(value)[0])
     near = value
     for k in range(1, 41):
-        far = value + direction * width * AHEAD * (k / 40.0) ** 3
+        far = value + direction * width * MAX_END_DISTANCE * (k / 40.0) ** 3
         if number_of_directions(family.at(far)[0]) != count:
             for _ in range(60):
                 middle = 0.5 * (near + far)

@@ -9,8 +9,8 @@ from numba import njit
 
 from .columns import AMPLITUDE, BY_XI, CHI, EXPONENT, HEIGHT, PARAMETERS, PERIOD, RATE, SHIFT
 
-MOST_EXPONENT = 600.0
-SMALLEST = 1e-280  # eigenvalue of D e_Psi
+MAX_EXPONENT = 600.0
+MIN_EIGENVALUE = 1e-280  # eigenvalue of D e_Psi
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -29,7 +29,7 @@ def _lift_change(c, s, radial, tangential, along, v0, v1):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _direction(x, y):
+def _unit_vector(x, y):
     zeta = math.sqrt(x * x + y * y)
     return (x / zeta, y / zeta) if zeta > 0.0 else (1.0, 0.0)
 
@@ -58,7 +58,7 @@ def _integrals(plane, e0, e1, rho, inner, tangential, radial, first, last, h, si
     exponent, period = 0.0, 0.0
     for j in range(first, last):
         x, y = inner[j, 0] / inner[j, 2], inner[j, 1] / inner[j, 2]
-        c, s = _direction(x, y)
+        c, s = _unit_vector(x, y)
         divergence = tangential[j] * (a + d) + (radial[j] - tangential[j]) * (a * c * c + d * s * s)
         weight = h[j // nodes] * weights[j % nodes] / inner[j, 2]
         period += weight
@@ -76,7 +76,7 @@ def _integrals(plane, e0, e1, rho, inner, tangential, radial, first, last, h, si
             for m in range(nodes):
                 part += matrix[k, m] * U[5, step * nodes + m]
             whole += weights[k] * U[5, step * nodes + k]
-            U[0, step * nodes + k] *= math.exp(min(exponent - past - h[step] * part, MOST_EXPONENT))
+            U[0, step * nodes + k] *= math.exp(min(exponent - past - h[step] * part, MAX_EXPONENT))
         past += h[step] * whole
     out[EXPONENT], out[PERIOD] = sign * exponent, period / rho
     return exponent
@@ -154,13 +154,13 @@ def turn_quadratures(
         z0, z1 = ends[i, 0] / ends[i, 2], ends[i, 1] / ends[i, 2]
         away = x2[i, 0] - centre[i, 0], x2[i, 1] - centre[i, 1], z0 - centre[i, 0], z1 - centre[i, 1]
         y, after = u0 * away[0] + u1 * away[1], u0 * away[2] + u1 * away[3]
-        if not (y > 0.0 and after > 0.0 and min(radial[s], radial[t]) >= SMALLEST):
+        if not (y > 0.0 and after > 0.0 and min(radial[s], radial[t]) >= MIN_EIGENVALUE):
             continue
         exponent = _integrals(
             plane[i], e0, e1, rho[i], inner, tangential, radial, first[i], first[i + 1], h, sign[i], weights, matrix,
             U, out[i],
         )  # fmt: skip
-        if abs(exponent) > MOST_EXPONENT:
+        if abs(exponent) > MAX_EXPONENT:
             continue
         centre_p = 1.0 / math.sqrt(1.0 + centre[i, 0] ** 2 + centre[i, 1] ** 2)
         _extent(inner, centre[i, 0] * centre_p, centre[i, 1] * centre_p, first[i], first[i + 1], out[i])
@@ -172,9 +172,9 @@ def turn_quadratures(
         G0, G1 = sign[i] * (a * g0 - b * g1), sign[i] * (b * g0 + d * g1)
         last_r = math.hypot(d * G0 + b * G1, a * G1 - b * G0) / (a * d + b * b)
         # dx2/dr there, and d ln y/dr
-        c, v = _direction(x2[i, 0], x2[i, 1])
+        c, v = _unit_vector(x2[i, 0], x2[i, 1])
         t0, t1 = _lift_change(c, v, radial[s], tangential[s], c * u0 + v * u1, u0, u1)
-        C, V = _direction(z0, z1)
+        C, V = _unit_vector(z0, z1)
         l0, l1 = _lift_change(C, V, radial[t], tangential[t], C * u0 + V * u1, u0, u1)
         rise, last_rise = (u0 * t0 + u1 * t1) / y, (u0 * l0 + u1 * l1) / after
         by_r = r * rest / R  # dr/dxi
@@ -197,7 +197,7 @@ def turn_quadratures(
             if varies:
                 swell_s, swell_t, swell_m = swelling[j, s], swelling[j, t], swelling[j, m]
             # dy/dmu at fixed x2
-            p0, p1 = _direction(centre[i, 0], centre[i, 1])
+            p0, p1 = _unit_vector(centre[i, 0], centre[i, 1])
             n0, n1 = _lift_change(p0, p1, radial[m], tangential[m], p0 * c0 + p1 * c1 - swell_m, c0, c1)
             drawn = u0 * n0 + u1 * n1
             still, last_still = w0 * away[0] + w1 * away[1] - drawn, w0 * away[2] + w1 * away[3] - drawn
@@ -216,7 +216,7 @@ def turn_quadratures(
                 x, z = U[3, node], U[4, node]
                 U0, U1 = da * x - db * z + d1, db * x + dd * z + d2
                 if varies:
-                    x, z = _direction(inner[node, 0], inner[node, 1])
+                    x, z = _unit_vector(inner[node, 0], inner[node, 1])
                     U0 += swelling[j, node] * (a * x - b * z)
                     U1 += swelling[j, node] * (b * x + d * z)
                 melnikov += U[0, node] * _across(U[1, node], U[2, node], U0, U1)

@@ -6,14 +6,14 @@ import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from .turns import Turn
+from .turns import ReturnMapPoint
 
 
 @dataclass(frozen=True)
-class Point:
+class BranchPoint:
     """A point of a branch: a turn that closes, its nu, and the unit tangent (chi, nu)."""
 
-    turn: Turn
+    turn: ReturnMapPoint
     nu: float
     tangent: tuple[float, float]
 
@@ -26,7 +26,7 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Guess:
+class TurnGuess:
     """A guess of a closed turn, on the line through (xi, nu) across the covector `along` (xi, nu)."""
 
     xi: float
@@ -36,27 +36,27 @@ class Guess:
 
 
 @dataclass(frozen=True)
-class Trace:
+class BranchPoints:
     """Points in order, folds among them by index, and why it stopped: "C", "equator", "span", "closed" or "stuck"."""
 
-    points: tuple[Point, ...]
+    points: tuple[BranchPoint, ...]
     folds: tuple[int, ...]
     reason: str
 
 
-def reversed_trace(trace: Trace) -> Trace:
+def reversed_trace(trace: BranchPoints) -> BranchPoints:
     """Return the same points in the opposite order, tangents turned; `reason` is dropped."""
     points = tuple(replace(p, tangent=(-p.tangent[0], -p.tangent[1])) for p in reversed(trace.points))
     last = len(points) - 1
-    return Trace(points, tuple(sorted(last - i for i in trace.folds)), "")
+    return BranchPoints(points, tuple(sorted(last - i for i in trace.folds)), "")
 
 
-def points_at_value(trace: Trace, nu: float, width: float) -> list[tuple[float, Guess]]:
+def points_at_value(trace: BranchPoints, nu: float, width: float) -> list[tuple[float, TurnGuess]]:
     """Return the chi at which a branch passes nu, between its points, and guesses of its cycles there.
 
     Parameters
     ----------
-    trace : Trace
+    trace : BranchPoints
     nu : float
     width : float
         Of the span of values.
@@ -67,6 +67,6 @@ def points_at_value(trace: Trace, nu: float, width: float) -> list[tuple[float, 
         if low - 1e-9 <= nu <= high + 1e-9:
             part = (nu - one.nu) / (two.nu - one.nu) if two.nu != one.nu else 0.5
             chi, near = one.turn.chi + part * (two.turn.chi - one.turn.chi), one if part < 0.5 else two
-            guess = Guess(near.xi(chi, (nu - near.nu) * width), nu, (0.0, 1.0), near.turn.exponent > 0.0)
+            guess = TurnGuess(near.xi(chi, (nu - near.nu) * width), nu, (0.0, 1.0), near.turn.exponent > 0.0)
             found.append((chi, guess))
     return found

@@ -10,9 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
-from ..tables import Tabled, number, paragraphs, rows
-
-Array = NDArray[np.float64]
+from ..arrays import Array
+from ..tables import Tabled, paragraphs, result_rows, table_number
 
 
 @dataclass(frozen=True)
@@ -43,7 +42,7 @@ class CyclePoint(Tabled):
     sentence: str
 
     def _row_(self) -> tuple[str, ...]:
-        return self.kind, *map(number, (self.value, self.period, self.amplitude)), self.sentence
+        return self.kind, *map(table_number, (self.value, self.period, self.amplitude)), self.sentence
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +114,7 @@ class CycleBranches:
         return drawing.svg(self) if self.branches else None
 
     def _repr_html_(self) -> str:
-        special = rows(one for branch in self.branches for one in branch.special)
+        special = result_rows(one for branch in self.branches for one in branch.special)
         return (self._repr_svg_() or "") + special + paragraphs([self.reason, *self.notes])
 
     def __iter__(self) -> Iterator[CycleBranch]:

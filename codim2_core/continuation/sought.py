@@ -7,14 +7,14 @@ from collections.abc import Callable
 
 from ..numerics.root_between import root_between
 from .ends import values
-from .varied_system import VariedSystem
+from .varied_system import ParameterFamily
 
-NARROW = 0.25  # of the span: a part narrower than this is looked at by itself
-BESIDE = 0.05  # of the part: how far it is looked beyond its ends
-STEPS, GOLDEN = 48, 0.5 * (math.sqrt(5.0) - 1.0)
+NARROW_SHARE = 0.25  # of the span: a part narrower than this is looked at by itself
+MARGIN_SHARE = 0.05  # of the part: how far it is looked beyond its ends
+SCAN_STEPS, GOLDEN_SECTION = 48, 0.5 * (math.sqrt(5.0) - 1.0)
 
 
-def admissible_interval(family: VariedSystem, low: float, high: float) -> tuple[float, float]:
+def admissible_interval(family: ParameterFamily, low: float, high: float) -> tuple[float, float]:
     """Return the part of a span on which cycles are to be looked for: the whole span where it is no narrow part.
 
     C with det A > 0 is on the hemisphere where |adj(A) f| < det A. Along f this margin is concave, so that its
@@ -46,25 +46,25 @@ def admissible_interval(family: VariedSystem, low: float, high: float) -> tuple[
     first, last = inside[0], inside[-1]
     start = root_between(margin, places[first - 1], places[first]) if first > 0 else low
     end = root_between(margin, places[last], places[last + 1]) if last < len(places) - 1 else high
-    if end - start > NARROW * (high - low):
+    if end - start > NARROW_SHARE * (high - low):
         return low, high
-    more = BESIDE * (end - start)
+    more = MARGIN_SHARE * (end - start)
     return max(start - more, low), min(end + more, high)
 
 
 def _greatest(function: Callable[[float], float], low: float, high: float) -> tuple[float, float]:
     """Maximise a function by golden sections; return where and the value, at the latest where it is positive."""
-    one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    one, two = high - GOLDEN_SECTION * (high - low), low + GOLDEN_SECTION * (high - low)
     at_one, at_two = function(one), function(two)
-    for _ in range(STEPS):
+    for _ in range(SCAN_STEPS):
         if max(at_one, at_two) > 0.0:
             break
         if at_one > at_two:
             high, two, at_two = two, one, at_one
-            one = high - GOLDEN * (high - low)
+            one = high - GOLDEN_SECTION * (high - low)
             at_one = function(one)
         else:
             low, one, at_one = one, two, at_two
-            two = low + GOLDEN * (high - low)
+            two = low + GOLDEN_SECTION * (high - low)
             at_two = function(two)
     return (one, at_one) if at_one > at_two else (two, at_two)

@@ -18,17 +18,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..cycles.many.sections import STEP_NODES, Indices, Sections
 from ..cycles.orbit import MOST_STEPS, gauss
 from .columns import PARAMETERS, SHIFT
-
-Array = NDArray[np.float64]
 
 RTOL = 1e-12  # of one turn
 
 
 @dataclass(frozen=True)
-class Turn:
+class ReturnMapPoint:
     """One turn from the section, at parameter value `value`; times in tau.
 
     Attributes
@@ -74,8 +73,8 @@ class Turn:
 
 
 @dataclass(frozen=True)
-class Turns:
-    """Turns side by side, see `Turn`, of those asked for that return.
+class ReturnMapPoints:
+    """Turns side by side, see `ReturnMapPoint`, of those asked for that return.
 
     Attributes
     ----------
@@ -94,14 +93,14 @@ class Turns:
     p: Array
     steps: Indices
 
-    def each(self, values: list[float]) -> list[Turn | None]:
+    def each(self, values: list[float]) -> list[ReturnMapPoint | None]:
         """One by one, given the value of every turn asked for: None for those that do not return."""
-        found: list[Turn | None] = [None] * len(values)
+        found: list[ReturnMapPoint | None] = [None] * len(values)
         columns = (self.rows, self.xi, self.numbers, self.p, self.steps)
         for i, xi, row, p, steps in zip(*(v.tolist() for v in columns), strict=True):
             shift, by_xi, exponent, period, amplitude, height, rate, chi, *more = row
             by_value, drift = more[0], more[len(more) // 2]
-            found[i] = Turn(
+            found[i] = ReturnMapPoint(
                 xi, values[i], shift, by_xi, by_value, exponent, period, amplitude, height, rate, drift, chi,
                 (p[0], p[1]), steps,
             )  # fmt: skip
@@ -112,14 +111,14 @@ class Turns:
 Swelling = Callable[[Array, Indices], Array]
 
 
-def turns(
+def integrate_turns(
     sections: Sections,
     xi: Array,
     backward: NDArray[np.bool_],
     changes: Array,
     swelling: Swelling | None = None,
     limit: int = MOST_STEPS,
-) -> Turns:
+) -> ReturnMapPoints:
     """Follow one turn from each of n sections.
 
     Parameters
@@ -142,7 +141,7 @@ def turns(
     states = placing.hemisphere(x2)
     rows, ways = sections.turned(states, RTOL, backward, limit)
     if ways is None:
-        return Turns(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)), rows)
+        return ReturnMapPoints(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)), rows)
     if len(rows) < len(sections):
         sections, start, x2, changes = sections.taken(rows), start[rows], x2[rows], changes[:, rows]
     every = np.arange(len(rows))
@@ -160,4 +159,4 @@ def turns(
     )  # fmt: skip
     good = np.flatnonzero(~np.isnan(numbers[:, SHIFT]))
     steps = np.diff(ways.first) // STEP_NODES
-    return Turns(rows[good], xi[rows[good]], numbers[good], states[rows[good], :2], steps[good])
+    return ReturnMapPoints(rows[good], xi[rows[good]], numbers[good], states[rows[good], :2], steps[good])

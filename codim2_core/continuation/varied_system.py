@@ -9,8 +9,8 @@ from itertools import chain, islice
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..cycles.many.sections import Indices, Sections, critical_points
 from ..cycles.orbit import MOST_STEPS
 from ..cycles.section import Section
@@ -20,17 +20,15 @@ from ..psi.constructors import many
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from .asking import rounds
-from .turns import Swelling, Turn, turns
+from .turns import ReturnMapPoint, Swelling, integrate_turns
 
-Array = NDArray[np.float64]
-
-STEP = 1e-5  # of the differences for derivatives of coefficients: they are smooth, mostly linear
-KEPT = 1024  # values whose coefficients are kept: more than those at which a span is looked at for several things
+DIFFERENCE_STEP = 1e-5  # of the differences for derivatives of coefficients: they are smooth, mostly linear
+CACHE_SIZE = 1024  # values whose coefficients are kept: more than those at which a span is looked at for several things
 
 At = Callable[[float], tuple[Coefficients, Psi]]
 
 
-class Question(NamedTuple):
+class TurnQuestion(NamedTuple):
     """Turns that are asked for, from each place at each value of a family.
 
     Attributes
@@ -55,7 +53,7 @@ class Question(NamedTuple):
         return MOST_STEPS if self.limits is None else max(self.limits, default=0)
 
 
-class Placed(NamedTuple):
+class PlacedSets(NamedTuple):
     """Critical sets at those of some values, `rows` of them, at which no theorem forbids cycles, and their Psi.
 
     Its parameters (k,) are those of each one's Psi, of one family.
@@ -74,22 +72,22 @@ class Placed(NamedTuple):
         return Sections(self.planes, self.e, self.complement, self.psi, own, ray)
 
 
-class Asked(NamedTuple):
-    """The turns of a question that have a section, and what `turns.turns` needs for them."""
+class AskedTurns(NamedTuple):
+    """The turns of a question that have a section, and what `turns.integrate_turns` needs for them."""
 
-    question: Question
-    placed: Placed
+    question: TurnQuestion
+    placed: PlacedSets
     ray: Indices
     changes: Array
     swelling: Swelling | None
 
 
-def follow(questions: list[Question]) -> list[list[Turn | None]]:
+def run_batch(questions: list[TurnQuestion]) -> list[list[ReturnMapPoint | None]]:
     """Follow the turns of several questions, None for those that do not return, or where there is no section.
 
     Those of families with one Psi are followed side by side.
     """
-    found: list[list[Turn | None]] = [[None] * len(q.xi) for q in questions]
+    found: list[list[ReturnMapPoint | None]] = [[None] * len(q.xi) for q in questions]
     ready = [(asked, out) for q, out in zip(questions, found, strict=True) if (asked := q.family.asked(q)) is not None]
     alike = [p for p in ready if p[0].swelling is None and p[0].placed.psi == ready[0][0].placed.psi]
     groups = [alike] if alike else []
@@ -105,37 +103,37 @@ def follow(questions: list[Question]) -> list[list[Turn | None]]:
         )
         changes = np.concatenate([part.changes for part in parts], axis=1)
         limit = max(part.question.limit for part in parts)
-        result = turns(sections, xi, backward, changes, swelling, limit).each(values)
+        result = integrate_turns(sections, xi, backward, changes, swelling, limit).each(values)
         places = [(out, i) for part, out in zip(parts, outs, strict=True) for i in part.placed.rows]
         for (out, i), turn in zip(places, result, strict=True):
             out[i] = turn
     return found
 
 
-def _join_sections(places: list[Placed], rays: list[Indices]) -> Sections:
+def _join_sections(places: list[PlacedSets], rays: list[Indices]) -> Sections:
     """Make the sections of several families with one Psi."""
     _, planes, e, complement, psi, parameters = zip(*places, strict=True)
     planes, e, complement = np.concatenate(planes), np.concatenate(e), np.concatenate(complement)
-    return Placed([], planes, e, complement, psi[0], np.concatenate(parameters)).sections(np.concatenate(rays))
+    return PlacedSets([], planes, e, complement, psi[0], np.concatenate(parameters)).sections(np.concatenate(rays))
 
 
 #: A search that asks for turns; see `asking`.
-Found = TypeVar("Found")
-Asking = Generator[Question, "list[Turn | None]", Found]
+ResultT = TypeVar("ResultT")
+Asking = Generator[TurnQuestion, "list[ReturnMapPoint | None]", ResultT]
 
 
-def side_by_side(searches: Sequence[Asking[Found]]) -> Asking[list[Found]]:
+def side_by_side(searches: Sequence[Asking[ResultT]]) -> Asking[list[ResultT]]:
     """Run searches in one family side by side, as one that asks for all their turns together."""
     return rounds(searches, _together_asked)
 
 
-def _together_asked(questions: list[Question]) -> Asking[list[list[Turn | None]]]:
+def _together_asked(questions: list[TurnQuestion]) -> Asking[list[list[ReturnMapPoint | None]]]:
     family, *parts = zip(*(q._replace(limits=[q.limit] * len(q.xi)) for q in questions), strict=True)
-    found = iter((yield Question(family[0], *([*chain.from_iterable(part)] for part in parts))))
+    found = iter((yield TurnQuestion(family[0], *([*chain.from_iterable(part)] for part in parts))))
     return [[*islice(found, len(question.xi))] for question in questions]
 
 
-class Straight(NamedTuple):
+class AffineCoefficients(NamedTuple):
     """Coefficients that are affine in a parameter: those at 0, and their derivative, (5,); Psi stays."""
 
     origin: Array
@@ -143,7 +141,7 @@ class Straight(NamedTuple):
     psi: Psi
 
 
-class VariedSystem:
+class ParameterFamily:
     """A system in which one parameter varies, and the section that goes with it.
 
     Parameters
@@ -163,10 +161,10 @@ class VariedSystem:
         at: At,
         scale: float,
         bounds: tuple[float, float] = (-math.inf, math.inf),
-        straight: Straight | None = None,
+        straight: AffineCoefficients | None = None,
     ) -> None:
-        self.at, self.scale, self.bounds, self.straight = lru_cache(maxsize=KEPT)(at), scale, bounds, straight
-        self.problem = lru_cache(maxsize=KEPT)(self._problem)
+        self.at, self.scale, self.bounds, self.straight = lru_cache(maxsize=CACHE_SIZE)(at), scale, bounds, straight
+        self.problem = lru_cache(maxsize=CACHE_SIZE)(self._problem)
         self.ray: int | None = None
 
     def _problem(self, value: float) -> LayerProblem:
@@ -208,7 +206,7 @@ class VariedSystem:
         within = self.bounds[0] <= value <= self.bounds[1]
         return float(critical_points(self.planes([value]))[1][0]) if within else -1.0
 
-    def placed(self, values: Sequence[float]) -> Placed | None:
+    def placed(self, values: Sequence[float]) -> PlacedSets | None:
         """Say at which values there is a section, and where C is; None if at none of them."""
         within = [i for i, v in enumerate(values) if self.bounds[0] <= v <= self.bounds[1]]
         if not within:
@@ -221,9 +219,9 @@ class VariedSystem:
         rows = [within[i] for i in inside.tolist()]
         members = self.members([values[i] for i in rows])
         parameters = np.array([member.parameter for member in members])
-        return Placed(rows, planes[inside], e[inside], complement[inside], members[0], parameters)
+        return PlacedSets(rows, planes[inside], e[inside], complement[inside], members[0], parameters)
 
-    def asked(self, question: Question) -> Asked | None:
+    def asked(self, question: TurnQuestion) -> AskedTurns | None:
         """Prepare turns; None if none of them has a section."""
         values = [v if math.isfinite(xi) else math.nan for xi, v in zip(question.xi, question.values, strict=True)]
         placed = self.placed(values)
@@ -232,13 +230,13 @@ class VariedSystem:
         if self.ray is None:
             self.ray = self.section(values[placed.rows[0]]).ray
         changes, swelling = self._changes([values[i] for i in placed.rows])
-        return Asked(question, placed, np.full(len(placed.rows), self.ray), changes, swelling)
+        return AskedTurns(question, placed, np.full(len(placed.rows), self.ray), changes, swelling)
 
     def _changes(self, values: list[float]) -> tuple[Array, Swelling | None]:
         """Differentiate what depends on the parameter, by differences: (a, b, d, f1, f2) (1, n, 5), and |e_Psi|."""
         if self.straight is not None:
             return np.broadcast_to(self.straight.slope, (1, len(values), 5)), None
-        h = STEP * self.scale
+        h = DIFFERENCE_STEP * self.scale
         ends = [(max(v - h, self.bounds[0]), min(v + h, self.bounds[1])) for v in values]
         low, high = [self.at(before) for before, _ in ends], [self.at(after) for _, after in ends]
         width = np.array([after - before for before, after in ends])

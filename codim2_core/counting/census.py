@@ -11,9 +11,9 @@ import numpy as np
 from ..psi import constructors
 from ..psi.function import Psi
 from .draws import DRAWS, Draw
-from .kept import Kept
+from .kept import CountedChunks
 from .table import Census, make_census
-from .tally import Plan, Tally, tally
+from .tally import CensusPlan, Tally, tally
 
 if TYPE_CHECKING:  # an import that takes as long as a tenth of this package
     from concurrent.futures import Executor, Future
@@ -87,15 +87,15 @@ def census(
     psi = constructors.constant() if psi is None else psi
     if not isinstance(psi, Psi):
         raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
-    plan = Plan(draw, psi, int(seed), bool(outcomes))
+    plan = CensusPlan(draw, psi, int(seed), bool(outcomes))
     chunk = _chunk_size(plan)
-    kept = Kept(plan, chunk, None if resume is None else Path(resume))
+    kept = CountedChunks(plan, chunk, None if resume is None else Path(resume))
     last = -(-count // chunk)
     if kept.systems > count:
         raise ValueError(f"{resume} keeps {kept.systems} systems; give a count of at least that.")
     waiting = ((i, min(chunk, count - i * chunk)) for i in range(last) if i not in kept)
     try:
-        for i, found in _run(executor, plan, waiting):
+        for i, found in _run_chunks(executor, plan, waiting):
             kept.add(i, found)
             if progress is not None:
                 progress(kept.systems, count)
@@ -104,12 +104,14 @@ def census(
     return make_census(kept.all(), plan, chunk)
 
 
-def _chunk_size(plan: Plan) -> int:
+def _chunk_size(plan: CensusPlan) -> int:
     """Return how many systems go into a chunk; it follows from what is asked alone, so that tables agree."""
     return CHUNK_SYSTEMS if isinstance(plan.drawn(0, 1), np.ndarray) and not plan.outcomes else FEW
 
 
-def _run(executor: Executor | None, plan: Plan, chunks: Iterator[tuple[int, int]]) -> Iterator[tuple[int, Tally]]:
+def _run_chunks(
+    executor: Executor | None, plan: CensusPlan, chunks: Iterator[tuple[int, int]]
+) -> Iterator[tuple[int, Tally]]:
     if executor is None:
         for i, size in chunks:
             yield i, tally(plan, i, size)

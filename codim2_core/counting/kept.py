@@ -10,13 +10,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from .tally import Found, Place, Plan, Tally
+from .tally import CensusPlan, NameCount, SampleLocation, Tally
 
 SAVING_SECONDS = 2.0  # seconds between two savings
 
 
 @dataclass
-class Kept:
+class CountedChunks:
     """Chunks counted so far: the first `upto` together, those that came before their turn apart.
 
     Parameters
@@ -28,7 +28,7 @@ class Kept:
         Where it is saved, at most every two seconds.
     """
 
-    plan: Plan
+    plan: CensusPlan
     chunk: int
     path: Path | None
     whole: Tally = field(default_factory=lambda: Tally({}))
@@ -74,8 +74,8 @@ class Kept:
         record = {
             "census": self._mark(),
             "chunks": self.upto,
-            "whole": _columns(self.whole),
-            "ahead": {str(i): _columns(t) for i, t in full.items()},
+            "whole": _tally_columns(self.whole),
+            "ahead": {str(i): _tally_columns(t) for i, t in full.items()},
         }
         beside = self.path.with_name(f"{self.path.name}.{os.getpid()}")
         beside.write_text(json.dumps(record), encoding="utf-8")
@@ -100,18 +100,18 @@ class Kept:
         self.upto, self.whole, self.ahead = upto, whole, ahead
 
 
-def _columns(tally: Tally) -> dict[str, Any]:
+def _tally_columns(tally: Tally) -> dict[str, Any]:
     return {"found": {name: list(entry) for name, entry in tally.found.items()}, "wrong": tally.contradictions}
 
 
 def _tally(columns: dict[str, Any]) -> Tally:
     found = {
-        name: Found(int(count), float(wide), _place(typical), float(narrow), _place(marginal))
+        name: NameCount(int(count), float(wide), _read_location(typical), float(narrow), _read_location(marginal))
         for name, (count, wide, typical, narrow, marginal) in columns["found"].items()
     }
     return Tally(found, int(columns["wrong"]))
 
 
-def _place(pair: list[int]) -> Place:
+def _read_location(pair: list[int]) -> SampleLocation:
     chunk, i = pair
     return int(chunk), int(i)

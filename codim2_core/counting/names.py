@@ -35,7 +35,7 @@ IMPOSSIBLE = tuple(
 #: names as degenerate what is within a few roundings of it.
 ERROR = 2.0**-46
 MAX_COEFFICIENT, MIN_COEFFICIENT = 1e40, 1e-40  # of the coefficients: the discriminant has degree 6 in them
-UNDERFLOW_BOUND = 1e-280  # below it products may have lost digits to underflow
+MIN_PRODUCT = 1e-280  # below it products may have lost digits to underflow
 
 
 @njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
@@ -52,7 +52,7 @@ def _critical_case(a, b, d, f1, f2):
     n1_size, n2_size = abs(d * f1) + abs(b * f2), abs(a * f2) + abs(b * f1)
     reach, needed = n1 * n1 + n2 * n2, det * det
     gap, gap_size = needed - reach, n1_size * n1_size + n2_size * n2_size + det_size * det_size
-    if abs(gap) <= ERROR * gap_size or gap_size < UNDERFLOW_BOUND:
+    if abs(gap) <= ERROR * gap_size or gap_size < MIN_PRODUCT:
         return -1, 0, 0.0
     return case, 1 if gap > 0.0 else 0, min(abs(gap) / (needed + reach), abs(det) / det_size)
 
@@ -73,7 +73,7 @@ def _half_direction_count(a, b, d, f1, f2):
     )
     disc = 4.0 * first * first * first - second * second
     disc_size = 4.0 * first_size * first_size * first_size + second_size * second_size
-    if abs(disc) <= ERROR * disc_size or disc_size < UNDERFLOW_BOUND:
+    if abs(disc) <= ERROR * disc_size or disc_size < MIN_PRODUCT:
         return -1, 0.0
     margin = abs(disc) / (4.0 * abs(first) ** 3 + second * second)
     if disc < 0.0:

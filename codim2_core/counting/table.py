@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from ..tables import Tabled, frame, number, paragraphs, point, rows, write
-from .tally import Place, Plan, Tally
+from ..tables import Tabled, frame, paragraphs, point, result_rows, table_number, write_csv
+from .tally import CensusPlan, SampleLocation, Tally
 
 NORMAL_95 = 1.959963984540054  # two-sided 95 % of the normal distribution
 
 
 @dataclass(frozen=True)
-class Row(Tabled):
+class CensusRow(Tabled):
     """One portrait.
 
     Attributes
@@ -45,7 +45,13 @@ class Row(Tabled):
 
     def _row_(self) -> tuple[str, ...]:
         example = point(self.example) if isinstance(self.example, tuple) else repr(self.example)
-        return self.name, f"{self.count:,}", number(self.share), f"{number(self.low)} to {number(self.high)}", example
+        return (
+            self.name,
+            f"{self.count:,}",
+            table_number(self.share),
+            f"{table_number(self.low)} to {table_number(self.high)}",
+            example,
+        )
 
 
 @dataclass(frozen=True)
@@ -54,7 +60,7 @@ class Census:
 
     Attributes
     ----------
-    table : tuple of Row
+    table : tuple of CensusRow
         The most frequent first.
     count : int
     seed : int
@@ -63,30 +69,30 @@ class Census:
         (sec:geneps0): each would be an error of this software.
     """
 
-    table: tuple[Row, ...]
+    table: tuple[CensusRow, ...]
     count: int
     seed: int
     contradictions: int = 0
 
     def _repr_html_(self) -> str:
-        return rows(self.table) + paragraphs([f"{self.count:,} systems, seed {self.seed}"])
+        return result_rows(self.table) + paragraphs([f"{self.count:,} systems, seed {self.seed}"])
 
     def to_csv(self, path: str | Path) -> None:
         """Write the table as CSV, a row a portrait."""
-        write(path, map(vars, self.table))
+        write_csv(path, map(vars, self.table))
 
     def to_frame(self) -> Any:
         """Return the table as a pandas DataFrame (pandas must be installed)."""
         return frame(map(vars, self.table))
 
 
-def make_census(tally: Tally, plan: Plan, chunk: int) -> Census:
+def make_census(tally: Tally, plan: CensusPlan, chunk: int) -> Census:
     """Return the census of what is counted; its examples are drawn again, `chunk` systems at a time."""
     total = tally.systems
     places = {place for entry in tally.found.values() for place in (entry.typical, entry.marginal)}
     systems = _drawn_again(plan, places, chunk, total)
     rows = [
-        Row(name, entry.systems, entry.systems / total, *interval(entry.systems, total),
+        CensusRow(name, entry.systems, entry.systems / total, *interval(entry.systems, total),
             systems[entry.typical], systems[entry.marginal])
         for name, entry in tally.found.items()
     ]  # fmt: skip
@@ -94,8 +100,8 @@ def make_census(tally: Tally, plan: Plan, chunk: int) -> Census:
     return Census(tuple(ordered), total, plan.seed, tally.contradictions)
 
 
-def _drawn_again(plan: Plan, places: set[Place], chunk: int, total: int) -> dict[Place, Any]:
-    found: dict[Place, Any] = {}
+def _drawn_again(plan: CensusPlan, places: set[SampleLocation], chunk: int, total: int) -> dict[SampleLocation, Any]:
+    found: dict[SampleLocation, Any] = {}
     for i in sorted({i for i, _ in places}):
         drawn = plan.drawn(i, min(chunk, total - i * chunk))
         for place in places:

@@ -20,7 +20,7 @@ from ..systems.kinds import AnySystem
 from .draws import Draw
 
 Drawn = NDArray[np.float64] | Sequence[AnySystem]
-Place = tuple[int, int]  # which chunk, which of its systems
+SampleLocation = tuple[int, int]  # which chunk, which of its systems
 
 #: What becomes of arriving orbits, by `Outcome.verdict`, in the order in which it is told.
 ENDINGS = {
@@ -32,21 +32,21 @@ ENDINGS = {
 }
 
 
-class Found(NamedTuple):
+class NameCount(NamedTuple):
     """The systems of one name: how many, and margin and place of the most typical and of the most marginal."""
 
     systems: int
     wide: float
-    typical: Place
+    typical: SampleLocation
     narrow: float
-    marginal: Place
+    marginal: SampleLocation
 
 
 @dataclass(frozen=True)
 class Tally:
     """Portraits of some chunks by name, and how many systems contradict index theory."""
 
-    found: dict[str, Found]
+    found: dict[str, NameCount]
     contradictions: int = 0
 
     @property
@@ -64,12 +64,12 @@ class Tally:
                 continue
             typical = new[1:3] if new.wide > old.wide else old[1:3]
             marginal = new[3:] if new.narrow < old.narrow else old[3:]
-            found[name] = Found(old.systems + new.systems, *typical, *marginal)
+            found[name] = NameCount(old.systems + new.systems, *typical, *marginal)
         return Tally(found, self.contradictions + other.contradictions)
 
 
 @dataclass(frozen=True)
-class Plan:
+class CensusPlan:
     """A plan of a census: distribution, Psi, seed, and whether names tell the outcomes too."""
 
     draw: Draw
@@ -82,7 +82,7 @@ class Plan:
         return self.draw(np.random.default_rng((self.seed, chunk)), size)
 
 
-def tally(plan: Plan, chunk: int, size: int) -> Tally:
+def tally(plan: CensusPlan, chunk: int, size: int) -> Tally:
     """Name the systems of one chunk."""
     drawn = plan.drawn(chunk, size)
     if len(drawn) != size:
@@ -92,7 +92,7 @@ def tally(plan: Plan, chunk: int, size: int) -> Tally:
     whole = Tally({})
     for i, system in enumerate(drawn):
         problem = LayerProblem(system.at((0.0,) * getattr(system, "m", 0)), plan.psi)
-        whole = whole.joined(_of_one(problem, _margin(problem), plan.outcomes, (chunk, i)))
+        whole = whole.joined(_tally_one(problem, _margin(problem), plan.outcomes, (chunk, i)))
     return whole
 
 
@@ -100,16 +100,16 @@ def _of_coefficients(plane: NDArray[np.float64], chunk: int) -> Tally:
     from .names import IMPOSSIBLE, PORTRAIT_NAMES, names  # on first use: it loads the compiler
 
     codes, margins, others = names(plane)
-    found: dict[str, Found] = {}
+    found: dict[str, NameCount] = {}
     for code in np.unique(codes[codes > 0]):
         where = np.flatnonzero(codes == code)
         most, least = int(where[np.argmax(margins[where])]), int(where[np.argmin(margins[where])])
         name = " ".join(PORTRAIT_NAMES[code - 1])
-        found[name] = Found(len(where), float(margins[most]), (chunk, most), float(margins[least]), (chunk, least))
+        found[name] = NameCount(len(where), float(margins[most]), (chunk, most), float(margins[least]), (chunk, least))
     whole = Tally(found, int(np.isin(codes, IMPOSSIBLE).sum()))
     for i, (case, name) in others.items():
         full = f"{case} {name}" if case else name
-        whole = whole.joined(Tally({full: Found(1, 0.0, (chunk, i), 0.0, (chunk, i))}))
+        whole = whole.joined(Tally({full: NameCount(1, 0.0, (chunk, i), 0.0, (chunk, i))}))
     return whole
 
 
@@ -120,11 +120,11 @@ def _with_outcomes(plane: NDArray[np.float64], psi: Psi, chunk: int) -> Tally:
     whole = Tally({})
     for i, (a, b, d, f1, f2) in enumerate(plane.tolist()):
         problem = LayerProblem(ELinear(a, b, d, (f1, f2)).at(()), psi)
-        whole = whole.joined(_of_one(problem, float(margins[i]), True, (chunk, i)))
+        whole = whole.joined(_tally_one(problem, float(margins[i]), True, (chunk, i)))
     return whole
 
 
-def _of_one(problem: LayerProblem, margin: float, outcomes: bool, place: Place) -> Tally:
+def _tally_one(problem: LayerProblem, margin: float, outcomes: bool, place: SampleLocation) -> Tally:
     named = portrait_name(problem)
     name = named.full_name
     if outcomes:
@@ -132,10 +132,10 @@ def _of_one(problem: LayerProblem, margin: float, outcomes: bool, place: Place) 
         said = {outcome.verdict for outcome in arriving} or {"misses"}
         name = f"{name}, {' or '.join(words for verdict, words in ENDINGS.items() if verdict in said)}"
     if named.degeneracies:
-        return Tally({name: Found(1, 0.0, place, 0.0, place)})
+        return Tally({name: NameCount(1, 0.0, place, 0.0, place)})
     turns = problem.equator.turns
     contradicts = turns is not None and turns != sum(C.index for C in problem.critical)
-    return Tally({name: Found(1, margin, place, margin, place)}, int(contradicts))
+    return Tally({name: NameCount(1, margin, place, margin, place)}, int(contradicts))
 
 
 def _margin(problem: LayerProblem) -> float:

@@ -12,20 +12,20 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..numerics.root_between import root_between
-from .newton import CLOSE, ENOUGH, MAX_ROUNDS, SLOW, Array, Condition, newton
+from .newton import MAX_CORRECTION_RATIO, MAX_ROUNDS, NEWTON_TOLERANCE, ROUNDING_TOLERANCE, Array, Condition, newton
 
-LEAST_STEP, FIRST_STEP = 1e-6, 0.2  # shortest step, and the first as a part of the longest
-GROWTH, SHRINKAGE = 1.5, 0.4
-QUICK = 2  # rounds within which a step was not too long
-PART = 0.6  # of the largest turn, that the next step is to make
+MIN_STEP, FIRST_STEP_SHARE = 1e-6, 0.2  # shortest step, and the first as a part of the longest
+STEP_GROWTH, STEP_SHRINKAGE = 1.5, 0.4
+QUICK_ROUNDS = 2  # rounds within which a step was not too long
+TARGET_TURN_SHARE = 0.6  # of the largest turn, that the next step is to make
 MAX_STRETCH = 2.5  # of the last step: a longer one is predicted by the tangent alone
-DULL = 1e-7  # a point is no regular one where the least singular value is so small a part of the largest
-WITHIN = 1e-12  # an edge is crossed beyond this
-SAME = 1e-12  # part of a step, of a place between two points
+MIN_SINGULAR_SHARE = 1e-7  # a point is no regular one where the least singular value is so small a part of the largest
+EDGE_TOLERANCE = 1e-12  # an edge is crossed beyond this
+PLACE_TOLERANCE = 1e-12  # part of a step, of a place between two points
 
 
 @dataclass(frozen=True)
-class Edge:
+class CurveEdge:
     """A boundary at which a curve ends.
 
     Attributes
@@ -39,17 +39,17 @@ class Edge:
     of: Callable[[Array], tuple[float, Array]]
 
 
-def square_edges(n: int) -> list[Edge]:
+def square_edges(n: int) -> list[CurveEdge]:
     """Return the edges of the unit square, of the last two of n unknowns."""
     unit, found = np.eye(n), []
     for axis, name in ((n - 2, "across"), (n - 1, "up")):
-        found.append(Edge(name, lambda v, k=axis: (-float(v[k]), -unit[k])))
-        found.append(Edge(name, lambda v, k=axis: (float(v[k]) - 1.0, unit[k])))
+        found.append(CurveEdge(name, lambda v, k=axis: (-float(v[k]), -unit[k])))
+        found.append(CurveEdge(name, lambda v, k=axis: (float(v[k]) - 1.0, unit[k])))
     return found
 
 
 @dataclass(frozen=True)
-class Steps:
+class StepBounds:
     """Bounds of the steps along a curve.
 
     Attributes
@@ -72,9 +72,9 @@ class Steps:
     turn: float
     most: int
     period: float = math.inf
-    close: float = CLOSE
-    enough: float = ENOUGH
-    least: float = LEAST_STEP
+    close: float = NEWTON_TOLERANCE
+    enough: float = ROUNDING_TOLERANCE
+    least: float = MIN_STEP
 
     def apart(self, one: Array, other: Array) -> Array:
         """Return ``other - one``, by the shorter way round."""
@@ -85,7 +85,7 @@ class Steps:
 
 
 @dataclass(frozen=True, eq=False)
-class Traced:
+class TracedLine:
     """A curve.
 
     Attributes
@@ -109,11 +109,11 @@ def tangent(condition: Condition, at: Array) -> Array | None:
     if not np.isfinite(slope).all():
         return None
     _, sizes, rows = np.linalg.svd(slope)
-    return rows[-1] if sizes[-1] > DULL * sizes[0] else None
+    return rows[-1] if sizes[-1] > MIN_SINGULAR_SHARE * sizes[0] else None
 
 
 def zero_between(
-    condition: Condition, test: Callable[[Array], float], one: Array, other: Array, part: float = SAME
+    condition: Condition, test: Callable[[Array], float], one: Array, other: Array, part: float = PLACE_TOLERANCE
 ) -> Array:
     """Find the point of a curve between two neighbours at which a function changes its sign.
 
@@ -138,48 +138,48 @@ def zero_between(
     return found[0]
 
 
-def trace_curve(condition: Condition, start: Array, edges: Sequence[Edge], steps: Steps) -> Traced | None:
+def trace_curve(condition: Condition, start: Array, edges: Sequence[CurveEdge], steps: StepBounds) -> TracedLine | None:
     """Follow a curve both ways from a point on it; None where that is no regular point.
 
     Parameters
     ----------
     condition : callable
     start : ndarray (n,)
-    edges : sequence of Edge
-    steps : Steps
+    edges : sequence of CurveEdge
+    steps : StepBounds
     """
     along = tangent(condition, start)
     if along is None:
         return None
     ahead, end = trace_one_way(condition, start, along, edges, steps)
     if not end:
-        return Traced(np.array([start, *ahead]), True, ("", ""))
+        return TracedLine(np.array([start, *ahead]), True, ("", ""))
     behind, other = trace_one_way(condition, start, -along, edges, steps)
-    return Traced(np.array([*behind[::-1], start, *ahead]), False, (other or "many", end))
+    return TracedLine(np.array([*behind[::-1], start, *ahead]), False, (other or "many", end))
 
 
 def trace_one_way(
-    condition: Condition, start: Array, first: Array, edges: Sequence[Edge], steps: Steps
+    condition: Condition, start: Array, first: Array, edges: Sequence[CurveEdge], steps: StepBounds
 ) -> tuple[list[Array], str]:
     """Points along a curve from a start, and where it ends; "" where it has come round."""
     points: list[Array] = []
-    here, along, step = start, first, FIRST_STEP * steps.longest
+    here, along, step = start, first, FIRST_STEP_SHARE * steps.longest
     before: tuple[Array, Array] | None = None
     while len(points) < steps.most:
         expected = here + step * along if before is None else _predict(*before, here, along, step)
         found = _correct(condition, expected, along, step, steps)
         if found is None or float(found[1] @ along) < math.cos(steps.turn):
-            step *= SHRINKAGE
+            step *= STEP_SHRINKAGE
             if step < steps.least:
                 return points, "lost"
             continue
         there, onward, quick = found
-        crossed = [edge for edge in edges if edge.of(there)[0] > WITHIN]
+        crossed = [edge for edge in edges if edge.of(there)[0] > EDGE_TOLERANCE]
         if crossed:
             last = _first_edge(condition, here, there, crossed)
             if last is not None:
                 return [*points, last[0]], last[1]
-            step *= SHRINKAGE
+            step *= STEP_SHRINKAGE
             if step < steps.least:
                 return points, crossed[0].name
             continue
@@ -189,7 +189,7 @@ def trace_one_way(
         bend = math.acos(min(max(float(onward @ along), -1.0), 1.0))
         before, here, along = (here, along), there, onward
         if quick:
-            step = min(step * min(GROWTH, PART * steps.turn / max(bend, 1e-9)), steps.longest)
+            step = min(step * min(STEP_GROWTH, TARGET_TURN_SHARE * steps.turn / max(bend, 1e-9)), steps.longest)
     return points, "many"
 
 
@@ -204,7 +204,7 @@ def _predict(before: Array, leaving: Array, here: Array, along: Array, step: flo
 
 
 def _correct(
-    condition: Condition, expected: Array, along: Array, step: float, steps: Steps
+    condition: Condition, expected: Array, along: Array, step: float, steps: StepBounds
 ) -> tuple[Array, Array, bool] | None:
     """Return the point of a curve across `along` from where it is expected, the tangent, and if that was quick."""
     v, n = expected, len(expected)
@@ -228,9 +228,9 @@ def _correct(
         if not size < step:
             return None
         left = size * min(size / last, 1.0) if rounds else size  # of the next correction, at most about
-        stalled = rounds > 1 and size > SLOW * last
+        stalled = rounds > 1 and size > MAX_CORRECTION_RATIO * last
         if left < steps.close or (size < steps.enough and (stalled or rounds == MAX_ROUNDS - 1)):
-            return v, onward / math.sqrt(onward @ onward), rounds < QUICK
+            return v, onward / math.sqrt(onward @ onward), rounds < QUICK_ROUNDS
     return None
 
 
@@ -244,13 +244,15 @@ def point_across(condition: Condition, middle: Array, normal: Array, reach: floa
     return newton(both, middle, reach)
 
 
-def _first_edge(condition: Condition, here: Array, there: Array, crossed: Sequence[Edge]) -> tuple[Array, str] | None:
+def _first_edge(
+    condition: Condition, here: Array, there: Array, crossed: Sequence[CurveEdge]
+) -> tuple[Array, str] | None:
     """Find where a step crosses the first of some edges."""
     best: tuple[float, Array, str] | None = None
     chord = there - here
     for edge in crossed:
 
-        def both(v: Array, edge: Edge = edge) -> tuple[Array, Array]:
+        def both(v: Array, edge: CurveEdge = edge) -> tuple[Array, Array]:
             value, slope = condition(v)
             level, rise = edge.of(v)
             return np.append(value, level), np.vstack([slope, rise])
@@ -265,7 +267,7 @@ def _first_edge(condition: Condition, here: Array, there: Array, crossed: Sequen
     return None if best is None else best[1:]
 
 
-def _comes_round(steps: Steps, start: Array, first: Array, here: Array, there: Array) -> bool:
+def _comes_round(steps: StepBounds, start: Array, first: Array, here: Array, there: Array) -> bool:
     """Whether a step passes the start in the start's direction."""
     before, after = steps.apart(start, here), steps.apart(start, there)
     long = math.sqrt((there - here) @ (there - here))

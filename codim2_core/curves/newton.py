@@ -6,16 +6,19 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..arrays import Array
+
 Condition = Callable[[Array], tuple[Array, Array]]  # values (k,) and their derivatives (k, n)
 
 MAX_ROUNDS = 12
-CLOSE = 1e-12  # correction at which it stops,
-ENOUGH = 1e-9  # or, where rounding does not let it come so far, at which a point counts as found
-FAR = 1e3
-PATIENCE, SLOW = 3, 0.4  # rounds after which corrections that do not fall faster than this tell of no regular zero
+NEWTON_TOLERANCE = 1e-12  # correction at which it stops,
+ROUNDING_TOLERANCE = 1e-9  # or, where rounding does not let it come so far, at which a point counts as found
+MAX_SIZE = 1e3
+FREE_ROUNDS, MAX_CORRECTION_RATIO = (
+    3,
+    0.4,
+)  # rounds after which corrections that do not fall faster than this tell of no regular zero
 
 
 def finite_differences(function: Callable[[Array], float], step: float) -> Condition:
@@ -32,7 +35,9 @@ def finite_differences(function: Callable[[Array], float], step: float) -> Condi
     return condition
 
 
-def newton(condition: Condition, start: Array, reach: float = math.inf, close: float = CLOSE) -> Array | None:
+def newton(
+    condition: Condition, start: Array, reach: float = math.inf, close: float = NEWTON_TOLERANCE
+) -> Array | None:
     """Find a common zero of at most n functions of n numbers, by least changes; None if there is none within reach.
 
     Parameters
@@ -58,10 +63,10 @@ def newton(condition: Condition, start: Array, reach: float = math.inf, close: f
             return None
         last, size = size, math.sqrt(change @ change)
         v = v + change
-        if not size < FAR or math.dist(v, start) > reach:
+        if not size < MAX_SIZE or math.dist(v, start) > reach:
             return None
         if size < close:
             return v
-        if rounds > PATIENCE and size > SLOW * last:
+        if rounds > FREE_ROUNDS and size > MAX_CORRECTION_RATIO * last:
             break
-    return v if size < ENOUGH else None
+    return v if size < ROUNDING_TOLERANCE else None

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.equator import equilibria_at
 from ..layer_problem.location import Location
-from ..systems.frozen import AtZ
-
-Array = NDArray[np.float64]
+from ..systems.frozen import FrozenSystem
 
 #: Fractions of the first ebar. Below the first an orbit is so close that the equator decides what becomes of it: it is
 #: gone, or it comes back however near it passes (cycles of ordinary systems do at ebar = exp(-33)), down to the second.
@@ -73,7 +72,7 @@ class EquatorPull:
         return ~draws[end] | (radial < 0.0).any(axis=1)
 
 
-def equator_pull(at: AtZ, location: Location | None) -> EquatorPull:
+def equator_pull(at: FrozenSystem, location: Location | None) -> EquatorPull:
     """Return the pull of the equator of a frozen system; `location` as in `equilibria_at`."""
     equator = equilibria_at(at, location)
     radial, turning = equator.lambda_rho, equator.lambda_theta

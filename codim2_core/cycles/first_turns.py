@@ -16,7 +16,7 @@ import numpy as np
 from ..curves.polyline import distance
 from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..words import say
 from .orbit import Orbit, orbit
 from .resolution import NEAR_FOLD, UNRESOLVED, Samples, count_sentence, near_fold, zeros
@@ -38,7 +38,7 @@ ONLY_SADDLES = say("only saddles")
 
 
 def find(
-    at: AtZ, psi: Psi, critical: tuple[CriticalSet, ...]
+    at: FrozenSystem, psi: Psi, critical: tuple[CriticalSet, ...]
 ) -> tuple[list[tuple[FixedPoint, Orbit, int]], str, tuple[str, ...]]:
     """Search for limit cycles.
 
@@ -79,7 +79,7 @@ def find(
                 notes.append(say("turn not closed"))
             elif abs(closed.divergence) < BAND and not crossing.touching:
                 notes.append(BAND_NOTE)
-            elif not any(_same(closed, other) for _, other, _ in found):
+            elif not any(_is_same_orbit(closed, other) for _, other, _ in found):
                 found.append((crossing, closed, _sense(closed.points)))
     names = "the critical set" if len(critical) == 1 else "the critical sets that are no saddles"
     return found, count_sentence(len(found), "turn", about=names), tuple(dict.fromkeys(notes))
@@ -94,7 +94,7 @@ def _search_ray(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
         finite = np.isfinite(samples.shift)
         if not backward and finite.sum() >= 8 and not samples.shift[finite].any():
             return [], [BAND_NOTE]
-        if not samples.resolve(_ends, MIN_JUMP_WIDTH):
+        if not samples.resolve(_displacement_ends, MIN_JUMP_WIDTH):
             notes.append(UNRESOLVED)
         xi, shift = samples.xi, samples.shift
         if not backward:
@@ -126,7 +126,7 @@ def _brackets(shift: Array) -> list[int]:
     return np.flatnonzero(finite & (shift[:-1] > 0.0) & (shift[1:] <= 0.0)).tolist()
 
 
-def _ends(xi: Array, shift: Array) -> list[int]:
+def _displacement_ends(xi: Array, shift: Array) -> list[int]:
     """Places i where the displacement ends between samples i and i + 1."""
     finite = np.isfinite(shift)
     return np.flatnonzero((finite[1:] != finite[:-1]) & (np.diff(xi) > MIN_JUMP_WIDTH)).tolist()
@@ -165,7 +165,7 @@ def _sense(points: Array) -> int:
     return 1 if float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) > 0.0 else -1
 
 
-def _same(one: Orbit, other: Orbit) -> bool:
+def _is_same_orbit(one: Orbit, other: Orbit) -> bool:
     if abs(one.period - other.period) > 1e-6 * one.period:
         return False
     if abs(one.divergence - other.divergence) > 1e-9 + 1e-3 * abs(one.divergence):

@@ -8,14 +8,13 @@ samples resolve the map (`resolution`), they tell it. They place no fixed point 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.problem import LayerProblem, found_once
 from .limit_cycles import shown_of
-from .search import Shown
+from .search import ReturnMapSamples
 from .section import COARSE_RTOL
 
-Array = NDArray[np.float64]
 ON_C = -1
 
 
@@ -54,7 +53,7 @@ def _answer(problem: LayerProblem, states: Array) -> list[int | None]:
     return [k if back and k is not None and k < certain else None for k, back in zip(led, returned, strict=True)]
 
 
-def _follow_signs(samples: Shown, q: float, inmost: int | None) -> int | None:
+def _follow_signs(samples: ReturnMapSamples, q: float, inmost: int | None) -> int | None:
     """Follow the signs of the samples from q on the section to a change of sign, or to the `inmost` place."""
     after = int(np.searchsorted(samples.q, q))
     if not 0 < after < len(samples.q):

@@ -23,7 +23,7 @@ from ..stepping.layout import (
 )
 from ..stepping.numbers import PSI
 
-STEP_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step
+LANE_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step
 TRIALS = 40
 
 

@@ -18,9 +18,10 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import drawing
+from ..arrays import Array
 from ..layer_problem.critical import CriticalSet, slow_flow_at
 from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.location import Existence, Location, locate
@@ -28,17 +29,16 @@ from ..layer_problem.problem import LayerProblem, found_once
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
-from ..tables import Tabled, number, paragraphs, point, rows
+from ..tables import Tabled, paragraphs, point, result_rows, table_number
 from ..words import say
 from .orbit import Orbit, orbit
 from .proof.result import Proof, covers
 from .resolution import count_sentence
-from .search import Shown, sample_return_map, search
+from .search import ReturnMapSamples, sample_return_map, search
 from .section import FixedPoint, Section
 
 __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
 
-Array = NDArray[np.float64]
 
 NO_FLOW = np.zeros(0)
 SEMISTABLE = 1e-5  # |ln multiplier| below which a cycle counts as semistable: a fold of cycles
@@ -88,7 +88,7 @@ class LimitCycle(Tabled):
 
     def _row_(self) -> tuple[str, ...]:
         flow = point(self.slow_flow)
-        return self.kind, number(self.period), number(self.multiplier), point(self.mean_e), flow
+        return self.kind, table_number(self.period), table_number(self.multiplier), point(self.mean_e), flow
 
     @property
     def stable(self) -> bool:
@@ -122,7 +122,7 @@ class LimitCycles:
     def _repr_html_(self) -> str:
         return (
             (self._repr_svg_() or "")
-            + rows(self)
+            + result_rows(self)
             + paragraphs([self.reason, *self.notes] if self.proved is None else [self.proved.reason, *self.notes])
         )
 
@@ -280,7 +280,7 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
 
 
 @found_once()
-def shown_of(problem: LayerProblem) -> Shown | str:
+def shown_of(problem: LayerProblem) -> ReturnMapSamples | str:
     """Sample the return map of an e-linear layer problem in its own axes, or say why a theorem forbids cycles."""
     coefficients, critical, location = problem.at.normal_form, problem.critical, problem.location
     assert coefficients is not None

@@ -113,15 +113,15 @@ def gaps(asked: Sequence[tuple[Coefficients, Psi, Loop]], rtol: float = RTOL) ->
     if not asked:
         return []
     sections = [Section(q, psi, critical_sets(q, psi)[0], loop.ray) for q, psi, loop in asked]
-    leaving = _crossings(sections, asked, [loop.sink for *_, loop in asked], rtol, False)
-    entering = _crossings(sections, asked, [loop.source for *_, loop in asked], rtol, True)
+    leaving = _section_crossings(sections, asked, [loop.sink for *_, loop in asked], rtol, False)
+    entering = _section_crossings(sections, asked, [loop.source for *_, loop in asked], rtol, True)
     return [
         math.nan if math.isinf(out) and math.isinf(back) else out - back
         for out, back in zip(leaving, entering, strict=True)
     ]
 
 
-def _crossings(
+def _section_crossings(
     sections: Sequence[Section],
     asked: Sequence[tuple[Coefficients, Psi, Loop]],
     angles: Sequence[float],

@@ -12,11 +12,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from .section import FINE_RTOL, AnySection, FixedPoint
-
-Array = NDArray[np.float64]
 
 STEP_NODES = 6
 MOST_STEPS = 8000
@@ -54,7 +52,7 @@ def gauss(count: int = STEP_NODES) -> tuple[Array, Array, Array]:
 
 
 @dataclass(frozen=True)
-class Path:
+class TurnQuadrature:
     """One return as nodes of a quadrature; k steps with NODES nodes each, scaled coefficients, time as integrated.
 
     Attributes
@@ -81,7 +79,7 @@ class Path:
     time: float
 
 
-def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Path | None:
+def path(section: AnySection, start: Array, rtol: float, backward: bool) -> TurnQuadrature | None:
     """Follow one return from a state (3,) of the section; None if MOST_STEPS steps do not bring it round.
 
     Parameters
@@ -101,7 +99,7 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Path
     _, function = section.kernel
     places, whose = np.repeat(first, STEP_NODES, axis=0), np.zeros(STEP_NODES * len(h), np.intp)
     inner = single_step(places, np.outer(h, nodes).ravel(), section.shared(backward)[None], whose, function.address)
-    return Path(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
+    return TurnQuadrature(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
 
 
 def linearisation(section: AnySection, states: Array) -> tuple[Array, Array]:

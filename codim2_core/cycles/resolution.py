@@ -18,10 +18,9 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..words import say
 from .section import COARSE_RTOL, FINE_RTOL
-
-Array = NDArray[np.float64]
 
 COARSE_NOISE, FINE_NOISE = 1e-8, 1e-11  # of a displacement at COARSE and FINE
 ERROR_SAFETY = 8.0  # times the estimated error of the cubic

@@ -15,7 +15,7 @@ from numba import njit
 from ..stepping.dop853 import ARITHMETIC, advance
 from ..stepping.layout import K0, K12, LANES, NEW, STATE, STEP_ROW, call_field
 from .lane_steps import (
-    STEP_TOLERANCE_SHARE,
+    LANE_TOLERANCE_SHARE,
     TRIALS,
     growth,
     load_state,
@@ -103,7 +103,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
                     load_system(P, shared[own * following], k)
                     who[k], fresh[k], phase[k], spent[k] = following, 1, FIRST_HALF, 0
                     tolerance = rtol[each * following]
-                    clock[k], step[k], allowed[k] = 0.0, 0.5 * tolerance**0.125, STEP_TOLERANCE_SHARE * tolerance
+                    clock[k], step[k], allowed[k] = 0.0, 0.5 * tolerance**0.125, LANE_TOLERANCE_SHARE * tolerance
                     following += 1
             call_field(field, S, STATE, K0, P)
             for k in range(LANES if elsewhere else 0):

@@ -41,7 +41,7 @@ def _has_converged(shift: Array, inner: int, step: int) -> bool:
     return bool(np.isfinite(before) and abs(y) > 8.0 * abs(y - before))
 
 
-def _ends(xi: Array, shift: Array) -> list[int]:
+def _open_intervals(xi: Array, shift: Array) -> list[int]:
     """Intervals at whose one end orbits return and at whose other they do not, where a fixed point may hide."""
     finite = np.isfinite(shift)
     width = np.diff(xi)
@@ -140,7 +140,7 @@ def _nearly_degenerate(q: Array, shift: Array, noise: Array) -> list[str]:
 
 
 @dataclass(frozen=True)
-class Shown:
+class ReturnMapSamples:
     """Samples of a return map that resolve it, and what they show of its fixed points.
 
     Attributes
@@ -180,15 +180,15 @@ class Shown:
         return next((k for k, (i, j) in enumerate(self.changes) if not (finite[i] and finite[j])), len(self.changes))
 
 
-def sample_return_map(section: Section) -> Shown:
+def sample_return_map(section: Section) -> ReturnMapSamples:
     """Sample the return map of a section until the samples resolve it."""
     notes: list[str] = []
     samples = Samples(section, section.grid())
     finite = np.isfinite(samples.shift)
     if finite.sum() >= 8 and np.abs(samples.shift[finite]).max() < NOISE:
         none = np.zeros(0)
-        return Shown(section, none, none, none, (), (), (say("identity"),))
-    if not samples.resolve(_ends):
+        return ReturnMapSamples(section, none, none, none, (), (), (say("identity"),))
+    if not samples.resolve(_open_intervals):
         notes.append(UNRESOLVED)
     known = ~np.isnan(samples.shift)
     if not known.all():
@@ -199,10 +199,10 @@ def sample_return_map(section: Section) -> Shown:
         notes.append(say("band"))
     notes += _nearly_degenerate(q, shift, noise)
     meeting = tuple(i for i in touching if noise[i] < FOLD_NOISE)
-    return Shown(section, xi, q, shift, tuple(changes), meeting, tuple(notes))
+    return ReturnMapSamples(section, xi, q, shift, tuple(changes), meeting, tuple(notes))
 
 
-def find_fixed_points(samples: Shown, first: int = 0) -> list[FixedPoint]:
+def find_fixed_points(samples: ReturnMapSamples, first: int = 0) -> list[FixedPoint]:
     """Place the fixed points at the changes of sign of the displacement, from the first or a later one.
 
     One that repels attracts backward in time: it is found and followed backward. It may repel so strongly that forward
@@ -210,7 +210,7 @@ def find_fixed_points(samples: Shown, first: int = 0) -> list[FixedPoint]:
 
     Parameters
     ----------
-    samples : Shown
+    samples : ReturnMapSamples
     first : int
         The first change.
     """
@@ -226,12 +226,12 @@ def find_fixed_points(samples: Shown, first: int = 0) -> list[FixedPoint]:
     return found
 
 
-def search(samples: Shown) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
+def search(samples: ReturnMapSamples) -> tuple[tuple[FixedPoint, ...], tuple[str, ...]]:
     """Find the fixed points that the samples show, innermost first, and notes on what is nearly degenerate.
 
     Parameters
     ----------
-    samples : Shown
+    samples : ReturnMapSamples
     """
     section, xi, notes = samples.section, samples.xi, samples.notes
     found = find_fixed_points(samples)

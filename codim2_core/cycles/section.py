@@ -9,15 +9,14 @@ from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.location import Location, locate
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from .equator_pull import LOST, MIN_HEIGHT, SUNK, EquatorPull, equator_pull
 
-Array = NDArray[np.float64]
 FIRST_SAMPLES = 64  # so many that lanes are full to the last
 INNER_RADIUS, OUTER_ZETA = 1e-4, 1e5  # of the reach R, and in zeta: how near C and the equator the section is sampled
 COARSE_RTOL, FINE_RTOL = 1e-9, 1e-13  # tolerances

@@ -15,7 +15,7 @@ from numba import njit
 from ..stepping.dop853 import ARITHMETIC, advance
 from ..stepping.layout import K0, K12, LANES, NEW, STATE, call_field
 from .lane_steps import (
-    STEP_TOLERANCE_SHARE,
+    LANE_TOLERANCE_SHARE,
     TRIALS,
     growth,
     load,
@@ -45,7 +45,7 @@ def _swept_angle(S, centre, k):
 # In one piece: with the stages of a step, the search for the end and the judging of errors as inlined functions of
 # their own, results were the same and took 7 % longer (median of paired runs, process time).
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record):
+def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record):
     """Follow each state until it has gone once round a point.
 
     Parameters
@@ -95,7 +95,7 @@ def turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record
                 if phase[k] == REFINING:
                     to_sphere(S, k)
                 elif phase[k] != DONE:
-                    errors[k] = step_error(S, k, STEP_TOLERANCE_SHARE * rtol)
+                    errors[k] = step_error(S, k, LANE_TOLERANCE_SHARE * rtol)
             call_field(field, S, NEW, K12, P)
             for k in range(LANES):
                 if phase[k] == DONE:

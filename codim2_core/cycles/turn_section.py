@@ -7,15 +7,14 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from .equator_pull import EquatorPull, equator_pull
 from .section import COARSE_RTOL, integrate_turn
 
-Array = NDArray[np.float64]
 INNER_RADIUS, OUTER_HEIGHT, SAMPLE_SPACING = (
     1e-4,
     1e-5,
@@ -41,7 +40,7 @@ class TurnSection:
         All critical sets; the ray keeps away from the others.
     """
 
-    def __init__(self, at: AtZ, psi: Psi, critical: CriticalSet, others: tuple[CriticalSet, ...]) -> None:
+    def __init__(self, at: FrozenSystem, psi: Psi, critical: CriticalSet, others: tuple[CriticalSet, ...]) -> None:
         self.at, self.psi, self.critical = at, psi, critical
         self.rate = at.speed
         self._rests = np.array([C.p for C in others])
@@ -102,11 +101,11 @@ class TurnSection:
     def turn(
         self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = MAX_STEPS
     ) -> tuple[Array, Array, Any, Any]:
-        """Follow one turn: ends (n, 3), times, codes and recorded steps of `turn_map.turns`."""
+        """Follow one turn: ends (n, 3), times, codes and recorded steps of `turn_map.first_turns`."""
         module, function = self.kernel
 
         def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:
-            return module.turns(
+            return module.first_turns(
                 states,
                 self.shared(backward),
                 function.address,

@@ -11,18 +11,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..psi.function import Psi
-from ..tables import Tabled, number
+from ..tables import Tabled, table_number
 from .classes import classes_over
 from .critical import OFF_CENTRE
 from .standing import equilibrium_branches
 
-__all__ = ["Stretch", "class_line"]
+__all__ = ["ClassInterval", "class_line"]
 
-_APART = 1e-9  # of the span: special values nearer to each other than this are one
+_SAME_VALUE_SHARE = 1e-9  # of the span: special values nearer to each other than this are one
 
 
 @dataclass(frozen=True)
-class Stretch(Tabled):
+class ClassInterval(Tabled):
     """A stretch of a parameter on which the portrait has one class.
 
     Attributes
@@ -43,10 +43,10 @@ class Stretch(Tabled):
     happening: tuple[str, ...]
 
     def _row_(self) -> tuple[str, ...]:
-        return self.name, number(self.low), number(self.high), ", ".join(self.happening)
+        return self.name, table_number(self.low), table_number(self.high), ", ".join(self.happening)
 
 
-def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: ArrayLike = ()) -> tuple[Stretch, ...]:
+def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: ArrayLike = ()) -> tuple[ClassInterval, ...]:
     """Stretches of equal class along one parameter (sec:bifurcations).
 
     They end at the special values of `diagram`; in between, the class is computed once.
@@ -62,7 +62,7 @@ def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: Array
 
     Returns
     -------
-    tuple of Stretch
+    tuple of ClassInterval
         By rising values; neighbours differ.
 
     Raises
@@ -75,19 +75,23 @@ def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: Array
     values = [one.value for one in found.special] + [v for gap in found.gaps for v in gap]
     ends = [low]
     for value in sorted(values):
-        if value - ends[-1] > _APART * (high - low) and high - value > _APART * (high - low):
+        if value - ends[-1] > _SAME_VALUE_SHARE * (high - low) and high - value > _SAME_VALUE_SHARE * (high - low):
             ends.append(value)
     ends.append(high)
     classes = classes_over(system, psi, z, (name,), (found.span,))
     middles = np.array([[u + OFF_CENTRE * (v - u)] for u, v in pairwise(ends)])
     codes = classes.decided(middles).tolist()
-    stretches: list[Stretch] = []
+    stretches: list[ClassInterval] = []
     start = low
     for i, (code, end) in enumerate(zip(codes, ends[1:], strict=True)):
         after = codes[i + 1] if i + 1 < len(codes) else None
         if after != code:
-            near = {one.kind: None for one in found.special if abs(one.value - end) <= 2.0 * _APART * (high - low)}
+            near = {
+                one.kind: None
+                for one in found.special
+                if abs(one.value - end) <= 2.0 * _SAME_VALUE_SHARE * (high - low)
+            }
             what = () if after is None else tuple(near) or ("undefined",)
-            stretches.append(Stretch(classes.name(code), start, end, what))
+            stretches.append(ClassInterval(classes.name(code), start, end, what))
             start = end
     return tuple(stretches)

@@ -13,16 +13,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arrays import Array
 from ..layer_problem.vary import check_varying, vary
 from ..psi.function import Psi
 from ..systems.affine import as_elinear
-from .family import Sweep, family
+from .family import FamilySweep, family
 from .sweep import UNDEFINED, class_name, classes
 from .typed.state import State
 
 __all__ = ["AffineClasses", "Classes", "GeneralClasses", "classes_over"]
 
-Array = NDArray[np.float64]
 Codes = NDArray[np.int64]
 
 
@@ -35,7 +35,7 @@ class AffineClasses:
     family : Sweep
     """
 
-    family: Sweep
+    family: FamilySweep
     unproved = 0
 
     def decided(self, at: Array) -> Codes:
@@ -47,7 +47,7 @@ class AffineClasses:
         return class_name(code)
 
 
-class Portrait(NamedTuple):
+class GeneralClass(NamedTuple):
     """The class of a general system.
 
     Attributes
@@ -92,7 +92,7 @@ class GeneralClasses:
     def __init__(self, system: Any, psi: Psi, z: Any, names: Sequence[str]) -> None:
         self.unproved = 0
         self._names, self._of = names, (system, psi, z)
-        self._classes: list[Portrait] = []
+        self._classes: list[GeneralClass] = []
 
     def decided(self, at: Array) -> Codes:
         """Return classes at points (k, n)."""
@@ -109,7 +109,7 @@ class GeneralClasses:
             return UNDEFINED
         arcs = -1 if state.equator.all_directions else len(state.equator.arcs)
         sets = tuple(sorted(C.kind for C in state.critical))
-        portrait = Portrait(tuple(sorted(state.part(0).items())), arcs, sets, state.part(2))
+        portrait = GeneralClass(tuple(sorted(state.part(0).items())), arcs, sets, state.part(2))
         self.unproved += not state.proven
         if portrait not in self._classes:
             self._classes.append(portrait)
@@ -148,7 +148,7 @@ def classes_over(
     return GeneralClasses(system, psi, z, check_varying(system, psi, z, varying, spans))
 
 
-def _name(portrait: Portrait) -> str:
+def _name(portrait: GeneralClass) -> str:
     directions = "∞" if portrait.arcs < 0 else str(sum(many for _, many in portrait.directions))
     kinds = Counter(portrait.sets)
     counted = [kind if many == 1 else f"{many} {_several(kind)}" for kind, many in kinds.items()]

@@ -8,30 +8,30 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.sign_changes import roots
 from ..psi.constructors import with_parameter
 from ..words import say
 from .result import CriticalBranch, SpecialValue
-from .sweep import KINDS, Line, Linearisation, Plane, border_functions, linearise
+from .sweep import KINDS, Linearisation, Plane, SystemPath, border_functions, linearise
 
-__all__ = ["Borders", "borders", "critical_part"]
+__all__ = ["ExistenceBorders", "critical_part", "existence_borders"]
 
-Array = NDArray[np.float64]
 
 _SAMPLES = 49
 # Crowded towards both ends: there the curves have vertical tangents
-SPREAD = 0.5 * (1.0 - np.cos(np.pi * np.arange(1, _SAMPLES + 1) / (_SAMPLES + 1)))
+CHEBYSHEV_SAMPLES = 0.5 * (1.0 - np.cos(np.pi * np.arange(1, _SAMPLES + 1) / (_SAMPLES + 1)))
 
 # Next to the equator a critical set is a node, but for a part of 1e-8 of a piece or less it may have been a focus
-_BESIDE = np.geomspace(1e-11, 1e-4, 8)
-CROWDED = np.concatenate([_BESIDE, SPREAD, 1.0 - _BESIDE[::-1]])
+_END_OFFSETS = np.geomspace(1e-11, 1e-4, 8)
+CROWDED_SAMPLES = np.concatenate([_END_OFFSETS, CHEBYSHEV_SAMPLES, 1.0 - _END_OFFSETS[::-1]])
 
-_STEP, _HALVINGS = 0.1, 10  # p moves by at most this between samples, unless so many halvings are not enough
+_MAX_MOVE, MAX_HALVINGS = 0.1, 10  # p moves by at most this between samples, unless so many halvings are not enough
 OFF_CENTRE = 0.4567  # in the middle of a piece symmetry likes to put something special
 
 
-class Borders:
+class ExistenceBorders:
     """Values at which the critical set begins, ends, or is not isolated.
 
     Attributes
@@ -53,11 +53,11 @@ class Borders:
         return np.sort(np.concatenate([self.equator, self.touching, self.singular]))
 
 
-def borders(path: Line, grid: Array, exponent: int) -> Borders:
+def existence_borders(path: SystemPath, grid: Array, exponent: int) -> ExistenceBorders:
     """Find where |A^-1 f| = 1 and where det A = 0."""
     plane = path(grid)
     if plane.rigid:
-        return Borders(np.zeros(0), np.zeros(0), np.zeros(0), np.zeros(0, bool))
+        return ExistenceBorders(np.zeros(0), np.zeros(0), np.zeros(0), np.zeros(0, bool))
     gap, det = border_functions(plane, exponent)
     singular = roots(lambda v: border_functions(path(v), exponent)[1], [grid], [det]).zeros[0]
     plane = path(singular)
@@ -69,7 +69,7 @@ def borders(path: Line, grid: Array, exponent: int) -> Borders:
     for value in singular[line]:
         equator = equator[abs(equator - value) > 1e-6 * width]
         touching = touching[abs(touching - value) > 1e-6 * width]
-    return Borders(equator, touching, singular, line)
+    return ExistenceBorders(equator, touching, singular, line)
 
 
 def _focus(found: Linearisation) -> Array:
@@ -78,7 +78,7 @@ def _focus(found: Linearisation) -> Array:
     return found.discriminant / np.where(size > 0.0, size, 1.0)
 
 
-def _direction(plane: Plane, i: int) -> float:
+def _critical_angle(plane: Plane, i: int) -> float:
     """Angle of -A^-1 f at value i."""
     m11, m12, m21, m22, f1, f2 = (float(v[i]) for v in plane.affine)
     sign = -math.copysign(1.0, m11 * m22 - m12 * m21)
@@ -87,14 +87,14 @@ def _direction(plane: Plane, i: int) -> float:
 
 
 def critical_part(
-    path: Line, grid: Array, exponent: int, cuts: Borders, extra: Array
+    path: SystemPath, grid: Array, exponent: int, cuts: ExistenceBorders, extra: Array
 ) -> tuple[list[CriticalBranch], list[SpecialValue]]:
     """Branches of the critical set and its special values between the ends of the grid; `extra`: where else to look."""
     special = _border_points(path, exponent, cuts)
     width = float(grid[-1] - grid[0])
     ends = [float(grid[0]), *cuts.all.tolist(), float(grid[-1])]
     pieces = [(low, high) for low, high in pairwise(ends) if high - low > 1e-13 * width]
-    samples = [np.union1d(u + (v - u) * CROWDED, extra[(extra > u) & (extra < v)]) for u, v in pieces]
+    samples = [np.union1d(u + (v - u) * CROWDED_SAMPLES, extra[(extra > u) & (extra < v)]) for u, v in pieces]
     found = linearise(path(np.concatenate(samples)), exponent)
     at = np.cumsum([len(x) for x in samples])[:-1]
     share, focus = np.split(found.share, at), np.split(_focus(found), at)
@@ -110,16 +110,18 @@ def critical_part(
         # where all of A vanishes as well, rounding leaves a sign to det A
         hopf = trace[border_functions(path(trace), exponent)[1] > 1e-12]
         u, v = pieces[k]
-        inner = inner[(inner - u > _BESIDE[-1] * (v - u)) & (v - inner > _BESIDE[-1] * (v - u))]
+        inner = inner[(inner - u > _END_OFFSETS[-1] * (v - u)) & (v - inner > _END_OFFSETS[-1] * (v - u))]
         parts, kinds = _cut_at_changes(path, inner, pieces[k], np.sort(np.concatenate([hopf, shape])))
-        branches += [_branch(path, part, kind) for part, kind in zip(parts, kinds, strict=True)]
+        branches += [_critical_branch(path, part, kind) for part, kind in zip(parts, kinds, strict=True)]
         special += [_hopf_point(path, v) for v in hopf.tolist()]
         special += [_focus_point(path, v) for v in shape.tolist()]
         special += [_neutral_point(path, v) for v in touch.tolist()]
     return branches, special
 
 
-def _cut_at_changes(path: Line, x: Array, ends: tuple[float, float], changes: Array) -> tuple[list[Array], list[str]]:
+def _cut_at_changes(
+    path: SystemPath, x: Array, ends: tuple[float, float], changes: Array
+) -> tuple[list[Array], list[str]]:
     """Values of each part between changes of kind, and the kinds; parts of one kind are joined."""
     stops = [ends[0], *changes.tolist(), ends[1]]
     middles = np.array([u + OFF_CENTRE * (v - u) for u, v in pairwise(stops)])
@@ -137,10 +139,10 @@ def _cut_at_changes(path: Line, x: Array, ends: tuple[float, float], changes: Ar
     return parts, names
 
 
-def _branch(path: Line, values: Array, kind: str) -> CriticalBranch:
-    for _ in range(_HALVINGS):
+def _critical_branch(path: SystemPath, values: Array, kind: str) -> CriticalBranch:
+    for _ in range(MAX_HALVINGS):
         found, e, p = _sets_at(path, values)
-        far = np.flatnonzero(np.hypot(*np.diff(p, axis=0).T) > _STEP)
+        far = np.flatnonzero(np.hypot(*np.diff(p, axis=0).T) > _MAX_MOVE)
         if not len(far):
             break
         values = np.sort(np.concatenate([values, 0.5 * (values[far] + values[far + 1])]))
@@ -151,7 +153,7 @@ def _branch(path: Line, values: Array, kind: str) -> CriticalBranch:
     return CriticalBranch(*arrays, kind)
 
 
-def _sets_at(path: Line, values: Array) -> tuple[Linearisation, Array, Array]:
+def _sets_at(path: SystemPath, values: Array) -> tuple[Linearisation, Array, Array]:
     """Critical sets, e and p at the values of a branch, whose ends may lie on the equator or where det A = 0."""
     plane = path(values)
     found = linearise(plane)
@@ -166,12 +168,12 @@ def _sets_at(path: Line, values: Array) -> tuple[Linearisation, Array, Array]:
             there = linearise(path(np.array([inner])))
             e[i], p[i] = there.e[0], there.p[0]
         else:
-            t = _direction(plane, i)
+            t = _critical_angle(plane, i)
             e[i] = p[i] = math.cos(t), math.sin(t)
     return found, e, p
 
 
-def _border_points(path: Line, exponent: int, cuts: Borders) -> list[SpecialValue]:
+def _border_points(path: SystemPath, exponent: int, cuts: ExistenceBorders) -> list[SpecialValue]:
     special = []
     for values, kind, what in (
         (cuts.equator, "transcritical", "border, turns"),
@@ -179,7 +181,7 @@ def _border_points(path: Line, exponent: int, cuts: Borders) -> list[SpecialValu
     ):
         plane = path(values)
         for i, value in enumerate(values.tolist()):
-            t = _direction(plane, i)
+            t = _critical_angle(plane, i)
             special.append(SpecialValue(kind, value, (math.cos(t), math.sin(t)), say(what, theta=t % math.tau)))
     for value, line in zip(cuts.singular.tolist(), cuts.line.tolist(), strict=True):
         if line:
@@ -191,13 +193,13 @@ def _border_points(path: Line, exponent: int, cuts: Borders) -> list[SpecialValu
     return special
 
 
-def _point(path: Line, value: float) -> tuple[Plane, Linearisation, tuple[float, float]]:
+def _point(path: SystemPath, value: float) -> tuple[Plane, Linearisation, tuple[float, float]]:
     plane = path(np.array([value]))
     found = linearise(plane)
     return plane, found, (float(found.p[0, 0]), float(found.p[0, 1]))
 
 
-def _hopf_point(path: Line, value: float) -> SpecialValue:
+def _hopf_point(path: SystemPath, value: float) -> SpecialValue:
     plane, found, place = _point(path, value)
     psi = plane.psi if plane.n is None else with_parameter(plane.psi, float(plane.n[0]))
     # in the centre the formulas for the derivatives of Psi divide by s = 0
@@ -210,11 +212,11 @@ def _hopf_point(path: Line, value: float) -> SpecialValue:
     return SpecialValue("Hopf", value, place, say(f"Hopf, {born}", number=number), number)
 
 
-def _neutral_point(path: Line, value: float) -> SpecialValue:
+def _neutral_point(path: SystemPath, value: float) -> SpecialValue:
     place = _point(path, value)[2]
     return SpecialValue("tr J = 0", value, place, say("trace touches zero"))
 
 
-def _focus_point(path: Line, value: float) -> SpecialValue:
+def _focus_point(path: SystemPath, value: float) -> SpecialValue:
     place = _point(path, value)[2]
     return SpecialValue("node-focus", value, place, say("between node and focus"))

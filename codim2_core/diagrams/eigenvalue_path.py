@@ -9,15 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .. import drawing
+from ..arrays import Array
 from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import vary
 from ..psi.function import Psi
-from ..tables import number, table
+from ..tables import html_table, table_number
 from .sweep import KINDS, family, linearise
 
 __all__ = ["LinearisationPath", "linearisation_path"]
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,11 +58,11 @@ class LinearisationPath:
 
     def _repr_html_(self) -> str:
         found = [
-            (*(number(self.values[k]) for k in (i, j)), self.kind[i] or "none", number(self.trace[i]))
+            (*(table_number(self.values[k]) for k in (i, j)), self.kind[i] or "none", table_number(self.trace[i]))
             for i, j in self.pieces
         ]
         head = (f"from {self.name}", "to", "critical set", "tr J at first")
-        return (self._repr_svg_() or "") + table(head, found)
+        return (self._repr_svg_() or "") + html_table(head, found)
 
 
 def linearisation_path(system: Any, psi: Psi, name: str, values: ArrayLike, z: ArrayLike = ()) -> LinearisationPath:

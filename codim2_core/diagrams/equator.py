@@ -8,47 +8,47 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.closed_equator import equator_cycle
 from ..numerics.sign_changes import refine_roots, roots, sign_changes
 from ..numerics.trigonometric import real_zeros, tangential_zeros
 from ..words import say
-from .critical import OFF_CENTRE, SPREAD, Borders
+from .critical import CHEBYSHEV_SAMPLES, OFF_CENTRE, ExistenceBorders
 from .result import ClosedEquator, DirectionBranch, SpecialValue
-from .sweep import Line, Plane, discriminant, equator_counts
-from .theta_zeros import Meeting, lambda_rho, meetings, theta_slope, theta_value, theta_zeros
+from .sweep import Plane, SystemPath, discriminant, equator_counts
+from .theta_zeros import MultipleZero, lambda_rho, multiple_zeros, theta_slope, theta_value, theta_zeros
 
 __all__ = ["equator_part", "link_zeros"]
 
-Array = NDArray[np.float64]
 
 _TAU = 2.0 * math.pi
-_FLAT = 1e-13
-_TURN, _HALVINGS = 0.15, 6  # zeros turn by at most this between samples, unless so many halvings are not enough
+_FLAT_SHARE = 1e-13
+_MAX_TURN, MAX_HALVINGS = 0.15, 6  # zeros turn by at most this between samples, unless so many halvings are not enough
 # Of a piece, where the exponent of a closed equator is computed: at its ends, where limit directions appear, it grows
 # beyond all bounds, and may turn its sign just before
-_PART = np.concatenate([np.geomspace(1e-9, 1e-3, 7), 0.5 * (1.0 - np.cos(np.pi * (np.arange(11) + 0.5) / 22))])
-_PARTS = np.concatenate([_PART, [0.5], 1.0 - _PART[::-1]])
+_HALF_SAMPLES = np.concatenate([np.geomspace(1e-9, 1e-3, 7), 0.5 * (1.0 - np.cos(np.pi * (np.arange(11) + 0.5) / 22))])
+_PIECE_SAMPLES = np.concatenate([_HALF_SAMPLES, [0.5], 1.0 - _HALF_SAMPLES[::-1]])
 
 
 def equator_part(
-    path: Line, grid: Array, exponent: int, cuts: Borders
+    path: SystemPath, grid: Array, exponent: int, cuts: ExistenceBorders
 ) -> tuple[list[DirectionBranch], list[ClosedEquator], list[SpecialValue]]:
     """Branches of equator equilibria, pieces with a closed equator, and special values."""
     plane = path(grid)
     span = (float(grid[0]), float(grid[-1]))
     values = discriminant(plane, exponent)
     size = sum((abs(np.ldexp(v, exponent)) for v in plane.arrays), np.full(len(grid), 1e-300))
-    flat = abs(values) <= _FLAT * size**6
+    flat = abs(values) <= _FLAT_SHARE * size**6
     # a share of the span: where something was looked for again, samples crowd
     if plane.rigid or np.average(flat, weights=np.gradient(grid)) > 0.5:
         return _constant_zeros(path, grid, cuts)
     everywhere = _all_directions(path, grid, plane)
-    found = _meetings(path, grid, values, flat, plane, exponent, span)
+    found = _multiple_zeros(path, grid, values, flat, plane, exponent, span)
     width = span[1] - span[0]
     found = [m for m in found if all(abs(m.value - v) > 1e-5 * width for v in everywhere)]
     stops = sorted({m.value for m in found} | set(everywhere))
     special = [_special(path, m) for m in found]
-    special += [_directions(v) for v in everywhere]
+    special += [_direction_change(v) for v in everywhere]
     branches: list[DirectionBranch] = []
     closed: list[ClosedEquator] = []
     edges = [span[0], *stops, span[1]]
@@ -61,9 +61,9 @@ def equator_part(
             inner, theta = _sample_zeros(path, low, high, count)
             x = np.concatenate([[low], inner, [high]])
             theta = np.concatenate([
-                _end(path, low, theta[:1], [m.theta for m in found if m.value == low]),
+                _zeros_at_end(path, low, theta[:1], [m.theta for m in found if m.value == low]),
                 theta,
-                _end(path, high, theta[-1:], [m.theta for m in found if m.value == high]),
+                _zeros_at_end(path, high, theta[-1:], [m.theta for m in found if m.value == high]),
             ])  # fmt: skip
             branches += [part for j in range(count) for part in _split(path, x, theta[:, j], cuts)]
         else:
@@ -73,22 +73,22 @@ def equator_part(
     return branches, closed, special
 
 
-def _meetings(
-    path: Line,
+def _multiple_zeros(
+    path: SystemPath,
     grid: Array,
     values: Array,
     flat: NDArray[np.bool_],
     plane: Plane,
     exponent: int,
     span: tuple[float, float],
-) -> list[Meeting]:
+) -> list[MultipleZero]:
     """All multiple zeros of Theta along the path."""
     changes = sign_changes(values)
     size = abs(values)
     lowest = 1 + np.flatnonzero((size[1:-1] <= size[:-2]) & (size[1:-1] <= size[2:]))
     ends = [i for i in (0, len(grid) - 1) if size[i] <= 1e-9 * size.max()]
     starts = np.unique(np.concatenate([0.5 * (grid[changes] + grid[changes + 1]), grid[lowest], grid[ends]]))
-    found = meetings(path, span, starts, 1.5 * float(np.diff(grid).max())) if len(starts) else []
+    found = multiple_zeros(path, span, starts, 1.5 * float(np.diff(grid).max())) if len(starts) else []
     # every change of the number of zeros must have a meeting next to it; next to one rounding decides the number
     counts, solid = equator_counts(plane, exponent)[~flat], grid[~flat]
     missed = [
@@ -104,11 +104,11 @@ def _meetings(
             still = real_zeros(0.0, -q.f1, -q.f2, q.d - q.a, 0.0).theta
             one = path(np.full(len(still), value))
             lowest_ = int(abs(theta_value(one, np.array(still))).argmin())
-            found.append(Meeting("saddle-node", value, still[lowest_]))
+            found.append(MultipleZero("saddle-node", value, still[lowest_]))
     return sorted(found, key=lambda m: (m.value, m.theta))
 
 
-def _all_directions(path: Line, grid: Array, plane: Plane) -> list[float]:
+def _all_directions(path: SystemPath, grid: Array, plane: Plane) -> list[float]:
     """Values at which a = d, b = 0 and f = 0."""
 
     def rows(p: Plane) -> Array:
@@ -131,7 +131,7 @@ def _all_directions(path: Line, grid: Array, plane: Plane) -> list[float]:
     return sorted(set(found))
 
 
-def _special(path: Line, m: Meeting) -> SpecialValue:
+def _special(path: SystemPath, m: MultipleZero) -> SpecialValue:
     theta = (m.theta + float(path(np.array([m.value])).back[0])) % _TAU
     place = (math.cos(theta), math.sin(theta))
     at = f"θ = {theta:.4g}"
@@ -148,12 +148,12 @@ def _special(path: Line, m: Meeting) -> SpecialValue:
     return SpecialValue("cusp", m.value, place, say("passes a cusp", at=at))
 
 
-def _sample_zeros(path: Line, low: float, high: float, count: int) -> tuple[Array, Array]:
+def _sample_zeros(path: SystemPath, low: float, high: float, count: int) -> tuple[Array, Array]:
     """Values inside a piece and the zeros there, (k, count), more densely where these move fast."""
-    x = low + (high - low) * SPREAD
-    for _ in range(_HALVINGS):
+    x = low + (high - low) * CHEBYSHEV_SAMPLES
+    for _ in range(MAX_HALVINGS):
         theta = link_zeros(theta_zeros(path(x), count))
-        far = np.flatnonzero(abs(np.diff(theta, axis=0)).max(axis=1) > _TURN)
+        far = np.flatnonzero(abs(np.diff(theta, axis=0)).max(axis=1) > _MAX_TURN)
         if not len(far):
             break
         x = np.sort(np.concatenate([x, 0.5 * (x[far] + x[far + 1])]))
@@ -175,7 +175,7 @@ def link_zeros(theta: Array) -> Array:
     return np.unwrap(theta, axis=0)
 
 
-def _end(path: Line, value: float, theta: Array, meeting: list[float]) -> Array:
+def _zeros_at_end(path: SystemPath, value: float, theta: Array, meeting: list[float]) -> Array:
     """Zeros at the end of a piece, (1, count), from those next to it; the meeting's direction where they meet."""
     count = theta.shape[1]
     plane = path(np.full(count, value))
@@ -191,7 +191,7 @@ def _end(path: Line, value: float, theta: Array, meeting: list[float]) -> Array:
     return t[None]
 
 
-def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[DirectionBranch]:
+def _split(path: SystemPath, x: Array, theta: Array, cuts: ExistenceBorders) -> list[DirectionBranch]:
     """Cut one branch where lambda_rho changes sign: there the critical set is on it."""
     plane = path(x)
     rho, slope, told = lambda_rho(plane, theta), theta_slope(plane, theta), theta + plane.back
@@ -199,7 +199,7 @@ def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[DirectionB
     inner = rho.copy()
     inner[abs(inner) <= 1e-13 * size] = 0.0
     if not inner.any():
-        return [_branch(x, told, 0.0 * rho, slope)]
+        return [_direction_branch(x, told, 0.0 * rho, slope)]
     stops: list[float] = []
     for i in sign_changes(np.where(inner == 0.0, np.sign(np.roll(inner, 1)), inner)):
         slack = 1e-9 * (x[-1] - x[0])
@@ -210,7 +210,7 @@ def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[DirectionB
     edges = [float(x[0]), *(v for v in stops if x[0] < v < x[-1]), float(x[-1])]
     t_edge, rho_edge, slope_edge = [told[0]], [rho[0]], [slope[0]]
     for v in edges[1:-1]:
-        t = _end(path, v, np.array([[np.interp(v, x, theta)]]), [])[0]
+        t = _zeros_at_end(path, v, np.array([[np.interp(v, x, theta)]]), [])[0]
         at = path(np.array([v]))
         t_edge.append(t[0] + at.back[0])
         rho_edge.append(0.0)
@@ -224,11 +224,11 @@ def _split(path: Line, x: Array, theta: Array, cuts: Borders) -> list[DirectionB
             np.concatenate([[u[k]], v[inside], [u[k + 1]]])
             for u, v in ((edges, x), (t_edge, told), (rho_edge, rho), (slope_edge, slope))
         )
-        out.append(_branch(*rows))
+        out.append(_direction_branch(*rows))
     return out
 
 
-def _branch(x: Array, theta: Array, rho: Array, slope: Array) -> DirectionBranch:
+def _direction_branch(x: Array, theta: Array, rho: Array, slope: Array) -> DirectionBranch:
     # by the sign in most places: the ends may be zero
     radial = np.sign(rho).sum()
     angular = np.sign(slope).sum()
@@ -241,14 +241,14 @@ def _branch(x: Array, theta: Array, rho: Array, slope: Array) -> DirectionBranch
     return DirectionBranch(x, theta, rho, slope, f"{first}, {then}")
 
 
-def _closed_pieces(path: Line, low: float, high: float) -> tuple[list[ClosedEquator], list[SpecialValue]]:
+def _closed_pieces(path: SystemPath, low: float, high: float) -> tuple[list[ClosedEquator], list[SpecialValue]]:
     """Exponent of the closed equator on a piece, cut where it changes sign."""
 
     def exponent(v: float) -> float:
         cycle = equator_cycle(path(np.array([v])).coefficients(0))
         return cycle.exponent if cycle is not None else math.nan
 
-    x = low + (high - low) * _PARTS
+    x = low + (high - low) * _PIECE_SAMPLES
     y = np.array([exponent(v) for v in x.tolist()])
     x, y = x[np.isfinite(y)], y[np.isfinite(y)]  # at its ends Θ may vanish within rounding: no closed orbit is seen
     if not y.any():
@@ -274,12 +274,12 @@ def _closed_branch(x: Array, y: Array) -> ClosedEquator:
 
 
 def _constant_zeros(
-    path: Line, grid: Array, cuts: Borders
+    path: SystemPath, grid: Array, cuts: ExistenceBorders
 ) -> tuple[list[DirectionBranch], list[ClosedEquator], list[SpecialValue]]:
     """Zeros of Theta that stay as they are, or stay multiple, along the whole path: the exact answer at each value."""
     plane = path(grid)
     everywhere = [] if plane.rigid else _all_directions(path, grid, plane)
-    special = [_directions(v) for v in everywhere]
+    special = [_direction_change(v) for v in everywhere]
     branches: list[DirectionBranch] = []
     closed: list[ClosedEquator] = []
     for low, high in pairwise([float(grid[0]), *everywhere, float(grid[-1])]):
@@ -298,5 +298,5 @@ def _constant_zeros(
     return branches, closed, special
 
 
-def _directions(value: float) -> SpecialValue:
+def _direction_change(value: float) -> SpecialValue:
     return SpecialValue("all directions", value, (0.0, 0.0), say("nothing turns at f = 0"))

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arrays import Array
 from ..expressions.expression import Expression
 from ..layer_problem.vary import check_varying
 from ..psi.function import Psi
@@ -17,11 +18,9 @@ from ..systems.bounds import MAX_NUMBER
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 
-Array = NDArray[np.float64]
-
-_GRID = 512
-_WOBBLE = 0.3 * np.sin(2.0 + np.arange(_GRID + 1) * 1.7)
-_WOBBLE[[0, -1]] = 0.0
+_GRID_CELLS = 512
+_GRID_OFFSETS = 0.3 * np.sin(2.0 + np.arange(_GRID_CELLS + 1) * 1.7)
+_GRID_OFFSETS[[0, -1]] = 0.0
 MAX_REACH, MAX_TURN = 0.9 * np.pi, 0.1  # of the axes of the normal form along a line, and from value to value
 
 
@@ -98,11 +97,11 @@ class Plane:
         return Coefficients(a, b, d, f1, f2, *empty, float(self.turn[i]), (g11, g12, g21, g22, g1, g2))
 
 
-_NAMES = ("a", "b", "d", "f1", "f2")
+_COEFFICIENTS = ("a", "b", "d", "f1", "f2")
 
 
 @dataclass(frozen=True, eq=False)
-class Sweep:
+class FamilySweep:
     """A system in which some names vary, prepared for many evaluations. Made by `family`.
 
     Attributes
@@ -137,16 +136,17 @@ class Sweep:
         n = values[self.shape] if self.shape else None
         if self.fixed is not None:
             a, b, d, f1, f2 = (
-                values[name] if name in values else np.full(k, v) for name, v in zip(_NAMES, self.fixed, strict=True)
+                values[name] if name in values else np.full(k, v)
+                for name, v in zip(_COEFFICIENTS, self.fixed, strict=True)
             )
             plane = Plane(a, b, d, f1, f2, self.psi, n, np.ones(k, bool))
             at: Any = self.system
-            if not at.frozen or at.given is None or any(name in _NAMES for name in self.names):
+            if not at.frozen or at.given is None or any(name in _COEFFICIENTS for name in self.names):
                 return plane
             turn, given = np.full(k, at.rotation), tuple(np.full(k, v) for v in at.given)
             return replace(plane, given=given, turn=turn, told=0.0 * turn if self.own_axes else turn)
         assert isinstance(self.system, ELinear)
-        rows = _rows(self.system, self.z, values)
+        rows = _coefficient_rows(self.system, self.z, values)
         full = [v if isinstance(v, np.ndarray) and v.shape == (k,) else np.full(k, v) for v in rows]
         defined = np.ones(k, bool)
         with np.errstate(invalid="ignore"):
@@ -165,7 +165,7 @@ class Sweep:
         return Plane(a, b, d, sign * f1, sign * f2, self.psi, n, defined, tuple(full), turn, told)
 
 
-def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[ArrayLike] = ()) -> Sweep:
+def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[ArrayLike] = ()) -> FamilySweep:
     """Prepare an e-linear system in which some names vary (see `layer_problem.vary.names`).
 
     Parameters
@@ -180,7 +180,7 @@ def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[A
 
     Returns
     -------
-    Sweep
+    FamilySweep
 
     Raises
     ------
@@ -193,14 +193,14 @@ def family(system: Any, psi: Psi, z: ArrayLike, *varying: str, spans: Sequence[A
     own = dict(getattr(system, "parameters", ()))
     fixed = None if isinstance(system, ELinear) and _needs(system, varying) else system.at(z).plane
     shape = "" if psi.record.parameter is None else psi.record.parameter.name
-    return Sweep(varying, system, psi, z, fixed, shape if shape in varying and shape not in own else "")
+    return FamilySweep(varying, system, psi, z, fixed, shape if shape in varying and shape not in own else "")
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class SystemPath:
     """A family with one name: a path of systems."""
 
-    family: Sweep
+    family: FamilySweep
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -220,12 +220,12 @@ class Line:
 def values_over(span: tuple[float, float]) -> Array:
     """Return the grid over a span: off the round numbers on which special values like to lie."""
     low, high = span
-    values = low + (high - low) * (np.arange(_GRID + 1) + _WOBBLE) / _GRID
+    values = low + (high - low) * (np.arange(_GRID_CELLS + 1) + _GRID_OFFSETS) / _GRID_CELLS
     values[-1] = high
     return values
 
 
-def linear_path(system: Any, psi: Psi, z: ArrayLike, along: str, values: Array) -> Line | None:
+def linear_path(system: Any, psi: Psi, z: ArrayLike, along: str, values: Array) -> SystemPath | None:
     """Prepare a system whose U is affine in (c, s) all along a line, as the e-linear system that it is.
 
     Parameters
@@ -239,7 +239,7 @@ def linear_path(system: Any, psi: Psi, z: ArrayLike, along: str, values: Array) 
 
     Returns
     -------
-    Line or None
+    SystemPath or None
         Places are told in the axes of the system, which for an `ELinear.from_matrix` are those of its normal form at
         each value. None if U is not affine, or where the axes of the normal form turn by nearly half a turn or jump,
         as they do beside a symmetric part that is a multiple of the unit matrix.
@@ -249,28 +249,28 @@ def linear_path(system: Any, psi: Psi, z: ArrayLike, along: str, values: Array) 
         return None
     own = system.typed is not None
     z = z if system.frozen else system.at(z).z or z  # with the time of a clock
-    path = Line(family(linear, psi, z, along, spans=(values,)))
+    path = SystemPath(family(linear, psi, z, along, spans=(values,)))
     plane = path(values)
     if plane.turn is None or plane.given is None or not plane.defined.any():
         return path
     if own and not linear.frozen and not (plane.given[1] + plane.given[2]).any():  # without a rotation
         (a, _), (b, d) = linear.given_matrix
-        return Line(replace(path.family, system=replace(linear, a=a, b=b, d=d, given_matrix=None)))
+        return SystemPath(replace(path.family, system=replace(linear, a=a, b=b, d=d, given_matrix=None)))
     turns = np.unwrap(plane.turn[plane.defined], period=np.pi)
     if np.ptp(turns) > MAX_REACH or (abs(np.diff(turns)) > MAX_TURN).any():
         return None if own else path
-    return Line(replace(path.family, axes=0.5 * float(turns.min() + turns.max()), own_axes=own))
+    return SystemPath(replace(path.family, axes=0.5 * float(turns.min() + turns.max()), own_axes=own))
 
 
 def _needs(system: ELinear, varying: tuple[str, ...]) -> bool:
     """Whether a, b, d, f1, f2 are more than the numbers given and the values themselves."""
     if system.given_matrix is not None:
         return True
-    used = {name for what, e in system.expressions if what in _NAMES for name in e.names}
+    used = {name for what, e in system.expressions if what in _COEFFICIENTS for name in e.names}
     return bool(used & {*varying, "z" if "z1" in varying else ""})
 
 
-def _rows(system: ELinear, z: ArrayLike, values: Mapping[str, Array]) -> list[Any]:
+def _coefficient_rows(system: ELinear, z: ArrayLike, values: Mapping[str, Array]) -> list[Any]:
     """Return a, b, d, f1, f2, or the matrix as given (rows first), f1, f2."""
     held: dict[str, Any] = dict(system.parameters)
     for i, value in enumerate(np.atleast_1d(np.asarray(z, float))):

@@ -8,26 +8,25 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import drawing
+from ..arrays import Array
 from ..continuation.result import CycleBranch, CycleBranches, CyclePoint
 from ..paper import CHANGES
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from ..tables import Tabled, frame, number, paragraphs, table, write
+from ..tables import Tabled, frame, html_table, paragraphs, table_number, write_csv
 from ..words import say
-from .family import Line, linear_path, values_over
+from .family import SystemPath, linear_path, values_over
 
 __all__ = ["Branches", "ClosedEquator", "CriticalBranch", "DirectionBranch", "SpecialValue"]
 
-Array = NDArray[np.float64]
 _COLUMNS = (
     "theta", "lambda_rho", "lambda_theta", "c", "s", "p_x", "p_y", "trace", "determinant", "period", "amplitude",
     "exponent",
 )  # fmt: skip
 #: Special points of branches of cycles that what stands still has already, or that are none of the system's.
-KNOWN = ("Hopf", "span", "closed")
+UNREPORTED_KINDS = ("Hopf", "span", "closed")
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +63,7 @@ class SpecialValue(Tabled):
         return CHANGES[self.kind]
 
     def _row_(self) -> tuple[str, ...]:
-        return self.kind, number(self.value), self.sentence
+        return self.kind, table_number(self.value), self.sentence
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,7 +174,7 @@ class Branches:
     @property
     def special(self) -> tuple[SpecialValue | CyclePoint, ...]:
         """All special points, of what stands still and of limit cycles, by increasing value; Hopf points once."""
-        of_cycles = [one for branch in self.cycles for one in branch.special if one.kind not in KNOWN]
+        of_cycles = [one for branch in self.cycles for one in branch.special if one.kind not in UNREPORTED_KINDS]
         return tuple(sorted([*self.standing, *of_cycles], key=lambda one: one.value))
 
     @property
@@ -217,7 +216,7 @@ class Branches:
 
     def to_csv(self, path: str | Path) -> None:
         """Write what `to_frame` has as CSV."""
-        write(path, self._records())
+        write_csv(path, self._records())
 
     def _records(self) -> Iterator[dict[str, Any]]:
         for i, way in enumerate(self.limit_directions):
@@ -249,11 +248,13 @@ class Branches:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        special = table(("at", self.along, "what happens"), [(*one._row_()[:2], one.sentence) for one in self.special])
+        special = html_table(
+            ("at", self.along, "what happens"), [(*one._row_()[:2], one.sentence) for one in self.special]
+        )
         return (self._repr_svg_() or "") + special + paragraphs([self.cycles.reason, *self.notes])
 
 
-def _in_own_axes(branch: CycleBranch, path: Line) -> CycleBranch:
+def _in_own_axes(branch: CycleBranch, path: SystemPath) -> CycleBranch:
     """Return a branch with its places in the axes in which they are told."""
     angle = path(branch.value).back
     c, s = np.cos(angle), np.sin(angle)

@@ -12,11 +12,11 @@ from ..layer_problem.vary import names, value_of, vary
 from ..portrait.classify import portrait_name
 from ..psi.function import Psi
 
-STEP = 1e-6  # of the value or of 1: far beyond rounding, far below what can be seen
+SIDE_STEP = 1e-6  # of the value or of 1: far beyond rounding, far below what can be seen
 
 
 @dataclass(frozen=True, slots=True)
-class Sides:
+class NeighbouringPortraits:
     """The portraits on both sides of a setting.
 
     Attributes
@@ -32,7 +32,7 @@ class Sides:
     above: str
 
 
-def sides(system: Any, psi: Psi, z: ArrayLike = (), name: str = "") -> Sides | None:
+def sides(system: Any, psi: Psi, z: ArrayLike = (), name: str = "") -> NeighbouringPortraits | None:
     """Return the names of the portraits a little below and a little above the present value of one thing.
 
     Parameters
@@ -46,7 +46,7 @@ def sides(system: Any, psi: Psi, z: ArrayLike = (), name: str = "") -> Sides | N
 
     Returns
     -------
-    Sides or None
+    NeighbouringPortraits or None
         None if nothing can be varied.
     """
     known = names(system, psi, z)
@@ -55,7 +55,7 @@ def sides(system: Any, psi: Psi, z: ArrayLike = (), name: str = "") -> Sides | N
     if not name:
         return None
     value = value_of(system, psi, z, name)
-    step = STEP * max(1.0, abs(value))
+    step = SIDE_STEP * max(1.0, abs(value))
     found = []
     for moved in (value - step, value + step):
         try:
@@ -63,4 +63,4 @@ def sides(system: Any, psi: Psi, z: ArrayLike = (), name: str = "") -> Sides | N
             found.append(portrait_name(LayerProblem(other.at(place), family)).name)
         except ValueError:  # the end of what is allowed
             found.append("")
-    return Sides(name, *found)
+    return NeighbouringPortraits(name, *found)

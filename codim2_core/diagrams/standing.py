@@ -6,23 +6,22 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..continuation.result import CycleBranches
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
 from ..words import say
 from .audit import samples_beside
-from .critical import borders, critical_part
+from .critical import critical_part, existence_borders
 from .equator import equator_part
 from .family import linear_path, values_over
 from .result import Branches, ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
-from .sweep import Line, Plane, scale
+from .sweep import Plane, SystemPath, scale
 from .typed.parts import general_parts
 
-Array = NDArray[np.float64]
-
-_AUDITS = 5  # times that special values are looked for
+_MAX_AUDITS = 5  # times that special values are looked for
 
 
 def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float], z: ArrayLike = ()) -> Branches:
@@ -44,7 +43,7 @@ def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float
     return Branches(system, psi, slow, along, (low, high), *parts)
 
 
-Parts = tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
+EquilibriumParts = tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
 Gaps = list[tuple[float, float]]
 
 
@@ -73,12 +72,12 @@ def _find_parts(
     return equator, closed, critical, special, gaps
 
 
-def _mark_run(path: Line, run: Array, exponent: int) -> Parts:
+def _mark_run(path: SystemPath, run: Array, exponent: int) -> EquilibriumParts:
     """Branches and special values of a run, looked for again where something changes between them."""
     extra = np.zeros(0)
-    parts: Parts = [], [], [], []
-    for _ in range(_AUDITS):
-        cuts = borders(path, run, exponent)
+    parts: EquilibriumParts = [], [], [], []
+    for _ in range(_MAX_AUDITS):
+        cuts = existence_borders(path, run, exponent)
         critical, special = critical_part(path, run, exponent, cuts, extra)
         equator, closed, more = equator_part(path, run, exponent, cuts)
         special += more
@@ -93,7 +92,7 @@ def _mark_run(path: Line, run: Array, exponent: int) -> Parts:
     return parts
 
 
-def _runs(path: Line, grid: Array, whole: Plane) -> tuple[list[Array], list[tuple[float, float]]]:
+def _runs(path: SystemPath, grid: Array, whole: Plane) -> tuple[list[Array], list[tuple[float, float]]]:
     """Parts of the grid on which all coefficients are finite, and what lies between."""
     defined = whole.defined
     poles: list[float] = []

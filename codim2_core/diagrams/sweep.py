@@ -12,19 +12,20 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.border import CANCELS, to_all_digits
 from ..layer_problem.location import locate
 from ..numerics.trigonometric import tangential_zeros
 from ..psi.constructors import many
-from .family import Line, Plane, Sweep, family
+from .family import FamilySweep, Plane, SystemPath, family
 
 __all__ = [
     "KINDS",
     "UNDEFINED",
-    "Line",
+    "FamilySweep",
     "Linearisation",
     "Plane",
-    "Sweep",
+    "SystemPath",
     "border_functions",
     "class_name",
     "classes",
@@ -32,7 +33,6 @@ __all__ = [
     "linearise",
 ]
 
-Array = NDArray[np.float64]
 
 KINDS = ("", "saddle", "stable node", "stable focus", "unstable node", "unstable focus", "centre (linear)")
 UNDEFINED = -1  # a coefficient is not finite there

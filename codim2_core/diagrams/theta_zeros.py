@@ -11,19 +11,21 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..numerics.trigonometric import real_zeros, tangential_zeros
-from .sweep import Line, Plane
+from .sweep import Plane, SystemPath
 
-__all__ = ["Meeting", "lambda_rho", "meetings", "theta_slope", "theta_value", "theta_zeros"]
-
-Array = NDArray[np.float64]
-
-_STEP = 2.0 * math.pi / 256
-_ANGLES = _STEP * (np.arange(256) + 0.2719)
-_NET = np.stack([np.ones(256), np.cos(_ANGLES), np.sin(_ANGLES), 0.5 * np.sin(2.0 * _ANGLES)], axis=1)
+__all__ = ["MultipleZero", "lambda_rho", "multiple_zeros", "theta_slope", "theta_value", "theta_zeros"]
 
 
-class Meeting(NamedTuple):
+_NET_STEP = 2.0 * math.pi / 256
+_NET_ANGLES = _NET_STEP * (np.arange(256) + 0.2719)
+_TRIGONOMETRIC_NET = np.stack(
+    [np.ones(256), np.cos(_NET_ANGLES), np.sin(_NET_ANGLES), 0.5 * np.sin(2.0 * _NET_ANGLES)], axis=1
+)
+
+
+class MultipleZero(NamedTuple):
     """A multiple zero of Theta: its kind, the parameter's value and the direction."""
 
     kind: str
@@ -33,26 +35,26 @@ class Meeting(NamedTuple):
 
 def theta_value(plane: Plane, theta: Array) -> Array:
     """Theta; theta of shape (k,) or (k, j)."""
-    a, b, d, f1, f2 = _columns(plane, theta)
+    a, b, d, f1, f2 = _plane_columns(plane, theta)
     c, s = np.cos(theta), np.sin(theta)
     return b + f2 * c - f1 * s + (d - a) * s * c
 
 
 def theta_slope(plane: Plane, theta: Array) -> Array:
     """lambda_theta = dTheta/dtheta."""
-    a, _, d, f1, f2 = _columns(plane, theta)
+    a, _, d, f1, f2 = _plane_columns(plane, theta)
     c, s = np.cos(theta), np.sin(theta)
     return (d - a) * (c - s) * (c + s) - f2 * s - f1 * c
 
 
 def lambda_rho(plane: Plane, theta: Array) -> Array:
     """lambda_rho = e.U."""
-    a, _, d, f1, f2 = _columns(plane, theta)
+    a, _, d, f1, f2 = _plane_columns(plane, theta)
     c, s = np.cos(theta), np.sin(theta)
     return a * c * c + d * s * s + f1 * c + f2 * s
 
 
-def _columns(plane: Plane, theta: Array) -> tuple[Array, ...]:
+def _plane_columns(plane: Plane, theta: Array) -> tuple[Array, ...]:
     return tuple(v[:, None] for v in plane.arrays) if theta.ndim == 2 else plane.arrays
 
 
@@ -72,14 +74,14 @@ def theta_zeros(plane: Plane, count: int) -> Array:
     k = len(plane)
     if not count or not k:
         return np.zeros((k, count))
-    values = _rows(plane) @ _NET.T
+    values = _theta_rows(plane) @ _TRIGONOMETRIC_NET.T
     row, place = np.nonzero(values * np.roll(values, -1, axis=1) <= 0.0)
     seen = (np.bincount(row, minlength=k) == count)[row]
     theta = np.full((k, count), np.nan)
-    theta[np.unique(row[seen])] = _ANGLES[place[seen]].reshape(-1, count) + 0.5 * _STEP
+    theta[np.unique(row[seen])] = _NET_ANGLES[place[seen]].reshape(-1, count) + 0.5 * _NET_STEP
     with np.errstate(all="ignore"):
         for _ in range(6):
-            theta = theta - np.clip(theta_value(plane, theta) / theta_slope(plane, theta), -_STEP, _STEP)
+            theta = theta - np.clip(theta_value(plane, theta) / theta_slope(plane, theta), -_NET_STEP, _NET_STEP)
         size = np.sum([abs(v) for v in plane.arrays], axis=0)
         off = abs(theta_value(plane, theta)) > 1e-12 * size[:, None]
         theta = np.sort(theta % (2.0 * math.pi), axis=1)
@@ -93,7 +95,7 @@ def theta_zeros(plane: Plane, count: int) -> Array:
     return theta
 
 
-def meetings(path: Line, span: tuple[float, float], near: Array, step: float) -> list[Meeting]:
+def multiple_zeros(path: SystemPath, span: tuple[float, float], near: Array, step: float) -> list[MultipleZero]:
     """Find where zeros of Theta meet, near some values of the parameter.
 
     From each extremum of Theta that is small enough, Newton's method solves Theta = Theta' = 0 (saddle-node). Where
@@ -112,14 +114,14 @@ def meetings(path: Line, span: tuple[float, float], near: Array, step: float) ->
 
     Returns
     -------
-    list of Meeting
+    list of MultipleZero
         By increasing value; kinds "saddle-node", "triple", "exchange", and "touch" if no other zero is near beside it.
     """
     theta0, value0 = _starts(path, near, step, span)
     if not len(theta0):
         return []
     width = span[1] - span[0]
-    found: list[Meeting] = []
+    found: list[MultipleZero] = []
 
     def add(kind: str, theta: Array, value: Array, good: NDArray[np.bool_]) -> None:
         for t, v in zip(theta[good].tolist(), value[good].tolist(), strict=True):
@@ -129,7 +131,7 @@ def meetings(path: Line, span: tuple[float, float], near: Array, step: float) ->
                 if (apart <= 1e-10 and turn <= 1e-6) or (m.kind != kind and apart <= 1e-5 and turn <= 1e-2):
                     break
             else:
-                found.append(Meeting(_name_crossing(kind, path, span, t, v), v, t % (2.0 * math.pi)))
+                found.append(MultipleZero(_name_crossing(kind, path, span, t, v), v, t % (2.0 * math.pi)))
 
     plain = _solve("saddle-node", path, span, theta0, value0, 1.5 * step)
     rest = ~plain.regular
@@ -141,7 +143,7 @@ def meetings(path: Line, span: tuple[float, float], near: Array, step: float) ->
     return sorted(found, key=lambda m: (m.value, m.theta))
 
 
-def _starts(path: Line, near: Array, step: float, span: tuple[float, float]) -> tuple[Array, Array]:
+def _starts(path: SystemPath, near: Array, step: float, span: tuple[float, float]) -> tuple[Array, Array]:
     """Extrema of Theta that may become zero within a step."""
     rows, first, second = _theta_coefficients(path, span, near)
     most = 2.0 * abs(first).sum(axis=1) * step + 4.0 * abs(second).sum(axis=1) * step**2 + 1e-9 * abs(rows).sum(axis=1)
@@ -156,7 +158,7 @@ def _starts(path: Line, near: Array, step: float, span: tuple[float, float]) -> 
     return np.array(theta), np.array(value)
 
 
-def _name_crossing(kind: str, path: Line, span: tuple[float, float], theta: float, value: float) -> str:
+def _name_crossing(kind: str, path: SystemPath, span: tuple[float, float], theta: float, value: float) -> str:
     """Tell two zeros that pass through each other from two that exist at one value only: a saddle or an extremum."""
     if kind != "exchange":
         return kind
@@ -166,7 +168,7 @@ def _name_crossing(kind: str, path: Line, span: tuple[float, float], theta: floa
     return "exchange" if bend <= 0.0 else "touch"
 
 
-def _rows(plane: Plane) -> Array:
+def _theta_rows(plane: Plane) -> Array:
     """Coefficients (k, 4) of Theta in 1, cos, sin, sin cos."""
     a, b, d, f1, f2 = plane.arrays
     return np.stack([b, f2, -f1, d - a], axis=1)
@@ -186,29 +188,31 @@ def _basis(theta: Array) -> Array:
     )
 
 
-def _theta_coefficients(path: Line, span: tuple[float, float], value: Array) -> tuple[Array, Array, Array]:
+def _theta_coefficients(path: SystemPath, span: tuple[float, float], value: Array) -> tuple[Array, Array, Array]:
     """Coefficients of Theta with their first and second derivative along the path, by differences of order 6."""
     if path.affine:
         unit = np.array([[float(path.names[0] == name) for name in ("b", "f2", "f1", "d")]]) * [1.0, 1.0, -1.0, 1.0]
         unit[0, 3] -= path.names[0] == "a"
-        return _rows(path(value)), np.repeat(unit, len(value), axis=0), np.zeros((len(value), 4))
+        return _theta_rows(path(value)), np.repeat(unit, len(value), axis=0), np.zeros((len(value), 4))
     width = span[1] - span[0]
     step = np.clip(np.minimum(value - span[0], span[1] - value) / 3.0, 1e-6 * width, 2e-3 * width)
     at = value + step * np.arange(-3, 4)[:, None]
-    rows = _rows(path(at.ravel())).reshape(7, len(value), 4)
+    rows = _theta_rows(path(at.ravel())).reshape(7, len(value), 4)
     first = np.tensordot(np.array([-1, 9, -45, 0, 45, -9, 1]) / 60.0, rows, 1) / step[:, None]
     second = np.tensordot(np.array([2, -27, 270, -490, 270, -27, 2]) / 180.0, rows, 1) / step[:, None] ** 2
     return rows[3], first, second
 
 
-class _Settled(NamedTuple):
+class _SettledZeros(NamedTuple):
     theta: Array
     value: Array
     good: NDArray[np.bool_]  # Theta has a multiple zero there
     regular: NDArray[np.bool_]  # and the equations are far from singular
 
 
-def _solve(kind: str, path: Line, span: tuple[float, float], theta: Array, value: Array, reach: float) -> _Settled:
+def _solve(
+    kind: str, path: SystemPath, span: tuple[float, float], theta: Array, value: Array, reach: float
+) -> _SettledZeros:
     """Newton's or Gauss and Newton's method."""
     start, width = value, span[1] - span[0]
     for _ in range(10):
@@ -244,4 +248,4 @@ def _solve(kind: str, path: Line, span: tuple[float, float], theta: Array, value
     if kind == "exchange":
         good &= v0 <= 1e-10 * (change + size)
     regular = good & (t2 > 1e-3 * size) & (v0 > np.maximum(1e-3 * change, 1e-4 * size))
-    return _Settled(theta, value, good, regular)
+    return _SettledZeros(theta, value, good, regular)

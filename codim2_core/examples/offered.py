@@ -22,8 +22,8 @@ EXAMPLE_NAMES = (
 )
 LISTED: tuple[Example, ...] = tuple(import_module(f".{name}", __package__).EXAMPLE for name in EXAMPLE_NAMES)
 
-_known: dict[str, Example] = {example.key: example for example in LISTED}
-catalogue: Mapping[str, Example] = MappingProxyType(_known)  # by key, in the order of menus; grows with `register`
+_examples: dict[str, Example] = {example.key: example for example in LISTED}
+catalogue: Mapping[str, Example] = MappingProxyType(_examples)  # by key, in the order of menus; grows with `register`
 
 
 def register(example: Example) -> Example:
@@ -45,10 +45,10 @@ def register(example: Example) -> Example:
     """
     if not isinstance(example, Example):
         raise ValueError(f"example is of type {type(example).__name__}; give an examples.Example.")
-    if example.key in _known:
+    if example.key in _examples:
         raise ValueError(f"there is an example {example.key!r} already; name the function otherwise.")
     example.check()
-    _known[example.key] = example
+    _examples[example.key] = example
     return example
 
 
@@ -60,6 +60,6 @@ def unregister(key: str) -> None:
     ValueError
         There is no such example, or it is the package's.
     """
-    if not isinstance(key, str) or key not in _known or _known[key] in LISTED:
+    if not isinstance(key, str) or key not in _examples or _examples[key] in LISTED:
         raise ValueError(f"the key {reprlib.repr(key)} is of no example that was registered.")
-    del _known[key]
+    del _examples[key]

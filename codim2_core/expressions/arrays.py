@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from .expression import Expression
 from .functions import code
 from .names import FAST_NAMES, number_names
 from .opcodes import ADD, DIV, HYPOT, MAX, MIN, MUL, NEG, NUM, POW, SLOT, SUB, VAR
 
-Array = NDArray[np.floating[Any]]
 Key = tuple[tuple[Expression, ...], tuple[float, ...]]  # `Frozen.key`: rows of U, and the numbers that they read
 
 _CODES = {"neg": NEG, "+": ADD, "-": SUB, "*": MUL, "/": DIV, "**": POW, "min": MIN, "max": MAX, **code}

@@ -16,7 +16,7 @@ import numpy as np
 
 from . import tape as tapes
 from .functions import known
-from .reader import ExpressionError, check_names, read
+from .reader import ExpressionError, check_names, read_formula
 
 __all__ = ["Expression", "ExpressionError", "parse"]
 
@@ -104,11 +104,11 @@ class Expression:
         except TypeError as error:
             raise ValueError(f"{self.text} needs real numbers: {error}.") from None
         try:
-            return _run(self._tape, tapes.SCALAR, known)
+            return _evaluate_tape(self._tape, tapes.SCALAR, known)
         except (ValueError, ArithmeticError):
             with np.errstate(all="ignore"):
                 known = {name: np.float64(value) for name, value in known.items()}
-                return float(_run(self._tape, tapes.VECTOR, known))
+                return float(_evaluate_tape(self._tape, tapes.VECTOR, known))
 
     def _missing(self, name: str) -> ValueError:
         return ValueError(f"{self.text} needs a value of {name}; give one for each of {', '.join(self.names)}.")
@@ -121,7 +121,7 @@ class Expression:
             known[name] = np.asarray(values[name], float)
         shape = np.broadcast_shapes(*(np.shape(value) for value in values.values()))
         with np.errstate(all="ignore"):
-            result = np.asarray(_run(self._tape, tapes.VECTOR, known), float)
+            result = np.asarray(_evaluate_tape(self._tape, tapes.VECTOR, known), float)
         if result.shape != shape:
             return np.broadcast_to(result, shape).copy()
         return result.copy() if len(self._tape) == 1 else result
@@ -189,7 +189,7 @@ def parse(text: str, names: Iterable[str]) -> Expression:
 @lru_cache(maxsize=512)
 def _parse(text: str, names: tuple[str, ...]) -> Expression:
     check_names(names)
-    return Expression(read(text, names))
+    return Expression(read_formula(text, names))
 
 
 @lru_cache(maxsize=512)
@@ -197,7 +197,7 @@ def _derivative(expression: Expression, name: str) -> Expression:
     return Expression(tapes.derivative(expression.tape, name))
 
 
-def _run(tape: tapes.Tape, operations: Mapping[str, Any], known: Mapping[str, Any]) -> Any:
+def _evaluate_tape(tape: tapes.Tape, operations: Mapping[str, Any], known: Mapping[str, Any]) -> Any:
     results: list[Any] = []
     add = results.append
     for node in tape:
@@ -222,7 +222,7 @@ def _render(tape: tapes.Tape, python: bool) -> str:
     pieces: list[_Piece] = []
     for op, *args in tape:
         if op == "num":
-            piece = _number(args[0], python)
+            piece = _number_text(args[0], python)
         elif op == "name":
             piece = (args[0], _ATOM, 0)
         else:
@@ -237,7 +237,7 @@ def _render(tape: tapes.Tape, python: bool) -> str:
     return pieces[-1][0]
 
 
-def _number(value: float, python: bool) -> _Piece:
+def _number_text(value: float, python: bool) -> _Piece:
     shown = repr(value)
     if not python:
         shown = shown.removesuffix(".0")

@@ -26,7 +26,7 @@ from .opcodes import (
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _value(k, a, b):
+def _operate(k, a, b):
     """Value of operation k on a (and b)."""
     if k == ADD:
         return a + b
@@ -59,7 +59,7 @@ def specialise(op, left, right, number, numbers):
         if k == SLOT:
             op[i], number[i] = NUM, numbers[left[i]]
         elif k > VAR and op[left[i]] == NUM and op[right[i]] == NUM:
-            op[i], number[i] = NUM, _value(k, number[left[i]], number[right[i]])
+            op[i], number[i] = NUM, _operate(k, number[left[i]], number[right[i]])
         elif k == POW and op[right[i]] == NUM:
             exponent = number[right[i]]
             if exponent == math.floor(exponent) and abs(exponent) <= 1000.0:
@@ -86,7 +86,7 @@ def gradients(op, left, right, number, roots, seed, work, out):
         b, b1, b2 = work[right[i], 0], work[right[i], 1], work[right[i], 2]
         if k == POWI:
             b = number[i]
-        v = _value(k, a, b)
+        v = _operate(k, a, b)
         p, q = 0.0, 0.0  # derivatives of v by a and by b
         if k == ADD:
             p, q = 1.0, 1.0

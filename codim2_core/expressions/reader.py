@@ -64,7 +64,7 @@ def check_names(names: tuple[str, ...]) -> None:
             )
 
 
-def read(text: str, names: tuple[str, ...]) -> Tape:
+def read_formula(text: str, names: tuple[str, ...]) -> Tape:
     """Tape of a formula.
 
     Raises

@@ -143,9 +143,9 @@ def _collect_presets() -> dict[str, Preset]:
     return found | bifurcation_presets() | example_presets()
 
 
-_known = _collect_presets()
-_LISTED = frozenset(_known)
-presets: Mapping[str, Preset] = MappingProxyType(_known)  # by name, in the order of menus; grows with `register`
+_presets = _collect_presets()
+_LISTED = frozenset(_presets)
+presets: Mapping[str, Preset] = MappingProxyType(_presets)  # by name, in the order of menus; grows with `register`
 
 
 def register(preset: Preset) -> Preset:
@@ -168,12 +168,12 @@ def register(preset: Preset) -> Preset:
     """
     if not isinstance(preset, Preset):
         raise ValueError(f"preset is of type {type(preset).__name__}; give a Preset.")
-    if not preset.name or not preset.title or preset.name in _known:
+    if not preset.name or not preset.title or preset.name in _presets:
         raise ValueError(f"the preset is named {preset.name!r}, {preset.title!r}; give a name of its own, and a title.")
     preset.psi.check()  # both say what is wrong, if anything is
     preset.system.at(preset.z)
-    _known[preset.name] = replace(preset, group=preset.group or "Your own")
-    return _known[preset.name]
+    _presets[preset.name] = replace(preset, group=preset.group or "Your own")
+    return _presets[preset.name]
 
 
 def unregister(name: str) -> None:
@@ -184,6 +184,6 @@ def unregister(name: str) -> None:
     ValueError
         There is no such preset, or it is the paper's.
     """
-    if name not in _known or name in _LISTED:
+    if name not in _presets or name in _LISTED:
         raise ValueError(f"{name!r} is no preset that was registered.")
-    del _known[name]
+    del _presets[name]

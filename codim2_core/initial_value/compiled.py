@@ -22,14 +22,15 @@ from numba import (
 )
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.functions import kernels
 from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.source import program
-from ..numerics.dense import Dense, Steps
+from ..numerics.dense import Dense, StepArray
 from ..numerics.growth import BlowUpError, too_short
 from ..numerics.radau import Problem, TooManyStepsError, tableau
 from ..psi.function import Psi
-from ..stepping.compiling import Kept
+from ..stepping.compiling import CompiledCache
 from ..stepping.gains import one_gain
 from ..stepping.layout import FIELD
 from ..words import say
@@ -44,21 +45,19 @@ from .kernels.motion import (
     MIN_IMPLICIT_STEPS,
     MIN_STEP,
     SHORT,
-    follow,
     follow_all,
+    integrate_motion,
     price,
 )
-from .kernels.rate import Motion
+from .kernels.rate import MotionConstants
 from .kernels.stages import tableau_of, workspace
 from .line import InvariantLine
-
-Array = NDArray[np.float64]
 
 MOST_SYSTEMS = 64
 STEPS_PER_CALL = 256  # steps that one call fills in
 SHARED_OUT = 16  # motions at once that are shared out to all cores, in as many parts each, at most so many in one
 PARTS_PER_CORE, LARGEST_PART = 4, 256
-_fields = Kept(MOST_SYSTEMS)
+_fields = CompiledCache(MOST_SYSTEMS)
 
 
 def is_compiled(field: Field) -> bool:
@@ -69,10 +68,10 @@ def is_compiled(field: Field) -> bool:
 def _compile_field(field: Field) -> tuple[Any, Any]:
     names = (*FAST_NAMES, *SLOW_NAMES[: field.m])
     slopes = [row.derivative(name) for row in field.rows for name in names]
-    return tuple(_function(rows, names) for rows in (field.rows, slopes))  # pyright: ignore[reportReturnType]
+    return tuple(_compile_rows(rows, names) for rows in (field.rows, slopes))  # pyright: ignore[reportReturnType]
 
 
-def _function(rows: Any, names: tuple[str, ...]) -> Any:
+def _compile_rows(rows: Any, names: tuple[str, ...]) -> Any:
     written = program(rows, {name: name for name in names}, names)
     lines = [
         f"A, D = carray(state, ({len(names)},)), carray(out, ({len(rows)},))",
@@ -100,22 +99,22 @@ def _table() -> Any:
 
 
 @dataclass(frozen=True)
-class Functions:
+class CompiledFunctions:
     """The compiled functions of a field and a Psi: they must outlive the use of their addresses."""
 
     functions: tuple[Any, ...]
     addresses: NDArray[np.int64]
 
 
-_last = Kept(MOST_SYSTEMS)
+_last = CompiledCache(MOST_SYSTEMS)
 
 
-def functions_of(field: Field, psi: Psi) -> Functions:
+def functions_of(field: Field, psi: Psi) -> CompiledFunctions:
     """Return the compiled functions of a field and a Psi; they are compiled when they are first asked for."""
 
-    def make() -> Functions:
+    def make() -> CompiledFunctions:
         functions = (*_fields.get(field.rows, lambda: _compile_field(field)), one_gain(psi))
-        return Functions(functions, np.array([function.address for function in functions], np.int64))
+        return CompiledFunctions(functions, np.array([function.address for function in functions], np.int64))
 
     return _last.get((field.rows, psi), make)
 
@@ -128,7 +127,7 @@ def failure(problem: Problem, code: int, t: float, state: Array) -> TooManySteps
     problem : Problem
         The same in Python.
     code : int
-        Of `follow`.
+        Of `integrate_motion`.
     t : float
     state : ndarray (n,)
         The last ones.
@@ -182,7 +181,7 @@ class CompiledMotion:
         self.functions, self.parameter = functions_of(field, psi), psi.parameter
         along = (0.0, 0.0) if line is None else line.vector
         value, slopes, gain = self.functions.addresses.tolist()
-        self.motion = Motion(value, slopes, gain, n, eps, rtol, floor, along[0], along[1])
+        self.motion = MotionConstants(value, slopes, gain, n, eps, rtol, floor, along[0], along[1])
         self.y, self.clock = np.array(first), np.array([t_start, 0.0, t_end, 0.0])
         implicit = 1.0 if n > MAX_COMPONENTS else 0.0
         largest = max(1.0, float(np.abs(first).max()))
@@ -195,7 +194,7 @@ class CompiledMotion:
         """Evaluations of the field so far."""
         return int(self.clock[3])
 
-    def chunks(self) -> Iterator[Steps]:
+    def chunks(self) -> Iterator[StepArray]:
         """Step to the end.
 
         Raises
@@ -209,10 +208,10 @@ class CompiledMotion:
             starts, lengths = np.empty(count), np.empty(count)
             ends, polynomials = np.empty((count, n)), np.empty((count, n, DENSE_DEGREE))
             begin = self.y.copy()
-            code, filled = follow(
+            code, filled = integrate_motion(
                 self.motion, table, work, self.y, self.clock, self.control, starts, lengths, ends, polynomials
             )
-            yield Steps(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
+            yield StepArray(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
         error = self.failure(code)
         if error is not None:
             raise error
@@ -227,7 +226,7 @@ class CompiledMotion:
 
 
 @dataclass(frozen=True)
-class Ended:
+class CompletedMotion:
     """A motion that was followed all the way: its dense output, why it ended (`failure`), and its evaluations."""
 
     motion: Dense
@@ -246,7 +245,7 @@ def integrate_compiled(
     rtol: float,
     floor: float,
     most: int,
-) -> list[Ended]:
+) -> list[CompletedMotion]:
     """Follow one motion from each state; of many, on all cores.
 
     Parameters
@@ -271,7 +270,7 @@ def integrate_compiled(
         if line is not None:
             along[i] = line.n
 
-    def part(cut: slice) -> list[Ended]:
+    def part(cut: slice) -> list[CompletedMotion]:
         found = follow_all(made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))
         return _split_motions(*found, first.shape[1])
 
@@ -291,7 +290,9 @@ def shared_out(part: Callable[[slice], list[Any]], count: int) -> list[Any]:
         return [one for found in pool.map(part, cuts) for one in found]
 
 
-def _split_motions(times: Array, lengths: Array, states: Array, polynomials: Array, told: Array, n: int) -> list[Ended]:
+def _split_motions(
+    times: Array, lengths: Array, states: Array, polynomials: Array, told: Array, n: int
+) -> list[CompletedMotion]:
     """Cut what `follow_all` returns into motions, without copying."""
     states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DENSE_DEGREE)
     for array in (times, lengths, states, polynomials):
@@ -300,6 +301,6 @@ def _split_motions(times: Array, lengths: Array, states: Array, polynomials: Arr
     for steps, code, t, evaluations in told.tolist():
         last = row + int(steps)
         motion = Dense(times[row : last + 1], states[row : last + 1], lengths[row:last], polynomials[row:last])
-        found.append(Ended(motion, int(code), t, int(evaluations)))
+        found.append(CompletedMotion(motion, int(code), t, int(evaluations)))
         row = last + 1
     return found

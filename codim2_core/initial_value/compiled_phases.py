@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from dataclasses import field as made_with
 from typing import TYPE_CHECKING
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ..arrays import Array
 from ..numerics.radau import Problem, Step
 from ..psi.constructors import constant
 from .field import Field
@@ -19,7 +17,6 @@ if TYPE_CHECKING:
     from .compiled import CompiledMotion
     from .compiled_slow import CompiledSlow
 
-Array = NDArray[np.float64]
 
 #: Of rtol, asked of the steps of a slip: explicit ones use up what is allowed, implicit ones leave most of it. So a
 #: slip is as accurate as the same one in Python, for a tenth more steps.

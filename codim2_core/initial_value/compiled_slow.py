@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..numerics.dense import Steps
+from ..arrays import Array
+from ..numerics.dense import StepArray
 from ..numerics.growth import too_short
 from ..numerics.radau import Problem, TooManyStepsError
 from ..psi.constructors import constant
@@ -16,8 +16,6 @@ from .field import Field
 from .kernels.motion import LEAST_STEP, SHORT
 from .kernels.slow import SLOPES, SLOW_EXTENT, SLOW_RATES, VALUE, flow, sets
 from .line import InvariantLine
-
-Array = NDArray[np.float64]
 
 SLOW_STEPS_PER_CALL = 64  # steps that one call fills in
 
@@ -79,7 +77,7 @@ class CompiledSlow(CompiledMotion):
             else failure(self.problem, code, t, z)
         )
 
-    def sets(self, steps: Steps, u: Array) -> tuple[Array, Array]:
+    def sets(self, steps: StepArray, u: Array) -> tuple[Array, Array]:
         """Return e (k, d, 2) and D_e U (k, d, 2, 2) at d fractions of steps."""
         first = np.concatenate([steps.first[None], steps.ends[:-1]])
         powers = u[:, None] ** np.arange(1, steps.polynomials.shape[2] + 1)

@@ -7,23 +7,21 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..numerics.dense import Dense
 from ..psi.constructors import constant
 from ..psi.function import Psi
 from .compiled import functions_of, numbers_of_tableau, shared_out
 from .field import Field
-from .kernels.course import ROW, TOLD, follow_courses
+from .kernels.course import PHASE_NUMBERS, TOLD, follow_courses
 from .kernels.explicit import DENSE_DEGREE
 from .kernels.slow import flow
 from .line import InvariantLine
 
-Array = NDArray[np.float64]
-
 
 @dataclass(frozen=True)
-class Leg:
+class Segment:
     """A phase that has been followed.
 
     Attributes
@@ -43,7 +41,7 @@ class Leg:
 
 
 @dataclass(frozen=True, eq=False)
-class Followed:
+class DecidedMotion:
     """A motion as far as it is decided.
 
     Attributes
@@ -51,7 +49,7 @@ class Followed:
     motion : Dense
     sets : ndarray (k, 2)
         e at its times, where it slides.
-    legs : tuple of Leg
+    legs : tuple of Segment
     onward : int
         What comes next where it is handed over, as `Leg.kind`; WHOLE of `kernels.course` where nothing does.
     theta : float
@@ -61,7 +59,7 @@ class Followed:
 
     motion: Dense
     sets: Array
-    legs: tuple[Leg, ...]
+    legs: tuple[Segment, ...]
     onward: int
     theta: float
     evaluations: int
@@ -82,7 +80,7 @@ def run_hybrid(
     rtol: float,
     floor: float,
     most: int,
-) -> list[Followed]:
+) -> list[DecidedMotion]:
     """Follow one motion from each state outside Sigma; of many, on all cores.
 
     Parameters
@@ -105,7 +103,7 @@ def run_hybrid(
         if line is not None:
             along[i] = line.n
 
-    def part(cut: slice) -> list[Followed]:
+    def part(cut: slice) -> list[DecidedMotion]:
         found = follow_courses(addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))
         times, lengths, states, polynomials, sets, phases, told = found
         return _split_motions(times, lengths, states, polynomials, sets, phases, told, first.shape[1])
@@ -115,18 +113,20 @@ def run_hybrid(
 
 def _split_motions(
     times: Array, lengths: Array, states: Array, polynomials: Array, sets: Array, phases: Array, told: Array, n: int
-) -> list[Followed]:
+) -> list[DecidedMotion]:
     """Cut what `follow_courses` returns into motions, without copying."""
     states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DENSE_DEGREE)
     sets = sets.reshape(-1, 2)
     for array in (times, lengths, states, polynomials, sets):
         array.flags.writeable = False
-    legs = [Leg(int(kind), int(a), int(b), theta) for _, kind, a, b, theta in phases.reshape(-1, ROW).tolist()]
+    legs = [
+        Segment(int(kind), int(a), int(b), theta) for _, kind, a, b, theta in phases.reshape(-1, PHASE_NUMBERS).tolist()
+    ]
     found, row, leg = [], 0, 0
     for steps, count, onward, theta, evaluations in told.reshape(-1, TOLD).tolist():
         last, next_leg = row + int(steps), leg + int(count)
         motion = Dense(times[row : last + 1], states[row : last + 1], lengths[row:last], polynomials[row:last])
         own = tuple(legs[leg:next_leg])
-        found.append(Followed(motion, sets[row : last + 1], own, int(onward), theta, int(evaluations)))
+        found.append(DecidedMotion(motion, sets[row : last + 1], own, int(onward), theta, int(evaluations)))
         row, leg = last + 1, next_leg
     return found

@@ -9,11 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..numerics.radau import Step, truncate_step
-
-Array = NDArray[np.float64]
 
 DEGREES = (8, 16, 32, 64)  # of the polynomials tried for an event along a step
 RESOLVED = 1e-7  # last coefficients, in units of the largest, from which on a polynomial is taken for the event
@@ -71,7 +69,7 @@ def checked_events(events: Any) -> tuple[Event, ...]:
     return tuple(event if isinstance(event, Event) else Event(event) for event in given)
 
 
-class Watch:
+class EventWatch:
     """Events under watch along a motion.
 
     Parameters
@@ -125,7 +123,7 @@ class Watch:
         """Zeros of event i along a step: as fraction of the step, and whether it rises there."""
         along = lambda u: self.value(i, step.start + u * step.h, step.last if u == 1.0 else step.at(u))
         start, self.before[i] = self.before[i], along(1.0)
-        u, values = turns(along, start, self.before[i])
+        u, values = monotone_fractions(along, start, self.before[i])
         found: list[tuple[float, bool]] = []
         for low, high, at_low, at_high in zip(u, u[1:], values, values[1:], strict=False):
             if at_low < 0.0 <= at_high or at_low > 0.0 >= at_high:
@@ -133,7 +131,7 @@ class Watch:
         return found
 
 
-def turns(
+def monotone_fractions(
     along: Callable[[float], float], start: float, end: float, degrees: Sequence[int] = DEGREES
 ) -> tuple[list[float], list[float]]:
     """Return fractions of a step, between which a function along it is monotone, and its values there."""

@@ -13,8 +13,8 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.expression import Expression, parse
 from ..expressions.functions import called
 from ..expressions.names import FAST_NAMES, SLOW_NAMES
@@ -26,7 +26,6 @@ from ..systems.typed import System
 from ..systems.typed_at_z import Frozen
 from ..systems.typed_formulas import Formulas
 
-Array = NDArray[np.float64]
 ONE_SIDED_DISTANCE = 1e-9
 
 
@@ -66,7 +65,7 @@ class Field:
 
 @lru_cache(maxsize=32)
 def _of_hashable(system: ELinear | System | Frozen) -> Field:
-    return _field(rows_of(system), system.m)
+    return _make_field(rows_of(system), system.m)
 
 
 def _coefficients_rows(system: Coefficients, kept: Sequence[str] = ()) -> list[Expression]:
@@ -74,7 +73,7 @@ def _coefficients_rows(system: Coefficients, kept: Sequence[str] = ()) -> list[E
         parse(name, (name,)) if name in kept else value
         for name, value in zip(Coefficients.variable, (system.a, system.b, system.d, system.f1, system.f2), strict=True)
     )
-    return _affine((a, b, d), (f1, f2), system.B.tolist(), system.g.tolist(), (1.0, 0.0))
+    return _affine_rows((a, b, d), (f1, f2), system.B.tolist(), system.g.tolist(), (1.0, 0.0))
 
 
 def field(system: AnySystem) -> Field:
@@ -91,18 +90,18 @@ def field(system: AnySystem) -> Field:
         An ELinear made `from_matrix` whose rotation into the normal form depends on z: its axes turn with z.
     """
     if isinstance(system, Coefficients):
-        return _field(_coefficients_rows(system), len(system.g))
+        return _make_field(_coefficients_rows(system), len(system.g))
     return _of_hashable(system)
 
 
 def backwards(formulas: Field) -> Field:
     """Return the field of the same motions run backwards: -U and -W."""
-    return _backwards(formulas.rows, formulas.m)
+    return _reverse_field(formulas.rows, formulas.m)
 
 
 @lru_cache(maxsize=32)
-def _backwards(rows: tuple[Expression, ...], m: int) -> Field:
-    return _field([_fill_template("-r", r=row) for row in rows], m)
+def _reverse_field(rows: tuple[Expression, ...], m: int) -> Field:
+    return _make_field([_fill_template("-r", r=row) for row in rows], m)
 
 
 def backwards_system(system: AnySystem) -> System:
@@ -131,21 +130,21 @@ def rows_of(system: AnySystem, kept: Sequence[str] = ()) -> list[Expression]:
         return _elinear_rows(system, kept)
     rows = _system_rows(system.typed, kept)
     for name, value in zip(SLOW_NAMES, getattr(system, "z", ()), strict=False):  # of one that is frozen
-        rows = [row.substitute(name, _number(value)) for row in rows]
+        rows = [row.substitute(name, _constant(value)) for row in rows]
     return rows
 
 
-def _number(value: float) -> Expression:
+def _constant(value: float) -> Expression:
     return parse(repr(float(value)), ())
 
 
 def _system_rows(system: Formulas, kept: Sequence[str] = ()) -> list[Expression]:
-    rows = [*system.U, *(system.W or [_number(0.0)] * system.m)]
+    rows = [*system.U, *(system.W or [_constant(0.0)] * system.m)]
     return _with_parameters(rows, [pair for pair in system.parameters if pair[0] not in kept])
 
 
 def _with_parameters(rows: Sequence[Expression], parameters: Sequence[tuple[str, float]]) -> list[Expression]:
-    values = [(name, _number(value)) for name, value in parameters]
+    values = [(name, _constant(value)) for name, value in parameters]
     found = []
     for row in rows:
         for name, value in values:
@@ -160,7 +159,7 @@ def _elinear_rows(system: ELinear, kept: Sequence[str] = ()) -> list[Expression]
     def as_expression(value: Any, name: str = "") -> Expression:
         if name in kept:
             return parse(name, (name,))
-        expression = value if isinstance(value, Expression) else _number(value)
+        expression = value if isinstance(value, Expression) else _constant(value)
         expression = _with_parameters([expression], values)[0]
         return expression.substitute("z", parse("z1", SLOW_NAMES)) if "z" in expression.names else expression
 
@@ -185,10 +184,12 @@ def _elinear_rows(system: ELinear, kept: Sequence[str] = ()) -> list[Expression]
             )
         still = ELinear.from_matrix(np.array(entries, float)).at()
         abd, axes = [still.a, still.b, still.d], (math.cos(still.rotation), math.sin(still.rotation))
-    return _affine(abd, f, B, g, axes)
+    return _affine_rows(abd, f, B, g, axes)
 
 
-def _affine(abd: Sequence[Any], f: Sequence[Any], B: Sequence[Any], g: Sequence[Any], axes: Any) -> list[Expression]:
+def _affine_rows(
+    abd: Sequence[Any], f: Sequence[Any], B: Sequence[Any], g: Sequence[Any], axes: Any
+) -> list[Expression]:
     """Rows of ``A e + R f`` and ``B R^T e + g``, R the rotation by the angle whose cosine and sine are `axes`."""
     a, b, d = abd
     k, n = axes
@@ -209,11 +210,11 @@ def _fill_template(template: str, **values: Any) -> Expression:
         template = template.replace(name, name.upper())
     row = parse(template, (*FAST_NAMES, *(name.upper() for name in values)))
     for name, value in values.items():
-        row = row.substitute(name.upper(), value if isinstance(value, Expression) else _number(value))
+        row = row.substitute(name.upper(), value if isinstance(value, Expression) else _constant(value))
     return row
 
 
-def _field(rows: Sequence[Expression], m: int) -> Field:
+def _make_field(rows: Sequence[Expression], m: int) -> Field:
     names = (*FAST_NAMES, *SLOW_NAMES[:m])
     slopes = [row.derivative(name) for row in rows for name in names]
     return Field(m, tuple(rows), function_of(rows, names), function_of(slopes, names))

@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..numerics.radau import STAGES, Step
 from ..words import say
 from .field import Field
 from .line import InvariantLine
-
-Array = NDArray[np.float64]
 
 FAST_START, SLOW_START = (
     1e-9,

@@ -13,11 +13,9 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from .field import Field
-
-Array = NDArray[np.float64]
 
 INVARIANCE_SAMPLES = 16  # points at which invariance is asked
 EXACT = 1e-13  # of both products in n x U: what counts as parallel

@@ -10,13 +10,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..numerics.radau import Problem
 from ..psi.function import Psi
 from .field import Field
-
-Array = NDArray[np.float64]
 
 MAX_INWARD_SHARE = 0.9  # of rho: how far towards Sigma one step may go
 CONTACT = 20.0  # times eps: so near, what looks like a way inward may be the rounding of a slide, eps times 1/rtol

@@ -1,7 +1,7 @@
 """Steps of a slide along which it surely does not end: told for many at once, so that few have to be looked at closely.
 
 What turns negative where a slide ends is taken at five points of each step, and bounded between them by the polynomial
-through these, as `events.turns` does.
+through these, as `events.monotone_fractions` does.
 """
 
 from __future__ import annotations
@@ -12,10 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..psi.function import Psi
 from .events import chebyshev_coefficients
-
-Array = NDArray[np.float64]
 
 SAFE_DEGREE = 4
 LEFT_OUT = 8.0
@@ -23,7 +22,7 @@ SAFE_NODES = 0.5 - 0.5 * np.cos(math.pi * np.arange(SAFE_DEGREE + 1) / SAFE_DEGR
 COEFFICIENTS = np.array([chebyshev_coefficients(row) for row in np.eye(SAFE_DEGREE + 1)])
 
 
-def _positive(values: Array) -> NDArray[np.bool_]:
+def _stays_positive(values: Array) -> NDArray[np.bool_]:
     """Whether a gauge with these values (k, 5) is positive all along each of k steps.
 
     The polynomial is at least its mean less all its other coefficients; what it leaves out is less than a few times its
@@ -35,7 +34,7 @@ def _positive(values: Array) -> NDArray[np.bool_]:
 
 
 @dataclass(frozen=True)
-class Safe:
+class StepRequirements:
     """Requirements on the steps of a slide.
 
     Attributes
@@ -55,19 +54,21 @@ class Safe:
         """Tell for k steps, with e (k, 5, 2) and D_e U (k, 5, 2, 2) at their `SAFE_NODES`."""
         r = np.hypot(e[..., 0], e[..., 1])
         gap = (1.0 - r) * (1.0 + r)
-        safe = _positive(gap)
+        safe = _stays_positive(gap)
         if self.n is not None:
-            return (safe & _positive(-np.einsum("i,kdij,j->kd", self.n, D, self.n))).tolist()
-        safe &= _positive(self.sign * (D[..., 0, 0] * D[..., 1, 1] - D[..., 0, 1] * D[..., 1, 0]))
+            return (safe & _stays_positive(-np.einsum("i,kdij,j->kd", self.n, D, self.n))).tolist()
+        safe &= _stays_positive(self.sign * (D[..., 0, 0] * D[..., 1, 1] - D[..., 0, 1] * D[..., 1, 0]))
         if not safe.any():
             return safe.tolist()
         n = np.where(r[..., None] > 0.0, e / np.where(r > 0.0, r, 1.0)[..., None], (1.0, 0.0))
         radial = np.einsum("kdi,kdij,kdj->kd", n, D, n)
         across = D[..., 0, 0] + D[..., 1, 1] - radial
-        stable = _positive(-radial) & _positive(-across)  # tr J is a sum of both, each times a positive number
+        stable = _stays_positive(-radial) & _stays_positive(
+            -across
+        )  # tr J is a sum of both, each times a positive number
         if not stable[safe].all():
             ratio, inside = np.ones_like(r), (r > 0.0) & (gap > 0.0)
             along, tangential = self.psi.jacobian_factors(self.psi.radius(np.minimum(r[inside], 1.0), gap[inside]))
             ratio[inside] = along / tangential
-            stable |= _positive(-(across + ratio * radial))
+            stable |= _stays_positive(-(across + ratio * radial))
         return (safe & stable).tolist()

@@ -5,14 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..numerics.radau import Problem
 from ..psi.function import Psi
 from .field import Field
 from .problem import growth_bound
-
-Array = NDArray[np.float64]
 
 MAX_NEWTON, FURTHER = 12, 20  # iterations; and where there was a set a little before
 MAX_CORRECTION = 0.6  # in e: no set is looked for if Newton's first step is longer
@@ -42,7 +40,7 @@ def solve_critical(
     return None
 
 
-class Sheet:
+class SlowManifold:
     """A critical set as a function of z, continued from the last state that was accepted.
 
     Parameters
@@ -65,7 +63,7 @@ class Sheet:
         """Return e at z, or None where the set is not found."""
         return solve_critical(self.field, self.e + self.slope @ (z - self.z), z, far=1.0, most=FURTHER)
 
-    def joined(self, other: Sheet) -> bool:
+    def joined(self, other: SlowManifold) -> bool:
         """Whether another one may be the same set: each is not far from where the slope of the other leads."""
         between = other.z - self.z
         leads = (self.slope @ between, other.slope @ between)
@@ -108,7 +106,7 @@ class Sheet:
         return Problem(F, J, lambda z: np.abs(z) + floor, limit)
 
 
-class Resting(Sheet):
+class FixedManifold(SlowManifold):
     """A critical set that does not move: it is there at all z, also where it meets others."""
 
     def at(self, z: Array) -> Array | None:  # noqa: ARG002 (as of any other set)
@@ -126,13 +124,13 @@ def complement(e: Array) -> float:
     return (1.0 - r) * (1.0 + r)
 
 
-def determinant(sheet: Sheet, e: Array, z: Array) -> float:
+def determinant(sheet: SlowManifold, e: Array, z: Array) -> float:
     """Det of D_e U: the sign of det J."""
     (j11, j12), (j21, j22) = sheet.slopes(e, z)[:2, :2].tolist()
     return j11 * j22 - j12 * j21
 
 
-def trace(sheet: Sheet, psi: Psi, e: Array, z: Array) -> float:
+def trace(sheet: SlowManifold, psi: Psi, e: Array, z: Array) -> float:
     """Tr J in units of the tangential eigenvalue of D e_Psi, which is positive: it has the sign of tr J."""
     D = sheet.slopes(e, z)[:2, :2]
     r, gap = math.hypot(e[0], e[1]), complement(e)

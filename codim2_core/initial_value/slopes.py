@@ -6,15 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.expression import Expression
 from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .field import rows_of
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..numerics.double_double import add, negative, product, square
+from ..numerics.double_double import add_pairs, negative, product, square
 
 CANCELS = 0.05  # of the terms of a difference: below it, it is computed in twice the precision
 
@@ -17,8 +17,8 @@ def to_all_digits(m11: Any, m12: Any, m21: Any, m22: Any, f1: Any, f2: Any) -> t
     m11, m12, m21, m22, f1, f2 : float, or ndarray (k,)
         A, rows first, and f. Scaled, so that nothing over- or underflows.
     """
-    det = add(product(m11, m22), negative(product(m12, m21)))
-    n1 = add(product(m22, f1), negative(product(m12, f2)))
-    n2 = add(product(m11, f2), negative(product(m21, f1)))
-    gap = add(square(det), negative(add(square(n1), square(n2))))
+    det = add_pairs(product(m11, m22), negative(product(m12, m21)))
+    n1 = add_pairs(product(m22, f1), negative(product(m12, f2)))
+    n2 = add_pairs(product(m11, f2), negative(product(m21, f1)))
+    gap = add_pairs(square(det), negative(add_pairs(square(n1), square(n2))))
     return gap[0], det[0], n1[0], n2[0]

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.line_pair import line_pair
 from ..numerics.trigonometric import tangential_zeros
 from ..numerics.trigonometric_exact import to_integers
-from ..tables import number, paragraphs, table
+from ..tables import html_table, paragraphs, table_number
 from ..words import say
 from .equator_zeros import equator_as_orbit
 
@@ -46,7 +46,7 @@ class EquatorCycle:
     neutral: bool
 
     def _repr_html_(self) -> str:
-        numbers = table(("period in T", "exponent"), [(number(self.period), number(self.exponent))])
+        numbers = html_table(("period in T", "exponent"), [(table_number(self.period), table_number(self.exponent))])
         return paragraphs([self.sentence]) + numbers
 
     @property
@@ -180,7 +180,7 @@ def _fourier_of_reciprocal(b: float, f2: float, f1: float, a: float, d: float, d
         roots[i] = complex(r * math.cos(nu), r * math.sin(nu))
         gaps[i] = 2.0 * steep / (abs(g) + steep)  # 1 - r^2, without cancellation
         if distance < SADDLE_NODE_DISTANCE and gaps[i] < 0.1:
-            roots[i], gaps[i] = _polish_zero((b, f2, -f1, 0.5 * a, 0.5 * d), roots[i])
+            roots[i], gaps[i] = _polish_circle_zero((b, f2, -f1, 0.5 * a, 0.5 * d), roots[i])
             close = True
     z1, z2 = roots
     total, product = z1 + z2, z1 * z2
@@ -226,7 +226,9 @@ def _integrals(K: float, total: complex, product: complex) -> tuple[float, float
     return g0, (total * g1).real  # and -product g0, which is imaginary
 
 
-def _polish_zero(coefficients: tuple[float, float, float, float, float], start: complex) -> tuple[complex, float]:
+def _polish_circle_zero(
+    coefficients: tuple[float, float, float, float, float], start: complex
+) -> tuple[complex, float]:
     """Newton's method in 256-bit fixed point for a zero inside the circle; also 1 - |z|^2, to all digits.
 
     Close to a saddle-node it and its mirror image outside nearly meet, and doubles cannot tell them apart.

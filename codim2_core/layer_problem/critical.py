@@ -17,13 +17,13 @@ from ..expressions.names import FAST_NAMES
 from ..psi.function import Psi
 from ..systems.bounds import at_place
 from ..systems.coefficients import Affine
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
-from ..tables import Results, Tabled, number, point, table
+from ..tables import Results, Tabled, html_table, point, table_number
 from .disc_zeros import disc_zeros
 from .linearisation import (
     Frame,
-    Parts,
+    LinearisationParts,
     linearisation,
     linearisation_of,
     matrix_determinant,
@@ -79,7 +79,7 @@ class CriticalSet(Tabled):
         return {"saddle": -1, "saddle-node": 0}.get(self.kind, 1)
 
     def _row_(self) -> tuple[str, ...]:
-        return point(self.e), self.kind, number(self.trace), number(self.determinant), point(self.slow_flow)
+        return point(self.e), self.kind, table_number(self.trace), table_number(self.determinant), point(self.slow_flow)
 
 
 class CriticalSets(Results[CriticalSet]):
@@ -90,7 +90,7 @@ class CriticalSets(Results[CriticalSet]):
     def _repr_html_(self) -> str:
         names = ["C"] if len(self) == 1 else [f"C{i + 1}" for i in range(len(self))]
         found = [(name, *C._row_()) for name, C in zip(names, self, strict=True)]
-        return table(("critical set", *CriticalSet._head_), found) or "<p>no critical set</p>"
+        return html_table(("critical set", *CriticalSet._head_), found) or "<p>no critical set</p>"
 
 
 def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> CriticalSets:
@@ -115,14 +115,14 @@ def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> CriticalSet
     return sets_at(at, psi, None if at.affine is None else locate(at))
 
 
-def sets_at(at: AtZ, psi: Psi, location: Location | None) -> CriticalSets:
+def sets_at(at: FrozenSystem, psi: Psi, location: Location | None) -> CriticalSets:
     """All isolated critical sets of a frozen system; `location` is that of `locate`, None if U is not e-linear."""
     if at.affine is None or location is None:
         return CriticalSets(_general_sets(at, psi))
     return CriticalSets(() if location.e is None else [_linear_set(at, psi, at.affine, location, location.e)])
 
 
-def _linear_set(at: AtZ, psi: Psi, affine: Affine, location: Location, e: tuple[float, float]) -> CriticalSet:
+def _linear_set(at: FrozenSystem, psi: Psi, affine: Affine, location: Location, e: tuple[float, float]) -> CriticalSet:
     form, sign = at.as_given, matrix_determinant(*affine[:4])[1]
     if form is None or form.given is not None:  # by the matrix as given, whatever the rotation has rounded
         shift = math.frexp(max(map(abs, affine[:4])))[1]
@@ -137,7 +137,7 @@ def _linear_set(at: AtZ, psi: Psi, affine: Affine, location: Location, e: tuple[
     return _critical_set(e, parts, shift, slow_flow_at(at, e))
 
 
-def slow_flow_at(at: AtZ, e: ArrayLike) -> NDArray[np.float64]:
+def slow_flow_at(at: FrozenSystem, e: ArrayLike) -> NDArray[np.float64]:
     """Return W at points of the disc, of shape (..., m).
 
     Raises
@@ -155,7 +155,7 @@ def slow_flow_at(at: AtZ, e: ArrayLike) -> NDArray[np.float64]:
     raise ValueError(f"{name} is {flow[tuple(first)]:g}{place}; it must be finite where the motion slides.")
 
 
-def _turned_parts(parts: Parts, angle: float) -> Parts:
+def _turned_parts(parts: LinearisationParts, angle: float) -> LinearisationParts:
     """Rotate the place and the Jacobian by an angle; what they decide stays."""
     if angle == 0.0:
         return parts
@@ -168,7 +168,7 @@ def _turned_parts(parts: Parts, angle: float) -> Parts:
     return (float(x), float(y)), (float(px), float(py)), (k11, k12, k21, k22), frame
 
 
-def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
+def _general_sets(at: FrozenSystem, psi: Psi) -> tuple[CriticalSet, ...]:
     found = disc_zeros(at.key)
     sets = []
     counted = found.degree is not None and found.degenerate.sum() == 1  # then the degree gives it its index
@@ -184,13 +184,13 @@ def _general_sets(at: AtZ, psi: Psi) -> tuple[CriticalSet, ...]:
     return tuple(sets)
 
 
-def set_at(at: AtZ, psi: Psi, e: NDArray[np.float64]) -> CriticalSet:
+def set_at(at: FrozenSystem, psi: Psi, e: NDArray[np.float64]) -> CriticalSet:
     """Return the critical set at a place (c, s) where U is known to be zero; regular, and on no kink."""
     DU = at.DU(e)
     return _set_of(at, psi, e, DU, int(np.sign(DU[0, 0] * DU[1, 1] - DU[0, 1] * DU[1, 0])))
 
 
-def _set_of(at: AtZ, psi: Psi, e: NDArray[np.float64], DU: NDArray[np.float64], index: int) -> CriticalSet:
+def _set_of(at: FrozenSystem, psi: Psi, e: NDArray[np.float64], DU: NDArray[np.float64], index: int) -> CriticalSet:
     c, s = float(e[0]), float(e[1])
     modulus = math.hypot(c, s)
     m11, m12, m21, m22 = DU.ravel().tolist()
@@ -200,7 +200,7 @@ def _set_of(at: AtZ, psi: Psi, e: NDArray[np.float64], DU: NDArray[np.float64], 
     return _critical_set((c, s), parts, shift, slow_flow_at(at, (c, s)), _blur(at, (c, s), psi, parts[3], shift))
 
 
-def _blur(at: AtZ, e: tuple[float, float], psi: Psi, frame: Frame, shift: int) -> float:
+def _blur(at: FrozenSystem, e: tuple[float, float], psi: Psi, frame: Frame, shift: int) -> float:
     """Bound how far tr J may be off since D_e U and the place are rounded; 0 where that could not make it vanish."""
     if abs(frame.along + frame.across) > SMALL_TRACE * frame.size:
         return 0.0
@@ -216,7 +216,7 @@ def _blur(at: AtZ, e: tuple[float, float], psi: Psi, frame: Frame, shift: int) -
     return math.ldexp(width, -shift) if math.isfinite(width) else 0.0
 
 
-def _sides_agree(at: AtZ, psi: Psi, C: CriticalSet) -> bool:
+def _sides_agree(at: FrozenSystem, psi: Psi, C: CriticalSet) -> bool:
     """Whether C attracts, repels or is a saddle by the linearisation on every side of a kink that it may lie on."""
     system = at.typed
     if system is None or not kinks(system.U, FAST_NAMES):
@@ -229,19 +229,19 @@ def _sides_agree(at: AtZ, psi: Psi, C: CriticalSet) -> bool:
     complement = (1.0 - math.hypot(c, s)) * (1.0 + math.hypot(c, s))
     for side in sides:
         index = int(np.sign(side[0, 0] * side[1, 1] - side[0, 1] * side[1, 0]))
-        kind = spectrum(linearisation_of(_rows(side), psi, (c, s), complement, index)[3])[3]
+        kind = spectrum(linearisation_of(_matrix_entries(side), psi, (c, s), complement, index)[3])[3]
         if kind.split()[0] != C.kind.split()[0]:
             return False
     return True
 
 
-def _rows(M: NDArray[np.float64]) -> tuple[float, float, float, float]:
+def _matrix_entries(M: NDArray[np.float64]) -> tuple[float, float, float, float]:
     (m11, m12), (m21, m22) = M.tolist()
     return m11, m12, m21, m22
 
 
 def _critical_set(
-    e: tuple[float, float], parts: Parts, shift: int, slow: NDArray[np.float64], blur: float = 0.0
+    e: tuple[float, float], parts: LinearisationParts, shift: int, slow: NDArray[np.float64], blur: float = 0.0
 ) -> CriticalSet:
     """Put the parts together; the linearisation is in a unit of time that is 2^-shift of the system's."""
     x2, p, jacobian, frame = parts

@@ -35,7 +35,7 @@ def cut_that_keeps_names(before: EquatorEquilibria, after: EquatorEquilibria, cu
     if not len(before) or not len(after):
         return cut
     theta = np.sort(after.theta)
-    first = _first(before.theta, theta)
+    first = _first_index(before.theta, theta)
     for kept in (0.0, cut):
         if int(np.argmin(np.mod(theta - kept, math.tau))) == first:
             return kept
@@ -44,7 +44,7 @@ def cut_that_keeps_names(before: EquatorEquilibria, after: EquatorEquilibria, cu
     return round(middle, 2) if gap > 0.1 else middle  # short in a link
 
 
-def _first(before: NDArray[np.float64], theta: NDArray[np.float64]) -> int:
+def _first_index(before: NDArray[np.float64], theta: NDArray[np.float64]) -> int:
     """Index in `theta`, increasing from 0, of the direction that is the first one before."""
     if len(before) != len(theta):
         return int(np.argmin(np.abs(_wrap_angle(theta - before[0]))))

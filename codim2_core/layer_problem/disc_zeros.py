@@ -15,11 +15,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, Program, program
 from ..numerics.fourier_zeros import UNIT
 from .equator_zeros import component_series, equator_zeros
-
-Array = NDArray[np.floating[Any]]
 
 # Times a box may be cut, boxes open at once, and operations in all; the second where the first leaves a doubt.
 EFFORTS = ((25, 1500, 1_000_000), (32, 6_000, 3_000_000))
@@ -111,7 +110,7 @@ def _search_boxes(run: Program, size: float, degree: int | None, levels: int, mo
     degenerate = np.zeros(count, bool)
     curve, proven = False, complete and count < CAPACITY
     if undecided:
-        places, curve, left = _classify_undecided(run, rest[:undecided], half, max(size, _size(run)))
+        places, curve, left = _classify_undecided(run, rest[:undecided], half, max(size, _field_size(run)))
         proven = curve or (proven and not left)
         # a place where a proven zero lies is that zero
         places = [p for p in places if not count or np.abs(points - p).max(axis=1).min() > TOGETHER]
@@ -121,7 +120,7 @@ def _search_boxes(run: Program, size: float, degree: int | None, levels: int, mo
     DU, degenerate, rough = _slopes(run, points, degenerate)
     proven = proven and not bool(rough.any())
     gap = 1.0 - np.hypot(points[:, 0], points[:, 1])
-    border = np.abs(gap) <= _blur(DU, degenerate, max(size, _size(run)))
+    border = np.abs(gap) <= _blur(DU, degenerate, max(size, _field_size(run)))
     on_equator = tuple(sorted(math.atan2(s, c) % (2 * math.pi) for c, s in points[border].tolist()))
     inside = (gap > 0.0) & ~border
     points, DU, degenerate, rough = points[inside], DU[inside], degenerate[inside], rough[inside]
@@ -130,7 +129,7 @@ def _search_boxes(run: Program, size: float, degree: int | None, levels: int, mo
     index = np.sign(DU[:, 0, 0] * DU[:, 1, 1] - DU[:, 0, 1] * DU[:, 1, 0]).astype(np.int64)
     index[degenerate] = 0
     for i in np.flatnonzero(rough):
-        index[i] = _turns(run, points[i], INDEX_RADIUS)
+        index[i] = _winding_number(run, points[i], INDEX_RADIUS)
     if degree is not None and degenerate.sum() == 1 and not rough.any():
         index[degenerate] = degree - index.sum()
         if abs(int(index[degenerate][0])) > 8:
@@ -160,11 +159,13 @@ def _slopes(run: Program, points: Array, doubtful: NDArray[np.bool_]) -> tuple[A
         regular = np.abs(determinants) > REGULAR * np.square(every).sum(axis=(1, 2))
         degenerate[i] = not (regular.all() and np.ptp(np.sign(determinants)) == 0.0)
         # a smooth U changes its slopes by about BESIDE times its size
-        rough[i] = degenerate[i] and spread > max(ROUGH * np.abs(every).max(), 100.0 * ONE_SIDED_DISTANCE * _size(run))
+        rough[i] = degenerate[i] and spread > max(
+            ROUGH * np.abs(every).max(), 100.0 * ONE_SIDED_DISTANCE * _field_size(run)
+        )
     return DU, degenerate, rough
 
 
-def _size(run: Program) -> float:
+def _field_size(run: Program) -> float:
     """Largest |U1| + |U2| on a net: what rounding is measured by where U is small on the equator."""
     values = np.abs(run.at(_SIZE_NET)[:, :, 0]).sum(axis=1)
     return float(values[np.isfinite(values)].max(initial=0.0))
@@ -195,14 +196,14 @@ def _classify_undecided(run: Program, boxes: Array, half: float, size: float) ->
         middle = 0.5 * (cluster.min(axis=0) + cluster.max(axis=0))
         if ok.any() and extent < MIN_CURVE_EXTENT:
             places.append(np.median(ends[ok], axis=0))
-        elif extent < TOGETHER and _turns(run, middle, 2.0 * (extent + half)):
+        elif extent < TOGETHER and _winding_number(run, middle, 2.0 * (extent + half)):
             places.append(middle)  # U turns around it: as it is continuous it vanishes inside, with no slope to follow
         else:
             left = True
     return places, False, left
 
 
-def _turns(run: Program, middle: Array, radius: float) -> int:
+def _winding_number(run: Program, middle: Array, radius: float) -> int:
     """Count how often U turns around a small circle; 0 where it is not finite, or turns too fast to tell."""
     U = run.at(middle + radius * _UNIT_CIRCLE)[:, :, 0]
     if not (np.isfinite(U).all() and U.any(axis=1).all()):

@@ -19,14 +19,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..numerics.trigonometric import INPUT_ROUNDING
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from .critical import CriticalSet
 from .problem import LayerProblem
-
-Array = NDArray[np.float64]
 
 EQUAL_EIGENVALUES = (
     64 * INPUT_ROUNDING
@@ -158,7 +156,7 @@ def _slope(forcing: float, gap: float, size: float) -> float | None:
     return None if abs(gap) <= RESONANCE * size or not math.isfinite(forcing) else forcing / gap
 
 
-def _along_rho(at: AtZ, e: Array) -> Array:
+def _along_rho(at: FrozenSystem, e: Array) -> Array:
     """Return dU/drho at rho = 0 along each direction e (k, 2): zero unless U reads x or y."""
     if not at.reads_position:
         return np.zeros_like(e)

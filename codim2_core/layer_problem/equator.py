@@ -27,8 +27,8 @@ from ..numerics.trigonometric import (
 )
 from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
 from ..systems.coefficients import Affine, Coefficients
-from ..systems.frozen import AtZ
-from ..tables import number, paragraphs, table
+from ..systems.frozen import FrozenSystem
+from ..tables import html_table, paragraphs, table_number
 from ..words import say
 from .closed_equator import EquatorCycle, equator_cycle
 from .equator_zeros import equator_zeros
@@ -103,8 +103,8 @@ class EquatorEquilibria:
     def _repr_html_(self) -> str:
         head = ("limit direction", "θ", "λ_ρ", "λ_θ", "kind")
         values = zip(self.theta.tolist(), self.lambda_rho.tolist(), self.lambda_theta.tolist(), strict=True)
-        rows = [(self.labels[i], *map(number, row), self.kind(i)) for i, row in enumerate(values)]
-        return paragraphs([self.summary]) + table(head, rows)
+        rows = [(self.labels[i], *map(table_number, row), self.kind(i)) for i, row in enumerate(values)]
+        return paragraphs([self.summary]) + html_table(head, rows)
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -226,7 +226,7 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
     return equilibria_at(at, None if at.affine is None else locate(at))
 
 
-def equilibria_at(at: AtZ, location: Location | None) -> EquatorEquilibria:
+def equilibria_at(at: FrozenSystem, location: Location | None) -> EquatorEquilibria:
     """Equilibria on the equator of a frozen system; `location` is that of `locate`, None if U is not e-linear."""
     if at.affine is None or location is None:
         return _general(at)
@@ -320,7 +320,7 @@ def _collect_equilibria(
     return EquatorEquilibria(*arrays, zeros.identically_zero, zeros.exact_count, zeros.distance, symmetric)
 
 
-def _general(at: AtZ) -> EquatorEquilibria:
+def _general(at: FrozenSystem) -> EquatorEquilibria:
     found = equator_zeros(at.key)
     return EquatorEquilibria(
         found.theta,

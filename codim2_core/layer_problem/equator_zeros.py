@@ -10,19 +10,17 @@ import math
 from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.arrays import Program, polynomial_degree, program
 from ..expressions.kinks import kinks
 from ..expressions.names import number_names
 from ..numerics.fourier_zeros import UNIT, Series, series, turn, zeros
 from ..numerics.sign_changes import refine_roots, roots
 from ..words import say
-
-Array = NDArray[np.floating[Any]]
 
 MOST_ANGLES = 1024  # a Theta that needs more is not smooth: its zeros are then looked for between its kinks,
 NET_ANGLES = 4096  # on a net of that many angles
@@ -98,7 +96,7 @@ def component_series(key: Hashable, kind: str) -> Series:
     if n > MOST_ANGLES:
         n, degree = 64, None
     while True:
-        parts = _components(run, np.arange(n) * (2.0 * math.pi / n))
+        parts = _components(run, np.arange(float(n)) * (2.0 * math.pi / n))
         U = parts[-1]
         size = float(np.abs(U).sum(axis=1).max())
         found = series(_by_name(parts, kind), size, None if degree is None else degree + 1)
@@ -106,7 +104,7 @@ def component_series(key: Hashable, kind: str) -> Series:
             return found
         # a peak that Theta hides from the net, beside a zero of sin or cos, still shows in U
         if found.resolved and all(series(U[:, i], size).resolved for i in (0, 1)):
-            between = (np.arange(n) + 0.5) * (2.0 * math.pi / n)
+            between = (np.arange(float(n)) + 0.5) * (2.0 * math.pi / n)
             there = _by_name(_components(run, between), kind)
             if np.abs(found.derivatives(between, range(1))[0] - there).max() <= 1e-13 * size:
                 return found
@@ -123,7 +121,7 @@ def equator_zeros(key: Hashable) -> EquatorZeros:
     if f.vanishes:
         return _result(key, np.zeros((4, 0)), f, math.inf, all_directions=True)
     if not f.resolved:
-        theta, multiplicity, arcs = _pieces(key, "theta", f.size)
+        theta, multiplicity, arcs = _zeros_by_piece(key, "theta", f.size)
         proven, distance = False, math.inf
     else:
         found = zeros(f)
@@ -202,20 +200,20 @@ def _degree(key: Hashable, rows: Array, f: Series, all_directions: bool) -> int 
     if (radial == 0.0).any():
         return None
     if not f.resolved:  # Theta may vanish on arcs, and its series says no sign beside a zero
-        return _turns(key)
+        return _equator_winding(key)
     if all_directions:
         radial_series = component_series(key, "rho")
         return None if radial_series.vanishes or _changes_sign(radial_series) else 1
     signs = np.sign(slope)
     if (multiplicity > 1).any():
         # across an odd zero the sign changes: from what lies between it and the next
-        signs = _crossings(f, rows[0], multiplicity)
+        signs = _crossing_signs(f, rows[0], multiplicity)
     return 1 + int(signs[radial > 0.0].sum())
 
 
-def _turns(key: Hashable) -> int | None:
+def _equator_winding(key: Hashable) -> int | None:
     """Count how often U turns along a net on the equator; None where it vanishes, or turns too fast to tell."""
-    U = _components(program(key), (np.arange(NET_ANGLES) + 0.5) * (2.0 * math.pi / NET_ANGLES))[-1]
+    U = _components(program(key), (np.arange(float(NET_ANGLES)) + 0.5) * (2.0 * math.pi / NET_ANGLES))[-1]
     if not (np.isfinite(U).all() and U.any(axis=1).all()):
         return None
     angle = np.arctan2(U[:, 1], U[:, 0])
@@ -224,11 +222,11 @@ def _turns(key: Hashable) -> int | None:
 
 
 def _changes_sign(f: Series) -> bool:
-    values = f.derivatives(np.arange(256) * (2 * math.pi / 256), range(1))[0]
+    values = f.derivatives(np.arange(256.0) * (2 * math.pi / 256), range(1))[0]
     return bool(values.min() <= 0.0 <= values.max())
 
 
-def _crossings(f: Series, theta: Array, multiplicity: NDArray[np.int64]) -> Array:
+def _crossing_signs(f: Series, theta: Array, multiplicity: NDArray[np.int64]) -> Array:
     """+1, -1 where f rises or falls through a zero, 0 where it only touches."""
     gaps = np.remainder(np.roll(theta, -1) - theta, 2 * math.pi)
     gaps = np.where(gaps == 0.0, 2 * math.pi, gaps)
@@ -259,7 +257,7 @@ def component_zeros(key: Hashable, kind: str) -> tuple[Array, NDArray[np.int64]]
     if f.vanishes or f.resolved:
         result = zeros(f)
         return result.theta, result.multiplicity
-    return _pieces(key, kind, f.size)[:2]
+    return _zeros_by_piece(key, kind, f.size)[:2]
 
 
 @lru_cache(maxsize=128)
@@ -283,7 +281,7 @@ def _kinks(key: Hashable) -> NDArray[np.float64]:
     return np.unique(np.concatenate(found) % (2.0 * math.pi))
 
 
-def _pieces(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.int64], Array]:
+def _zeros_by_piece(key: Hashable, kind: str, size: float) -> tuple[Array, NDArray[np.int64], Array]:
     """Zeros of a component that is not smooth, multiplicities (2 where it only touches), and arcs (k, 2) of zeros.
 
     Between its kinks it is analytic: it vanishes on all of a piece, or in single points.
@@ -336,7 +334,7 @@ def equator_as_orbit(key: Hashable) -> tuple[int, float, float, bool] | None:
         return None
     run = program(key)
     n, sums, last = 64, np.zeros(3), (math.inf, math.inf)
-    theta = np.arange(n) * (2.0 * math.pi / n)
+    theta = np.arange(float(n)) * (2.0 * math.pi / n)
     while True:
         Theta, _, radial, _, U = _components(run, theta)
         rows = np.stack([np.ones(len(theta)), radial, np.abs(U * directions(theta)).sum(axis=1)])
@@ -345,7 +343,7 @@ def equator_as_orbit(key: Hashable) -> tuple[int, float, float, bool] | None:
         close = abs(period - last[0]) <= 1e-15 * period and abs(exponent - last[1]) <= 1e-15 * max(terms, abs(exponent))
         if close or n >= MOST_OF_A_TURN:
             break
-        theta = (np.arange(n) + 0.5) * (2.0 * math.pi / n)  # what is new where n is doubled
+        theta = (np.arange(float(n)) + 0.5) * (2.0 * math.pi / n)  # what is new where n is doubled
         n, last = 2 * n, (period, exponent)
     neutral = abs(exponent) <= NEUTRAL_ROUNDING * terms
     return (1 if Theta[0] > 0.0 else -1), period, 0.0 if neutral else exponent, neutral

@@ -7,11 +7,12 @@ With ``rho = sqrt(x^2 + y^2 + eps^2)`` the point (x, y, eps) is ``rho (p, ebar)`
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..arguments import checked_functions
+from ..arrays import Array
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 
 __all__ = [
     "disc_from_entry",
@@ -23,8 +24,6 @@ __all__ = [
     "outside_flow",
     "scaling_from_disc",
 ]
-
-Array = NDArray[np.float64]
 
 
 def disc_from_scaling(x2: ArrayLike) -> Array:
@@ -98,7 +97,7 @@ def e_psi(psi: Psi, p: ArrayLike) -> Array:
     return p / np.sqrt(q + shape)[..., None]
 
 
-def flow(coefficients: AtZ, psi: Psi, p: ArrayLike) -> Array:
+def flow(coefficients: FrozenSystem, psi: Psi, p: ArrayLike) -> Array:
     """``p' = U - p (p.U)``, U at e_Psi(p): the layer problem eq:LP on the disc, in the time T (dT = dt/rho).
 
     One smooth field on the closed disc: charts kappa_1 and kappa_2 together. Shapes (..., 2).
@@ -108,7 +107,7 @@ def flow(coefficients: AtZ, psi: Psi, p: ArrayLike) -> Array:
     return U - p * np.sum(p * U, axis=-1, keepdims=True)
 
 
-def outside_flow(coefficients: AtZ, theta: ArrayLike) -> tuple[Array, Array]:
+def outside_flow(coefficients: FrozenSystem, theta: ArrayLike) -> tuple[Array, Array]:
     """``(rho'/rho, theta')`` outside, eq:polar_gen_odes_desing: lambda_rho(theta) and Theta(theta), each (...,)."""
     theta = np.asarray(theta, float)
     c, s = np.cos(theta), np.sin(theta)

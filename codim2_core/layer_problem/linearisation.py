@@ -90,7 +90,7 @@ class Frame:
     size: float
 
 
-Parts = tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]
+LinearisationParts = tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]
 
 
 def linearisation(
@@ -140,7 +140,7 @@ def linearisation(
 
 def linearisation_of(
     M: tuple[float, float, float, float], psi: Psi, e: tuple[float, float], complement: float, sign: int
-) -> Parts:
+) -> LinearisationParts:
     """Return the `linearisation` of ``J = M . D e_Psi``, M = D_e U (rows first), whose determinant has that sign."""
     m11, m12, m21, m22 = M
     modulus = math.hypot(*e)

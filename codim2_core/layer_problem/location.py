@@ -14,7 +14,7 @@ from fractions import Fraction
 
 from ..numerics.trigonometric import INPUT_ROUNDING
 from ..systems.coefficients import Affine
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..words import say
 from .border import CANCELS, to_all_digits
 from .linearisation import (
@@ -70,7 +70,7 @@ class Location:
         return self.existence not in (Existence.INSIDE, Existence.NONE, Existence.EQUATOR)
 
 
-def locate(at: AtZ) -> Location:
+def locate(at: FrozenSystem) -> Location:
     """Decide whether, and where, ``A e + f = 0`` in the disc |e| < 1 (thm:lineps1(a)), without dividing by det A.
 
     Parameters
@@ -144,7 +144,7 @@ def _locate_singular(a: float, b: float, d: float, f1: float, f2: float) -> Loca
     solvable = abs(n1) <= rounding * (abs(D * F1) + abs(B * F2)) and abs(n2) <= rounding * (abs(A * F2) + abs(B * F1))
     if not solvable:
         return Location(Existence.SINGULAR_NONE)
-    return _line((A, -B, B, D, F1, F2))
+    return _solution_line((A, -B, B, D, F1, F2))
 
 
 def locate_affine(affine: Affine) -> Location:
@@ -159,7 +159,7 @@ def locate_affine(affine: Affine) -> Location:
         return Location(Existence.EVERYTHING)
     if abs(det) <= off * w0:
         solvable = any(M[:4]) and abs(n1) <= off * w1 and abs(n2) <= off * w2
-        return _line(M) if solvable else Location(Existence.SINGULAR_NONE)
+        return _solution_line(M) if solvable else Location(Existence.SINGULAR_NONE)
     gap = det * det - n1 * n1 - n2 * n2
     # Half the first-order change of the gap when each entry is off by a relative 1.
     change = (
@@ -179,7 +179,7 @@ def locate_affine(affine: Affine) -> Location:
     return Location(Existence.INSIDE, (float(-n1 / det), float(-n2 / det)), float(gap / det**2))
 
 
-def _line(M: tuple[Fraction, ...]) -> Location:
+def _solution_line(M: tuple[Fraction, ...]) -> Location:
     """Line of solutions of a singular matrix: of its larger row."""
     m11, m12, m21, m22, f1, f2 = map(float, M)
     r1, r2, f = (m11, m12, f1) if math.hypot(m11, m12) >= math.hypot(m21, m22) else (m21, m22, f2)

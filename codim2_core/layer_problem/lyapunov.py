@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.expression import parse
 from ..psi.function import Psi
 
-Array = NDArray[np.float64]
 TERM_ROUNDING = 2.0**-44  # of the terms that the coefficient is the sum of
 
 

@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 from weakref import ref
 
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from .closed_equator import EquatorCycle, equator_cycle
 from .critical import CriticalSet, sets_at
 from .equator import EquatorEquilibria, equilibria_at
@@ -17,7 +17,7 @@ from .location import Location, locate
 Result = TypeVar("Result")
 
 
-class Finding(Generic[Result]):
+class CachedFunction(Generic[Result]):
     """A function of a layer problem that each problem computes once: called again, it returns what was found.
 
     Parameters
@@ -41,9 +41,9 @@ class Finding(Generic[Result]):
 
 def found_once(
     layer: str = "", *, of_psi: bool = True
-) -> Callable[[Callable[[LayerProblem], Result]], Finding[Result]]:
-    """Decorate a function of a layer problem, so that each problem keeps its result (`Finding`)."""
-    return lambda compute: Finding(compute, layer, of_psi)
+) -> Callable[[Callable[[LayerProblem], Result]], CachedFunction[Result]]:
+    """Decorate a function of a layer problem, so that each problem keeps its result (`CachedFunction`)."""
+    return lambda compute: CachedFunction(compute, layer, of_psi)
 
 
 @found_once("location", of_psi=False)
@@ -92,9 +92,9 @@ class LayerProblem:
     (4, None, 'stable node')
     """
 
-    def __init__(self, at: AtZ, psi: Psi, cut: float = 0.0) -> None:
+    def __init__(self, at: FrozenSystem, psi: Psi, cut: float = 0.0) -> None:
         self.at, self.psi, self.cut = at, psi, cut
-        self._kept: dict[Finding[Any], Any] = {}
+        self._kept: dict[CachedFunction[Any], Any] = {}
         self._others: dict[Psi, LayerProblem] = {}  # made from this one
         self._base = ref(self)  # no cycles: a problem that nobody holds is gone at once
 
@@ -102,7 +102,7 @@ class LayerProblem:
         """Be pickled, and copied, by what it is a problem of: what has been found stays here."""
         return LayerProblem, (self.at, self.psi, self.cut)
 
-    def keep(self, finding: Finding[Result]) -> Result:
+    def keep(self, finding: CachedFunction[Result]) -> Result:
         """Return what was found in this problem, or find it and keep it."""
         base = self._base() or self
         if not finding.of_psi and base is not self:
@@ -111,7 +111,7 @@ class LayerProblem:
             self._kept[finding] = finding.compute(self)
         return self._kept[finding]
 
-    def give(self, finding: Finding[Result], result: Result | None) -> LayerProblem:
+    def give(self, finding: CachedFunction[Result], result: Result | None) -> LayerProblem:
         """Keep what is known already, unless it is None; return this problem."""
         if result is not None:
             self._kept[finding] = result

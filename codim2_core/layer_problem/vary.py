@@ -36,7 +36,7 @@ def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
     """
     found = [*system.variable]
     if not system.frozen:  # else z is chosen
-        found += [f"z{i + 1}" for i in range(len(_slow(z)))]
+        found += [f"z{i + 1}" for i in range(len(_slow_values(z)))]
     if psi.record.parameter is not None and psi.record.parameter.name not in found:
         found.append(psi.record.parameter.name)
     return tuple(found)
@@ -64,11 +64,11 @@ def vary(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tuple[
     ValueError
         Nothing variable has this name, or the value is not allowed there.
     """
-    slow = _slow(z)
+    slow = _slow_values(z)
     if name in system.variable:
-        return system.varied(name, _finite(name, value)), psi, slow
+        return system.varied(name, _finite_number(name, value)), psi, slow
     if not system.frozen and (index := _slow_index(name)) in range(len(slow)):
-        return system, psi, (*slow[:index], _finite(name, value), *slow[index + 1 :])
+        return system, psi, (*slow[:index], _finite_number(name, value), *slow[index + 1 :])
     if _of_psi(psi, name):
         return system, with_parameter(psi, value), slow
     raise _unknown_name(system, psi, z, name)
@@ -93,7 +93,7 @@ def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
     """
     if name in system.variable:
         return system.value_of(name)
-    slow = _slow(z)
+    slow = _slow_values(z)
     if not system.frozen and (index := _slow_index(name)) in range(len(slow)):
         return slow[index]
     if _of_psi(psi, name):
@@ -171,7 +171,7 @@ def _of_psi(psi: Psi, name: str) -> bool:
     return psi.record.parameter is not None and name == psi.record.parameter.name
 
 
-def _slow(z: ArrayLike) -> tuple[float, ...]:
+def _slow_values(z: ArrayLike) -> tuple[float, ...]:
     slow = np.atleast_1d(np.asarray(z, float))
     if slow.ndim > 1:
         raise ValueError(f"z has shape {slow.shape}; give a list of numbers.")
@@ -185,7 +185,7 @@ def _slow_index(name: str) -> int:
     return int(name[1:]) - 1 if name[:1] == "z" and name[1:].isdecimal() else -1
 
 
-def _finite(name: str, value: float) -> float:
+def _finite_number(name: str, value: float) -> float:
     try:
         number = float(value)
     except (TypeError, ValueError) as error:

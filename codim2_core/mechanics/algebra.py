@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from ..expressions.expression import Expression
 from ..expressions.tape import Builder, compact
 
-Row = tuple[int, ...]
-Matrix = tuple[Row, ...]
+MatrixRow = tuple[int, ...]
+Matrix = tuple[MatrixRow, ...]
 
 
 class Algebra:
@@ -69,7 +69,7 @@ class Algebra:
             total = self.plus(total, self.times(one, other))
         return total
 
-    def solved_positive(self, M: Matrix, columns: Sequence[Row]) -> tuple[Row, ...]:
+    def solved_positive(self, M: Matrix, columns: Sequence[MatrixRow]) -> tuple[MatrixRow, ...]:
         """Solve M x = b for several columns b, M symmetric and positive definite: so no pivot is ever 0.
 
         Raises
@@ -106,7 +106,7 @@ class Algebra:
             total = (self.minus if j % 2 else self.plus)(total, self.times(entry, minor))
         return total
 
-    def solved(self, A: Matrix, b: Row) -> Row | None:
+    def solved(self, A: Matrix, b: MatrixRow) -> MatrixRow | None:
         """Solve A x = b of two or three rows by Cramer's rule; None if the determinant is 0 whatever the names are."""
         size = self.determinant(A)
         if size == self.zero:

@@ -9,17 +9,17 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..systems.bounds import slow_values
 from ..systems.elinear import ELinear
 from ..systems.reading import short_repr
 from ..systems.typed import System
 from ..words import say
-from .measured import read
+from .measured import read_measurement
 from .slipping import Slipping, TooLongError, integrate_slip
 
-Array = NDArray[np.float64]
 Interval = tuple[float, float]
 
 
@@ -136,7 +136,7 @@ def fit(
     t, v = _read_measurements(times, velocities)
     searched = _parameter_names(system, names)
     slow = slow_values(z, system.m)
-    _check(system, t, v, searched)
+    _check_measurement(system, t, v, searched)
     known = dict(system.parameters)
     first = np.array([*(known[name] for name in searched), *v[0]])
 
@@ -194,7 +194,7 @@ def _read_measurements(times: Any, velocities: Any) -> tuple[Array, Array]:
     if isinstance(times, str | Path):
         if velocities is not None:
             raise ValueError("times is a file and velocities are given too; leave them out: they are in the file.")
-        return read(times)
+        return read_measurement(times)
     if velocities is None:
         raise ValueError("velocities is None; give (k, 2) numbers, or a CSV file instead of times.")
     return np.asarray(times, float), np.asarray(velocities, float)
@@ -217,7 +217,7 @@ def _parameter_names(system: ELinear | System, names: Any) -> tuple[str, ...]:
     return given
 
 
-def _check(system: ELinear | System, t: Array, v: Array, names: tuple[str, ...]) -> None:
+def _check_measurement(system: ELinear | System, t: Array, v: Array, names: tuple[str, ...]) -> None:
     typed = system.typed
     if typed is not None and any(w in ("x", "y") for row in (*typed.U, *typed.W) for w in row.names):
         raise ValueError("the system reads x or y; give one whose U and W depend on e and z alone.")

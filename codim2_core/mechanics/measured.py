@@ -6,16 +6,14 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..systems.reading import short_repr
-
-Array = NDArray[np.float64]
 
 MOST_LINES = 1_000_000
 
 
-def read(path: str | Path) -> tuple[Array, Array]:
+def read_measurement(path: str | Path) -> tuple[Array, Array]:
     """Read times (k,) and velocities (k, 2) from a file of three columns.
 
     They are parted by commas, semicolons, tabs or blanks; between semicolons a comma is a decimal one. Empty lines,

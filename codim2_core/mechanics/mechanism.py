@@ -21,7 +21,7 @@ from ..systems.bounds import at_place, slow_values
 from ..systems.elinear import ELinear
 from ..systems.typed import System
 from ..words import say
-from .algebra import Algebra, Row
+from .algebra import Algebra, MatrixRow
 from .grip import Grip
 from .parts import Parts
 from .reading import ZERO
@@ -105,11 +105,11 @@ class Mechanism(Parts):
             )
         return known | dict(zip(self.eliminated, found, strict=True))
 
-    def _entered(self, row: Sequence[Expression]) -> Row:
+    def _entered(self, row: Sequence[Expression]) -> MatrixRow:
         return tuple(self._algebra.enter(entry, self._meanings) for entry in row)
 
     @cached_property
-    def _responses(self) -> tuple[Row, ...]:
+    def _responses(self) -> tuple[MatrixRow, ...]:
         """M^-1 times the applied force, the rows of J, and the row of the constraint."""
         columns = [self._entered(row) for row in (self.force, *self.rows)]
         return self._algebra.solved_positive(tuple(map(self._entered, self.M)), columns)
@@ -130,7 +130,7 @@ class Mechanism(Parts):
         return self._algebra.dot(slopes, [self._meanings[word] for word in self.velocities])
 
     @cached_property
-    def _coulomb(self) -> Row:
+    def _coulomb(self) -> MatrixRow:
         """Friction by the normal force: -mu e."""
         algebra = self._algebra
         e = (self._meanings["c"], self._meanings["s"])
@@ -148,7 +148,7 @@ class Mechanism(Parts):
         pull = algebra.plus(algebra.dot(across, own), pull)
         return algebra.negative(algebra.over(algebra.plus(algebra.dot(across, free), self._turning(self.normal)), pull))
 
-    def _speeds(self, forces: Row) -> dict[str, int]:
+    def _speeds(self, forces: MatrixRow) -> dict[str, int]:
         """Return how all names move under a friction of two components, and the normal force of a constraint."""
         algebra, (free, *sides) = self._algebra, self._responses
         found = {word: algebra.enter(rate, self._meanings) for word, rate in self.rates.items()}
@@ -156,7 +156,7 @@ class Mechanism(Parts):
             found[word] = algebra.plus(free[i], algebra.dot([side[i] for side in sides], forces[: len(sides)]))
         return found
 
-    def _apart(self, speeds: Mapping[str, int]) -> Row:
+    def _apart(self, speeds: Mapping[str, int]) -> MatrixRow:
         """Return (x, y)', and with a constraint the acceleration that it forbids."""
         algebra, found = self._algebra, []
         moves = [self._moved(entry, speeds) for entry in self.surface]
@@ -172,7 +172,7 @@ class Mechanism(Parts):
         speeds = self._speeds((*(algebra.times(self._normal, part) for part in self._coulomb), self._normal))
         U = [algebra.formula(entry) for entry in self._apart(speeds)[:2]]
         W = [algebra.formula(speeds[word]) for word in self.slow]
-        return _linear(U, W, self.parameters) or System(U, W, self.parameters)
+        return _as_normal_form(U, W, self.parameters) or System(U, W, self.parameters)
 
     def state(self, **values: float) -> tuple[float, ...]:
         """Return (x, y, z1, ..., zm) of all velocities and positions, by name.
@@ -264,7 +264,9 @@ class Mechanism(Parts):
         return Grip(found[:2], normal, mu, held=self.held)
 
 
-def _linear(U: Sequence[Expression], W: Sequence[Expression], parameters: Mapping[str, float]) -> ELinear | None:
+def _as_normal_form(
+    U: Sequence[Expression], W: Sequence[Expression], parameters: Mapping[str, float]
+) -> ELinear | None:
     """Return the normal form, where it is met as it stands: U and W linear in e, and A = [[a, -b], [b, d]]."""
     rows = (*U, *W)
     sides = [(row.derivative("c"), row.derivative("s")) for row in rows]

@@ -10,8 +10,8 @@ from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.reader import check_names
 from ..systems.reading import mapping, parameter, short_repr
 
-Row = tuple[Expression, ...]
-Matrix = tuple[Row, ...]
+FormulaRow = tuple[Expression, ...]
+Matrix = tuple[FormulaRow, ...]
 
 MOST_VELOCITIES = 12
 ZERO = parse("0", ())
@@ -80,7 +80,7 @@ def formula(value: Any, what: str, names: Sequence[str]) -> Expression:
         raise ExpressionError(f"{what}: {error}", error.text, error.column) from error
 
 
-def row(values: Any, what: str, length: int, names: Sequence[str]) -> Row:
+def row(values: Any, what: str, length: int, names: Sequence[str]) -> FormulaRow:
     """Read a row of so many entries."""
     if isinstance(values, str) or not hasattr(values, "__getitem__") or len(values) != length:
         raise ValueError(f"{what} is {short_repr(values)}; give {length} entries, numbers or text.")

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..systems.elinear import ELinear
 from ..systems.typed import System
-
-Array = NDArray[np.float64]
 
 STOPPED = 30.0  # log of how much slower than at the start it is when it stops
 MAX_TURNS = 1e4  # in turns of the time dt/r

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..systems.kinds import AnySystem
-
-Array = NDArray[np.float64]
 
 
 def checked_span(t_span: ArrayLike) -> tuple[float, float]:

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..initial_value.field import Field
 from ..initial_value.sheet import solve_critical
 from ..numerics.dense import Dense
 from ..tables import Tabled, point
 from ..words import say
-
-Array = NDArray[np.float64]
 
 DELAY_SAMPLES = 33  # of the delay
 

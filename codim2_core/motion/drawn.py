@@ -9,9 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..numerics.dense import Dense
-
-Array = NDArray[np.float64]
 
 MIN_TIMES = 240  # even times of a drawn motion, at least
 CHORD_TOLERANCE = (
@@ -49,7 +48,7 @@ def drawn_curve(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:
         All of them, in order.
     eps : float
     """
-    times = _times(motion, eps)
+    times = _drawing_times(motion, eps)
     states = motion(times)
     points = states[:, :2].copy()
     pieces: list[tuple[Array, Array, Array]] = []
@@ -74,7 +73,7 @@ def drawn_curve(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:
     return Drawn(*(np.concatenate(column) for column in zip(*pieces, strict=True)))
 
 
-def _times(motion: Dense, eps: float) -> Array:
+def _drawing_times(motion: Dense, eps: float) -> Array:
     """Return the times at which a motion is drawn: even ones, and those that chords need to look like the curve."""
     first, last = float(motion.times[0]), float(motion.times[-1])
     if not last > first:

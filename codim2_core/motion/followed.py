@@ -11,13 +11,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..initial_value.field import Field
 from ..initial_value.sheet import solve_critical
 from ..psi.function import Psi
-
-Array = NDArray[np.float64]
 
 MANIFOLD_MARGIN = 2.0  # times the first-order distance of the slow manifold
 FLOOR = 1e-3  # in p: what an orbit that runs into the set is given besides
@@ -25,7 +23,7 @@ MAX_DISTANCE = 0.25  # in p: near a fold, and near the equator, the expansion pr
 
 
 @dataclass(frozen=True)
-class Followed:
+class TrackedSet:
     """The critical set that a state follows.
 
     Attributes
@@ -59,7 +57,7 @@ def in_disc(psi: Psi, e: Array) -> Array:
     return e / modulus * (zeta / math.hypot(1.0, zeta))
 
 
-def place(psi: Psi, eps: float, x: float, y: float) -> tuple[Array, Array]:
+def place_on_hemisphere(psi: Psi, eps: float, x: float, y: float) -> tuple[Array, Array]:
     """Return (e, p) of a state of the regularised system, each of shape (2,): ``p = (x, y)/rho``."""
     r, rho = math.hypot(x, y), math.hypot(x, y, eps)
     p = np.array([x, y]) / rho
@@ -81,7 +79,7 @@ def jacobian(field: Field, psi: Psi, e: Array, z: Array) -> Array:
     return D[:2, :2] @ _inverse_gain(psi, e)[2]
 
 
-def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> Followed | None:
+def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> TrackedSet | None:
     """Return the critical set within O(eps) of which the state lies, in p; None if there is none.
 
     Parameters
@@ -92,7 +90,7 @@ def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> F
     state : ndarray (2 + m,)
     """
     z = state[2:]
-    own_e, own_p = place(psi, eps, float(state[0]), float(state[1]))
+    own_e, own_p = place_on_hemisphere(psi, eps, float(state[0]), float(state[1]))
     e = solve_critical(field, own_e, z)
     if e is None or not math.hypot(e[0], e[1]) < 1.0:
         return None
@@ -119,4 +117,4 @@ def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> F
         change = height * X1 + (height**3 - height) * (along @ X1)
         if not distance <= FLOOR + MANIFOLD_MARGIN * eps * math.hypot(change[0], change[1]):
             return None
-    return Followed(e, p, determinant > 0.0 and trace < 0.0, rate, 0.5 * trace + math.sqrt(max(split, 0.0)))
+    return TrackedSet(e, p, determinant > 0.0 and trace < 0.0, rate, 0.5 * trace + math.sqrt(max(split, 0.0)))

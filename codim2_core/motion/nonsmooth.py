@@ -9,10 +9,11 @@ from functools import partial
 from typing import TYPE_CHECKING, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..initial_value.compiled_phases import CompiledPhases
-from ..initial_value.events import Event, Events, Watch, checked_events, reverse_event
+from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards_system, field
 from ..initial_value.line import invariant_line
 from ..initial_value.problem import plane_problem
@@ -23,7 +24,7 @@ from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
 from .checks import checked_span, checked_states, checked_tolerances, with_time
-from .limit.course import AtEventError, Course, StopError
+from .limit.course import AtEventError, HybridRun, StopError
 from .past import Past
 from .places import OfState
 from .regularised import MANY_MOTIONS, MAX_STEPS, count_steps, waited_for
@@ -31,11 +32,10 @@ from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
 
 if TYPE_CHECKING:
-    from .limit.legs import Legs
+    from .limit.legs import PhaseBuilder
 
 __all__ = ["simulate_nonsmooth"]
 
-Array = NDArray[np.float64]
 
 ON_SIGMA = 1e-200  # rho below which a state is on Sigma
 
@@ -138,7 +138,7 @@ def simulate_nonsmooth(
     for first in states:
         if math.hypot(first[0], first[1]) < ON_SIGMA:
             first[:2] = 0.0
-    asked = _Asked(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps)
+    asked = _NonsmoothRun(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps)
     if t_end < t_start:
         pasts = tuple(_past(asked, first) for first in states)
         return pasts[0] if np.ndim(state0) < 2 else pasts
@@ -151,7 +151,7 @@ def simulate_nonsmooth(
 
 
 @dataclass(frozen=True, eq=False)
-class _Asked:
+class _NonsmoothRun:
     """Arguments common to all motions of one call."""
 
     system: AnySystem
@@ -163,7 +163,7 @@ class _Asked:
     atol: float
     max_steps: int
 
-    def one(self, first: Array, compiled: bool = False, begun: Legs | None = None) -> Simulation:
+    def one(self, first: Array, compiled: bool = False, begun: PhaseBuilder | None = None) -> Simulation:
         """Follow one motion from a state, or from where it was handed over, phase by phase."""
         (t_start, t_end), rtol, atol, count = self.span, self.rtol, self.atol, [0]
         value = self.formulas.value
@@ -175,8 +175,8 @@ class _Asked:
         formulas = Field(self.formulas.m, self.formulas.rows, count_calls, self.formulas.slope)
         line = invariant_line(formulas, first)
         problem = plane_problem(formulas, None, 0.0, rtol, atol, None if line is None else line.vector)
-        watch = Watch(self.watched, t_start, first)
-        course = Course(
+        watch = EventWatch(self.watched, t_start, first)
+        course = HybridRun(
             self.system, self.psi, formulas, problem, line, watch, t_start, first, t_end, rtol, atol, self.max_steps
         )
         if compiled or not waited_for(formulas):
@@ -203,7 +203,7 @@ class _Asked:
         return simulation(motion, phases, variation, status, detail=detail, evaluations=evaluations, events=watch.times)
 
 
-def _past(asked: _Asked, last: Array) -> Simulation:
+def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
     """Follow a motion backwards until it is on Sigma, where motions meet, and tell it forwards."""
     if not last[:2].any():
         raise ValueError(
@@ -227,21 +227,24 @@ def _past(asked: _Asked, last: Array) -> Simulation:
     )  # fmt: skip
 
 
-def _run_motions(asked: _Asked, states: Array) -> Iterator[Simulation]:
+def _run_motions(asked: _NonsmoothRun, states: Array) -> Iterator[Simulation]:
     """Follow motions compiled as far as safe signs decide what comes next, all at once, and phase by phase from there.
 
     What starts on Sigma, and what is under watch, is followed phase by phase from the start.
     """
     outside = [i for i, first in enumerate(states) if first[:2].any()] if not asked.watched else []
-    legs: dict[int, Legs] = {}
+    legs: dict[int, PhaseBuilder] = {}
     if outside:
         from ..initial_value.courses import run_hybrid  # loads the compiler
-        from .limit.legs import Legs
+        from .limit.legs import PhaseBuilder
 
         lines = [invariant_line(asked.formulas, states[i]) for i in outside]
         own = (asked.rtol, asked.atol / asked.rtol, asked.max_steps)
         found = run_hybrid(asked.formulas, asked.psi, lines, states[outside], asked.span, *own)
-        legs = {i: Legs(asked.system, asked.psi, line, one) for i, line, one in zip(outside, lines, found, strict=True)}
+        legs = {
+            i: PhaseBuilder(asked.system, asked.psi, line, one)
+            for i, line, one in zip(outside, lines, found, strict=True)
+        }
     for i, first in enumerate(states):
         begun = legs.get(i)
         if begun is None or not begun.found.legs:

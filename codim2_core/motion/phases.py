@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..curves.polyline import distance
 from ..cycles.limit_cycles import limit_cycles
 from ..initial_value.field import Field, field
@@ -22,12 +22,10 @@ from ..numerics.dense import Dense
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .followed import Followed, followed_critical_set, place
+from .followed import TrackedSet, followed_critical_set, place_on_hemisphere
 from .limit.decide import critical_name, from_hemisphere
 from .places import OfState
 from .result import Phase
-
-Array = NDArray[np.float64]
 
 CONTACT_RADIUS = 20.0  # r in units of eps within which a motion is in contact with Sigma
 FOLLOWING_RADIUS = 3.0  # and from which on what it follows then is said to begin: |p| < 0.95
@@ -76,7 +74,7 @@ class _ReadMotion:
     def near(self, state: Array) -> bool:
         return math.hypot(state[0], state[1]) <= CONTACT_RADIUS * self.eps
 
-    def set_at(self, state: Array) -> Followed | None:
+    def set_at(self, state: Array) -> TrackedSet | None:
         return followed_critical_set(self.formulas, self.psi, self.eps, state)
 
     def boundary(self, i: int, holds: Callable[[Array], bool]) -> float:
@@ -132,7 +130,7 @@ class _ReadMotion:
             i += 1
         return _join_runs(self.with_cycles(first, last, runs))
 
-    def goes_on(self, here: Followed | None, there: Followed | None, i: int) -> bool:
+    def goes_on(self, here: TrackedSet | None, there: TrackedSet | None, i: int) -> bool:
         """Whether two step ends in a row follow the same set."""
         if here is None or there is None:
             return False
@@ -141,7 +139,7 @@ class _ReadMotion:
             return bool(np.hypot(*(here.e - there.e)) < SAME_SET_DISTANCE)
         return float(np.hypot(*(here.e - middle.e)) + np.hypot(*(there.e - middle.e))) < 3.0 * SAME_SET_DISTANCE
 
-    def on_set(self, first: int, last: int, start: Followed, end: Followed) -> _Run:
+    def on_set(self, first: int, last: int, start: TrackedSet, end: TrackedSet) -> _Run:
         holds = lambda state: self.set_at(state) is not None
         t_start = self.boundary(first - 1, holds) if first > 0 and not holds(self.states[first - 1]) else None
         t_end = None
@@ -163,7 +161,7 @@ class _ReadMotion:
         here = self.set_at(state)
         return run.onto if here is None else critical_name(self.system, self.psi, state[2:], here.e)
 
-    def is_followed(self, run: _Run, found: list[Followed | None]) -> bool:
+    def is_followed(self, run: _Run, found: list[TrackedSet | None]) -> bool:
         """Whether it is more than passed: anything that attracts is followed once it is reached."""
         if any(one is not None and one.attracts for one in found):
             return True
@@ -184,7 +182,7 @@ class _ReadMotion:
             return None
         followed: list[tuple[int, str]] = []
         for i in np.unique(np.linspace(first, last, ASKED + 1)[1:].astype(int)).tolist():
-            p = place(self.psi, self.eps, *self.states[i, :2].tolist())[1]
+            p = place_on_hemisphere(self.psi, self.eps, *self.states[i, :2].tolist())[1]
             cycles = limit_cycles(self.system, self.psi, tuple(self.states[i, 2:].tolist()))
             for k, cycle in enumerate(cycles):
                 if cycle.stable and _distance(p, cycle.points) <= ON_CYCLE + CONTACT_RADIUS * self.eps:
@@ -202,7 +200,7 @@ class _ReadMotion:
 
     def ahead(self, state: Array) -> str | None:
         """Name of the set onto which the orbit of the layer problem through the state leads; None if it leaves."""
-        p = place(self.psi, self.eps, float(state[0]), float(state[1]))[1]
+        p = place_on_hemisphere(self.psi, self.eps, float(state[0]), float(state[1]))[1]
         if not math.hypot(p[0], p[1]) < 1.0:
             return None
         try:

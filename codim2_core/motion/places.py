@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..cycles.limit_cycles import limit_cycles
 from ..initial_value.field import field
 from ..initial_value.sheet import solve_critical
@@ -23,15 +23,13 @@ from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .followed import in_disc
 
-Array = NDArray[np.float64]
-
 FASTEST, MAX_ASCENT_LENGTH = 60.0, 4.0  # time T and length for which an orbit up the hemisphere is followed
 ASCENT_START = 0.9995  # |p| from which an orbit is followed that leaves the closed equator
 NO_POINTS = np.zeros((0, 2))
 NO_POINTS.flags.writeable = False
 
 
-class Place(Protocol):
+class Location(Protocol):
     """The location of a phase."""
 
     def at(self, t: Array) -> tuple[Array, Array]:

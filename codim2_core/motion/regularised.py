@@ -11,14 +11,15 @@ from importlib.util import resolve_name
 from typing import TYPE_CHECKING, NoReturn, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..expressions.expression import Expression
-from ..initial_value.events import Event, Events, Watch, checked_events, reverse_event
+from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards, field
 from ..initial_value.line import invariant_line
 from ..initial_value.problem import plane_problem
-from ..numerics.dense import Dense, Steps, dense, gather_steps
+from ..numerics.dense import Dense, StepArray, dense, gather_steps
 from ..numerics.growth import BlowUpError, until_blow_up
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
 
 __all__ = ["simulate"]
 
-Array = NDArray[np.float64]
 
 _stepped: dict[tuple[Expression, ...], int] = {}  # steps in Python so far, by the formulas of a system
 
@@ -139,14 +139,14 @@ def simulate(
         raise ValueError(f"eps is {eps!r}; allowed is {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
     span = checked_span(t_span)
     checked_tolerances(rtol, atol, max_steps)
-    asked = _Asked(system, field(system), psi, float(eps), span, rtol, atol, checked_events(events), max_steps)
+    asked = _RegularisedRun(system, field(system), psi, float(eps), span, rtol, atol, checked_events(events), max_steps)
     states = checked_states(with_time(state0, system, span[0]), asked.formulas.m)
     runs = asked.runs(states) if span[0] < span[1] else _pasts(asked, states)
     return runs[0] if np.ndim(state0) < 2 else runs
 
 
 @dataclass(frozen=True, eq=False)
-class _Asked:
+class _RegularisedRun:
     """Arguments common to all motions of one call: `system` names the phases, `formulas` are integrated."""
 
     system: AnySystem
@@ -167,8 +167,8 @@ class _Asked:
 
     def one(self, first: Array) -> Simulation:
         """Follow one motion, in Python at first."""
-        watch = Watch(self.events, self.span[0], first)
-        parts, status, detail, count = _integrate(
+        watch = EventWatch(self.events, self.span[0], first)
+        parts, status, detail, count = _integrate_regularised(
             self.formulas, self.psi, self.eps, first, self.span, self.rtol, self.atol, self.max_steps, watch
         )
         return self.told(dense(self.span[0], first, parts), status, detail, count, watch.times)
@@ -212,7 +212,7 @@ class _Asked:
         return tuple(runs)
 
 
-def _pasts(asked: _Asked, states: Array) -> tuple[Simulation, ...]:
+def _pasts(asked: _RegularisedRun, states: Array) -> tuple[Simulation, ...]:
     """Follow motions backwards, and return them as they run, as far as their states tell where they came from."""
     back = replace(
         asked,
@@ -244,7 +244,7 @@ def first_step(problem: Problem, state: Array, rate: Array) -> float:
     return FIRST_STEP_SHARE / speed if speed > 0.0 else math.inf
 
 
-def _integrate(
+def _integrate_regularised(
     formulas: Field,
     psi: Psi,
     eps: float,
@@ -253,8 +253,8 @@ def _integrate(
     rtol: float,
     atol: float,
     max_steps: int,
-    watch: Watch,
-) -> tuple[list[Steps], SimulationStatus, str, int]:
+    watch: EventWatch,
+) -> tuple[list[StepArray], SimulationStatus, str, int]:
     """Follow a motion: its steps, why it ended, and the evaluations it took."""
     line = invariant_line(formulas, first)
     problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
@@ -264,7 +264,7 @@ def _integrate(
     if not np.isfinite(rate).all():
         _refuse(rate, first)
     taken: list[Step] = []
-    parts: list[Steps] = []
+    parts: list[StepArray] = []
     t, state, h = span[0], first, first_step(problem, first, rate)
     motion: CompiledMotion | None = None
     patience = waited_for(formulas)
@@ -301,7 +301,7 @@ def _integrate(
     return [gather_steps(taken, len(first)), *parts], status, detail, evaluations
 
 
-def _cut_at_event(part: Steps, watch: Watch, n: int) -> Steps | None:
+def _cut_at_event(part: StepArray, watch: EventWatch, n: int) -> StepArray | None:
     """Return the steps of a part, of n variables, up to an event that ends the motion; None where there is none."""
     taken: list[Step] = []
     for step in part if watch.events else ():

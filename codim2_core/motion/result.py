@@ -9,21 +9,20 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import drawing
+from ..arrays import Array
 from ..expressions.names import SLOW_NAMES
 from ..numerics.dense import Dense
-from ..tables import Tabled, frame, number, paragraphs, rows
+from ..tables import Tabled, frame, paragraphs, result_rows, table_number
 from ..words import say
 from .delay import Delay
 from .drawn import Drawn, drawn_curve
-from .places import NO_POINTS, Ascent, Place
+from .places import NO_POINTS, Ascent, Location
 
 if TYPE_CHECKING:
     from .variation.result import Variation
-
-Array = NDArray[np.float64]
 
 
 class SimulationStatus(Enum):
@@ -65,7 +64,7 @@ class Phase(Tabled):
     reason: str
     onto: str | None = field(default_factory=lambda: None)  # a default would be found where it is told later
     delay: Delay | None = field(default=None, repr=False, compare=False)
-    _place: Place | None = field(default=None, repr=False, compare=False)
+    _place: Location | None = field(default=None, repr=False, compare=False)
     _ascent: Ascent | None = field(default=None, repr=False, compare=False)
     _words: Callable[[], tuple[str, str | None]] | None = field(default=None, repr=False, compare=False)
 
@@ -76,7 +75,7 @@ class Phase(Tabled):
         del phase.__dict__["reason"], phase.__dict__["onto"]
         return phase
 
-    def placed(self, place: Place, ascent: Ascent | None) -> Phase:
+    def placed(self, place: Location, ascent: Ascent | None) -> Phase:
         """Return the phase with where it lies, and how it came there."""
         phase = object.__new__(Phase)
         phase.__dict__.update(self.__dict__, _place=place, _ascent=ascent)
@@ -93,7 +92,7 @@ class Phase(Tabled):
             return self.__dict__[name]
 
     def _row_(self) -> tuple[str, ...]:
-        return self.kind, number(self.t_start), number(self.t_end), self.onto or "", self.reason
+        return self.kind, table_number(self.t_start), table_number(self.t_end), self.onto or "", self.reason
 
     def e(self, t: ArrayLike) -> Array:
         """Return e at times within the phase: ``e_Psi`` of the state, in the limit that of the set it slides on.
@@ -182,7 +181,7 @@ class Simulation:
     _variation: Callable[[tuple[str, ...]], Variation] = field(repr=False)
 
     def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + rows(self.phases) + paragraphs([self.reason])
+        return (self._repr_svg_() or "") + result_rows(self.phases) + paragraphs([self.reason])
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)

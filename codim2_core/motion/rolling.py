@@ -10,11 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..examples.ball import Ball
-
-Array = NDArray[np.float64]
 
 #: Radius of a ball as a part of the way that it goes, where none is given: its rolling is then seen.
 ROLLING_SHARE, MIN_ROLLING = 0.07, 1e-6
@@ -74,7 +73,7 @@ def rolling(ball: Ball, times: ArrayLike, states: ArrayLike, rate: float = 0.0, 
     turns = np.zeros((len(t), 4))
     turns[0, 0] = 1.0
     for i, (y, minus_x) in enumerate(middle.tolist()):
-        turns[i + 1] = _times(_turn(-minus_x, y), turns[i])
+        turns[i + 1] = _compose(_turn(-minus_x, y), turns[i])
     for array in (centre, turns):
         array.flags.writeable = False
     return Rolling(centre, turns, radius)
@@ -87,7 +86,7 @@ def _turn(x: float, y: float) -> tuple[float, float, float, float]:
     return float(np.cos(0.5 * angle)), share * x, share * y, 0.0
 
 
-def _times(second: tuple[float, float, float, float], first: Array) -> tuple[float, float, float, float]:
+def _compose(second: tuple[float, float, float, float], first: Array) -> tuple[float, float, float, float]:
     """Return the turn that does the first, then the second."""
     a, b, c, d = second
     e, f, g, h = first.tolist()

@@ -15,19 +15,16 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..numerics.trigonometric import radial_zeros
 from ..systems.coefficients import Coefficients
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from .typed import Kind
 
-Array = NDArray[np.floating[Any]]
-
-Curve = Callable[[Array], Array]  # a parameter in [0, 1] -> points of the closed e-disc
+ConicCurve = Callable[[Array], Array]  # a parameter in [0, 1] -> points of the closed e-disc
 
 SPIKE = 0.9  # |e| beyond which a nullcline that turns back is drawn from there on both sides
 
@@ -40,7 +37,7 @@ def _radial_angles(coefficients: Coefficients) -> list[float]:
 Affine = tuple[float, float, float, float, float, float]  # U = (A11 c + A12 s + f1, A21 c + A22 s + f2), row by row
 
 
-def affine_field(at: AtZ) -> tuple[Affine, list[float]] | None:
+def affine_field(at: FrozenSystem) -> tuple[Affine, list[float]] | None:
     """U where it is affine in (c, s), and the angles at which lambda_rho vanishes; None where it is not."""
     normal = at.normal_form
     if normal is None:
@@ -60,7 +57,7 @@ def _quadratic(kind: Kind, U: Affine) -> tuple[float, float, float]:
     return (a11, a12 + a21, a22) if kind == "rho" else (a21, a22 - a11, -a12)
 
 
-def _linear(kind: Kind, U: Affine) -> tuple[float, float]:
+def _linear_part(kind: Kind, U: Affine) -> tuple[float, float]:
     """L as (l1, l2): l1 cos + l2 sin."""
     return (U[2], U[5]) if kind == "rho" else (U[5], -U[2])
 
@@ -104,10 +101,10 @@ class Straight:
         return bool(self.start[0] * self.end[1] == self.start[1] * self.end[0])
 
 
-def conic(kind: Kind, U: Affine, ends: list[float]) -> list[Curve]:
+def conic(kind: Kind, U: Affine, ends: list[float]) -> list[ConicCurve]:
     """Branches of one conic in the e-disc; `ends` are the angles in [0, 2 pi) where it meets the unit circle."""
     q11, q12, q22 = _quadratic(kind, U)
-    l1, l2 = _linear(kind, U)
+    l1, l2 = _linear_part(kind, U)
     size_q, size_l = max(abs(q11), abs(q12), abs(q22)), math.hypot(l1, l2)
     if size_l == 0.0:
         diameters = [np.array([math.cos(t), math.sin(t)]) for t in _null_directions(q11, q12, q22)]

@@ -8,15 +8,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.arrays import Program
 from ..numerics.fourier_zeros import series, zeros
-
-Array = NDArray[np.floating[Any]]
 
 RADIUS, MIN_RADIUS = 0.02, 1e-3  # of the circle, in units of the disc
 CROSSING_DISTANCE = 1e-4  # branches that pass each other at this distance are drawn as crossing: a fiftieth of a pixel

@@ -6,12 +6,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.problem import LayerProblem
 from ..numerics.trigonometric import INPUT_ROUNDING
 
-Array = NDArray[np.float64]
 STRAIGHT_DISTANCE = (
     1e6  # of the view: a hyperbola whose centre is farther away is a straight line in it, to 1e-5 of the view
 )
@@ -82,22 +81,22 @@ def _conic(q: float, p1: float, p2: float, b: float, reach: float, within: float
     if q == p1 == p2 == 0.0:
         return ("plane" if b == 0.0 else "none"), []
     if q == 0.0:
-        return "line", _line(p1, p2, b, reach)
+        return "line", _line_pieces(p1, p2, b, reach)
     h, k = -p2 / q, -p1 / q  # the centre: (x - h)(y - k) = product
     if not max(abs(h), abs(k)) <= STRAIGHT_DISTANCE * reach:
-        return "hyperbola", _line(p1, p2, b, reach)
+        return "hyperbola", _line_pieces(p1, p2, b, reach)
     product = h * k - b / q
     if abs(product) <= INPUT_ROUNDING * (abs(h * k) + abs(b / q)):
-        return "two lines", [*_line(1.0, 0.0, -h, reach), *_line(0.0, 1.0, -k, reach)]
-    return "hyperbola", _branches(h, k, product, reach, within)
+        return "two lines", [*_line_pieces(1.0, 0.0, -h, reach), *_line_pieces(0.0, 1.0, -k, reach)]
+    return "hyperbola", _hyperbola_pieces(h, k, product, reach, within)
 
 
-def _line(p1: float, p2: float, b: float, reach: float) -> list[Array]:
+def _line_pieces(p1: float, p2: float, b: float, reach: float) -> list[Array]:
     """Return p1 x + p2 y + b = 0 within the square, from border to border; [] where it misses it."""
     size = max(abs(p1), abs(p2))
     p1, p2, b = p1 / size, p2 / size, b / size
     if abs(p1) > abs(p2):
-        return [line[:, ::-1] for line in _line(p2, p1, b, reach)]
+        return [line[:, ::-1] for line in _line_pieces(p2, p1, b, reach)]
     slope, offset = -p1 / p2, -b / p2  # |slope| <= 1
     x = np.array([-reach, reach])
     if slope:
@@ -108,7 +107,7 @@ def _line(p1: float, p2: float, b: float, reach: float) -> list[Array]:
     return [np.stack([x, slope * x + offset], axis=-1)] if x[0] < x[1] else []
 
 
-def _branches(h: float, k: float, product: float, reach: float, within: float) -> list[Array]:
+def _hyperbola_pieces(h: float, k: float, product: float, reach: float, within: float) -> list[Array]:
     """Return the pieces of (x - h)(y - k) = product, x - h = ±size e^t and y - k = ±size e^-t on each branch."""
     size = math.sqrt(abs(product))
     # a chord over a step s of t is within size s^2/(4 sqrt 2) of its arc

@@ -4,24 +4,22 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from .. import drawing
+from ..arrays import Array
 from ..layer_problem.equator import equator_equilibria
 from ..psi.constructors import constant
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from ..tables import Results, Tabled, point
-from .conics import Curve, Straight, affine_field, chord_ends, conic, lines
+from .conics import ConicCurve, Straight, affine_field, chord_ends, conic, lines
 from .polylines import picture_points
 from .refining import Seen, on_component
 from .typed import Kind, inside_curves, outside_curves
-
-Array = NDArray[np.floating[Any]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,13 +65,13 @@ _NULLCLINE_NAMES: dict[Kind, str] = {"rho": "ρ′ = 0", "theta": "θ′ = 0", "
 
 
 def inside_nullclines(
-    coefficients: AtZ, psi: Psi, limit_directions: list[float], seen: Seen | None = None
+    coefficients: FrozenSystem, psi: Psi, limit_directions: list[float], seen: Seen | None = None
 ) -> tuple[NullclineBranch, ...]:
     """Nullclines on the hemisphere; `limit_directions` are the zeros of Theta (where theta-nullclines end)."""
     affine = affine_field(coefficients)
     if affine is None:
         return tuple(
-            _branch(kind, True, picture_points(curve, psi, seen, on_component(coefficients, kind, inside=True)))
+            _make_branch(kind, True, picture_points(curve, psi, seen, on_component(coefficients, kind, inside=True)))
             for kind, curve in inside_curves(coefficients)
         )
     U, radial = affine
@@ -81,7 +79,7 @@ def inside_nullclines(
         ("rho", radial),
         ("theta", limit_directions),
     )
-    shapes: list[tuple[Kind, Curve]] = []
+    shapes: list[tuple[Kind, ConicCurve]] = []
     for kind, angles in ends:
         for curve in conic(kind, U, angles):
             shapes.append((kind, curve))  # noqa: PERF401 (a comprehension loses the type of kind)
@@ -89,16 +87,16 @@ def inside_nullclines(
         chord = chord_ends(*line)
         if chord is not None:
             shapes.append((kind, Straight(*chord)))
-    return tuple(_branch(kind, True, picture_points(curve, psi, seen)) for kind, curve in shapes)
+    return tuple(_make_branch(kind, True, picture_points(curve, psi, seen)) for kind, curve in shapes)
 
 
-def _branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
+def _make_branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
     points.flags.writeable = False
     return NullclineBranch(kind, inside, points)
 
 
 def outside_nullclines(
-    coefficients: AtZ, limit_directions: list[float], view: float, seen: Seen | None = None
+    coefficients: FrozenSystem, limit_directions: list[float], view: float, seen: Seen | None = None
 ) -> tuple[NullclineBranch, ...]:
     """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued.
 
@@ -109,7 +107,7 @@ def outside_nullclines(
     if affine is None:
         one = constant()
         return tuple(
-            _branch(kind, False, picture_points(curve, one, seen, on_component(coefficients, kind, inside=False)))
+            _make_branch(kind, False, picture_points(curve, one, seen, on_component(coefficients, kind, inside=False)))
             for kind, curve in outside_curves(coefficients, reach)
         )
     U, radial = affine

@@ -6,17 +6,15 @@ import math
 from collections.abc import Callable
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..psi.function import Psi
-from .conics import Arc, Curve, Straight
+from .conics import Arc, ConicCurve, Straight
 from .refining import Seen, refine_curve, to_picture
 from .typed import Traced
 
-Array = NDArray[np.floating[Any]]
 Exactly = Callable[[Array], Array]
 
 MAX_COARSE_POINTS = 65  # most points of a branch
@@ -49,7 +47,7 @@ def _onto_disc(psi: Psi, e: Array) -> Array:
     return e * factor[:, None]
 
 
-def picture_points(curve: Curve, psi: Psi, seen: Seen | None = None, exactly: Exactly | None = None) -> Array:
+def picture_points(curve: ConicCurve, psi: Psi, seen: Seen | None = None, exactly: Exactly | None = None) -> Array:
     """Picture points along a curve of the e-disc, spread so that no segment sags by more than SAG.
 
     At most POINTS, or for a traced curve so many for each half turn, and for a conic between its tips; closer where
@@ -66,7 +64,7 @@ def picture_points(curve: Curve, psi: Psi, seen: Seen | None = None, exactly: Ex
     return refine_curve(curve, lambda e: to_picture(psi, onto(e)), t, points, seen)
 
 
-def _sample_curve(curve: Curve, psi: Psi) -> tuple[Array, Array]:
+def _sample_curve(curve: ConicCurve, psi: Psi) -> tuple[Array, Array]:
     """Parameters along a curve, and its picture points there."""
     if isinstance(curve, Arc) and not psi.record.identity:
         knots = [0.0, *curve.tips(), 1.0]
@@ -84,7 +82,7 @@ def _sample_curve(curve: Curve, psi: Psi) -> tuple[Array, Array]:
     return _spread(curve, psi, _CHEBYSHEV_GRID if count == MAX_COARSE_POINTS else np.linspace(0.0, 1.0, count))
 
 
-def _spread(curve: Curve, psi: Psi, t: Array) -> tuple[Array, Array]:
+def _spread(curve: ConicCurve, psi: Psi, t: Array) -> tuple[Array, Array]:
     """Parameters and picture points along a curve from t[0] to t[-1], as many as of t, moved to where it bends."""
     count = len(t)
     points = _onto_disc(psi, curve(t))

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
-from .conics import Curve
+from ..systems.frozen import FrozenSystem
+from .conics import ConicCurve
 from .typed import Kind
-
-Array = NDArray[np.floating[Any]]
 
 PIXEL_TOLERANCE = 0.25  # of a pixel: a polyline stays within it of its curve
 WINDOW_MARGIN = 0.5  # of the window, beside it: what a small pan shows
@@ -52,7 +50,7 @@ def to_picture(psi: Psi, e: Array) -> Array:
     return e * np.where(moves | (m >= 0.5), r / np.where(m > 0.0, m, 1.0), 1.0)[:, None]
 
 
-def on_component(at: AtZ, kind: Kind, inside: bool) -> Callable[[Array], Array]:
+def on_component(at: FrozenSystem, kind: Kind, inside: bool) -> Callable[[Array], Array]:
     """Return what brings points close to a traced curve onto it: Newton's method along the gradient."""
 
     def component(points: Array) -> Array:
@@ -85,7 +83,7 @@ def on_component(at: AtZ, kind: Kind, inside: bool) -> Callable[[Array], Array]:
     return correct_points
 
 
-def refine_curve(curve: Curve, place: Callable[[Array], Array], t: Array, points: Array, seen: Seen) -> Array:
+def refine_curve(curve: ConicCurve, place: Callable[[Array], Array], t: Array, points: Array, seen: Seen) -> Array:
     """Return picture points along a curve of which t and points are a coarse sample, closer where they are seen.
 
     Parameters

@@ -22,7 +22,7 @@ BORDER, CLOSED_CURVE, CROSSING, STUCK = range(4)  # how a curve ends
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _rows(op, left, right, number, roots, outside, X, Y, seed, work, rows):
+def _component_rows(op, left, right, number, roots, outside, X, Y, seed, work, rows):
     """Rows of U and their derivatives by X and Y, at a point of the e-disc or of the picture outside."""
     seed[:] = 0.0
     if not outside:
@@ -59,7 +59,7 @@ def _of_kind(kind, seed, rows):
 @njit(cache=True, nogil=True, error_model="numpy")
 def _component(op, left, right, number, roots, kind, outside, X, Y, seed, work, rows):
     """Return a component of U and its derivatives by X and Y; seed (4, 3), work (n, 3), rows (2, 3) are scratch."""
-    _rows(op, left, right, number, roots, outside, X, Y, seed, work, rows)
+    _component_rows(op, left, right, number, roots, outside, X, Y, seed, work, rows)
     return _of_kind(kind, seed, rows)
 
 
@@ -75,7 +75,7 @@ def sample(op, left, right, number, roots, outside, points):
         if not outside and math.hypot(points[i, 0], points[i, 1]) > 1.07:
             out[:, :, i] = math.nan
             continue
-        _rows(op, left, right, number, roots, outside, points[i, 0], points[i, 1], seed, work, rows)
+        _component_rows(op, left, right, number, roots, outside, points[i, 0], points[i, 1], seed, work, rows)
         for kind in range(4):
             out[kind, 0, i], out[kind, 1, i], out[kind, 2, i] = _of_kind(kind, seed, rows)
     return out
@@ -217,7 +217,7 @@ def _home_ahead(home, X, Y, tx, ty, h):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def follow(op, left, right, number, roots, kind, outside, start, home, crossings, largest, size, out):
+def trace_nullcline(op, left, right, number, roots, kind, outside, start, home, crossings, largest, size, out):
     """Follow a curve from a point on it.
 
     Parameters

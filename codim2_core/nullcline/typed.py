@@ -11,17 +11,17 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterator
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.arrays import Program, program
 from ..layer_problem.equator_zeros import component_zeros, directions
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from .crossings import CROSSING_DISTANCE, Crossing, crossings
 
-Array = NDArray[np.floating[Any]]
 Kind = Literal["rho", "theta", "U1", "U2"]
 NULLCLINE_KINDS: tuple[Kind, ...] = ("rho", "theta", "U1", "U2")  # in the order of the numbers in `trace`
 
@@ -84,15 +84,15 @@ class Traced:
         return np.where((t >= 1.0)[:, None], P[-1], curve)
 
 
-def inside_curves(at: AtZ) -> list[tuple[Kind, Traced]]:
+def inside_curves(at: FrozenSystem) -> list[tuple[Kind, Traced]]:
     """All branches in the closed e-disc."""
-    nodes_c = NET_LEFT + NET_SIDE / NET_CELLS * np.arange(NET_CELLS + 1)
-    nodes_s = BELOW + NET_SIDE / NET_CELLS * np.arange(NET_CELLS + 1)
+    nodes_c = NET_LEFT + NET_SIDE / NET_CELLS * np.arange(NET_CELLS + 1.0)
+    nodes_s = BELOW + NET_SIDE / NET_CELLS * np.arange(NET_CELLS + 1.0)
     points = np.stack(np.meshgrid(nodes_c, nodes_s, indexing="ij"), axis=-1)
-    return _curves(at, points, (points**2).sum(axis=-1) < 1.0, nodes_c, nodes_s, 0.0)
+    return _trace_branches(at, points, (points**2).sum(axis=-1) < 1.0, nodes_c, nodes_s, 0.0)
 
 
-def outside_curves(at: AtZ, reach: float) -> list[tuple[Kind, Traced]]:
+def outside_curves(at: FrozenSystem, reach: float) -> list[tuple[Kind, Traced]]:
     """All branches outside, up to that distance from the middle: rays unless U reads x or y."""
     if not at.reads_position:
         rays: list[tuple[Kind, Traced]] = []
@@ -103,11 +103,11 @@ def outside_curves(at: AtZ, reach: float) -> list[tuple[Kind, Traced]]:
     radii = np.linspace(1.0, reach, NET_CELLS + 1)
     angles = 1e-3 + 2.0 * math.pi * np.arange(4 * NET_CELLS + 1) / (4 * NET_CELLS)
     points = radii[:, None, None] * directions(angles)
-    return _curves(at, points, np.ones(points.shape[:2], bool), radii, angles, reach)
+    return _trace_branches(at, points, np.ones(points.shape[:2], bool), radii, angles, reach)
 
 
-def _curves(
-    at: AtZ, points: Array, usable: NDArray[np.bool_], first: Array, second: Array, reach: float
+def _trace_branches(
+    at: FrozenSystem, points: Array, usable: NDArray[np.bool_], first: Array, second: Array, reach: float
 ) -> list[tuple[Kind, Traced]]:
     """Branches of all kinds, on a net of the inside (reach 0) or of the outside."""
     from .trace import sample  # on first use: it loads the compiler
@@ -253,7 +253,7 @@ class _Tracer:
         rows, closed = self._followed(start)
         if not closed:
             back, _ = self._followed(_reverse_tangents(start))
-            rows = np.concatenate([_backwards(back[1:]), rows])
+            rows = np.concatenate([_reverse_rows(back[1:]), rows])
         self._add(rows)
 
     def _through(self, which: int, i: int) -> None:
@@ -265,7 +265,7 @@ class _Tracer:
             return
         rows, closed = self._followed(start, (which, i))
         if not closed:
-            rows = np.concatenate([_backwards(self._followed(other)[0]), rows])
+            rows = np.concatenate([_reverse_rows(self._followed(other)[0]), rows])
         self._add(rows)
 
     def _leaving(self, which: int, i: int) -> Array | None:
@@ -288,13 +288,13 @@ class _Tracer:
 
         origin : the crossing and its half-branch at which it starts.
         """
-        from .trace import BORDER, CLOSED_CURVE, CROSSING, follow
+        from .trace import BORDER, CLOSED_CURVE, CROSSING, trace_nullcline
 
         pieces: list[Array] = []
         here, total = start, 0
         while True:
             out = np.empty((MOST_POINTS, 4))
-            count, ending, which = follow(
+            count, ending, which = trace_nullcline(
                 *self.run.arrays, self.kind, self.outside, here, start, self.circles, self.reach, self.size, out
             )
             pieces.append(out[:count])
@@ -328,5 +328,5 @@ def _reverse_tangents(start: Array) -> Array:
     return start * (1.0, 1.0, -1.0, -1.0)
 
 
-def _backwards(rows: Array) -> Array:
+def _reverse_rows(rows: Array) -> Array:
     return _reverse_tangents(rows[::-1])

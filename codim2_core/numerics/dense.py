@@ -7,11 +7,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from .radau import STAGES, Step
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +74,7 @@ class Dense:
 
 
 @dataclass(frozen=True, eq=False)
-class Steps:
+class StepArray:
     """Consecutive steps as arrays: from the state `first` (n,), each with its start, length, end and polynomial."""
 
     first: Array
@@ -94,13 +93,13 @@ class Steps:
             before = end
 
 
-def gather_steps(taken: Sequence[Step], n: int) -> Steps:
+def gather_steps(taken: Sequence[Step], n: int) -> StepArray:
     """Gather steps of n numbers."""
     degree = max((step.polynomial.shape[1] for step in taken), default=STAGES)
     polynomials = np.zeros((len(taken), n, degree))
     for step, polynomial in zip(taken, polynomials, strict=True):
         polynomial[:, : step.polynomial.shape[1]] = step.polynomial
-    return Steps(
+    return StepArray(
         taken[0].first if taken else np.zeros(n),
         np.array([step.start for step in taken]),
         np.array([step.h for step in taken]),
@@ -109,7 +108,7 @@ def gather_steps(taken: Sequence[Step], n: int) -> Steps:
     )
 
 
-def dense(t_start: float, first: Array, parts: Sequence[Steps]) -> Dense:
+def dense(t_start: float, first: Array, parts: Sequence[StepArray]) -> Dense:
     """Join steps, each of which begins where the one before it ended."""
     times = np.maximum.accumulate(np.concatenate([[t_start], *(part.starts + part.lengths for part in parts)]))
     states = np.concatenate([first[None], *(part.ends for part in parts)])

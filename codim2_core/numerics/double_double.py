@@ -18,7 +18,7 @@ def product(x: Any, y: Any) -> Pair:
     return p, ((x1 * y1 - p) + x1 * y2 + x2 * y1) + x2 * y2
 
 
-def add(u: Pair, v: Pair) -> Pair:
+def add_pairs(u: Pair, v: Pair) -> Pair:
     """Return the sum of two pairs."""
     s = u[0] + v[0]
     b = s - u[0]
@@ -35,4 +35,4 @@ def negative(u: Pair) -> Pair:
 def square(u: Pair) -> Pair:
     """Return the square of a pair."""
     p, lost = product(u[0], u[0])
-    return add((p, lost), (2.0 * u[0] * u[1], 0.0 * p))
+    return add_pairs((p, lost), (2.0 * u[0] * u[1], 0.0 * p))

@@ -49,7 +49,7 @@ def _power_general(a, b, c, d):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
-def _linear(k, u, v, w):
+def _write_linear(k, u, v, w):
     """Write -u, u + v or u - v."""
     for j in (0, 2, 4):
         if k == NEG:
@@ -128,7 +128,7 @@ def _any_power(u, v, w):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
-def _of_one(k, exponent, u, w):
+def _write_function(k, exponent, u, w):
     """Write a function of u, or u**exponent with a whole exponent, by the chain rule."""
     if k == POWI:
         w[0], w[1] = power(u[0], u[1], exponent)
@@ -165,7 +165,7 @@ def enclose(op, left, right, number, roots, c_lo, c_hi, s_lo, s_hi, work, out):
             continue
         u, v = work[left[i]], work[right[i]]
         if k in (NEG, ADD, SUB):
-            _linear(k, u, v, w)
+            _write_linear(k, u, v, w)
         elif k == MUL:
             _product(u, v, w)
         elif k == DIV:
@@ -177,7 +177,7 @@ def enclose(op, left, right, number, roots, c_lo, c_hi, s_lo, s_hi, work, out):
         elif k == POW:
             _any_power(u, v, w)
         else:
-            _of_one(k, number[i], u, w)
+            _write_function(k, number[i], u, w)
     for r in range(len(roots)):
         for j in range(6):
             out[r, j] = work[roots[r], j]

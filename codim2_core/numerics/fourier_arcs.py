@@ -10,7 +10,7 @@ from numba import njit
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _value(c, t):
+def _evaluate_series(c, t):
     """``f = Re sum c_k exp(i k t)`` with three derivatives."""
     turn = cmath.exp(1j * t)
     wave = 1.0 + 0.0j
@@ -28,7 +28,7 @@ def _value(c, t):
 @njit(cache=True, nogil=True, error_model="numpy")
 def _only_zero(c, low, high, rising, tolerance):
     """Return (whether there is one, the zero) on an arc where f is monotone, by its signs at the two ends."""
-    first, last = _value(c, low)[0], _value(c, high)[0]
+    first, last = _evaluate_series(c, low)[0], _evaluate_series(c, high)[0]
     if not rising:
         first, last = -first, -last
     if first > 0.0 or last < 0.0:
@@ -38,7 +38,7 @@ def _only_zero(c, low, high, rising, tolerance):
         return abs(last) <= tolerance, high
     x = 0.5 * (low + high)
     for _ in range(60):
-        f, d, _, _ = _value(c, x)
+        f, d, _, _ = _evaluate_series(c, x)
         if (f > 0.0) == rising:
             high = x
         else:
@@ -86,7 +86,7 @@ def decide_arcs(c, theta, h, least, most, tolerance, first, fourth, simple):
         count = 0
         for i in range(len(theta)):
             t = theta[i]
-            f, d, w, q = _value(c, t)
+            f, d, w, q = _evaluate_series(c, t)
             second = abs(w) + h * abs(q) + 0.5 * h * h * fourth  # bound of f'' on the arc
             if abs(f) > h * abs(d) + 0.5 * h * h * second + tolerance:
                 continue
@@ -114,8 +114,8 @@ def lowest_extremum(c, theta, h):
     """Return the smallest |f| at an extremum, of those one Newton step from the net; inf if there is none."""
     lowest = math.inf
     for t in theta:
-        _, d, w, _ = _value(c, t)
+        _, d, w, _ = _evaluate_series(c, t)
         if w != 0.0 and abs(d) <= 2.0 * h * abs(w):
-            f, d, w, _ = _value(c, t - d / w)
+            f, d, w, _ = _evaluate_series(c, t - d / w)
             lowest = min(lowest, abs(f - 0.5 * d * d / w) if w != 0.0 else abs(f))
     return lowest

@@ -11,12 +11,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.floating[Any]]
+from ..arrays import Array
 
 UNIT = 2.0**-53
 ROUNDINGS = 16.0  # of the terms of f: what a zero's multiplicity is decided within
@@ -204,9 +203,9 @@ def _collect_zeros(
         return Zeros(np.zeros(0), np.zeros(0, np.int64), proven, distance)
     kept: list[tuple[float, int, float]] = []
     for entry in entries:
-        if not (kept and _same(f, kept[-1], entry)):
+        if not (kept and _is_same_zero(f, kept[-1], entry)):
             kept.append(entry)
-    if len(kept) > 1 and _same(f, kept[-1], (kept[0][0] + 2.0 * math.pi, *kept[0][1:])):
+    if len(kept) > 1 and _is_same_zero(f, kept[-1], (kept[0][0] + 2.0 * math.pi, *kept[0][1:])):
         kept.pop()
     proven = proven and _alternate(kept)
     return Zeros(
@@ -230,7 +229,7 @@ def _alternate(found: list[tuple[float, int, float]]) -> bool:
     return rises == (found[first][2] > 0.0)
 
 
-def _same(f: Series, one: tuple[float, int, float], next_: tuple[float, int, float]) -> bool:
+def _is_same_zero(f: Series, one: tuple[float, int, float], next_: tuple[float, int, float]) -> bool:
     """Whether neighbours are one simple zero, found from both of the arcs that it lies between: both rise or fall."""
     (t, m, slope), (u, n, other) = one, next_
     if not m == n == 1 or (slope > 0.0) != (other > 0.0):

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..words import say
 from .radau import Problem, Step, StepsTooShortError, TooManyStepsError
-
-Array = NDArray[np.float64]
 
 BOUND = 1e200
 GROWN = 8.0  # times its size, within the spacing of doubles in time

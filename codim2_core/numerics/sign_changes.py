@@ -8,9 +8,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
+
 __all__ = ["Roots", "lowest", "refine_roots", "roots", "sign_changes", "vertex"]
 
-Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 
 _UNIT = np.linspace(0.0, 1.0, 17)

@@ -86,7 +86,7 @@ def real_zeros(m0: float, c1: float, s1: float, c2: float, s2: float) -> Trigono
     ValueError
         If a coefficient is not finite.
     """
-    inputs = _finite((m0, c1, s1, c2, s2), ("m0", "c1", "s1", "c2", "s2"))
+    inputs = _check_finite((m0, c1, s1, c2, s2), ("m0", "c1", "s1", "c2", "s2"))
     scale, (m0, c1, s1, c2, s2) = _scale_by_power_of_two(inputs)
     fast = _fast(m0, c1, s1, c2, s2, abs(m0), abs(c2), abs(s2))
     return _finish(fast, scale, inputs, GENERAL_PATTERNS)
@@ -110,7 +110,7 @@ def tangential_zeros(a: float, b: float, d: float, f1: float, f2: float) -> Trig
     ValueError
         If a coefficient is not finite.
     """
-    inputs = _finite((b, f2, f1, a, d), ("b", "f2", "f1", "a", "d"))
+    inputs = _check_finite((b, f2, f1, a, d), ("b", "f2", "f1", "a", "d"))
     if a == d:
         scale, (b, f2, f1) = _scale_by_power_of_two(inputs[:3])
         fast = _fast(b, f2, -f1, 0.0, 0.0, abs(b), 0.0, 0.0)
@@ -138,7 +138,7 @@ def radial_zeros(a: float, d: float, f1: float, f2: float) -> TrigonometricZeros
     ValueError
         If a coefficient is not finite.
     """
-    inputs = _finite((f1, f2, a, d), ("f1", "f2", "a", "d"))
+    inputs = _check_finite((f1, f2, a, d), ("f1", "f2", "a", "d"))
     if a == d:
         scale, (f1, f2, a) = _scale_by_power_of_two(inputs[:3])
         fast = _fast(a, f1, f2, 0.0, 0.0, abs(a), 0.0, 0.0)
@@ -149,7 +149,7 @@ def radial_zeros(a: float, d: float, f1: float, f2: float) -> TrigonometricZeros
     return _finish(fast, scale, inputs, _RADIAL)
 
 
-def _finite(values: tuple[float, ...], names: tuple[str, ...]) -> tuple[float, ...]:
+def _check_finite(values: tuple[float, ...], names: tuple[str, ...]) -> tuple[float, ...]:
     for name, value in zip(names, values, strict=True):
         if not math.isfinite(value):
             raise ValueError(f"{name} = {value!r}: every coefficient must be a finite number; change {name}.")

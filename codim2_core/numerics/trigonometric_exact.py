@@ -91,7 +91,7 @@ def solve_exactly(inputs: Sequence[float], patterns: Sequence[Sequence[int]]) ->
     levels = _real_zeros_of_chain(chain, bits)
     found, distance = _degenerate_zeros(chain, levels, doubtful, bits)
     count = len(levels[0]) if _discriminant(total) else _count_degenerate(quartic, levels, bits)
-    zeros = tuple(_direction(p, m, chain[1], base, bits, exponent) for p, m in found)
+    zeros = tuple(_exact_direction(p, m, chain[1], base, bits, exponent) for p, m in found)
     return ExactZeros(zeros, False, count, distance)
 
 
@@ -138,7 +138,7 @@ def _discriminant(total: Sequence[int]) -> int:
 def _count_degenerate(quartic: Sequence[int], levels: Sequence[Sequence[int]], bits: int) -> int:
     """Distinct real zeros when some zero is exactly multiple: critical values below 2**-bits are zero."""
     size = max(abs(a) for a in quartic)
-    multiple = [p for level in levels[1:] for p in level if abs(_value(quartic, p, bits)) <= size << (3 * bits)]
+    multiple = [p for level in levels[1:] for p in level if abs(_scaled_value(quartic, p, bits)) <= size << (3 * bits)]
     near = 1 << (bits // 2)
     distinct: list[int] = []
     for p in (*multiple, *levels[0]):
@@ -147,7 +147,7 @@ def _count_degenerate(quartic: Sequence[int], levels: Sequence[Sequence[int]], b
     return len(distinct)
 
 
-def _value(polynomial: Sequence[int], p: int, bits: int) -> int:
+def _scaled_value(polynomial: Sequence[int], p: int, bits: int) -> int:
     """polynomial(p / 2**bits) * 2**(bits * degree), exactly."""
     value, shift = polynomial[-1], 0
     for a in polynomial[-2::-1]:
@@ -164,7 +164,7 @@ def _real_zeros_of_chain(chain: Sequence[Sequence[int]], bits: int) -> list[list
         polynomial, slope = chain[k], chain[k + 1]
         bound = 2 + max(abs(a) for a in polynomial) // abs(polynomial[-1])
         knots = [-(bound << bits), *levels[k + 1], bound << bits]
-        values = [_value(polynomial, p, bits) for p in knots]
+        values = [_scaled_value(polynomial, p, bits) for p in knots]
         for i in range(len(knots) - 1):
             if values[i] == 0:
                 levels[k].append(knots[i])
@@ -179,14 +179,14 @@ def _bracketed_newton(
     """Newton's method kept inside a bracket, to the last of `bits` binary places."""
     p, last = (low + high) >> 1, high - low
     while high - low > 1:
-        v = _value(polynomial, p, bits)
+        v = _scaled_value(polynomial, p, bits)
         if v == 0:
             return p
         if (v > 0) == falls:
             low = p
         else:
             high = p
-        dv = _value(slope, p, bits)
+        dv = _scaled_value(slope, p, bits)
         step = v // dv if dv else last
         if -2 <= step <= 1:
             return p - step
@@ -229,9 +229,9 @@ def _distance(
     rows: list[list[float]] = []
     parts = [list(g) for g in doubtful]
     for k in range(orders):
-        values = [_value(g, p, bits) for g in parts]
+        values = [_scaled_value(g, p, bits) for g in parts]
         scale = sum(abs(v) for v in values)
-        residual = _value(chain[k], p, bits)
+        residual = _scaled_value(chain[k], p, bits)
         vector.append(residual / scale if scale else float(residual != 0) * 1e9)
         rows.append([v / scale if scale else 0.0 for v in values])
         parts = [[j * a for j, a in enumerate(g)][1:] for g in parts]
@@ -241,9 +241,9 @@ def _distance(
 def _double_distance(chain: Sequence[Sequence[int]], doubtful: Sequence[Sequence[int]], p: int, bits: int) -> float:
     """Do the same for a double zero near the critical point p, which may move unless nearly degenerate."""
     slopes = [[j * a for j, a in enumerate(g)][1:] for g in doubtful]
-    bend = _value(chain[2], p, bits)
+    bend = _scaled_value(chain[2], p, bits)
     # push * |t'''| against t''^2 (push: how much t' can change), both at the scale 2**(4 bits).
-    push = sum(abs(_value(g, p, bits)) for g in slopes) * abs(_value(chain[3], p, bits))
+    push = sum(abs(_scaled_value(g, p, bits)) for g in slopes) * abs(_scaled_value(chain[3], p, bits))
     if 100 * push < bend * bend * _PER_ROUNDING:
         return _distance(chain, doubtful, p, 1, bits)
     return _distance(chain, doubtful, p, 2, bits)
@@ -262,7 +262,7 @@ def _degenerate_zeros(
         return [(levels[3][0], 4)], 0.0
     triple, p = min(((_distance(chain, doubtful, p, 2, bits), p) for p in levels[2]), default=(math.inf, 0))
     if triple <= INPUT_ROUNDING:
-        others = [q for q in zeros if _value(chain[1], q, bits)]
+        others = [q for q in zeros if _scaled_value(chain[1], q, bits)]
         # One simple zero remains: the one farthest from the cluster.
         far = max(others or [p], key=lambda q: abs(q - p))
         return sorted([(p, 3), (far, 1)]), 0.0
@@ -273,7 +273,7 @@ def _degenerate_zeros(
     # above 0 has none of its own. Beside an inflection one of the two sides may have none: that is not a pair.
     pairs: dict[int, set[int]] = {}
     for i, p in enumerate(critical):
-        value = _value(chain[0], p, bits)
+        value = _scaled_value(chain[0], p, bits)
         up = (chain[0][-1] > 0) == (i % 2 == 0)
         crossed = value < 0 if up else value > 0
         if scores[i] <= INPUT_ROUNDING and (not crossed or {i, i + 1} <= set(gaps)):
@@ -299,14 +299,14 @@ def _both_double(
     rows = []
     vector = []
     for p in (critical[0], critical[2]):
-        values = [_value(g, p, bits) for g in doubtful]
+        values = [_scaled_value(g, p, bits) for g in doubtful]
         scale = sum(abs(v) for v in values) or 1
         rows.append([v / scale for v in values])
-        vector.append(_value(chain[0], p, bits) / scale)
+        vector.append(_scaled_value(chain[0], p, bits) / scale)
     return _backward_distance(vector, list(zip(*rows, strict=True))) <= INPUT_ROUNDING
 
 
-def _direction(
+def _exact_direction(
     p: int, multiplicity: int, slope: Sequence[int], base: tuple[int, int, int], bits: int, exponent: int
 ) -> ExactZero:
     c, s, h = base
@@ -316,5 +316,5 @@ def _direction(
     if multiplicity > 1:
         return ExactZero(x, y, n, multiplicity, 0.0)
     # t = F/(2 n^2), dw/dtheta = (1 + w^2)/2.
-    top, bottom = _value(slope, p, bits), (4 * h * n) << bits
+    top, bottom = _scaled_value(slope, p, bits), (4 * h * n) << bits
     return ExactZero(x, y, n, 1, quotient(top, bottom, exponent))

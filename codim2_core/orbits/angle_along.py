@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from ..arrays import Array
 
 LEAST_RADIUS = 1e-6  # of the picture: nearer to its middle a motion that is drawn is rounding
 

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 
 HIGHEST = 1e-3  # start no further up than this: 1 - |p| is then 5e-7, well below a pixel
 LIMIT = 1e-6  # |Theta| allowed of a limit direction, in units of |U|
@@ -40,13 +40,13 @@ def _tilt(
     return np.where(resonant, forcing * np.log(w) / lambda_rho, forcing / np.where(resonant, 1.0, gap))
 
 
-def departures(at: AtZ, psi: Psi, theta: ArrayLike, rtol: float, backward: bool) -> NDArray[np.float64]:
+def departures(at: FrozenSystem, psi: Psi, theta: ArrayLike, rtol: float, backward: bool) -> NDArray[np.float64]:
     """First states (k, 3) of the orbits that leave limit directions; as `departures_under` for one Psi."""
     return departures_under(at, (psi,), theta, rtol, backward)[0]
 
 
 def departures_under(
-    at: AtZ, psis: Sequence[Psi], theta: ArrayLike, rtol: float, backward: bool
+    at: FrozenSystem, psis: Sequence[Psi], theta: ArrayLike, rtol: float, backward: bool
 ) -> list[NDArray[np.float64]]:
     """First states of the orbits that leave limit directions, under each Psi.
 

@@ -6,7 +6,7 @@ import math
 
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 
 MIN_DURATION = 40.0  # over the size of U: what is drawn in any case
 MAX_DURATION = 1e9  # and at most: rates 1e-8 of the largest cannot be told from 0 by differences (`stepping.events`)
@@ -27,7 +27,7 @@ def is_stiff(equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ())
     return any(max(map(abs, pair)) > STIFF * min(map(abs, pair)) for pair in pairs)
 
 
-def drawn_duration(at: AtZ, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> float:
+def drawn_duration(at: FrozenSystem, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> float:
     """Longest time T of each half of a drawn trajectory.
 
     A trajectory ends at a node or focus in about ten times the reciprocal of its slowest rate, which may be any

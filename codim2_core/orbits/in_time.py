@@ -7,15 +7,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..layer_problem.hemisphere import disc_from_scaling, e_psi, outside_flow, scaling_from_disc
 from ..psi.function import Psi
-from ..systems.kinds import AnySystem, AtZ
+from ..systems.kinds import AnySystem, FrozenSystem
 from .angle_along import LEAST_RADIUS, angle_along
 from .seeds import checked_seeds
-
-Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-7, 1e-9
 MAX_RADIUS = (
@@ -102,7 +101,7 @@ def in_time(system: AnySystem, psi: Psi, seed: ArrayLike, span: tuple[float, flo
     return InTime(radius < 1.0, time, xy, angle_along(points, LEAST_RADIUS), r, points)
 
 
-def _on_hemisphere(at: AtZ, psi: Psi, start: Array, end: float) -> tuple[Array, Array, Array, Array]:
+def _on_hemisphere(at: FrozenSystem, psi: Psi, start: Array, end: float) -> tuple[Array, Array, Array, Array]:
     """Follow (x2, tau) over T: dx2 = U dtau, dtau = dT/ebar, ebar = 1/sqrt(1 + |x2|^2), eq:LP in kappa_2.
 
     Not p, of which x2 = p/ebar is taken: an error of p in its own direction is 1/ebar^3 times as large in x2, a
@@ -115,14 +114,14 @@ def _on_hemisphere(at: AtZ, psi: Psi, start: Array, end: float) -> tuple[Array, 
         faster = math.hypot(1.0, y[0], y[1])
         return np.append(faster * at.U(e_psi(psi, disc_from_scaling(y[:2]))), faster)
 
-    y = _integrate(rate, np.append(x2, 0.0), end, lambda y: math.hypot(y[0], y[1]) > far)
+    y = _integrate_over_time(rate, np.append(x2, 0.0), end, lambda y: math.hypot(y[0], y[1]) > far)
     left = np.flatnonzero(np.hypot(y[:, 0], y[:, 1]) > far)
     y = y[: left[0] if len(left) else None]
     p = disc_from_scaling(y[:, :2])
     return y[:, 2], p, y[:, :2], np.hypot(p[:, 0], p[:, 1])
 
 
-def _outside(at: AtZ, _: Psi, start: Array, end: float) -> tuple[Array, Array, Array, Array]:
+def _outside(at: FrozenSystem, _: Psi, start: Array, end: float) -> tuple[Array, Array, Array, Array]:
     """Follow (log rho, theta, t) over T: dt = rho dT."""
 
     def rate(_: float, y: Array) -> Array:
@@ -130,7 +129,7 @@ def _outside(at: AtZ, _: Psi, start: Array, end: float) -> tuple[Array, Array, A
         return np.array([radial, turning, math.exp(min(y[0], 700.0))])
 
     r = math.hypot(*start)
-    y = _integrate(rate, np.array([math.log(r - 1.0), math.atan2(start[1], start[0]), 0.0]), end)
+    y = _integrate_over_time(rate, np.array([math.log(r - 1.0), math.atan2(start[1], start[0]), 0.0]), end)
     rho, e = np.exp(y[:, 0]), np.stack([np.cos(y[:, 1]), np.sin(y[:, 1])], axis=-1)
     return y[:, 2], (1.0 + rho)[:, None] * e, rho[:, None] * e, rho
 
@@ -139,7 +138,7 @@ def _nowhere(_: Array) -> bool:
     return False
 
 
-def _integrate(
+def _integrate_over_time(
     rate: Callable[[float, Array], Array], start: Array, end: float, left: Callable[[Array], bool] = _nowhere
 ) -> Array:
     """Return the states from T = 0 to `end`, in `MAX_HALF_STEPS` steps at most, or until one has `left`: (k, n)."""

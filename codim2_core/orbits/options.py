@@ -35,13 +35,15 @@ class Stepping:
     stiff: bool = False
 
     def __post_init__(self) -> None:
-        _positive(self.t_max, "t_max", "give a finite positive time; backward=True follows trajectories backward")
-        _positive(self.rtol, "rtol", "give a relative tolerance from 1e-14 to 0.1", 1e-14, 0.1)
-        _positive(self.atol, "atol", "give an absolute tolerance from 1e-15 to 0.1", 1e-15, 0.1)
-        _positive(self.view, "view", "give the finite half-width of the view, greater than 1 (the equator)", 1.0)
-        _positive(self.pixel, "pixel", "give the size of a pixel in picture units, from 1e-10 to 1", LEAST_PIXEL, 1.0)
+        _check_positive(self.t_max, "t_max", "give a finite positive time; backward=True follows trajectories backward")
+        _check_positive(self.rtol, "rtol", "give a relative tolerance from 1e-14 to 0.1", 1e-14, 0.1)
+        _check_positive(self.atol, "atol", "give an absolute tolerance from 1e-15 to 0.1", 1e-15, 0.1)
+        _check_positive(self.view, "view", "give the finite half-width of the view, greater than 1 (the equator)", 1.0)
+        _check_positive(
+            self.pixel, "pixel", "give the size of a pixel in picture units, from 1e-10 to 1", LEAST_PIXEL, 1.0
+        )
         if self.capture is not None:
-            _positive(self.capture, "capture", "give a distance from an attractor, up to 0.1; or None", high=0.1)
+            _check_positive(self.capture, "capture", "give a distance from an attractor, up to 0.1; or None", high=0.1)
         if not self.length > 0.0:
             raise ValueError(f"length is {self.length!r}; give a positive length in picture units, or leave it out.")
         if self.samples not in (None, "ends"):
@@ -59,7 +61,7 @@ class Stepping:
 stepping = lru_cache(maxsize=64)(Stepping)
 
 
-def _positive(value: float, what: str, remedy: str, low: float = 0.0, high: float = math.inf) -> None:
+def _check_positive(value: float, what: str, remedy: str, low: float = 0.0, high: float = math.inf) -> None:
     try:
         number = float(value)
     except (TypeError, ValueError):

@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
-from ..tables import table
+from ..arrays import Array
+from ..tables import html_table
 from ..words import say
-
-Array = NDArray[np.float64]
 
 
 class Status(Enum):
@@ -72,7 +71,7 @@ class Trajectories:
     def _repr_html_(self) -> str:
         ends = Counter(one.value for one in self.status)
         found = [(end, str(count)) for end, count in ends.most_common()]
-        return (self._repr_svg_() or "") + table(("why it ended", "trajectories"), found)
+        return (self._repr_svg_() or "") + html_table(("why it ended", "trajectories"), found)
 
     def __len__(self) -> int:
         return len(self.codes)

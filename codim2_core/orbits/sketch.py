@@ -8,11 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.hemisphere import flow, outside_flow
 from ..psi.function import Psi
-from ..systems.kinds import AtZ
-
-Array = NDArray[np.float64]
+from ..systems.kinds import FrozenSystem
 
 RTOL, ATOL = 1e-5, 1e-5  # where orbits part, errors of 1e-3 on the way become some pixels
 MAX_SKETCH_TIME = 16.0  # in units of 1/max |U|: what is slower is seen when the kernels are there
@@ -41,7 +40,7 @@ class Sketch:
         return len(self.offsets) - 1
 
 
-def sketch(at: AtZ, psi: Psi, seeds: Array, t_max: float, length: float, view: float) -> Sketch:
+def sketch(at: FrozenSystem, psi: Psi, seeds: Array, t_max: float, length: float, view: float) -> Sketch:
     """Sketch the trajectories through seeds, of eq:LP on the hemisphere or of eq:polar_gen_odes_desing outside.
 
     Parameters
@@ -70,7 +69,7 @@ def sketch(at: AtZ, psi: Psi, seeds: Array, t_max: float, length: float, view: f
     return Sketch(np.concatenate(lines), np.cumsum([0] + [len(line) for line in lines]))
 
 
-def _half(at: AtZ, psi: Psi, seeds: Array, end: float, length: float, view: float) -> list[Array]:
+def _half(at: FrozenSystem, psi: Psi, seeds: Array, end: float, length: float, view: float) -> list[Array]:
     """Follow all seeds from time 0 to `end`, which may be negative."""
     shape = seeds.shape
     radius = np.hypot(seeds[:, 0], seeds[:, 1])

@@ -6,18 +6,18 @@ import itertools
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from .options import Stepping
 from .result import Trajectories
 from .trajectories import in_lanes, integrate_explicitly
 
-Array = NDArray[np.float64]
 
-
-def batch_by_psi(at: AtZ, psis: Sequence[Psi], states: Sequence[Array], options: Stepping) -> list[Trajectories]:
+def batch_by_psi(
+    at: FrozenSystem, psis: Sequence[Psi], states: Sequence[Array], options: Stepping
+) -> list[Trajectories]:
     """Follow states of the hemisphere under several Psi side by side, explicitly.
 
     One alone, and typed ones, of which the field is compiled for the picture, are followed by themselves.
@@ -40,7 +40,9 @@ def batch_by_psi(at: AtZ, psis: Sequence[Psi], states: Sequence[Array], options:
     if len(some) < 2:
         some = []
     found = {
-        i: integrate_explicitly(at, psis[i], states[i], _inside(states[i]), options) for i in every if i not in some
+        i: integrate_explicitly(at, psis[i], states[i], _is_inside_disc(states[i]), options)
+        for i in every
+        if i not in some
     }
     if some:
         lines = _blocks(at, [psis[i] for i in some], [states[i] for i in some], options)
@@ -55,11 +57,11 @@ def states_at(points: Array) -> Array:
     return states_of(np.ascontiguousarray(points))[0]
 
 
-def _inside(states: Array) -> Array:
+def _is_inside_disc(states: Array) -> Array:
     return np.full(len(states), -1.0)
 
 
-def _blocks(at: AtZ, psis: Sequence[Psi], states: Sequence[Array], options: Stepping) -> list[Trajectories]:
+def _blocks(at: FrozenSystem, psis: Sequence[Psi], states: Sequence[Array], options: Stepping) -> list[Trajectories]:
     from ..stepping.layout import BLOCKS
     from ..stepping.problem import problems
 
@@ -68,5 +70,5 @@ def _blocks(at: AtZ, psis: Sequence[Psi], states: Sequence[Array], options: Step
         some = slice(first, first + BLOCKS)
         every = np.concatenate(states[some])
         until = list(itertools.accumulate(map(len, states[some])))
-        found += in_lanes(at, problems(at, psis[some], options.backward), every, _inside(every), until, options)
+        found += in_lanes(at, problems(at, psis[some], options.backward), every, _is_inside_disc(every), until, options)
     return found

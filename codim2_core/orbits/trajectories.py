@@ -15,9 +15,10 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arrays import Array
 from ..psi.function import Psi
 from ..systems.elinear import ELinear
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from .departures import departures
 from .options import DEFAULT_MAX_STEPS, PIXEL, Stepping, stepping
@@ -26,7 +27,6 @@ from .seeds import checked_seeds
 
 __all__ = ["Status", "Trajectories", "concatenate", "continuation", "is_warm", "trajectories", "warm"]
 
-Array = NDArray[np.float64]
 
 DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
 # Steps of a stiff problem before those of its trajectories that are still under way are followed implicitly, and then.
@@ -140,7 +140,7 @@ def trajectories(
     return _integrate(at, psi, states, signs, options)
 
 
-def _integrate(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
+def _integrate(at: FrozenSystem, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     if len(states) == 0:
         return concatenate([])
     if not options.stiff:
@@ -173,7 +173,7 @@ def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Ar
     return which, spent, drawn, np.array([way / max(time, 1e-300) for way, time in last])
 
 
-def integrate_explicitly(at: AtZ, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
+def integrate_explicitly(at: FrozenSystem, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     """Follow trajectories explicitly."""
     found = in_lanes(at, _kernels().problem(at, psi, options.backward), states, signs, [len(states)], options)[0]
     _warm.add(psi.family if at.typed is None else GENERAL)
@@ -181,7 +181,7 @@ def integrate_explicitly(at: AtZ, psi: Psi, states: Array, signs: Array, options
 
 
 def in_lanes(
-    at: AtZ, problem: Any, states: Array, signs: Array, until: list[int], options: Stepping
+    at: FrozenSystem, problem: Any, states: Array, signs: Array, until: list[int], options: Stepping
 ) -> list[Trajectories]:
     """Follow trajectories explicitly under each Psi of a problem, whose states end at `until`."""
     # Time in units of 1/|U| makes step sizes, speeds and capture independent of the scale of U.
@@ -208,7 +208,7 @@ def in_lanes(
 
 
 def _integrate_implicitly(
-    at: AtZ, psi: Psi, states: Array, signs: Array, spent: Array, drawn: Array, options: Stepping
+    at: FrozenSystem, psi: Psi, states: Array, signs: Array, spent: Array, drawn: Array, options: Stepping
 ) -> Trajectories:
     """Follow trajectories implicitly, after a time that each has `spent` and a length that is `drawn`."""
     kernels = _kernels()

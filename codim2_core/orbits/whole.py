@@ -9,9 +9,8 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from .result import Status, Trajectories
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

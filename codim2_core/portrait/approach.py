@@ -21,19 +21,28 @@ from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem, found_once
 from ..psi.constructors import comparison_families
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from ..words import say, written_label
 from .endings import angular_sign, radially_neutral
 from .outcomes import Outcome, Outcomes, on_arcs
-from .verdicts import ARRIVAL_ANGLES, OUTER_ANGLES, Array, Judged, arriving_begun, judge_arrivals, spiralling, with_flow
+from .verdicts import (
+    ARRIVAL_ANGLES,
+    OUTER_ANGLES,
+    Array,
+    OutcomeVerdict,
+    arriving_begun,
+    judge_arrivals,
+    spiralling,
+    with_flow,
+)
 
 __all__ = ["approach_outcomes"]
 
 MOST_COMPARED = 8  # critical sets: with more, other regularisations are asked only on request
 
 
-def _sensitive(at: AtZ, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
+def _sensitive(at: FrozenSystem, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...]) -> bool:
     """Whether no theorem fixes the outcome for every Psi: Case III, crossing with several ways out, any general U."""
     form = at.normal_form
     if form is None:
@@ -43,7 +52,7 @@ def _sensitive(at: AtZ, equator: EquatorEquilibria, critical: tuple[CriticalSet,
     return int(((equator.lambda_rho > 0.0) & (equator.lambda_theta < 0.0)).sum()) > 1
 
 
-def _radial(at: AtZ) -> Array:
+def _radial(at: FrozenSystem) -> Array:
     """lambda_rho in many directions, where Theta vanishes identically."""
     angle = 2.0 * np.pi * np.arange(64) / 64.0
     e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
@@ -94,7 +103,7 @@ def compared_outcomes(own: LayerProblem, compare: Sequence[Psi] | None) -> Outco
         whole = _outcome_of_equator(asked)
         found = () if whole.verdict == "misses" else (whole,)
         return Outcomes(found, (), equator, whole, own.at)
-    directions = _directions(asked, range(len(equator)))
+    directions = _direction_outcomes(asked, range(len(equator)))
     order = ("open set", "one side", "single direction")
     found = sorted((o for o in directions if o.arrives in order), key=lambda o: order.index(o.arrives))
     return Outcomes(tuple(found), directions, equator, None, own.at)
@@ -106,10 +115,10 @@ def outcome_towards(own: LayerProblem, theta: float, compare: Sequence[Psi] | No
     if not len(equator):
         return _outcome_of_equator(asked)
     i = Outcomes((), (), equator, None, own.at).destination(theta)
-    return on_arcs(equator) if i is None else _directions(asked, (i,))[0]
+    return on_arcs(equator) if i is None else _direction_outcomes(asked, (i,))[0]
 
 
-class _Asked(NamedTuple):
+class _OutcomeQuestion(NamedTuple):
     """A layer problem, the same under other regularisations that are asked, and whether these may say otherwise."""
 
     own: LayerProblem
@@ -117,15 +126,15 @@ class _Asked(NamedTuple):
     sensitive: bool
 
 
-def _comparison(own: LayerProblem, compare: Sequence[Psi] | None) -> _Asked:
+def _comparison(own: LayerProblem, compare: Sequence[Psi] | None) -> _OutcomeQuestion:
     if not _sensitive(own.at, own.equator, own.critical):
-        return _Asked(own, [], False)
+        return _OutcomeQuestion(own, [], False)
     if compare is None:
         compare = () if len(own.critical) > MOST_COMPARED else comparison_families()
-    return _Asked(own, [own.under(other) for other in compare], True)
+    return _OutcomeQuestion(own, [own.under(other) for other in compare], True)
 
 
-def _directions(asked: _Asked, indices: Sequence[int]) -> tuple[Outcome, ...]:
+def _direction_outcomes(asked: _OutcomeQuestion, indices: Sequence[int]) -> tuple[Outcome, ...]:
     """Say of some limit directions (from 0) what becomes of what arrives there."""
     own, others, sensitive = asked
     equator = own.equator
@@ -138,7 +147,7 @@ def _directions(asked: _Asked, indices: Sequence[int]) -> tuple[Outcome, ...]:
     }
     judged = {i: [arrivals[problem.psi][k] for problem in (own, *others)] for k, i in enumerate(which)}
     texts = [other.psi.words for other in others]
-    return tuple(_direction(own, judged.get(i, ()), texts, sensitive, i) for i in indices)
+    return tuple(_direction_outcome(own, judged.get(i, ()), texts, sensitive, i) for i in indices)
 
 
 def _compare_families(
@@ -155,7 +164,9 @@ def _compare_families(
     return replace(outcome, depends_on_psi=depends, families=tuple(verdicts), slides_alike=alike, reason=reason)
 
 
-def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], sensitive: bool, i: int) -> Outcome:
+def _direction_outcome(
+    own: LayerProblem, judged: Sequence[OutcomeVerdict], texts: list[str], sensitive: bool, i: int
+) -> Outcome:
     """Say what becomes of what arrives at Q_{i+1}, judged under its own Psi and then under those with these texts."""
     equator, label = own.equator, f"Q{i + 1}"
     theta = float(equator.theta[i])
@@ -177,7 +188,7 @@ def _direction(own: LayerProblem, judged: Sequence[Judged], texts: list[str], se
     return _compare_families(outcome, verdicts, sensitive, own.at.normal_form is not None)
 
 
-def _outcome_of_equator(asked: _Asked) -> Outcome:
+def _outcome_of_equator(asked: _OutcomeQuestion) -> Outcome:
     own, others, sensitive = asked
     elinear, cycle = own.at.normal_form is not None, own.equator_cycle
     if own.equator.all_directions:

@@ -19,7 +19,7 @@ from ..layer_problem.problem import LayerProblem
 from ..orbits.trajectories import trajectories
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from ..tables import number, point, table
+from ..tables import html_table, point, table_number
 from .endings import CAPTURE, critical_label, drawn_time, endings
 
 COARSEST = 32  # cells across the disc at first
@@ -67,8 +67,8 @@ class Basins:
 
     def _repr_html_(self) -> str:
         flows = ["–" if flow is None else point(flow) for flow in self.slow_flow]
-        found = list(zip(self.destinations, map(number, self.shares), flows, strict=True))
-        return (self._repr_svg_() or "") + table(("leads to", "share of the cells", "slow flow z′"), found)
+        found = list(zip(self.destinations, map(table_number, self.shares), flows, strict=True))
+        return (self._repr_svg_() or "") + html_table(("leads to", "share of the cells", "slow flow z′"), found)
 
 
 def basins(
@@ -134,13 +134,13 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
 
     size = COARSEST
     cells = np.full((size, size), OUTSIDE, np.int8)
-    inside = _inside(size, box)
+    inside = _cells_in_box(size, box)
     cells[inside] = lead(_centres(size, box)[inside])
     while size < n:
         size *= 2
         border = np.kron(_border_cells(cells), np.ones((2, 2), bool))
         cells = np.kron(cells, np.ones((2, 2), np.int8))
-        inside = _inside(size, box)
+        inside = _cells_in_box(size, box)
         again = inside & (border | (cells == OUTSIDE))
         cells[~inside] = OUTSIDE
         cells[again] = lead(_centres(size, box)[again])
@@ -172,7 +172,7 @@ def _centres(size: int, box: Box) -> NDArray[np.float64]:
     return np.stack(np.meshgrid(left + part * (right - left), bottom + part * (top - bottom)), axis=-1)
 
 
-def _inside(size: int, box: Box) -> NDArray[np.bool_]:
+def _cells_in_box(size: int, box: Box) -> NDArray[np.bool_]:
     return np.hypot(*np.moveaxis(_centres(size, box), -1, 0)) < 1.0
 
 

@@ -13,7 +13,7 @@ from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..numerics.trigonometric import INPUT_ROUNDING
-from ..tables import Tabled, paragraphs, rows
+from ..tables import Tabled, paragraphs, result_rows
 from ..words import SENTENCES, power, say, subscript, written_label
 from .endings import critical_label, radially_neutral_ones
 
@@ -97,7 +97,7 @@ class Classification:
     def _repr_html_(self) -> str:
         case = f"Case {self.case}" if self.case else ""
         name = f"<p><strong>{escape(self.name)}</strong> {case}</p>"
-        return f"{name}{paragraphs([self.sentence])}{rows(self.degeneracies)}"
+        return f"{name}{paragraphs([self.sentence])}{result_rows(self.degeneracies)}"
 
 
 NEUTRAL_CLOSED_EQUATOR = undecided_degeneracy(

@@ -132,7 +132,7 @@ def _consequence(
     return say("closed orbits around" if _true_centre(coefficients) else "centre")
 
 
-def _affine(problem: LayerProblem) -> tuple[Coefficients, Location] | None:
+def _affine_normal_form(problem: LayerProblem) -> tuple[Coefficients, Location] | None:
     """Return the normal form that names a portrait, with where its critical set is; None where none does.
 
     That is a system not affine in (c, s), or one where the rotation's rounding blurs whether there is a critical set.
@@ -147,7 +147,7 @@ def _affine(problem: LayerProblem) -> tuple[Coefficients, Location] | None:
 def portrait_name(problem: LayerProblem) -> PortraitName:
     """Name the portrait of a layer problem: its case, its name and what is degenerate."""
     equator, cycle, critical = problem.equator, problem.equator_cycle, problem.critical
-    affine = _affine(problem)
+    affine = _affine_normal_form(problem)
     if affine is None:
         return general_name(problem.at, equator, cycle, critical)
     coefficients, location = affine
@@ -164,7 +164,7 @@ def portrait(problem: LayerProblem) -> Classification:
     case, name, degeneracies = portrait_name(problem)
     equator, cycle, critical = problem.equator, problem.equator_cycle, problem.critical
     cycles = closed_orbits(problem).cycles
-    affine = _affine(problem)
+    affine = _affine_normal_form(problem)
     if affine is None:
         prefix, stable = "", sum(cycle.stable for cycle in cycles)
         consequence = general_consequence(critical, disc_zeros(problem.at.key), stable)

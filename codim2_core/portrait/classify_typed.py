@@ -7,7 +7,7 @@ from ..layer_problem.disc_zeros import DiscZeros, disc_zeros
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..layer_problem.linearisation import NEUTRAL_TRACE
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..words import say
 from .classification import NEUTRAL_CLOSED_EQUATOR, Degeneracy, PortraitName, undecided_degeneracy
 
@@ -16,7 +16,7 @@ TERMS = "the terms of U"
 
 
 def general_name(
-    at: AtZ, equator: EquatorEquilibria, cycle: EquatorCycle | None, critical: tuple[CriticalSet, ...]
+    at: FrozenSystem, equator: EquatorEquilibria, cycle: EquatorCycle | None, critical: tuple[CriticalSet, ...]
 ) -> PortraitName:
     """Name the portrait of a system that is not e-linear, from its parts (all at one z)."""
     found = disc_zeros(at.key)
@@ -25,7 +25,7 @@ def general_name(
         arcs = "an arc" if len(equator.arcs) == 1 else f"{len(equator.arcs)} arcs"
         lines = f"{lines} and {arcs} of them" if len(equator) else f"{arcs} of limit directions"
     name = f"{_count(len(critical), 'critical set', found.proven)}, {lines}"
-    return PortraitName(None, name, (*_equator(equator, cycle), *_critical(critical, found)))
+    return PortraitName(None, name, (*_equator_degeneracies(equator, cycle), *_critical_degeneracies(critical, found)))
 
 
 def _count(k: int, noun: str, proven: bool) -> str:
@@ -66,7 +66,7 @@ _MULTIPLE = {
 _CUSP_SENTENCE = ("cusp", say("cusp"))
 
 
-def _equator(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
+def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
     degeneracies = []
     if equator.all_directions:
         text = say("no turning")
@@ -85,7 +85,7 @@ def _equator(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Deg
     return degeneracies
 
 
-def _critical(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degeneracy]:
+def _critical_degeneracies(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degeneracy]:
     kinds = [C.kind for C in critical]
     named = []
     if found.everything:

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..curves.polyline import distance
 from ..cycles.foretold import ON_C
 from ..cycles.limit_cycles import LimitCycles
@@ -17,10 +17,8 @@ from ..layer_problem.eigendirections import to_disc
 from ..layer_problem.equator import EquatorEquilibria
 from ..orbits.trajectories import Status, Trajectories, trajectories
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..words import say
-
-Array = NDArray[np.float64]
 
 SPEEDS = 600.0  # length drawn of a branch that ends nowhere: T in units of 1/|(a, b, d, f1, f2)|, or 1/max |U|
 RISE_TIMES = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends
@@ -29,7 +27,7 @@ CAPTURE = 1e-6  # distance from an attractor at which a branch has reached it
 ON_CYCLE = 1e-4  # distance to a limit cycle at which a branch has reached it
 AT_CRITICAL = 1e-2  # distance beyond which an equilibrium that captures is none of the critical sets known
 AT_SADDLE = 1e-4  # distance at which a branch that stopped nowhere else is at a saddle
-NEUTRAL_RATIO = 1e-13  # of the largest eigenvalue on the equator
+NEUTRAL_SHARE = 1e-13  # of the largest eigenvalue on the equator
 AT_NEUTRAL = 1e-2  # distance to a radially neutral Q, which is come to like 1/T, at which a branch is at it
 TOLD = 1e-7  # ebar of which a point of the disc says something: below it an orbit is not followed on
 CONNECTION = say("into a saddle")
@@ -37,7 +35,7 @@ AT_NEUTRAL_Q = say("to a neutral direction")
 
 
 @dataclass(frozen=True, eq=False)
-class Ending:
+class OmegaLimit:
     """The omega limit set of a trajectory: its label, the angle of arrival if it has one, and a sentence."""
 
     label: str
@@ -98,7 +96,7 @@ def nearest(equator: EquatorEquilibria, angle: float) -> tuple[int, float]:
 
 
 def endings(
-    at: AtZ,
+    at: FrozenSystem,
     psi: Psi,
     lines: Trajectories,
     equator: EquatorEquilibria,
@@ -108,7 +106,7 @@ def endings(
     rtol: float = 1e-9,
     backward: bool = False,
     foretold: Callable[[Array], list[int | None]] | None = None,
-) -> list[Ending]:
+) -> list[OmegaLimit]:
     """Return the omega limit sets of trajectories on the hemisphere; those cut off by time are integrated on.
 
     Parameters
@@ -128,17 +126,17 @@ def endings(
 
     Returns
     -------
-    list of Ending
+    list of OmegaLimit
     """
     statuses, states = list(lines.status), np.array(lines.ends)
-    found: list[Ending | None] = [None] * len(lines)
+    found: list[OmegaLimit | None] = [None] * len(lines)
     length = drawn_time(at, equator)
     for more in (0.0, 1.0, EXTENSION_FACTOR):
         open_ = [i for i, s in enumerate(statuses) if s in (Status.T_MAX, Status.STEP_LIMIT) and found[i] is None]
         follow = [i for i in open_ if states[i, 2] > TOLD] if more else []
         if follow:
             time, places = more * length, states[follow, :2]
-            on = _integrate(at, psi, places, time, rtol, backward)
+            on = _integrate_to_time(at, psi, places, time, rtol, backward)
             for j, i in enumerate(follow):
                 statuses[i], states[i] = on.status[j], on.ends[j]
         elif foretold is not None:
@@ -155,38 +153,42 @@ def endings(
             label = f"Q{near + 1}"
             k = _nearest_critical(critical, p, AT_CRITICAL if statuses[i] is Status.EQUILIBRIUM else AT_SADDLE)
             if statuses[i] is Status.EQUILIBRIUM and k is not None:
-                found[i] = Ending(critical_label(critical, k), _tangent_at(critical[k], p), statuses[i].value)
+                found[i] = OmegaLimit(critical_label(critical, k), _tangent_at(critical[k], p), statuses[i].value)
             elif statuses[i] is Status.ARRIVED and len(equator):
-                found[i] = Ending(label, float(equator.theta[near]), statuses[i].value)
+                found[i] = OmegaLimit(label, float(equator.theta[near]), statuses[i].value)
             elif statuses[i] is Status.SPIRALLED:
-                found[i] = Ending("equator", None, statuses[i].value)
+                found[i] = OmegaLimit("equator", None, statuses[i].value)
             elif not more and nears_end(critical, p, backward):
                 continue  # it is followed on before cycles, which cost more, are searched for
             elif (reached := _on_cycle(cycles(), p, backward)) is not None:
-                found[i] = Ending(f"cycle {reached + 1}", None, say("onto a cycle"))
+                found[i] = OmegaLimit(f"cycle {reached + 1}", None, say("onto a cycle"))
             elif w < AT_SADDLE and gap < AT_SADDLE and more:
-                found[i] = Ending(label, float(equator.theta[near]), _stopping_reason(equator, near, w))
+                found[i] = OmegaLimit(label, float(equator.theta[near]), _stopping_reason(equator, near, w))
             elif more and max(w, gap) < AT_NEUTRAL and radially_neutral(equator, near):
-                found[i] = Ending(label, float(equator.theta[near]), AT_NEUTRAL_Q)
+                found[i] = OmegaLimit(label, float(equator.theta[near]), AT_NEUTRAL_Q)
             elif k is not None and critical[k].kind == "saddle" and more:
-                found[i] = Ending(critical_label(critical, k), _tangent_at(critical[k], p), CONNECTION)
-    return [e if e is not None else Ending("undecided", None, s.value) for e, s in zip(found, statuses, strict=True)]
+                found[i] = OmegaLimit(critical_label(critical, k), _tangent_at(critical[k], p), CONNECTION)
+    return [
+        e if e is not None else OmegaLimit("undecided", None, s.value) for e, s in zip(found, statuses, strict=True)
+    ]
 
 
-def _predicted_ending(critical: tuple[CriticalSet, ...], onto: int) -> Ending:
+def _predicted_ending(critical: tuple[CriticalSet, ...], onto: int) -> OmegaLimit:
     if onto == ON_C:
-        return Ending(critical_label(critical, 0), None, Status.EQUILIBRIUM.value)
-    return Ending(f"cycle {onto + 1}", None, say("onto a cycle"))
+        return OmegaLimit(critical_label(critical, 0), None, Status.EQUILIBRIUM.value)
+    return OmegaLimit(f"cycle {onto + 1}", None, say("onto a cycle"))
 
 
-def drawn_time(at: AtZ, equator: EquatorEquilibria) -> float:
+def drawn_time(at: FrozenSystem, equator: EquatorEquilibria) -> float:
     """T in which a branch shows where it goes: long for |U|, and for the slowest way up from the equator."""
     unit = at.speed
     slow = np.abs(equator.lambda_rho[~equator.radially_degenerate])
     return SPEEDS / unit + (RISE_TIMES / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
 
 
-def _integrate(at: AtZ, psi: Psi, places: Array, time: float, rtol: float, backward: bool) -> Trajectories:
+def _integrate_to_time(
+    at: FrozenSystem, psi: Psi, places: Array, time: float, rtol: float, backward: bool
+) -> Trajectories:
     return trajectories(
         at,
         psi,
@@ -218,7 +220,7 @@ def radially_neutral(equator: EquatorEquilibria, i: int) -> bool:
 def radially_neutral_ones(equator: EquatorEquilibria) -> list[bool]:
     """`radially_neutral` of all limit directions; in floats, for there are few, and NumPy's calls would cost more."""
     rho = equator.lambda_rho.tolist()
-    least = NEUTRAL_RATIO * max(map(abs, (*rho, *equator.lambda_theta.tolist())), default=0.0)
+    least = NEUTRAL_SHARE * max(map(abs, (*rho, *equator.lambda_theta.tolist())), default=0.0)
     return [zero or abs(r) <= least for r, zero in zip(rho, equator.radially_degenerate.tolist(), strict=True)]
 
 

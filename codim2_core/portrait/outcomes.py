@@ -8,16 +8,15 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.equator import EquatorEquilibria, arcs_of
-from ..systems.frozen import AtZ
-from ..tables import Tabled, number, point, rows
+from ..systems.frozen import FrozenSystem
+from ..tables import Tabled, point, result_rows, table_number
 from ..words import say
 
 __all__ = ["Outcome", "Outcomes"]
 
-Array = NDArray[np.float64]
 
 AT_ZERO = 1e-9  # angle to a limit direction that counts as that direction
 
@@ -71,7 +70,7 @@ class Outcome(Tabled):
     why: str = ""
 
     def _row_(self) -> tuple[str, ...]:
-        theta, leaving = ("–" if angle is None else number(angle) for angle in (self.theta, self.leaving))
+        theta, leaving = ("–" if angle is None else table_number(angle) for angle in (self.theta, self.leaving))
         flow = "–" if self.slow_flow is None else point(self.slow_flow)
         return self.label, theta, self.arrives, self.verdict, self.onto or "–", leaving, flow, self.reason
 
@@ -103,10 +102,10 @@ class Outcomes:
     directions: tuple[Outcome, ...] = field(repr=False)
     equator: EquatorEquilibria = field(repr=False)
     whole: Outcome | None
-    _at: AtZ = field(repr=False)
+    _at: FrozenSystem = field(repr=False)
 
     def _repr_html_(self) -> str:
-        return rows(self) or rows(self.directions)
+        return result_rows(self) or result_rows(self.directions)
 
     def __iter__(self) -> Iterator[Outcome]:
         return iter(self.outcomes)

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..curves.polyline import distance
 from ..words import say
 from .separatrix import Separatrix
-
-Array = NDArray[np.float64]
 
 
 def _gap(one: Array, other: Array) -> float:

@@ -13,14 +13,12 @@ import math
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.eigendirections import to_disc
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
-
-Array = NDArray[np.float64]
+from ..systems.frozen import FrozenSystem
 
 ORDER = 5
 FITTED = 9  # nodes the coefficients are read off at
@@ -35,7 +33,7 @@ def _fit() -> tuple[Array, Array]:
     return t, (np.linalg.inv(powers) / t[None, :] ** 2)[: ORDER - 1]
 
 
-def _field(at: AtZ, psi: Psi, critical: CriticalSet, x2: Array) -> Array:
+def _projected_velocity(at: FrozenSystem, psi: Psi, critical: CriticalSet, x2: Array) -> Array:
     zeta = np.hypot(x2[:, 0], x2[:, 1])
     e = x2 * (psi.modulus(zeta) / np.maximum(zeta, 1e-300))[:, None]
     if at.as_given is not None:
@@ -43,7 +41,9 @@ def _field(at: AtZ, psi: Psi, critical: CriticalSet, x2: Array) -> Array:
     return at.U(e) - at.U(critical.e)  # what rounding leaves of U at C would be amplified
 
 
-def expansion(at: AtZ, psi: Psi, critical: CriticalSet, eigenvalue: float, reach: float) -> tuple[Array, float]:
+def expansion(
+    at: FrozenSystem, psi: Psi, critical: CriticalSet, eigenvalue: float, reach: float
+) -> tuple[Array, float]:
     """Coefficients (ORDER + 1, 2) of W in powers of sigma, and its defect, for |sigma| <= reach.
 
     Parameters
@@ -75,7 +75,7 @@ def expansion(at: AtZ, psi: Psi, critical: CriticalSet, eigenvalue: float, reach
     powers = t[:, None] ** np.arange(ORDER + 1)
     for _ in range(ORDER):  # each round settles one more order
         x2 = powers @ scaled
-        nonlinear = _field(at, psi, critical, x2) - (x2 - critical.x2) @ J.T
+        nonlinear = _projected_velocity(at, psi, critical, x2) - (x2 - critical.x2) @ J.T
         parts = fit @ nonlinear
         before = scaled.copy()
         for k in range(2, ORDER + 1):
@@ -84,12 +84,14 @@ def expansion(at: AtZ, psi: Psi, critical: CriticalSet, eigenvalue: float, reach
             break
     ends = np.array([-1.0, 1.0])[:, None] ** np.arange(ORDER + 1)
     slope = ends @ (scaled * np.arange(ORDER + 1)[:, None])
-    defect = _field(at, psi, critical, ends @ scaled) - eigenvalue * slope
+    defect = _projected_velocity(at, psi, critical, ends @ scaled) - eigenvalue * slope
     order = np.arange(ORDER + 1)[:, None]
     return scaled / reach**order, float(np.abs(defect).max() / abs(eigenvalue))
 
 
-def starts(at: AtZ, psi: Psi, critical: CriticalSet, eigenvalue: float, tolerance: float) -> tuple[Array, Array]:
+def manifold_starts(
+    at: FrozenSystem, psi: Psi, critical: CriticalSet, eigenvalue: float, tolerance: float
+) -> tuple[Array, Array]:
     """Points of the disc (2, 2) on the two halves of a manifold, and unit tangents (2, 2) there at C.
 
     Parameters

@@ -17,7 +17,7 @@ from .separatrix_branches import bent_branch, branches_inside, outside_half_sadd
 
 __all__ = ["Separatrices", "Separatrix", "separatrices"]
 
-PIXEL = 1.0 / 180.0
+from ..orbits.options import PIXEL
 
 
 def separatrices(

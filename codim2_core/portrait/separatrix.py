@@ -5,13 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from .. import drawing
-from ..tables import Tabled, paragraphs, rows
-
-Array = NDArray[np.float64]
+from ..arrays import Array
+from ..tables import Tabled, paragraphs, result_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +73,7 @@ class Separatrices:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + rows(self) + paragraphs(self.notes)
+        return (self._repr_svg_() or "") + result_rows(self) + paragraphs(self.notes)
 
     def __iter__(self) -> Iterator[Separatrix]:
         return iter(self.branches)

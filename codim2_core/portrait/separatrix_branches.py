@@ -13,14 +13,14 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
 from ..orbits.trajectories import Status, Trajectories, concatenate, continuation, trajectories
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..words import say
 from .endings import (
     CAPTURE,
@@ -32,10 +32,8 @@ from .endings import (
     half_saddle,
     radially_neutral,
 )
-from .saddle_manifold import starts
+from .saddle_manifold import manifold_starts
 from .separatrix import Separatrix
-
-Array = NDArray[np.float64]
 
 EXTENSIONS = 6  # times that a branch is followed on to where it ends, sixteen times longer each
 NEAR_END = 0.02  # distance to the end that is drawn straight: followed further, an orbit would all but stand still
@@ -62,7 +60,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
     for k, C in enumerate(critical):
         if C.kind == "saddle":
             value = float(C.eigenvalues.real[1 if backward else 0])
-            points, tangents = starts(at, psi, C, value, 0.1 * rtol)
+            points, tangents = manifold_starts(at, psi, C, value, 0.1 * rtol)
             parts.append(trajectories(at, psi, points, t_max=t_max, **fine))
             origins += [critical_label(critical, k)] * 2
             angles += np.arctan2(tangents[:, 1], tangents[:, 0]).tolist()
@@ -98,7 +96,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
 
 
 def _tails(
-    at: AtZ, psi: Psi, lines: Trajectories, ends: list[Array | None], rtol: float, pixel: float, backward: bool
+    at: FrozenSystem, psi: Psi, lines: Trajectories, ends: list[Array | None], rtol: float, pixel: float, backward: bool
 ) -> list[list[Array]]:
     """Points from where each line was left to the point where it ends; none where it ends at no point.
 
@@ -141,7 +139,7 @@ def _tails(
     return tails
 
 
-def _along_equator(at: AtZ, p: Array, end: Array, backward: bool) -> Array:
+def _along_equator(at: FrozenSystem, p: Array, end: Array, backward: bool) -> Array:
     """Points of the equator from beside p to an equilibrium there, in the sense in which orbits move."""
     first, last = math.atan2(p[1], p[0]), math.atan2(end[1], end[0])
     U = at.U(p / np.hypot(*p))

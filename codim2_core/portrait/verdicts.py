@@ -9,8 +9,8 @@ from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..cycles.foretold import predicted_limit_sets
 from ..cycles.limit_cycles import cycles_of, reason_for_none
 from ..layer_problem.problem import LayerProblem
@@ -18,12 +18,12 @@ from ..orbits.departures import departures_under
 from ..orbits.options import DEFAULT_MAX_STEPS, Stepping, stepping
 from ..orbits.result import Status, Trajectories
 from ..orbits.together import batch_by_psi, states_at
-from ..words import number, say, written_label
+from ..words import say, written_label, written_number
 from .endings import (
     CAPTURE,
     CONNECTION,
     TOLD,
-    Ending,
+    OmegaLimit,
     critical_label,
     drawn_time,
     endings,
@@ -32,10 +32,8 @@ from .endings import (
     radially_neutral_ones,
 )
 
-Array = NDArray[np.float64]
 
-
-class Judged(NamedTuple):
+class OutcomeVerdict(NamedTuple):
     """The verdict on some orbits, with the fields of `outcomes.Outcome`."""
 
     verdict: str
@@ -62,7 +60,7 @@ def _may_predict(problem: LayerProblem) -> bool:
     return problem.at.normal_form is not None and problem.at.as_given is not None
 
 
-def ends(problem: LayerProblem, lines: Trajectories) -> list[Ending]:
+def ends(problem: LayerProblem, lines: Trajectories) -> list[OmegaLimit]:
     """Say where trajectories end."""
     return endings(
         problem.at,
@@ -144,40 +142,42 @@ def _orbits_to_end(problem: LayerProblem, states: Callable[[], Array], lines: Tr
     return batch_by_psi(problem.at, [problem.psi], [states()], _options(problem, early=False))[0]
 
 
-def _place(end: Ending) -> str:
+def _ending_label(end: OmegaLimit) -> str:
     if end.label != "undecided":
         return written_label(end.label)
     return "an equilibrium that is not isolated" if end.sentence == Status.EQUILIBRIUM.value else "no end found"
 
 
-def judge(problem: LayerProblem, found: Sequence[Ending], many: str) -> Judged:
+def judge(problem: LayerProblem, found: Sequence[OmegaLimit], many: str) -> OutcomeVerdict:
     """Judge trajectories that end so."""
     if len({end.label for end in found}) > 1:
-        where = ", ".join(dict.fromkeys(_place(end) for end in found))
-        return Judged("undecided", reason=say("several ends", many=many, labels=where), why="several")
+        where = ", ".join(dict.fromkeys(_ending_label(end) for end in found))
+        return OutcomeVerdict("undecided", reason=say("several ends", many=many, labels=where), why="several")
     end = found[0]
     label = end.label
     if end.sentence == CONNECTION:
-        return Judged("undecided", reason=say("saddle ahead", label=written_label(label)), why="several")
+        return OutcomeVerdict("undecided", reason=say("saddle ahead", label=written_label(label)), why="several")
     if label.startswith("Q") and radially_neutral(problem.equator, int(label[1:]) - 1):
-        return Judged("undecided", reason=say("neutral ahead", label=written_label(label)), why="neutral")
+        return OutcomeVerdict("undecided", reason=say("neutral ahead", label=written_label(label)), why="neutral")
     for i, C in enumerate(problem.critical):
         if label == critical_label(problem.critical, i):
-            return Judged("slide", label, None, C.slow_flow, say("slides", label=written_label(label), kind=C.kind))
+            return OutcomeVerdict(
+                "slide", label, None, C.slow_flow, say("slides", label=written_label(label), kind=C.kind)
+            )
     if label.startswith("cycle"):
         reason = say("slides on a cycle" if problem.at.normal_form is None else "slides around")
-        return Judged("cycle", label, reason=reason)
+        return OutcomeVerdict("cycle", label, reason=reason)
     if label.startswith("Q"):
-        theta = number(end.angle) if end.angle is not None else "?"
-        return Judged("cross", label, end.angle, None, say("crosses", theta=theta, label=written_label(label)))
+        theta = written_number(end.angle) if end.angle is not None else "?"
+        return OutcomeVerdict("cross", label, end.angle, None, say("crosses", theta=theta, label=written_label(label)))
     if label == "equator":
-        return Judged("cross", label, reason=say("crosses spiralling"))
+        return OutcomeVerdict("cross", label, reason=say("crosses spiralling"))
     if end.sentence == Status.EQUILIBRIUM.value:
-        return Judged("undecided", reason=say("rest ahead"), why="neutral")
-    return Judged("undecided", reason=say("unfollowed"), why="unfollowed")
+        return OutcomeVerdict("undecided", reason=say("rest ahead"), why="neutral")
+    return OutcomeVerdict("undecided", reason=say("unfollowed"), why="unfollowed")
 
 
-def with_flow(problem: LayerProblem, judged: Judged) -> Judged:
+def with_flow(problem: LayerProblem, judged: OutcomeVerdict) -> OutcomeVerdict:
     """Add the slow flow on a cycle, for which the cycle is followed: only where it is told."""
     if judged.verdict != "cycle" or judged.onto is None or judged.slow_flow is not None:
         return judged
@@ -228,7 +228,7 @@ def arriving_begun(problems: Sequence[LayerProblem], which: Sequence[int]) -> li
 
 def judge_arrivals(
     problem: LayerProblem, which: Sequence[int], lines: Trajectories | None = None, angles: Array = ARRIVAL_ANGLES
-) -> list[Judged]:
+) -> list[OutcomeVerdict]:
     """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side.
 
     `lines` are those of `arriving_begun`, if they have been integrated. With `OUTER_ANGLES` for angles the verdicts are
@@ -238,9 +238,9 @@ def judge_arrivals(
         return []
     if lines is None and _all_end_on_C(problem):
         C = problem.critical[0]
-        return [Judged("slide", "C", None, C.slow_flow, say("slides", label=written_label("C"), kind=C.kind))] * len(
-            which
-        )
+        return [
+            OutcomeVerdict("slide", "C", None, C.slow_flow, say("slides", label=written_label("C"), kind=C.kind))
+        ] * len(which)
     wide, count = _wide(problem, which), len(angles)
     found = ends(problem, from_equator(problem, which, wide, lines, angles))
     mains, beside = found[: len(which)], found[len(which) :]
@@ -254,7 +254,7 @@ def judge_arrivals(
     return judged
 
 
-def spiralling(problem: LayerProblem, many: str = "Orbits leave the closed equator at all angles") -> Judged:
+def spiralling(problem: LayerProblem, many: str = "Orbits leave the closed equator at all angles") -> OutcomeVerdict:
     """Judge what leaves the equator at all angles."""
     angle = 2.0 * math.pi * np.arange(8) / 8.0
     ring = 0.9995 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..tables import Tabled, number, rows
+from ..tables import Tabled, result_rows, table_number
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class Condition(Tabled):
     sentence: str
 
     def _row_(self) -> tuple[str, ...]:
-        where = "–" if self.where is None else number(self.where)
+        where = "–" if self.where is None else table_number(self.where)
         return self.name, "yes" if self.holds else "no", where, self.sentence
 
     def __bool__(self) -> bool:
@@ -48,7 +48,7 @@ class PsiCheck:
     R5: Condition
 
     def _repr_html_(self) -> str:
-        return rows(self)
+        return result_rows(self)
 
     def __iter__(self) -> Iterator[Condition]:
         return iter((self.R1, self.R2, self.R3, self.R4, self.R5))

@@ -47,7 +47,7 @@ def _probe(expression: Expression, kernel: Kernel) -> PsiCheck:
     return PsiCheck(
         _smooth(derivatives, values, scale),
         _starts_at_one(float(values[0])),
-        _positive(expression, values),
+        _check_positivity(expression, values),
         _never_rises(derivatives[1], values),
         _smooth_at_infinity(expression, kernel, 1.0 / scale),
     )
@@ -69,7 +69,7 @@ def _starts_at_one(value: float) -> Condition:
     return Condition("R2", False, 0.0, f"Ψ(0) = {value:.6g}, not 1; {mend}.")
 
 
-def _positive(expression: Expression, values: Array) -> Condition:
+def _check_positivity(expression: Expression, values: Array) -> Condition:
     place = first_not_positive(expression, values)
     if place is None:
         return Condition("R3", True, None, f"Ψ(s) > 0, {PROBED}.")

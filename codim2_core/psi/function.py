@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import drawing
+from ..arrays import Array
 from ..expressions.expression import Expression
 from ..tables import paragraphs
 from . import kernel as arithmetic
@@ -29,7 +30,6 @@ from .families.record import Family
 
 __all__ = ["Psi"]
 
-Array = NDArray[np.float64]
 Vector = NDArray[Any] | Sequence[float]
 
 MAX_FLOAT = np.finfo(float).max

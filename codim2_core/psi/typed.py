@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..expressions.expression import Expression
 from .kernel import SCALAR, UNDERFLOW_BOUND, VECTOR, Kernel
-
-Array = NDArray[np.float64]
 
 # Where Psi is probed: s = 0 and a dense grid, about 100 points a decade.
 PROBES: Array = np.concatenate([[0.0], np.geomspace(1e-16, 1e16, 3201)])
@@ -158,7 +157,7 @@ def custom_kernel(expression: Expression) -> Custom:
     values = expression.evaluate({"s": PROBES})
     bad = ~np.isfinite(values)
     if bad.any():
-        s, value = _first(bad), values[int(np.argmax(bad))]
+        s, value = _first_bad(bad), values[int(np.argmax(bad))]
         raise ValueError(
             f"{VERDICT}{expression.text} is {value} at s = {s:.6g}. It must be finite for all s ≥ 0; "
             "rewrite it so that it can be computed from s = 0 to 1e16, e.g. exp(-s) for 1/exp(s)."
@@ -188,7 +187,7 @@ def custom_kernel(expression: Expression) -> Custom:
     if falling.any():
         raise ValueError(
             f"{VERDICT}with {expression.text}, |e_Ψ| = ζ/√(ζ² + Ψ(ζ²)) does not rise at "
-            f"s = ζ² = {_first(falling):.6g}. Ψ must not grow as fast as s there; a Ψ that never rises "
+            f"s = ζ² = {_first_bad(falling):.6g}. Ψ must not grow as fast as s there; a Ψ that never rises "
             "(R4) is always right, e.g. 1/(1+s)."
         )
     return kernel
@@ -209,7 +208,7 @@ def first_not_positive(expression: Expression, values: Array) -> float | None:
     if just_before < rounding and not (values < -rounding).any():
         return None
     if just_before < rounding:
-        return _first(values < -rounding)
+        return _first_bad(values < -rounding)
     return place
 
 
@@ -226,5 +225,5 @@ def refine(holds: Any, good: float, bad: float) -> float:
     return bad
 
 
-def _first(bad: NDArray[np.bool_]) -> float:
+def _first_bad(bad: NDArray[np.bool_]) -> float:
     return float(PROBES[int(np.argmax(bad))])

@@ -60,7 +60,7 @@ def _stepping_options(setting: SceneSetting, outside: bool = False) -> dict[str,
     }
 
 
-def starts(setting: SceneSetting, outside: bool) -> np.ndarray:
+def orbit_starts(setting: SceneSetting, outside: bool) -> np.ndarray:
     """Return the starting points of drawn orbits: the seeds, and points around what they would not leave."""
     seeds = seeds_of(setting, outside)
     if outside or setting.seeds is not None or not setting.count:
@@ -73,7 +73,7 @@ def starts(setting: SceneSetting, outside: bool) -> np.ndarray:
 
 def orbits(setting: SceneSetting, outside: bool) -> Orbits:
     """Whole orbits through the seeds, on the hemisphere or outside."""
-    seeds, options = starts(setting, outside), _stepping_options(setting, outside)
+    seeds, options = orbit_starts(setting, outside), _stepping_options(setting, outside)
     # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
     cheapest = outside and setting.coefficients.typed is None
     psi = constructors.constant() if cheapest else setting.psi
@@ -85,7 +85,7 @@ def sketch_orbits(setting: SceneSetting, outside: bool) -> Sketch:
     """Sketch the same orbits, without the kernels."""
     options = _stepping_options(setting, outside)
     wanted = {name: options[name] for name in ("t_max", "length", "view")}
-    return sketch(setting.coefficients, setting.psi, starts(setting, outside), **wanted)
+    return sketch(setting.coefficients, setting.psi, orbit_starts(setting, outside), **wanted)
 
 
 def continuations(setting: SceneSetting) -> Trajectories:

@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .. import drawing
+from ..arrays import Array
 from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.hemisphere import outside_flow
@@ -17,13 +17,11 @@ from ..orbits.result import Status, Trajectories
 from ..orbits.trajectories import concatenate, trajectories
 from ..orbits.whole import Orbits
 from ..portrait.approach import outcomes_of
-from ..portrait.endings import AT_SADDLE, CAPTURE, Ending, critical_label, drawn_time, endings, nearest
+from ..portrait.endings import AT_SADDLE, CAPTURE, OmegaLimit, critical_label, drawn_time, endings, nearest
 from ..portrait.outcomes import Outcome
-from ..systems.frozen import AtZ
-from ..tables import point, table
+from ..systems.frozen import FrozenSystem
+from ..tables import html_table, point
 from ..words import say
-
-Array = NDArray[np.float64]
 
 RTOL = 1e-9
 MAX_WINDING_LENGTH = 40.0  # picture units drawn of an orbit that winds
@@ -33,7 +31,7 @@ LOST = 1e-9  # rho below which a drawn point |p| = 1 + rho does not tell it, and
 
 
 @dataclass(frozen=True)
-class Fate:
+class LimitSet:
     """The limit set of an orbit, forward or backward in time.
 
     Attributes
@@ -55,20 +53,20 @@ class Fate:
 
 
 @dataclass(frozen=True, eq=False)
-class Launched:
+class LaunchedOrbits:
     """Orbits through given points of the picture.
 
     Attributes
     ----------
     orbits : Orbits
         Their lines; the time T of each is 0 at its seed.
-    goes, comes : tuple of Fate
+    goes, comes : tuple of LimitSet
         Forward and backward in time.
     """
 
     orbits: Orbits
-    goes: tuple[Fate, ...]
-    comes: tuple[Fate, ...]
+    goes: tuple[LimitSet, ...]
+    comes: tuple[LimitSet, ...]
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
@@ -79,16 +77,18 @@ class Launched:
         found = [(start, *fate) for start, fate in zip(starts, fates, strict=True)]
         if not found:
             return "<p>no orbit is launched</p>"
-        return (self._repr_svg_() or "") + table(("starts at", "goes", "comes"), found)
+        return (self._repr_svg_() or "") + html_table(("starts at", "goes", "comes"), found)
 
     def __len__(self) -> int:
         return len(self.goes)
 
 
-NO_ORBITS = Launched(Orbits(concatenate([]), concatenate([])), (), ())
+NO_ORBITS = LaunchedOrbits(Orbits(concatenate([]), concatenate([])), (), ())
 
 
-def launched_orbits(problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0) -> Launched:
+def launched_orbits(
+    problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0
+) -> LaunchedOrbits:
     """Follow orbits through points of the picture, and say where they go and where they come from.
 
     Parameters
@@ -101,7 +101,7 @@ def launched_orbits(problem: LayerProblem, seeds: Array, *, view: float = 2.0, p
 
     Returns
     -------
-    Launched
+    LaunchedOrbits
     """
     if not len(seeds):
         return NO_ORBITS
@@ -127,7 +127,7 @@ def launched_orbits(problem: LayerProblem, seeds: Array, *, view: float = 2.0, p
     fates = []
     for line, backward in ((ahead, False), (back, True)):
         half = _orbits_to_end(problem, line, seeds, EXTENSION_FACTOR * time, view, backward)
-        found: list[Fate | None] = [None] * len(seeds)
+        found: list[LimitSet | None] = [None] * len(seeds)
         within = np.flatnonzero(inside).tolist()
         for i, end in zip(within, _endings(problem, half, within, backward), strict=True):
             found[i] = _on_hemisphere(end, problem.critical, backward)
@@ -135,7 +135,7 @@ def launched_orbits(problem: LayerProblem, seeds: Array, *, view: float = 2.0, p
             arrived = line.status[i] not in CUT or line.ends[i, 2] < LOST
             found[i] = _outside(problem, half, i, _time(at, line, i) if arrived else None, backward)
         fates.append(tuple(fate for fate in found if fate is not None))
-    return Launched(Orbits(back, ahead), *fates)
+    return LaunchedOrbits(Orbits(back, ahead), *fates)
 
 
 def _orbits_to_end(
@@ -162,7 +162,7 @@ def _orbits_to_end(
     return Trajectories(line.buffer, line.clock, line.offsets, ends, codes)
 
 
-def _endings(problem: LayerProblem, lines: Trajectories, which: list[int], backward: bool) -> list[Ending]:
+def _endings(problem: LayerProblem, lines: Trajectories, which: list[int], backward: bool) -> list[OmegaLimit]:
     """Return where some of the trajectories end; their last points say enough."""
     last = lines.offsets[1:][which] - 1
     ends = Trajectories(
@@ -180,30 +180,30 @@ def _endings(problem: LayerProblem, lines: Trajectories, which: list[int], backw
     )
 
 
-def _on_hemisphere(end: Ending, critical: tuple[CriticalSet, ...], backward: bool) -> Fate:
+def _on_hemisphere(end: OmegaLimit, critical: tuple[CriticalSet, ...], backward: bool) -> LimitSet:
     label = end.label
     for i, C in enumerate(critical):
         if label == critical_label(critical, i):
             words = say("comes from a set" if backward else "tends to a set", label=label, kind=_a(C.kind))
-            return Fate(label, None, None, words)
+            return LimitSet(label, None, None, words)
     if label.startswith("cycle"):
-        return Fate(label, None, None, say("unwinds" if backward else "winds", label=label))
+        return LimitSet(label, None, None, say("unwinds" if backward else "winds", label=label))
     if label.startswith("Q"):
         words = say("comes up" if backward else "comes down", label=label, theta=end.angle)
-        return Fate(label, None, None, words)
+        return LimitSet(label, None, None, words)
     if label == "equator":
         words = say("spirals up" if backward else "spirals down")
-        return Fate(label, None, None, words)
-    return Fate("undecided", None, None, say("not followed", why=end.sentence))
+        return LimitSet(label, None, None, words)
+    return LimitSet("undecided", None, None, say("not followed", why=end.sentence))
 
 
-def _outside(problem: LayerProblem, half: Trajectories, i: int, after: float | None, backward: bool) -> Fate:
+def _outside(problem: LayerProblem, half: Trajectories, i: int, after: float | None, backward: bool) -> LimitSet:
     equator = problem.equator
     status = half.status[i]
     if status is Status.LEFT_VIEW:
-        return Fate("away", None, None, say("comes from outside" if backward else "leaves the picture"))
+        return LimitSet("away", None, None, say("comes from outside" if backward else "leaves the picture"))
     if status is Status.ON_EQUATOR:
-        return Fate("equator", None, None, say("stays on the equator"))
+        return LimitSet("equator", None, None, say("stays on the equator"))
     k, gap = nearest(equator, math.atan2(half.ends[i, 1], half.ends[i, 0])) if len(equator) else (0, math.inf)
     at_saddle = status in CUT and half.ends[i, 2] < AT_SADDLE and gap < AT_SADDLE  # saddles capture nothing
     if (status is Status.ARRIVED and len(equator)) or at_saddle:
@@ -211,14 +211,14 @@ def _outside(problem: LayerProblem, half: Trajectories, i: int, after: float | N
     elif status is Status.SPIRALLED:
         k, label, theta = None, "equator", None
     else:
-        return Fate("undecided", None, None, say("not followed", why=status.value))
+        return LimitSet("undecided", None, None, say("not followed", why=status.value))
     known: dict[str, object] = {"label": label, "theta": theta, "t": after}
     way = ("" if k is not None else ", in a spiral") + ("" if after is None else ", timed")
     if backward:
-        return Fate(label, None, after, say("left" + way, **known))
+        return LimitSet(label, None, after, say("left" + way, **known))
     found = outcomes_of(problem)
     then, onto = _what_follows(found.whole if k is None or found.whole is not None else found.directions[k])
-    return Fate(label, onto, after, f"{say('reached' + way, **known)} {then}")
+    return LimitSet(label, onto, after, f"{say('reached' + way, **known)} {then}")
 
 
 def _what_follows(outcome: Outcome | None) -> tuple[str, str | None]:
@@ -236,7 +236,7 @@ def _a(kind: str) -> str:
     return f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"
 
 
-def _time(at: AtZ, lines: Trajectories, i: int) -> float:
+def _time(at: FrozenSystem, lines: Trajectories, i: int) -> float:
     """Return t = ∫ rho dT along a drawn line outside, to its arrival.
 
     Between drawn points rho changes almost exponentially in T, for which the integral is

@@ -21,7 +21,7 @@ from ..sliding.flow import flow_on
 from ..systems.bounds import MIN_NUMBER
 from ..theorems.certificates import Certificate, certificates_of
 from .drawn_orbits import continuations, orbits, seeds_of, sketch_orbits
-from .launched import Launched, launched_orbits
+from .launched import LaunchedOrbits, launched_orbits
 from .setting import SceneSetting
 
 
@@ -88,7 +88,7 @@ def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
     return None if matrix is None else regions(*matrix)
 
 
-def _launched_layer(setting: SceneSetting) -> Launched:
+def _launched_layer(setting: SceneSetting) -> LaunchedOrbits:
     return launched_orbits(setting.problem, setting.launch, view=setting.view, pixel=setting.pixel)
 
 

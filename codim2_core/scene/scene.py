@@ -17,13 +17,13 @@ from numpy.typing import ArrayLike
 
 from .. import drawing
 from ..arguments import number, whole_number
-from ..layer_problem.problem import Finding, LayerProblem, Result
+from ..layer_problem.problem import CachedFunction, LayerProblem, Result
 from ..orbits.options import LEAST_PIXEL
 from ..orbits.seeds import checked_seeds
 from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.bounds import slow_values
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.kinds import SYSTEM_KINDS, AnySystem
 from .layer_table import ELINEAR_ONLY, INPUTS, layers
 from .memory import Memory
@@ -50,7 +50,7 @@ class _Problem(LayerProblem):
         super().__init__(scene.coefficients, scene.psi, scene.cut)
         self._scene = ref(scene)
 
-    def keep(self, finding: Finding[Result]) -> Result:
+    def keep(self, finding: CachedFunction[Result]) -> Result:
         """Return what was found, once for all scenes that agree in what it reads."""
         scene = self._scene()
         return super().keep(finding) if scene is None or not finding.layer else scene[finding.layer]
@@ -141,7 +141,7 @@ class Scene:
         ):
             raise ValueError(f"window is {window}; give finite left < right and bottom < top.")
         self.view, self.pixel, self.window, self.cut = view, pixel, window, number("cut", cut)
-        self.coefficients: AtZ = system.at(self.z)
+        self.coefficients: FrozenSystem = system.at(self.z)
         self._memory = Memory() if _memory is None else _memory
         self._own: dict[str, Any] = {}
         self.problem: LayerProblem = _Problem(self)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 
 
@@ -38,5 +38,5 @@ class SceneSetting(Protocol):
     pixel: float
     window: tuple[float, float, float, float] | None
     cut: float
-    coefficients: AtZ
+    coefficients: FrozenSystem
     problem: LayerProblem

@@ -5,15 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array, read_only
 from ..layer_problem.location import Existence, locate
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..words import say
-from .filippov import read_only
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,8 +12,9 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..layer_problem.critical import CriticalSet, critical_sets
 from ..psi.function import Psi
 from ..systems.bounds import slow_values
@@ -22,8 +23,6 @@ from ..systems.kinds import AnySystem
 from ..systems.typed import System
 from ..words import say, subscript
 from .slow_portrait_result import SlowBranch, SlowInterval, SlowPoint, SlowPortrait
-
-Array = NDArray[np.float64]
 
 BISECTIONS = 44  # of one step of the net: to the rounding of z
 MIN_CHANGE_DISTANCE = 1e-7  # of the span: two changes this near, as where a double zero is lost in rounding, are one
@@ -96,12 +95,12 @@ def slow_portrait(
         raise ValueError(f"span is {span}; give (low, high) with low < high.")
     others = slow_values(z if np.size(z) else (0.0,) * system.m, system.m)
     line = _Line(system, psi, others, axis)
-    pieces: list[Piece] = []
+    pieces: list[StatePiece] = []
     even = np.linspace(low, high, count)
-    outer, points = _pieces(line, np.union1d(even, _exchanges(line, even)), len)
+    outer, points = _split_net(line, np.union1d(even, _exchanges(line, even)), len)
     for values, sets in outer:  # where there are critical sets, however small that is, their kinds are looked at
         net = np.linspace(values[0], values[-1], count if sets[0] else 2)
-        inner, changes = _pieces(line, net, _kinds)
+        inner, changes = _split_net(line, net, _slow_kinds)
         pieces += inner
         points += changes
     branches: list[SlowBranch] = []
@@ -120,15 +119,15 @@ def slow_portrait(
     return SlowPortrait(tuple(branches), tuple(sorted(points, key=lambda p: p.z)), tuple(intervals))
 
 
-def _kind(C: CriticalSet) -> str:
+def _slow_kind(C: CriticalSet) -> str:
     """Return its kind; at tr J = 0 within rounding ("centre (linear)") that of the sign of the trace."""
     if C.kind.startswith("centre"):
         return "stable focus" if C.trace < 0.0 else "unstable focus"
     return C.kind
 
 
-def _kinds(sets: Sequence[CriticalSet]) -> tuple[str, ...]:
-    return tuple(sorted(map(_kind, sets)))
+def _slow_kinds(sets: Sequence[CriticalSet]) -> tuple[str, ...]:
+    return tuple(sorted(map(_slow_kind, sets)))
 
 
 def _exchanges(line: _Line, net: Array) -> list[float]:
@@ -157,16 +156,16 @@ def _exchanges(line: _Line, net: Array) -> list[float]:
     return found
 
 
-Piece = tuple[list[float], list[tuple[CriticalSet, ...]]]
+StatePiece = tuple[list[float], list[tuple[CriticalSet, ...]]]
 
 
-def _pieces(
+def _split_net(
     line: _Line, net: Array, state: Callable[[tuple[CriticalSet, ...]], Hashable]
-) -> tuple[list[Piece], list[SlowPoint]]:
+) -> tuple[list[StatePiece], list[SlowPoint]]:
     """Split the net where the state of the critical sets, their number or their kinds, changes."""
     start = float(net[0])
     here = line(start)
-    pieces: list[Piece] = [([start], [here])]
+    pieces: list[StatePiece] = [([start], [here])]
     points: list[SlowPoint] = []
     for end in net[1:].tolist():
         there = line(end)
@@ -196,7 +195,9 @@ def _pieces(
     return _without_narrow(pieces, points, MIN_CHANGE_DISTANCE * float(net[-1] - net[0]))
 
 
-def _without_narrow(pieces: list[Piece], points: list[SlowPoint], width: float) -> tuple[list[Piece], list[SlowPoint]]:
+def _without_narrow(
+    pieces: list[StatePiece], points: list[SlowPoint], width: float
+) -> tuple[list[StatePiece], list[SlowPoint]]:
     """Join the changes on both sides of a piece that is no wider than `width`; leave it out at the ends of the net."""
     kept, changes = pieces[:1], []
     for point, piece in zip(points, pieces[1:], strict=True):
@@ -214,15 +215,15 @@ def _without_narrow(pieces: list[Piece], points: list[SlowPoint], width: float) 
 
 
 def _pass_through(
-    into: SlowPoint, before: Sequence[CriticalSet], narrow: Piece, after: Sequence[CriticalSet]
+    into: SlowPoint, before: Sequence[CriticalSet], narrow: StatePiece, after: Sequence[CriticalSet]
 ) -> SlowPoint:
     """Name what happens where the critical sets are those of `narrow` at one z only; `into` is how they become so."""
     z, at = 0.5 * (narrow[0][0] + narrow[0][-1]), narrow[1][0]
-    if _kinds(before) != _kinds(after):
+    if _slow_kinds(before) != _slow_kinds(after):
         return _change(z, before, after)
     if len(before) > len(at) > 0:
         flattest = min(at, key=lambda C: abs(C.determinant))
-        return SlowPoint("fold", z, *_place(flattest), None, say("along: exchange"))
+        return SlowPoint("fold", z, *_location_of(flattest), None, say("along: exchange"))
     return into
 
 
@@ -233,21 +234,23 @@ def _change(z: float, before: Sequence[CriticalSet], after: Sequence[CriticalSet
         outermost = max(more, key=lambda C: float(np.hypot(*C.e)))
         if np.hypot(*outermost.e) > 1.0 - EQUATOR_DISTANCE:
             sentence = say("along: equator")
-            return SlowPoint("equator", z, *_place(outermost), None, sentence)
+            return SlowPoint("equator", z, *_location_of(outermost), None, sentence)
         flattest = min(more, key=lambda C: abs(C.determinant))
-        return SlowPoint("fold", z, *_place(flattest), None, say("along: fold"))
+        return SlowPoint("fold", z, *_location_of(flattest), None, say("along: fold"))
     pairs = _match_sets(before, after)
-    old, new = next(((p, q) for p, q in pairs if _kind(p) != _kind(q)), pairs[0])
-    if {_kind(old).split()[0], _kind(new).split()[0]} == {"stable", "unstable"}:
-        return SlowPoint("Hopf", z, *_place(new), None, say("along: Hopf", kind=_article(_kind(new))))
-    return SlowPoint("node-focus", z, *_place(new), None, say("along: node-focus", kind=_article(_kind(new))))
+    old, new = next(((p, q) for p, q in pairs if _slow_kind(p) != _slow_kind(q)), pairs[0])
+    if {_slow_kind(old).split()[0], _slow_kind(new).split()[0]} == {"stable", "unstable"}:
+        return SlowPoint("Hopf", z, *_location_of(new), None, say("along: Hopf", kind=_article(_slow_kind(new))))
+    return SlowPoint(
+        "node-focus", z, *_location_of(new), None, say("along: node-focus", kind=_article(_slow_kind(new)))
+    )
 
 
 def _article(kind: str) -> str:
     return f"an {kind}" if kind.startswith("unstable") else f"a {kind}"
 
 
-def _place(C: CriticalSet) -> tuple[tuple[float, float], tuple[float, ...]]:
+def _location_of(C: CriticalSet) -> tuple[tuple[float, float], tuple[float, ...]]:
     return (float(C.e[0]), float(C.e[1])), tuple(C.slow_flow.tolist())
 
 
@@ -274,7 +277,7 @@ def _follow(values: list[float], sets: list[tuple[CriticalSet, ...]]) -> list[Sl
         arrays = (np.array(values), e, p, flow)
         for array in arrays:
             array.flags.writeable = False
-        branches.append(SlowBranch(*arrays, _kind(chain[len(chain) // 2])))
+        branches.append(SlowBranch(*arrays, _slow_kind(chain[len(chain) // 2])))
     return branches
 
 
@@ -304,5 +307,5 @@ def _equilibria(line: _Line, branch: SlowBranch) -> list[SlowPoint]:
         here = on_branch(z)
         alone = not np.delete(here.slow_flow, line.axis).any()
         sentence = say(f"along: {way}") if alone else say(f"along one: {way}", z=f"z{subscript(line.axis + 1)}")
-        found.append(SlowPoint("equilibrium", z, *_place(here), falling, sentence))
+        found.append(SlowPoint("equilibrium", z, *_location_of(here), falling, sentence))
     return found

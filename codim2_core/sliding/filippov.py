@@ -13,14 +13,13 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ..systems.frozen import AtZ
+from ..arrays import Array, read_only
+from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
-from ..tables import paragraphs, point, table
+from ..tables import html_table, paragraphs, point
 from ..words import say
-
-Array = NDArray[np.float64]
 
 SEARCH_DIRECTIONS = 512  # directions among which maxima are looked for, then refined
 FIRST_DIRECTIONS = 48  # directions of the first linear programme
@@ -62,7 +61,7 @@ class FilippovSliding:
     def _repr_html_(self) -> str:
         combined = zip(self.vertices, self.directions, self.weights, strict=True)
         found = [tuple(map(point, one)) for one in combined]
-        return paragraphs([self.sentence]) + table(("candidate z′", "combines U, W at θ", "with weights"), found)
+        return paragraphs([self.sentence]) + html_table(("candidate z′", "combines U, W at θ", "with weights"), found)
 
     def __len__(self) -> int:
         return len(self.vertices)
@@ -125,12 +124,6 @@ _TOUCHES = say("Filippov: touches")
 _NONE = say("Filippov: none")
 
 
-def read_only(values: Array) -> Array:
-    """Make an array read-only."""
-    values.flags.writeable = False
-    return values
-
-
 def _normals(m: int) -> Iterator[Array]:
     """Directions of R^m in which extremes are looked for: along the axes, then (m = 2) all around."""
     if m == 0:
@@ -145,7 +138,7 @@ def _normals(m: int) -> Iterator[Array]:
 class _Field:
     """(U, W) on the circle: at any direction, and on a dense grid."""
 
-    def __init__(self, at: AtZ) -> None:
+    def __init__(self, at: FrozenSystem) -> None:
         self._at = at
         self.theta = np.linspace(0.0, 2.0 * math.pi, SEARCH_DIRECTIONS, endpoint=False)
         self.U, self.W = self(self.theta)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.disc_zeros import disc_zeros
 from ..layer_problem.location import locate
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 
 
@@ -40,7 +40,7 @@ def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | 
     return flow
 
 
-def flow_on(at: AtZ, critical: Sequence[CriticalSet]) -> NDArray[np.float64] | None:
+def flow_on(at: FrozenSystem, critical: Sequence[CriticalSet]) -> NDArray[np.float64] | None:
     """Return what `sliding_flow` does of a frozen system whose critical sets are known."""
     if not critical:
         return None

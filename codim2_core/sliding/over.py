@@ -7,13 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arrays import Array
 from ..layer_problem.critical import critical_sets
 from ..layer_problem.equator import equator_equilibria
 from ..psi.function import Psi
 from ..systems.bounds import slow_values
 from ..systems.kinds import AnySystem
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from .. import drawing
-from ..tables import Tabled, number, point, rows
-
-Array = NDArray[np.float64]
+from ..arrays import Array
+from ..tables import Tabled, point, result_rows, table_number
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +65,7 @@ class SlowPoint(Tabled):
     sentence: str
 
     def _row_(self) -> tuple[str, ...]:
-        return self.kind, number(self.z), point(self.e), point(self.flow), self.sentence
+        return self.kind, table_number(self.z), point(self.e), point(self.flow), self.sentence
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +80,7 @@ class SlowInterval(Tabled):
     sentence: str
 
     def _row_(self) -> tuple[str, ...]:
-        return number(self.low), number(self.high), self.kind, self.sentence
+        return table_number(self.low), table_number(self.high), self.kind, self.sentence
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,4 +95,4 @@ class SlowPortrait:
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + rows(self.intervals) + rows(self.points)
+        return (self._repr_svg_() or "") + result_rows(self.intervals) + result_rows(self.points)

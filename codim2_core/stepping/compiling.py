@@ -17,7 +17,7 @@ def compile_address(function: Callable[..., None], cache: bool) -> Any:
     return cfunc(FIELD, cache=cache, nogil=True, fastmath=ARITHMETIC, error_model="numpy")(function)
 
 
-class Kept:
+class CompiledCache:
     """Compiled things by key, the last `most` of them; what to compile is said when it is asked for."""
 
     def __init__(self, most: int) -> None:

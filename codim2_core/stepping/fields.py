@@ -18,7 +18,7 @@ from numba import (
 
 from ..psi.function import Psi
 from .compiling import ARITHMETIC, compile_address
-from .gains import Variants, arguments, gain, kind, variant
+from .gains import GainVariants, arguments, gain, kind, variant
 from .layout import EACH, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, WITH_EACH, call_at
 from .numbers import GAIN, PSI
 
@@ -36,7 +36,7 @@ def write_lane(S, out, P, lane, gain, a, b, d, f1, f2):
     out[lane + 2 * LANES] = P[lane + SIDE_SIGN] * w * q
 
 
-def _field(state, out, parameters):
+def _psi_field(state, out, parameters):
     S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
     parameter = kind(P[PSI])
     for lane in range(LANES):
@@ -60,7 +60,7 @@ def _field_of_gain(state, out, parameters):
         write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
 
 
-_compiled, _compiled_of_each = Variants(_field), Variants(_field_of_each)
+_compiled, _compiled_of_each = GainVariants(_psi_field), GainVariants(_field_of_each)
 
 
 def is_compiled(psi: Psi) -> bool:

@@ -16,12 +16,12 @@ from ..expressions.functions import kernels
 from ..expressions.names import FAST_NAMES
 from ..expressions.source import program
 from ..systems.typed import System
-from .compiling import Kept, compile_address
+from .compiling import CompiledCache, compile_address
 from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, call_at
 from .numbers import FACTOR, GAIN, OWN_NUMBERS
 
 MOST_SYSTEMS = 64  # compiled systems kept
-_fields = Kept(MOST_SYSTEMS)
+_fields = CompiledCache(MOST_SYSTEMS)
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,8 @@ from numba import (
 
 from ..expressions.functions import kernels
 from ..psi.function import Psi
-from .compiling import ARITHMETIC, Kept, compile_address
+from ..psi.kernel import UNDERFLOW_BOUND
+from .compiling import ARITHMETIC, CompiledCache, compile_address
 from .layout import (
     BLOCK,
     BLOCKS,
@@ -41,7 +42,6 @@ from .layout import (
 )
 from .numbers import PSI
 
-UNDERFLOW_BOUND = 1e-300
 LOG2_E, LN2_HIGH, LN2_LOW = 1.4426950408889634, 0.6931471803691238, 1.9082149292705877e-10
 # Beyond s = LARGE, w^2 Psi(s) <= Psi(s) |p|^2/LARGE is lost beside |p|^2.
 LARGE_ZETA = 1e20
@@ -127,7 +127,7 @@ def _typed_gain(source: str, parameter: str) -> Any:
 
 
 @dataclass(frozen=True)
-class Variant:
+class GainVariant:
     """The compiled code of a Psi: one for a family, two with `Family.gain_whole`, or one for a typed formula.
 
     Attributes
@@ -162,10 +162,10 @@ class Variant:
         return compile_address(function, cache=self.cached)
 
 
-ONE = Variant(_unit_gain, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
+ONE = GainVariant(_unit_gain, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
 
 
-def variant(psi: Psi, smooth: bool, whole: bool = True) -> Variant:
+def variant(psi: Psi, smooth: bool, whole: bool = True) -> GainVariant:
     """Say what is compiled for a Psi.
 
     Parameters
@@ -183,24 +183,26 @@ def variant(psi: Psi, smooth: bool, whole: bool = True) -> Variant:
         expression = psi.expression if record.typed else record.expression()
         if expression is None:
             raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
-        return Variant(expression.python_source(), parameter=record.names[-1] if len(record.names) > 1 else "parameter")
+        return GainVariant(
+            expression.python_source(), parameter=record.names[-1] if len(record.names) > 1 else "parameter"
+        )
     whole = whole and record.whole(psi.parameter)
     key = record.gain_whole if whole and record.gain_whole is not None else record.gain
-    return Variant(key, whole, cached=key.__module__.startswith(__name__.split(".")[0] + "."))
+    return GainVariant(key, whole, cached=key.__module__.startswith(__name__.split(".")[0] + "."))
 
 
-class Variants:
+class GainVariants:
     """The compiled variants of a function of all lanes: those of the families for good, the last typed ones."""
 
     def __init__(self, lanes: Callable[..., None]) -> None:
         self._lanes = lanes
-        self._families: dict[Variant, Any] = {}
-        self._typed = Kept(MOST_EXPRESSIONS)
+        self._families: dict[GainVariant, Any] = {}
+        self._typed = CompiledCache(MOST_EXPRESSIONS)
 
-    def __contains__(self, asked: Variant) -> bool:
+    def __contains__(self, asked: GainVariant) -> bool:
         return asked.cached or asked in self._families or asked in self._typed
 
-    def get(self, asked: Variant) -> Any:
+    def get(self, asked: GainVariant) -> Any:
         """Return a variant, compiling it or loading it from the disk cache the first time."""
         if isinstance(asked.key, str):
             return self._typed.get(asked, lambda: asked.make(self._lanes))
@@ -217,7 +219,7 @@ def _gains(state, out, parameters):
         D[lane] = gain(r2, w, parameter)
 
 
-_compiled = Variants(_gains)
+_compiled = GainVariants(_gains)
 
 
 def gains(psi: Psi, smooth: bool) -> Any:
@@ -251,7 +253,7 @@ def _gains_of_blocks(state, out, parameters):
         call_at(int(P[GAINS + j]), ahead(state, j * BLOCK), ahead(out, j * BLOCK), ahead(parameters, j * BLOCK))
 
 
-_compiled_of_block = Variants(_gains_of_block)
+_compiled_of_block = GainVariants(_gains_of_block)
 
 
 def gains_of_block(psi: Psi, smooth: bool) -> Any:
@@ -270,7 +272,7 @@ def _one_gain(state, out, parameters):
     D[0] = gain(S[0], S[1], kind(P[PSI]))
 
 
-_compiled_one = Variants(_one_gain)
+_compiled_one = GainVariants(_one_gain)
 
 
 def one_gain(psi: Psi) -> Any:

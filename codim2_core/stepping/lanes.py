@@ -32,7 +32,7 @@ from .layout import (
     call_field,
 )
 from .lines import BEGUN, begin_lines, end_line, in_order, keep_line, length_of, longer
-from .polyline import CURSOR, follow
+from .polyline import CURSOR, append_step
 
 # Outcomes; `orbits.trajectories.Status` lists their sentences in this order.
 T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, SPIRALLED, STAYS_ON_EQUATOR, STEP_LIMIT, LENGTH = range(8)
@@ -115,7 +115,9 @@ def _assign_gains(P, own):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _begin(S, P, states, signs, following, until, first, who, times, steps, spent, counts, travelled, accepted):
+def _begin_trajectories(
+    S, P, states, signs, following, until, first, who, times, steps, spent, counts, travelled, accepted
+):
     """Give each free lane the next trajectory of its Psi, at the start of its time."""
     for k in range(LANES):
         m = (k // BLOCK) * following.shape[0] // BLOCKS
@@ -162,7 +164,7 @@ def _event(S, P, field, k, flag, times, tried, t_max, capture, view, near, turn,
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _end(S, k, fraction, ends, i):
+def _write_end(S, k, fraction, ends, i):
     """Write the state of a lane at a fraction of its step as the end of trajectory i."""
     if fraction == 0.0:
         for c in range(3):
@@ -179,7 +181,7 @@ def _end(S, k, fraction, ends, i):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _go_on(S, times, accepted):
+def _accept_steps(S, times, accepted):
     """Let each lane stand where its step has led, if that was accepted. Vectorised."""
     for k in range(LANES):
         good = accepted[k] > 0.0
@@ -253,7 +255,9 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
     evaluations, done, free = np.zeros(len(until), np.int64), 0, True
     while done < n:
         if free:
-            _begin(S, P, states, signs, following, until, first, who, times, steps, spent, counts, travelled, accepted)
+            _begin_trajectories(
+                S, P, states, signs, following, until, first, who, times, steps, spent, counts, travelled, accepted
+            )
             call_field(field, S, STATE, K0, P)
             begin_lines(S, P, cursor, lines, accepted)
             free = False
@@ -275,10 +279,10 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
                         S, P, field, k, flags[k], times, tried, t_max, capture, view, near, turn, scratch
                     )
                 if draw:
-                    count = follow(S, P, k, cursor, lines, counts[k], times[k], tried[k], stop, distance)
+                    count = append_step(S, P, k, cursor, lines, counts[k], times[k], tried[k], stop, distance)
                     while count < 0:
                         lines = longer(lines)
-                        count = follow(S, P, k, cursor, lines, -1 - count, times[k], tried[k], stop, distance)
+                        count = append_step(S, P, k, cursor, lines, -1 - count, times[k], tried[k], stop, distance)
                     travelled[k] += length_of(lines, k, counts[k] - 1, count - 1)
                     counts[k] = count
                     if code == RUNNING and travelled[k] >= longest:
@@ -290,7 +294,7 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
             if code == RUNNING:
                 continue
             i = who[k]
-            _end(S, k, fraction, ends, i)
+            _write_end(S, k, fraction, ends, i)
             codes[i] = STAYS_ON_EQUATOR if ends[i, 2] == 0.0 and states[i, 2] == 0.0 else code
             if counts[k] == lines.shape[1]:
                 lines = longer(lines)
@@ -303,6 +307,6 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
             who[k], spent[k] = -1, IDLE
             done += 1
             free = True
-        _go_on(S, times, accepted)
+        _accept_steps(S, times, accepted)
     points, clock, offsets = in_order(store, stored, where, length)
     return points, clock, offsets, ends, codes, evaluations

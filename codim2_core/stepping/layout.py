@@ -108,7 +108,7 @@ EQUATOR_ROUNDING = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the
 
 
 @njit(cache=True, error_model="numpy")
-def _square(x):
+def _double_square(x):
     """x^2 and what its rounding lost (Dekker)."""
     big = 134217729.0 * x
     high = big - (big - x)
@@ -120,8 +120,8 @@ def _square(x):
 @njit(cache=True, error_model="numpy")
 def _defect(x, y):
     """1 - x^2 - y^2 to a few roundings of itself: near the equator |p| alone, rounded, would lose its digits."""
-    x2, x_lost = _square(max(abs(x), abs(y)))
-    y2, y_lost = _square(min(abs(x), abs(y)))
+    x2, x_lost = _double_square(max(abs(x), abs(y)))
+    y2, y_lost = _double_square(min(abs(x), abs(y)))
     one = 1.0 - x2
     lost = (1.0 - one) - x2
     return (one - y2) + (((one - (one - y2)) - y2) + lost - x_lost - y_lost)

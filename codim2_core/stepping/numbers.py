@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.typed_formulas import MOST_NUMBERS
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ FACTOR, PSI, GAIN, OWN_NUMBERS = 0, 5, 6, 7
 SHARED_SIZE = OWN_NUMBERS + MOST_NUMBERS + 1  # a multiple of 8
 
 
-def numbers(at: AtZ, psi: Psi, backward: bool, gain: int = 0) -> NDArray[np.float64]:
+def field_numbers(at: FrozenSystem, psi: Psi, backward: bool, gain: int = 0) -> NDArray[np.float64]:
     """Return the parameters (SHARED,) of a compiled field, scaled so that |U| is about 1.
 
     Parameters

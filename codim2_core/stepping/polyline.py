@@ -22,7 +22,7 @@ AIM, ALLOWED = 0.8, 0.9  # of the distance: what a chord aims at, and what it ma
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def place(S, P, lane, x):
+def picture_state(S, P, lane, x):
     """Picture point and picture velocity (a step's fraction as time) at the fraction x of the step in DENSE."""
     px, ux = dense(S, lane, x)
     py, uy = dense(S, LANES + lane, x)
@@ -49,7 +49,7 @@ def start(S, P, lane, cursor):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def follow(S, P, lane, cursor, lines, count, t0, h, stop, distance):
+def append_step(S, P, lane, cursor, lines, count, t0, h, stop, distance):
     """Add the points of one step, from time t0 to `stop` <= t0 + h, to a lane's line.
 
     Returns the new count; -1 - count when the line is full: make room and call again.
@@ -60,7 +60,7 @@ def follow(S, P, lane, cursor, lines, count, t0, h, stop, distance):
     while True:
         beyond = last + spacing >= stop
         t = stop if beyond else max(last + spacing, t0)
-        x, y, vx, vy = place(S, P, lane, (t - t0) / h)
+        x, y, vx, vy = picture_state(S, P, lane, (t - t0) / h)
         lx, ly = x - x0, y - y0
         bend = 0.25 * max(
             abs(ux * ly - uy * lx) / math.sqrt(ux * ux + uy * uy + 1e-300),
@@ -68,7 +68,7 @@ def follow(S, P, lane, cursor, lines, count, t0, h, stop, distance):
         )
         # Ends alone cannot tell an arc from a corner: look at one point between them too.
         if last >= t0:
-            mx, my, _vx, _vy = place(S, P, lane, (0.5 * (last + t) - t0) / h)
+            mx, my, _vx, _vy = picture_state(S, P, lane, (0.5 * (last + t) - t0) / h)
         else:
             scale = 1.0 if P[SIDE_SIGN + lane] < 0.0 else 1.0 + S[STATE + 2 * LANES + lane]
             mx, my = scale * S[STATE + lane], scale * S[STATE + LANES + lane]

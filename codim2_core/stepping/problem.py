@@ -10,18 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..psi.function import Psi
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.typed import System
 from . import fields, fields_typed
 from .gains import gains, gains_of_block, gains_of_blocks, has_gains
-from .numbers import FACTOR, numbers
+from .numbers import FACTOR, field_numbers
 
 ALONE = np.zeros((1, 2))
 ALONE.flags.writeable = False
 
 
 @dataclass(frozen=True)
-class Compiled:
+class CompiledProblem:
     """A right-hand side, scaled so that |U| is about 1.
 
     Attributes
@@ -45,14 +45,14 @@ class Compiled:
     own: NDArray[np.float64]
 
     @property
-    def reversed(self) -> Compiled:
+    def reversed(self) -> CompiledProblem:
         """The same right-hand side against time."""
         shared = self.shared.copy()
         shared[self.factors] *= -1.0
         return replace(self, shared=shared)
 
 
-def problem(at: AtZ, psi: Psi, backward: bool = False) -> Compiled:
+def problem(at: FrozenSystem, psi: Psi, backward: bool = False) -> CompiledProblem:
     """Prepare a right-hand side, compiling what is new of it.
 
     Parameters
@@ -64,18 +64,18 @@ def problem(at: AtZ, psi: Psi, backward: bool = False) -> Compiled:
     """
     if at.typed is None:
         field = fields.field(psi)
-        return Compiled(field.address, numbers(at, psi, backward), (field,), slice(0, 5), ALONE)
+        return CompiledProblem(field.address, field_numbers(at, psi, backward), (field,), slice(0, 5), ALONE)
     function, gain = prepare(at.typed, psi)
-    return Compiled(
+    return CompiledProblem(
         function.address,
-        numbers(at, psi, backward, gain.address),
+        field_numbers(at, psi, backward, gain.address),
         (function, gain),
         slice(FACTOR, FACTOR + 1),
         ALONE,
     )
 
 
-def problems(at: AtZ, psis: Sequence[Psi], backward: bool = False) -> Compiled:
+def problems(at: FrozenSystem, psis: Sequence[Psi], backward: bool = False) -> CompiledProblem:
     """Prepare a right-hand side whose lanes have a Psi of their own, of at most BLOCKS.
 
     Parameters
@@ -90,8 +90,8 @@ def problems(at: AtZ, psis: Sequence[Psi], backward: bool = False) -> Compiled:
     mixed, each = gains_of_blocks(), [gains_of_block(psi, smooth) for psi in psis]
     own = np.array([(gain.address, psi.parameter) for gain, psi in zip(each, psis, strict=True)], float)
     factors = slice(0, 5) if general is None else slice(FACTOR, FACTOR + 1)
-    shared = numbers(at, psis[0], backward, mixed.address)
-    return Compiled(field.address, shared, (field, mixed, *each), factors, own)
+    shared = field_numbers(at, psis[0], backward, mixed.address)
+    return CompiledProblem(field.address, shared, (field, mixed, *each), factors, own)
 
 
 def prepare(system: System, psi: Psi) -> tuple[Any, Any]:

@@ -20,6 +20,7 @@ from numba import njit
 
 from .dop853 import ARITHMETIC, dense
 from .events import INTERIOR, MIRROR, ON_EQUATOR_ATTRACTOR, is_captured, left_view
+from .lanes import MAX_GROWTH, MAX_SHRINKAGE, STEP_SAFETY
 from .layout import (
     DENSE_ROWS,
     K0,
@@ -42,13 +43,13 @@ from .layout import (
     call_field,
 )
 from .lines import end_line, keep_line, length_of, longer
-from .polyline import CURSOR, X, Y, follow, start
+from .polyline import CURSOR, X, Y, append_step, start
 
 # As in `lanes`
 T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, STEP_LIMIT, LENGTH, RUNNING = 0, 1, 2, 3, 6, 7, -1
 GAMMA = 0.25
 DIFFERENCE_STEP = 1e-5  # of the central differences of the Jacobian; of w: of w itself
-STEP_SAFETY, MAX_SHRINKAGE, MAX_GROWTH = 0.9, 0.2, 6.0
+
 FIRST_STEP = 0.02
 HIGH = 0.1  # ebar above which the projection is along w
 MIN_W = 1e-7  # below this w its error counts as if it were this large: the rest is far below a pixel
@@ -203,7 +204,7 @@ def _event(S, P, field, k, capture, view, scratch):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _go_on(S, k, fraction):
+def _move_lane(S, k, fraction):
     """Move a lane's state to that fraction of its step; where it is less than 1 it has left the view on the circle."""
     x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
     if fraction < 1.0:
@@ -218,7 +219,7 @@ def _go_on(S, k, fraction):
 
 
 @njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-def _begin(S, P, states, signs, t_max, field, base, many, cursor, lines, times, travelled, counts, h):
+def _begin_lanes(S, P, states, signs, t_max, field, base, many, cursor, lines, times, travelled, counts, h):
     """Give the lanes the trajectories from `base` on, at their starts; those too many repeat the last."""
     for k in range(LANES):
         i = base + min(k, many - 1)
@@ -255,7 +256,7 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
     for base in range(0, n, LANES):
         lines = np.empty((LANES, 64, 3))
         many = min(LANES, n - base)
-        _begin(S, P, states, signs, t_max, field, base, many, cursor, lines, times, travelled, counts, h)
+        _begin_lanes(S, P, states, signs, t_max, field, base, many, cursor, lines, times, travelled, counts, h)
         left = many
         for _ in range(limit):
             if left == 0:
@@ -285,16 +286,16 @@ def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, captu
                 if code == RUNNING and stop >= t_max[i] * (1.0 - 1e-12):
                     code = T_MAX
                 if distance > 0.0:
-                    count = follow(S, P, k, cursor, lines, counts[k], times[k], taken, stop, distance)
+                    count = append_step(S, P, k, cursor, lines, counts[k], times[k], taken, stop, distance)
                     while count < 0:
                         lines = longer(lines)
-                        count = follow(S, P, k, cursor, lines, -1 - count, times[k], taken, stop, distance)
+                        count = append_step(S, P, k, cursor, lines, -1 - count, times[k], taken, stop, distance)
                     travelled[k] += length_of(lines, k, counts[k] - 1, count - 1)
                     counts[k] = count
                     if code == RUNNING and travelled[k] >= longest[i]:
                         code = LENGTH
                 times[k] = stop
-                _go_on(S, k, fraction)
+                _move_lane(S, k, fraction)
                 h[k] = min(h[k], max(t_max[i] - stop, 1e-300))
                 if code != RUNNING:
                     codes[i] = code

@@ -37,10 +37,10 @@ def _coefficient(value: object, what: str, names: tuple[str, ...]) -> Coefficien
         number = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError) as error:
         raise ValueError(f"{what} is {reprlib.repr(value)}; give a number, or text in {', '.join(names)}.") from error
-    return _finite(number, what)
+    return _require_finite(number, what)
 
 
-def _finite(number: float, what: str) -> float:
+def _require_finite(number: float, what: str) -> float:
     if not math.isfinite(number):
         raise ValueError(f"{what} is {number}; give a finite number.")
     if abs(number) > MAX_NUMBER:
@@ -103,7 +103,7 @@ class ELinear:
     def __post_init__(self) -> None:
         parameters = dict(self.parameters)
         for name, value in parameters.items():
-            parameters[name] = _finite(_number(value, f"parameter {name}"), f"parameter {name}")
+            parameters[name] = _require_finite(_real_number(value, f"parameter {name}"), f"parameter {name}")
         names = (*(f"z{i}" for i in range(1, MOST_SLOW_VARIABLES + 1)), "z", *parameters)
         entry = lambda value, what: _coefficient(value, what, names)
         if isinstance(self.f, str) or not hasattr(self.f, "__len__") or len(self.f) != 2:
@@ -284,7 +284,7 @@ class ELinear:
                 raise ValueError(f"{what} cannot be computed{at_place(z)}: {error}.") from error
             if not math.isfinite(result):
                 raise ValueError(f"{what} is {result}{at_place(z)}; every coefficient must be finite there.")
-            return _finite(result, f"{what}{at_place(z)}")
+            return _require_finite(result, f"{what}{at_place(z)}")
 
         f1, f2 = number(self.f[0], "f1"), number(self.f[1], "f2")
         B = np.zeros((self.m, 2))
@@ -314,7 +314,7 @@ class ELinear:
         return Coefficients(a, b, d, f1, f2, B, g, phi, given)
 
 
-def _number(value: object, what: str) -> float:
+def _real_number(value: object, what: str) -> float:
     try:
         return float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError) as error:

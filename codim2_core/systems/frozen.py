@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Hashable
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from ..arrays import Array
 
 if TYPE_CHECKING:
     from .coefficients import Affine, Coefficients
 
-Array = NDArray[np.float64]
 
-
-class AtZ(Protocol):
+class FrozenSystem(Protocol):
     """A system frozen at one z: numbers (`Coefficients`), or typed formulas with numbers (`Frozen`).
 
     A quantity that has a closed form in e-linear systems asks for `as_given`; where that is None it is searched for.
@@ -89,7 +88,7 @@ class AtZ(Protocol):
     @property
     def reads_position(self) -> bool: ...  # noqa: D102
 
-    def at(self, z: ArrayLike = ()) -> AtZ:
+    def at(self, z: ArrayLike = ()) -> FrozenSystem:
         """Return itself: a frozen system is accepted wherever a system is."""
         ...
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from .coefficients import Coefficients
 from .elinear import ELinear
-from .frozen import AtZ
+from .frozen import FrozenSystem
 from .typed import System
 from .typed_at_z import Frozen
 
-AnySystem = ELinear | System | AtZ
+AnySystem = ELinear | System | FrozenSystem
 SYSTEM_KINDS = (ELinear, System, Coefficients, Frozen)  # for `isinstance`, at the door

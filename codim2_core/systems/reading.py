@@ -87,12 +87,12 @@ def definitions(given: Mapping[str, Any], parameters: tuple[str, ...]) -> tuple[
             raise ValueError(f"the definition {short_repr(name)} has the name of something else; choose another name.")
         inside = r"\s*,\s*".join(re.escape(word.strip()) for word in arguments.split(","))
         call = re.compile(rf"(?<!\w){name}\s*\(\s*{inside or r'z'}\s*\)", re.ASCII)
-        meaning = read(text, f"definition {name}", parameters, tuple(found))
+        meaning = parse_formula(text, f"definition {name}", parameters, tuple(found))
         found.append((name, text.text if isinstance(text, Expression) else str(text), call, meaning))
     return tuple(found)
 
 
-def read(text: Text, what: str, parameters: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
+def parse_formula(text: Text, what: str, parameters: tuple[str, ...], definitions: Sequence[Definition]) -> Expression:
     """Parse one formula; `z` becomes `z1` and definitions are put in."""
     given = (*parameters, *(definition[0] for definition in definitions))
     names = (*FAST_NAMES, "z", *SLOW_NAMES, *given, *(() if TIME in given else (TIME,)))

@@ -9,8 +9,9 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..expressions.arrays import program
 from ..expressions.expression import Expression
 from ..expressions.names import FAST_NAMES, SLOW_NAMES, number_names
@@ -18,8 +19,6 @@ from .bounds import MAX_NUMBER, MIN_NUMBER, at_place
 from .coefficients import Affine, Coefficients
 from .elinear import ELinear
 from .typed_formulas import Formulas
-
-Array = NDArray[np.float64]
 
 # Where U must be finite: rings of directions, the equator among them.
 _SIZES = (0.0, 0.35, 0.7, 1.0)

@@ -9,7 +9,7 @@ from typing import Any
 from ..expressions.expression import Expression, parse
 from ..expressions.names import MOST_SLOW_VARIABLES, SLOW_NAMES, TIME, number_names
 from .bounds import slow_names
-from .reading import continuous, mapping, parameter, read, short_repr, texts
+from .reading import continuous, mapping, parameter, parse_formula, short_repr, texts
 from .reading import definitions as read_definitions
 
 MOST_NUMBERS = 32  # parameters and slow variables that one system may read
@@ -68,7 +68,7 @@ class Formulas:
         U = texts(self.U, "U")
         if len(U) != 2:
             raise ValueError(f"U is {short_repr(self.U)}; give two formulas (U1, U2).")
-        formula = lambda text, what: read(text, what, tuple(parameters), definitions)
+        formula = lambda text, what: parse_formula(text, what, tuple(parameters), definitions)
         plane = tuple(formula(text, f"U{i + 1}") for i, text in enumerate(U))
         W = texts(self.W, "W")
         if len(W) > MOST_SLOW_VARIABLES:

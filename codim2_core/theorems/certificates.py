@@ -17,7 +17,7 @@ from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..sliding.flow import sliding_flow
-from ..systems.frozen import AtZ
+from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from ..tables import Results
 from ..words import say
@@ -222,7 +222,7 @@ def _existence(facts: Facts) -> Certificate:
     )  # fmt: skip
 
 
-def _affine(at: AtZ) -> bool:
+def _has_affine_w(at: FrozenSystem) -> bool:
     """Whether W is affine in (c, s), as far as a few directions show."""
     e = np.stack([np.cos(RAY_ANGLES), np.sin(RAY_ANGLES)], axis=-1)
     W, middle = at.W(e), at.W(np.zeros(2))
@@ -233,7 +233,7 @@ def _affine(at: AtZ) -> bool:
 def _filippov(facts: Facts) -> Certificate:
     theorem = "thm:lineps1(b)"
     statement = say("slow flow of C")
-    if facts.location is None or not _affine(facts.at):
+    if facts.location is None or not _has_affine_w(facts.at):
         return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else say("W not e-linear"))
     if not facts.critical:
         return not_applicable(theorem, statement, say("no isolated critical set"))
@@ -298,7 +298,7 @@ def _limit_cycles(facts: Facts, cycles: Iterable[Any] | None) -> Certificate:
     if not found:
         why = say("no cycle given") if cycles is None else say("no cycle there")
         return not_applicable(theorem, statement, why)
-    if facts.location is None or not _affine(facts.at):
+    if facts.location is None or not _has_affine_w(facts.at):
         return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else say("W not e-linear"))
     solution = _solution(facts)
     if isinstance(solution, str):

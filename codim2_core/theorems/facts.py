@@ -8,8 +8,8 @@ from enum import Enum
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..layer_problem.closed_equator import EquatorCycle
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
@@ -20,10 +20,9 @@ from ..portrait.classification import PortraitName
 from ..portrait.classify import portrait_name
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from ..systems.frozen import AtZ
-from ..tables import Tabled, number
+from ..systems.frozen import FrozenSystem
+from ..tables import Tabled, table_number
 
-Array = NDArray[np.float64]
 RELATIVE_TOLERANCE = 1e-9  # of the size of what is compared
 RAY_ANGLES = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)
 
@@ -74,7 +73,7 @@ class Certificate(Tabled):
     sentence: str
 
     def _row_(self) -> tuple[str, ...]:
-        numbers = ", ".join(f"{name} = {number(value)}" for name, value in self.numbers)
+        numbers = ", ".join(f"{name} = {table_number(value)}" for name, value in self.numbers)
         return cite(self.theorem), self.statement, self.verdict.value, numbers, self.sentence
 
 
@@ -95,7 +94,7 @@ class Facts:
     z: tuple[float, ...] = ()
 
     @property
-    def at(self) -> AtZ:
+    def at(self) -> FrozenSystem:
         """The frozen system."""
         return self.problem.at
 

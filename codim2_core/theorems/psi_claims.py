@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..psi.function import Psi
 from ..words import say
 from .facts import RAY_ANGLES, Certificate, verdict_of
 
-Array = NDArray[np.float64]
 ZETA = np.geomspace(1e-3, 1e3, 49)
 CLAIM_ROUNDING = 1e-12
 UNDERFLOW = 1e-280
@@ -23,7 +22,7 @@ def e_psi(psi: Psi, xy: Array, eps: float) -> Array:
 
 def psi_claims(psi: Psi) -> tuple[Certificate, ...]:
     """Evaluate lem:ePsi and rem:jaco_properties; a Psi outside the class of def:Psi need not meet them."""
-    return _equivariant(psi), _homogeneous(psi), _one_to_one(psi), _shorter(psi), _positive(psi)
+    return _equivariant(psi), _homogeneous(psi), _one_to_one(psi), _shorter(psi), _positivity_claim(psi)
 
 
 def _points() -> Array:
@@ -97,7 +96,7 @@ def _stays_positive(psi: Psi, s: Array, values: Array) -> bool:
     return float(psi(low)) < UNDERFLOW
 
 
-def _positive(psi: Psi) -> Certificate:
+def _positivity_claim(psi: Psi) -> Certificate:
     s = ZETA[ZETA < 30.0] ** 2
     P, slope = psi(s), psi.derivative(s)
     weight = s + P

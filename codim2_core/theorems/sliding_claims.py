@@ -20,7 +20,7 @@ Z_STEP = 1e-5  # step along z, of 1 + |z|
 
 def sliding_claims(facts: Facts) -> tuple[Certificate, ...]:
     """Evaluate thm:geneps1(a) to (d)."""
-    return _stand_still(facts), _kinds(facts), _slow_flow(facts), _slow_manifold(facts)
+    return _stand_still(facts), _kinds_claim(facts), _slow_flow(facts), _slow_manifold(facts)
 
 
 def _labels(facts: Facts) -> list[str]:
@@ -45,7 +45,7 @@ def _stand_still(facts: Facts) -> Certificate:
     return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), say("vanishes there"))
 
 
-def _kinds(facts: Facts) -> Certificate:
+def _kinds_claim(facts: Facts) -> Certificate:
     theorem = "thm:geneps1(b)"
     statement = say("sign of the determinant")
     if not facts.critical:

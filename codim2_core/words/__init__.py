@@ -8,8 +8,8 @@ from .registry import ROOMS as ROOMS
 from .registry import SENTENCES as SENTENCES
 from .registry import recognise as recognise
 from .registry import say as say
-from .written import number as number
 from .written import power as power
 from .written import printed_sentence as printed_sentence
 from .written import subscript as subscript
 from .written import written_label as written_label
+from .written import written_number as written_number

@@ -8,7 +8,7 @@ from string import Formatter
 
 from . import changes, claims, cycles, degenerate, equator, mechanics, motion, orbits, periodic, portrait, slow_flow
 from .sentence import Sentence
-from .written import number, power, written_label
+from .written import power, written_label, written_number
 
 #: The sentences of each room, by the room's name.
 ROOMS: dict[str, dict[str, Sentence]] = {
@@ -37,7 +37,7 @@ def _parse_fields(key: str) -> tuple[tuple[str, str | None, str | None], ...]:
 def _write_field(value: object, format_: str) -> str:
     """Numbers and names are written in one way."""
     if isinstance(value, float):
-        return power(value) if format_.endswith("e") else number(value, int(format_.strip(".g") or 6))
+        return power(value) if format_.endswith("e") else written_number(value, int(format_.strip(".g") or 6))
     return written_label(str(value))
 
 

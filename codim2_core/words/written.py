@@ -18,7 +18,7 @@ def written_label(label: str) -> str:
     return re.sub(r"(?<=[QC])\d+|(?<=\b[fgkxzB])\d+\b", lambda digits: digits[0].translate(_LOWERED), label)
 
 
-def number(value: float, digits: int = 4) -> str:
+def written_number(value: float, digits: int = 4) -> str:
     """Return a number as it is written in a sentence: 0 within rounding as 0, with a minus sign and raised powers."""
     if math.isinf(value):
         return "∞" if value > 0.0 else "−∞"

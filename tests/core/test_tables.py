@@ -6,7 +6,7 @@ from xml.etree import ElementTree
 import pytest
 
 import codim2_core as c2
-from codim2_core.tables import MAX_ROWS, number, point, table
+from codim2_core.tables import MAX_ROWS, html_table, point, table_number
 
 FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))
 PSI = c2.psi.constant()
@@ -22,14 +22,14 @@ def test_limit_directions_are_a_row_each():
     found = c2.equator_equilibria(FOUR)
     _, *rows = cells(found._repr_html_())
     assert [row[0] for row in rows] == ["Q1", "Q2", "Q3", "Q4"]
-    assert [row[2] for row in rows] == [number(v) for v in found.lambda_rho]
+    assert [row[2] for row in rows] == [table_number(v) for v in found.lambda_rho]
     assert rows[0][4] == found.kind(0)
 
 
 def test_a_critical_set_shows_where_it_is_and_its_slow_flow():
     (C,) = c2.critical_sets(FOUR, PSI)
     _, row = cells(C._repr_html_())
-    assert row == ["(−0.25, 0)", C.kind, number(C.trace), number(C.determinant), "(0)"]
+    assert row == ["(−0.25, 0)", C.kind, table_number(C.trace), table_number(C.determinant), "(0)"]
 
 
 def test_a_portrait_shows_its_name_and_what_is_degenerate():
@@ -59,12 +59,12 @@ def test_a_motion_shows_its_phases():
 
 
 def test_text_is_escaped_and_long_tables_are_cut():
-    shown = table(("a<b",), [(f"{i} & more",) for i in range(MAX_ROWS + 3)])
+    shown = html_table(("a<b",), [(f"{i} & more",) for i in range(MAX_ROWS + 3)])
     assert "a&lt;b" in shown
     assert "and 3 more" in shown
     assert len(cells(shown)) == 1 + MAX_ROWS
-    assert table(("a",), []) == ""
-    assert number(-0.5) == "−0.5"
+    assert html_table(("a",), []) == ""
+    assert table_number(-0.5) == "−0.5"
 
 
 def test_limit_cycles_are_drawn_listed_and_explained():
@@ -98,7 +98,7 @@ def test_separatrices_are_drawn_and_listed():
 
 
 def test_zero_has_no_sign_and_rounding_is_zero_beside_what_it_is_rounding_of():
-    assert number(-0.0) == number(0.0) == "0"
+    assert table_number(-0.0) == table_number(0.0) == "0"
     assert point((1.0, -1e-16)) == "(1, 0)"
     assert point((3e-17, -2e-17)) == "(3e−17, −2e−17)"
     assert point((0.0, -0.0)) == "(0, 0)"

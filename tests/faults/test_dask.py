@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from codim2_app.frame.cluster import cluster
-from codim2_app.frame.turns import Turns
+from codim2_app.frame.turns import WorkQueue
 from codim2_app.server.cli import main
 
 import codim2_core as c2
@@ -65,7 +65,7 @@ def test_a_worker_that_is_killed_in_mid_work_changes_no_result(workers):
     alone = c2.census(count=400_000, seed=3)
     with ThreadPoolExecutor(1) as pool:
         counted = pool.submit(c2.census, count=400_000, seed=3, executor=executor)
-        turns = Turns(executor, count)
+        turns = WorkQueue(executor, count)
         futures = [turns.want(owner, owner, where, 1.0) for owner in range(6)]
         time.sleep(0.7)
         os.kill(processes[0].pid, signal.SIGKILL)

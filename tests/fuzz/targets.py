@@ -11,7 +11,7 @@ from concurrent.futures import Executor, Future
 from typing import Any
 
 from codim2_app.draw.packing import unpack
-from codim2_app.export.taking import Wish, seen_by
+from codim2_app.export.taking import ExportRequest, seen_by
 from codim2_app.frame.budget import Budget
 from codim2_app.frame.faults import FAULT
 from codim2_app.frame.jobs import Jobs
@@ -95,7 +95,7 @@ def answered(session: Frames, request: Any) -> None:
 def take(session: Frames, request: Any) -> None:
     """Read a wish for a file, or refuse it."""
     try:
-        Wish.read(request)
+        ExportRequest.read(request)
     except ValueError as error:
         said(error)
         return

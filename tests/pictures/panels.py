@@ -15,7 +15,7 @@ from codim2_app.draw.packing import unpack
 from codim2_app.frame.jobs import Jobs
 from codim2_app.panels.registry import PANELS_BY_NAME
 from codim2_app.state.links import read_link
-from codim2_app.view.markup import config
+from codim2_app.view.markup import page_config
 from codim2_app.view.refresh import Frames
 
 NODE = "a=-2.1&b=0.3&d=-1.3&f1=-0.25&f2=0.2&k1=0.6&k2=-0.25&B1=1.2&B2=-0.4&g0=0.3&psi=rational"
@@ -78,7 +78,7 @@ def columns(name: str) -> str:
             break
     else:
         raise AssertionError(f"{name}: never comes to rest: {made['late']}")
-    settings = config(link.state)
+    settings = page_config(link.state)
     script = PANELS_BY_NAME[key].script.read_text(encoding="utf-8")  # what it never names, it does not read
     shown = {
         "panel": key,

@@ -19,7 +19,7 @@ from codim2_app.view.refresh import Frames
 from codim2_core import System, equator_equilibria, psi
 from codim2_core.atlases import starts, tracing
 from codim2_core.atlases.atlas import curves_over, with_regions
-from codim2_core.atlases.result import Looked
+from codim2_core.atlases.result import SamplingReport
 from codim2_core.scene import Scene
 
 CASE_3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "k1": 0.0}
@@ -42,7 +42,9 @@ def frame(values=None, errors=(), system=None, **asked_for):
 
 
 def left_out(key):
-    said = budget.LeftOut.sentence([budget.LeftOut("limit cycles", "Why."), budget.LeftOut("separatrices", "Why.")])
+    said = budget.OmittedLayer.sentence(
+        [budget.OmittedLayer("limit cycles", "Why."), budget.OmittedLayer("separatrices", "Why.")]
+    )
     assert fields(key, said) == {"names": "limit cycles, separatrices", "why": "Why."}
 
 
@@ -109,7 +111,7 @@ def by_curves(key):
     """The cells of the net are those of the search; what is there is not said to come."""
     whole, curves = followed()
     assert note(whole) == phrases.SENTENCES[key].says
-    assert {str(starts.SIDES), str(starts.CELLS)} == set(re.findall(r"1/(\d+)", note(whole)))
+    assert {str(starts.PARAMETER_CELLS), str(starts.INTERIOR_CELLS)} == set(re.findall(r"1/(\d+)", note(whole)))
     assert note(curves) == phrases.SENTENCES["regions to come"].says
     assert curves.regions == ()
 
@@ -117,7 +119,7 @@ def by_curves(key):
 def given_up(key):
     found = replace(followed()[0], unfinished=("Hopf", "pitchfork"))
     assert fields(key, note(found)) == {"kinds": "Hopf, pitchfork"}
-    assert str(tracing.MOST_FAILED) in phrases.SENTENCES[key].says
+    assert str(tracing.MAX_FAILED_CELLS) in phrases.SENTENCES[key].says
 
 
 def not_followed(key):
@@ -136,7 +138,7 @@ def degenerate_line(key):
 
 def looked(key):
     """That it is so is shown by `tests/core/atlases/test_missing.py`."""
-    here = Looked(30, unproved=2) if key == "regions unproved" else Looked(30, ((0.1, 0.2), (0.3, 0.4)))
+    here = SamplingReport(30, unproved=2) if key == "regions unproved" else SamplingReport(30, ((0.1, 0.2), (0.3, 0.4)))
     assert fields(key, note(replace(followed()[0], looked=here))) == {"few": "2", "all": "30"}
 
 

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 
 import codim2_core as c2
 from codim2_core import ELinear, psi
-from codim2_core.words import ROOMS, number, power, recognise
+from codim2_core.words import ROOMS, power, recognise, written_number
 from tests.core.strategies import regularisations, systems
 
 from .portrait_checks import CLASSES, ELSEWHERE, OUTCOMES, Portrait
@@ -101,7 +101,7 @@ def test_a_text_that_is_not_listed_is_noticed():
      (math.inf, "∞")],
 )  # fmt: skip
 def test_numbers_in_sentences(value, text):
-    assert number(value) == text
+    assert written_number(value) == text
     assert [power(v) for v in (1.6e-16, 2.5e17, math.inf)] == ["1.6 · 10⁻¹⁶", "2.5 · 10¹⁷", "∞"]
 
 

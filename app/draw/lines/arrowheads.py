@@ -34,7 +34,7 @@ def arrowheads(
     ndarray (l, 3)
         x, y and direction in radians; no two are nearer than `CLEARANCE`.
     """
-    return _place(
+    return _place_arrowheads(
         *of_one_type(offsets, points),
         CLEARANCE * pixel,
         STRETCH * pixel,
@@ -55,11 +55,11 @@ def of_one_type(
 
 def is_warm() -> bool:
     """Whether arrowheads are placed at once, without compiling or loading what places them."""
-    return bool(_place.signatures)
+    return bool(_place_arrowheads.signatures)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _place(offsets, points, clearance, stretch, shortest, tried, left, right, bottom, top):
+def _place_arrowheads(offsets, points, clearance, stretch, shortest, tried, left, right, bottom, top):
     """Try places one after the other; a grid of cells as wide as the clearance tells which arrowheads are near."""
     columns, rows = int((right - left) / clearance) + 3, int((top - bottom) / clearance) + 3
     newest = np.zeros(columns * rows, np.int64)  # of the arrowheads in a cell, from 1; `older` leads to the one before

@@ -156,7 +156,7 @@ def equator(header: Mapping[str, Any], place: Placement) -> list[str]:
     return [circle, arrows(place.points(sense[:, :2]), sense[:, 2], 7.7, "ink", place) if len(sense) else ""]
 
 
-def starts(launched: Mapping[str, Any] | None, parts: Sequence[Part], place: Placement) -> list[str]:
+def launch_marks(launched: Mapping[str, Any] | None, parts: Sequence[Part], place: Placement) -> list[str]:
     """Return where launched orbits start."""
     if not launched:
         return []

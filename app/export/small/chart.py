@@ -19,7 +19,7 @@ CHART_WIDTH, CHART_HEIGHT, LEFT_MARGIN, BOTTOM = 360.0, 220.0, 44.0, 34.0
 SQUARE, EDGE, NAME_ROOM = 360.0, 'stroke="var(--soft)" stroke-width="0.8"', 60.0
 MAX_CHART_POINTS = 3000  # of all lines together
 #: Width of a letter, and height of a row of names.
-LETTER, ROW = 6.2, 13
+LETTER, ROW_HEIGHT = 6.2, 13
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def line_chart(
     named = list(kinds.items())[: len(COLOURS)]
     wide, tall = CHART_WIDTH - LEFT_MARGIN - 8, CHART_HEIGHT - BOTTOM - 22
     beside = all(LETTER * len(name) <= wide / len(named) for name, _ in named)  # else each has a row of its own
-    top = 18 + (0 if beside else ROW * (len(named) - 1))
+    top = 18 + (0 if beside else ROW_HEIGHT * (len(named) - 1))
     scale = wide / ((right - left) or 1.0), -tall / ((high - low) or 1.0)
     place = Placement(side=CHART_WIDTH, unit=1.0, decimals=1)
     floor = top + tall + 4
@@ -77,11 +77,16 @@ def line_chart(
         path = place.path([np.round(placed, 1)])
         parts.append(f'<path d="{path}" {stroke(kinds[name], 1.6, (), place)}/>')
     for i, (name, colour) in enumerate(named):
-        x, y = (i * wide / len(named), 12) if beside else (0, 12 + ROW * i)
+        x, y = (i * wide / len(named), 12) if beside else (0, 12 + ROW_HEIGHT * i)
         parts.append(words(LEFT_MARGIN + 4 + x, y, escape(name), 11.0).replace("--ink", f"--{colour}"))
     foot = floor + 14
-    parts += [words(LEFT_MARGIN, foot, _short(left), 11.0), words(CHART_WIDTH - 8, foot, _short(right), 11.0, "end")]
-    parts += [words(LEFT_MARGIN - 4, y, _short(value), 11.0, "end") for y, value in ((floor, low), (top + 10, high))]
+    parts += [
+        words(LEFT_MARGIN, foot, _short_number(left), 11.0),
+        words(CHART_WIDTH - 8, foot, _short_number(right), 11.0, "end"),
+    ]
+    parts += [
+        words(LEFT_MARGIN - 4, y, _short_number(value), 11.0, "end") for y, value in ((floor, low), (top + 10, high))
+    ]
     parts += [
         words((LEFT_MARGIN + CHART_WIDTH) / 2, foot, across, 12.0, "middle"),
         words(LEFT_MARGIN - 12, (top + floor) / 2, up, 12.0, "end"),
@@ -114,13 +119,16 @@ def regions(
         fill = f"r-{colour}" if f"r-{colour}" in themes()["light"] else "r-other"
         path = place.path(placed).replace("M", "ZM")[1:] + "Z"
         parts.append(f'<path d="{path}" fill="var(--{fill})" fill-opacity=".45" fill-rule="evenodd" {EDGE}/>')
-        x, y, room = _middle(placed)
+        x, y, room = _widest_middle(placed)
         if room > NAME_ROOM:
             names.append(words(x, y + 4, escape(name), 10.0, "middle"))
     parts += [f'<rect x="{LEFT_MARGIN}" y="8" width="{wide}" height="{tall}" stroke="var(--line)"/>', *names]
     foot = floor + 14
-    parts += [words(LEFT_MARGIN, foot, _short(left), 11.0), words(SQUARE - 8, foot, _short(right), 11.0, "end")]
-    parts += [words(LEFT_MARGIN - 4, y, _short(value), 11.0, "end") for y, value in ((floor, low), (18, high))]
+    parts += [
+        words(LEFT_MARGIN, foot, _short_number(left), 11.0),
+        words(SQUARE - 8, foot, _short_number(right), 11.0, "end"),
+    ]
+    parts += [words(LEFT_MARGIN - 4, y, _short_number(value), 11.0, "end") for y, value in ((floor, low), (18, high))]
     parts += [
         words((LEFT_MARGIN + SQUARE) / 2, foot, across, 12.0, "middle"),
         words(LEFT_MARGIN - 12, 8 + tall / 2, up, 12.0, "end"),
@@ -130,7 +138,7 @@ def regions(
     return close_svg(inside, SQUARE, foot + 8, SQUARE, foot + 8)
 
 
-def _middle(polygons: Sequence[Any]) -> tuple[float, float, float]:
+def _widest_middle(polygons: Sequence[Any]) -> tuple[float, float, float]:
     """Return the middle of the widest horizontal stretch inside polygons, and how long it is."""
     rings = [np.vstack([one, one[:1]]) for one in polygons]
     heights = np.concatenate(polygons)[:, 1]
@@ -155,7 +163,7 @@ def thin_out(points: Any, most: int) -> Any:
     return points[np.unique(np.linspace(0, len(points) - 1, max(2, most)).astype(int))]
 
 
-def _short(value: float) -> str:
+def _short_number(value: float) -> str:
     return f"{0.0 if abs(value) < 1e-12 else value:.3g}".replace("-", "−")
 
 

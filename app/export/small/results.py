@@ -25,7 +25,7 @@ from codim2_core.portrait.basins import Basins
 from codim2_core.portrait.separatrix import Separatrices
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
-from codim2_core.scene.launched import Launched
+from codim2_core.scene.launched import LaunchedOrbits
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
 
 from ...draw import glyphs
@@ -96,17 +96,17 @@ def _preset(result: Preset) -> str:
 
 @svg.register
 def _trajectories(result: Trajectories) -> str:
-    return _curves(result.points, "orbit")
+    return _draw_curves(result.points, "orbit")
 
 
 @svg.register
 def _cycles(result: LimitCycles) -> str:
-    return _curves([cycle.points for cycle in result.cycles], "cycle")
+    return _draw_curves([cycle.points for cycle in result.cycles], "cycle")
 
 
 @svg.register
 def _separatrices(result: Separatrices) -> str:
-    return _curves([branch.points for branch in result.branches], "separatrix")
+    return _draw_curves([branch.points for branch in result.branches], "separatrix")
 
 
 @svg.register
@@ -133,7 +133,7 @@ def _curve(result: BifurcationCurve) -> str:
 
 
 @svg.register
-def _branches(result: Branches) -> str:
+def _draw_branches(result: Branches) -> str:
     return chart([(branch.kind, branch.value, branch.theta) for branch in result.limit_directions], result.along, "θ")
 
 
@@ -185,7 +185,7 @@ def _nullclines(result: Nullclines) -> str:
 
 
 @svg.register
-def _launched_svg(result: Launched) -> str:
+def _launched_svg(result: LaunchedOrbits) -> str:
     halves = (result.orbits.backward.points, result.orbits.forward.points)
     seeds = "".join(
         f'<circle cx="{x}" cy="{y}" r="11" fill="var(--orbit)"/>'
@@ -195,7 +195,7 @@ def _launched_svg(result: Launched) -> str:
 
 
 @svg.register
-def _basins(result: Basins) -> str:
+def _draw_basins(result: Basins) -> str:
     cells, (left, right, bottom, top) = result.cells, result.box
     while len(cells) > MAX_BASIN_CELLS:  # each of four stands for all: the picture is small
         cells = cells[::2, ::2]
@@ -228,7 +228,7 @@ def _runs(values: Any) -> list[slice]:
     return [slice(first, last) for first, last in pairwise(ends) if first < last]
 
 
-def _curves(pieces: Sequence[Any], colour: str) -> str:
+def _draw_curves(pieces: Sequence[Any], colour: str) -> str:
     return _hemisphere_svg([(colour, piece) for piece in pieces])
 
 

@@ -16,7 +16,7 @@ NS = "{http://www.w3.org/2000/svg}"
 _COMMAND = re.compile(r"([A-Za-z])([^A-Za-z]*)")
 _ANCHOR = {"start": "base west", "middle": "base", "end": "base east"}
 #: A line of TikZ is broken after so many points: TeX reads lines of a bounded length.
-ROW = 12
+LEGEND_ROW_HEIGHT = 12
 
 
 def tikz(svg: str) -> str:
@@ -130,7 +130,7 @@ def _path(d: str) -> str:
             case _:
                 raise ValueError(f"a path with {command!r} is not written as TikZ.")
         steps.append(f"{'' if command == 'M' else '-- '}({x:g},{y:g})")
-    return "\n".join(" ".join(steps[i : i + ROW]) for i in range(0, len(steps), ROW))
+    return "\n".join(" ".join(steps[i : i + LEGEND_ROW_HEIGHT]) for i in range(0, len(steps), LEGEND_ROW_HEIGHT))
 
 
 def _words(it: Svg.Element) -> str:

@@ -35,7 +35,7 @@ def in_latex(text: str) -> str:
     return "".join(LATEX_SIGNS.get(letter, letter if letter.isascii() else "") for letter in text)
 
 
-def number(value: float) -> str:
+def latex_number(value: float) -> str:
     """Return a number as LaTeX, to six digits."""
     text = f"{0.0 if abs(value) < 1e-12 else value:.6g}"
     mantissa, _, exponent = text.partition("e")
@@ -49,7 +49,7 @@ def latex(view: View) -> str:
     about = re.sub(r"[^\x00-\x7f]", lambda letter: LATEX_SIGNS.get(letter[0], "").replace("$", ""), about)
     equator = scene["equator"]
     directions = [
-        [f"$Q_{{{i + 1}}}$", *map(number, (equator.theta[i], equator.lambda_rho[i], equator.lambda_theta[i])),
+        [f"$Q_{{{i + 1}}}$", *map(latex_number, (equator.theta[i], equator.lambda_rho[i], equator.lambda_theta[i])),
          in_latex(equator.kind(i))]
         for i in range(len(equator.theta))
     ]  # fmt: skip
@@ -58,7 +58,7 @@ def latex(view: View) -> str:
         if directions
         else in_latex("Every direction is a limit direction." if equator.all_directions else "No limit directions.")
     ]
-    sets = _critical(scene)
+    sets = _critical_rows(scene)
     if sets:
         head = ("", "$(c, s)$", "kind", r"$\mathrm{tr}\,J$", r"$\det J$", "eigenvalues", "$z'$")
         parts.append(_tabular(head, sets, "lllrrll"))
@@ -67,20 +67,22 @@ def latex(view: View) -> str:
     return f"{about}\\begin{{table}}\n\\centering\n{body}\n\\caption{{{caption}}}\n\\end{{table}}\n"
 
 
-def _critical(scene: Scene) -> list[list[str]]:
+def _critical_rows(scene: Scene) -> list[list[str]]:
     found = scene["critical"]
     names = ["$C$"] if len(found) == 1 else [f"$C_{{{i + 1}}}$" for i in range(len(found))]
     rows = []
     for name, C in zip(names, found, strict=True):
         first, second = (complex(v) for v in C.eigenvalues)
         shown = (
-            f"{number(first.real)} $\\pm$ {number(abs(first.imag))}\\,i"
+            f"{latex_number(first.real)} $\\pm$ {latex_number(abs(first.imag))}\\,i"
             if first.imag
-            else f"{number(first.real)}, {number(second.real)}"
+            else f"{latex_number(first.real)}, {latex_number(second.real)}"
         )
-        flow = ", ".join(map(number, [] if C.slow_flow is None else [float(v) for v in C.slow_flow])) or "--"
-        place = f"({number(C.e[0])}, {number(C.e[1])})"
-        rows.append([name, place, in_latex(str(C.kind)), number(C.trace), number(C.determinant), shown, flow])
+        flow = ", ".join(map(latex_number, [] if C.slow_flow is None else [float(v) for v in C.slow_flow])) or "--"
+        place = f"({latex_number(C.e[0])}, {latex_number(C.e[1])})"
+        rows.append(
+            [name, place, in_latex(str(C.kind)), latex_number(C.trace), latex_number(C.determinant), shown, flow]
+        )
     return rows
 
 

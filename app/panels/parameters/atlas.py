@@ -13,14 +13,14 @@ from typing import Any
 from codim2_core import bifurcations
 from codim2_core.atlases.atlas import Atlas, curves_over, with_bifurcations_of_cycles, with_regions
 from codim2_core.bifurcations import BifurcationCurve
-from codim2_core.diagrams.class_line import Stretch, class_line
+from codim2_core.diagrams.class_line import ClassInterval, class_line
 from codim2_core.psi.function import Psi
 from codim2_core.systems.coefficients import Coefficients
 
 from ...draw import plane_curves
 from ...draw.packing import Polylines
 from ...draw.thumbnails import thumbnails
-from ...frame.draft import Draft
+from ...frame.draft import FrameContext
 from ...phrases import say
 from ..panel import Panel
 from .atlas_columns import atlas_columns, short, strip_columns
@@ -34,7 +34,7 @@ CURVES = ("saddle_node", "transcritical")
 THINNEST = 0.012
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the map of the chosen axes."""
     axes = draft.values["across"], draft.values["up"]
     there = available(draft)
@@ -66,7 +66,7 @@ def add(draft: Draft) -> None:
 # The plane of f ----------------------------------------------------------------------------------------------------
 
 
-def _plane_of_f(draft: Draft) -> None:
+def _plane_of_f(draft: FrameContext) -> None:
     scene, header = draft.scene, draft.header
     curves = scene["atlas_curves"]
     size = plane_curves.size_of(curves)
@@ -88,7 +88,7 @@ def _plane_of_f(draft: Draft) -> None:
         _portraits_of_plane(draft)
 
 
-def _curves_of_psi(draft: Draft, size: float) -> None:
+def _curves_of_psi(draft: FrameContext, size: float) -> None:
     """Add the Hopf and node-focus curves: there are some in Case III only."""
     scene = draft.scene
     at = scene.coefficients
@@ -103,7 +103,7 @@ def _curves_of_psi(draft: Draft, size: float) -> None:
         draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
 
 
-def _curves_of_cycles(draft: Draft, size: float) -> None:
+def _curves_of_cycles(draft: FrameContext, size: float) -> None:
     """Add the curves on which limit cycles meet, or end at the equator: in Case III, where they are asked for.
 
     They take seconds to continue.
@@ -141,7 +141,7 @@ def special_points(curves: Sequence[BifurcationCurve]) -> list[list[Any]]:
     return [[point.type, *point.place, point.sentence] for curve in curves for point in curve.special]
 
 
-def _portraits_of_plane(draft: Draft) -> None:
+def _portraits_of_plane(draft: FrameContext) -> None:
     scene = draft.scene
     places = [(i, region.name, region.inside) for i, region in enumerate(scene["regions"])] if draft.rest else []
     system, psi, z = scene.coefficients, scene.psi, ()
@@ -153,7 +153,7 @@ def _portraits_of_plane(draft: Draft) -> None:
 # Any two parameters ------------------------------------------------------------------------------------------------
 
 
-def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
+def _map(draft: FrameContext, axes: tuple[Axis, Axis]) -> None:
     system, psi, z = without_parameters(draft.scene, *axes)
     spans = spans_of(draft, "map", axes, draft.values["atlas_zoom"])
     names = axes[0].core, axes[1].core
@@ -162,7 +162,7 @@ def _map(draft: Draft, axes: tuple[Axis, Axis]) -> None:
     _portraits(draft, key)
 
 
-def _add_atlas(draft: Draft, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> None:
+def _add_atlas(draft: FrameContext, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> None:
     """Add the curves and, once they are there, the regions between them.
 
     Then, where they are asked for, the folds of its limit cycles and the connections of its saddles.
@@ -192,7 +192,7 @@ def _add_atlas(draft: Draft, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> N
         draft.now["places"] = (key, wide)
 
 
-def _portraits(draft: Draft, key: tuple[Any, ...]) -> None:
+def _portraits(draft: FrameContext, key: tuple[Any, ...]) -> None:
     """Add a small portrait of each region of the map that the browser has."""
     of, places = draft.now.get("places", (None, ()))
     if draft.ready and of == key:
@@ -202,12 +202,12 @@ def _portraits(draft: Draft, key: tuple[Any, ...]) -> None:
             draft.header["thumbnails"] = tiles
 
 
-def _strip(draft: Draft, axis: Axis) -> None:
+def _strip(draft: FrameContext, axis: Axis) -> None:
     """Add the stretches of one class along the only parameter, as a plane of which the other axis means nothing."""
     system, psi, z = without_parameters(draft.scene, axis)
     (span,) = spans_of(draft, "map", (axis,), draft.values["atlas_zoom"])
     key = (system, psi, z, (axis.core,), span)
-    found: tuple[Stretch, ...] | None = draft.slow("map", key, class_line, system, psi, axis.core, span, z)
+    found: tuple[ClassInterval, ...] | None = draft.slow("map", key, class_line, system, psi, axis.core, span, z)
     if found is not None:
         draft.header["map"], lines = strip_columns(found, span, say("one parameter", name=axis.symbol))
         draft.blocks.update(lines)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from codim2_core.atlases.connections.connection_curves import KINDS
 from codim2_core.atlases.result import Atlas
-from codim2_core.diagrams.class_line import Stretch
+from codim2_core.diagrams.class_line import ClassInterval
 
 from ...draw import plane_curves
 from ...draw.glyphs import join
@@ -26,7 +26,7 @@ def short(name: str) -> str:
 
 
 def strip_columns(
-    found: Sequence[Stretch], span: tuple[float, float], note: str
+    found: Sequence[ClassInterval], span: tuple[float, float], note: str
 ) -> tuple[dict[str, Any], dict[str, Polylines]]:
     """Return stretches as the regions of a plane that is as high as it is wide, and their ends as its curves."""
     middle, half = 0.5 * (span[0] + span[1]), 0.5 * (span[1] - span[0])
@@ -58,7 +58,7 @@ def atlas_columns(found: Atlas, symbols: tuple[str, str]) -> tuple[dict[str, Any
         "note": _note(found, dict(zip(found.names, symbols, strict=True))),
     }
     loops = [loop for region in found.regions for loop in region.boundary]
-    return header, _lines(found.ranges, loops, [curve.points for curve in found.curves])
+    return header, _curve_columns(found.ranges, loops, [curve.points for curve in found.curves])
 
 
 def _note(found: Atlas, symbols: dict[str, str]) -> str:
@@ -74,7 +74,7 @@ def _note(found: Atlas, symbols: dict[str, str]) -> str:
     return " ".join([*told, say("map by curves") if looked.places else say("regions to come")])
 
 
-def _lines(
+def _curve_columns(
     spans: Spans, loops: Sequence[NDArray[np.float64]], curves: Sequence[NDArray[np.float64]]
 ) -> dict[str, Polylines]:
     """Return borders of regions and curves where both spans are -1 to 1."""

@@ -13,7 +13,7 @@ from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 
 from ...draw.mathml import plain_symbol
-from ...frame.draft import Draft
+from ...frame.draft import FrameContext
 from ...phrases import say
 from ...state.choices import COEFFICIENTS, OWN_AXIS, SLIDER_AXES, SLOW_CONTROLS
 from ...state.chosen import NORMAL, OWN_SYSTEM, PARAMETER_RANGE, parameter_ranges, slow_ranges
@@ -49,7 +49,7 @@ class Axis:
         return start, start + width
 
 
-def available(draft: Draft) -> dict[str, Axis]:
+def available(draft: FrameContext) -> dict[str, Axis]:
     """Return, by name, the axes that belong to the present system and Psi; the browser is told when they change."""
     found = axes_there(draft.scene, draft.values, draft.locked)
     told = tuple((axis.name, axis.symbol) for axis in found.values())
@@ -115,7 +115,7 @@ def opening_axes(scene: Scene, values: Mapping[str, Any], locked: Collection[str
     return found
 
 
-def missing_axes(draft: Draft, there: dict[str, Axis], *wanted: str) -> str:
+def missing_axes(draft: FrameContext, there: dict[str, Axis], *wanted: str) -> str:
     """Say which of the wanted axes does not belong to the present system or Psi, or return nothing."""
     for name in wanted:
         if name in there:
@@ -128,7 +128,7 @@ def missing_axes(draft: Draft, there: dict[str, Axis], *wanted: str) -> str:
     return ""
 
 
-def spans_of(draft: Draft, name: str, axes: tuple[Axis, ...], zoom: int) -> tuple[tuple[float, float], ...]:
+def spans_of(draft: FrameContext, name: str, axes: tuple[Axis, ...], zoom: int) -> tuple[tuple[float, float], ...]:
     """Return the spans of some axes: those that the browser has, as long as the present values are well inside."""
     kind = tuple(axis.name for axis in axes), zoom
     of, spans = draft.now.get(f"{name} spans", (None, ()))

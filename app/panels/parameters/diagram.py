@@ -18,7 +18,7 @@ from codim2_core.diagrams.branches import Branches, branches
 
 from ...draw.thumbnails import MAX_KEPT as MAX_FRAMES
 from ...draw.thumbnails import thumbnails
-from ...frame.draft import Draft
+from ...frame.draft import FrameContext
 from ...phrases import say
 from ...state.pace import MIN_PACE, SLOW_DISTANCE
 from ..panel import Panel
@@ -33,7 +33,7 @@ MIN_FRAME_GAP = 1e-3
 KNOWN_ENDS = ("Hopf", "span", "closed")
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the diagram along the chosen parameter, over a span around its value, once nothing moves; then the cycles."""
     name = draft.values["along"]
     there = available(draft)
@@ -70,7 +70,7 @@ def add(draft: Draft) -> None:
 
 def _diagram_columns(*of: Any) -> tuple[dict[str, Any], Branches]:
     found = branches(*of, with_cycles=False)
-    return columns(found), found
+    return branch_columns(found), found
 
 
 def _cycles(standing: Branches) -> dict[str, Any]:
@@ -93,16 +93,16 @@ def tidy(value: float) -> float:
     return near if abs(near - value) <= 2.0 * math.ulp(value) else value
 
 
-def columns(found: Branches) -> dict[str, Any]:
+def branch_columns(found: Branches) -> dict[str, Any]:
     """Return what the browser draws: branches as x, y and kind, and the special values."""
     return {
         "span": list(found.span),
         "equator": [
-            {**_line(b.value, b.theta), "attracting": bool(np.median(b.lambda_rho) < 0.0),
+            {**_branch_line(b.value, b.theta), "attracting": bool(np.median(b.lambda_rho) < 0.0),
              "turning": bool(np.median(b.lambda_theta) < 0.0)}
             for b in found.limit_directions
         ],
-        "critical": [{**_line(b.value, b.radius), "kind": b.kind} for b in found.critical],
+        "critical": [{**_branch_line(b.value, b.radius), "kind": b.kind} for b in found.critical],
         "closed": [[float(b.value[0]), float(b.value[-1])] for b in found.closed],
         "special": [
             {"kind": s.kind, "value": tidy(s.value), "place": [float(v) for v in s.place], "sentence": s.sentence}
@@ -124,8 +124,10 @@ def cycle_columns(found: CycleBranches) -> dict[str, Any]:
         for start, end in pairwise(cuts):
             if end > start:
                 part = slice(start, end + 1)
-                line = _line(value[part], amplitude[part])
-                pieces.append({**line, "period": _line(value[part], period[part])["y"], "stable": bool(stable[start])})
+                line = _branch_line(value[part], amplitude[part])
+                pieces.append(
+                    {**line, "period": _branch_line(value[part], period[part])["y"], "stable": bool(stable[start])}
+                )
     special = [
         {"kind": p.kind, "value": tidy(p.value), "amplitude": float(p.amplitude), "sentence": p.sentence}
         for branch in found
@@ -135,7 +137,7 @@ def cycle_columns(found: CycleBranches) -> dict[str, Any]:
     return {"pieces": pieces, "special": special, "sentence": " ".join([found.reason, *found.notes])}
 
 
-def _line(x: NDArray[np.float64], y: NDArray[np.float64]) -> dict[str, list[float]]:
+def _branch_line(x: NDArray[np.float64], y: NDArray[np.float64]) -> dict[str, list[float]]:
     if len(x) > MAX_BRANCH_POINTS:
         kept = np.unique(np.rint(np.linspace(0, len(x) - 1, MAX_BRANCH_POINTS)).astype(int))
         x, y = x[kept], y[kept]

@@ -16,9 +16,9 @@ from codim2_core.layer_problem.critical import critical_sets
 from codim2_core.psi import FAMILIES, make
 from codim2_core.psi.function import Psi
 from codim2_core.systems.coefficients import Coefficients
-from codim2_core.systems.frozen import AtZ
+from codim2_core.systems.frozen import FrozenSystem
 
-from ...frame.draft import Draft
+from ...frame.draft import FrameContext
 from ...phrases import say
 from ..panel import Panel
 
@@ -26,7 +26,7 @@ CURVE_POINTS = 120  # along the curve over the parameter
 S = np.linspace(0.0, 1.0, 51)  # as in fig:bads(c)
 
 
-def add(draft: Draft) -> None:
+def add(draft: FrameContext) -> None:
     """Add the curve over the parameter of Psi, or points of other families; of a typed system, once nothing moves."""
     at, psi = draft.scene.coefficients, draft.scene.psi
     varies = psi.record.parameter is not None
@@ -42,7 +42,7 @@ def add(draft: Draft) -> None:
         draft.header["planes"] = found
 
 
-def over_parameter(at: AtZ, psi: Psi) -> dict[str, Any]:
+def over_parameter(at: FrozenSystem, psi: Psi) -> dict[str, Any]:
     """Return the curve over Psi's parameter: columns "trace", "determinant", "text" (of those compared) and "kind"."""
     family, shape = psi.record, psi.record.parameter
     assert shape is not None
@@ -60,10 +60,10 @@ def over_parameter(at: AtZ, psi: Psi) -> dict[str, Any]:
     ]
     sentence = say("over the parameter of Ψ", name=shape.name, title=family.title, low=low, high=high)
     members = [(f"{shape.name} = {value:g}", make(family.name, value)) for value in family.compared]
-    return _columns(rows, members, line=True, sentence=sentence)
+    return _plane_columns(rows, members, line=True, sentence=sentence)
 
 
-def over_families(at: AtZ, psi: Psi) -> dict[str, Any]:
+def over_families(at: FrozenSystem, psi: Psi) -> dict[str, Any]:
     """Return the points of a member of each other family, as `over_parameter` does."""
     members = [make(family.name) for family in FAMILIES.values() if family.compared]
     named = [(f"Ψ = {other.words}" if other.record.identity else other.words, other) for other in members]
@@ -73,10 +73,10 @@ def over_families(at: AtZ, psi: Psi) -> dict[str, Any]:
         if other != psi
         for C in critical_sets(at, other)
     ]
-    return _columns(rows, named, line=False, sentence=say("other Ψ"))
+    return _plane_columns(rows, named, line=False, sentence=say("other Ψ"))
 
 
-def _columns(
+def _plane_columns(
     rows: Sequence[tuple[float, float, str, str]], members: Sequence[tuple[str, Psi]], *, line: bool, sentence: str
 ) -> dict[str, Any]:
     return {

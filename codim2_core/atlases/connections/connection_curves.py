@@ -6,27 +6,28 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array, read_only
 from ...layer_problem.problem import LayerProblem
 from ...words import say
-from ..family import Family
-from ..result import AtlasCurve, AtlasPoint, read_only
-from .following import Curve, trace_connection
-from .lines import STANDING, Search, Seed, lines_beside_takens, straight
-from .splitting import Pair
-
-Array = NDArray[np.float64]
+from ..family import PlaneFamily
+from ..result import AtlasCurve, AtlasPoint
+from .following import ConnectionCurve, trace_connection
+from .lines import EQUILIBRIUM_KINDS, ConnectionSearch, ConnectionSeed, lines_beside_takens, straight
+from .splitting import BranchPair
 
 LOOP, CYCLE, CONNECTION = KINDS = "homoclinic loop", "heteroclinic cycle", "saddle connection"
-TAKENS = "Bogdanov–Takens"
-NEAR, SMALL = 0.05, 0.3  # of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size
-AT = 5e-3  # of the square: an end beside a curve of what stands still
-MOST = 24  # curves
+BOGDANOV_TAKENS = "Bogdanov–Takens"
+BOGDANOV_TAKENS_DISTANCE, MAX_LOOP_SIZE = (
+    0.05,
+    0.3,
+)  # of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size
+CODIM_TWO_DISTANCE = 5e-3  # of the square: an end beside a curve of what stands still
+MAX_CURVES = 24  # curves
 
 
 def connection_curves(
-    family: Family, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
+    family: PlaneFamily, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
 ) -> tuple[list[AtlasCurve], list[AtlasPoint], tuple[str, ...]]:
     """Find connections, the points of codimension two on them, and kinds of which some may be missing.
 
@@ -38,24 +39,24 @@ def connection_curves(
     curves, points : sequence of AtlasCurve, of AtlasPoint
         Of what stands still.
     """
-    takens = [family.units(np.array(point.place)) for point in points if point.kind == TAKENS]
-    found: list[Curve] = []
-    missed: list[Seed] = []
+    takens = [family.units(np.array(point.place)) for point in points if point.kind == BOGDANOV_TAKENS]
+    found: list[ConnectionCurve] = []
+    missed: list[ConnectionSeed] = []
 
-    def is_known(place: Array, pair: Pair) -> bool:
+    def is_known(place: Array, pair: BranchPair) -> bool:
         return any(one.passes(place, pair) for one in found)
 
-    search = Search(family, is_known)
+    search = ConnectionSearch(family, is_known)
     for line in [*lines_beside_takens(family, takens, curves), *straight(family, curves)]:
         for seed in search.along(line):
-            one = trace_connection(seed) if seed.settled and len(found) < MOST else None
+            one = trace_connection(seed) if seed.settled and len(found) < MAX_CURVES else None
             if one is None:
                 missed.append(seed)
             else:
                 found.append(one)
     out, told = [], []
     for one in found:
-        kinds = [_kind(pair) for pair in one.pairs]
+        kinds = [_connection_kind(pair) for pair in one.pairs]
         kind = kinds[0] if len(set(kinds)) == 1 else CONNECTION
         plane, places, ratios = one.plane, np.array([pair.leaving.p for pair in one.pairs]), one.ratios
         for end, i in zip(one.ends, (0, -1), strict=True):
@@ -71,11 +72,11 @@ def connection_curves(
         out.append(AtlasCurve(kind, read_only(family.values(plane)), read_only(places), read_only(numbers)))
         if kind != CONNECTION:
             told += [_point(family, "neutral loop", at, say("neutral connection", kind=kind)) for at in one.neutral()]
-    lost = [_kind(seed.pair) for seed in missed if not is_known(seed.place, seed.pair)]
+    lost = [_connection_kind(seed.pair) for seed in missed if not is_known(seed.place, seed.pair)]
     return out, told, tuple(dict.fromkeys([*lost, *(KINDS if search.crowded else ())]))
 
 
-def _kind(pair: Pair) -> str:
+def _connection_kind(pair: BranchPair) -> str:
     """Name a connection: a cycle is one of two half-saddles that an arc of the equator joins the other way."""
     if pair.foot is not None:
         return LOOP
@@ -89,28 +90,33 @@ def _kind(pair: Pair) -> str:
     return CONNECTION
 
 
-def _birth_point(one: Curve, takens: Sequence[Array], i: int) -> tuple[Array, Array] | None:
+def _birth_point(one: ConnectionCurve, takens: Sequence[Array], i: int) -> tuple[Array, Array] | None:
     """Return the Bogdanov-Takens point at which a curve of loops ends, and about where the loop shrinks to."""
     pair = one.pairs[i]
     section = pair.section
     near = min(takens, key=lambda at: math.dist(at, one.plane[i]), default=None)
-    if near is None or section is None or section.scale > SMALL or math.dist(near, one.plane[i]) > NEAR:
+    if (
+        near is None
+        or section is None
+        or section.scale > MAX_LOOP_SIZE
+        or math.dist(near, one.plane[i]) > BOGDANOV_TAKENS_DISTANCE
+    ):
         return None
     return near, 0.5 * (section.origin + pair.leaving.p)
 
 
-def _end_point(family: Family, place: Array, kind: str, curves: Sequence[AtlasCurve]) -> AtlasPoint:
+def _end_point(family: PlaneFamily, place: Array, kind: str, curves: Sequence[AtlasCurve]) -> AtlasPoint:
     """Say where a curve could be followed no further, and beside what."""
     gaps = {
         one.kind: float(np.hypot(*(family.units(one.points) - place).T).min())
-        for one in curves if one.kind in STANDING
+        for one in curves if one.kind in EQUILIBRIUM_KINDS
     }  # fmt: skip
     beside_ = min(gaps, key=lambda name: gaps[name], default="")
-    if beside_ and gaps[beside_] < AT:
+    if beside_ and gaps[beside_] < CODIM_TWO_DISTANCE:
         return _point(family, "undecided", place, say("connection ends beside", kind=kind, beside=beside_))
     return _point(family, "undecided", place, say("connection followed no further", kind=kind))
 
 
-def _point(family: Family, kind: str, place: Array, sentence: str) -> AtlasPoint:
+def _point(family: PlaneFamily, kind: str, place: Array, sentence: str) -> AtlasPoint:
     across, up = family.values(place).tolist()
     return AtlasPoint(kind, (across, up), sentence)

@@ -3,8 +3,8 @@
 A saddle is a critical set, with two branches either way, or a half-saddle of the equator, with one (thm:geneps0(b)):
 its branch leaves up the hemisphere where both its eigenvalues are negative, and enters where both are positive.
 
-An orbit that follows a branch of a critical set begins on its tangent, at a distance `FIRST`: it is off by FIRST^2
-across it, and this fades as the orbit leaves the saddle; how far along it begins is but a matter of time.
+An orbit that follows a branch of a critical set begins on its tangent, at a distance `START_DISTANCE`: its error
+across the branch is the square of that, and fades; how far along it begins is but a matter of time.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...continuation.typed.foot import correct_zero
 from ...curves.newton import newton
 from ...layer_problem.critical import CriticalSet, set_at
@@ -24,17 +24,19 @@ from ...layer_problem.eigendirections import to_disc
 from ...layer_problem.problem import LayerProblem
 from ...orbits.trajectories import Trajectories, continuation, trajectories
 from ...psi.function import Psi
-from ...systems.frozen import AtZ
+from ...systems.frozen import FrozenSystem
 
-Array = NDArray[np.float64]
-
-RTOL, ROUGH = 1e-12, 1e-7  # of branches, and of those that are drawn alone
-FIRST = 1e-6  # in units of hypot(1, |x2|)
-LENGTH, LONGEST = 5.0, 1e4  # how far they are followed, in the disc and in T of 1/max |U|
-PIXEL, FINE, FINEST = 5e-4, 1e-3, 1e-8  # of their lines: the first, but finer for what is small, of its size
-SAME = 1e-6  # in the disc: found twice
-CLOSE = 3e-7  # last step of Newton's method for theta: its error is the square
-FAR = 0.1  # the way to a saddle's next place
+RTOL, ROUGH_RTOL = 1e-12, 1e-7  # of branches, and of those that are drawn alone
+START_DISTANCE = 1e-6  # in units of hypot(1, |x2|)
+MAX_BRANCH_LENGTH, MAX_BRANCH_TIME = 5.0, 1e4  # how far they are followed, in the disc and in T of 1/max |U|
+LINE_PIXEL, RELATIVE_PIXEL, MIN_PIXEL = (
+    5e-4,
+    1e-3,
+    1e-8,
+)  # of their lines: the first, but finer for what is small, of its size
+SAME_SADDLE_DISTANCE = 1e-6  # in the disc: found twice
+ANGLE_TOLERANCE = 3e-7  # last step of Newton's method for theta: its error is the square
+MAX_SADDLE_SHIFT = 0.1  # the way to a saddle's next place
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +63,7 @@ class Branch:
         Of its eigenvalues: that by which orbits enter over that by which they leave.
     """
 
-    at: AtZ
+    at: FrozenSystem
     psi: Psi
     backward: bool
     p: Array
@@ -83,16 +85,24 @@ class Branch:
         at = others[0].at
         if self.critical is None:
             theta = _zero_of_theta(at, self.theta)
-            return [i for i, one in enumerate(others) if abs(math.remainder(one.theta - theta, 2.0 * math.pi)) < SAME]
+            return [
+                i
+                for i, one in enumerate(others)
+                if abs(math.remainder(one.theta - theta, 2.0 * math.pi)) < SAME_SADDLE_DISTANCE
+            ]
         e = correct_zero(at, self.critical.e)
         sets = [one.critical for one in others]
-        return [] if e is None else [i for i, C in enumerate(sets) if C is not None and math.dist(C.e, e) < SAME]
+        return (
+            []
+            if e is None
+            else [i for i, C in enumerate(sets) if C is not None and math.dist(C.e, e) < SAME_SADDLE_DISTANCE]
+        )
 
     def same_saddle(self, other: Branch) -> bool:
         """Whether both belong to one saddle, at one place of the plane."""
-        return math.dist(self.p, other.p) < SAME
+        return math.dist(self.p, other.p) < SAME_SADDLE_DISTANCE
 
-    def followed(self, at: AtZ, psi: Psi) -> Branch | None:
+    def followed(self, at: FrozenSystem, psi: Psi) -> Branch | None:
         """Return the same branch of another system nearby; None where its saddle is none any more."""
         if self.critical is None:
             return _half_saddle(at, psi, _zero_of_theta(at, self.theta), self.backward)
@@ -109,12 +119,12 @@ class Branch:
         What matters in it is of a size `scale`, in the disc.
         """
         # where an orbit rises from the equator depends on the tolerance: times must have one beginning
-        found = _orbits([self], RTOL if self.critical is None else ROUGH, scale)
+        found = _integrate_branches([self], RTOL if self.critical is None else ROUGH_RTOL, scale)
         return found.points[0], np.abs(found.times[0])
 
     def state(self, time: float) -> Array:
         """Follow it to a time, to all digits: (p, ebar)."""
-        return np.array(_orbits([self], RTOL, t_max=time).ends[0])
+        return np.array(_integrate_branches([self], RTOL, t_max=time).ends[0])
 
 
 def lines_of(found: Sequence[Branch], scale: float) -> list[Array]:
@@ -122,20 +132,25 @@ def lines_of(found: Sequence[Branch], scale: float) -> list[Array]:
     out: list[Array] = [np.zeros((0, 2))] * len(found)
     for backward in (False, True):
         ours = [i for i, one in enumerate(found) if one.backward == backward]
-        ours.sort(key=lambda i: found[i].critical is not None)  # as `_orbits` has them
+        ours.sort(key=lambda i: found[i].critical is not None)  # as `_integrate_branches` has them
         if ours:
-            for i, line in zip(ours, _orbits([found[i] for i in ours], ROUGH, scale).points, strict=True):
+            for i, line in zip(
+                ours, _integrate_branches([found[i] for i in ours], ROUGH_RTOL, scale).points, strict=True
+            ):
                 out[i] = line
     return out
 
 
-def _orbits(ours: Sequence[Branch], rtol: float, scale: float = 1.0, t_max: float | None = None) -> Trajectories:
+def _integrate_branches(
+    ours: Sequence[Branch], rtol: float, scale: float = 1.0, t_max: float | None = None
+) -> Trajectories:
     """Follow branches of one layer problem, all leaving or all entering, half-saddles first."""
     one = ours[0]
     options: dict[str, Any] = {
-        "rtol": rtol, "atol": 0.1 * rtol, "backward": one.backward, "length": LENGTH,
-        "pixel": min(max(FINE * scale, FINEST), PIXEL),
-        "t_max": LONGEST / one.at.speed if t_max is None else t_max, "samples": None if t_max is None else "ends",
+        "rtol": rtol, "atol": 0.1 * rtol, "backward": one.backward, "length": MAX_BRANCH_LENGTH,
+        "pixel": min(max(RELATIVE_PIXEL * scale, MIN_PIXEL), LINE_PIXEL),
+        "t_max": MAX_BRANCH_TIME / one.at.speed if t_max is None else t_max,
+        "samples": None if t_max is None else "ends",
     }  # fmt: skip
     thetas = [one.theta for one in ours if one.critical is None]
     starts = np.array([one.start for one in ours if one.critical is not None]).reshape(-1, 2)
@@ -162,7 +177,7 @@ def _eigenvalue(C: CriticalSet, backward: bool) -> float:
     return float(C.eigenvalues.real[1 if backward else 0])
 
 
-def _branches_of(at: AtZ, psi: Psi, C: CriticalSet, backward: bool) -> list[Branch]:
+def _branches_of(at: FrozenSystem, psi: Psi, C: CriticalSet, backward: bool) -> list[Branch]:
     rows = C.jacobian - _eigenvalue(C, backward) * np.eye(2)
     row = rows[int(np.argmax(np.hypot(*rows.T)))]  # the eigenvector is across it
     vector = np.array([-row[1], row[0]]) / math.hypot(*row)
@@ -170,32 +185,32 @@ def _branches_of(at: AtZ, psi: Psi, C: CriticalSet, backward: bool) -> list[Bran
     out, into = C.eigenvalues.real.tolist()
     found = []
     for sign in (1.0, -1.0):
-        x2 = C.x2 + sign * FIRST * math.hypot(1.0, *C.x2) * vector
+        x2 = C.x2 + sign * START_DISTANCE * math.hypot(1.0, *C.x2) * vector
         start = x2 / math.hypot(1.0, *x2)
         found.append(Branch(at, psi, backward, C.p, sign * tangent, start, C, math.nan, -into / out))
     return found
 
 
-def _zero_of_theta(at: AtZ, start: float) -> float:
+def _zero_of_theta(at: FrozenSystem, start: float) -> float:
     """Newton's method for Theta = 0; NaN if it is not found nearby."""
 
     def turning(v: Array) -> tuple[Array, Array]:
-        e, t, U, D = _on_equator(at, float(v[0]))
+        e, t, U, D = _equator_saddle(at, float(v[0]))
         return np.array([t @ U]), np.array([[t @ D @ t - e @ U]])
 
-    found = newton(turning, np.array([start]), FAR, CLOSE)
+    found = newton(turning, np.array([start]), MAX_SADDLE_SHIFT, ANGLE_TOLERANCE)
     return math.nan if found is None else float(found[0])
 
 
-def _on_equator(at: AtZ, theta: float) -> tuple[Array, Array, Array, Array]:
+def _equator_saddle(at: FrozenSystem, theta: float) -> tuple[Array, Array, Array, Array]:
     e, t = np.array([math.cos(theta), math.sin(theta)]), np.array([-math.sin(theta), math.cos(theta)])
     return e, t, at.U(e), at.DU(e)
 
 
-def _half_saddle(at: AtZ, psi: Psi, theta: float, backward: bool) -> Branch | None:
+def _half_saddle(at: FrozenSystem, psi: Psi, theta: float, backward: bool) -> Branch | None:
     if math.isnan(theta):
         return None
-    e, t, U, D = _on_equator(at, theta)
+    e, t, U, D = _equator_saddle(at, theta)
     radial = float(e @ U)
     along = float(t @ D @ t) - radial
     if not (radial * along > 0.0 and (radial > 0.0) == backward):

@@ -13,20 +13,21 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...continuation.typed.foot import correct_zero, e_at, hemisphere_place
 from ...psi.function import Psi
-from ...systems.frozen import AtZ
-from ..family import Family
+from ...systems.frozen import FrozenSystem
+from ..family import PlaneFamily
 from .saddles import Branch
 
-Array = NDArray[np.float64]
-
-KNOWN = 3e-3  # of the square: so far from where it is known a connection is kept
-DIFFERENCE = 1e-6  # of the square
-SHARED, FARTHEST = 0.2, 1e-3  # of the way between two places, and of the square: so far derivatives serve
-CORRECTIONS, CLOSE = 5, 1e-8  # of the time of a crossing, in T of 1/max |U|
+MAX_CACHE_DISTANCE = 3e-3  # of the square: so far from where it is known a connection is kept
+DIFFERENCE_STEP = 1e-6  # of the square
+SLOPE_SHARE, MAX_SLOPE_DISTANCE = (
+    0.2,
+    1e-3,
+)  # of the way between two places, and of the square: so far derivatives serve
+MAX_NEWTON, CROSSING_TOLERANCE = 5, 1e-8  # of the time of a crossing, in T of 1/max |U|
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,20 +71,20 @@ class Section:
 
 
 @dataclass(frozen=True, eq=False)
-class Pair:
+class BranchPair:
     """A branch that leaves a saddle, one that enters one, and of a loop a critical set (c, s) within."""
 
     leaving: Branch
     entering: Branch
     foot: Array | None
 
-    def followed(self, at: AtZ, psi: Psi) -> Pair | None:
+    def followed(self, at: FrozenSystem, psi: Psi) -> BranchPair | None:
         """Return the same of another system nearby; None where one of them is no more."""
         leaving, entering = self.leaving.followed(at, psi), self.entering.followed(at, psi)
         foot = None if self.foot is None else correct_zero(at, self.foot)
         if leaving is None or entering is None or (foot is None) != (self.foot is None):
             return None
-        return Pair(leaving, entering, foot)
+        return BranchPair(leaving, entering, foot)
 
     @cached_property
     def section(self) -> Section | None:
@@ -136,23 +137,23 @@ class Splitting:
     family : Family
     place : ndarray (2,)
         Of the unit square, where it is known.
-    pair : Pair
+    pair : BranchPair
         There.
     """
 
-    def __init__(self, family: Family, place: Array, pair: Pair) -> None:
+    def __init__(self, family: PlaneFamily, place: Array, pair: BranchPair) -> None:
         self.family = family
         self._known = [(np.array(place, float), pair)]
         self._slope = np.full(2, math.nan), np.zeros((1, 2)), 0.0  # where it was computed, and how far it serves
 
-    def pair(self, place: Array) -> Pair | None:
+    def pair(self, place: Array) -> BranchPair | None:
         """Return the pair at a place; None where it is no more."""
         nearest = min(self._known, key=lambda one: math.dist(one[0], place))
         try:
             pair = nearest[1].followed(self.family.frozen(place), self.family.psi_at(place))
         except ValueError:  # beyond what is allowed
             return None
-        if pair is not None and math.dist(nearest[0], place) > KNOWN:
+        if pair is not None and math.dist(nearest[0], place) > MAX_CACHE_DISTANCE:
             self._known.append((np.array(place), pair))
         return pair
 
@@ -168,8 +169,8 @@ class Splitting:
             return np.full(1, math.nan), np.full((1, 2), math.nan)
         where, slope, reach = self._slope
         if not math.dist(where, place) < reach:  # a step further: the corrections of one point share it
-            rows = [(self.gap(place + way) - here) / DIFFERENCE for way in DIFFERENCE * np.eye(2)]
-            slope, reach = np.array([rows]), min(SHARED * math.dist(where, place), FARTHEST)
+            rows = [(self.gap(place + way) - here) / DIFFERENCE_STEP for way in DIFFERENCE_STEP * np.eye(2)]
+            slope, reach = np.array([rows]), min(SLOPE_SHARE * math.dist(where, place), MAX_SLOPE_DISTANCE)
             self._slope = place.copy(), slope, reach if math.isfinite(reach) else 0.0
         return np.array([here]), slope
 
@@ -183,18 +184,18 @@ def _first_crossing(branch: Branch, section: Section) -> tuple[Array, bool] | No
         return None
     i, part, upwards = first
     state = branch.state(max(float(times[i] + part * (times[i + 1] - times[i])), 1e-300))
-    for _ in range(CORRECTIONS):
-        rate = float(_field(at, psi, state)[:2] @ section.across)
+    for _ in range(MAX_NEWTON):
+        rate = float(_layer_velocity(at, psi, state)[:2] @ section.across)
         step = -float(section.side(state[:2])) / rate if rate else math.inf
         if not abs(step) * at.speed < 1.0:
             return None
         state = _runge_kutta_step(at, psi, state, step)
-        if abs(step) * at.speed < CLOSE:  # its error is the square
+        if abs(step) * at.speed < CROSSING_TOLERANCE:  # its error is the square
             return state[:2], upwards != branch.backward
     return None
 
 
-def _field(at: AtZ, psi: Psi, state: Array) -> Array:
+def _layer_velocity(at: FrozenSystem, psi: Psi, state: Array) -> Array:
     """(p, ebar)' by T."""
     p, w = state[:2], float(state[2])
     U = at.U(e_at(psi, p / w))
@@ -202,9 +203,9 @@ def _field(at: AtZ, psi: Psi, state: Array) -> Array:
     return np.append(U - p * outward, -w * outward)
 
 
-def _runge_kutta_step(at: AtZ, psi: Psi, y: Array, h: float) -> Array:
+def _runge_kutta_step(at: FrozenSystem, psi: Psi, y: Array, h: float) -> Array:
     """One step of the classical Runge-Kutta method."""
-    a = _field(at, psi, y)
-    b = _field(at, psi, y + 0.5 * h * a)
-    c = _field(at, psi, y + 0.5 * h * b)
-    return np.asarray(y + h / 6.0 * (a + 2.0 * b + 2.0 * c + _field(at, psi, y + h * c)))
+    a = _layer_velocity(at, psi, y)
+    b = _layer_velocity(at, psi, y + 0.5 * h * a)
+    c = _layer_velocity(at, psi, y + 0.5 * h * b)
+    return np.asarray(y + h / 6.0 * (a + 2.0 * b + 2.0 * c + _layer_velocity(at, psi, y + h * c)))

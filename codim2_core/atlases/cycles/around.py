@@ -1,7 +1,8 @@
 """Turns about a point of the hemisphere over the plane of two parameters.
 
-A place is v = (x, u, v): x the place on a ray from that point to the equator, ``ln(r/(reach - r))`` over `SCALE`, and
-both parameters in the unit square. A cycle closes where `shift` is zero, and is a fold where its exponent is, too.
+A place is v = (x, u, v): x the place on a ray from that point to the equator, ``ln(r/(reach - r))`` over
+`LOG_SIZE_SCALE`, and both parameters in the unit square. A cycle closes where `shift` is zero, and is a fold where
+its exponent is, too.
 """
 
 from __future__ import annotations
@@ -10,23 +11,21 @@ import math
 from copy import copy
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ...continuation.typed.foot import Place, correct_zero, hemisphere_place
+from ...arrays import Array
+from ...continuation.typed.foot import HemispherePoint, correct_zero, hemisphere_place
 from ...continuation.typed.ray import Ray
-from ...continuation.typed.turn import Course, turn
-from ...systems.frozen import AtZ
-from ..family import Family
+from ...continuation.typed.turn import TurnOrbit, turn
+from ...systems.frozen import FrozenSystem
+from ..family import PlaneFamily
 
-Array = NDArray[np.float64]
-
-SCALE = 6.0  # of x: steps along curves are as long in it as in the unit square
-DIFFERENCE = 1e-6  # for derivatives, which tell the way and not the place
-FARTHEST = 40.0  # |x|
-KNOWN = 0.01  # of the square: so far from where it is known the critical set is kept
+LOG_SIZE_SCALE = 6.0  # of x: steps along curves are as long in it as in the unit square
+DIFFERENCE_STEP = 1e-6  # for derivatives, which tell the way and not the place
+MAX_RAY_COORDINATE = 40.0  # |x|
+MAX_CACHE_DISTANCE = 0.01  # of the square: so far from where it is known the critical set is kept
 
 
-class Around:
+class EncirclingTurns:
     """Turns about a critical set that is followed over the plane, or about a point that stays.
 
     Parameters
@@ -42,12 +41,12 @@ class Around:
         Whether it is a critical set.
     """
 
-    def __init__(self, family: Family, place: Array, e: Array, u: Array, critical: bool = True) -> None:
+    def __init__(self, family: PlaneFamily, place: Array, e: Array, u: Array, critical: bool = True) -> None:
         self.family, self.u = family, u
         self._known = [(np.array(place, float), np.array(e, float))]
         self._still = None if critical else hemisphere_place(family.psi_at(place), self._known[0][1])
 
-    def towards(self, u: Array) -> Around:
+    def towards(self, u: Array) -> EncirclingTurns:
         """Return the same in another direction."""
         turned = copy(self)
         turned.u = u
@@ -63,29 +62,31 @@ class Around:
         foot = self._still or self._followed(at, place)
         return None if foot is None else Ray(at, psi, foot, self.u)
 
-    def _followed(self, at: AtZ, place: Array) -> Place | None:
+    def _followed(self, at: FrozenSystem, place: Array) -> HemispherePoint | None:
         nearest = min(self._known, key=lambda one: math.dist(one[0], place))
         e = correct_zero(at, nearest[1])
         if e is None:
             return None
-        if math.dist(nearest[0], place) > KNOWN:
+        if math.dist(nearest[0], place) > MAX_CACHE_DISTANCE:
             self._known.append((place.copy(), e))
         return hemisphere_place(self.family.psi_at(place), e)
 
-    def turn(self, v: Array) -> Course | None:
+    def turn(self, v: Array) -> TurnOrbit | None:
         """Follow one turn; None if it does not return."""
-        ray = self.ray(v[1:]) if abs(v[0]) < FARTHEST else None
+        ray = self.ray(v[1:]) if abs(v[0]) < MAX_RAY_COORDINATE else None
         if ray is None:
             return None
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            return turn(ray, SCALE * float(v[0]), math.nan, None, ray.critical, False)
+            return turn(ray, LOG_SIZE_SCALE * float(v[0]), math.nan, None, ray.critical, False)
 
     def fold(self, v: Array) -> tuple[Array, Array]:
         """Shift and exponent, both zero on a fold, with their derivatives; NaN where there is no turn."""
         here = self._values(v)
         if not np.isfinite(here).all():
             return here, np.full((2, 3), math.nan)
-        return here, np.stack([(self._values(v + way) - here) / DIFFERENCE for way in DIFFERENCE * np.eye(3)], axis=1)
+        return here, np.stack(
+            [(self._values(v + way) - here) / DIFFERENCE_STEP for way in DIFFERENCE_STEP * np.eye(3)], axis=1
+        )
 
     def _values(self, v: Array) -> Array:
         found = self.turn(v)

@@ -7,25 +7,23 @@ from collections.abc import Sequence
 from itertools import islice
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array, read_only
 from ...words import say
-from ..family import Family
-from ..result import AtlasCurve, AtlasPoint, read_only
-from .following import CENTRE, Curve, trace_fold
-from .lines import Seed, along_lines, seeds_beside_bautin
-
-Array = NDArray[np.float64]
+from ..family import PlaneFamily
+from ..result import AtlasCurve, AtlasPoint
+from .following import CENTRE, FoldCurve, trace_fold
+from .lines import FoldSeed, along_lines, seeds_beside_bautin
 
 KIND = "fold of cycles"
-BORN = "generalised Hopf"
-NEAR = 0.03  # of the square: a curve passes a start, or ends at a point of codimension two, so near to it
-SMALL = 0.02  # cycles that are all but a critical set
-ALIKE = 0.15  # of the size of cycles
+GENERALISED_HOPF = "generalised Hopf"
+ON_CURVE_DISTANCE = 0.03  # of the square: a curve passes a start, or ends at a point of codimension two, so near to it
+MAX_POINT_SIZE = 0.02  # cycles that are all but a critical set
+SAME_SIZE_RATIO = 0.15  # of the size of cycles
 
 
 def cycle_curves(
-    family: Family, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
+    family: PlaneFamily, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
 ) -> tuple[list[AtlasCurve], list[AtlasPoint]]:
     """Find folds of cycles, and the places where they could be followed no further.
 
@@ -38,14 +36,14 @@ def cycle_curves(
     curves, points : sequence of AtlasCurve, of AtlasPoint
         Of what stands still.
     """
-    born = [family.units(np.array(point.place)) for point in points if point.kind == BORN]
-    found: list[Curve] = []
+    born = [family.units(np.array(point.place)) for point in points if point.kind == GENERALISED_HOPF]
+    found: list[FoldCurve] = []
     for place in born:
         if not any(_comes_to(one, place) for one in found):
             caught = (trace_fold(family, seed.start) for seed in seeds_beside_bautin(family, place))
             found += islice((one for one in caught if one is not None), 1)
     for seed in along_lines(family, curves):
-        if not any(_passes(one, seed) for one in found):
+        if not any(_passes_seed(one, seed) for one in found):
             one = trace_fold(family, seed.start)
             found += [one] if one is not None else []
     out, lost = [], []
@@ -58,27 +56,27 @@ def cycle_curves(
     return out, lost
 
 
-def _passes(curve: Curve, seed: Seed) -> bool:
-    near = _away(curve.plane, seed.start.v[1:]) < NEAR
-    return bool((near & (np.abs(curve.sizes - seed.size) < ALIKE)).any())
+def _passes_seed(curve: FoldCurve, seed: FoldSeed) -> bool:
+    near = _away(curve.plane, seed.start.v[1:]) < ON_CURVE_DISTANCE
+    return bool((near & (np.abs(curve.sizes - seed.size) < SAME_SIZE_RATIO)).any())
 
 
-def _comes_to(curve: Curve, place: Array) -> bool:
-    ends = [math.dist(curve.plane[i], place) for i in (0, -1) if curve.sizes[i] < SMALL]
-    return min(ends, default=math.inf) < NEAR
+def _comes_to(curve: FoldCurve, place: Array) -> bool:
+    ends = [math.dist(curve.plane[i], place) for i in (0, -1) if curve.sizes[i] < MAX_POINT_SIZE]
+    return min(ends, default=math.inf) < ON_CURVE_DISTANCE
 
 
 def _away(plane: Array, place: Array) -> Array:
     return np.hypot(*(plane - place).T)
 
 
-def _extend_to_births(one: Curve, born: Sequence[Array]) -> tuple[Array, Array, list[Array]]:
+def _extend_to_births(one: FoldCurve, born: Sequence[Array]) -> tuple[Array, Array, list[Array]]:
     """Return a curve drawn on to the points where it is born, and its ends that are at none."""
     plane, sizes, lost = one.plane, one.sizes, []
     for end, i in zip(one.ends, (0, -1), strict=True):
         last, size = one.plane[i], one.sizes[i]
         near = min(born, key=lambda at, last=last: math.dist(at, last), default=None)
-        if near is not None and size < SMALL and math.dist(near, last) < NEAR:
+        if near is not None and size < MAX_POINT_SIZE and math.dist(near, last) < ON_CURVE_DISTANCE:
             plane = np.concatenate([near[None], plane] if i == 0 else [plane, near[None]])
             sizes = np.concatenate([[0.0], sizes] if i == 0 else [sizes, [0.0]])
         elif end in (CENTRE, "lost", "many"):

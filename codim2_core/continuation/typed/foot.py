@@ -8,29 +8,31 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...curves.newton import newton
 from ...psi.function import Psi
-from ...systems.frozen import AtZ
+from ...systems.frozen import FrozenSystem
 
-Array = NDArray[np.float64]
-At = Callable[[float], tuple[AtZ, Psi]]
+At = Callable[[float], tuple[FrozenSystem, Psi]]
 
-CLOSE, FAR = 1e-9, 0.1  # of Newton's method for e: its last step (its error is the square), all of its way
-HALVINGS = 30  # of the way to a value at which it is not found at once: after these it is where it was last
-INSIDE = 1.0 - 1e-9  # |e| of a critical set
+NEWTON_TOLERANCE, MAX_CORRECTION = (
+    1e-9,
+    0.1,
+)  # of Newton's method for e: its last step (its error is the square), all of its way
+MAX_HALVINGS = 30  # of the way to a value at which it is not found at once: after these it is where it was last
+MAX_RADIUS = 1.0 - 1e-9  # |e| of a critical set
 
 
 @dataclass(frozen=True)
-class Place:
+class HemispherePoint:
     """A point of the hemisphere: in the projected disc, and x2."""
 
     p: Array
     x2: Array
 
 
-class Foot:
+class SectionBase:
     """The base point of a section, as a function of the parameter.
 
     A critical set is followed from where it is known; where it ceases to be one, its last place goes on. So the foot
@@ -53,7 +55,7 @@ class Foot:
         self._ends = (-math.inf, math.inf)  # it is no critical set beyond
         self._still = None if critical else hemisphere_place(at(value)[1], self._places[0])
 
-    def place(self, value: float) -> Place:
+    def place(self, value: float) -> HemispherePoint:
         """Return the base point at a value."""
         return hemisphere_place(self.at(value)[1], self.e(value)) if self._still is None else self._still
 
@@ -64,7 +66,7 @@ class Foot:
         k = min((k for k in (i - 1, i) if 0 <= k < len(self._values)), key=lambda k: abs(self._values[k] - value))
         here, e = self._values[k], self._places[k]
         step, tried = value - here, 0
-        while here != value and tried < HALVINGS:
+        while here != value and tried < MAX_HALVINGS:
             there = value if abs(step) >= abs(value - here) else here + step
             found = correct_zero(self.at(there)[0], e)
             if found is None:
@@ -80,18 +82,18 @@ class Foot:
         return e
 
 
-def correct_zero(system: AtZ, start: Array) -> Array | None:
+def correct_zero(system: FrozenSystem, start: Array) -> Array | None:
     """Newton's method for U = 0 from a place (c, s) nearby; None if it is not found."""
-    e = newton(lambda e: (system.U(e), system.DU(e)), start, FAR, CLOSE)
-    return e if e is not None and math.hypot(*e) < INSIDE else None
+    e = newton(lambda e: (system.U(e), system.DU(e)), start, MAX_CORRECTION, NEWTON_TOLERANCE)
+    return e if e is not None and math.hypot(*e) < MAX_RADIUS else None
 
 
-def hemisphere_place(psi: Psi, e: Array) -> Place:
+def hemisphere_place(psi: Psi, e: Array) -> HemispherePoint:
     """Return the point of the hemisphere where e_Psi = e."""
     modulus = math.hypot(*e)
     zeta = float(psi.radius(modulus, (1.0 - modulus) * (1.0 + modulus)))
     x2 = e * (zeta / max(modulus, 1e-300))
-    return Place(x2 / math.hypot(1.0, zeta), x2)
+    return HemispherePoint(x2 / math.hypot(1.0, zeta), x2)
 
 
 def e_at(psi: Psi, x2: Array) -> Array:

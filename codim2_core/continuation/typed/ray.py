@@ -8,10 +8,10 @@ import numpy as np
 
 from ...cycles.turn_section import TurnSection
 from ...psi.function import Psi
-from ...systems.frozen import AtZ
-from .foot import Array, Place
+from ...systems.frozen import FrozenSystem
+from .foot import Array, HemispherePoint
 
-RECENT = 0.05  # of a turn: what lies so shortly before a crossing is judged by its angle alone
+CROSSING_SLACK = 0.05  # of a turn: what lies so shortly before a crossing is judged by its angle alone
 
 
 class Ray(TurnSection):
@@ -26,13 +26,13 @@ class Ray(TurnSection):
         Direction, of length 1.
     """
 
-    def __init__(self, at: AtZ, psi: Psi, foot: Place, u: Array) -> None:
+    def __init__(self, at: FrozenSystem, psi: Psi, foot: HemispherePoint, u: Array) -> None:
         self.at, self.psi, self.critical, self.u = at, psi, foot, u
         self.rate = at.speed
         self.reach, self.other = room(foot, u)
 
 
-def room(foot: Place, u: Array) -> tuple[float, float]:
+def room(foot: HemispherePoint, u: Array) -> tuple[float, float]:
     """Return reach and other of a ray: ``|p + r u|^2 - 1 = (r - reach)(r + other)``."""
     along, gap = float(u @ foot.p), 1.0 / (1.0 + float(foot.x2 @ foot.x2))  # 1 - |p|^2, to all digits
     root = math.sqrt(along * along + gap)
@@ -40,7 +40,7 @@ def room(foot: Place, u: Array) -> tuple[float, float]:
     return reach, gap / reach
 
 
-def best_crossing(points: Array, foot: Place) -> tuple[float, int]:
+def best_crossing(points: Array, foot: HemispherePoint) -> tuple[float, int]:
     """Find where a cycle crosses a ray from a point best: how well, and at which of its points.
 
     An orbit from there turns by 2 pi about the point just when it is back, and not sooner, if no earlier point of the
@@ -70,7 +70,7 @@ def best_crossing(points: Array, foot: Place) -> tuple[float, int]:
     sine = sine / np.maximum(np.hypot(*away[:-1].T) * np.hypot(*along.T), 1e-300)
     twice = np.concatenate([angle - 2.0 * math.pi, angle])  # the turn before, and this one
     highest = np.maximum.accumulate(twice)
-    recent = max(1, int(RECENT * count))
+    recent = max(1, int(CROSSING_SLACK * count))
     lead = angle - highest[count - recent : 2 * count - recent]
     quality = np.where(angle >= highest[count:], np.minimum(sine, lead), -1.0)
     best = int(quality.argmax())

@@ -9,25 +9,25 @@ import numpy as np
 
 from ...curves.polyline import distance
 from ...cycles.limit_cycles import LimitCycle
-from ..turns import Turn
+from ..turns import ReturnMapPoint
 from .foot import Array
 
-SAME, CLOSE = 1e-5, 1e-4  # of the period, and of the disc: two cycles are one
+SAME_PERIOD_SHARE, SAME_CYCLE_DISTANCE = 1e-5, 1e-4  # of the period, and of the disc: two cycles are one
 
 
 @dataclass(frozen=True)
-class Seen:
+class KnownCycle:
     """A cycle as a closed line, and its period."""
 
     points: Array
     period: float
 
 
-def same(turn: Turn, cycle: LimitCycle | Seen) -> bool:
+def is_same_cycle(turn: ReturnMapPoint, cycle: LimitCycle | KnownCycle) -> bool:
     """Whether a closed turn is a cycle that was seen."""
-    if abs(turn.period - cycle.period) > SAME * cycle.period:
+    if abs(turn.period - cycle.period) > SAME_PERIOD_SHARE * cycle.period:
         return False
-    return bool(distance(np.array(turn.p), cycle.points) < CLOSE)
+    return bool(distance(np.array(turn.p), cycle.points) < SAME_CYCLE_DISTANCE)
 
 
 def distance_along_ray(points: Array, foot: Array, u: Array, near: float) -> float:

@@ -14,33 +14,35 @@ import numpy as np
 
 from ...cycles.orbit import STEP_NODES, gauss, path
 from ...psi.function import Psi
-from ...systems.frozen import AtZ
-from ..measured import MOST_EXPONENT
-from ..turns import RTOL, Turn
-from .foot import Array, Place
+from ...systems.frozen import FrozenSystem
+from ..measured import MAX_EXPONENT
+from ..turns import RTOL, ReturnMapPoint
+from .foot import Array, HemispherePoint
 from .ray import Ray
 
 
 @dataclass(frozen=True)
-class Beside:
+class FiniteDifference:
     """System and Psi at two values beside one, how these differ, and how the ray moves between them."""
 
-    low: tuple[AtZ, Psi]
-    high: tuple[AtZ, Psi]
+    low: tuple[FrozenSystem, Psi]
+    high: tuple[FrozenSystem, Psi]
     width: float
     moved: Array  # d p_0/d mu
     widened: float  # d reach/d mu
 
 
 @dataclass(frozen=True)
-class Course:
+class TurnOrbit:
     """A turn and the states along it (k, 3)."""
 
-    turn: Turn
+    turn: ReturnMapPoint
     states: Array
 
 
-def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place, backward: bool) -> Course | None:
+def turn(
+    ray: Ray, xi: float, value: float, beside: FiniteDifference | None, centre: HemispherePoint, backward: bool
+) -> TurnOrbit | None:
     """Follow one turn from a place on a ray; None if it does not return.
 
     Parameters
@@ -48,7 +50,7 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place
     ray : Ray
         At this value.
     xi, value : float
-    beside : Beside, or None
+    beside : FiniteDifference, or None
         Without it no derivative by the parameter is told.
     centre : Place
         From where the amplitude is measured.
@@ -67,11 +69,11 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place
     rates = (sign * (J[:, 0, 0] + J[:, 1, 1]) / way.inner[:, 2]).reshape(-1, STEP_NODES)
     whole = way.h * (rates @ weights)
     exponent = float(whole.sum())
-    if not abs(exponent) < MOST_EXPONENT:
+    if not abs(exponent) < MAX_EXPONENT:
         return None
     past = np.concatenate([[0.0], np.cumsum(whole)[:-1]])
     left = exponent - past[:, None] - way.h[:, None] * (rates @ matrix.T)
-    growth = np.exp(np.minimum(left.ravel(), MOST_EXPONENT))
+    growth = np.exp(np.minimum(left.ravel(), MAX_EXPONENT))
     multiplier = math.exp(exponent)
 
     def cross_with_change(k: int, state: Array, v: Array) -> float:
@@ -93,7 +95,7 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place
         melnikov = float(way.weight @ (growth * _cross(sign * F[:-2], _change(way.inner, beside) / ray.rate)))
         came = multiplier * cross_with_change(-2, begin, beside.moved + chi * beside.widened * ray.u) + melnikov
         by_value = steep * (came - cross_with_change(-1, end, beside.moved)) / across - beside.widened / rest
-    found = Turn(
+    found = ReturnMapPoint(
         xi=xi, value=value, shift=math.log(last / rest) - xi,
         by_xi=steep * by_r * r * (1.0 - chi) - 1.0, by_value=by_value,
         exponent=sign * exponent, period=float(way.weight.sum()) / ray.rate,
@@ -101,7 +103,7 @@ def turn(ray: Ray, xi: float, value: float, beside: Beside | None, centre: Place
         rate=chi * (1.0 - chi), drift=0.0, chi=chi, p=(float(begin[0]), float(begin[1])),
         steps=len(way.h),
     )  # fmt: skip
-    return Course(found, way.inner)
+    return TurnOrbit(found, way.inner)
 
 
 def _cross(v: Array, w: Array) -> Array:
@@ -120,7 +122,7 @@ def _regularised_direction(psi: Psi, states: Array) -> tuple[Array, Array]:
     )
 
 
-def _change(states: Array, beside: Beside) -> Array:
+def _change(states: Array, beside: FiniteDifference) -> Array:
     """Differentiate U(e_Psi(x2)) (n, 2) by the parameter at fixed x2."""
     x2 = states[:, :2] / states[:, 2:]
     zeta = np.hypot(x2[:, 0], x2[:, 1])

@@ -14,12 +14,12 @@ from ..equator_pull import LOST, MIN_HEIGHT, SUNK
 from ..return_map import RETURNED, single_step
 from ..section import INNER_RADIUS, SUNK_INWARD
 
-_add = njit(cache=True, error_model="numpy")(double_double.add)
+_add = njit(cache=True, error_model="numpy")(double_double.add_pairs)
 _product = njit(cache=True, error_model="numpy")(double_double.product)
 
 
 @njit(cache=True, error_model="numpy")
-def _square(pair):
+def _abs_squared(pair):
     high, low = _product(pair[0], pair[0])
     return _add((high, low), (2.0 * pair[0] * pair[1], 0.0 * high))
 
@@ -41,8 +41,8 @@ def critical_points(planes):
         if abs(gap) < CANCELS * det * det or abs(det) < CANCELS * (abs(a * d) + b * b):  # as `border.to_all_digits`
             whole = _add(_product(a, d), _product(b, b))
             one, two = _add(_product(d, f1), _product(b, f2)), _add(_product(a, f2), _product(-b, f1))
-            s, t = _add(_square(one), _square(two))
-            gap, det, n1, n2 = _add(_square(whole), (-s, -t))[0], whole[0], one[0], two[0]
+            s, t = _add(_abs_squared(one), _abs_squared(two))
+            gap, det, n1, n2 = _add(_abs_squared(whole), (-s, -t))[0], whole[0], one[0], two[0]
         e[i, 0], e[i, 1] = -n1 / det, -n2 / det
         complement[i] = gap / (det * det) if a * d < 0.0 and det > 0.0 else -1.0
     return e, complement

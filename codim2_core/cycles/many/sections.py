@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...psi.constructors import many
 from ...psi.function import Psi
 from ..orbit import MOST_STEPS, gauss
 from ..section import MAX_TURN_TIME
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 STEP_NODES = 4  # of a step: of its own order, 8; with more the means are the same
@@ -32,8 +32,8 @@ def critical_points(planes: Array) -> tuple[Array, Array]:
 
 
 @dataclass(frozen=True)
-class Ways:
-    """Turns of n systems as nodes of a quadrature, as `orbit.Path` has them for one; those of a system together.
+class TurnQuadratures:
+    """The turns of n systems as nodes of a quadrature, system by system; `orbit.TurnQuadrature` is that of one.
 
     Attributes
     ----------
@@ -127,7 +127,7 @@ class Sections:
 
     def turned(
         self, states: Array, rtol: float | Array, backward: NDArray[np.bool_], limit: int = MOST_STEPS
-    ) -> tuple[Indices, Ways | None]:
+    ) -> tuple[Indices, TurnQuadratures | None]:
         """Follow one turn from states (n, 3), to one rtol or each to its own (n,).
 
         None where none returns within `limit` steps.
@@ -136,7 +136,7 @@ class Sections:
         -------
         rows : Indices (k,)
             Of the systems whose turns return.
-        ways : Ways
+        ways : TurnQuadratures
             Their turns.
         """
         from ..return_map import returns
@@ -150,4 +150,4 @@ class Sections:
             limit, len(self) * limit, False,
         )  # fmt: skip
         rows, first, h, whose, inner = placing.collect_nodes(steps, codes, shared, gauss(STEP_NODES)[0], field.address)
-        return rows, Ways(first, whose, h, inner, ends[rows]) if len(rows) else None
+        return rows, TurnQuadratures(first, whose, h, inner, ends[rows]) if len(rows) else None

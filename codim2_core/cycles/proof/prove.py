@@ -6,16 +6,14 @@ import json
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...layer_problem.problem import LayerProblem
 from ...psi.kernel import VECTOR
 from ...words import say
 from .check import check, chords, loop_is_crossed
 from .result import Proof, covers
-from .search import LEAST_MARGIN, Layer, best_function, loops, write_certificate
-
-Array = NDArray[np.float64]
+from .search import LEAST_MARGIN, ScaledLayerProblem, best_function, loops, write_certificate
 
 # Of Psi the degree, and weights (k, mu), in the order in which they are tried
 ATTEMPTS = (
@@ -45,7 +43,7 @@ def prove_count(problem: LayerProblem, cycles: list[Array], forbidden: str | Non
         return Proof(True, (), forbidden)
     if not covers(problem.psi):
         return Proof(False, nothing, say("proof not for this Psi"))
-    system, why = Layer(problem), "proof finds no function"
+    system, why = ScaledLayerProblem(problem), "proof finds no function"
     loop = _loop(problem, system, cycles) if cycles else NO_POINTS
     for degree, weights in ATTEMPTS:
         for k, mu in weights:
@@ -59,7 +57,7 @@ def prove_count(problem: LayerProblem, cycles: list[Array], forbidden: str | Non
     return Proof(False, nothing, say(why))
 
 
-def _loop(problem: LayerProblem, system: Layer, cycles: list[Array]) -> Array:
+def _loop(problem: LayerProblem, system: ScaledLayerProblem, cycles: list[Array]) -> Array:
     """Return a polygon beyond the last cycle that all orbits cross to one side, if there are limit directions."""
     t = np.linspace(0.0, math.tau, 2001)
     e = np.array([np.cos(t), np.sin(t)])

@@ -12,10 +12,9 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
+from ...arrays import Array
 from ...layer_problem.problem import LayerProblem
 from ...psi.kernel import VECTOR
-
-Array = NDArray[np.float64]
 
 CHART_SHRINKAGE = 1.0001  # the disc lies in the square of the chart
 MAX_ROUNDS = 40
@@ -55,10 +54,10 @@ def net() -> Array:
     return np.array([np.outer(r, wave(t)) for wave in (np.cos, np.sin)]) / CHART_SHRINKAGE
 
 
-class Places:
+class ProbePoints:
     """Phi at places (2, n) of the disc, as a linear function of the coefficients of Psi: `__init__`, 2."""
 
-    def __init__(self, system: Layer, place: Array, k: float, mu: float) -> None:
+    def __init__(self, system: ScaledLayerProblem, place: Array, k: float, mu: float) -> None:
         self.place = place
         x, y, w = lifted = system.chart @ np.vstack([place, np.ones(place.shape[1])])
         beta = np.interp((x**2 + y**2) / w**2, system.m, system.beta)
@@ -82,7 +81,7 @@ class Places:
         return (found + self.rest * (inner * Y).sum(axis=1)) / self.share
 
 
-class Layer:
+class ScaledLayerProblem:
     """An e-linear layer problem, in units of its largest coefficient, in the chart with C at its middle."""
 
     def __init__(self, problem: LayerProblem) -> None:
@@ -94,14 +93,14 @@ class Layer:
         with np.errstate(all="ignore"):
             value, slope = self.kernel.value(VECTOR, s), self.kernel.slope(VECTOR, s)
         self.m, self.beta, self.trace = s / (s + value), 1.0 + slope, 0.0
-        self.trace = float(Places(self, np.zeros((2, 1)), 1.0, 0.0).rest[0])
+        self.trace = float(ProbePoints(self, np.zeros((2, 1)), 1.0, 0.0).rest[0])
 
 
-def best_function(system: Layer, degree: int, k: float, mu: float) -> tuple[float, Array]:
+def best_function(system: ScaledLayerProblem, degree: int, k: float, mu: float) -> tuple[float, Array]:
     """Find Psi, coefficients up to 1, with about the largest margin: by some places, and those where it falls short."""
-    every = Places(system, net().reshape(2, -1), k, mu)
+    every = ProbePoints(system, net().reshape(2, -1), k, mu)
     step = max(1, every.place.shape[1] // (5 * math.comb(degree + 2, 2)))
-    first = Places(
+    first = ProbePoints(
         system, np.hstack([np.zeros((2, 1)), every.place[:, ::step], net()[:, -1, :: RAY_COUNT // (8 * degree)]]), k, mu
     )
     M, function = first.rows(degree), np.zeros((degree + 1, degree + 1))
@@ -120,13 +119,13 @@ def best_function(system: Layer, degree: int, k: float, mu: float) -> tuple[floa
         dips = np.flatnonzero((reached <= np.min(around, axis=0)) & (reached < 2.0 * margin))
         dips = dips[np.argsort(reached.ravel()[dips])[:300]]
         beside = (every.place[:, dips, None] + patch).reshape(2, -1)
-        near = Places(system, beside / np.maximum(1.0, CHART_SHRINKAGE * np.hypot(*beside)), k, mu)
+        near = ProbePoints(system, beside / np.maximum(1.0, CHART_SHRINKAGE * np.hypot(*beside)), k, mu)
         lower = near.values(function).reshape(-1, 25)
         least = float(lower.min(initial=margin))
         if least > 0.3 * margin:
             return least, function
         cuts = (np.arange(len(lower)) * 25 + lower.argmin(axis=1))[lower.min(axis=1) < 0.7 * margin]
-        M = np.vstack([M, Places(system, near.place[:, cuts], k, mu).rows(degree)])
+        M = np.vstack([M, ProbePoints(system, near.place[:, cuts], k, mu).rows(degree)])
     return 0.0, function
 
 
@@ -180,14 +179,14 @@ def largest_margin(M: Array) -> tuple[float, Array]:
     return best, at_best
 
 
-def loops(system: Layer, cycle: Array, stable: bool) -> Iterator[Array]:
+def loops(system: ScaledLayerProblem, cycle: Array, stable: bool) -> Iterator[Array]:
     """Look for polygons (m, 2) in e, beyond a cycle, that all orbits cross towards it, or all away from it.
 
     An orbit of the field that is turned by an angle goes once round C, and back along the section of `limit_cycles`.
 
     Parameters
     ----------
-    system : Layer
+    system : ScaledLayerProblem
     cycle : ndarray (m, 2)
         In e.
     stable : bool
@@ -216,7 +215,9 @@ def loops(system: Layer, cycle: Array, stable: bool) -> Iterator[Array]:
                 yield np.array([X / W, Y / W]).T
 
 
-def round_C(system: Layer, start: complex, way: complex, forward: float, sense: float, angle: float) -> list[complex]:
+def round_C(
+    system: ScaledLayerProblem, start: complex, way: complex, forward: float, sense: float, angle: float
+) -> list[complex]:
     """Follow the turned field once round C, in the chart, in steps that turn less than the angle."""
     lift, turn = np.linalg.inv(system.chart).tolist(), complex(math.cos(angle), math.sin(angle))
     N, (a, b, c, d), (f, g) = system.chart.tolist(), system.A.ravel().tolist(), system.f.tolist()
@@ -252,7 +253,7 @@ def round_C(system: Layer, start: complex, way: complex, forward: float, sense: 
 
 
 def write_certificate(
-    problem: LayerProblem, system: Layer, function: Array, k: float, mu: float, loop: Array
+    problem: LayerProblem, system: ScaledLayerProblem, function: Array, k: float, mu: float, loop: Array
 ) -> dict[str, Any]:
     """Write a certificate: numbers as they were given, not rounded."""
     a, b, d, e, f, g = problem.at.affine or (0.0,) * 6

@@ -7,33 +7,35 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...layer_problem.critical import CriticalSet
 from ...numerics.sign_changes import lowest, vertex
 from ..equator import link_zeros
 from .narrowing import narrow_change
 from .rounding import States
-from .state import State, Turns
+from .state import State, WindingTest
 
-__all__ = ["BESIDE", "Change", "match_sets", "pieces_between"]
+__all__ = ["SIDE_STEP", "Change", "match_sets", "pieces_between"]
 
-Array = NDArray[np.float64]
 Change = tuple[float, State, State]  # where, and what stands still on either side
 
-_LEAST = 7  # values at least on each piece
-BESIDE = 1e-7  # of the span: where the two sides of a special value are looked at
-_CLOSER, _APART = 3, 1e-5  # times that values between those of the grid are added; how far apart, of the span
-_MOST_CHANGES = 10  # between two neighbouring values of the grid, nested
-_NARROW = 1e-12  # of the span
-_NEARER = (3e-11, 3e-10, 3e-9)  # of the span: nearer still, where nothing is degenerate there
-_SAME_PLACE = 0.3  # in e, from one value to the next
-_BEYOND = 0.1, 0.4  # of the way from where a pair may be born to the next value
-_PARTS = 0.01, 0.1, 0.4  # of the way from a special value to its neighbour on the grid
+_MIN_VALUES = 7  # values at least on each piece
+SIDE_STEP = 1e-7  # of the span: where the two sides of a special value are looked at
+_REFINEMENTS, _REFINED_SPACING = (
+    3,
+    1e-5,
+)  # times that values between those of the grid are added; how far apart, of the span
+_MAX_CHANGES = 10  # between two neighbouring values of the grid, nested
+_MIN_WIDTH = 1e-12  # of the span
+_NEARER_STEPS = (3e-11, 3e-10, 3e-9)  # of the span: nearer still, where nothing is degenerate there
+_MAX_MOVE = 0.3  # in e, from one value to the next
+_BIRTH_SAMPLES = 0.1, 0.4  # of the way from where a pair may be born to the next value
+_NEIGHBOUR_SAMPLES = 0.01, 0.1, 0.4  # of the way from a special value to its neighbour on the grid
 
 
 def pieces_between(
-    state: States, grid: Sequence[State], width: float, rounds: int = _CLOSER
+    state: States, grid: Sequence[State], width: float, rounds: int = _REFINEMENTS
 ) -> tuple[list[list[State]], list[Change]]:
     """Part the states where something changes; look again on each piece, where two changes may undo each other."""
     pieces: list[list[State]] = [[grid[0]]]
@@ -49,7 +51,7 @@ def pieces_between(
     for i, piece in enumerate(pieces):
         known = _fill_piece(state, piece)
         for _ in range(rounds):
-            more = [state(v) for v in _suspect_values(known, _APART * width)]
+            more = [state(v) for v in _suspect_values(known, _REFINED_SPACING * width)]
             known = sorted([*known, *more], key=lambda s: s.value)
             if not more or any(s.difference(known[0]) is not None for s in more):
                 break
@@ -67,8 +69,8 @@ def _fill_piece(state: States, piece: Sequence[State]) -> list[State]:
     """Add states to a piece that has few, in order."""
     known = sorted(piece, key=lambda s: s.value)
     low, high = known[0].value, known[-1].value
-    if len(known) < _LEAST and high > low:
-        known = sorted([*known, *(state(v) for v in np.linspace(low, high, _LEAST)[1:-1])], key=lambda s: s.value)
+    if len(known) < _MIN_VALUES and high > low:
+        known = sorted([*known, *(state(v) for v in np.linspace(low, high, _MIN_VALUES)[1:-1])], key=lambda s: s.value)
     return known
 
 
@@ -95,7 +97,7 @@ def _suspect_values(run: Sequence[State], least: float) -> list[float]:
     return [v for v in sorted(found) if abs(known - v).min() > least]
 
 
-def _extrapolated_zeros(x: Array, turns: Sequence[Turns]) -> Iterator[float]:
+def _extrapolated_zeros(x: Array, turns: Sequence[WindingTest]) -> Iterator[float]:
     """Values just past where what turns back before zero comes to it, by its size at two values before.
 
     A pair may be born there, and another one vanish before the next value. Where it does not seem to come to zero and
@@ -104,25 +106,25 @@ def _extrapolated_zeros(x: Array, turns: Sequence[Turns]) -> Iterator[float]:
     for i in range(1, len(x) - 1):
         (before, one), (here, two), (after, _) = turns[i - 1 : i + 2]
         for place, size in zip(here, two, strict=True):
-            if not len(before) or np.hypot(*(after - place).T).min(initial=math.inf) < _SAME_PLACE:
+            if not len(before) or np.hypot(*(after - place).T).min(initial=math.inf) < _MAX_MOVE:
                 continue  # it is still there: `_lined_up` tells
             away = np.hypot(*(before - place).T)
-            if away.min() < _SAME_PLACE and 0.0 < size < one[away.argmin()]:
+            if away.min() < _MAX_MOVE and 0.0 < size < one[away.argmin()]:
                 zero = x[i] + size * (x[i] - x[i - 1]) / (one[away.argmin()] - size)
                 if (zero - x[i]) * (zero - x[i + 1]) < 0.0:
-                    yield from (float(zero + part * (x[i + 1] - zero)) for part in _BEYOND)
+                    yield from (float(zero + part * (x[i + 1] - zero)) for part in _BIRTH_SAMPLES)
                     continue
             yield float(0.5 * (x[i] + x[i + 1]))
 
 
-def _lined_up(turns: Sequence[Turns]) -> Iterator[Array]:
+def _lined_up(turns: Sequence[WindingTest]) -> Iterator[Array]:
     """Sizes of what turns back before zero at three neighbouring values, in the same place."""
     (first, one), (middle, two), (last, three) = turns
     if not (len(first) and len(last)):
         return
     for place, size in zip(middle, two, strict=True):
         before, after = np.hypot(*(first - place).T), np.hypot(*(last - place).T)
-        if max(before.min(), after.min()) < _SAME_PLACE:
+        if max(before.min(), after.min()) < _MAX_MOVE:
             yield np.array([one[before.argmin()], size, three[after.argmin()]])
 
 
@@ -152,12 +154,12 @@ def _functions(run: Sequence[State]) -> Iterator[Array]:
         yield np.array([1.0 - float(C.e @ C.e) for C in column])
 
 
-def _changes(state: States, left: State, right: State, width: float, deeper: int = _MOST_CHANGES) -> Iterator[Change]:
+def _changes(state: States, left: State, right: State, width: float, deeper: int = _MAX_CHANGES) -> Iterator[Change]:
     """All changes between two states, in order: the value, and the states beside it."""
     part = left.difference(right)
     if part is None or not deeper:
         return
-    value = narrow_change(state, left, right, part, _NARROW * width)
+    value = narrow_change(state, left, right, part, _MIN_WIDTH * width)
     state.check(value)
     before, after = _state_beside(state, left, value, width), _state_beside(state, right, value, width)
     for one, two in pairwise(_way(state, left, before, width)):
@@ -170,8 +172,8 @@ def _changes(state: States, left: State, right: State, width: float, deeper: int
 def _state_beside(state: States, far: State, value: float, width: float) -> State:
     """Return the state beside a special value, towards `far`: nearer where that differs, as one more lies between."""
     side = math.copysign(1.0, far.value - value)
-    near = far if abs(far.value - value) <= BESIDE * width else state(value + side * BESIDE * width)
-    for distance in _NEARER:
+    near = far if abs(far.value - value) <= SIDE_STEP * width else state(value + side * SIDE_STEP * width)
+    for distance in _NEARER_STEPS:
         if distance * width >= abs(near.value - value):
             break
         nearer = state(value + side * distance * width)
@@ -186,9 +188,9 @@ def _state_beside(state: States, far: State, value: float, width: float) -> Stat
 def _way(state: States, left: State, right: State, width: float) -> list[State]:
     """Return the states from one to the other, and between them those in which a short pair of changes may show."""
     room = right.value - left.value
-    if room <= _APART * width:
+    if room <= _REFINED_SPACING * width:
         return [left, right]
-    parts = {1.0 - t if beside else t for beside in (False, True) for t in _PARTS}
+    parts = {1.0 - t if beside else t for beside in (False, True) for t in _NEIGHBOUR_SAMPLES}
     return [left, *(state(left.value + t * room) for t in sorted(parts)), right]
 
 

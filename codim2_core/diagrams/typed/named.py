@@ -13,27 +13,27 @@ from ...words import say
 from ..result import SpecialValue
 from .state import Array, State
 
-_TOGETHER = 0.05  # radians, or distance in p, within which lies what is one at the special value, beside it
-_NEAR_EQUATOR = 1e-3  # 1 - |e| of a critical set that reaches the equator at the special value, beside it
+_SAME_EVENT_DISTANCE = 0.05  # radians, or distance in p, within which lies what is one at the special value, beside it
+_EQUATOR_DISTANCE = 1e-3  # 1 - |e| of a critical set that reaches the equator at the special value, beside it
 
 
 def name_changes(value: float, before: State, after: State) -> list[SpecialValue]:
     """Name all that happens between two states beside each other."""
-    return [*_on_equator(value, before, after), *_of_sets(value, before, after)]
+    return [*_name_equator_changes(value, before, after), *_of_sets(value, before, after)]
 
 
-def _on_equator(value: float, before: State, after: State) -> list[SpecialValue]:
+def _name_equator_changes(value: float, before: State, after: State) -> list[SpecialValue]:
     """Name what limit directions do, and the closed equator."""
     out = []
     one, two = before.equator.theta, after.equator.theta
     if len(one) != len(two):
         more, fewer = (one, two) if len(one) > len(two) else (two, one)
-        out += [_meeting_value(value, *met) for met in _meetings(more, fewer)]
+        out += [_meeting_value(value, *met) for met in _merged_directions(more, fewer)]
     elif len(one):
         # as many on both sides: some may have gone while others came
         away = abs(np.angle(np.exp(1j * (one[:, None] - two))))
-        gone, come = one[away.min(axis=1) > _TOGETHER], two[away.min(axis=0) > _TOGETHER]
-        out += [_meeting_value(value, *met) for side in (gone, come) for met in _meetings(side, side[:0])]
+        gone, come = one[away.min(axis=1) > _SAME_EVENT_DISTANCE], two[away.min(axis=0) > _SAME_EVENT_DISTANCE]
+        out += [_meeting_value(value, *met) for side in (gone, come) for met in _merged_directions(side, side[:0])]
     if before.exponent is not None and after.exponent is not None and before.part(2) != after.part(2):
         out.append(SpecialValue("neutral equator", value, (0.0, 0.0), say("equator neutral")))
     return out
@@ -48,7 +48,7 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
         for C in side:
             t = math.atan2(float(C.e[1]), float(C.e[0]))
             away = abs(np.angle(np.exp(1j * (other.equator.theta - t)))).min(initial=math.inf)
-            if 1.0 - float(np.hypot(*C.e)) < _NEAR_EQUATOR and away < _TOGETHER:
+            if 1.0 - float(np.hypot(*C.e)) < _EQUATOR_DISTANCE and away < _SAME_EVENT_DISTANCE:
                 t %= 2.0 * math.pi
                 out.append(
                     SpecialValue(
@@ -69,7 +69,7 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
             kinds = sorted("saddle" if C.kind == "saddle" else "node" for C in near)
             out.append(
                 SpecialValue(
-                    "fold of critical sets", value, _middle(near), say("two sets meet", one=kinds[1], other=kinds[0])
+                    "fold of critical sets", value, _midpoint(near), say("two sets meet", one=kinds[1], other=kinds[0])
                 )
             )
         for C in inner:
@@ -96,18 +96,18 @@ def _match_states(
     near = sorted((math.dist(C.p, D.p), i, j) for i, C in enumerate(before) for j, D in enumerate(after))
     joined: list[tuple[int, int]] = []
     for gap, i, j in near:
-        if gap < _TOGETHER and not any(i == k or j == m for k, m in joined):
+        if gap < _SAME_EVENT_DISTANCE and not any(i == k or j == m for k, m in joined):
             joined.append((i, j))
     gone = [C for i, C in enumerate(before) if i not in {i for i, _ in joined}]
     come = [D for j, D in enumerate(after) if j not in {j for _, j in joined}]
     return [(before[i], after[j]) for i, j in joined], gone, come
 
 
-def _meetings(more: Array, fewer: Array) -> list[tuple[int, float]]:
+def _merged_directions(more: Array, fewer: Array) -> list[tuple[int, float]]:
     """Return how many limit directions meet and where, by comparing the two sides."""
     away = np.abs(np.remainder(more[:, None] - fewer + math.pi, 2.0 * math.pi) - math.pi)
     own = away.argmin(axis=1) if len(fewer) else np.zeros(len(more), int)
-    close = away.min(axis=1, initial=math.inf) < _TOGETHER
+    close = away.min(axis=1, initial=math.inf) < _SAME_EVENT_DISTANCE
     met = [(3, float(fewer[j])) for j in range(len(fewer)) if (close & (own == j)).sum() == 3]
     alone = more[~close]
     if len(alone):
@@ -132,11 +132,11 @@ def _turned_set(
     saddles = [C.kind == "saddle" for C in near]
     if saddles[0] != saddles[1]:
         return None
-    middle, reach = _middle(near), _TOGETHER + 0.5 * math.dist(near[0].p, near[1].p)
+    middle, reach = _midpoint(near), _SAME_EVENT_DISTANCE + 0.5 * math.dist(near[0].p, near[1].p)
     turned = [pair for pair in pairs if sum(C.kind == "saddle" for C in pair) == 1]
     return next((pair for pair in turned if math.dist(pair[1].p, middle) < reach), None)
 
 
-def _middle(pair: tuple[CriticalSet, CriticalSet]) -> tuple[float, float]:
+def _midpoint(pair: tuple[CriticalSet, CriticalSet]) -> tuple[float, float]:
     p = 0.5 * (pair[0].p + pair[1].p)
     return float(p[0]), float(p[1])

@@ -10,8 +10,10 @@ from .state import State
 
 Measure = Callable[[State], float]
 
-_SECANTS, _WIDER = 10, 5  # steps towards a zero; times that it is enclosed ten times more widely
-_ENCLOSED = 0.4  # of what is narrow enough: how far to either side of a zero it is looked whether the part changes
+_MAX_SECANTS, _MAX_WIDENINGS = 10, 5  # steps towards a zero; times that it is enclosed ten times more widely
+_ENCLOSURE_SHARE = (
+    0.4  # of what is narrow enough: how far to either side of a zero it is looked whether the part changes
+)
 
 
 def narrow_change(state: States, left: State, right: State, part: int, narrow: float) -> float:
@@ -24,8 +26,8 @@ def narrow_change(state: States, left: State, right: State, part: int, narrow: f
     measure = _measure(left, right, part)
     if measure is not None:
         expected = _zero(bracket, measure, narrow)
-        reach = _ENCLOSED * narrow
-        for _ in range(_WIDER if expected is not None else 0):
+        reach = _ENCLOSURE_SHARE * narrow
+        for _ in range(_MAX_WIDENINGS if expected is not None else 0):
             assert expected is not None
             bracket.look(expected - reach)
             bracket.look(expected + reach)
@@ -66,7 +68,7 @@ class _Bracket:
 def _zero(bracket: _Bracket, measure: Measure, narrow: float) -> float | None:
     """Follow secants of a measure to its zero between two states; None where they lead elsewhere."""
     x, y = (bracket.low.value, bracket.high.value), (measure(bracket.low), measure(bracket.high))
-    for _ in range(_SECANTS):
+    for _ in range(_MAX_SECANTS):
         if not (math.isfinite(y[0]) and math.isfinite(y[1])) or y[0] == y[1]:
             return None
         value = x[1] - y[1] * (x[1] - x[0]) / (y[1] - y[0])
@@ -84,7 +86,7 @@ def _measure(left: State, right: State, part: int) -> Measure | None:
     one, two = left.equator, right.equator
     if part == 0 and len(one) == len(two):
         for i, theta in enumerate(one.theta.tolist()):
-            j = _nearest(right, theta)
+            j = _nearest_direction(right, theta)
             if one.kind(i) != two.kind(j):
                 middle = theta + 0.5 * math.remainder(float(two.theta[j]) - theta, 2.0 * math.pi)
                 return _of_direction(middle, float(one.lambda_rho[i] * two.lambda_rho[j]) < 0.0)
@@ -98,7 +100,7 @@ def _measure(left: State, right: State, part: int) -> Measure | None:
     return None
 
 
-def _nearest(state: State, theta: float) -> int:
+def _nearest_direction(state: State, theta: float) -> int:
     """Return the limit direction (from 0) nearest to an angle."""
     gaps = [abs(math.remainder(theta - other, 2.0 * math.pi)) for other in state.equator.theta.tolist()]
     return min(range(len(gaps)), key=gaps.__getitem__)
@@ -111,7 +113,7 @@ def _of_direction(theta: float, radial: bool) -> Measure:
         equator = state.equator
         if not len(equator):
             return math.nan
-        return float((equator.lambda_rho if radial else equator.lambda_theta)[_nearest(state, theta)])
+        return float((equator.lambda_rho if radial else equator.lambda_theta)[_nearest_direction(state, theta)])
 
     return measure
 

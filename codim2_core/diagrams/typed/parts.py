@@ -5,33 +5,33 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...arrays import Array
 from ...psi.function import Psi
 from ..equator import link_zeros
 from ..result import ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
-from .changes import BESIDE, match_sets, pieces_between
+from .changes import SIDE_STEP, match_sets, pieces_between
 from .named import name_changes
 from .rounding import RoughError, States
 from .state import State
 
 __all__ = ["general_parts"]
 
-Array = NDArray[np.float64]
-Parts = tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
+GeneralParts = tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
 
-_GRID = 48
+_GRID_CELLS = 48
 
 
-def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike) -> Parts:
+def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike) -> GeneralParts:
     """Branches and special values of any system; see `diagram`."""
     state = States(system, psi, name, span, z)
     low, high = span
     width = high - low
     # off the round numbers on which special values like to lie
-    u = (np.arange(_GRID + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(_GRID + 1))) / _GRID
+    u = (np.arange(_GRID_CELLS + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(_GRID_CELLS + 1))) / _GRID_CELLS
     u[[0, -1]] = 0.0, 1.0
-    values = (low + width * np.clip(u, BESIDE, 1.0 - BESIDE)).tolist()
+    values = (low + width * np.clip(u, SIDE_STEP, 1.0 - SIDE_STEP)).tolist()
     while True:
         try:
             pieces, changes = pieces_between(state, [state(v) for v in values], width)
@@ -45,7 +45,7 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     for piece in pieces:
         states = [s for s in piece if s.difference(piece[0]) is None]
         values = np.array([s.value for s in states])
-        equator += _directions(values, states)
+        equator += _direction_branches(values, states)
         critical += _sets(values, states)
         if states[0].exponent is not None:
             sign = states[len(states) // 2].exponent or 0.0
@@ -55,7 +55,7 @@ def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z
     return equator, closed, critical, special
 
 
-def _directions(values: Array, states: list[State]) -> list[DirectionBranch]:
+def _direction_branches(values: Array, states: list[State]) -> list[DirectionBranch]:
     first = states[0].equator
     if not len(first):
         return []

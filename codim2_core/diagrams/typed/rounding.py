@@ -18,14 +18,14 @@ from ...systems.bounds import slow_values
 from ...systems.typed_at_z import Frozen
 from .state import State
 
-_ANGLES = 2.0 * np.pi * np.arange(32) / 32
-_AROUND = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1)
+_TEST_ANGLES = 2.0 * np.pi * np.arange(32) / 32
+_TEST_POINTS = np.stack([np.cos(_TEST_ANGLES), np.sin(_TEST_ANGLES)], axis=-1)
 #: Of the span: so near, and at no even steps, U is a parabola but for its rounding.
-_BESIDE = 1e-14 * np.array([-3.0, -1.3, 0.0, 1.7, 3.1])
-_PARABOLA = np.vander(_BESIDE / _BESIDE.max(), 3)
-_REST = np.eye(len(_BESIDE)) - _PARABOLA @ np.linalg.pinv(_PARABOLA)
-_ROUGH = 1e-11  # of |U|: less moves no zero that is told from its neighbours
-_ASIDE = 2.0 ** np.arange(-32.0, -5.0)  # of the span: how far from a rough value one that is not is looked for
+_TEST_OFFSETS = 1e-14 * np.array([-3.0, -1.3, 0.0, 1.7, 3.1])
+_PARABOLA_BASIS = np.vander(_TEST_OFFSETS / _TEST_OFFSETS.max(), 3)
+_RESIDUAL_PROJECTOR = np.eye(len(_TEST_OFFSETS)) - _PARABOLA_BASIS @ np.linalg.pinv(_PARABOLA_BASIS)
+_MIN_ROUGHNESS = 1e-11  # of |U|: less moves no zero that is told from its neighbours
+_SMOOTH_OFFSETS = 2.0 ** np.arange(-32.0, -5.0)  # of the span: how far from a rough value one that is not is looked for
 
 
 class RoughError(ArithmeticError):
@@ -74,7 +74,7 @@ class States:
             return
         (low, high), ends = self._span, []
         for side in (-1.0, 1.0):
-            beside = (value + side * (high - low) * _ASIDE).tolist()
+            beside = (value + side * (high - low) * _SMOOTH_OFFSETS).tolist()
             ends.append(next((v for v in beside if not low < v < high or self._is_clear(v)), None))
         if None not in ends:
             raise RoughError((max(ends[0], low), min(ends[1], high)))
@@ -85,9 +85,9 @@ class States:
 
     def _is_clear(self, value: float) -> bool:
         (low, high), U = self._span, []
-        for near in np.clip(value + (high - low) * _BESIDE, low, high).tolist():
+        for near in np.clip(value + (high - low) * _TEST_OFFSETS, low, high).tolist():
             at, _, z_at = vary(*self._given, near)
             frozen = at if at.frozen else Frozen(at.typed, slow_values(z_at, at.m, needed=False))
-            U.append(program(frozen.key).at(_AROUND)[:, :, 0])
+            U.append(program(frozen.key).at(_TEST_POINTS)[:, :, 0])
         values: NDArray[np.float64] = np.array(U)
-        return bool(np.abs(np.tensordot(_REST, values, 1)).max() <= _ROUGH * np.abs(values).max())
+        return bool(np.abs(np.tensordot(_RESIDUAL_PROJECTOR, values, 1)).max() <= _MIN_ROUGHNESS * np.abs(values).max())

@@ -8,8 +8,9 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...arrays import Array
 from ...expressions.arrays import program
 from ...layer_problem.critical import CriticalSet
 from ...layer_problem.disc_zeros import disc_zeros
@@ -18,18 +19,17 @@ from ...layer_problem.problem import LayerProblem
 from ...layer_problem.vary import vary
 from ...psi.function import Psi
 
-__all__ = ["State", "Turns"]
+__all__ = ["State", "WindingTest"]
 
-Array = NDArray[np.float64]
-Turns = tuple[Array, Array]  # places (k, 2) in the closed disc, and sizes (k,)
+WindingTest = tuple[Array, Array]  # places (k, 2) in the closed disc, and sizes (k,)
 
-_ANGLES = 2.0 * np.pi * np.arange(256) / 256
-_CIRCLE = np.stack([np.cos(_ANGLES), np.sin(_ANGLES)], axis=-1)
-_SIDE = 25
-_NET = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, _SIDE)]), axis=-1)  # of the disc, where |U| is looked at
-_WITHIN = np.hypot(_NET[..., 0], _NET[..., 1]) < 1.0 + 1.0 / _SIDE
-_POLISHES, _LONGEST, _ZERO, _STEP = 6, 0.1, 1e-9, 1e-4
-_STENCIL = _STEP * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
+_EQUATOR_ANGLES = 2.0 * np.pi * np.arange(256) / 256
+_CIRCLE = np.stack([np.cos(_EQUATOR_ANGLES), np.sin(_EQUATOR_ANGLES)], axis=-1)
+_NET_SIDE = 25
+_NET = np.stack(np.meshgrid(*2 * [np.linspace(-1.0, 1.0, _NET_SIDE)]), axis=-1)  # of the disc, where |U| is looked at
+_IN_DISC = np.hypot(_NET[..., 0], _NET[..., 1]) < 1.0 + 1.0 / _NET_SIDE
+_MAX_NEWTON, _MAX_CORRECTION, _ZERO_TOLERANCE, _DIFFERENCE_STEP = 6, 0.1, 1e-9, 1e-4
+_STENCIL = _DIFFERENCE_STEP * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
 
 
 class State:
@@ -51,7 +51,7 @@ class State:
         return self._problem.equator
 
     @cached_property
-    def near_directions(self) -> Turns:
+    def near_directions(self) -> WindingTest:
         """Return where |Theta| has a positive minimum, and its size: there two limit directions may appear."""
         U, _ = self._field(_CIRCLE)
         value = _CIRCLE[:, 0] * U[:, 1] - _CIRCLE[:, 1] * U[:, 0]
@@ -63,24 +63,24 @@ class State:
         return _CIRCLE[turns], size - np.where(bend > 0.0, rise, 0.0) ** 2 / (8.0 * np.where(bend > 0.0, bend, 1.0))
 
     @cached_property
-    def near_sets(self) -> Turns:
+    def near_sets(self) -> WindingTest:
         """Return where |U| has a positive minimum in the disc, and its size: there two critical sets may appear."""
         size = np.hypot(*np.moveaxis(self._field(_NET)[0], -1, 0))
         padded = np.pad(size, 1, constant_values=math.inf)
-        around = [padded[i : i + _SIDE, j : j + _SIDE] for i in range(3) for j in range(3) if (i, j) != (1, 1)]
-        e = _NET[(size <= np.min(around, axis=0)) & _WITHIN]
-        for _ in range(_POLISHES):
+        around = [padded[i : i + _NET_SIDE, j : j + _NET_SIDE] for i in range(3) for j in range(3) if (i, j) != (1, 1)]
+        e = _NET[(size <= np.min(around, axis=0)) & _IN_DISC]
+        for _ in range(_MAX_NEWTON):
             beside = e[:, None] + _STENCIL  # Newton on half the gradient of |U|^2, downhill
             U, DU = self._field(beside)
             slope = np.einsum("knji,knj->kni", DU, U)
-            bend = (slope[:, 1:3] - slope[:, 3:]) / (2.0 * _STEP)
+            bend = (slope[:, 1:3] - slope[:, 3:]) / (2.0 * _DIFFERENCE_STEP)
             if not np.isfinite(bend).all():
                 return e[:0], np.zeros(0)
             rate, way = np.linalg.eigh(bend + np.swapaxes(bend, 1, 2))
             along = np.einsum("kji,kj->ki", way, slope[:, 0]) / np.maximum(0.5 * abs(rate), 1e-300)
-            e = e - np.einsum("kij,kj->ki", way, np.clip(along, -_LONGEST, _LONGEST))
+            e = e - np.einsum("kij,kj->ki", way, np.clip(along, -_MAX_CORRECTION, _MAX_CORRECTION))
         left = np.hypot(*self._field(e)[0].T)
-        turns = (np.hypot(*e.T) < 1.0) & (left > _ZERO * size.max())
+        turns = (np.hypot(*e.T) < 1.0) & (left > _ZERO_TOLERANCE * size.max())
         return e[turns], left[turns]
 
     @property

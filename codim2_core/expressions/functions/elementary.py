@@ -18,7 +18,7 @@ def _exp_slope(a, v):
     return v
 
 
-def _log(a):
+def _log_derivatives(a):
     return math.log(a)
 
 
@@ -68,7 +68,7 @@ EXP = Function(
     sign="positive", entire=True, source="math.exp({0})",
 )  # fmt: skip
 LOG = Function(
-    "log", math.log, np.log, plain(_log, _log_slope), lambda build, k, u: u,
+    "log", math.log, np.log, plain(_log_derivatives, _log_slope), lambda build, k, u: u,
     divides=True, source="math.log({0})",
 )  # fmt: skip
 SQRT = Function(

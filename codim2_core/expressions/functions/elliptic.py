@@ -121,7 +121,7 @@ def _rate_c2(build: Any, k: int, u: int) -> int:
     return build.apply("/", build.apply("-", rest, build.apply("*", build.number(3.0), k)), u)
 
 
-def _function(i: int, name: str, rate: Callable[[Any, int, int], int]) -> Function:
+def _elliptic_function(i: int, name: str, rate: Callable[[Any, int, int], int]) -> Function:
     scalar = _single_integral(integrals, i)
     return Function(
         name, scalar, np.vectorize(scalar, otypes=[float]), _kernels(i), rate, sign="positive", blur=BLUR, until=1.0
@@ -129,7 +129,7 @@ def _function(i: int, name: str, rate: Callable[[Any, int, int], int]) -> Functi
 
 
 ELLIPTIC = tuple(
-    _function(i, name, rate)
+    _elliptic_function(i, name, rate)
     for i, (name, rate) in enumerate(
         (("ellipk", _rate_k), ("ellipe", _rate_e), ("ellipb", _rate_b), ("ellipb2", _rate_b2), ("ellipc2", _rate_c2))
     )

@@ -41,10 +41,10 @@ def _no_slope(k, a, v):
 
 
 _both = {one.name: one.kernels(_jit) for one in FUNCTIONS}
-_backwards = [(code[name], *pair) for name, pair in reversed(_both.items())]
+_reversed_kernels = [(code[name], *pair) for name, pair in reversed(_both.items())]
 #: f(a) of the function with a code, and f'(a) from a and f(a).
-value = reduce(lambda rest, one: _otherwise(one[1], one[0], rest), _backwards, _none)
-slope = reduce(lambda rest, one: _otherwise_slope(one[2], one[0], rest), _backwards, _no_slope)
+value = reduce(lambda rest, one: _otherwise(one[1], one[0], rest), _reversed_kernels, _none)
+slope = reduce(lambda rest, one: _otherwise_slope(one[2], one[0], rest), _reversed_kernels, _no_slope)
 
 #: What compiled source calls by its name.
 called: Mapping[str, Any] = MappingProxyType({one.name: _both[one.name][0] for one in FUNCTIONS if not one.source})

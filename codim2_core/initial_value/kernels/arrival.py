@@ -37,7 +37,7 @@ def write_at(S, m, c, s):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _size(S, m):
+def _field_sizes(S, m):
     """Size of D_e U, and of U."""
     width = 4 + m
     slopes = max(max(abs(S[TABLE]), abs(S[TABLE + 1])), max(abs(S[TABLE + width]), abs(S[TABLE + width + 1])))
@@ -52,7 +52,7 @@ def _on_the_only_set(S, m):
     a, b, c, d = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
     u, v = S[RATES], S[RATES + 1]
     largest = 0.5 * (a + d) + math.hypot(0.5 * (a - d), 0.5 * (b + c))
-    if not largest < -SIGNED * _size(S, m)[0]:
+    if not largest < -SIGNED * _field_sizes(S, m)[0]:
         return False
     det = a * d - b * c
     S[SET_PLACE], S[SET_PLACE + 1] = (b * v - d * u) / det, (c * u - a * v) / det
@@ -73,7 +73,7 @@ def _in_line(S, m, n1, n2, theta):
     """Whether an arrival in an invariant line slides; the set is in place."""
     q = math.copysign(1.0, n1 * math.cos(theta) + n2 * math.sin(theta))
     low, high, found = q, q, False
-    if not _radial_speed(S, m, n1, n2, q)[0] * q < -SIGNED * _size(S, m)[1]:
+    if not _radial_speed(S, m, n1, n2, q)[0] * q < -SIGNED * _field_sizes(S, m)[1]:
         return False
     for k in range(1, ZERO_NET + 1):
         high = q - 2.0 * q * k / ZERO_NET
@@ -93,7 +93,7 @@ def _in_line(S, m, n1, n2, theta):
             low = middle
         else:
             high = middle
-    attracts = slope < -SIGNED * _size(S, m)[0]
+    attracts = slope < -SIGNED * _field_sizes(S, m)[0]
     S[SET_PLACE], S[SET_PLACE + 1] = high * n1, high * n2
     return attracts and abs(high) < 1.0 - SIGNED and found_set(S, m)
 
@@ -108,7 +108,7 @@ def _limit_direction(S, m, theta):
         write_at(S, m, c, s)
         u, v = S[RATES], S[RATES + 1]
         D11, D12, D21, D22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
-        radial, size = c * u + s * v, _size(S, m)[1]
+        radial, size = c * u + s * v, _field_sizes(S, m)[1]
         slope = s * (s * D11 - c * D12) + c * (c * D22 - s * D21) - radial
         change = (c * v - s * u) / slope
         angle -= change
@@ -156,7 +156,7 @@ def _is_captured(S, P, gain, m, p, q):
     D11, D12, D21, D22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
     r = math.hypot(e1, e2)
     n1, n2 = (e1 / r, e2 / r) if r > 0.0 else (1.0, 0.0)
-    radial, size = n1 * (n1 * D11 + n2 * D12) + n2 * (n1 * D21 + n2 * D22), _size(S, m)[0]
+    radial, size = n1 * (n1 * D11 + n2 * D12) + n2 * (n1 * D21 + n2 * D22), _field_sizes(S, m)[0]
     across = D11 + D22 - radial  # tr J is a sum of both, each times a positive number
     return max(radial, across) < -SIGNED * size and ATTRACTS * size * size < D11 * D22 - D12 * D21
 

@@ -28,16 +28,16 @@ from .motion import (
     LEAST_STEP,
     NEXT,
     STEPS_PER_CALL,
-    follow,
+    integrate_motion,
     longer,
     prepare_motion,
 )
-from .rate import Motion, rate
+from .rate import MotionConstants, rate
 from .slow import RATES, SET_PLACE, SLOPES, SLOW_EXTENT, SLOW_RATES, VALUE, found_set
 from .stages import tableau_of, work_on
 
 SLIP, SLIDE, LEAVE = range(3)  # what a phase is; one that begins with LEAVE is a slip
-ROW = 5  # numbers of a phase: its motion, what it is, its first and last step, the angle it comes along
+PHASE_NUMBERS = 5  # numbers of a phase: its motion, what it is, its first and last step, the angle it comes along
 TOLD = 5  # numbers of a motion: its steps and phases, what is handed over (or WHOLE), the angle, evaluations
 WHOLE = -1
 MIN_STEP = 1e-14  # of the time in which z changes by its own size: shorter steps mean that a set ends
@@ -192,13 +192,13 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
     linear, square, values = np.zeros(n), np.zeros(n), np.zeros((GAUGES, SAFE_DEGREE + 1))
     room, row = STEPS_PER_CALL + 64 * k, 0
     times, lengths, states, polynomials = np.empty(room), np.empty(room), np.empty(room * n), np.empty(room * each)
-    sets, phases, count = np.empty(2 * room), np.empty(ROW * (8 + 4 * k)), 0
+    sets, phases, count = np.empty(2 * room), np.empty(PHASE_NUMBERS * (8 + 4 * k)), 0
     told = np.zeros((k, TOLD))
     for i in range(k):
         line1, line2 = lines[i, 0], lines[i, 1]
-        slip = Motion(addresses[0], addresses[1], addresses[2], n, 0.0, OF_SLIPS * rtol, floor, line1, line2)
+        slip = MotionConstants(addresses[0], addresses[1], addresses[2], n, 0.0, OF_SLIPS * rtol, floor, line1, line2)
         # eps is read as the size by which errors of e are measured: 1 and more
-        slow = Motion(addresses[3], addresses[4], addresses[2], n, 1.0, rtol, floor, line1, line2)
+        slow = MotionConstants(addresses[3], addresses[4], addresses[2], n, 1.0, rtol, floor, line1, line2)
         begun, begun_phases, kind, theta, evaluations = row, count, SLIP, math.nan, 0.0
         for j in range(n):
             y[j] = first[i, j]
@@ -244,7 +244,7 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                 ways = polynomials[row * each : (row + STEPS_PER_CALL - 1) * each].reshape(
                     (STEPS_PER_CALL - 1, n, explicit.DENSE_DEGREE)
                 )
-                code, filled = follow(
+                code, filled = integrate_motion(
                     motion, table, work, y, clock, control,
                     times[row + 1 : row + STEPS_PER_CALL], lengths[row : row + STEPS_PER_CALL - 1], ends, ways,
                 )  # fmt: skip
@@ -285,9 +285,9 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
             if not decided:
                 row, theta = start, came
                 break
-            if ROW * (count + 1) > len(phases):
+            if PHASE_NUMBERS * (count + 1) > len(phases):
                 phases = longer(phases, 2 * len(phases))
-            at = ROW * count
+            at = PHASE_NUMBERS * count
             phases[at], phases[at + 1], phases[at + 2], phases[at + 3] = i, kind, start - begun, row - begun
             phases[at + 4] = came
             count += 1
@@ -302,5 +302,5 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
         row += 1
     return (
         times[:row], lengths[:row], states[: row * n], polynomials[: row * each], sets[: 2 * row],
-        phases[: ROW * count], told,
+        phases[: PHASE_NUMBERS * count], told,
     )  # fmt: skip

@@ -20,33 +20,38 @@ MAX_COMPONENTS = 8  # components at most; a longer state is followed implicitly
 STIFF = 0.4  # h times a rate from which on a step may be short for stability alone, or for its loss of order
 STEP_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step: its estimate is sharper than that of Radau IIA
 
-_rows = {
+_row_kernels = {
     name: RATE_PLACES + getattr(layout, name) // layout.ROW_WIDTH * MAX_COMPONENTS
     for name in (*(f"K{k}" for k in range(16)), "STATE", "TRIAL", "STEP_ROW", "NEW", "ERROR_5", "ERROR_3", "DENSE_ROWS")
 }
-K0, K11, K12 = _rows["K0"], _rows["K11"], _rows["K12"]
-STATE, TRIAL, STEP_ROW, NEW = _rows["STATE"], _rows["TRIAL"], _rows["STEP_ROW"], _rows["NEW"]
-ERROR_5, ERROR_3, DENSE_ROW = _rows["ERROR_5"], _rows["ERROR_3"], _rows["DENSE_ROWS"]
+K0, K11, K12 = _row_kernels["K0"], _row_kernels["K11"], _row_kernels["K12"]
+STATE, TRIAL, STEP_ROW, NEW = (
+    _row_kernels["STATE"],
+    _row_kernels["TRIAL"],
+    _row_kernels["STEP_ROW"],
+    _row_kernels["NEW"],
+)
+ERROR_5, ERROR_3, DENSE_ROW = _row_kernels["ERROR_5"], _row_kernels["ERROR_3"], _row_kernels["DENSE_ROWS"]
 ROOM = RATE_PLACES + layout.WORKSPACE // layout.ROW_WIDTH * MAX_COMPONENTS
 DENSE_DEGREE = 7  # of the dense output
 
 
 @njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
-def _field(motion, S, source, target, P):  # noqa: ARG001 (called as `layout.call_field` is)
+def _evaluate_field(motion, S, source, target, P):  # noqa: ARG001 (called as `layout.call_field` is)
     rate_between(motion, S, source, S, S, target)
 
 
-def _of_one(function: Any) -> Any:
+def _compile_component(function: Any) -> Any:
     """Compile a function of all lanes for the components of one state."""
     own = function.py_func
-    scope = {**own.__globals__, **_rows, "ROW_WIDTH": MAX_COMPONENTS, "call_field": _field}
+    scope = {**own.__globals__, **_row_kernels, "ROW_WIDTH": MAX_COMPONENTS, "call_field": _evaluate_field}
     made = FunctionType(own.__code__, scope, own.__name__)
     # The disk cache knows a function by its file and its qualified name.
     made.__module__, made.__qualname__ = own.__module__, f"{own.__name__}_of_one"
     return njit(cache=True, nogil=True, fastmath=dop853.ARITHMETIC, error_model="numpy")(made)
 
 
-_advance, _interpolate = _of_one(dop853.advance), _of_one(dop853.interpolate)
+_advance, _interpolate = _compile_component(dop853.advance), _compile_component(dop853.interpolate)
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")

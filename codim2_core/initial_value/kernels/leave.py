@@ -14,7 +14,7 @@ _pace = njit(cache=True, nogil=True, error_model="numpy")(pace)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _polish_zero(S, m, theta):
+def _polish_theta(S, m, theta):
     """Return the zero of Theta near theta, by Newton's method; NaN where there is none."""
     angle, width = theta, 4 + m
     for _ in range(MAX_NEWTON):
@@ -50,7 +50,7 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
     """
     width, in_line = 4 + m, n1 != 0.0 or n2 != 0.0
     if not in_line:
-        theta = _polish_zero(S, m, theta)
+        theta = _polish_theta(S, m, theta)
         if not math.isfinite(theta):
             return 0.0
     c, s = math.cos(theta), math.sin(theta)

@@ -15,7 +15,7 @@ from numba import njit
 from ...numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH
 from .. import problem
 from . import explicit, radau
-from .rate import Motion, inward_bound, rate, sizes
+from .rate import MotionConstants, inward_bound, rate, sizes
 from .stages import tableau_of, workspace
 
 FINISHED, LIMIT, SHORT, CHUNK_FULL, BLOWN_UP, UNDEFINED, AT_SIGMA = range(7)
@@ -45,7 +45,7 @@ def price(n):
 
 
 @njit(cache=True, nogil=True, error_model="numpy", inline="always")
-def _go_on(clock, control, h, y):
+def _advance_time(clock, control, h, y):
     """Let the time go on, with what its rounding loses; say whether the state has blown up."""
     total = h + clock[1]
     ahead = clock[0] + total
@@ -98,7 +98,7 @@ def _turned_explicit(motion, control, bound, reach):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def follow(motion, table, work, y, clock, control, starts, lengths, ends, polynomials):
+def integrate_motion(motion, table, work, y, clock, control, starts, lengths, ends, polynomials):
     """Step until the time is over, the steps are used up, or the arrays are full.
 
     Parameters
@@ -169,7 +169,7 @@ def follow(motion, table, work, y, clock, control, starts, lengths, ends, polyno
             _turned_implicit(motion, control, work, h, remaining - h)
             explicit.keep(motion, y, clock, work, polynomials[filled], ends[filled])
         filled += 1
-        if _go_on(clock, control, h, y):
+        if _advance_time(clock, control, h, y):
             return BLOWN_UP, filled - 1
         if motion.eps == 0.0:
             rho = math.hypot(y[0], y[1])
@@ -221,7 +221,7 @@ def follow_all(fields, numbers, coefficients, lines, first, most):
     Parameters
     ----------
     fields : int64 (3,)
-        Addresses, as in `Motion`.
+        Addresses, as in `MotionConstants`.
     numbers : (6,)
         eps, rtol, floor, t_start, t_end, parameter of Psi.
     coefficients
@@ -249,7 +249,7 @@ def follow_all(fields, numbers, coefficients, lines, first, most):
     told = np.zeros((k, 4))
     for i in range(k):
         line1, line2 = lines[i, 0], lines[i, 1]
-        motion = Motion(fields[0], fields[1], fields[2], n, numbers[0], numbers[1], numbers[2], line1, line2)
+        motion = MotionConstants(fields[0], fields[1], fields[2], n, numbers[0], numbers[1], numbers[2], line1, line2)
         for j in range(n):
             y[j] = first[i, j]
         code = (
@@ -267,7 +267,7 @@ def follow_all(fields, numbers, coefficients, lines, first, most):
                     states[row * n + j] = y[j]
             if code != CHUNK_FULL:
                 break
-            code, filled = follow(
+            code, filled = integrate_motion(
                 motion, table, work, y, clock, control,
                 times[row + 1 : row + STEPS_PER_CALL], lengths[row : row + STEPS_PER_CALL - 1],
                 states[(row + 1) * n : (row + STEPS_PER_CALL) * n].reshape((STEPS_PER_CALL - 1, n)),

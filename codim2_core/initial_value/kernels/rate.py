@@ -23,7 +23,7 @@ RADIUS, GAIN, ARGUMENTS, VALUE, SLOPES = 0, 4, 8, 8 + 32, 8 + 64
 RATE_PLACES = SLOPES + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 
-class Motion(NamedTuple):
+class MotionConstants(NamedTuple):
     """Constants of a motion.
 
     Attributes

@@ -86,7 +86,7 @@ def _critical_velocity(S, m, u, v):
     return (j22 * u - j12 * v) * inverse, (j11 * v - j21 * u) * inverse
 
 
-def _slow(state, out, parameters):
+def _slow_velocity(state, out, parameters):
     """Write (e', z') at a state."""
     A, D = carray(state, (4 + MOST_SLOW_VARIABLES,)), carray(out, (2 + MOST_SLOW_VARIABLES,))
     S = carray(parameters, (SLOW_EXTENT,))
@@ -152,4 +152,4 @@ def sets(addresses, points):
 @lru_cache(maxsize=1)
 def flow() -> tuple[Any, Any]:
     """Return the slow flow and its slopes, the same for all systems."""
-    return compile_address(_slow, cache=True), compile_address(_slow_slopes, cache=True)
+    return compile_address(_slow_velocity, cache=True), compile_address(_slow_slopes, cache=True)

@@ -16,7 +16,7 @@ from .rate import rate
 MAX_EXTRAPOLATION = 4.0  # times the last step: how far its polynomial is continued
 
 
-class Work(NamedTuple):
+class StepArrays(NamedTuple):
     """Arrays that every step writes anew, and the polynomial of the last one."""
 
     S: Any
@@ -49,7 +49,7 @@ def workspace(n, parameter):
 def work_on(S, n):
     """Return the arrays for a state of n components, with a workspace S that is there already."""
     N = STAGES * n
-    return Work(
+    return StepArrays(
         S, np.zeros(n), np.zeros(n), np.zeros(n), np.zeros((n, n)), np.zeros((N, N)), np.zeros((n, n)),
         np.zeros(N, np.int64), np.zeros(n, np.int64), np.zeros((STAGES, n)), np.zeros((STAGES, n)), np.zeros(N),
         np.zeros(n), np.zeros(n), np.zeros((n, STAGES)), np.zeros(n),

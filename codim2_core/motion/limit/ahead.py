@@ -6,8 +6,9 @@ import math
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...arrays import Array
 from ...initial_value.field import Field, field
 from ...layer_problem.critical import CriticalSet, critical_sets
 from ...numerics.dense import dense, gather_steps
@@ -24,7 +25,6 @@ from .slide import Slide, slide
 
 __all__ = ["delays"]
 
-Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-10, 1e-12
 MAX_SLIDE_STEPS = 4000  # steps of a slide

@@ -10,10 +10,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from ...arrays import Array, Complex
 
 MAX_SUPPORT_POINTS = 40  # support points
 DOUBLET = 1e3  # poles whose residue is below this many tolerances, of |f| and of the interval, are rounding's

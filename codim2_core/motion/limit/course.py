@@ -9,16 +9,16 @@ from dataclasses import field as made_with
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...cycles.limit_cycles import limit_cycles
 from ...initial_value.compiled_phases import CompiledPhases
-from ...initial_value.events import Watch
+from ...initial_value.events import EventWatch
 from ...initial_value.field import Field
 from ...initial_value.leaving import leave
 from ...initial_value.line import InvariantLine
 from ...layer_problem.equator import equator_equilibria
-from ...numerics.dense import Steps
+from ...numerics.dense import StepArray
 from ...numerics.radau import Problem, Step, TooManyStepsError
 from ...psi import constructors
 from ...psi.function import Psi
@@ -37,9 +37,8 @@ from .slide_on_cycle import slide_on_cycle
 from .slip import slip
 
 if TYPE_CHECKING:
-    from .legs import Legs
+    from .legs import PhaseBuilder
 
-Array = NDArray[np.float64]
 
 CLOSER_FACTOR = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
 SAME_DIRECTION = 1e-12  # 1 - cos: directions that differ by a rounding of either
@@ -56,7 +55,7 @@ class AtEventError(Exception):
 
 
 @dataclass
-class Course:
+class HybridRun:
     """A motion under way."""
 
     system: AnySystem
@@ -64,7 +63,7 @@ class Course:
     formulas: Field
     problem: Problem
     line: InvariantLine | None
-    watch: Watch
+    watch: EventWatch
     t: float
     state: Array
     t_end: float
@@ -116,10 +115,10 @@ class Course:
         if stopped:
             raise AtEventError
 
-    def go_on(self, legs: Legs) -> None:
+    def go_on(self, legs: PhaseBuilder) -> None:
         """Begin where a motion that was followed compiled was handed over."""
         motion = legs.found.motion
-        before = Steps(motion.states[0], motion.times[:-1], motion.lengths, motion.states[1:], motion.polynomials)
+        before = StepArray(motion.states[0], motion.times[:-1], motion.lengths, motion.states[1:], motion.polynomials)
         self.taken, self.parts, self.decided = list(before), list(legs.parts), legs.onward()
         self.t, self.state = float(motion.times[-1]), motion.states[-1].copy()
         if self.decided.kind == "slide":

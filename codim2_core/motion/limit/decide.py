@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...cycles.limit_cycles import limit_cycles
 from ...layer_problem.critical import CriticalSet, critical_sets
 from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
@@ -18,8 +18,6 @@ from ...psi.constructors import comparison_families, constant
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
-
-Array = NDArray[np.float64]
 
 AT_MIDDLE = 1e-12  # |p| of a critical set that x = y = 0 lies on
 ORBITS_AROUND, START_DISTANCE = (

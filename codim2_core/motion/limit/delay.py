@@ -17,8 +17,9 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...arrays import Array
 from ...initial_value.field import Field
 from ...initial_value.sheet import complement, solve_critical
 from ...numerics.dense import Dense, dense, gather_steps
@@ -27,8 +28,6 @@ from ...numerics.root_between import root_between
 from ...psi.function import Psi
 from .analytic import Complex, Rational, rational
 from .slide import Slide
-
-Array = NDArray[np.float64]
 
 TRACE_DEGREE, MAX_HALVINGS = (
     9,

@@ -18,12 +18,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...initial_value.field import Field
 from ...words import say
-
-Array = NDArray[np.float64]
 
 SINGULAR_SPEED = 1e-5  # |e'| in units of what it is made of, below which a fold is a folded singularity
 DIFFERENCE_STEP = 1e-5  # in e and z, for derivatives

@@ -6,10 +6,8 @@ import math
 from dataclasses import dataclass
 from functools import cached_property, partial
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ...initial_value.courses import Followed, Leg
+from ...arrays import Array
+from ...initial_value.courses import DecidedMotion, Segment
 from ...initial_value.kernels.course import LEAVE, SLIDE, WHOLE
 from ...initial_value.line import InvariantLine
 from ...numerics.dense import Dense
@@ -23,11 +21,9 @@ from ..result import Phase
 from .decide import Decision, critical_name, decide_arrival
 from .part import MotionPart
 
-Array = NDArray[np.float64]
-
 
 @dataclass(frozen=True, eq=False)
-class Legs:
+class PhaseBuilder:
     """Consecutive parts of a motion, and their system.
 
     Attributes
@@ -42,7 +38,7 @@ class Legs:
     system: AnySystem
     psi: Psi | None
     line: InvariantLine | None
-    found: Followed
+    found: DecidedMotion
 
     @property
     def whole(self) -> bool:
@@ -83,7 +79,7 @@ class Legs:
         along = float(line.n @ [math.cos(theta), math.sin(theta)])
         return math.copysign(1.0, along) * line.n
 
-    def _part(self, i: int, leg: Leg) -> MotionPart:
+    def _part(self, i: int, leg: Segment) -> MotionPart:
         times = self.found.motion.times
         span = float(times[leg.first]), float(times[leg.last])
         if leg.kind == SLIDE:

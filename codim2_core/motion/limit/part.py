@@ -6,18 +6,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...initial_value.field import field
 from ...numerics.dense import Dense
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ..delay import delay
-from ..places import Ascent, Leaving, OfState, OnCycle, OnSet, Place
+from ..places import Ascent, Leaving, Location, OfState, OnCycle, OnSet
 from ..result import Phase
 from .delay import WayOut
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -46,7 +44,7 @@ class MotionPart:
         phase, times = self.phase, np.array(self.times)
         e, p = (np.array(column[: len(times)]) for column in (self.e, self.p))
         times = times[: len(e)] if len(e) else times
-        where: Place
+        where: Location
         if self.theta is not None:
             where = Leaving(self.theta)
         elif phase.kind != "slide":

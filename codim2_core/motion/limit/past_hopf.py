@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...initial_value.field import Field
 from ...numerics.radau import Step
 from ...psi.function import Psi
@@ -20,8 +20,6 @@ from ..followed import in_disc, jacobian
 from .decide import ORBITS_AROUND, START_DISTANCE
 from .delay import WayOut, cut_at_exit
 from .slide import Slide
-
-Array = NDArray[np.float64]
 
 ARRIVAL_DISTANCE = 1e-3  # from a set, in p, at which it is asked on which side a motion comes
 

@@ -1,6 +1,6 @@
 """Sliding in the limit eps -> 0: the slow flow on a critical set that is followed in z, and where that ends.
 
-On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, eq:linslowflow. The set is continued as a `Sheet`.
+On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, eq:linslowflow. The set is continued as a `SlowManifold`.
 """
 
 from __future__ import annotations
@@ -12,16 +12,16 @@ from functools import cache, partial
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...initial_value.compiled_phases import CompiledPhases
-from ...initial_value.events import DEGREES, turns
+from ...initial_value.events import DEGREES, monotone_fractions
 from ...initial_value.field import Field
 from ...initial_value.line import InvariantLine
 from ...initial_value.problem import own_time
-from ...initial_value.safe_steps import SAFE_NODES, Safe
-from ...initial_value.sheet import Resting, Sheet, complement, determinant, trace
-from ...numerics.dense import Steps
+from ...initial_value.safe_steps import SAFE_NODES, StepRequirements
+from ...initial_value.sheet import FixedManifold, SlowManifold, complement, determinant, trace
+from ...numerics.dense import StepArray
 from ...numerics.growth import until_blow_up
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps
 from ...psi.function import Psi
@@ -29,10 +29,9 @@ from ...psi.function import Psi
 if TYPE_CHECKING:
     from ...initial_value.compiled_slow import CompiledSlow
 
-Array = NDArray[np.float64]
 
 MIN_STEP = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
-EQUATOR_DISTANCE = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
+EQUATOR_GAP = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
 SHORTEST_PART = 1e-13  # of a step: a set that is not followed so far has gone
 LEAST_PART = 1.0 / 64.0  # of a step, in which a set that has moved far is followed to a place within it
@@ -108,7 +107,7 @@ def slide(
     """
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
-    sheet = Resting(field, e, z) if resting else Sheet(field, e, z)
+    sheet = FixedManifold(field, e, z) if resting else SlowManifold(field, e, z)
     gauges = _gauges(sheet, psi, on_cycle=lives is not None, line=line)
     if delayed:
         del gauges["hopf"]
@@ -130,13 +129,15 @@ def slide(
             sheet, until_blow_up(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest)
         )
     else:
-        safe = Safe(psi, math.copysign(1.0, determinant(sheet, sheet.e, z)), None if line is None else line.n)
+        safe = StepRequirements(
+            psi, math.copysign(1.0, determinant(sheet, sheet.e, z)), None if line is None else line.n
+        )
         ahead = _compiled_steps(sheet, compiled.slide(problem, sheet.e, t, t_end, z, h, most, shortest), safe)
     taken: list[Step] = []
     places = [sheet.e]
     try:
         for step, whole, after, is_safe in ahead:
-            found: list[tuple[float, str]] = [] if is_safe else _ends(sheet, gauges, step, places[-1], after)
+            found: list[tuple[float, str]] = [] if is_safe else _end_fractions(sheet, gauges, step, places[-1], after)
             if not alive(step.last):
                 found.append((_last_alive(alive, step), "cycle"))
             if found:
@@ -151,7 +152,7 @@ def slide(
     except StepsTooShortError as error:
         if taken and t_end - taken[-1].end <= shortest:  # the rounding of t_end is left
             return Slide(taken, "time", places[-1], places)
-        end = _end(sheet)
+        end = _end_reason(sheet)
         return Slide(taken, end, sheet.e, places, error if end == "given up" else None)
     except TooManyStepsError as error:
         return Slide(taken, "given up", places[-1], places, error)
@@ -167,16 +168,16 @@ class _Ahead(NamedTuple):
     is_safe: bool
 
 
-def _in_python(sheet: Sheet, ahead: Iterator[Step]) -> Iterator[_Ahead]:
+def _in_python(sheet: SlowManifold, ahead: Iterator[Step]) -> Iterator[_Ahead]:
     """Take the steps of the slow flow; the sheet moves with them."""
     for step in ahead:
         after = sheet.at(step.last)
         if after is None:
             raise StepsTooShortError
-        yield _Ahead(step, _lift_step(step, 1.0), after, isinstance(sheet, Resting))
+        yield _Ahead(step, _lift_step(step, 1.0), after, isinstance(sheet, FixedManifold))
 
 
-def _compiled_steps(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[_Ahead]:
+def _compiled_steps(sheet: SlowManifold, motion: CompiledSlow, safe: StepRequirements) -> Iterator[_Ahead]:
     """Take the steps of a compiled slide; the sheet is moved to where an end may be near."""
     z = sheet.z
     try:
@@ -185,8 +186,10 @@ def _compiled_steps(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[
                 continue
             e, D = motion.sets(part, SAFE_NODES)
             known = safe.steps(e, D)
-            zs = Steps(part.first[2:], part.starts, part.lengths, part.ends[:, 2:], part.polynomials[:, 2:])
-            wholes = Steps(*(of.copy() for of in (part.first, part.starts, part.lengths, part.ends, part.polynomials)))
+            zs = StepArray(part.first[2:], part.starts, part.lengths, part.ends[:, 2:], part.polynomials[:, 2:])
+            wholes = StepArray(
+                *(of.copy() for of in (part.first, part.starts, part.lengths, part.ends, part.polynomials))
+            )
             for array in (wholes.first, wholes.ends.T, wholes.polynomials.swapaxes(0, 1)):
                 array[:2] = 0.0
             for step, whole, before, after, is_safe in zip(zs, wholes, e[:, 0], e[:, -1], known, strict=True):
@@ -199,14 +202,14 @@ def _compiled_steps(sheet: Sheet, motion: CompiledSlow, safe: Safe) -> Iterator[
         raise
 
 
-def _ends(
-    sheet: Sheet, gauges: dict[str, Callable[[Array, Array], float]], step: Step, before: Array, after: Array
+def _end_fractions(
+    sheet: SlowManifold, gauges: dict[str, Callable[[Array, Array], float]], step: Step, before: Array, after: Array
 ) -> list[tuple[float, str]]:
     """Fractions of a step at which the slide ends, and how."""
-    place = cache(partial(_place, sheet, step))
+    place = cache(partial(_critical_set_at, sheet, step))
     found: list[tuple[float, str]] = []
     for name, gauge in gauges.items():
-        u = _first(gauge, place, gauge(before, step.first), gauge(after, step.last))
+        u = _first_negative(gauge, place, gauge(before, step.first), gauge(after, step.last))
         if u is not None:
             found.append((u, name))
     lost = _lost(sheet, step, before, after)
@@ -216,17 +219,19 @@ def _ends(
     return found
 
 
-def _lost(sheet: Sheet, step: Step, before: Array, after: Array) -> tuple[float, Sheet] | None:
+def _lost(sheet: SlowManifold, step: Step, before: Array, after: Array) -> tuple[float, SlowManifold] | None:
     """Return up to which fraction of a step the set is there that it begins on, and that; None if to its end.
 
     At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
     """
-    last = Sheet(sheet.field, after, step.last)
-    u, there = _track_sheet(Sheet(sheet.field, before, step.first), step, 1.0, SHORTEST_PART, last)
+    last = SlowManifold(sheet.field, after, step.last)
+    u, there = _track_sheet(SlowManifold(sheet.field, before, step.first), step, 1.0, SHORTEST_PART, last)
     return None if there is last else (u, there)
 
 
-def _track_sheet(here: Sheet, step: Step, to: float, least: float, last: Sheet | None = None) -> tuple[float, Sheet]:
+def _track_sheet(
+    here: SlowManifold, step: Step, to: float, least: float, last: SlowManifold | None = None
+) -> tuple[float, SlowManifold]:
     """Follow a set to a fraction of a step, in parts not below the least one, or as far as it is there.
 
     A long step may move it farther than one search looks. The last set is searched for unless it is given.
@@ -243,14 +248,14 @@ def _track_sheet(here: Sheet, step: Step, to: float, least: float, last: Sheet |
     return u, here
 
 
-def _search_sheet(here: Sheet, z: Array) -> Sheet | None:
+def _search_sheet(here: SlowManifold, z: Array) -> SlowManifold | None:
     """Search the set at another z, close to one that is known."""
     e = here.at(z)
-    return None if e is None else Sheet(here.field, e, z)
+    return None if e is None else SlowManifold(here.field, e, z)
 
 
 def _gauges(
-    sheet: Sheet, psi: Psi, on_cycle: bool, line: InvariantLine | None
+    sheet: SlowManifold, psi: Psi, on_cycle: bool, line: InvariantLine | None
 ) -> dict[str, Callable[[Array, Array], float]]:
     """Return what turns negative, as functions of e and z, where the sliding ends, by the name of the end."""
     found: dict[str, Callable[[Array, Array], float]] = {
@@ -268,25 +273,25 @@ def _gauges(
     }
 
 
-def _end(sheet: Sheet) -> str:
+def _end_reason(sheet: SlowManifold) -> str:
     """Say what ends the set where steps become too short to go on."""
-    if complement(sheet.e) < EQUATOR_DISTANCE:
+    if complement(sheet.e) < EQUATOR_GAP:
         return "equator"
     size = float(np.abs(sheet.slopes(sheet.e, sheet.z)[:2, :2]).max())
     return "fold" if abs(determinant(sheet, sheet.e, sheet.z)) < AT_FOLD * size**2 else "given up"
 
 
-def _place(sheet: Sheet, step: Step, u: float) -> tuple[Array | None, Array]:
+def _critical_set_at(sheet: SlowManifold, step: Step, u: float) -> tuple[Array | None, Array]:
     """Return the critical set, None where there is none, and z at a fraction of a step."""
     z = step.at(u)
     e = sheet.at(z)
     if e is None:
-        at, there = _track_sheet(Sheet(sheet.field, sheet.e, sheet.z), step, u, LEAST_PART * u)
+        at, there = _track_sheet(SlowManifold(sheet.field, sheet.e, sheet.z), step, u, LEAST_PART * u)
         return (there.e if at == u else None), z
     return e, z
 
 
-def _first(
+def _first_negative(
     gauge: Callable[[Array, Array], float],
     place: Callable[[float], tuple[Array | None, Array]],
     start: float,
@@ -301,7 +306,7 @@ def _first(
         return missing if e is None else gauge(e, z)
 
     positive = None
-    for u, at in zip(*turns(value, start, end, GAUGE_DEGREES), strict=True):
+    for u, at in zip(*monotone_fractions(value, start, end, GAUGE_DEGREES), strict=True):
         if at > 0.0:
             positive = u
         elif at < 0.0 and positive is not None:

@@ -10,15 +10,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...cycles.limit_cycles import LimitCycle, limit_cycles
 from ...initial_value.problem import growth_bound, own_time
 from ...numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
-
-Array = NDArray[np.float64]
 
 RTOL, ATOL = 1e-6, 1e-8  # no better than the cycles themselves are known
 DIFFERENCE_STEP = 1e-4
@@ -62,23 +60,23 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
         Steps.
     """
     first = limit_cycles(system, psi, tuple(z.tolist()))[index]
-    middle = _middle(first)
+    middle = _centroid(first)
     e, p = list[Array](), list[Array]()
     m = len(z)
 
     def rate(at: Array) -> Array:
         stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
-        cycle = min(stable, key=lambda cycle: math.dist(_middle(cycle), middle), default=None)
-        if cycle is None or math.dist(_middle(cycle), middle) > OTHER_CYCLE_DISTANCE:
+        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
+        if cycle is None or math.dist(_centroid(cycle), middle) > OTHER_CYCLE_DISTANCE:
             return np.full(m, math.nan)
         return np.array(cycle.slow_flow)
 
     def jacobian(at: Array) -> Array:
         nonlocal middle
         stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
-        cycle = min(stable, key=lambda cycle: math.dist(_middle(cycle), middle), default=None)
+        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
         if cycle is not None:  # asked once at the beginning, and at the end of each step
-            middle = _middle(cycle)
+            middle = _centroid(cycle)
             means = _means(system, psi, at, cycle)
             e.append(means[0])
             p.append(means[1])
@@ -108,7 +106,7 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
     return CycleSlide(taken, True, e, p)
 
 
-def _middle(cycle: LimitCycle) -> tuple[float, float]:
+def _centroid(cycle: LimitCycle) -> tuple[float, float]:
     x, y = cycle.points.mean(axis=0).tolist()
     return x, y
 

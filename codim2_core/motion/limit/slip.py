@@ -11,15 +11,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...initial_value.compiled_phases import CompiledPhases
 from ...initial_value.leaving import polynomial_of
 from ...initial_value.problem import arrival_radius
 from ...numerics.growth import until_blow_up
 from ...numerics.radau import Problem, Step, TooManyStepsError, steps
-
-Array = NDArray[np.float64]
 
 FIRST_STEP_SHARE = 1e-2
 

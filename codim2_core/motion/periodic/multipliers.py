@@ -14,14 +14,12 @@ from functools import reduce
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Array, Complex
 from ...initial_value.field import Field
 from ...psi.function import Psi
-from ..followed import place
+from ..followed import place_on_hemisphere
 from ..result import Simulation
 from ..variation.result import Variation
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 def rate_at(formulas: Field, psi: Psi | None, run: Simulation, i: int) -> Array:
@@ -39,7 +37,7 @@ def rate_at(formulas: Field, psi: Psi | None, run: Simulation, i: int) -> Array:
     x, y, *z = run.states[i].tolist()
     if run.eps > 0.0:
         assert psi is not None
-        e = place(psi, run.eps, x, y)[0]
+        e = place_on_hemisphere(psi, run.eps, x, y)[0]
     elif x or y:
         e = np.array([x, y]) / np.hypot(x, y)
     else:

@@ -5,15 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum
 
-import numpy as np
-from numpy.typing import NDArray
-
 from ... import drawing
-from ...tables import number, paragraphs, table
+from ...arrays import Array, Complex
+from ...tables import html_table, paragraphs, table_number
 from ..result import Simulation
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class PeriodicStatus(Enum):
@@ -85,11 +80,11 @@ class PeriodicMotion:
 
     def _repr_html_(self) -> str:
         rows = [
-            (number(one.real), number(one.imag), number(abs(one)), f"{error:.1e}")
+            (table_number(one.real), table_number(one.imag), table_number(abs(one)), f"{error:.1e}")
             for one, error in zip(self.multipliers.tolist(), self.multiplier_errors.tolist(), strict=True)
         ]
         head = ("multiplier", "imaginary part", "modulus", "error")
-        return (self._repr_svg_() or "") + table(head, rows) + paragraphs([self.reason])
+        return (self._repr_svg_() or "") + html_table(head, rows) + paragraphs([self.reason])
 
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)

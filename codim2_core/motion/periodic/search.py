@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...arrays import Array
 from ...initial_value.field import Field, field
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
@@ -20,7 +21,6 @@ from .shooting import LostError, Shooting, Shot
 
 __all__ = ["periodic_motion"]
 
-Array = NDArray[np.float64]
 
 MAX_NEWTON, MAX_HALVINGS = 40, 8  # of Newton's method, and of one of its steps
 FINAL_RTOL_SHARE = 1e-2  # of rtol: how closely the motion is followed at last
@@ -243,7 +243,7 @@ def _make_result(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
     stability, why = _verdict(values, errors, fine.variation.within is not None)
     alone = not (np.abs(values - 1.0) <= errors).any()
     said = [say("repeats", period=fine.period)]
-    times = _times(asked, fine)
+    times = _repetitions(asked, fine)
     said += [say("repeats sooner", count=times)] if times > 1 else []
     said += [say("start is lost", count=lost)] if lost else []
     said += [why] + ([] if alone else [say("not isolated")])
@@ -270,7 +270,7 @@ def _verdict(values: NDArray[np.complex128], errors: Array, in_a_line: bool) -> 
     return "stable", say("periodic stable", size=size)
 
 
-def _times(asked: Shooting, shot: Shot) -> int:
+def _repetitions(asked: Shooting, shot: Shot) -> int:
     """Return how many times a motion repeats itself in its period."""
     motion, some = shot.run.dense, shot.run.states[:: max(1, len(shot.run.states) // LOOKED_AT)]
     for count in range(MOST_TIMES, 1, -1):

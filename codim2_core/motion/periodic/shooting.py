@@ -17,6 +17,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...initial_value.field import Field
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
@@ -27,8 +28,6 @@ from ..result import Simulation, SimulationStatus
 from ..variation.result import Variation
 from .multipliers import rate_at
 from .result import PeriodicStatus
-
-Array = NDArray[np.float64]
 
 NULL_SINGULAR_VALUE = (
     1e-8  # singular values of M - 1, or of M if that is larger, that count as 0: nothing moves, as in a family

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...words import say
 from .result import Variation
-
-Array = NDArray[np.float64]
 
 
 def chain_propagators(

@@ -16,6 +16,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...arrays import Array
 from ...initial_value.line import InvariantLine
 from ...initial_value.slopes import Slopes, outside, slopes_of
 from ...numerics.dense import Dense
@@ -25,8 +26,7 @@ from .chain import chain_propagators
 from .propagators import Propagators, pad_jacobians, propagators, states_along
 from .result import Variation
 
-Array = NDArray[np.float64]
-Steps = NDArray[np.intp]
+StepIndices = NDArray[np.intp]
 
 RTOL = 1e-10  # how far a part of a step and its halves may differ
 EQUATOR_DISTANCE = 1e-6  # 1 - |e| at which a slide has ended there
@@ -182,7 +182,7 @@ class _Course:
         """No steps."""
         return Propagators(*np.zeros((2, 0, self.size, self.size)))
 
-    def solved(self, steps: range, jacobian: Callable[[Steps, Array], Array], before: Array) -> Propagators:
+    def solved(self, steps: range, jacobian: Callable[[StepIndices, Array], Array], before: Array) -> Propagators:
         """Solve along steps; x and y are measured by rho."""
         ends = slice(steps.start, steps.stop + 1)
         sizes = np.ones((len(steps) + 1, self.size))
@@ -191,13 +191,13 @@ class _Course:
         lengths = self.motion.lengths[steps.start : steps.stop]
         return propagators(lambda i, u: jacobian(i + steps.start, u), lengths, sizes, RTOL, before)
 
-    def slip_slopes(self, steps: Steps, u: Array) -> Array:
+    def slip_slopes(self, steps: StepIndices, u: Array) -> Array:
         """Jacobian of the slip at fractions of steps."""
         states = states_along(self.motion, steps, u)
         found = pad_jacobians(self.slopes.of_state(*outside(states[:, :2], self.n), states), u.shape)
         return found if self.n is None else self.kept @ found @ self.kept
 
-    def slide_slopes(self, phase: Phase, steps: Steps, u: Array) -> Array:
+    def slide_slopes(self, phase: Phase, steps: StepIndices, u: Array) -> Array:
         """Jacobian of the slow flow at fractions of steps; the critical set moves by ``D_e U de + D_z U dz = 0``."""
         times = self.motion.times[steps, None] + u * self.motion.lengths[steps, None]
         e = phase.e(np.clip(times.ravel(), phase.t_start, phase.t_end))

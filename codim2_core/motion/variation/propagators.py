@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...numerics.dense import Dense
 from ...numerics.radau import tableau
 
-Array = NDArray[np.float64]
 Jacobian = Callable[[NDArray[np.intp], Array], Array]
 
 DEEPEST = 24  # halvings of a step
@@ -89,10 +89,10 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
     return Propagators(fine, coarse)
 
 
-Parts = tuple[NDArray[np.intp], Array, Array]
+StepParts = tuple[NDArray[np.intp], Array, Array]
 
 
-def _accumulate(to_steps: Array, done: list[Parts], left: Parts) -> Array:
+def _accumulate(to_steps: Array, done: list[StepParts], left: StepParts) -> Array:
     """Return what comes to the parts that are left, through all before them as well as they are known by now."""
     at, begin, matrices = (np.concatenate(column) for column in zip(*done, left, strict=True))
     first, found, product = len(at) - len(left[0]), np.empty_like(left[2]), {}

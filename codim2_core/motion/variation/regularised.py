@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arrays import Array
 from ...initial_value.slopes import slopes_of, smoothed_direction
 from ...numerics.dense import Dense
 from ...psi.function import Psi
@@ -14,8 +15,6 @@ from ...systems.kinds import AnySystem
 from .chain import chain_propagators
 from .propagators import pad_jacobians, propagators, states_along
 from .result import Variation
-
-Array = NDArray[np.float64]
 
 RTOL = 1e-10  # how far a part of a step and its halves may differ
 

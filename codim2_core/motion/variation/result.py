@@ -6,11 +6,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ...tables import number, paragraphs, table
-
-Array = NDArray[np.float64]
+from ...arrays import Array
+from ...tables import html_table, paragraphs, table_number
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,9 +48,9 @@ class Variation:
 
     def _repr_html_(self) -> str:
         states = ["x", "y", *(f"z{i}" for i in range(1, len(self.rate) - 1))]
-        head = (f"at t = {number(float(self.times[-1]))}", *(f"∂/∂{name}" for name in (*states, *self.names)))
-        body = [(name, *map(number, row)) for name, row in zip(states, self.last.tolist(), strict=True)]
-        return table(head, body) + paragraphs([self.reason] if self.reason else [])
+        head = (f"at t = {table_number(float(self.times[-1]))}", *(f"∂/∂{name}" for name in (*states, *self.names)))
+        body = [(name, *map(table_number, row)) for name, row in zip(states, self.last.tolist(), strict=True)]
+        return html_table(head, body) + paragraphs([self.reason] if self.reason else [])
 
     @cached_property
     def matrices(self) -> Array:

@@ -21,8 +21,8 @@ FAMILY_NAMES = (
 )
 LISTED: tuple[Family, ...] = tuple(import_module(f".{name}", __package__).FAMILY for name in FAMILY_NAMES)
 
-_known: dict[str, Family] = {family.name: family for family in LISTED}
-FAMILIES: Mapping[str, Family] = MappingProxyType(_known)  # by name, in the order of menus; grows with `register`
+_families: dict[str, Family] = {family.name: family for family in LISTED}
+FAMILIES: Mapping[str, Family] = MappingProxyType(_families)  # by name, in the order of menus; grows with `register`
 
 
 def register(family: Family) -> Family:
@@ -46,14 +46,14 @@ def register(family: Family) -> Family:
         raise ValueError(f"family is of type {type(family).__name__}; give a psi.Family.")
     if not (isinstance(family.name, str) and family.name.isidentifier()):
         raise ValueError(f"the family's name is {family.name!r}; give letters, digits and _, such as 'lorentz'.")
-    if family.name in _known:
+    if family.name in _families:
         raise ValueError(f"there is a family {family.name!r} already; choose another name.")
     if not family.formula:
         raise ValueError(f"the family {family.name!r} has no formula; give its text in s, such as '1/(1+s)**2'.")
     family.expression()
-    typed = _known.pop(next(name for name, one in _known.items() if one.typed))
-    _known[family.name] = family
-    _known[typed.name] = typed
+    typed = _families.pop(next(name for name, one in _families.items() if one.typed))
+    _families[family.name] = family
+    _families[typed.name] = typed
     return family
 
 
@@ -67,7 +67,7 @@ def unregister(name: str) -> None:
     """
     if family_of_name(name) in LISTED:
         raise ValueError(f"the family {name!r} is built in; only one that was registered can be taken off.")
-    del _known[name]
+    del _families[name]
 
 
 def family_of_name(name: str) -> Family:
@@ -78,6 +78,6 @@ def family_of_name(name: str) -> Family:
     ValueError
         There is none.
     """
-    if not isinstance(name, str) or name not in _known:
-        raise ValueError(f"there is no family {reprlib.repr(name)} of Psi; choose one of {', '.join(_known)}.")
-    return _known[name]
+    if not isinstance(name, str) or name not in _families:
+        raise ValueError(f"there is no family {reprlib.repr(name)} of Psi; choose one of {', '.join(_families)}.")
+    return _families[name]

@@ -8,14 +8,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
+from ...arrays import Array
 from ...expressions.expression import Expression, parse
 from ..condition import Condition
 from ..kernel import Kernel
 
-Array = NDArray[np.float64]
 Gain = Callable[[Any, Any, Any], Any]
 LARGEST_WHOLE = 255  # of a parameter for which `Family.gain_whole` is asked
 

@@ -8,7 +8,7 @@ from urllib.parse import unquote, urlsplit
 import codim2_app
 import pytest
 from codim2_app.docs import gallery
-from codim2_app.docs.place import offer, site
+from codim2_app.docs.place import serve_folder, site
 from codim2_app.lessons.library import built_in
 from codim2_app.server.cli import main
 
@@ -121,7 +121,7 @@ def test_the_gallery_has_every_portrait_light_and_dark(tmp_path, monkeypatch):
         return "<svg/>"
 
     monkeypatch.setattr(gallery, "figure", figure)
-    gallery.write(tmp_path)
+    gallery.write_gallery(tmp_path)
     assert drawn == [(key, theme) for key in c2.presets for theme in ("light", "dark")]
     text = (tmp_path / "gallery.md").read_text(encoding="utf-8")
     for key, theme in drawn:
@@ -141,9 +141,9 @@ def test_a_folder_of_something_else_is_left_alone(tmp_path, capsys):
 def test_a_site_is_there_once_it_is_built(built, tmp_path):
     folder, _, _ = built
     try:
-        offer(tmp_path)
+        serve_folder(tmp_path)
         assert site() is None
-        offer(folder)
+        serve_folder(folder)
         assert site() == folder
     finally:
-        offer(None)
+        serve_folder(None)

@@ -3,15 +3,15 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw import glyphs
-from codim2_app.draw.lines.arrowheads import CLEARANCE, MIN_LINE_LENGTH, STRETCH, _place, arrowheads
-from codim2_app.draw.packing import PIXEL, WINDOW
+from codim2_app.draw.lines.arrowheads import CLEARANCE, MIN_LINE_LENGTH, STRETCH, _place_arrowheads, arrowheads
+from codim2_app.draw.packing import PACKING_PIXEL, WINDOW
 
 import codim2_core as c2
 
 LINE = np.column_stack([np.linspace(0, 1, 11), np.zeros(11)])
 
 
-def place(*pieces, pixel=PIXEL, window=WINDOW):
+def place(*pieces, pixel=PACKING_PIXEL, window=WINDOW):
     return arrowheads(*glyphs.join(pieces), pixel, window)
 
 
@@ -21,13 +21,18 @@ def test_an_arrowhead_sits_in_the_middle_and_points_with_time():
 
 
 def test_short_empty_and_resting_curves_have_none():
-    short, rest, none, single = LINE * 0.9 * MIN_LINE_LENGTH * PIXEL, np.ones((4, 2)), np.zeros((0, 2)), np.ones((1, 2))
+    short, rest, none, single = (
+        LINE * 0.9 * MIN_LINE_LENGTH * PACKING_PIXEL,
+        np.ones((4, 2)),
+        np.zeros((0, 2)),
+        np.ones((1, 2)),
+    )
     assert place(none, short, single, LINE, rest, none)[:, 0].tolist() == pytest.approx([0.5])
     assert place().shape == (0, 3)
 
 
 def test_a_long_curve_has_one_for_each_stretch():
-    length = 3 * STRETCH * PIXEL
+    length = 3 * STRETCH * PACKING_PIXEL
     heads = place(np.column_stack([np.linspace(0, length, 50) - length / 2, np.zeros(50)]), window=(-9, 9, -9, 9))
     assert heads[:, 0].tolist() == pytest.approx([-length / 3, 0, length / 3])
 
@@ -35,7 +40,7 @@ def test_a_long_curve_has_one_for_each_stretch():
 def test_curves_that_run_together_share_their_arrowheads():
     bundle = [LINE + np.array([0, 0.002 * k]) for k in range(30)]
     heads = place(*bundle)
-    assert 1 <= len(heads) <= 1 / (CLEARANCE * PIXEL)
+    assert 1 <= len(heads) <= 1 / (CLEARANCE * PACKING_PIXEL)
     assert len(place(*[LINE + np.array([0, 0.3 * k]) for k in range(-5, 6)])) == 11
 
 
@@ -44,11 +49,11 @@ def test_curves_that_run_together_share_their_arrowheads():
 def test_no_two_are_nearer_than_the_clearance_and_all_lie_on_their_curves(key, layer):
     preset = c2.presets[key]
     orbits = c2.Scene(preset.system, preset.psi, preset.z)[layer]
-    heads = arrowheads(orbits.offsets, orbits.buffer, PIXEL, WINDOW)
+    heads = arrowheads(orbits.offsets, orbits.buffer, PACKING_PIXEL, WINDOW)
     assert len(heads) > 5
     apart = np.hypot(*(heads[:, None, :2] - heads[None, :, :2]).T)
     np.fill_diagonal(apart, 9)
-    assert apart.min() >= CLEARANCE * PIXEL * (1 - 1e-12)
+    assert apart.min() >= CLEARANCE * PACKING_PIXEL * (1 - 1e-12)
     begins, ends = orbits.buffer[:-1], orbits.buffer[1:]
     steps = ends - begins
     length = np.maximum(np.hypot(*steps.T), 1e-300)
@@ -122,4 +127,4 @@ def test_one_compilation_does_for_arrays_of_all_kinds():
         found.append(arrowheads(one, other, 0.01, (-1.0, 1.0, -1.0, 1.0)))
         assert other.flags.writeable is not frozen  # what was given stays as it was
     np.testing.assert_array_equal(*found)
-    assert len(_place.signatures) == 1
+    assert len(_place_arrowheads.signatures) == 1

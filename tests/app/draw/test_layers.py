@@ -14,7 +14,7 @@ def test_separatrices_of_a_direction_are_those_on_the_hemisphere_with_their_numb
         SimpleNamespace(points=np.array([[float(i), 0.0], [float(i), 1.0]]), inside=inside, direction=way)
         for i, (inside, way) in enumerate(kinds)
     ]
-    offsets, points = layers._direction(direction)(branches)
+    offsets, points = layers._direction_lines(direction)(branches)
     assert layers._of_direction(direction)(branches) == names
     assert offsets.tolist() == [2 * k for k in range(len(names) + 1)]
     assert [f"S{int(x) + 1}" for x in points[offsets[:-1], 0]] == names
@@ -22,6 +22,6 @@ def test_separatrices_of_a_direction_are_those_on_the_hemisphere_with_their_numb
 
 def test_branches_are_told_apart_by_their_kinds():
     branches = [SimpleNamespace(points=np.full((3, 2), k), kind=kind) for k, kind in enumerate(("rho", "U1", "theta"))]
-    offsets, points = layers._kinds("rho", "theta")(branches)
+    offsets, points = layers._lines_of_kinds("rho", "theta")(branches)
     assert offsets.tolist() == [0, 3, 6]
     assert points[:, 0].tolist() == [0.0] * 3 + [2.0] * 3

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from bokeh.core.validation import check_integrity
 from codim2_app.draw.figure import make_figure
-from codim2_app.draw.layers import LAYERS, TRACES, default_layers, layers_in_paint_order, swatches, table
+from codim2_app.draw.layers import LAYERS, TRACES, default_layers, layer_table, layers_in_paint_order, swatches
 from codim2_app.draw.shapes import OPEN, shape
 from codim2_app.draw.theme import (
     HALF_VIEW,
@@ -28,7 +28,7 @@ def test_layers_lie_above_each_other_as_the_legend_says():
         "basins", "outcomes", "lines", "rho", "theta", "conics", "outside", "inside", "continuations", "separatrices",
         "cycles", "launched", "equator", "critical",
     ]  # fmt: skip
-    assert [row["name"] for row in table()] == [layer.name for layer in layers_in_paint_order()]
+    assert [row["name"] for row in layer_table()] == [layer.name for layer in layers_in_paint_order()]
     assert set(LAYERS) - set(default_layers()) == {"separatrices", "conics", "outcomes", "basins"}
 
 

@@ -12,7 +12,7 @@ from codim2_app.draw.svg import SMALL_SIDE, content, draw, small
 from codim2_app.draw.theme import HALF_VIEW, custom_properties, themes
 from codim2_app.draw.vector.parts import VIEWBOX_SIDE, Placement
 from codim2_app.state.controls import ExplorerState
-from codim2_app.view.markup import config, stylesheet
+from codim2_app.view.markup import page_config, stylesheet
 from codim2_app.view.refresh import Frames
 
 from codim2_core import scene as core_scene
@@ -263,7 +263,7 @@ def test_a_new_layer_is_one_row(monkeypatch):
     assert [one for one in attributes(svg) if one.get("fill") == "var(--spiral)"]
     assert np.array_equal(elements(scene)["spiral"].split(datatype="array")[0], curve.points)
     assert len(holoviews(scene)) == 12
-    told = config(ExplorerState())
+    told = page_config(ExplorerState())
     assert next(one["parts"] for one in told["layers"] if one["name"] == "spiral")[0]["colour"] == "spiral"
     assert told["themes"]["dark"]["spiral"] == "#abcdef"
     assert "--spiral: #123456;" in stylesheet()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from codim2_app.draw.lines.spacing import EQUATOR_GUARD, MIN_PIECE, SEPARATION, evenly
-from codim2_app.draw.packing import PIXEL, WINDOW
+from codim2_app.draw.packing import PACKING_PIXEL, WINDOW
 from scipy.spatial import cKDTree
 
 import codim2_core as c2
@@ -22,7 +22,11 @@ def dense(offsets, points, step):
 
 @pytest.mark.parametrize(
     ("name", "layer", "pixel"),
-    [("case1-cm4", "inside", PIXEL), ("case3-n3", "inside", PIXEL), ("case1-cm0", "outside", PIXEL / 4)],
+    [
+        ("case1-cm4", "inside", PACKING_PIXEL),
+        ("case3-n3", "inside", PACKING_PIXEL),
+        ("case1-cm0", "outside", PACKING_PIXEL / 4),
+    ],
 )
 def test_no_two_are_near_and_each_lies_on_one_that_was_there(name, layer, pixel):
     preset = c2.presets[name]
@@ -47,10 +51,10 @@ def test_no_two_are_near_and_each_lies_on_one_that_was_there(name, layer, pixel)
 
 def test_curves_that_are_far_apart_stay_whole_and_what_is_beyond_the_window_is_left_out():
     offsets, points = np.array([0, 2, 4]), np.array([[-0.5, 0.0], [0.5, 0.0], [1.2, 0.5], [4.0, 0.5]])
-    left, kept = evenly(offsets, points, PIXEL, WINDOW)
+    left, kept = evenly(offsets, points, PACKING_PIXEL, WINDOW)
     assert left.tolist() == [0, 2, 4]
     assert kept[:3].tolist() == points[:3].tolist()
     assert 2.0 < kept[3, 0] <= WINDOW[1]
-    empty = evenly(np.array([0]), np.zeros((0, 2)), PIXEL, WINDOW)
+    empty = evenly(np.array([0]), np.zeros((0, 2)), PACKING_PIXEL, WINDOW)
     assert empty[0].tolist() == [0]
     assert empty[1].shape == (0, 2)

@@ -8,7 +8,7 @@ import pytest
 from codim2_app.draw.theme import HALF_VIEW
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.tex.picture import tikz
-from codim2_app.export.tex.table import in_latex, latex, number
+from codim2_app.export.tex.table import in_latex, latex, latex_number
 from codim2_app.export.view import view_of
 
 import codim2_core as c2
@@ -43,16 +43,21 @@ def test_its_numbers_are_those_of_the_core():
     text = latex(view)
     scene = view.scene()
     (C,) = scene["critical"]
-    assert f"({number(C.e[0])}, {number(C.e[1])}) & stable focus & {number(C.trace)} & {number(C.determinant)}" in text
+    c, s, trace, determinant = map(latex_number, (*C.e, C.trace, C.determinant))
+    assert f"({c}, {s}) & stable focus & {trace} & {determinant}" in text
     for i, theta in enumerate(scene["equator"].theta):
-        assert f"$Q_{{{i + 1}}}$ & {number(theta)} & {number(scene['equator'].lambda_rho[i])} &" in text
+        assert f"$Q_{{{i + 1}}}$ & {latex_number(theta)} & {latex_number(scene['equator'].lambda_rho[i])} &" in text
     assert "a = 172" in text
     assert "No limit directions." in latex(view_of("case1-cm0"))
 
 
 def test_words_and_numbers_in_latex():
     assert in_latex("Σ along Q₁: λ_ρ = −2 50%") == r"$\Sigma$ along Q$_1$: $\lambda$\_$\rho$ = $-$2 50\%"
-    assert (number(-0.25), number(1.5e-7), number(1e-15)) == ("$-0.25$", r"$1.5 \cdot 10^{-7}$", "$0$")
+    assert (latex_number(-0.25), latex_number(1.5e-7), latex_number(1e-15)) == (
+        "$-0.25$",
+        r"$1.5 \cdot 10^{-7}$",
+        "$0$",
+    )
 
 
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no LaTeX here")

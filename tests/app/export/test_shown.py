@@ -13,7 +13,7 @@ import codim2_core as c2
 from codim2_core import bifurcations
 from codim2_core.continuation.branches import continue_cycles
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
-from codim2_core.tables import number
+from codim2_core.tables import table_number
 
 ONE = c2.psi.constant()
 FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))
@@ -137,18 +137,20 @@ def test_numbers_are_those_of_the_result():
     _, *rows = cells(found._repr_html_())
     assert [row[0] for row in rows] == list(found.destinations)
     for i, row in enumerate(rows):
-        assert row[1] == number((found.cells == i).sum() / (found.cells != -2).sum())
+        assert row[1] == table_number((found.cells == i).sum() / (found.cells != -2).sum())
     counted = c2.census(count=5000)
     _, *rows = cells(counted._repr_html_())
     assert [(row[0], row[1]) for row in rows] == [(one.name, f"{one.count:,}") for one in counted.table]
     moved = RESULTS["variation"]()
     head, *rows = cells(moved._repr_html_())
     assert head[1:] == ["∂/∂x", "∂/∂y", "∂/∂z1", "∂/∂a"]
-    assert rows == [[name, *map(number, row)] for name, row in zip(("x", "y", "z1"), moved.last.tolist(), strict=True)]
+    assert rows == [
+        [name, *map(table_number, row)] for name, row in zip(("x", "y", "z1"), moved.last.tolist(), strict=True)
+    ]
     along = c2.slow_portrait(UNSTEADY, ONE, (-2, 2))
     rows = cells(along._repr_html_())
     assert [row[0] for row in rows if row[0] == "equator"] == [p.kind for p in along.points if p.kind == "equator"]
-    assert [number(one.low) for one in along.intervals] == [row[0] for row in rows[1 : 1 + len(along.intervals)]]
+    assert [table_number(one.low) for one in along.intervals] == [row[0] for row in rows[1 : 1 + len(along.intervals)]]
 
 
 def test_areas_of_an_atlas_lie_where_the_regions_lie():

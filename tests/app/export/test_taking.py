@@ -4,7 +4,7 @@ import re
 
 import pytest
 import segno
-from codim2_app.export.taking import Wish, file_name, make_file
+from codim2_app.export.taking import ExportRequest, file_name, make_file
 from codim2_app.export.view import view_of
 
 
@@ -17,19 +17,21 @@ from codim2_app.export.view import view_of
     ],
 )
 def test_it_is_the_portrait_in_letters_figures_and_dashes(query, name):
-    assert file_name(view_of(query), Wish("svg")) == name
+    assert file_name(view_of(query), ExportRequest("svg")) == name
 
 
 def test_films_of_one_portrait_are_named_by_what_moves():
     view = view_of("case3-n2")
-    found = [file_name(view, Wish("gif", sliders=sliders)) for sliders in (("n=1,3;2",), ("play",), ("own:mu",))]
+    found = [
+        file_name(view, ExportRequest("gif", sliders=sliders)) for sliders in (("n=1,3;2",), ("play",), ("own:mu",))
+    ]
     assert found == ["codim2-case3-n2-n.gif", "codim2-case3-n2-play.gif", "codim2-case3-n2-own-mu.gif"]
 
 
 def test_a_poster_has_a_title_a_caption_and_the_code_of_its_address():
     link = "https://h/?v=1&preset=case3-n2"
     view = view_of("case3-n2")
-    name, poster = make_file(view, Wish.read({"kind": "svg", "link": link}))
+    name, poster = make_file(view, ExportRequest.read({"kind": "svg", "link": link}))
     text = poster.decode()
     assert name == "codim2-case3-n2.svg"
     assert "n = 2: stable focus" in text
@@ -38,6 +40,6 @@ def test_a_poster_has_a_title_a_caption_and_the_code_of_its_address():
     squares = {(int(y) - 2, int(x) - 2) for x, y in re.findall(r"M(\d+) (\d+)", code)}
     matrix = segno.make_qr(link, error="l", boost_error=False).matrix
     assert squares == {(i, j) for i, row in enumerate(matrix) for j, dark in enumerate(row) if dark}
-    assert make_file(view, Wish.read({"kind": "pdf", "link": link}))[1].startswith(b"%PDF")
+    assert make_file(view, ExportRequest.read({"kind": "pdf", "link": link}))[1].startswith(b"%PDF")
     with pytest.raises(ValueError, match="2000 bytes"):
-        Wish.read({"kind": "svg", "link": "h" * 2001})
+        ExportRequest.read({"kind": "svg", "link": "h" * 2001})

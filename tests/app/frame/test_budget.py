@@ -5,10 +5,19 @@ import pickle
 import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
-from codim2_app.frame.budget import LAYER, MOST_STANDING, WORDS, Budget, Layers, NotYet, layers_of, wildness
+from codim2_app.frame.budget import (
+    LAYER,
+    MOST_STANDING,
+    WORDS,
+    BackgroundLayers,
+    Budget,
+    PendingLayer,
+    layers_of,
+    wildness,
+)
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
-from codim2_app.frame.turns import Turns
+from codim2_app.frame.turns import WorkQueue
 from codim2_app.state.controls import ExplorerState, preset_values
 from codim2_app.view.refresh import Frames
 
@@ -27,7 +36,7 @@ def budgeted(values):
     executor = Held()
     frames = Frames(ExplorerState(**values), budget=Budget())
     frames.jobs = Jobs()
-    frames.jobs._given = Turns(executor)
+    frames.jobs._given = WorkQueue(executor)
     return frames, executor
 
 
@@ -62,10 +71,10 @@ def test_what_was_quick_is_computed_with_the_frame_until_the_formula_is_wilder()
     budget.told(scene, type(found)(found.results, quick, {}))
     assert len(scene.evolve(k=1.1)["equator"]) > 0  # computed here
     assert scene.runs["equator"] == 1
-    with pytest.raises(NotYet):
+    with pytest.raises(PendingLayer):
         scene.evolve(k=1000.0)["equator"]
     budget.told(scene, type(found)({}, dict.fromkeys(quick, 2 * LAYER), {}))
-    with pytest.raises(NotYet):
+    with pytest.raises(PendingLayer):
         scene.evolve(k=1.2)["equator"]
 
 
@@ -74,10 +83,10 @@ def test_that_a_layer_has_become_quick_is_believed_by_halves():
     scene, budget = make_scene(typed()), Budget()
     scene.ask_before(budget.before)
     for took in (8.0 * LAYER, 0.0, 0.0):
-        budget.told(scene, Layers({}, {"location": 0.0, "equator": took}, {}))
-        with pytest.raises(NotYet):
+        budget.told(scene, BackgroundLayers({}, {"location": 0.0, "equator": took}, {}))
+        with pytest.raises(PendingLayer):
             scene["equator"]
-    budget.told(scene, Layers({}, {"equator": 0.0}, {}))
+    budget.told(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
     assert len(scene["equator"]) > 0
 
 
@@ -86,9 +95,9 @@ def test_what_is_compiled_elsewhere_is_not_computed_here_however_quick_it_is():
     budget = Budget(lambda _scene: bool(full))
     scene.ask_before(budget.before)
     quick = dict.fromkeys(("equator", "location", "critical"), 0.001)
-    budget.told(scene, Layers({}, quick, {}))
+    budget.told(scene, BackgroundLayers({}, quick, {}))
     full.append(True)
-    with pytest.raises(NotYet):
+    with pytest.raises(PendingLayer):
         scene["equator"]
     full.clear()
     assert len(scene["equator"]) > 0
@@ -136,7 +145,7 @@ def test_outcomes_of_a_slow_spiral_are_computed_beside_the_frames_until_they_are
     frames.budget._timed[None][1]["outcomes"] = 0.001
     assert "picture" not in header(frames, set={"a": 2.1}).get("late", [])  # as quick as it was
     assert "picture" in header(frames, set=SPIRAL)["late"]  # winds for longer than any that was timed
-    frames.budget.told(frames.scene, Layers({}, {"outcomes": 5 * LAYER}, {}))
+    frames.budget.told(frames.scene, BackgroundLayers({}, {"outcomes": 5 * LAYER}, {}))
     assert "picture" in header(frames, set={"a": -0.05})["late"]
     assert not frames.scene.runs["outcomes"] - 1
 
@@ -147,7 +156,7 @@ def test_orbits_that_are_launched_are_timed_before_they_are_computed_here():
     assert "picture" in header(frames, set={"orbits": "0.3,0.2"})["late"]
     executor.run()
     frames.budget._timed.clear()
-    frames.budget.told(frames.scene, Layers({}, {"launched": 0.001}, {}))
+    frames.budget.told(frames.scene, BackgroundLayers({}, {"launched": 0.001}, {}))
     assert "picture" not in header(frames, set={"orbits": "0.31,0.2"}).get("late", [])
 
 
@@ -163,9 +172,9 @@ def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_fo
     assert took.keys() >= {"equator", "critical", "classification"}
     assert sum(took.values()) == pytest.approx(0.01 * LAYER * (next(clock) - 1))  # no second counted twice
     took["equator"] = 2 * LAYER
-    with pytest.raises(NotYet):
+    with pytest.raises(PendingLayer):
         scene.evolve(f1=-0.6)["equator"]
-    budget.told(scene, Layers({}, {"equator": 0.0}, {}))
+    budget.told(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
     assert len(scene.evolve(f1=-0.7)["equator"]) > 0
 
 
@@ -198,7 +207,7 @@ def test_all_that_panels_ask_of_other_processes_can_travel():
         values = {**ExplorerState.of(start).values(), "layers": ["critical", "equator", "outcomes"]}
         frames, _ = budgeted(values)
         executor = Travels()
-        frames.jobs._given = Turns(executor)
+        frames.jobs._given = WorkQueue(executor)
         for key in PANELS_BY_NAME:
             said = header(frames, set={"panel": key}, rest=True)
             for _ in range(12):

@@ -5,7 +5,7 @@ import weakref
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 
 import pytest
-from codim2_app.frame.turns import MAX_KEPT_RESULTS, Failed, KeptResults, Turns
+from codim2_app.frame.turns import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue
 
 
 class Held(Executor):
@@ -42,7 +42,7 @@ def names(executor):
 
 def test_browsers_take_turns():
     executor = Held()
-    turns = Turns(executor, 1)
+    turns = WorkQueue(executor, 1)
     for i in range(3):
         turns.want("greedy", ("g", i), str, f"greedy {i}")
     turns.want("modest", "m", str, "modest")
@@ -52,7 +52,7 @@ def test_browsers_take_turns():
 
 def test_nobody_has_two_at_a_time():
     executor = Held()
-    turns = Turns(executor, 2)
+    turns = WorkQueue(executor, 2)
     for i in range(3):
         turns.want("greedy", ("g", i), str, f"greedy {i}")
     assert len(executor.given) == 1
@@ -62,7 +62,7 @@ def test_nobody_has_two_at_a_time():
 
 def test_what_several_want_is_computed_once_and_ends_with_the_last_of_them():
     executor = Held()
-    turns = Turns(executor, 1)
+    turns = WorkQueue(executor, 1)
     first, second = turns.want("a", "key", str, "once"), turns.want("b", "key", str, "once")
     assert first is second
     assert len(executor.given) == 1
@@ -75,7 +75,7 @@ def test_what_several_want_is_computed_once_and_ends_with_the_last_of_them():
 
 def test_what_waits_is_never_begun_for_those_who_left():
     executor = Held()
-    turns = Turns(executor, 1)
+    turns = WorkQueue(executor, 1)
     turns.want("a", 1, str, "first")
     turns.want("b", 2, str, "second")
     turns.leave("b")
@@ -96,16 +96,16 @@ class Fails(Executor):
 
 
 def test_a_lost_worker_is_tried_once_more():
-    assert Turns(Fails(BrokenExecutor()), 1).want("a", 1, str, "done").result(0) == "done"
-    twice = Turns(Fails(BrokenExecutor(), BrokenExecutor()), 1).want("a", 1, str, "done").result(0)
-    assert isinstance(twice, Failed)
+    assert WorkQueue(Fails(BrokenExecutor()), 1).want("a", 1, str, "done").result(0) == "done"
+    twice = WorkQueue(Fails(BrokenExecutor(), BrokenExecutor()), 1).want("a", 1, str, "done").result(0)
+    assert isinstance(twice, FailedResult)
     assert "ended" in twice.sentence
 
 
 @pytest.mark.parametrize("error", [TimeoutError("This takes longer than 60 s, and was stopped."), RuntimeError("?")])
 def test_what_fails_is_a_sentence(error):
-    found = Turns(Fails(error), 1).want("a", 1, str, "done").result(0)
-    assert isinstance(found, Failed)
+    found = WorkQueue(Fails(error), 1).want("a", 1, str, "done").result(0)
+    assert isinstance(found, FailedResult)
     assert found.sentence.endswith(".")
 
 
@@ -119,7 +119,7 @@ def test_what_is_done_holds_nobody_who_waited_for_it(error, wanted):
             pass
 
     executor = Held()
-    turns = Turns(executor, 1)
+    turns = WorkQueue(executor, 1)
     page = Page()
     turns.want(1, "key", str, "x").add_done_callback(page.told)
     if not wanted:
@@ -159,7 +159,7 @@ def test_results_are_bounded_in_number_and_in_size():
 def test_when_what_computes_has_been_shut_down_what_waits_is_given_up_without_a_word(caplog):
     """As at the end of a process: the work under way ends, and others wait."""
     executor = Held()
-    turns = Turns(executor, 1)
+    turns = WorkQueue(executor, 1)
     first = turns.want("one", 1, str, "first")
     second = turns.want("two", 2, str, "second")
 

@@ -2,7 +2,7 @@
 
 import pytest
 from codim2_app.lessons import library
-from codim2_app.lessons.library import lessons, offer
+from codim2_app.lessons.library import add_lessons, lessons
 from codim2_app.lessons.reading import read_lesson
 from codim2_app.panels.lessons import Quiz, opening_values, read_quiz
 from codim2_app.state.controls import ExplorerState
@@ -101,7 +101,7 @@ def offered_here_only(monkeypatch):
 def test_a_lesson_of_ones_own_is_one_file(tmp_path):
     path = tmp_path / "own-lesson.md"
     path.write_text(OWN, encoding="utf-8")
-    offer({"own-lesson": read_lesson(path)})
+    add_lessons({"own-lesson": read_lesson(path)})
     frames, header = opened("own-lesson")
     assert header["lesson"]["title"] == "Mine"
     assert header["facts"] == {"name": "CM0"}

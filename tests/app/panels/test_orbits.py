@@ -7,7 +7,7 @@ from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
-from codim2_app.frame.draft import Draft
+from codim2_app.frame.draft import FrameContext
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import orbits
@@ -41,7 +41,7 @@ def visitor(beside=None, **changes):
         scene = kept.setdefault(json.dumps(values["orbits"]) + str(values["f1"]), make_scene(values))
         header = {}
         for _ in range(3):
-            draft = Draft(scene, values, {}, {}, now, jobs, rest, ready, ())
+            draft = FrameContext(scene, values, {}, {}, now, jobs, rest, ready, ())
             orbits.add(draft)
             json.dumps(draft.header, allow_nan=False)
             header = {**{name: it for name, it in header.items() if name != "late"}, **draft.header}

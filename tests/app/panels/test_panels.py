@@ -94,5 +94,5 @@ def test_numbers_of_certificates_are_finite():
     for name in ("case1-cm4", "case2-saddle", "case3-n3"):
         preset = c2.presets[name]
         system = c2.ELinear(preset.a, preset.b, preset.d, (preset.f1, preset.f2))
-        for *_, numbers in theorems.rows(c2.certificates(system, c2.psi.rational())):
+        for *_, numbers in theorems.certificate_rows(c2.certificates(system, c2.psi.rational())):
             assert all(np.isfinite(value) for _, value in numbers)

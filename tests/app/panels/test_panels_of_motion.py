@@ -6,7 +6,7 @@ from concurrent.futures import Executor, Future
 import numpy as np
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.frame.draft import Draft
+from codim2_app.frame.draft import FrameContext
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
@@ -35,7 +35,7 @@ def sent(panel, *, rest=True, **changes):
     values = {**ExplorerState().values(), **opening_values(changes.get("system", "normal")), **changes}
     scene, jobs = make_scene(values), Jobs(Now())
     for _ in range(2):
-        draft = Draft(scene, values, {}, {}, {}, jobs, rest, True, ())
+        draft = FrameContext(scene, values, {}, {}, {}, jobs, rest, True, ())
         panel.add(draft)
     json.dumps(draft.header, allow_nan=False)
     return draft.header
@@ -65,7 +65,7 @@ def test_play_follows_the_attracting_set_that_it_was_on():
     def drifts(**changes):
         values = {**shown, **changes}
         header.clear()
-        panel_along.add(Draft(make_scene(values), values, header, {}, now, Jobs(Now()), False, True, ()))
+        panel_along.add(FrameContext(make_scene(values), values, header, {}, now, Jobs(Now()), False, True, ()))
         return header.get("drift", "as before")
 
     first = drifts(z=0.3)
@@ -94,7 +94,7 @@ def test_without_slow_variables_it_says_so():
     values = ExplorerState().values()
     scene = make_scene(values, c2.ELinear(-1, 0, -1))
     for panel in (panel_along, solid):
-        draft = Draft(scene, values, {}, {}, {}, Jobs(Now()), True, True, ())
+        draft = FrameContext(scene, values, {}, {}, {}, Jobs(Now()), True, True, ())
         panel.add(draft)
         assert "no slow variable" in str(draft.header["unable"])
 
@@ -186,12 +186,12 @@ def test_psi_is_sent_once_and_as_it_is(family):
     values = {**ExplorerState().values(), "psi": family}
     scene, now = make_scene(values), {}
     header = {}
-    psi.add(Draft(scene, values, header, {}, now, Jobs(Now()), False, True, ()))
+    psi.add(FrameContext(scene, values, header, {}, now, Jobs(Now()), False, True, ()))
     curves = header["psi_curves"]
     np.testing.assert_allclose(curves["psi"], scene.psi(np.array(curves["s"])), rtol=1e-4)
     np.testing.assert_allclose(curves["modulus"], scene.psi.modulus(np.array(curves["zeta"])), rtol=1e-4)
     again = {}
-    psi.add(Draft(scene, values, again, {}, now, Jobs(Now()), False, True, ()))
+    psi.add(FrameContext(scene, values, again, {}, now, Jobs(Now()), False, True, ()))
     assert again == {}
 
 
@@ -224,7 +224,7 @@ def delayed(panel, system, **changes):
     }
     jobs = Jobs(Now())
     for _ in range(2):
-        draft = Draft(make_scene(values, system), values, {}, {}, {}, jobs, True, True, ())
+        draft = FrameContext(make_scene(values, system), values, {}, {}, {}, jobs, True, True, ())
         panel.add(draft)
     json.dumps(draft.header, allow_nan=False)
     return draft.header

@@ -8,7 +8,7 @@ from codim2_app.panels.panel import Panel
 from codim2_app.state.choices import PANEL_NAMES
 from codim2_app.state.cleaning import InputError, clean
 from codim2_app.state.controls import ExplorerState
-from codim2_app.view.markup import config, explorer_html, script
+from codim2_app.view.markup import explorer_html, page_config, script
 
 
 def test_tabs_scripts_and_settings_follow_the_registry():
@@ -18,7 +18,7 @@ def test_tabs_scripts_and_settings_follow_the_registry():
     assert re.findall(r'role="tabpanel" id="c2-panel-(\w+)"', page) == keys
     assert re.findall(r'^register\("(\w+)"', script(), re.MULTILINE) == keys
     assert {*keys} == {*PANEL_NAMES}  # a state on its own knows the same ones, by their scripts
-    assert list(config(ExplorerState())["panels"]) == keys
+    assert list(page_config(ExplorerState())["panels"]) == keys
     assert all(panel.tip for panel in registry.PANELS_BY_NAME.values())
 
 

@@ -8,7 +8,7 @@ from codim2_app.draw.packing import unpack
 from codim2_app.frame import budget
 from codim2_app.frame.budget import Budget
 from codim2_app.frame.jobs import Jobs
-from codim2_app.frame.turns import Failed
+from codim2_app.frame.turns import FailedResult
 from codim2_app.panels import registry
 from codim2_app.panels.panel import Panel
 from codim2_app.state.controls import ExplorerState
@@ -65,7 +65,7 @@ def test_a_refused_computation_is_a_sentence():
 
     jobs.ask("map", key, refuse)
     executor.run()
-    assert jobs.ask("map", key, refuse) == Failed("give something else.")
+    assert jobs.ask("map", key, refuse) == FailedResult("give something else.")
 
 
 def test_a_fault_of_one_panel_is_logged_and_leaves_the_picture(caplog):

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from codim2_app.server.process.logs import JsonLines
-from codim2_app.server.settings import SETTINGS, add_settings, table, unknown_settings
+from codim2_app.server.settings import SETTINGS, add_settings, settings_table, unknown_settings
 
 
 def read(arguments=(), **environment):
@@ -67,7 +67,7 @@ def test_the_table_and_the_help_have_them_all(capsys):
     for setting in SETTINGS:
         assert f"--{setting.name}" in said
         assert f"[{setting.env}]" in " ".join(said.split())
-        assert f"`{setting.env}`" in table()
+        assert f"`{setting.env}`" in settings_table()
 
 
 def test_log_lines_are_json():
@@ -82,4 +82,4 @@ def test_log_lines_are_json():
 
 def test_the_hosting_page_has_the_table():
     page = (Path(__file__).parents[3] / "app" / "docs" / "text" / "hosting.md").read_text(encoding="utf-8")
-    assert table() in page
+    assert settings_table() in page

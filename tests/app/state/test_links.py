@@ -25,7 +25,7 @@ from codim2_app.state.links import (
     write_link,
 )
 from codim2_app.state.portraits import portraits
-from codim2_app.view.markup import config
+from codim2_app.view.markup import page_config
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -197,7 +197,7 @@ def test_an_old_link_shows_what_it_showed(query, name):
 
 @pytest.mark.skipif(shutil.which("node") is None, reason="no node")
 def test_the_browser_writes_the_same_links():
-    settings = config(ExplorerState())
+    settings = page_config(ExplorerState())
     cases = [
         first_values(), {**first_values(), "f1": 1e-7, "layers": ["rho"], "orbits": "0.3,0.2;1,1"},
         *(preset_values(key) for key in KEYS), {**preset_values("case3-n3"), "z": -0.25, "panel": "orbits", "orbit": 0},

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 from codim2_app.view import answers
-from codim2_app.view.answers import Answers
+from codim2_app.view.answers import AnswerQueue
 
 
 class Frames:
@@ -44,7 +44,7 @@ def test_who_asks_for_all_is_at_rest_when_it_is_answered(held, asked, rest):
     sent, soon, _ = held
     frames = Frames()
     data = {"id": 7, "window": [1.0], **asked}
-    Answers(frames, sent.append, soon.append).answer(data)
+    AnswerQueue(frames, sent.append, soon.append).answer(data)
     assert sent == []
     frames.pending.set_result(None)
     [answer] = soon
@@ -56,7 +56,7 @@ def test_who_asks_for_all_is_at_rest_when_it_is_answered(held, asked, rest):
 @pytest.mark.parametrize("meanwhile", ["nothing", "left", "answered"])
 def test_an_answer_comes_soon_without_its_picture_unless_nobody_waits_for_it(held, meanwhile):
     sent, soon, late = held
-    made = Answers(frames := Frames(), sent.append, soon.append)
+    made = AnswerQueue(frames := Frames(), sent.append, soon.append)
     frames.jobs, made.visitor = SimpleNamespace(leave=lambda: None), SimpleNamespace(leave=lambda: None)
     made.answer({"id": 7})
     [(after, call)] = late
@@ -85,7 +85,7 @@ def test_what_was_waited_for_holds_no_page_that_waits_no_more(held, how):
     """A picture that others want too, or that is kept, outlives the page that asked for it."""
     _, soon, late = held
     model = Page()
-    made = Answers(frames := Frames(), model.send, soon.append)
+    made = AnswerQueue(frames := Frames(), model.send, soon.append)
     pending, page = frames.pending, weakref.ref(model)
     frames.jobs, made.visitor = SimpleNamespace(leave=lambda: None), SimpleNamespace(leave=lambda: None)
     made.answer({"id": 7})

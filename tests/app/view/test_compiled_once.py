@@ -23,7 +23,7 @@ except BlockingIOError:
 
 def asked(name):
     """What another process finds."""
-    file, byte = alone.place().with_suffix(".kernels"), zlib.crc32(name.encode())
+    file, byte = alone.lock_path().with_suffix(".kernels"), zlib.crc32(name.encode())
     command = [sys.executable, "-S", "-c", ASK, str(file), str(byte)]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 

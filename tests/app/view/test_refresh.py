@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.lines.spacing import SEPARATION
-from codim2_app.draw.packing import INT16_STEP, PIXEL, unpack
+from codim2_app.draw.packing import INT16_STEP, PACKING_PIXEL, unpack
 from codim2_app.frame.budget import Budget
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import complete_changes, evolve_scene, make_scene
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits
-from codim2_app.view.first_markup import Never
+from codim2_app.view.first_markup import NoBackground
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
@@ -287,17 +287,19 @@ def test_orbits_keep_away_from_the_cycles_that_are_drawn_and_from_no_others():
     frames, fresh = Frames(ExplorerState()), Frames(ExplorerState())
     _, blocks = unpack(frames.answer({"set": values, "all": True}))
     (cycle,) = frames.scene["closed_orbits"].cycles
-    assert gaps(INT16_STEP * blocks["inside.xy"].reshape(-1, 2), [cycle.points]).min() > 0.9 * SEPARATION * PIXEL
+    assert (
+        gaps(INT16_STEP * blocks["inside.xy"].reshape(-1, 2), [cycle.points]).min() > 0.9 * SEPARATION * PACKING_PIXEL
+    )
     hidden = {"layers": ["inside"], "f1": values["f1"] + 0.02}
     _, after = unpack(frames.answer({"set": hidden}))
-    assert gaps(INT16_STEP * after["inside.xy"].reshape(-1, 2), [cycle.points]).min() < 0.5 * SEPARATION * PIXEL
+    assert gaps(INT16_STEP * after["inside.xy"].reshape(-1, 2), [cycle.points]).min() < 0.5 * SEPARATION * PACKING_PIXEL
     _, alone = unpack(fresh.answer({"set": {**values, **hidden}, "all": True}))
     assert after["inside.n"].tolist() == alone["inside.n"].tolist()
 
 
 def test_cycles_that_are_not_there_yet_keep_no_frame_waiting():
     frames = Frames(ExplorerState(), budget=Budget(lambda _psi, _system: True))
-    frames.jobs = Jobs(Never())
+    frames.jobs = Jobs(NoBackground())
     frames.answer({"all": True})
     header, _ = unpack(frames.answer({"set": {"psi": "custom", "psi_text": "1/(1+s)**3"}}))
     assert header["errors"] == {}

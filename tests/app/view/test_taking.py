@@ -15,13 +15,13 @@ from codim2_app.export import film as films
 from codim2_app.export import taking as made
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.files import DATA
-from codim2_app.export.taking import TYPES, Wish, make_file, seen_by
+from codim2_app.export.taking import TYPES, ExportRequest, make_file, seen_by
 from codim2_app.export.view import WHOLE, view_of
 from codim2_app.frame.jobs import Jobs
 from codim2_app.state.links import read_link
 from codim2_app.view import taking as takings
 from codim2_app.view.refresh import Frames
-from codim2_app.view.taking import Taking
+from codim2_app.view.taking import ExportJobs
 
 from codim2_core.cycles.proof.check import check
 from tests.work import PATIENCE
@@ -38,7 +38,7 @@ def asked(executor, link, request):
     frames = Frames(read_link(link).state)
     frames.jobs = Jobs(executor)
     answers, later = Queue(), Queue()
-    Taking(frames).answer(request, answers.put, later.put)
+    ExportJobs(frames).answer(request, answers.put, later.put)
     if answers.empty():
         later.get(timeout=PATIENCE)()  # on the thread that answers
     answer = answers.get(timeout=PATIENCE)
@@ -83,7 +83,7 @@ def test_a_proof_is_stopped_alone(executor):
     frames = Frames(read_link("f1=0.123").state)
     frames.jobs = Jobs(executor)
     answers, later, begin = Queue(), Queue(), Event()
-    taking = Taking(frames)
+    taking = ExportJobs(frames)
     executor.submit(begin.wait)
     try:
         taking.answer({"id": 1, "kind": "proof"}, answers.put, later.put)
@@ -138,14 +138,14 @@ def test_a_window_that_is_none_is_the_whole_picture(window):
 def test_a_file_is_bounded(monkeypatch):
     monkeypatch.setattr(made, "MAX_FILE_BYTES", 1000)
     with pytest.raises(ValueError, match="show fewer layers"):
-        make_file(view_of("v=1"), Wish("svg"))
+        make_file(view_of("v=1"), ExportRequest("svg"))
 
 
 def test_a_newer_wish_replaces_an_older(executor):
     frames = Frames(read_link("v=1").state)
     frames.jobs = Jobs(executor)
     answers, later = Queue(), Queue()
-    taking, begin = Taking(frames), Event()
+    taking, begin = ExportJobs(frames), Event()
     executor.submit(begin.wait)  # none has begun before all are asked for
     for i, kind in enumerate(("json", "npz", "tex")):
         taking.answer({"id": i, "kind": kind}, answers.put, later.put)
@@ -163,7 +163,7 @@ def conversation(executor, request, query="preset=case1-cm4", stop_after=None):
     """All answers to the wish for a film; after some of them it is stopped."""
     frames = Frames(read_link(query).state)
     frames.jobs = Jobs(executor)
-    taking, answers, later = Taking(frames), [], Queue()
+    taking, answers, later = ExportJobs(frames), [], Queue()
     taking.answer(request, answers.append, later.put)
     while not answers or "done" in answers[-1]:
         if len(answers) == stop_after:
@@ -194,7 +194,7 @@ def test_a_file_that_was_made_leaves_nothing_that_a_search_must_find(executor, m
         page, later = Page(), Queue()
         there, frames = ref(page), Frames(read_link("preset=case1-cm4").state)
         frames.jobs = Jobs(executor)
-        Taking(frames).answer(request_, page.append, later.put)
+        ExportJobs(frames).answer(request_, page.append, later.put)
         while not page or "done" in page[-1]:
             later.get(timeout=PATIENCE)()
         assert "file" in page[-1]

@@ -125,7 +125,7 @@ def test_holoviews_overlay_can_be_added_to():
 
 def test_the_page_says_which_paper_it_shows_and_what_its_words_mean():
     from codim2_app.view.glossary import GLOSSARY, PAPER
-    from codim2_app.view.markup import config, explorer_html
+    from codim2_app.view.markup import explorer_html, page_config
 
     page = explorer_html(ExplorerState())
     assert PAPER[1] in page
@@ -133,7 +133,7 @@ def test_the_page_says_which_paper_it_shows_and_what_its_words_mean():
         shown = re.sub("_([ρθ])", r"<sub>\1</sub>", term)  # as in the table of numbers
         assert f"<dt>{shown}</dt>" in page
         assert len(meaning) < 140
-    found = config(ExplorerState())
+    found = page_config(ExplorerState())
     scene = c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)))  # what the opening sentence says, of what is drawn
     assert "four limit directions, all radially attracting" in found["opening"]
     assert (len(scene["equator"]), bool((scene["equator"].lambda_rho < 0).all())) == (4, True)

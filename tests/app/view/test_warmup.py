@@ -12,7 +12,7 @@ from codim2_app.server import cli
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view import alone as alone_module
 from codim2_app.view import warmup
-from codim2_app.view.alone import alone, place
+from codim2_app.view.alone import alone, lock_path
 from codim2_app.view.refresh import Frames
 from codim2_app.view.warmup import DRAGGED, MOST_COMPILED, Share
 
@@ -31,7 +31,7 @@ except BlockingIOError:
 
 def asked():
     return subprocess.run(
-        [sys.executable, "-c", ASK, str(place())], check=True, capture_output=True, text=True
+        [sys.executable, "-c", ASK, str(lock_path())], check=True, capture_output=True, text=True
     ).stdout.strip()
 
 
@@ -48,13 +48,13 @@ def test_one_process_at_a_time_compiles(folder):
     with pytest.raises(ZeroDivisionError), alone():
         raise ZeroDivisionError
     assert asked() == "free"
-    assert place().parent == folder
+    assert lock_path().parent == folder
 
 
 def test_other_folders_of_kernels_are_others_affair(folder, monkeypatch):
-    here = place()
+    here = lock_path()
     monkeypatch.setattr(alone_module.config, "CACHE_DIR", "/elsewhere")
-    assert place() != here
+    assert lock_path() != here
 
 
 def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):

@@ -3,7 +3,7 @@
 import pytest
 
 from codim2_core import ELinear, psi
-from codim2_core.continuation.varied_system import Question, VariedSystem, follow
+from codim2_core.continuation.varied_system import ParameterFamily, TurnQuestion, run_batch
 from codim2_core.layer_problem.vary import vary
 
 SYSTEM = ELinear(1.0, 1.3, -1.2, (0.33, 0.07))
@@ -15,7 +15,7 @@ def family(p, name):
         changed, member, _ = vary(SYSTEM, p, (), name, value)
         return changed.at(()), member
 
-    made = VariedSystem(at, 1.0)
+    made = ParameterFamily(at, 1.0)
     made.ray = 1
     return made, p.parameter if name == "n" else getattr(SYSTEM.at(()), name)
 
@@ -29,7 +29,7 @@ def test_derivatives_are_those_of_turns_nearby(p, name, backward):
     h = 1e-5
 
     def turns(dx, dv):
-        return follow([Question(own, [x + dx for x in XI], [value + dv] * len(XI), [backward] * len(XI))])[0]
+        return run_batch([TurnQuestion(own, [x + dx for x in XI], [value + dv] * len(XI), [backward] * len(XI))])[0]
 
     asked = [turns(*moved) for moved in ((0.0, 0.0), (h, 0.0), (-h, 0.0), (0.0, h), (0.0, -h))]
     seen = 0

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core.curves.arclength import Edge, Steps, tangent, trace_curve
+from codim2_core.curves.arclength import CurveEdge, StepBounds, tangent, trace_curve
 
-STEPS = Steps(0.1, 0.2, 500)
+STEPS = StepBounds(0.1, 0.2, 500)
 
 
 def circle(v):
@@ -17,7 +17,7 @@ def circle(v):
 
 
 def below(level):
-    return Edge("top", lambda v: (float(v[1]) - level, np.array([0.0, 1.0])))
+    return CurveEdge("top", lambda v: (float(v[1]) - level, np.array([0.0, 1.0])))
 
 
 def test_a_closed_curve_ends_where_it_began():

@@ -7,7 +7,7 @@ import pytest
 
 from codim2_core import psi
 from codim2_core.cycles.return_map import returns
-from codim2_core.cycles.turn_map import turns
+from codim2_core.cycles.turn_map import first_turns
 from codim2_core.stepping.fields import field
 from codim2_core.stepping.layout import LANES
 from codim2_core.stepping.numbers import SHARED_SIZE
@@ -70,7 +70,9 @@ class Spiral:
 def followed(
     states, shared, centre=(0.0, 0.0), floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500, record=0
 ):  # fmt: skip
-    *found, steps = turns(states, shared, FIELD.address, np.array(centre), floor, sunk, t_max, rtol, limit, record)
+    *found, steps = first_turns(
+        states, shared, FIELD.address, np.array(centre), floor, sunk, t_max, rtol, limit, record
+    )
     return *found, steps[:, :4]
 
 

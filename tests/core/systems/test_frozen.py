@@ -1,4 +1,4 @@
-"""Every kind of system answers the same questions once it is frozen at a z (`systems.frozen.AtZ`)."""
+"""Every kind of system answers the same questions once it is frozen at a z (`systems.frozen.FrozenSystem`)."""
 
 import math
 import re

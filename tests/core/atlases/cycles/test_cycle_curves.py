@@ -27,7 +27,7 @@ def folds(system, psi, *names_and_ranges):
 @pytest.fixture
 def no_lines(monkeypatch):
     """Only what begins at generalised Hopf points is followed: lines take seconds."""
-    monkeypatch.setattr(lines, "LINES", ())
+    monkeypatch.setattr(lines, "LINE_OFFSETS", ())
 
 
 @pytest.mark.usefixtures("no_lines")
@@ -89,7 +89,7 @@ def test_regions_are_not_cut_and_what_stops_within_is_told(monkeypatch):
     assert more.points == found.points
     whole = c2.atlas(RADIAL, c2.psi.tanh(), "mu", "k", RANGES, with_cycles=True)
     assert [one.kind for one in whole.curves] == [one.kind for one in more.curves]
-    monkeypatch.setattr(cycle_curves, "SMALL", 0.0)  # as if it had not come to the critical set
+    monkeypatch.setattr(cycle_curves, "MAX_POINT_SIZE", 0.0)  # as if it had not come to the critical set
     told = with_folds_of_cycles(RADIAL, c2.psi.tanh(), found).points
     stopped = [point for point in told if point.kind == "undecided"]
     assert [np.hypot(*point.place) < 0.02 for point in stopped] == [True]

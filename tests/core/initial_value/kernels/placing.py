@@ -11,7 +11,7 @@ from codim2_core import psi as families
 from codim2_core.initial_value.compiled import functions_of
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels import slow
-from codim2_core.initial_value.kernels.rate import Motion
+from codim2_core.initial_value.kernels.rate import MotionConstants
 
 CURVED = System(
     U=("-2*c + 1.5*c*s + 2.4*sin(z1) + 0.3*x", "-s + 0.9*cos(z1) - 0.2*y*z2 + 0.4*c**2"),
@@ -31,7 +31,7 @@ def placed(system, z, psi=TANH):
 
 def motion_of(system, psi, eps, rtol=1e-6, floor=0.01, line=(0.0, 0.0)):
     own = functions_of(field(system), psi).addresses.tolist()
-    return Motion(*own, 2 + system.m, eps, rtol, floor, *line)
+    return MotionConstants(*own, 2 + system.m, eps, rtol, floor, *line)
 
 
 def directions(system, z):
