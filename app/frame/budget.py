@@ -174,11 +174,12 @@ class Budget:
         self._elsewhere = elsewhere
         self._timed: OrderedDict[Hashable, tuple[int, dict[str, float]]] = OrderedDict()
         self._left_out: OrderedDict[Hashable, Mapping[str, str]] = OrderedDict()
-        self._spent = self._timed_so_far = 0.0  # by what layers cost before; by the clock
+        self.begin()
 
     def begin(self) -> None:
         """Begin a frame."""
-        self._spent = self._timed_so_far = 0.0
+        self._spent = self._timed_so_far = 0.0  # by what layers cost before; by the clock
+        self._worked_before = time.thread_time()
 
     def before(self, scene: Scene, name: str) -> Callable[[], None] | None:
         """Let a layer be computed here and now, or raise; return what is to be called when it is.
@@ -206,12 +207,14 @@ class Budget:
         if cost > LAYER or self._spent + cost > FRAME or self._elsewhere(scene):
             raise PendingLayer(name)
         self._spent += cost
-        return partial(self._computed, formula, name, time.thread_time(), self._timed_so_far)
+        return partial(self._computed, formula, name, time.perf_counter(), self._timed_so_far)
 
     def _computed(self, formula: Hashable, name: str, began: float, before_it: float) -> None:
         """Note what a layer took here, without the layers that it asked for."""
-        took = time.thread_time() - began
+        took = time.perf_counter() - began
         own, self._timed_so_far = took - (self._timed_so_far - before_it), before_it + took
+        if own > LAYER:  # or this thread waited: asking how long it has worked takes longer than many a layer
+            own = min(own, time.thread_time() - self._worked_before)
         _, before = self._timed.setdefault(formula, (0, {}))
         before[name] = max(own, 0.5 * before.get(name, 0.0))
 

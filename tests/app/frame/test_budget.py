@@ -1,6 +1,7 @@
 """The thread that answers all visitors computes no layer of a typed system that is not known to be quick."""
 
 import pickle
+import time
 
 import pytest
 from codim2_app.draw.layers import LAYERS
@@ -163,7 +164,7 @@ def test_orbits_that_are_launched_are_timed_before_they_are_computed_here():
 def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_for(monkeypatch):
     """What took long here is computed beside the next frame, and here again once it is quick: believed by halves."""
     clock = iter(range(1000))
-    monkeypatch.setattr("codim2_app.frame.budget.time.thread_time", lambda: 0.01 * LAYER * next(clock))
+    monkeypatch.setattr("codim2_app.frame.budget.time.perf_counter", lambda: 0.01 * LAYER * next(clock))
     scene, budget = make_scene(preset_values("case1-cm4")), Budget()
     scene.ask_before(budget.before)
     budget.begin()
@@ -176,6 +177,15 @@ def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_fo
         scene.evolve(f1=-0.6)["equator"]
     budget.told(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
     assert len(scene.evolve(f1=-0.7)["equator"]) > 0
+
+
+def test_what_only_waited_for_a_processor_was_quick(monkeypatch):
+    scene, budget = make_scene(preset_values("case1-cm4")), Budget()
+    scene.ask_before(budget.before)
+    begun = time.perf_counter
+    monkeypatch.setattr("codim2_app.frame.budget.time.perf_counter", lambda: 1000.0 * begun())
+    scene["equator"]
+    assert budget._timed[None][1]["equator"] < LAYER
 
 
 def test_a_scene_travels_by_its_inputs():
