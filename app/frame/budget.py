@@ -174,6 +174,7 @@ class Budget:
         self._elsewhere = elsewhere
         self._timed: OrderedDict[Hashable, tuple[int, dict[str, float]]] = OrderedDict()
         self._left_out: OrderedDict[Hashable, Mapping[str, str]] = OrderedDict()
+        self._slow_once: set[str] = set()
         self.begin()
 
     def begin(self) -> None:
@@ -191,7 +192,7 @@ class Budget:
         OmittedLayer
             It is not drawn of this system.
         """
-        why = self._left_out.get(self.key(scene), {}).get(name)
+        why = self._left_out.get(self.key(scene), {}).get(name) if self._left_out else None
         if why is not None:
             raise OmittedLayer(WORDS.get(name, name), why)
         bounded, formula = self.bounded(scene), self._formula(scene)
@@ -215,6 +216,10 @@ class Budget:
         own, self._timed_so_far = took - (self._timed_so_far - before_it), before_it + took
         if own > LAYER:  # or this thread waited: asking how long it has worked takes longer than many a layer
             own = min(own, time.thread_time() - self._worked_before)
+        if own > LAYER and name not in self._slow_once:
+            self._slow_once.add(name)  # a kernel was loaded, or garbage looked for: what is slow twice is slow
+            return
+        self._slow_once.discard(name)
         _, before = self._timed.setdefault(formula, (0, {}))
         before[name] = max(own, 0.5 * before.get(name, 0.0))
 
@@ -234,7 +239,8 @@ class Budget:
         _, before = self._timed.get(formula, (0, {}))
         now = {name: max(took, 0.5 * before.get(name, 0.0)) for name, took in found.seconds.items()}
         self._timed[formula] = (3 * wildness(scene) // 2 + 8, {**before, **now})
-        self._left_out[self.key(scene)] = found.left_out
+        if found.left_out:
+            self._left_out[self.key(scene)] = found.left_out
         for kept in (self._timed, self._left_out):
             while len(kept) > REMEMBERED_SCENES:
                 kept.popitem(last=False)

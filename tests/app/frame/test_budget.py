@@ -179,13 +179,25 @@ def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_fo
     assert len(scene.evolve(f1=-0.7)["equator"]) > 0
 
 
-def test_what_only_waited_for_a_processor_was_quick(monkeypatch):
+def test_a_layer_is_slow_that_is_slow_twice_by_the_processors_time(monkeypatch):
+    clocks = {"perf_counter": time.perf_counter, "thread_time": time.thread_time}
     scene, budget = make_scene(preset_values("case1-cm4")), Budget()
     scene.ask_before(budget.before)
-    begun = time.perf_counter
-    monkeypatch.setattr("codim2_app.frame.budget.time.perf_counter", lambda: 1000.0 * begun())
-    scene["equator"]
-    assert budget._timed[None][1]["equator"] < LAYER
+
+    def late(*names):
+        for name, clock in clocks.items():
+            monkeypatch.setattr(time, name, (lambda clock=clock: 1e4 * clock()) if name in names else clock)
+
+    late("perf_counter")  # it waited for a processor
+    for f1 in (-0.6, -0.61):
+        scene.evolve(f1=f1)["equator"]
+    assert budget._timed.get(None, (0, {}))[1].get("equator", 0.0) < LAYER
+    late(*clocks)
+    budget.begin()
+    scene.evolve(f1=-0.62)["equator"]  # once: a kernel may have been loaded
+    scene.evolve(f1=-0.63)["equator"]
+    with pytest.raises(PendingLayer):
+        scene.evolve(f1=-0.64)["equator"]
 
 
 def test_a_scene_travels_by_its_inputs():
