@@ -22,7 +22,7 @@ from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
 
 from ..phrases import say
-from .alarm import at_most
+from .alarm import CompileClock, at_most
 from .faults import FAILURES
 
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
@@ -120,9 +120,9 @@ def layers_of(
         if name in FOLLOWING and (why := wild(scene)):
             left_out[name] = why
             continue
-        began = time.thread_time()
+        began, compiling = time.thread_time(), CompileClock()
         try:
-            with at_most(seconds):
+            with at_most(seconds, compiling):
                 scene[name]
         except TimeoutError:
             left_out[name] = say("too long a layer", seconds=seconds)
@@ -131,7 +131,7 @@ def layers_of(
                 return BackgroundLayers(scene.results(), took, {**others, **left_out})
         except FAILURES as error:
             left_out[name] = str(error)
-        took[name] = time.thread_time() - began
+        took[name] = time.thread_time() - began - compiling.seconds
     return BackgroundLayers(scene.results(), took, left_out)
 
 

@@ -14,7 +14,7 @@ from tests.work import wait_until
 
 AT_ONCE = 4  # visitors: one after the other they would wait for their own machine most of the time
 FORGOTTEN = 30.0  # seconds
-MOVED = 20  # settings of a formula: its first ones are timed by workers
+MOVED = 12  # settings of a formula: its first ones are timed by workers
 PLATEAU = 40e6  # bytes by which what is held after a thousand visits may exceed what is held after a hundred
 
 
@@ -78,13 +78,21 @@ def test_work_that_nobody_wants_any_more_ends_in_mid_work(address, how):
     assert asyncio.run(talk())
 
 
+async def drawn(wire, number, **values):
+    """Ask for a frame until nothing of its picture is late; return its header."""
+    header, _ = unpack(await wire.frame(number, **values))
+    while "picture" in header.get("late", []) or not header["ready"]:
+        await wire.send({"id": number, "rest": True})
+        header, _ = unpack(await wire.next_frame())
+    return header
+
+
 async def type_and_vanish(port, i):
     """Open a page, type a Psi that nobody has typed before, move a slider until it is compiled here, and go."""
     wire = await Wire.connect(port)
-    await wire.frame(1, a=app_load.value(i))
-    await wire.frame(2, psi="custom", psi_text=f"1/(1+s)+exp(-{1 + i}*s)")
+    await drawn(wire, 1, psi="custom", psi_text=f"1/(1+s)+exp(-{1 + i}*s)")
     for tick in range(MOVED):
-        await wire.frame(3 + tick, a=app_load.value(i + tick))
+        await drawn(wire, 2 + tick, a=app_load.value(i + tick))
     await wire.vanish()
 
 
@@ -127,20 +135,11 @@ def test_a_thousand_visits_hold_no_more_than_a_hundred():
 def test_who_types_without_end_uses_nothing_up():
     """Sixty texts, each drawn: none is compiled in the process that answers, and another's new formula is drawn."""
 
-    async def drawn(wire, number, k):
-        await wire.frame(number, psi="custom", psi_text=f"1/(1+s)+exp(-{k}*s)")
-        late = ["picture"]
-        while "picture" in late:
-            await wire.send({"id": number, "rest": True})
-            header, _ = unpack(await wire.next_frame())
-            late = header.get("late", [])
-        return header["errors"]
-
     async def play(port):
         wild, other = [await Wire.connect(port) for _ in range(2)]
         for k in range(1, 60):
-            await drawn(wild, k, k)
-        said = await drawn(other, 1, 0.5)
+            await drawn(wild, k, psi="custom", psi_text=f"1/(1+s)+exp(-{k}*s)")
+        said = (await drawn(other, 1, psi="custom", psi_text="1/(1+s)+exp(-s/2)"))["errors"]
         left = await asyncio.to_thread(app_load.left, port)
         await wild.close()
         await other.close()
