@@ -135,7 +135,7 @@ def figures(quick: bool) -> str:
             )
         lines += [
             "",
-            f"| a neighbour who does | own max, p99, p50 of {frames} frames, ms (max to reach) |",
+            f"| beside one who draws | own max, p99, p50 of {frames} frames, ms (max to reach) |",
             "|---|---|",
         ]
         for what, wild in WILD.items():
