@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-Function = Callable[[Any, Any], Any]  # of tr J and det J, numbers or arrays
+TestFunction = Callable[[Any, Any], Any]  # of tr J and det J, numbers or arrays
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +36,8 @@ class CriticalChange:
     """
 
     kind: str
-    function: Function
-    holds: Function
+    function: TestFunction
+    holds: TestFunction
     says: str
     when: str
     label: str

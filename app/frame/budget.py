@@ -22,8 +22,8 @@ from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
 
 from ..phrases import say
-from .alarm import CompileClock, at_most
 from .faults import FAILURES
+from .time_limit import CompileClock, at_most
 
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
 LAYER, FRAME = 0.008, 0.02

@@ -11,7 +11,7 @@ from concurrent.futures import Executor, Future
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from .turns import WorkQueue, in_a_thread
+from .work_queue import WorkQueue, in_a_thread
 
 #: For which work goes on that a newer wish has replaced: a worker that is stopped leaves its place to one that must
 #: load all kernels, and in a drag no picture would ever be done.

@@ -13,14 +13,14 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from ..docs import place
+from ..docs import docs_folder
 from ..frame.cluster import ClusterError, cluster
 from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets, add_prove
+from .downloads import add_data, add_figure, add_film, add_live
 from .process.files import many_files
 from .process.logs import log_to_stderr
 from .process.stopping import stop_when_asked
 from .settings import add_settings, unknown_settings
-from .taking import add_data, add_figure, add_film, add_live
 
 
 def parser() -> argparse.ArgumentParser:
@@ -69,7 +69,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     for sentence in unknown_settings():
         print(f"codim2: {sentence}", file=sys.stderr)
-    place.serve_folder(chosen.docs)
+    docs_folder.serve_folder(chosen.docs)
     log_to_stderr(chosen.log_json, chosen.log_level)
     try:
         _try_to_listen(chosen.address, chosen.port)

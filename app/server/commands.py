@@ -266,6 +266,6 @@ def notebooks(chosen: argparse.Namespace) -> int:
 def docs(chosen: argparse.Namespace) -> int:
     """Build the site."""
     from ..docs.build import main
-    from ..docs.place import PACKAGED_SITE
+    from ..docs.docs_folder import PACKAGED_SITE
 
     return main(PACKAGED_SITE if chosen.folder is None else chosen.folder)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from typing import Any
 
-from ..docs.place import site
+from ..docs.docs_folder import site
 from ..draw.packing import unpack
 from ..draw.svg import draw
 from ..frame.budget import Budget

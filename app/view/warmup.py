@@ -26,7 +26,7 @@ from ..draw.lines.arrowheads import arrowheads
 from ..draw.lines.spacing import evenly
 from ..frame.scenes import make_scene
 from ..state.controls import first_values
-from .alone import alone
+from .compile_lock import alone
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 
@@ -261,7 +261,7 @@ def is_ready_for_all(psi: Psi, system: AnySystem) -> bool:
 
 
 class Share:
-    """What one page has compiled in the process that answers: formulas that it moves, and not each that it types."""
+    """Formulas that one page has compiled in the process that answers: those that it moves, not each that it types."""
 
     def __init__(self) -> None:
         self._begun: set[Hashable] = set()

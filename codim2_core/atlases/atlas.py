@@ -15,17 +15,17 @@ from ..arrays import Array, read_only
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
+from .codim_two_points import crossings, each_once
 from .connections.connection_curves import KINDS, connection_curves
+from .curve_numbers import curve_numbers, places
 from .curves import curves_of
 from .cycles.cycle_curves import KIND, cycle_curves
-from .degenerate import degenerate_lines
+from .degenerate_lines import degenerate_lines
 from .family import PlaneFamily, Ranges
-from .numbers import curve_numbers, places
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
-from .special import crossings, each_once
-from .starts import NO_SEEDS, CurveSeeds, seeds_beside
-from .undefined import undefined_borders
+from .seed_net import NO_SEEDS, CurveSeeds, seeds_beside
+from .undefined_regions import undefined_borders
 
 __all__ = [
     "Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_bifurcations_of_cycles",

@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike
 from ..layer_problem.vary import check_name, usual_span
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from .equilibrium_branches import equilibrium_branches
 from .result import Branches
-from .standing import equilibrium_branches
 
 __all__ = ["Branches", "branches"]
 

@@ -185,7 +185,7 @@ class Branches:
     def with_cycles(self) -> Branches:
         """Return the same with branches of limit cycles, which take longer."""
         from ..continuation.branches import continue_cycles  # here: both load the compiler
-        from ..continuation.typed.search import continue_typed
+        from ..continuation.typed.typed_search import continue_typed
 
         path = linear_path(self.system, self.psi, self.z, self.along, values_over(self.span))
         if path is None:

@@ -18,8 +18,8 @@ from ..numerics.dense import Dense
 from ..tables import Tabled, frame, paragraphs, result_rows, table_number
 from ..words import say
 from .delay import Delay
-from .drawn import Drawn, drawn_curve
-from .places import NO_POINTS, Ascent, Location
+from .locations import NO_POINTS, Ascent, Location
+from .picture_curve import Drawn, drawn_curve
 
 if TYPE_CHECKING:
     from .variation.result import Variation

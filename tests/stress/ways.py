@@ -15,7 +15,7 @@ import numpy as np
 import codim2_core as c2
 from codim2_core import psi
 from codim2_core.atlases.faces import inside_polygons
-from codim2_core.motion.agreement import agreement
+from codim2_core.motion.compare_with_limit import agreement
 
 FAMILIES = (psi.constant(), psi.rational(), psi.tanh(), psi.hill(3.0))
 #: Of the ranges: nearer to a curve, or of the span to a special value, nothing is compared.

@@ -7,8 +7,8 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, bifurcations, psi
+from codim2_core.diagrams.equilibrium_branches import equilibrium_branches
 from codim2_core.diagrams.result import SpecialValue
-from codim2_core.diagrams.standing import equilibrium_branches
 from codim2_core.words import recognise
 
 from .read_back import number

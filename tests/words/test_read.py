@@ -17,7 +17,7 @@ ASIDE = {
     "server/commands.py": "the command's own help",
     "server/first_page.py": "a page of its own, held in tests/app/server",
     "server/kernel_cache.py": "the log",
-    "server/taking.py": "the command's own",
+    "server/downloads.py": "the command's own",
     "frame/workers.py": "the log; what is told is said by phrases",
     "draw/layers.py": "tooltips of layers",
     "state/controls.py": "tooltips of controls",

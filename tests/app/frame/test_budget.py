@@ -18,7 +18,7 @@ from codim2_app.frame.budget import (
 )
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
-from codim2_app.frame.turns import WorkQueue
+from codim2_app.frame.work_queue import WorkQueue
 from codim2_app.state.controls import ExplorerState, preset_values
 from codim2_app.view.refresh import Frames
 

@@ -6,7 +6,7 @@ from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 
 import pytest
 from codim2_app.frame.jobs import Jobs
-from codim2_app.frame.turns import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue
+from codim2_app.frame.work_queue import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue
 
 
 class Held(Executor):
@@ -76,7 +76,7 @@ def test_what_several_want_is_computed_once_and_ends_with_the_last_of_them():
 
 def test_what_a_newer_wish_replaces_goes_on_for_a_second_as_another_worker_would_have_to_begin(monkeypatch):
     executor, now = Held(), [100.0]
-    monkeypatch.setattr("codim2_app.frame.turns.time.monotonic", lambda: now[0])
+    monkeypatch.setattr("codim2_app.frame.work_queue.time.monotonic", lambda: now[0])
     jobs = Jobs(executor)
     assert jobs.ask("picture", 1, str, "old") is None
     assert jobs.ask("picture", 2, str, "new") is None

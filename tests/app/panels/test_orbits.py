@@ -7,7 +7,7 @@ from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
-from codim2_app.frame.draft import FrameContext
+from codim2_app.frame.frame_context import FrameContext
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import orbits

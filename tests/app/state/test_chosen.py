@@ -2,7 +2,17 @@
 
 import numpy as np
 import pytest
-from codim2_app.state.chosen import BOXES, OWN_SYSTEM, TYPED, TextError, build, describe, starting_z, texts_of, titles
+from codim2_app.state.chosen_system import (
+    BOXES,
+    OWN_SYSTEM,
+    TYPED,
+    TextError,
+    build,
+    describe,
+    starting_z,
+    texts_of,
+    titles,
+)
 
 import codim2_core as c2
 from codim2_core import examples

@@ -12,7 +12,7 @@ from urllib.parse import parse_qs
 import pytest
 from codim2_app.draw.theme import NEAREST
 from codim2_app.frame.scenes import make_scene
-from codim2_app.state.chosen import BOXES, has_atlas, titles
+from codim2_app.state.chosen_system import BOXES, has_atlas, titles
 from codim2_app.state.controls import NUMBERS, ExplorerState, first_values, preset_values
 from codim2_app.state.links import (
     DEFAULTS_BY_VERSION,

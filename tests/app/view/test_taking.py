@@ -11,17 +11,17 @@ from weakref import ref
 
 import pytest
 from codim2_app.draw.theme import themes
+from codim2_app.export import export_request as made
 from codim2_app.export import film as films
-from codim2_app.export import taking as made
+from codim2_app.export.export_request import TYPES, ExportRequest, make_file, seen_by
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.files import DATA
-from codim2_app.export.taking import TYPES, ExportRequest, make_file, seen_by
 from codim2_app.export.view import WHOLE, view_of
 from codim2_app.frame.jobs import Jobs
 from codim2_app.state.links import read_link
-from codim2_app.view import taking as takings
+from codim2_app.view import export_jobs as takings
+from codim2_app.view.export_jobs import ExportJobs
 from codim2_app.view.refresh import Frames
-from codim2_app.view.taking import ExportJobs
 
 from codim2_core.cycles.proof.check import check
 from tests.work import PATIENCE

@@ -10,9 +10,9 @@ from codim2_app.draw.lines import arrowheads
 from codim2_app.draw.packing import unpack
 from codim2_app.server import cli
 from codim2_app.state.controls import ExplorerState
-from codim2_app.view import alone as alone_module
+from codim2_app.view import compile_lock as alone_module
 from codim2_app.view import warmup
-from codim2_app.view.alone import alone, lock_path
+from codim2_app.view.compile_lock import alone, lock_path
 from codim2_app.view.refresh import Frames
 from codim2_app.view.warmup import DRAGGED, MOST_COMPILED, Share
 

@@ -7,7 +7,7 @@ import pytest
 
 from codim2_core import ELinear, System, equator_equilibria, examples, simulate, simulate_nonsmooth
 from codim2_core import psi as families
-from codim2_core.motion.agreement import agreement, limit_order
+from codim2_core.motion.compare_with_limit import agreement, limit_order
 from codim2_core.motion.result import Phase
 
 PSI, RATIONAL = families.constant(), families.rational()
