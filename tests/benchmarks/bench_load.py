@@ -132,7 +132,8 @@ def figures(quick: bool) -> str:
             load = crowd(port, pid, 2, size, 5.0 if quick else SECONDS, moving)
             lines.append(
                 f"| {size} | {moving} of 10 ticks | {1e3 * load.p95(*MOVES):.0f}, {load.own_p95(*MOVES):.0f} ({frame}) "
-                f"| {1e3 * load.p95('open'):.0f}, {load.own_p95('open'):.0f} ({opening}) | {1e3 * load.frame:.1f} | {os.getloadavg()[0]:.1f} |"
+                f"| {1e3 * load.p95('open'):.0f}, {load.own_p95('open'):.0f} ({opening}) "
+                f"| {1e3 * load.frame:.1f} | {os.getloadavg()[0]:.1f} |"
             )
     with serving("explorer") as (port, pid):  # one process: it is known who has waited for a processor
         asyncio.run(seated(port, 4, 4.0))
