@@ -145,16 +145,16 @@ class WorkQueue:
         self._forget_idle()
 
     def stop_unwanted(self, owner: Hashable, grace: float) -> None:
-        """Stop what runs for `owner` though nobody wants it, once it has for so many seconds."""
+        """Stop what `owner` was given though nobody wants it, if it has not begun or has run for so many seconds."""
         before = time.monotonic() - grace
         with self._lock:
             unwanted = [
-                work.under_way
+                (work.since, work.under_way)
                 for work, one in self._running.items()
-                if one == owner and work.since <= before and self._works.get(work.key) is not work
+                if one == owner and self._works.get(work.key) is not work
             ]
-        for under_way in unwanted:
-            if under_way is not None:
+        for since, under_way in unwanted:
+            if under_way is not None and (since <= before or not under_way.running()):
                 under_way.cancel()
 
     def leave(self, owner: Hashable) -> None:

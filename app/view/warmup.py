@@ -36,7 +36,7 @@ GENERAL = "kernels of general systems"
 #: 2.5 MB each. The core keeps all of these, so that no frame compiles one again. Later ones are for the workers.
 MOST_COMPILED = 48
 #: Formulas that one page has compiled so, and the settings of one that it asks for before: who types has one of each.
-MOST_OF_PAGE, DRAGGED = 8, 4
+MAX_PAGE_FORMULAS, MIN_SETTINGS = 8, 4
 
 #: Seconds for which a server's kernels wait for somebody to ask for the first page, and, if so, at most for it to be
 #: sent: it needs none of them, and is half as fast beside them.
@@ -260,8 +260,8 @@ def is_ready_for_all(psi: Psi, system: AnySystem) -> bool:
     return is_ready(psi, system) if _is_here(psi, system) else is_ready()
 
 
-class Share:
-    """Formulas that one page has compiled in the process that answers: those that it moves, not each that it types."""
+class FormulaQuota:
+    """Quota of one page in the process that answers: what it moves is compiled there, and not all that it types."""
 
     def __init__(self) -> None:
         self._begun: set[Hashable] = set()
@@ -277,13 +277,13 @@ class Share:
         if (key, setting) != self._last:
             self._settings = self._settings + 1 if key == self._last[0] else 1
             self._last = key, setting
-        if self._settings > DRAGGED and (key in _formulas or self._may_begin()):
+        if self._settings > MIN_SETTINGS and (key in _formulas or self._may_begin()):
             self._begun.add(key)
             is_ready(psi, system)
         return True
 
     def _may_begin(self) -> bool:
-        return len(self._begun) < MOST_OF_PAGE and len(_formulas) < MOST_COMPILED
+        return len(self._begun) < MAX_PAGE_FORMULAS and len(_formulas) < MOST_COMPILED
 
 
 def _is_compiled(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:

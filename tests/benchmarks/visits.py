@@ -27,8 +27,8 @@ TICKS = {"drag": 20, "portrait": 3, "launch": 10, "type": 6}
 FORMULA = "-c+0.{}*z"
 TICKS_OF_TEN = 10  # at which who moves all the time does
 
-#: Says for how many seconds those who measure and those who are measured have waited for a processor.
-Waited = Callable[[], float]
+#: Says for how many seconds who measures, and who is measured, has waited for a processor: the longer is not own.
+Waited = Callable[[], tuple[float, ...]]
 Ask = tuple[str, dict[str, Any]]
 
 
@@ -65,13 +65,13 @@ class Chair:
         found = await doing
         took = time.perf_counter() - began
         self.delays[what].append(took)
-        self.own[what].append(max(0.0, took - (waited() - before)))
+        self.own[what].append(max(0.0, took - max(after - then for then, after in zip(before, waited(), strict=True))))
         return found
 
 
 async def visit(
     port: int, number: int, chair: Chair, goes_on: Callable[[], bool] = lambda: True,
-    moving: int = TICKS_OF_TEN, waited: Waited = lambda: 0.0,
+    moving: int = TICKS_OF_TEN, waited: Waited = lambda: (0.0,),
 ) -> None:  # fmt: skip
     """Play one visitor, or note that he was lost."""
     try:
@@ -106,7 +106,7 @@ async def _played(
 
 
 async def seated(
-    port: int, chairs: int, seconds: float, moving: int = TICKS_OF_TEN, waited: Waited = lambda: 0.0
+    port: int, chairs: int, seconds: float, moving: int = TICKS_OF_TEN, waited: Waited = lambda: (0.0,)
 ) -> list[Chair]:
     """Let visitors come and go on so many chairs, each for as long as this lasts; they come evenly over a visit."""
     visit_seconds = sum(TICKS.values()) / RATE * TICKS_OF_TEN / moving

@@ -14,6 +14,7 @@ from tests.work import wait_until
 
 AT_ONCE = 4  # visitors: one after the other they would wait for their own machine most of the time
 FORGOTTEN = 30.0  # seconds
+BEGUN = MOST_COMPILED + 10  # visits whose formulas are compiled in the process that answers, as far as it does
 MOVED = 12  # settings of a formula: its first ones are timed by workers
 PLATEAU = 40e6  # bytes by which what is held after a thousand visits may exceed what is held after a hundred
 
@@ -91,7 +92,7 @@ async def type_and_vanish(port, i):
     """Open a page, type a Psi that nobody has typed before, move a slider until it is compiled here, and go."""
     wire = await Wire.connect(port)
     await drawn(wire, 1, psi="custom", psi_text=f"1/(1+s)+exp(-{1 + i}*s)")
-    for tick in range(MOVED):
+    for tick in range(MOVED if i < BEGUN else 1):
         await drawn(wire, 2 + tick, a=app_load.value(i + tick))
     await wire.vanish()
 
@@ -121,8 +122,7 @@ def test_a_thousand_visits_hold_no_more_than_a_hundred():
     async def both(port, pid):
         return [each async for each in held(port, pid)]
 
-    begun = MOST_COMPILED + 10
-    first = [(i, type_and_vanish if i < begun else drag_and_vanish) for i in range(150)]
+    first = [(i, type_and_vanish if i < BEGUN else drag_and_vanish) for i in range(150)]
     others = [(i, drag_and_vanish if i % 10 else type_and_vanish) for i in range(150, 1000)]
     with app_load.serving("forgetful") as (port, pid):
         before, after = asyncio.run(both(port, pid))
