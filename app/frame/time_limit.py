@@ -51,12 +51,16 @@ class CompileClock(event.Listener):
 
 
 @contextmanager
-def at_most(seconds: float) -> Iterator[None]:
-    """Raise TimeoutError after so many seconds of processor time, between kernels, in the main thread of a process."""
+def at_most(seconds: float, compiling: CompileClock | None = None) -> Iterator[None]:
+    """Raise TimeoutError after so many seconds of processor time, between kernels, in the main thread of a process.
+
+    What is compiled meanwhile does not count; the clock that is given tells it.
+    """
     if threading.current_thread() is not threading.main_thread() or not hasattr(signal, "setitimer"):
         yield
         return
-    compiling, began = CompileClock(), time.thread_time()
+    began = time.thread_time()
+    compiling = CompileClock() if compiling is None else compiling
 
     def stop(*_: object) -> None:
         # Not while this thread holds the compiler's lock: what is raised as it is taken leaves it taken for ever.

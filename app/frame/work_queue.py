@@ -127,8 +127,8 @@ class WorkQueue:
             self._next()
             return work.future
 
-    def drop(self, owner: Hashable, key: Hashable) -> None:
-        """Forget that `owner` wants this; what nobody wants is stopped."""
+    def drop(self, owner: Hashable, key: Hashable, grace: float = 0.0) -> None:
+        """Forget that `owner` wants this; what nobody wants is stopped, once it has run for so many seconds."""
         with self._lock:
             work = self._works.get(key)
             if work is None:
@@ -140,10 +140,22 @@ class WorkQueue:
             for queue in self._queues.values():
                 if work in queue:
                     queue.remove(work)
-            under_way = work.under_way
-        if under_way is not None:
-            under_way.cancel()
+            runs_for = self._running.get(work)
+        self.stop_unwanted(runs_for, grace)
         self._forget_idle()
+
+    def stop_unwanted(self, owner: Hashable, grace: float) -> None:
+        """Stop what `owner` was given though nobody wants it, if it has not begun or has run for so many seconds."""
+        before = time.monotonic() - grace
+        with self._lock:
+            unwanted = [
+                (work.since, work.under_way)
+                for work, one in self._running.items()
+                if one == owner and self._works.get(work.key) is not work
+            ]
+        for since, under_way in unwanted:
+            if under_way is not None and (since <= before or not under_way.running()):
+                under_way.cancel()
 
     def leave(self, owner: Hashable) -> None:
         """Forget all that `owner` wants."""
@@ -151,6 +163,7 @@ class WorkQueue:
             wanted = [key for key, work in self._works.items() if owner in work.owners]
         for key in wanted:
             self.drop(owner, key)
+        self.stop_unwanted(owner, 0.0)
         with self._lock:
             self._used.pop(owner, None)
 

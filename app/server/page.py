@@ -34,7 +34,7 @@ from .live import MOST_SENT, LiveConnection, LivePages
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
 from .process.compile_throttle import stand_back
-from .process.door import Door
+from .process.listener import Listener
 from .process.ports import listen_by_own, share_port
 from .scripts import routes
 
@@ -145,11 +145,11 @@ def make_server(
     parent = os.getpid()
     board = Board(processes)
     places = LivePages(sessions)
-    door = partial(Door, counts=Counter(), places=sessions, health=json.dumps(health()))
-    with share_port(processes, door):
+    listen = partial(Listener, counts=Counter(), places=sessions, health=json.dumps(health()))
+    with share_port(processes, listen):
         server = _server(port, address, allow_origin, processes, prefix, places, options)
     keep_steady(server.io_loop)
-    listen_by_own(server, address, door)
+    listen_by_own(server, address, listen)
     board.belong(task_id() or 0)
     kept = Rooms(board, rooms)
     _keep(kept)

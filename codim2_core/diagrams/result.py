@@ -12,7 +12,7 @@ import numpy as np
 from .. import drawing
 from ..arrays import Array
 from ..continuation.result import CycleBranch, CycleBranches, CyclePoint
-from ..paper import CHANGES
+from ..paper import label_of
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..tables import Tabled, frame, html_table, paragraphs, table_number, write_csv
@@ -60,7 +60,7 @@ class SpecialValue(Tabled):
     @property
     def label(self) -> str:
         """The paper's label."""
-        return CHANGES[self.kind]
+        return label_of(self.kind)
 
     def _row_(self) -> tuple[str, ...]:
         return self.kind, table_number(self.value), self.sentence

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from ..critical_changes import CRITICAL_CHANGES
 from .sentence import Sentence
 
 SENTENCES: dict[str, Sentence] = {
+    **{change.kind: Sentence(change.says, change.when) for change in CRITICAL_CHANGES},
     "pitchfork in the plane": Sentence(
         "Θ has a triple zero, and b = 0 makes the system symmetric: a pitchfork of limit directions (D2).",
         "a triple zero, b = 0",
@@ -137,9 +139,6 @@ SENTENCES: dict[str, Sentence] = {
     "trace touches zero": Sentence(
         "tr J = 0 at this value only, without a change of sign: C is a centre to first order.", "no change of sign"
     ),
-    "between node and focus": Sentence(
-        "tr(J)² = 4 det J: the critical set changes between node and focus.", "the discriminant of J is zero"
-    ),
     "meet at": Sentence("Two limit directions meet at {at}: Θ has a double zero.", "Θ has a double zero"),
     "pass through": Sentence(
         "Two limit directions pass through each other at {at} and exchange their angular stability.",
@@ -173,12 +172,10 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "two sets meet": Sentence("Two critical sets meet: a {one} and a {other}.", "two branches end in one point"),
     "one comes or goes": Sentence("A single critical set appears or vanishes here.", "a branch ends alone"),
-    "saddle turns": Sentence("det J = 0: a critical set changes from a saddle into another kind.", "det J = 0"),
     "set splits": Sentence(
         "det J = 0: three critical sets meet, and one changes between a saddle and another kind.",
         "two come to a third, which turns",
     ),
-    "Hopf, typed": Sentence("The eigenvalues of J cross the imaginary axis: tr J = 0 < det J.", "tr J = 0 < det J"),
     "splits": Sentence(
         "One limit direction splits into three at {at}: Θ has a triple zero.", "Θ has a triple zero, symmetric"
     ),

@@ -10,6 +10,7 @@ ROOT = Path(__file__).parents[2]
 #: What is no statement about a system: data with texts of its own, and what is said of a wrong input.
 ASIDE = {
     "words": "the registry",
+    "critical_changes.py": "rows that the registry reads",
     "paper.py": "what the paper's labels are called",
     "figures": "captions of the presets, data",
     "examples": "what a system is, data",

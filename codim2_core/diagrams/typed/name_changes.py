@@ -8,6 +8,7 @@ from itertools import combinations
 
 import numpy as np
 
+from ...critical_changes import DETERMINANT, change_between
 from ...layer_problem.critical import CriticalSet
 from ...words import say
 from ..result import SpecialValue
@@ -64,7 +65,7 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
             if third is not None:  # it goes on, and turned where the two came to it
                 pairs.remove(third)
                 place = (float(third[1].p[0]), float(third[1].p[1]))
-                out.append(SpecialValue("det J = 0", value, place, say("set splits")))
+                out.append(SpecialValue(DETERMINANT.kind, value, place, say("set splits")))
                 continue
             kinds = sorted("saddle" if C.kind == "saddle" else "node" for C in near)
             out.append(
@@ -79,12 +80,8 @@ def _of_sets(value: float, before: State, after: State) -> list[SpecialValue]:
         if C.kind == D.kind:
             continue
         place = (float(D.p[0]), float(D.p[1]))
-        if C.kind.split()[0] == D.kind.split()[0]:
-            out.append(SpecialValue("node-focus", value, place, say("between node and focus")))
-        elif "saddle" in (C.kind, D.kind):
-            out.append(SpecialValue("det J = 0", value, place, say("saddle turns")))
-        else:
-            out.append(SpecialValue("Hopf", value, place, say("Hopf, typed")))
+        change = change_between(C.kind, D.kind)
+        out.append(SpecialValue(change.kind, value, place, change.says))
     return out
 
 

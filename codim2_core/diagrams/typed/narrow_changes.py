@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from ...critical_changes import CriticalChange, change_between
 from .rounding import States
 from .state import State
 
@@ -94,7 +95,7 @@ def _measure(left: State, right: State, part: int) -> Measure | None:
         for C in left.critical:
             D = min(right.critical, key=lambda D, C=C: math.dist(C.p, D.p))
             if C.kind != D.kind:
-                return _of_set(C.kind, D.kind, tuple((0.5 * (C.p + D.p)).tolist()))
+                return _of_set(change_between(C.kind, D.kind), tuple((0.5 * (C.p + D.p)).tolist()))
     if part == 2 and left.exponent is not None and right.exponent is not None:
         return lambda state: math.nan if state.exponent is None else state.exponent
     return None
@@ -118,16 +119,13 @@ def _of_direction(theta: float, radial: bool) -> Measure:
     return measure
 
 
-def _of_set(one: str, other: str, place: tuple[float, float]) -> Measure:
-    """Trace, discriminant or determinant of the critical set nearest to a place: which of them parts two kinds."""
+def _of_set(change: CriticalChange, place: tuple[float, float]) -> Measure:
+    """Return the test function of a change, of the critical set nearest to a place."""
 
     def measure(state: State) -> float:
         if not state.critical:
             return math.nan
         C = min(state.critical, key=lambda C: math.dist(C.p, place))
-        trace, determinant = float(C.trace), float(C.determinant)
-        if "saddle" in (one, other):
-            return determinant
-        return trace**2 - 4.0 * determinant if one.split()[0] == other.split()[0] else trace
+        return change.function(float(C.trace), float(C.determinant))
 
     return measure

@@ -1,4 +1,4 @@
-"""The door: listening sockets that let nobody take all descriptors, and keep some for who asks whether we live.
+"""Listening sockets that let nobody take all descriptors, and keep some for who asks whether the server lives.
 
 Each connection is a descriptor. Who has too many of them, and all who come when nearly all are taken, are let go; but
 for a moment each may ask for ``/health``, which is answered here.
@@ -20,20 +20,20 @@ from tornado.ioloop import IOLoop
 from .files import max_files
 
 #: Descriptors that are no visitor's: files, workers, and those that wait to be let go.
-RESERVED, MAX_IN_HALL = 64, 16
+RESERVED, MAX_PENDING = 64, 16
 #: Connections of one address for each place: a browser opens six for a page, and one is its line.
 MAX_PER_PLACE = 8
 #: Seconds for which nobody is accepted when the system has no descriptor left, and between two lines about it.
 PAUSE_SECONDS, TOLD_SECONDS = 1.0, 60.0
 #: Seconds for which one who is let go may say what he wants.
-HALL_SECONDS = 5.0
+PENDING_SECONDS = 5.0
 HEALTH = re.compile(rb"(GET|HEAD) \S*/health[ ?]")
 ANSWER = "HTTP/1.1 200 OK\r\nContent-Type: application/json\r\nContent-Length: {}\r\nConnection: close\r\n\r\n{}"
 
 _log = logging.getLogger(__name__)
 
 
-class Visit(socket.socket):
+class CountedConnection(socket.socket):
     """A connection that is counted until it is closed."""
 
     def __init__(self, connection: socket.socket, address: str, counts: Counter[str]) -> None:
@@ -50,7 +50,7 @@ class Visit(socket.socket):
         super().close()
 
 
-class Door(socket.socket):
+class Listener(socket.socket):
     """A listening socket with bounds.
 
     Parameters
@@ -58,7 +58,7 @@ class Door(socket.socket):
     listening : socket
         In place of which this is.
     counts : Counter of str
-        How many connections each address has, by all doors of this process.
+        How many connections each address has, by all listeners of this process.
     places : int
         Pages that the process lets in.
     health : str
@@ -72,7 +72,7 @@ class Door(socket.socket):
         self.most_of_one = max(1, min(self.most // 2, MAX_PER_PLACE * places))
         self._health = ANSWER.format(len(health.encode()), health).encode()
         self._counts = counts
-        self._hall: dict[socket.socket, None] = {}  # in the order in which they came
+        self._pending: dict[socket.socket, None] = {}  # in the order in which they came
         self._told = -TOLD_SECONDS
 
     def accept(self) -> tuple[socket.socket, Any]:
@@ -85,7 +85,7 @@ class Door(socket.socket):
                 raise BlockingIOError from error
             raise
         if self._counts.total() < self.most and self._counts[address[0]] < self.most_of_one:
-            return Visit(found, address[0], self._counts), address
+            return CountedConnection(found, address[0], self._counts), address
         self._tell("connections of %s are let go: it has %d", address[0], self._counts[address[0]])
         self._keep_waiting(found)
         raise BlockingIOError
@@ -103,12 +103,12 @@ class Door(socket.socket):
 
     def _keep_waiting(self, found: socket.socket) -> None:
         """Wait until somebody says what he wants, for a while and as long as few come after him."""
-        self._hall[found] = None
+        self._pending[found] = None
         loop = IOLoop.current()
         loop.add_handler(found, self._hear, IOLoop.READ)
-        loop.call_later(HALL_SECONDS, self._let_go, found)
-        if len(self._hall) > MAX_IN_HALL:
-            self._let_go(next(iter(self._hall)))
+        loop.call_later(PENDING_SECONDS, self._let_go, found)
+        if len(self._pending) > MAX_PENDING:
+            self._let_go(next(iter(self._pending)))
 
     def _hear(self, found: Any, _: int) -> None:
         with suppress(OSError):
@@ -118,7 +118,7 @@ class Door(socket.socket):
         self._let_go(found)
 
     def _let_go(self, found: socket.socket) -> None:
-        if found in self._hall:
-            del self._hall[found]
+        if found in self._pending:
+            del self._pending[found]
             IOLoop.current().remove_handler(found)
             found.close()

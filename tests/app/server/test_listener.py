@@ -5,8 +5,8 @@ import resource
 import socket
 from collections import Counter
 
-from codim2_app.server.process import door
-from codim2_app.server.process.door import RESERVED, Door
+from codim2_app.server.process import listener
+from codim2_app.server.process.listener import RESERVED, Listener
 from tornado.tcpserver import TCPServer
 
 from tests.work import PATIENCE
@@ -29,13 +29,13 @@ class Server(TCPServer):
 
 
 def play(doing, most, monkeypatch, places=1000):
-    """Do something at a door that lets so many in, half of them from one address."""
-    monkeypatch.setattr(door, "max_files", lambda: RESERVED + most)
+    """Do something at a socket that lets so many in, half of them from one address."""
+    monkeypatch.setattr(listener, "max_files", lambda: RESERVED + most)
 
     async def play():
         listening = socket.create_server((ONE, 0))
         server = Server()
-        server.add_sockets([Door(listening, Counter(), places, "well")])
+        server.add_sockets([Listener(listening, Counter(), places, "well")])
         (own,) = server._sockets.values()
         try:
             return await doing(own, server)
@@ -110,7 +110,7 @@ def test_a_place_has_eight_connections(monkeypatch):
 
 
 def test_without_a_descriptor_it_waits_and_says_so_once(monkeypatch, caplog):
-    monkeypatch.setattr(door, "PAUSE_SECONDS", 0.01)
+    monkeypatch.setattr(listener, "PAUSE_SECONDS", 0.01)
     limit = resource.getrlimit(resource.RLIMIT_NOFILE)
     tried = []
 
