@@ -1,11 +1,11 @@
 // Parts of an explorer that act on all of it: panels, hands on the picture, dialogs, the second portrait beside it.
 
-import {Panels} from "./beside/panels.js"
+import {Panels} from "./widgets/panels.js"
 import {slidersOf} from "./controls/controls.js"
-import {twoFingers} from "./hands/gestures.js"
-import {Grab, KEYS, turnedTo} from "./hands/grab.js"
-import {Hands} from "./hands/hands.js"
-import {Pointing} from "./hands/pointing.js"
+import {twoFingers} from "./interaction/gestures.js"
+import {Grab, KEYS, turnedTo} from "./interaction/grab.js"
+import {Hands} from "./interaction/hands.js"
+import {Pointing} from "./interaction/pointing.js"
 import {Beamer, busy, enlarged} from "./page/beamer.js"
 import {Help} from "./page/help.js"
 import {squeezed, writeLink} from "./page/links.js"

@@ -1,6 +1,6 @@
 // Controls: a slider with an editable number, whose range widens for a typed value.
 
-import {sidewaysOnly} from "../hands/gestures.js"
+import {sidewaysOnly} from "../interaction/gestures.js"
 import {rangeFor} from "./ranges.js"
 import {SAYS, escape, plain} from "../words.js"
 

@@ -3,8 +3,8 @@
 import {Chart} from "../chart/chart.js"
 import {largest, rounded, spanOf} from "../chart/scale.js"
 import {shape} from "../chart/marks.js"
-import {register} from "../beside/panels.js"
-import {Ticker} from "../beside/player.js"
+import {register} from "../widgets/panels.js"
+import {Ticker} from "../widgets/player.js"
 import {SAYS, digits, escape, slowName} from "../words.js"
 
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown

@@ -1,7 +1,7 @@
 // The panel "Census": a bar for each portrait among systems drawn at random, as long as its share, with a small portrait;
 // a click opens the system of that name that lies farthest from a border.
 
-import {register} from "../beside/panels.js"
+import {register} from "../widgets/panels.js"
 import {SAYS, escape} from "../words.js"
 
 // What stays as it is when an example is opened: how it is drawn, and under which Psi.

@@ -2,13 +2,13 @@
 // A click sets the parameter; a click on a special point goes exactly there. Above it a film strip: the portraits before,
 // at and after each special value, with a sentence for the nearest; play goes through them, slowly near one.
 
-import {axesMarkup, AxisChoice, ZoomButtons} from "../beside/axes.js"
+import {axesMarkup, AxisChoice, ZoomButtons} from "../widgets/axes.js"
 import {put, save} from "../dom.js"
 import {Chart} from "../chart/chart.js"
 import {rounded, spanOf} from "../chart/scale.js"
 import {shape} from "../chart/marks.js"
-import {register} from "../beside/panels.js"
-import {PLAY_SECONDS, Ticker} from "../beside/player.js"
+import {register} from "../widgets/panels.js"
+import {PLAY_SECONDS, Ticker} from "../widgets/player.js"
 import {SAYS, escape, formula, minus, plain} from "../words.js"
 
 const TURN = 2 * Math.PI

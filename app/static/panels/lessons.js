@@ -1,7 +1,7 @@
 // The panel "Lessons": the course as a list, or one lesson: text with live numbers, and questions in four steps.
 
-import {register} from "../beside/panels.js"
-import {joined, packed, progressOf, unpacked, withStep} from "../beside/progress.js"
+import {register} from "../widgets/panels.js"
+import {joined, packed, progressOf, unpacked, withStep} from "../widgets/progress.js"
 import {copied, put} from "../dom.js"
 import {SAYS, escape, formula, lowered, plain} from "../words.js"
 

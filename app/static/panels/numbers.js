@@ -1,8 +1,8 @@
 // The panel "Numbers": tables of equator equilibria, critical sets, outcomes and limit cycles, slow flow along z, marks.
 
 import {put} from "../dom.js"
-import {register} from "../beside/panels.js"
-import {Proof, marked} from "../beside/proof.js"
+import {register} from "../widgets/panels.js"
+import {Proof, marked} from "../widgets/proof.js"
 import {roundUp} from "../controls/ranges.js"
 import {SAYS, digits, eigen, escape, pair, plain, slowWords} from "../words.js"
 

@@ -2,9 +2,9 @@
 // the chosen one over time, for ε → 0 and with one tick for ε > 0.
 
 import {slider} from "../controls/controls.js"
-import {changed, cleanName, coloursOf, readLaunches, without, writeLaunches} from "../hands/launches.js"
-import {MARKUP, OrbitInTime, TYPED} from "../beside/orbit_in_time.js"
-import {register} from "../beside/panels.js"
+import {changed, cleanName, coloursOf, readLaunches, without, writeLaunches} from "../interaction/launches.js"
+import {MARKUP, OrbitInTime, TYPED} from "../widgets/orbit_in_time.js"
+import {register} from "../widgets/panels.js"
 import {escape, measured, pair, plain, slowName} from "../words.js"
 
 const COLOURS = 6

@@ -1,7 +1,7 @@
 // The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
 
-import {register} from "../beside/panels.js"
-import {Told} from "../beside/told.js"
+import {register} from "../widgets/panels.js"
+import {Told} from "../widgets/told.js"
 import {say} from "../dom.js"
 import {seen} from "../chart/projection.js"
 import {largest} from "../chart/scale.js"

@@ -1,7 +1,7 @@
 // The panel "Theorems": the paper's claims on the present system, each with the numbers that show it. What bears on it comes
 // first, with a card for each bifurcation that it sits on; the rest is folded.
 
-import {register} from "../beside/panels.js"
+import {register} from "../widgets/panels.js"
 import {put} from "../dom.js"
 import {besides} from "../page/inspector.js"
 import {SAYS, escape, formula, measured} from "../words.js"

@@ -1,7 +1,7 @@
 // The phones of a room in the lecturer's atlas: a dot each on the chart, and below it how many show which portrait.
 
 import {grouped} from "../chart/groups.js"
-import {regionClass} from "../beside/pad.js"
+import {regionClass} from "../widgets/pad.js"
 import {fixed} from "../svg.js"
 import {SAYS, escape, formula} from "../words.js"
 import {lessons, placed, settings, tally} from "./crowd.js"

@@ -5,7 +5,7 @@ import test from "node:test"
 import "../../../../app/static/panels/lessons.js"
 import "../../../../app/static/panels/numbers.js"
 import "../../../../app/static/panels/orbits.js"
-import {Panels, register} from "../../../../app/static/beside/panels.js"
+import {Panels, register} from "../../../../app/static/widgets/panels.js"
 import {page} from "../played/page.js"
 import {opened} from "../played/reading.js"
 

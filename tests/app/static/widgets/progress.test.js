@@ -1,6 +1,6 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
-import {joined, packed, progressOf, unpacked, withStep} from "../../../../app/static/beside/progress.js"
+import {joined, packed, progressOf, unpacked, withStep} from "../../../../app/static/widgets/progress.js"
 
 test("a step is kept once, and nothing else changes", () => {
   const first = withStep({}, "one", 0, "answer")

@@ -3,8 +3,8 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {STEP} from "../../../../app/static/picture/frames.js"
-import {apart, areaAt, curveAt, middleOf, nearestOn} from "../../../../app/static/hands/curves.js"
-import {eigenWords, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "../../../../app/static/hands/objects.js"
+import {apart, areaAt, curveAt, middleOf, nearestOn} from "../../../../app/static/interaction/curves.js"
+import {eigenWords, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "../../../../app/static/interaction/objects.js"
 import {CRITICAL, EQUATOR} from "../played/wiring.js"
 
 const square = Int16Array.from([[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5], [0.5, 0.5]].flat().map((v) => Math.round(v / STEP)))

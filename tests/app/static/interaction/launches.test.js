@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {changed, coloursOf, launchedAt, MOST, nearest, readLaunches, without, writeLaunches} from "../../../../app/static/hands/launches.js"
+import {changed, coloursOf, launchedAt, MOST, nearest, readLaunches, without, writeLaunches} from "../../../../app/static/interaction/launches.js"
 
 test("launched orbits are written and read again", () => {
   const text = "0.3,0.2;1.5,-0.1,-;-1,0.25:slow one"
