@@ -3,8 +3,8 @@
 export const escape = (text) => String(text).replace(/[&<>"]/g, (c) => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})[c])
 
 // Indices of the paper's letters, lowered: λ_ρ, e_Ψ, θ_i. A text is escaped first; markup is so already.
-export const lowered = (markup) => markup.replace(/([λeLθC])_([ρθΨεi])/g, "$1<sub>$2</sub>")
-export const formula = (text) => lowered(escape(text))
+export const lowerIndices = (markup) => markup.replace(/([λeLθC])_([ρθΨεi])/g, "$1<sub>$2</sub>")
+export const formula = (text) => lowerIndices(escape(text))
 
 /** A sentence that begins with something's name. @param {string} text */
 export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1)
@@ -21,7 +21,7 @@ export function plain(value) { return String(Number(value.toPrecision(6))) }
 export const minus = (text) => text.replaceAll("-", "−")
 
 // A number that shows a claim: what is zero up to rounding is told apart from what is small.
-export const measured = (value) => value !== 0 && Math.abs(value) < 1e-9 ? digits(value) : minus(plain(value))
+export const claimNumber = (value) => value !== 0 && Math.abs(value) < 1e-9 ? digits(value) : minus(plain(value))
 
 export const pair = (v, places) => `(${digits(v[0], places)}, ${digits(v[1], places)})`
 
@@ -121,8 +121,8 @@ export const SAYS = {
 }
 
 // The first sentence: the push, what can be balanced, and what becomes of it, as markup.
-export const pushed = (/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ last, /** @type {boolean} */ more) => `Pushed with |f| = ${push}; ${more ? "only" : "up to"} ${held} can be balanced in this direction: <strong>${last}</strong>.`
-export const notPushed = (/** @type {string} */ last) => `Not pushed, f = 0: <strong>${last}</strong>.`
+export const pushSentence = (/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ last, /** @type {boolean} */ more) => `Pushed with |f| = ${push}; ${more ? "only" : "up to"} ${held} can be balanced in this direction: <strong>${last}</strong>.`
+export const noPushSentence = (/** @type {string} */ last) => `Not pushed, f = 0: <strong>${last}</strong>.`
 
 // Curves that are one object, by its name.
 export const CURVES = {R: "ρ-nullcline, U·e = 0", T: "θ-nullcline, Θ = 0", U1: "Nullcline U₁ = 0", U2: "Nullcline U₂ = 0", H: "Hyperbola of the limit directions, Θ = 0"}
@@ -137,7 +137,7 @@ export function slowWords(flow, symbols = []) {
 
 // Which way orbits turn, as it is seen in the picture.
 /** @param {number} way */
-export const turned = (way) => `Orbits turn ${way > 0 ? "anticlockwise" : "clockwise"}.`
+export const senseSentence = (way) => `Orbits turn ${way > 0 ? "anticlockwise" : "clockwise"}.`
 
 // How a phase of a motion is called; of a ball also in the words of mechanics.
 export const phaseWords = (kind, ball) => ({slip: "slips", slide: ball ? "slides (the ball sticks and rolls)" : "slides", delay: "slides on, delayed", cross: "crosses"})[kind]

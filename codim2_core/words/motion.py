@@ -168,7 +168,7 @@ SENTENCES: dict[str, Sentence] = {
         "Nothing attracts on Σ, and the only way out is θ = {theta:.4g} ({Q}).", "nothing attracts, one direction does"
     ),
     "other ways": Sentence(
-        "Not all of the hemisphere leads there: {which} also leads away from Σ.",
+        "Not all of the hemisphere leads there: {which} leads away from Σ.",
         "some of the hemisphere leads to a limit direction",
     ),
     "starts, follows nothing": Sentence(

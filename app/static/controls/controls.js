@@ -112,7 +112,7 @@ export class NumberControl {
 }
 
 // What a long sentence says first, and what stands behind "more": the list of what is allowed, or what follows it.
-export function folded(sentence) {
+export function foldAllowed(sentence) {
   const listed = sentence.match(/^(.*?\.) (Allowed are .*?\.)(?: (.*))?$/s)
   if (listed) return [[listed[1], listed[3]].filter(Boolean).join(" "), listed[2]]
   const end = sentence.length > LONG ? sentence.indexOf(". ", 40) : -1
@@ -123,7 +123,7 @@ export function sayAt(box, sentence) {
   const error = box.querySelector(".error")
   box.classList.toggle("bad", Boolean(sentence))
   if (!error) return
-  const [told, rest] = folded(sentence ?? "")
+  const [told, rest] = foldAllowed(sentence ?? "")
   if (error.dataset.said !== sentence) {
     error.textContent = told
     if (rest) error.insertAdjacentHTML("beforeend", ` <details><summary>more</summary>${escape(rest)}</details>`)

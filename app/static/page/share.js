@@ -1,7 +1,7 @@
 // The dialog "Share": the link of the present view, its QR code for the phones in the room, and a frame for another page.
 
-import {copied} from "../dom.js"
-import {squeezed} from "./links.js"
+import {copyText} from "../dom.js"
+import {compressQuery} from "./links.js"
 import {SAYS, escape} from "../words.js"
 
 const MARKUP = `
@@ -40,7 +40,7 @@ export class Share {
     if (!this.dialog.firstElementChild) this.make()
     this.find(".told").textContent = ""
     const query = this.query()
-    const short = await squeezed(query, this.version)
+    const short = await compressQuery(query, this.version)
     const page = location.origin + location.pathname
     const address = `${page}?${short}`
     this.find(".address").value = address
@@ -77,7 +77,7 @@ export class Share {
     for (const button of /** @type {NodeListOf<HTMLElement>} */ (this.dialog.querySelectorAll("[data-copies]"))) {
       button.addEventListener("click", async () => {
         const box = this.find(`.${button.dataset.copies}`)
-        await copied(box)
+        await copyText(box)
         this.find(".told").textContent = "Copied."
       })
     }
