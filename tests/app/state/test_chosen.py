@@ -128,7 +128,7 @@ def test_boxes_that_were_not_touched_keep_their_text():
 
 @pytest.mark.parametrize("text", ["theta", "-sin(theta)", "Theta*c"])
 def test_theta_is_no_slider_but_says_write_c(text):
-    with pytest.raises(TextError, match="write c for cos"):
+    with pytest.raises(TextError, match="rite c for cos"):
         build(OWN_SYSTEM, {"U1": text}, {})
 
 
