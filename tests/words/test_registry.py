@@ -78,7 +78,7 @@ def test_every_sentence_is_said_somewhere():
 def test_numbers_and_names_are_written_in_one_way():
     text = say("comes down", label="Q2", theta=-1.0471975)
     assert text == "Comes down to Q₂ and leaves Σ along θ = −1.047."
-    assert say("leaves", theta=-6.12e-17) == "Leaves Σ along θ = 0."
+    assert say("leaves", theta=-6.12e-17) == "It leaves Σ along θ = 0."
     assert say("end of the branch span", name="f1", value=1.5e-7) == "f₁ = 1.5 · 10⁻⁷: the end of the span."
     assert recognise(text) == [("comes down", {"label": "Q₂", "theta": "−1.047"})]
     assert [key for key, _ in recognise(say("cycle shrinks", C="C2"))] == ["cycle shrinks"]

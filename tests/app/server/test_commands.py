@@ -77,7 +77,7 @@ def test_prove_says_what_is_proved_and_writes_the_certificate(capsys, tmp_path):
     path = tmp_path / "certificate.json"
     assert main(["prove", "-a", "1", "-b", "3", "-d", "-2", "--f1", "0.4", "--f2", "0.1", "-o", str(path)]) == 0
     said = capsys.readouterr().out
-    assert said.startswith("Limit cycles: 0. That there are these limit cycles and no other is proved")
+    assert said.startswith("Limit cycles: 0. It is proved that there are no other limit cycles")
     assert f"check.py < {path}" in said
     assert check(json.loads(path.read_text())) == (0, True)
     assert (

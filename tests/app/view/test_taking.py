@@ -62,7 +62,7 @@ def test_a_proof_is_taken_with_its_certificate_and_the_program_that_checks_it(ex
     query = "a=1&b=3&d=-2&f1=0.4&f2=0.1&psi=constant"
     found = json.loads(asked(executor, query, {"id": 5, "kind": "proof"})["file"])
     assert (found["whole"], found["cycles"]) == (True, [])
-    assert "no other is proved" in found["sentence"]
+    assert "there are no other limit cycles" in found["sentence"]
     assert check(json.loads(found["certificate"])) == (0, True)
     assert found["checker"].startswith('"""Check a certificate')
     found = json.loads(asked(executor, "preset=case1-cm4", {"id": 6, "kind": "proof"})["file"])
@@ -221,7 +221,7 @@ def test_a_film_of_play_is_drawn_in_larger_parts_and_refused_where_nothing_was_l
     assert (progress["done"], progress["all"]) == (5, 5)
     assert film["file"][:3] == b"GIF"
     [answer] = conversation(executor, {**FILM, "sliders": ["play"]})
-    assert "click the picture" in answer["error"]
+    assert "Click the picture" in answer["error"]
 
 
 def test_a_film_that_is_stopped_draws_no_more(executor, monkeypatch):

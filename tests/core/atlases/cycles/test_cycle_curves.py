@@ -93,4 +93,4 @@ def test_regions_are_not_cut_and_what_stops_within_is_told(monkeypatch):
     told = with_folds_of_cycles(RADIAL, c2.psi.tanh(), found).points
     stopped = [point for point in told if point.kind == "undecided"]
     assert [np.hypot(*point.place) < 0.02 for point in stopped] == [True]
-    assert "no further" in stopped[0].sentence
+    assert "continued only" in stopped[0].sentence

@@ -1,9 +1,9 @@
 // Pointing at objects of the picture: the one under the pointer, or in focus, tells its name and numbers and shows its
 // eigenvectors; the one that is pinned goes on doing so while the sliders move.
 
-import {put} from "../dom.js"
+import {setMarkup} from "../dom.js"
 import {areaAt, curveAt, nearestOn} from "./curves.js"
-import {eigenWords, eigenvectorsOf, factsOf, followed, objectAt, objectsOf, placeOf, pointedList, styleOf} from "./objects.js"
+import {eigenWords, eigenvectorsOf, factsOf, trackObject, objectAt, objectsOf, placeOf, pointedList, styleOf} from "./objects.js"
 import {SAYS, escape, formula} from "../words.js"
 
 const REACH = {mouse: 10, pen: 14, touch: 24} // px around a mark that count as on it
@@ -157,11 +157,11 @@ export class Pointing {
     const {objects} = this
     if (this.byName && (header.equator || header.critical)) { this.byName = false; this.pinned = null }
     if (this.name && this.pinned) {
-      const now = followed(this.pinned, objects, this.last)
+      const now = trackObject(this.pinned, objects, this.last)
       this.gone = !now
       if (now) { this.pinned = now; this.name = now.name }
     } else if (this.name) this.pinned = this.called(objects)
-    if (this.over && this.over.kind !== "nameless") this.over = followed(this.over, objects, this.last)
+    if (this.over && this.over.kind !== "nameless") this.over = trackObject(this.over, objects, this.last)
     this.last = objects
     this.draw()
     return this.text
@@ -208,7 +208,7 @@ export class Pointing {
     card.hidden = !markup
     if (!markup) return
     const close = card === this.kept ? `<button type="button" title="Unpin (Esc)" aria-label="Unpin ${escape(one.label)}">×</button>` : ""
-    put(card, close + markup)
+    setMarkup(card, close + markup)
     if (close) card.setAttribute("aria-label", `${one.label}, pinned`)
     const at = this.picture.pixel(one.x, one.y)
     if (!at) return

@@ -5,8 +5,8 @@ import {Ball} from "./ball.js"
 import {Puck} from "./puck.js"
 import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
-import {Player, sampled} from "./player.js"
-import {SAYS, digits, escape, measured, minus, phaseWords} from "../words.js"
+import {Player, sampleAt} from "./player.js"
+import {SAYS, digits, escape, claimNumber, minus, phaseWords} from "../words.js"
 
 export const TYPED = -1 // in place of a launched orbit's place: the typed start
 
@@ -112,7 +112,7 @@ export class OrbitInTime {
     const limit = orbit.index === TYPED ? "ε → 0" : orbit.fast ? "the layer problem, z frozen" : "ε → 0, z frozen"
     const listed = orbit.phases ? "line and list" : "line"
     this.find(".orbit-key").innerHTML = motion
-      ? `<span>full ${listed}: ${limit}</span><span>broken line${orbit.phases ? " and bands" : ", bands and list"}: ε = ${measured(motion.eps)}${orbit.phases ? "" : ", z moves"}</span>`
+      ? `<span>full ${listed}: ${limit}</span><span>broken line${orbit.phases ? " and bands" : ", bands and list"}: ε = ${claimNumber(motion.eps)}${orbit.phases ? "" : ", z moves"}</span>`
       : `<span>${orbit.phases ? "line, bands and list" : "line"}: ${limit}</span>`
     const phases = orbit.phases ?? motion?.phases ?? []
     this.rolls = [motion, orbit].find((run) => run?.ball) ?? null
@@ -157,10 +157,10 @@ export class OrbitInTime {
     const {at} = this.player, words = names(orbit)
     const after = at > /** @type {number} */ (orbit.t.at(-1)) && motion !== null
     const run = after ? motion : orbit
-    const [x, y, theta, radius, ...z] = sampled(run.t, run.states, at)
+    const [x, y, theta, radius, ...z] = sampleAt(run.t, run.states, at)
     this.chart.at(at)
     this.svg.setAttribute("aria-valuenow", at)
-    this.trace([motion?.picture, orbit.index === TYPED ? orbit.picture : undefined], sampled(run.t, run.picture, at))
+    this.trace([motion?.picture, orbit.index === TYPED ? orbit.picture : undefined], sampleAt(run.t, run.picture, at))
     const told = [x, y, theta, radius].map((value, i) => `${words[i].split(" ")[0]} = ${digits(value, 3)}`)
     this.find(".orbit-now").textContent = `${words[4]} = ${digits(at, 3)}: ${told.join(", ")}`
     this.find(".phase-now").textContent = this.phaseAt(at)
@@ -170,7 +170,7 @@ export class OrbitInTime {
 
   phaseAt(at) {
     const said = new Map()
-    for (const [run, name] of /** @type {[InTime | Regularised | null, string][]} */ ([[this.orbit, "ε → 0"], [this.motion, `ε = ${measured(this.motion?.eps ?? 0)}`]])) {
+    for (const [run, name] of /** @type {[InTime | Regularised | null, string][]} */ ([[this.orbit, "ε → 0"], [this.motion, `ε = ${claimNumber(this.motion?.eps ?? 0)}`]])) {
       const phase = run?.phases?.findLast(([, from]) => from <= at) ?? run?.phases?.[0]
       if (!phase) continue
       const words = `${phaseWords(phase[0], this.rolls)}. ${phase[3]}`

@@ -2,7 +2,7 @@
 // a drag that begins at a launched orbit's start, or at a limit direction that can be turned, moves that one. A click or
 // tap on an object pins it. Shift, a wheel with Ctrl, or two fingers are Bokeh's.
 
-import {changed, launchedAt, nearest, readLaunches, writeLaunches} from "./launches.js"
+import {changeLaunch, launchedAt, nearest, readLaunches, writeLaunches} from "./launches.js"
 
 const REACH = {mouse: 10, pen: 14, touch: 24} // px around a start that count as on it
 const STILL = 8 // px that a finger may move in a tap
@@ -73,7 +73,7 @@ export class Hands {
     event.stopPropagation()
     const place = this.tap ? null : this.picture.at(event.clientX, event.clientY)
     if (place && this.held.turn) this.held.turn(place)
-    else if (place) this.orbits.set(writeLaunches(changed(readLaunches(this.orbits.get()), this.held.i, {x: place.x, y: place.y})))
+    else if (place) this.orbits.set(writeLaunches(changeLaunch(readLaunches(this.orbits.get()), this.held.i, {x: place.x, y: place.y})))
   }
 
   up(event, done) {

@@ -82,7 +82,7 @@ export class Player {
  * The state of a motion at a time, linear between samples.
  * @param {number[]} t @param {number[][]} columns @param {number} at
  */
-export function sampled(t, columns, at) {
+export function sampleAt(t, columns, at) {
   let low = 0, high = t.length - 1
   while (high - low > 1) { const mid = (low + high) >> 1; if (t[mid] <= at) low = mid; else high = mid }
   const share = t[high] > t[low] ? Math.max(0, Math.min(1, (at - t[low]) / (t[high] - t[low]))) : 0

@@ -9,7 +9,7 @@
  * @param {number[][]} after
  * @returns {number[][]}
  */
-export function pinched(ranges, before, after) {
+export function pinchRanges(ranges, before, after) {
   const middle = (/** @type {number[][]} */ [[x0, y0], [x1, y1]]) => [(x0 + x1) / 2, 1 - (y0 + y1) / 2]
   const apart = (/** @type {number[][]} */ [[x0, y0], [x1, y1]]) => Math.hypot(x1 - x0, y1 - y0)
   const factor = Math.max(0.1, Math.min(10, apart(before) / (apart(after) || 1e-9)))
@@ -45,7 +45,7 @@ export function twoFingers(holder, plot, busy) {
   holder.addEventListener("touchmove", (event) => {
     if (start || busy()) event.preventDefault()
     if (!start || event.touches.length !== 2) return
-    const ranges = pinched(start.ranges, start.places, places(event))
+    const ranges = pinchRanges(start.ranges, start.places, places(event))
     ;[plot.x_range, plot.y_range].forEach((range, i) => range.setv({start: ranges[i][0], end: ranges[i][1]}))
   }, {capture: true, passive: false})
   holder.addEventListener("touchend", (event) => { if (event.touches.length < 2) start = null }, true)

@@ -1,6 +1,6 @@
 // A proof of the number of limit cycles: asked for, searched for beside the frames, told, and taken away as a file.
 
-import {put, save, size} from "../dom.js"
+import {setMarkup, save, size} from "../dom.js"
 import {SAYS, escape} from "../words.js"
 
 const AGAIN = 50 // ms until it is looked again whether the server has the values that are shown
@@ -8,7 +8,7 @@ const AGAIN = 50 // ms until it is looked again whether the server has the value
 const mark = (words) => ` <b class="proved">✓ ${words}</b>`
 
 /** The mark beside the heading of a list. @param {boolean} whole whether it is proved that there is no other @param {number} count */
-export const marked = (whole, count) => whole ? mark(count ? SAYS.proved : SAYS.provedNone) : ""
+export const proofMark = (whole, count) => whole ? mark(count ? SAYS.proved : SAYS.provedNone) : ""
 
 const button = (act, words) => `<button type="button" data-act="${act}">${words}</button>`
 
@@ -77,12 +77,12 @@ export class Proof {
     const {asked, box, how} = this, found = asked?.found
     box.hidden = how !== "certificate"
     if (box.hidden) return
-    if (!asked) put(box, `<p>${button("prove", SAYS.prove)}</p>`)
-    else if (asked.why) put(box, `<p class="note">${escape(asked.why)}</p><p>${button("prove", SAYS.prove)}</p>`)
-    else if (!found) put(box, `<p class="note" role="status">${SAYS.proving}</p><p>${button("stop", SAYS.stop)}</p>`)
+    if (!asked) setMarkup(box, `<p>${button("prove", SAYS.prove)}</p>`)
+    else if (asked.why) setMarkup(box, `<p class="note">${escape(asked.why)}</p><p>${button("prove", SAYS.prove)}</p>`)
+    else if (!found) setMarkup(box, `<p class="note" role="status">${SAYS.proving}</p><p>${button("stop", SAYS.stop)}</p>`)
     else {
       const files = found.certificate ? `<p>${button("certificate", `${SAYS.certificate}, ${size(found.certificate.length)}`)} ${button("checker", SAYS.checker)}</p>` : ""
-      put(box, `<p class="note" role="status">${escape(found.sentence)}</p>${files}`)
+      setMarkup(box, `<p class="note" role="status">${escape(found.sentence)}</p>${files}`)
     }
   }
 }

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
-import {joined, packed, progressOf, unpacked, withStep} from "../../../../app/static/beside/progress.js"
+import {joinProgress, packProgress, progressOf, unpackProgress, withStep} from "../../../../app/static/widgets/progress.js"
 
 test("a step is kept once, and nothing else changes", () => {
   const first = withStep({}, "one", 0, "answer")
@@ -21,14 +21,14 @@ test("a lesson is complete when every question was answered rightly; goals do no
 
 test("a link carries progress and brings it back; what is none is passed over", () => {
   const progress = {"03-limit-directions": {0: ["answer"], 1: ["answer", "goal"]}, "own: mine": {12: ["goal"]}}
-  assert.equal(packed(progress), "03-limit-directions:0a,1ag;own: mine:12g")
-  assert.deepEqual(unpacked(packed(progress)), progress)
-  assert.deepEqual(unpacked(packed({})), {})
-  for (const text of ["x", ":0a", "one:a", "one:0x", "one:100a", "__proto__:0a", ";;", "one:"]) assert.deepEqual(unpacked(text), {}, text)
+  assert.equal(packProgress(progress), "03-limit-directions:0a,1ag;own: mine:12g")
+  assert.deepEqual(unpackProgress(packProgress(progress)), progress)
+  assert.deepEqual(unpackProgress(packProgress({})), {})
+  for (const text of ["x", ":0a", "one:a", "one:0x", "one:100a", "__proto__:0a", ";;", "one:"]) assert.deepEqual(unpackProgress(text), {}, text)
 })
 
 test("what was done in either of two browsers is done", () => {
   const one = {a: {0: ["answer"]}}, other = {a: {0: ["goal"], 2: ["answer"]}, b: {0: ["answer"]}}
-  assert.deepEqual(joined(one, other), {a: {0: ["answer", "goal"], 2: ["answer"]}, b: {0: ["answer"]}})
-  assert.deepEqual(joined(one, {}), one)
+  assert.deepEqual(joinProgress(one, other), {a: {0: ["answer", "goal"], 2: ["answer"]}, b: {0: ["answer"]}})
+  assert.deepEqual(joinProgress(one, {}), one)
 })

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {courseOf} from "../../../../app/static/beside/puck.js"
+import {courseOf} from "../../../../app/static/widgets/puck.js"
 
 const PLANE = {a: -2, b: 0.5, d: -1, f1: 0.3, f2: -0.2, k1: 1, k2: 0}
 

@@ -3,8 +3,8 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {STEP} from "../../../../app/static/picture/frames.js"
-import {apart, areaAt, curveAt, middleOf, nearestOn} from "../../../../app/static/hands/curves.js"
-import {eigenWords, factsOf, followed, objectAt, objectsOf, pointedList, styleOf} from "../../../../app/static/hands/objects.js"
+import {curveDistance, areaAt, curveAt, middleOf, nearestOn} from "../../../../app/static/interaction/curves.js"
+import {eigenWords, factsOf, trackObject, objectAt, objectsOf, pointedList, styleOf} from "../../../../app/static/interaction/objects.js"
 import {CRITICAL, EQUATOR} from "../played/wiring.js"
 
 const square = Int16Array.from([[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5], [0.5, 0.5]].flat().map((v) => Math.round(v / STEP)))
@@ -54,21 +54,21 @@ test("a curve is told by its layer", () => {
 test("after a frame it is the nearest of those that behave alike, whatever it is called then", () => {
   const [, , q1, q2] = all
   const moved = (x, y, turn, label) => objectsOf({equator: {...EQUATOR, x, y, lambda_theta: turn, label, multiplicity: x.map(() => 1)}}, {}, TABLE)
-  assert.equal(followed(q1, moved([0.55, 0.65], [0.83, 0.76], [2, -1], ["Q₁", "Q₂"]))?.name, "Q2") // the nearer one repels
-  assert.equal(followed(q1, moved([0.55], [0.83], [2], ["Q₁"])), null)
-  assert.equal(followed(q1, moved([-0.6], [-0.8], [-1], ["Q₁"])), null) // on the other side
-  assert.equal(followed(q2, moved([0.65], [0.76], [-1], ["Q₁"])), null)
-  assert.equal(followed({...q1, sort: ""}, moved([0.55], [0.83], [2], ["Q₁"]))?.name, "Q1") // where two meet it may become either
+  assert.equal(trackObject(q1, moved([0.55, 0.65], [0.83, 0.76], [2, -1], ["Q₁", "Q₂"]))?.name, "Q2") // the nearer one repels
+  assert.equal(trackObject(q1, moved([0.55], [0.83], [2], ["Q₁"])), null)
+  assert.equal(trackObject(q1, moved([-0.6], [-0.8], [-1], ["Q₁"])), null) // on the other side
+  assert.equal(trackObject(q2, moved([0.65], [0.76], [-1], ["Q₁"])), null)
+  assert.equal(trackObject({...q1, sort: ""}, moved([0.55], [0.83], [2], ["Q₁"]))?.name, "Q1") // where two meet it may become either
   const [, c] = all, saddle = objectsOf({critical: {...CRITICAL, kind: ["saddle"]}}, {}, TABLE)
-  assert.equal(followed(c, saddle), null)
-  assert.equal(followed(all[4], all)?.name, "L1")
-  assert.equal(followed(all[4], objectsOf({...HEADER, cycles: {...HEADER.cycles, kind: ["unstable"]}}, BLOCKS, TABLE)), null)
+  assert.equal(trackObject(c, saddle), null)
+  assert.equal(trackObject(all[4], all)?.name, "L1")
+  assert.equal(trackObject(all[4], objectsOf({...HEADER, cycles: {...HEADER.cycles, kind: ["unstable"]}}, BLOCKS, TABLE)), null)
 })
 
 test("nothing of another kind takes its place, though it may become anything", () => {
   const [, c, q1] = all, any = (one) => ({...one, sort: ""})
-  assert.equal(followed(any(c), [any({...q1, x: c.x, y: c.y})]), null)
-  assert.equal(followed(any(c), [any({...q1, x: c.x, y: c.y}), {...c, x: 0.3, name: "C2"}])?.name, "C2")
+  assert.equal(trackObject(any(c), [any({...q1, x: c.x, y: c.y})]), null)
+  assert.equal(trackObject(any(c), [any({...q1, x: c.x, y: c.y}), {...c, x: 0.3, name: "C2"}])?.name, "C2")
 })
 
 test("each launched orbit has its own curve, from its own start, in its own colour, whatever number it has", () => {
@@ -92,7 +92,7 @@ test("an object says its name and numbers, and why it has no eigenvectors", () =
   assert.deepEqual(facts.rows, [["θ", "0.9273 (53.13°)"], ["λ_ρ", "−1.5000"], ["λ_θ", "−0.3000"]])
   assert.deepEqual(facts.notes, [])
   assert.deepEqual(factsOf(q2, HEADER).rows.at(-1), ["multiplicity", "2"])
-  assert.deepEqual(factsOf(q2, HEADER).notes, ["The linearisation does not decide: no eigenvectors are drawn."])
+  assert.deepEqual(factsOf(q2, HEADER).notes, ["The linearisation does not decide, so no eigenvectors are drawn."])
   assert.equal(factsOf(c, HEADER, ["v"]).title, "C stable node")
   assert.deepEqual(factsOf(c, HEADER, ["v"]).rows.map(([name, value]) => `${name} ${value}`), ["(c, s) (0.200, −0.300)", "(x₂, y₂) (0.210, −0.330)", "tr J −3.000", "det J 2.000", "eigenvalues −1.000, −2.000", "v′ 0.400"])
   const of = (more) => factsOf(c, {...HEADER, eigen: {...EIGEN, critical: [{directions: [], turning: 0, every: false, ...more}]}}).notes
@@ -104,7 +104,7 @@ test("an object says its name and numbers, and why it has no eigenvectors", () =
   assert.deepEqual(factsOf(cycle, HEADER), {title: "Limit cycle, stable", rows: [["period", "2.000"], ["multiplier", "0.500"]], notes: ["Orbits turn clockwise."]})
   assert.deepEqual(factsOf(launched, HEADER).notes, ["Tends to C."])
   assert.deepEqual([launched, cycle].map((one) => pointedList(one, {}, {}, false).map(({kind}) => kind)), [["curves", "ring"], ["curves"]]) // an orbit has its start
-  assert.equal(followed(launched, [{...launched, curve: cycle.curve}])?.name, "O1") // by which it is followed, wherever it goes now
+  assert.equal(trackObject(launched, [{...launched, curve: cycle.curve}])?.name, "O1") // by which it is followed, wherever it goes now
   assert.deepEqual(factsOf(launched, {...HEADER, launched: {...HEADER.launched, comes: ["Comes from Q1."]}}).notes, ["Tends to C.", "Comes from Q1."]) // as it goes on, then where it was
 })
 
@@ -131,21 +131,21 @@ const cycles = (...wanted) => objectsOf({
 test("a limit cycle is followed by its shape and stability, whatever its number; where it has vanished no other takes its place", () => {
   const [stable, unstable, outer] = cycles([0.3, "stable"], [0.5, "unstable"], [0.7, "stable"])
   const before = [stable, unstable, outer]
-  assert.ok(Math.abs(apart(stable.curve, outer.curve) - 0.4) < 0.01)
+  assert.ok(Math.abs(curveDistance(stable.curve, outer.curve) - 0.4) < 0.01)
   assert.deepEqual([stable.label, outer.label], ["Limit cycle 1", "Limit cycle 3"])
-  assert.equal(followed(outer, cycles([0.2, "unstable"], [0.35, "stable"], [0.5, "unstable"], [0.72, "stable"]), before)?.name, "L4") // one is new within
-  assert.equal(followed(outer, cycles([0.68, "stable"]), before)?.name, "L1") // the two within met
-  assert.equal(followed(stable, cycles([0.68, "stable"]), before), null)
-  assert.equal(followed(stable, cycles([0.66, "stable"]), cycles([0.68, "stable"])), null) // and it stays away
-  assert.equal(followed(stable, cycles([0.32, "stable"], [0.45, "unstable"], [0.66, "stable"]), cycles([0.68, "stable"]))?.name, "L1") // until it is back
+  assert.equal(trackObject(outer, cycles([0.2, "unstable"], [0.35, "stable"], [0.5, "unstable"], [0.72, "stable"]), before)?.name, "L4") // one is new within
+  assert.equal(trackObject(outer, cycles([0.68, "stable"]), before)?.name, "L1") // the two within met
+  assert.equal(trackObject(stable, cycles([0.68, "stable"]), before), null)
+  assert.equal(trackObject(stable, cycles([0.66, "stable"]), cycles([0.68, "stable"])), null) // and it stays away
+  assert.equal(trackObject(stable, cycles([0.32, "stable"], [0.45, "unstable"], [0.66, "stable"]), cycles([0.68, "stable"]))?.name, "L1") // until it is back
 })
 
 test("a limit direction that has met another leaves its pin to no third", () => {
   const at = (angles) => objectsOf({equator: {...EQUATOR, x: angles.map(Math.cos), y: angles.map(Math.sin), label: angles.map((_, i) => `Q${"₁₂₃₄"[i]}`), multiplicity: angles.map(() => 1), lambda_theta: angles.map((_, i) => i % 2 ? 1 : -1)}}, {}, TABLE)
   const before = at([0, 0.2, 0.4, 1])
-  assert.equal(followed(before[0], at([0.42, 1.05]), before), null) // it met the second
-  assert.equal(followed(before[2], at([0.42, 1.05]), before)?.name, "Q1")
-  assert.equal(followed(before[0], at([0.1, 0.25, 0.5, 1]), before)?.name, "Q1")
+  assert.equal(trackObject(before[0], at([0.42, 1.05]), before), null) // it met the second
+  assert.equal(trackObject(before[2], at([0.42, 1.05]), before)?.name, "Q1")
+  assert.equal(trackObject(before[0], at([0.1, 0.25, 0.5, 1]), before)?.name, "Q1")
 })
 
 test("U₁ = 0 and U₂ = 0 are two objects of one layer, also where a zoom cuts them; a curve tells where it is pointed at", () => {
@@ -160,8 +160,8 @@ test("U₁ = 0 and U₂ = 0 are two objects of one layer, also where a zoom cuts
   assert.deepEqual([at(0.01, -0.3)?.name, at(0.02, 0.1)?.name, at(0.4, 0.52)?.name, at(1.5, 0.51)?.name, at(0.4, -0.5)?.name, at(0.4, 0.2)], ["U1", undefined, "U2", "U2", "R", null])
   assert.deepEqual(factsOf(at(1.5, 0.5), header), {title: "Nullcline U₂ = 0", rows: [["|(x, y)|", "0.581"], ["θ", "18.44°"]], notes: []})
   assert.deepEqual(factsOf(at(0.3, -0.8), header), {title: "Separatrix 2, stable", rows: [["of", "C"], ["other end", "Q₂"], ["(x̄, ȳ)", "(0.300, −0.800)"], ["θ", "−69.44°"]], notes: ["It comes from Q₂."]})
-  assert.equal(followed(at(0.4, 0.5), found, found)?.name, "U2")
-  assert.equal(followed(at(0.4, 0.5), found.filter(({name}) => name !== "U2"), found), null)
+  assert.equal(trackObject(at(0.4, 0.5), found, found)?.name, "U2")
+  assert.equal(trackObject(at(0.4, 0.5), found.filter(({name}) => name !== "U2"), found), null)
 })
 
 test("a curve is told in the middle of its first piece: at the middle point, or between the two", () => {

@@ -97,7 +97,7 @@ test("a pin of a link is there with the first picture, and stays with its object
   one.answer({equator: {...EQUATOR, x: [0.9, 0.63], y: [0.43, 0.77], lambda_theta: [2, -0.2], multiplicity: [1, 1]}, eigen: null})
   assert.deepEqual([card(one), one.root.explorer.values.pinned], ["Q₂", "Q2"])
   one.answer({equator: {...EQUATOR, x: [-0.91], y: [-0.41], lambda_theta: [2], multiplicity: [1], label: ["Q₁"]}, eigen: null})
-  assert.match(one.find(".card.pinned").textContent, /Q₂ is not there at this setting\.$/)
+  assert.match(one.find(".card.pinned").textContent, /Q₂ does not exist at this setting\.$/)
   assert.deepEqual(drawn(one), [])
   one.answer({equator: {...EQUATOR, x: [0.9, 0.63], y: [0.43, 0.77], lambda_theta: [2, -0.2], multiplicity: [1, 1]}, eigen: null})
   assert.deepEqual([card(one), drawn(one)], ["Q₂", ["ring"]]) // it is back, and its eigenvectors have not come

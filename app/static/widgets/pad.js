@@ -2,7 +2,7 @@
 
 import {Chart} from "../chart/chart.js"
 import {extent, holds} from "../chart/regions.js"
-import {rounded} from "../chart/scale.js"
+import {roundToSpan} from "../chart/scale.js"
 import {escape} from "../words.js"
 
 export class Pad {
@@ -13,7 +13,7 @@ export class Pad {
     this.redrawn = /** @type {(() => void) | null} */ (null) // called when all was drawn anew
     this.plot = new Chart(svg, {
       aspect: (width) => (this.chart?.flat ? Math.min(width, 130) : width),
-      onMove: (x, y) => onMove([x, y].map((value, i) => rounded(value, this.box[i]))),
+      onMove: (x, y) => onMove([x, y].map((value, i) => roundToSpan(value, this.box[i]))),
       onEnd: () => onMove(null),
       onKey: (way, far) => onMove(this.chart.handle.map((value, i) => value + way[i] * (this.box[i][1] - this.box[i][0]) / (far ? 20 : 200))),
       onRedraw: () => { if (this.chart) this.drawMoving(); this.redrawn?.() },

@@ -1,8 +1,8 @@
 // What in the picture has a name: limit directions, critical sets, limit cycles, separatrices, nullclines, launched orbits.
 // Where a pointer is on one, what is said of each, and which one it is after the sliders have moved.
 
-import {CURVES, SAYS, digits, eigen, pair, turned} from "../words.js"
-import {apart, curvesOf, middleOf, nearestOn} from "./curves.js"
+import {CURVES, SAYS, digits, eigen, pair, senseSentence} from "../words.js"
+import {curveDistance, curvesOf, middleOf, nearestOn} from "./curves.js"
 
 const EDGE = 5e-4 // of the radius: as far as a point of the equator may be packed from it
 const NEAR = 0.7 // of the picture's unit: what is farther away after one frame is another object
@@ -82,7 +82,7 @@ export function objectAt(objects, {x, y}, reach, ofCurve) {
  * are fewer than before, those that were another one's are not its own.
  * @param {Named} before @param {Named[]} objects @param {Named[]} last the objects before this frame
  */
-export function followed(before, objects, last = []) {
+export function trackObject(before, objects, last = []) {
   const alike = (/** @type {Named} */ one) => one.kind === before.kind && (one.sort === before.sort || one.sort === "" || before.sort === "")
   const there = objects.filter(alike), were = last.filter(alike)
   const itself = were.find((one) => one.name === before.name && gapOf(one, before) < 1e-9)
@@ -98,7 +98,7 @@ export function followed(before, objects, last = []) {
 }
 
 // Closed orbits and separatrices by their shape, nullclines by their name alone, all else by its mark.
-const gapOf = (one, other) => one.kind === "curve" ? 0 : one.curve && other.curve && !one.mark ? apart(one.curve, other.curve) : Math.hypot(one.x - other.x, one.y - other.y)
+const gapOf = (one, other) => one.kind === "curve" ? 0 : one.curve && other.curve && !one.mark ? curveDistance(one.curve, other.curve) : Math.hypot(one.x - other.x, one.y - other.y)
 
 const WHERE = {equator: SAYS.along, up: SAYS.up, outside: SAYS.out, disc: ""}
 
@@ -134,7 +134,7 @@ export function factsOf(one, header, slowSymbols = []) {
   }
   if (kind === "cycles") {
     const {kind: kinds, period, multiplier, direction} = header.cycles
-    return {title: `${label}, ${kinds[i]}`, rows: [["period", digits(period[i])], ["multiplier", digits(multiplier[i])]], notes: direction ? [turned(direction[i])] : []}
+    return {title: `${label}, ${kinds[i]}`, rows: [["period", digits(period[i])], ["multiplier", digits(multiplier[i])]], notes: direction ? [senseSentence(direction[i])] : []}
   }
   if (kind === "separatrices") {
     const [origin, end, status] = header.separatrices[i]
@@ -155,7 +155,7 @@ export function placeOf({x, y}) {
 function linear(eigenvectors) {
   if (!eigenvectors) return []
   const {directions, turning, every} = eigenvectors
-  if (turning) return [turned(turning), SAYS.complex]
+  if (turning) return [senseSentence(turning), SAYS.complex]
   if (every) return [SAYS.every]
   return directions.length ? [] : [SAYS.undecided]
 }

@@ -34,14 +34,14 @@ const STEPS = /** @type {Record<string, string>} */ ({a: "answer", g: "goal"})
 const letter = (/** @type {string} */ step) => Object.keys(STEPS).find((it) => STEPS[it] === step) ?? ""
 
 /** Progress as a link carries it: LESSON:0ag,1a;LESSON:0a. @param {Progress} progress */
-export function packed(progress) {
+export function packProgress(progress) {
   return Object.entries(progress).map(([lesson, questions]) => `${lesson}:${Object.entries(questions).map(([i, steps]) => i + steps.map(letter).join("")).join(",")}`).join(";")
 }
 
 const MOST = 100 // lessons of a link, and questions of each
 
 /** What a link carries; what is none is passed over. @param {string} text @returns {Progress} */
-export function unpacked(text) {
+export function unpackProgress(text) {
   /** @type {Progress} */
   let found = {}
   for (const part of text.split(";").slice(0, MOST)) {
@@ -55,7 +55,7 @@ export function unpacked(text) {
 }
 
 /** What has been done in either. @param {Progress} one @param {Progress} other */
-export function joined(one, other) {
+export function joinProgress(one, other) {
   let all = one
   for (const [lesson, questions] of Object.entries(other)) {
     for (const [i, steps] of Object.entries(questions)) for (const step of steps) all = withStep(all, lesson, Number(i), step)

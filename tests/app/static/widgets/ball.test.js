@@ -1,10 +1,10 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Ball} from "../../../../app/static/beside/ball.js"
-import {turned} from "../../../../app/static/beside/quaternions.js"
+import {Ball} from "../../../../app/static/widgets/ball.js"
+import {rotateVector} from "../../../../app/static/widgets/quaternions.js"
 
-/** @typedef {import("../../../../app/static/beside/quaternions.js").Quaternion} Quaternion */
+/** @typedef {import("../../../../app/static/widgets/quaternions.js").Quaternion} Quaternion */
 
 const near = (one, other, most = 1e-12) => one.forEach((v, i) => assert.ok(Math.abs(v - other[i]) <= most, `${one} is not ${other}`))
 
@@ -23,7 +23,7 @@ test("a turn is Rodrigues' formula", () => {
     const n = axis.map((x) => x / Math.hypot(...axis))
     const [c, s] = [Math.cos(angle), Math.sin(angle)]
     const expected = v.map((x, i) => x * c + cross(n, v)[i] * s + n[i] * dot(n, v) * (1 - c))
-    near(turned(about(axis, angle), v), expected)
+    near(rotateVector(about(axis, angle), v), expected)
   }
 })
 
@@ -98,7 +98,7 @@ test("the three great circles are painted where the ball has turned them, each i
   assert.deepEqual(paths.map(([name]) => name), ["line", "accent", "crit", "accent", "attr", "ink"])
   const r = 0.92 * 50 // of a ball that stays where it is, as high as its place
   for (const [axis, [, circle]] of paths.slice(2, 5).entries()) {
-    const normal = turned(turn, [0, 1, 2].map((k) => Number(k === axis)))
+    const normal = rotateVector(turn, [0, 1, 2].map((k) => Number(k === axis)))
     let before = null
     for (const [name, u, v] of circle) {
       const [x, y] = [(u - 100) / r, (50 - v) / r], z = Math.sqrt(Math.max(0, 1 - x * x - y * y))
@@ -111,4 +111,4 @@ test("the three great circles are painted where the ball has turned them, each i
   }
 })
 
-test("a quarter turn about z takes x to y", () => near(turned([Math.SQRT1_2, 0, 0, Math.SQRT1_2], [1, 0, 0]), [0, 1, 0]))
+test("a quarter turn about z takes x to y", () => near(rotateVector([Math.SQRT1_2, 0, 0, Math.SQRT1_2], [1, 0, 0]), [0, 1, 0]))

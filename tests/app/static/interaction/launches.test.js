@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {changed, coloursOf, launchedAt, MOST, nearest, readLaunches, without, writeLaunches} from "../../../../app/static/hands/launches.js"
+import {changeLaunch, coloursOf, launchedAt, MOST, nearest, readLaunches, without, writeLaunches} from "../../../../app/static/interaction/launches.js"
 
 test("launched orbits are written and read again", () => {
   const text = "0.3,0.2;1.5,-0.1,-;-1,0.25:slow one"
@@ -42,7 +42,7 @@ test("colours take turns among those that are shown, as they are drawn", () => {
 
 test("one is changed or taken out, and the others stay as they were", () => {
   const launches = readLaunches("0,0;1,1")
-  assert.equal(writeLaunches(changed(launches, 1, {x: 0.5})), "0,0;0.5,1")
+  assert.equal(writeLaunches(changeLaunch(launches, 1, {x: 0.5})), "0,0;0.5,1")
   assert.equal(writeLaunches(without(launches, 0)), "1,1")
   assert.equal(writeLaunches(launches), "0,0;1,1")
 })

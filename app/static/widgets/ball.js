@@ -1,6 +1,6 @@
 // A ball seen from above: where it is, how it is turned, and its way so far.
 
-import {turned} from "./quaternions.js"
+import {rotateVector} from "./quaternions.js"
 
 export class Ball {
   constructor(root, canvas) { this.root = root; this.canvas = canvas }
@@ -42,7 +42,7 @@ export class Ball {
       for (let k = 0; k <= 48; k++) {
         const angle = k * Math.PI / 24, v = [0, 0, 0]
         v[(axis + 1) % 3] = Math.cos(angle); v[(axis + 2) % 3] = Math.sin(angle)
-        const [px, py, pz] = turned(this.turns[i], v)
+        const [px, py, pz] = rotateVector(this.turns[i], v)
         if (pz < -0.02) { pen = false; continue }
         if (pen) g.lineTo(cx + r * px, cy - r * py); else g.moveTo(cx + r * px, cy - r * py)
         pen = true

@@ -63,7 +63,7 @@ export function nearestOn(pieces, px, py) {
 }
 
 /** How far two curves are apart: the farther mean distance of points of one from the other. @param {Pieces} one @param {Pieces} other */
-export function apart(one, other) {
+export function curveDistance(one, other) {
   const mean = (from, to) => {
     let sum = 0, count = 0
     for (const {n: [n], xy} of from) {

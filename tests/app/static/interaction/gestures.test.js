@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {letScroll, pinched, sidewaysOnly, twoFingers} from "../../../../app/static/hands/gestures.js"
+import {letScroll, pinchRanges, sidewaysOnly, twoFingers} from "../../../../app/static/interaction/gestures.js"
 
 /** An element: what listens to it, and in which order it hears. @param {any} more @returns {any} */
 function element(more = {}) {
@@ -82,11 +82,11 @@ test("Bokeh hears of one finger's taps, of no finger's moves, and of all that a 
 
 test("fingers that come together, or part without end, change a tenth to ten times", () => {
   const ranges = [[-1, 1], [-1, 1]], apart = (gap) => [[0.5 - gap / 2, 0.5], [0.5 + gap / 2, 0.5]]
-  const width = (from, to) => { const [[left, right]] = pinched(ranges, apart(from), apart(to)); return Number((right - left).toFixed(9)) }
+  const width = (from, to) => { const [[left, right]] = pinchRanges(ranges, apart(from), apart(to)); return Number((right - left).toFixed(9)) }
   assert.deepEqual([width(0.2, 0.4), width(0.4, 0.2), width(0.01, 0.9), width(0.9, 0.01), width(0.2, 0)], [1, 4, 0.2, 20, 20])
-  const upright = pinched(ranges, [[0.5, 0.4], [0.5, 0.6]], [[0.5, 0.3], [0.5, 0.7]])
+  const upright = pinchRanges(ranges, [[0.5, 0.4], [0.5, 0.6]], [[0.5, 0.3], [0.5, 0.7]])
   assert.deepEqual(upright.flat().map((v) => Number(v.toFixed(9))), [-0.5, 0.5, -0.5, 0.5])
-  assert.deepEqual(pinched(ranges, [[0.2, 0.2], [0.2, 0.4]], [[0.2, 0.2], [0.2, 0.4]]).flat().map((v) => Number(v.toFixed(9))), [-1, 1, -1, 1])
+  assert.deepEqual(pinchRanges(ranges, [[0.2, 0.2], [0.2, 0.4]], [[0.2, 0.2], [0.2, 0.4]]).flat().map((v) => Number(v.toFixed(9))), [-1, 1, -1, 1])
 })
 
 test("Bokeh's canvas, wherever it stands, lets a finger scroll", () => {
@@ -150,8 +150,8 @@ test("a finger that goes sideways turns it, from 6 px on", () => {
 
 test("two fingers keep what is under their middle, and enlarge by their distance", () => {
   const ranges = [[-2, 2], [-1, 3]]
-  near(pinched(ranges, [[0.2, 0.5], [0.4, 0.5]], [[0.3, 0.4], [0.5, 0.4]]), [[-2.4, 1.6], [-1.4, 2.6]]) // both move right and up
-  const [[left, right], [low, high]] = pinched(ranges, [[0.4, 0.2], [0.6, 0.2]], [[0.3, 0.2], [0.7, 0.2]])
+  near(pinchRanges(ranges, [[0.2, 0.5], [0.4, 0.5]], [[0.3, 0.4], [0.5, 0.4]]), [[-2.4, 1.6], [-1.4, 2.6]]) // both move right and up
+  const [[left, right], [low, high]] = pinchRanges(ranges, [[0.4, 0.2], [0.6, 0.2]], [[0.3, 0.2], [0.7, 0.2]])
   near([[right - left, high - low]], [[2, 2]])
   near([[(left + right) / 2, low + 0.8 * (high - low)]], [[0, -1 + 0.8 * 4]])
 })

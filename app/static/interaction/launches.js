@@ -35,7 +35,7 @@ export const cleanName = (name) => name.replace(/[;:]/g, " ").trim().slice(0, LO
 export function launchedAt(launches, x, y) { return [...launches, {x, y, hidden: false, name: ""}].slice(-MOST) }
 
 /** @param {Launch[]} launches @param {number} i @param {Partial<Launch>} change */
-export function changed(launches, i, change) { return launches.map((one, k) => k === i ? {...one, ...change} : one) }
+export function changeLaunch(launches, i, change) { return launches.map((one, k) => k === i ? {...one, ...change} : one) }
 
 /** @param {Launch[]} launches @param {number} i */
 export function without(launches, i) { return launches.filter((_, k) => k !== i) }
