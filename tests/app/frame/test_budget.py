@@ -111,7 +111,7 @@ def test_a_formula_too_wild_to_draw_is_named_so():
     while executor.given:
         executor.run()
         last = header(frames, rest=True)
-    assert "too wild" in last["left_out"]
+    assert "too complicated" in last["left_out"]
     assert f"at most {MOST_STANDING}" in last["left_out"]
     assert "separatrices" in last["left_out"]
     assert last["left_out"].count("limit directions") == 1  # one reason, one sentence
