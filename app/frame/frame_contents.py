@@ -40,7 +40,7 @@ def told_once(name: Classification) -> str:
 
 
 @lru_cache(maxsize=64)
-def breaks(psi: Psi) -> str:
+def violated_conditions(psi: Psi) -> str:
     """Say which of the conditions R1 to R5 a family of Psi does not meet, and where; empty if it meets all."""
     missed = [condition for condition in psi.check() if not condition.holds]
     names = ", ".join(condition.name for condition in missed)
@@ -192,7 +192,7 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: RequestedLay
         header["all_directions"] = bool(equator.all_directions)
         header["cycle"] = None if cycle is None else float(cycle.exponent)
     if _fresh(now, "psi", asked.scene.psi):
-        header["psi_note"] = breaks(asked.scene.psi)
+        header["psi_note"] = violated_conditions(asked.scene.psi)
     critical = () if critical is NOT_DRAWN else critical
     if critical is not LATER and _fresh(now, "critical", critical):
         where = asked.scene.problem.location
