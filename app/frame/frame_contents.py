@@ -31,7 +31,7 @@ Blocks = dict[str, NDArray[Any] | Polylines]
 LATER, NOT_DRAWN = object(), object()
 
 
-def told_once(name: Classification) -> str:
+def sentence_without_degeneracies(name: Classification) -> str:
     """Return the sentence of a portrait without what its degeneracies, shown below it, say again."""
     sentence = name.sentence
     for degeneracy in name.degeneracies:
@@ -209,7 +209,7 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: RequestedLay
         header["portrait"] = {
             "case": name.case,
             "name": name.name,
-            "sentence": told_once(name) if isinstance(name, Classification) else "",
+            "sentence": sentence_without_degeneracies(name) if isinstance(name, Classification) else "",
             "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
         }
     flow = None if flow is LATER or flow is NOT_DRAWN else flow
