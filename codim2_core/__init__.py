@@ -32,9 +32,9 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.variation.result import Variation
     from .nullcline.nullclines import NullclineBranch, nullclines
     from .orbits.trajectories import Trajectories, trajectories
-    from .portrait.approach import approach_outcomes
     from .portrait.basins import Basins, basins
     from .portrait.classify import Classification, Degeneracy, classify
+    from .portrait.outcomes import approach_outcomes
     from .portrait.separatrices import Separatrices, Separatrix, separatrices
     from .psi.function import Psi
     from .scene import Scene
@@ -146,7 +146,7 @@ _HOMES = {
     "orbits.trajectories": "Trajectories trajectories",
     "portrait.basins": "Basins basins",
     "portrait.classify": "Classification Degeneracy classify",
-    "portrait.approach": "approach_outcomes",
+    "portrait.outcomes": "approach_outcomes",
     "portrait.separatrices": "Separatrices Separatrix separatrices",
     "psi.function": "Psi",
     "scene": "Scene",

@@ -13,7 +13,7 @@ from codim2_core.scene import Scene
 
 from ..draw.packing import Rectangle, pack
 from ..draw.theme import HALF_VIEW
-from ..frame.picture import make_frame
+from ..frame.frame_contents import make_frame
 from ..frame.scenes import make_scene
 from ..frame.window import Window, resample_for_window
 from ..slow_layers import basins, outcomes

@@ -26,19 +26,19 @@ from .faults import FAILURES
 from .time_limit import CompileClock, at_most
 
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
-LAYER, FRAME = 0.008, 0.02
+LAYER_BUDGET, FRAME_BUDGET = 0.008, 0.02
 #: Seconds for one layer computed beside the frames: a wilder one is left out, and said to be.
 MAX_LAYER_SECONDS = 6.0
 #: Limit directions and critical sets together, beyond which the layers that follow each of them are not drawn.
-MOST_STANDING = 100
+MAX_EQUILIBRIA = 100
 #: Layers that start at each limit direction or critical set, or look for what is between them.
-FOLLOWING = frozenset(
+PER_EQUILIBRIUM_LAYERS = frozenset(
     {"nullclines_inside", "nullclines_outside", "continuations", "closed_orbits", "cycles", "separatrices", "outcomes",
      "certificates", "eigendirections", "classification"}
 )  # fmt: skip
 #: Layers of e-linear systems that search for cycles, which there may be in Case III; and all that may take long.
-SEARCHING = frozenset({"outcomes", "certificates"})
-LONG = SEARCHING | {"launched"}
+CYCLE_SEARCH_LAYERS = frozenset({"outcomes", "certificates"})
+POSSIBLY_LONG_LAYERS = CYCLE_SEARCH_LAYERS | {"launched"}
 #: Directions on which a formula is looked at to see how wild it is.
 COST_NET = 512
 #: Formulas whose layers have been timed, of one browser; all e-linear systems are one.
@@ -117,7 +117,7 @@ def layers_of(
     left_out: dict[str, str] = {}
     first = ("equator", "critical")
     for name in dict.fromkeys([*first, *names]):
-        if name in FOLLOWING and (why := wild(scene)):
+        if name in PER_EQUILIBRIUM_LAYERS and (why := wild(scene)):
             left_out[name] = why
             continue
         began, compiling = time.thread_time(), CompileClock()
@@ -138,9 +138,9 @@ def layers_of(
 def wild(scene: Scene) -> str:
     """Say why the layers that follow each limit direction and critical set are not drawn; "" if they are."""
     directions, sets = len(scene["equator"]), len(scene["critical"])
-    if directions + sets <= MOST_STANDING:
+    if directions + sets <= MAX_EQUILIBRIA:
         return ""
-    return say("too wild", directions=directions, sets=sets, most=MOST_STANDING)
+    return say("too wild", directions=directions, sets=sets, most=MAX_EQUILIBRIA)
 
 
 def wildness(scene: Scene) -> int:
@@ -198,14 +198,14 @@ class Budget:
         bounded, formula = self.bounded(scene), self._formula(scene)
         if bounded and name == "launched" and not len(scene.launch):
             return None  # nothing says how long an orbit would take
-        if bounded and name in SEARCHING and scene["name"].case == "III":
+        if bounded and name in CYCLE_SEARCH_LAYERS and scene["name"].case == "III":
             raise PendingLayer(name)
         wildest, took = self._timed.get(formula, (0, {}))
-        if bounded and name not in LONG:
+        if bounded and name not in POSSIBLY_LONG_LAYERS:
             cost = took.get(name, 0.0)
         else:
             cost = took.get(name, math.inf) if wildness(scene) <= wildest else math.inf
-        if cost > LAYER or self._spent + cost > FRAME or self._elsewhere(scene):
+        if cost > LAYER_BUDGET or self._spent + cost > FRAME_BUDGET or self._elsewhere(scene):
             raise PendingLayer(name)
         self._spent += cost
         return partial(self._computed, formula, name, time.perf_counter(), self._timed_so_far)
@@ -214,9 +214,9 @@ class Budget:
         """Note what a layer took here, without the layers that it asked for."""
         took = time.perf_counter() - began
         own, self._timed_so_far = took - (self._timed_so_far - before_it), before_it + took
-        if own > LAYER:  # or this thread waited: asking how long it has worked takes longer than many a layer
+        if own > LAYER_BUDGET:  # or this thread waited: asking how long it has worked takes longer than many a layer
             own = min(own, time.thread_time() - self._worked_before)
-        if own > LAYER and name not in self._slow_once:
+        if own > LAYER_BUDGET and name not in self._slow_once:
             self._slow_once.add(name)  # a kernel was loaded, or garbage looked for: what is slow twice is slow
             return
         self._slow_once.discard(name)

@@ -12,8 +12,8 @@ from codim2_core.systems.typed import System
 from codim2_core.words import printed_sentence
 
 from ..state.chosen_system import System_
+from .background_results import Jobs
 from .budget import OmittedLayer
-from .jobs import Jobs
 from .work_queue import FailedResult
 
 

@@ -14,7 +14,7 @@ from numba.core import event
 from numba.core.compiler_lock import global_compiler_lock
 
 #: Seconds of processor time after which an alarm that was not heard comes again.
-AGAIN = 0.05
+ALARM_INTERVAL_SECONDS = 0.05
 
 
 class CompileClock(event.Listener):
@@ -77,7 +77,7 @@ def at_most(seconds: float, compiling: CompileClock | None = None) -> Iterator[N
     try:
         try:
             with event.install_listener("numba:compile", compiling):
-                signal.setitimer(signal.ITIMER_PROF, seconds, AGAIN)
+                signal.setitimer(signal.ITIMER_PROF, seconds, ALARM_INTERVAL_SECONDS)
                 yield
         finally:
             signal.setitimer(signal.ITIMER_PROF, 0.0)

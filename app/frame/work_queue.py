@@ -1,7 +1,7 @@
 """A fair queue for workers: browsers take turns, so that nobody waits for all that another has asked for.
 
 What several ask for is computed once, and stopped when none of them wants it any more. Where it is computed is an
-executor's affair: a thread in a notebook, processes on a server, or what the host brings (`Turns(executor, at_once)`).
+executor's affair: a thread in a notebook, processes on a server, or the host's own (`WorkQueue(executor, at_once)`).
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from codim2_core.scene import Scene
 from ..phrases import say
 from .faults import FAULT, sentence_of
 
-#: KeptResults kept for all browsers of a process, and what they may hold together, in bytes.
+#: Results kept for all browsers of a process, and what they may hold together, in bytes.
 MAX_KEPT_RESULTS = 128
-KEPT_BYTES = 64_000_000
+MAX_KEPT_BYTES = 64_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +38,7 @@ class FailedResult:
 class KeptResults:
     """Results by key, the most recently used last; bounded in number and in size."""
 
-    def __init__(self, most: int = MAX_KEPT_RESULTS, most_bytes: int = KEPT_BYTES) -> None:
+    def __init__(self, most: int = MAX_KEPT_RESULTS, most_bytes: int = MAX_KEPT_BYTES) -> None:
         self.most, self.most_bytes = most, most_bytes
         self.size = 0
         self._kept: OrderedDict[Hashable, tuple[Any, int]] = OrderedDict()
@@ -250,5 +250,5 @@ def compute(function: Callable[..., Any], *args: Any) -> Any:
 
 @cache
 def in_a_thread() -> WorkQueue:
-    """Return the turns of a notebook: one thread of this process, made when first needed (a fork has none)."""
+    """Return the work queue of a notebook: one thread of this process, made when first needed (a fork has none)."""
     return WorkQueue(ThreadPoolExecutor(1, thread_name_prefix="codim2-panels"))

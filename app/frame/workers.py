@@ -22,14 +22,14 @@ from ..phrases import say
 
 #: Seconds of its own time after which a worker is stopped, whatever it is doing; and how many times that by the clock,
 #: where it gets little of a busy machine.
-SECONDS, SHUTDOWN_SECONDS = 60.0, 5.0
+MAX_WORK_SECONDS, MAX_CLOCK_RATIO = 60.0, 5.0
 #: Processes that answer visitors go first: they have three times the share of a worker where processors are short. At
 #: 10 it was ten times, and work of two seconds was stopped after 60 on a busy machine.
 NICE = 5
 #: Bytes by which a worker may grow: each formula that is typed leaves about 2.5 MB, which Numba never gives back.
-MOST_GROWN = 400_000_000
+MAX_GROWTH_BYTES = 400_000_000
 #: Bytes that a worker may ask for beside what it begins with: a work that needs more fails, alone.
-MOST_ASKED = 2_000_000_000
+MAX_WORK_BYTES = 2_000_000_000
 #: What is added to a worker's share of the machine's memory, in thousandths, where the system looks for one to end:
 #: it takes a worker, and not what answers visitors.
 ENDED_FIRST = 500
@@ -94,7 +94,7 @@ class Workers(Executor):
     count : int
         At most so many processes.
     seconds : float
-        After so much time of its own, or `SHUTDOWN_SECONDS` times that by the clock, a work is stopped: its future has
+        After so much time of its own, or `MAX_CLOCK_RATIO` times that by the clock, a work is stopped: its future has
         TimeoutError.
     preload : sequence of str
         Modules that a worker finds imported. They are imported once, in a process of its own from which the workers
@@ -110,11 +110,11 @@ class Workers(Executor):
     def __init__(
         self,
         count: int,
-        seconds: float = SECONDS,
+        seconds: float = MAX_WORK_SECONDS,
         preload: Sequence[str] = (),
         first: Callable[[], None] = lambda: None,
-        most_grown: int = MOST_GROWN,
-        most_asked: int = MOST_ASKED,
+        most_grown: int = MAX_GROWTH_BYTES,
+        most_asked: int = MAX_WORK_BYTES,
     ) -> None:
         known = multiprocessing.get_all_start_methods()
         self._context: Any = multiprocessing.get_context("forkserver" if "forkserver" in known else "spawn")
@@ -231,7 +231,7 @@ class Workers(Executor):
 
 def _await_answer(pipe: Connection, process: Any, seconds: float) -> list[Any]:
     """Wait until a worker answers or ends; nothing is returned once it has worked for so long."""
-    begun, end = _own_time(process.pid), time.monotonic() + SHUTDOWN_SECONDS * seconds
+    begun, end = _own_time(process.pid), time.monotonic() + MAX_CLOCK_RATIO * seconds
     left = seconds
     while left > 0.0:
         there = wait([pipe, process.sentinel], max(left, 0.01))

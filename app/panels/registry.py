@@ -1,7 +1,7 @@
 """The panels beside the picture: what the open one is sent in a frame. A closed panel costs nothing.
 
-What is cheap goes with every frame. What is slower is computed beside the frames (`frame.jobs`) once the controls
-rest; until the browser has it, its name is in ``header["late"]``, and the panel shows that what it has is old.
+What is cheap goes with every frame. What is slower is computed beside the frames (`frame.background_results`) once the
+controls rest; until the browser has it, its name is in ``header["late"]``, and the panel shows that it has old results.
 """
 
 from __future__ import annotations

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ..docs import docs_folder
-from ..frame.cluster import ClusterError, cluster
+from ..frame.dask_executor import ClusterError, dask_executor
 from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets, add_prove, join_negative_numbers
 from .downloads import add_data, add_figure, add_film, add_live
 from .process.files import many_files
@@ -146,7 +146,7 @@ def _serve(chosen: argparse.Namespace) -> None:
 
     long: dict[str, Any] = {}
     if chosen.dask:
-        long["executor"], long["at_once"] = cluster(chosen.dask)
+        long["executor"], long["at_once"] = dask_executor(chosen.dask)
     server = make_server(
         chosen.port,
         chosen.address,

@@ -20,7 +20,7 @@ from codim2_core.paper import cite
 from codim2_core.psi import FAMILIES, make
 from codim2_core.words import subscript, written_number
 
-from ..frame.cluster import ClusterError, cluster
+from ..frame.dask_executor import ClusterError, dask_executor
 
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 
@@ -267,7 +267,7 @@ def census(chosen: argparse.Namespace) -> int:
 def _executor(chosen: argparse.Namespace) -> AbstractContextManager[Executor | None]:
     """Return what counts: this process, several, or a cluster."""
     if chosen.dask:
-        return cluster(chosen.dask)[0]
+        return dask_executor(chosen.dask)[0]
     return ProcessPoolExecutor(chosen.processes) if chosen.processes > 1 else nullcontext()
 
 

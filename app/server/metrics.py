@@ -13,7 +13,7 @@ from prometheus_client import CollectorRegistry, Histogram, generate_latest
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
 from tornado.web import RequestHandler
 
-from ..frame.load import load
+from ..frame.process_load import load
 from ..frame.work_queue import WorkQueue
 from ..rooms.rooms import Rooms
 from ..view import warmup

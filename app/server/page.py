@@ -20,7 +20,7 @@ from tornado.process import task_id
 from tornado.web import RequestHandler
 
 from ..docs.docs_handlers import Docs, ToDocs
-from ..frame.jobs import serve_with
+from ..frame.background_results import serve_with
 from ..frame.work_queue import WorkQueue
 from ..frame.workers import Workers, processors
 from ..rooms.board import Board

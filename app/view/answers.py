@@ -8,7 +8,7 @@ from typing import Any
 
 from tornado.ioloop import IOLoop
 
-from ..frame.later import Later
+from ..frame.document_callbacks import Scheduler
 from ..rooms.visitor import Visitor
 from .export_jobs import ExportJobs, Reply
 from .refresh import Frames
@@ -22,13 +22,13 @@ class _PendingAnswer:
 
     Parameters
     ----------
-    soon : Later
+    soon : Scheduler
     answer : callable
         Gives it; called once at most.
     """
 
-    def __init__(self, soon: Later, answer: Callable[[], None]) -> None:
-        self._waits: tuple[Later, Callable[[], None]] | None = (soon, answer)
+    def __init__(self, soon: Scheduler, answer: Callable[[], None]) -> None:
+        self._waits: tuple[Scheduler, Callable[[], None]] | None = (soon, answer)
 
     def come(self, *_: object) -> None:
         """Have it given in its turn; any thread may say so."""
@@ -54,11 +54,11 @@ class AnswerQueue:
         What it shows.
     send : callable
         Sends a message to it, if it is still there.
-    later : Later
+    later : Scheduler
         Has a function called in its turn.
     """
 
-    def __init__(self, frames: Frames, send: Reply, later: Later) -> None:
+    def __init__(self, frames: Frames, send: Reply, later: Scheduler) -> None:
         self.frames, self._send, self._later = frames, send, later
         self.taking = ExportJobs(frames)
         self.visitor = Visitor(frames)

@@ -29,8 +29,8 @@ from codim2_core.scene.launched_orbits import LaunchedOrbits
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
 from ..draw.still import page_of, still
-from ..frame.later import later
-from ..frame.picture import make_frame
+from ..frame.document_callbacks import next_tick_scheduler
+from ..frame.frame_contents import make_frame
 from ..phrases import say
 from ..state.chosen_system import System_
 from ..state.controls import CONTROL_NAMES, ExplorerState
@@ -248,7 +248,7 @@ class ExplorerView(JSComponent):
             self._handle_msg(event.data)
         else:
             if self._answers is None:
-                self._answers = AnswerQueue(self.frames, partial(_send, model), later(model.document))
+                self._answers = AnswerQueue(self.frames, partial(_send, model), next_tick_scheduler(model.document))
                 model.document.on_session_destroyed(lambda _: self._leave())
             self._answers.answer(event.data or {})
 

@@ -11,7 +11,7 @@ from ..export.export_request import PROOF, SHOWN, TYPES, ExportRequest, file_nam
 from ..export.film import count_of, encode_film, part_of, pictures
 from ..export.play import PLAY
 from ..export.view import View
-from ..frame.later import Later
+from ..frame.document_callbacks import Scheduler
 from ..frame.work_queue import FailedResult
 from ..phrases import say
 from .refresh import Frames
@@ -49,7 +49,7 @@ class ExportJobs:
         self.frames = frames
         self._film: _FilmJob | None = None
 
-    def answer(self, request: Any, reply: Reply, later: Later) -> None:
+    def answer(self, request: Any, reply: Reply, later: Scheduler) -> None:
         """Answer a request, now or once the file is made.
 
         Parameters
@@ -88,7 +88,7 @@ class ExportJobs:
         self._make(about, view, wish, key, reply, later)
 
     def _make(
-        self, about: dict[str, Any], view: View, wish: ExportRequest, key: str, reply: Reply, later: Later
+        self, about: dict[str, Any], view: View, wish: ExportRequest, key: str, reply: Reply, later: Scheduler
     ) -> None:
         """Answer with a file, once it is made."""
         result = self.frames.jobs.ask(wish.job, key, make_file, view, wish)
@@ -100,7 +100,7 @@ class ExportJobs:
         else:
             self._again(wish.job, later, partial(self._make, about, view, wish, key, reply, later))
 
-    def _again(self, job: str, later: Later, look: Callable[[], None]) -> None:
+    def _again(self, job: str, later: Scheduler, look: Callable[[], None]) -> None:
         """Look again when the job that is under way is done.
 
         What is called is made anew for each look: a function that calls itself later would be held by itself, and
@@ -110,7 +110,7 @@ class ExportJobs:
         if future is not None:
             future.add_done_callback(lambda _: later(look))
 
-    def _draw(self, film: _FilmJob, drawn: tuple[bytes, ...], reply: Reply, later: Later) -> None:
+    def _draw(self, film: _FilmJob, drawn: tuple[bytes, ...], reply: Reply, later: Scheduler) -> None:
         """Answer with a film, drawn a part at a time: others have their turns between, and it can be stopped."""
         if self._film is not film:
             return

@@ -9,8 +9,8 @@ from typing import Any
 from ..docs.docs_folder import site
 from ..draw.packing import unpack
 from ..draw.svg import draw
+from ..frame.background_results import Jobs
 from ..frame.budget import Budget
-from ..frame.jobs import Jobs
 from ..state.links import Link
 from .markup import explorer_html
 from .refresh import Frames

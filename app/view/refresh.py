@@ -22,14 +22,14 @@ from codim2_core.words import printed_sentence
 from ..draw import glyphs
 from ..draw.lines import arrowheads, spacing
 from ..draw.packing import pack
+from ..frame.background_results import Jobs
 from ..frame.budget import BackgroundLayers, Budget, OmittedLayer, layers_of
 from ..frame.faults import sentence_of
+from ..frame.frame_contents import Blocks, RequestedLayers, make_frame
 from ..frame.frame_context import FrameContext
-from ..frame.jobs import Jobs
-from ..frame.load import load
-from ..frame.picture import Blocks, RequestedLayers, make_frame
+from ..frame.neighbouring_portraits import neighbouring_portraits
+from ..frame.process_load import load
 from ..frame.scenes import complete_changes, cut_after, evolve_scene, locked_controls, make_scene
-from ..frame.sides import sides
 from ..frame.window import Window, inputs, resample_for_window
 from ..frame.work_queue import FailedResult
 from ..panels import registry
@@ -247,7 +247,7 @@ class Frames:
     def _add_sides(self, header: dict[str, Any], scene: Scene, values: Mapping[str, Any]) -> None:
         """Add what lies on both sides of a degenerate setting; of typed formulas it is computed beside the frames."""
         if self.budget is None or self.budget.bounded(scene):
-            header["portrait"]["sides"] = sides(scene, values, self._moved)
+            header["portrait"]["sides"] = neighbouring_portraits(scene, values, self._moved)
             return
         key = (scene.key("plane", "slow", "psi", "place"), self._moved)
         found = self.jobs.ask("sides", key, _sides_of, scene, dict(values), self._moved)
@@ -342,4 +342,4 @@ class Frames:
 
 
 def _sides_of(scene: Scene, values: Mapping[str, Any], control: str) -> tuple[dict[str, Any] | None]:
-    return (sides(scene, values, control),)
+    return (neighbouring_portraits(scene, values, control),)

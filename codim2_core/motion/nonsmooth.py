@@ -32,7 +32,7 @@ from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
 
 if TYPE_CHECKING:
-    from .limit.phase_builder import PhaseBuilder
+    from .limit.compiled_run_phases import PhaseBuilder
 
 __all__ = ["simulate_nonsmooth"]
 
@@ -84,10 +84,10 @@ def simulate_nonsmooth(
     Outside Sigma the system slips; it arrives at Sigma in finite time along a limit direction; the orbit that continues
     it on the hemisphere decides what follows (thm:geneps0(b), sec:geneps1): sliding on the critical set that it comes
     to, with its slow flow, or crossing. Sliding ends where the critical set does: it leaves folds, but stops at those
-    where the slow flow turns too and terms of order eps decide (`limit.folded`). Where the set only becomes unstable
-    (Hopf), the motion stays near it until it has been repelled as much as it was attracted, or to the buffer point
-    before (`limit.delay`): in analytic formulas, as long as nothing disturbs it. The rounding of `simulate` does, once
-    eps is below 1/36 of what the attraction adds up to.
+    where the slow flow turns too and terms of order eps decide (`limit.fold_classification`). Where the set only
+    becomes unstable (Hopf), the motion stays near it until it has been repelled as much as it was attracted, or to
+    the buffer point before (`limit.delay`): in analytic formulas, as long as nothing disturbs it. The rounding of
+    `simulate` does, once eps is below 1/36 of what the attraction adds up to.
 
     The regularised motion differs from it by O(eps), as long as it does not leave Sigma. Leaving along a limit
     direction, also after a crossing, it differs by O(eps^min(1, |lambda_theta|/lambda_rho)), outside an invariant line;
@@ -236,7 +236,7 @@ def _run_motions(asked: _NonsmoothRun, states: Array) -> Iterator[Simulation]:
     legs: dict[int, PhaseBuilder] = {}
     if outside:
         from ..initial_value.compiled_hybrid import run_hybrid  # loads the compiler
-        from .limit.phase_builder import PhaseBuilder
+        from .limit.compiled_run_phases import PhaseBuilder
 
         lines = [invariant_line(asked.formulas, states[i]) for i in outside]
         own = (asked.rtol, asked.atol / asked.rtol, asked.max_steps)

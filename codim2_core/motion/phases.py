@@ -22,7 +22,7 @@ from ..numerics.dense import Dense
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .limit.decide import critical_name, from_hemisphere
+from .limit.sigma_decision import critical_name, decide_from_hemisphere
 from .locations import OfState
 from .result import Phase
 from .tracked_set import TrackedSet, followed_critical_set, place_on_hemisphere
@@ -204,7 +204,7 @@ class _ReadMotion:
         if not math.hypot(p[0], p[1]) < 1.0:
             return None
         try:
-            verdict = from_hemisphere(self.system, self.psi, state[2:], p[None])
+            verdict = decide_from_hemisphere(self.system, self.psi, state[2:], p[None])
         except ValueError:  # at the edge of where the formulas are defined
             return None
         return verdict.onto if verdict.kind in ("slide", "cycle") else None

@@ -20,7 +20,7 @@ from ..orbits.trajectories import trajectories
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..tables import html_table, point, table_number
-from .omega_limits import CAPTURE, critical_label, drawn_time, endings
+from .omega_limits import CAPTURE, critical_label, drawn_time, omega_limits
 
 COARSEST = 32  # cells across the disc at first
 OUTSIDE, UNDECIDED_CELL = -2, -1
@@ -124,7 +124,7 @@ def basins_of(problem: LayerProblem, n: int = 128, box: Box = DISC) -> Basins:
         lines = trajectories(at, psi, points, t_max=time, rtol=RTOL, atol=RTOL, capture=CAPTURE, samples="ends")
         evaluations += lines.evaluations
         found = np.full(len(points), UNDECIDED_CELL, np.int8)
-        for i, end in enumerate(endings(at, psi, lines, equator, critical, lambda: cycles, rtol=RTOL)):
+        for i, end in enumerate(omega_limits(at, psi, lines, equator, critical, lambda: cycles, rtol=RTOL)):
             if end.label == "undecided":
                 continue
             if end.label not in names:

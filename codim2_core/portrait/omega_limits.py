@@ -95,7 +95,7 @@ def nearest(equator: EquatorEquilibria, angle: float) -> tuple[int, float]:
     return i, gaps[i]
 
 
-def endings(
+def omega_limits(
     at: FrozenSystem,
     psi: Psi,
     lines: Trajectories,
@@ -105,7 +105,7 @@ def endings(
     *,
     rtol: float = 1e-9,
     backward: bool = False,
-    foretold: Callable[[Array], list[int | None]] | None = None,
+    predict: Callable[[Array], list[int | None]] | None = None,
 ) -> list[OmegaLimit]:
     """Return the omega limit sets of trajectories on the hemisphere; those cut off by time are integrated on.
 
@@ -121,7 +121,7 @@ def endings(
     rtol : float
     backward : bool
         Whether `lines` run against time.
-    foretold : callable, optional
+    predict : callable, optional
         Says of states where their orbits go, as `cycles.predicted_limit_sets` does.
 
     Returns
@@ -139,9 +139,9 @@ def endings(
             on = _integrate_to_time(at, psi, places, time, rtol, backward)
             for j, i in enumerate(follow):
                 statuses[i], states[i] = on.status[j], on.ends[j]
-        elif foretold is not None:
+        elif predict is not None:
             going = [i for i in open_ if not nears_end(critical, states[i, :2], backward)]
-            labels = foretold(states[going]) if going else []
+            labels = predict(states[going]) if going else []
             for i, onto in zip(going, labels, strict=True):
                 found[i] = None if onto is None else _predicted_ending(critical, onto)
         for i in open_ if more else range(len(lines)):

@@ -26,15 +26,15 @@ from .omega_limits import (
     OmegaLimit,
     critical_label,
     drawn_time,
-    endings,
     nears_end,
+    omega_limits,
     radially_neutral,
     radially_neutral_ones,
 )
 
 
 class OutcomeVerdict(NamedTuple):
-    """The verdict on some orbits, with the fields of `outcomes.Outcome`."""
+    """The verdict on some orbits, with the fields of `outcome.Outcome`."""
 
     verdict: str
     onto: str | None = None
@@ -60,9 +60,9 @@ def _may_predict(problem: LayerProblem) -> bool:
     return problem.at.normal_form is not None and problem.at.as_given is not None
 
 
-def ends(problem: LayerProblem, lines: Trajectories) -> list[OmegaLimit]:
-    """Say where trajectories end."""
-    return endings(
+def omega_limits_of(problem: LayerProblem, lines: Trajectories) -> list[OmegaLimit]:
+    """Return the omega limit sets of trajectories of a layer problem."""
+    return omega_limits(
         problem.at,
         problem.psi,
         lines,
@@ -70,7 +70,7 @@ def ends(problem: LayerProblem, lines: Trajectories) -> list[OmegaLimit]:
         problem.critical,
         lambda: cycles_of(problem),
         rtol=RTOL,
-        foretold=partial(predicted_limit_sets, problem) if _may_predict(problem) else None,
+        predict=partial(predicted_limit_sets, problem) if _may_predict(problem) else None,
     )
 
 
@@ -177,7 +177,7 @@ def judge(problem: LayerProblem, found: Sequence[OmegaLimit], many: str) -> Outc
     return OutcomeVerdict("undecided", reason=say("unfollowed"), why="unfollowed")
 
 
-def with_flow(problem: LayerProblem, judged: OutcomeVerdict) -> OutcomeVerdict:
+def add_slow_flow(problem: LayerProblem, judged: OutcomeVerdict) -> OutcomeVerdict:
     """Add the slow flow on a cycle, for which the cycle is followed: only where it is told."""
     if judged.verdict != "cycle" or judged.onto is None or judged.slow_flow is not None:
         return judged
@@ -212,7 +212,7 @@ def _points_around(problem: LayerProblem, wide: Sequence[int], angles: Array = A
     return around.reshape(-1, 2)
 
 
-def arriving_begun(problems: Sequence[LayerProblem], which: Sequence[int]) -> list[Trajectories | None]:
+def begin_arrival_orbits(problems: Sequence[LayerProblem], which: Sequence[int]) -> list[Trajectories | None]:
     """Integrate the early part of the orbits of `judge_arrivals`, under several Psi side by side; None without any.
 
     Of all but the first, which are only compared with it, families are followed at their `OUTER_ANGLES` angles.
@@ -231,8 +231,8 @@ def judge_arrivals(
 ) -> list[OutcomeVerdict]:
     """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side.
 
-    `lines` are those of `arriving_begun`, if they have been integrated. With `OUTER_ANGLES` for angles the verdicts are
-    the same, but what they say of a whole family is not told of all of it.
+    `lines` are those of `begin_arrival_orbits`, if they have been integrated. With `OUTER_ANGLES` for angles the
+    verdicts are the same, but what they say of a whole family is not told of all of it.
     """
     if not which:
         return []
@@ -242,20 +242,22 @@ def judge_arrivals(
             OutcomeVerdict("slide", "C", None, C.slow_flow, say("slides", label=written_label("C"), kind=C.kind))
         ] * len(which)
     wide, count = _wide(problem, which), len(angles)
-    found = ends(problem, from_equator(problem, which, wide, lines, angles))
+    found = omega_limits_of(problem, from_equator(problem, which, wide, lines, angles))
     mains, beside = found[: len(which)], found[len(which) :]
     fans = {i: beside[k * count : (k + 1) * count] for k, i in enumerate(wide)}
     judged = []
     for i, main in zip(which, mains, strict=True):
         fan = fans.get(i, [])
         if fan and count < len(ARRIVAL_ANGLES) and len({main.label, *(end.label for end in fan)}) == 1:
-            fan = ends(problem, orbits_to_end(problem, _points_around(problem, [i])))
+            fan = omega_limits_of(problem, orbits_to_end(problem, _points_around(problem, [i])))
         judged.append(judge(problem, [main, *fan], "A whole family of orbits leaves Q" if i in fans else ""))
     return judged
 
 
-def spiralling(problem: LayerProblem, many: str = "Orbits leave the closed equator at all angles") -> OutcomeVerdict:
+def judge_equator_spirals(
+    problem: LayerProblem, many: str = "Orbits leave the closed equator at all angles"
+) -> OutcomeVerdict:
     """Judge what leaves the equator at all angles."""
     angle = 2.0 * math.pi * np.arange(8) / 8.0
     ring = 0.9995 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return judge(problem, ends(problem, orbits_to_end(problem, ring)), many)
+    return judge(problem, omega_limits_of(problem, orbits_to_end(problem, ring)), many)

@@ -28,8 +28,8 @@ from .omega_limits import (
     RISE_TIMES,
     SPEEDS,
     critical_label,
-    endings,
     half_saddle,
+    omega_limits,
     radially_neutral,
 )
 from .saddle_manifold import manifold_starts
@@ -69,7 +69,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
         return []
     lines = concatenate(parts)
     branches = []
-    ends = endings(at, psi, lines, equator, critical, lambda: cycles_of(problem), rtol=rtol, backward=backward)
+    ends = omega_limits(at, psi, lines, equator, critical, lambda: cycles_of(problem), rtol=rtol, backward=backward)
     places = {critical_label(critical, k): C.p for k, C in enumerate(critical)}
     places |= {f"Q{k + 1}": np.array([math.cos(t), math.sin(t)]) for k, t in enumerate(equator.theta.tolist())}
     tails = _tails(at, psi, lines, [places.get(ending.label) for ending in ends], rtol, pixel, backward)

@@ -9,7 +9,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from codim2_app.frame.cluster import cluster
+from codim2_app.frame.dask_executor import dask_executor
 from codim2_app.frame.work_queue import WorkQueue
 from codim2_app.server.cli import main
 
@@ -45,7 +45,7 @@ def workers():
 def connected(address, count=2):
     """The executor, once so many workers have come."""
     for _ in range(300):
-        executor, found = cluster(address)
+        executor, found = dask_executor(address)
         if len(executor._client.nthreads()) == count:
             return executor, found
         executor._client.close()
@@ -109,7 +109,7 @@ def test_a_page_has_its_files_from_the_cluster(workers):
 
 
 def test_a_scheduler_that_does_not_answer_is_said(capsys, monkeypatch):
-    monkeypatch.setattr("codim2_app.frame.cluster.SCHEDULER_TIMEOUT", 1)
+    monkeypatch.setattr("codim2_app.frame.dask_executor.SCHEDULER_TIMEOUT", 1)
     assert main(["serve", "--port", "0", "--dask", "tcp://127.0.0.1:9"]) == 1
     assert "no Dask scheduler answers at tcp://127.0.0.1:9" in capsys.readouterr().out
     assert main(["serve", "--port", "0", "--dask", "tcp://127.0.0.1:9", "--processes", "2"]) == 1

@@ -26,7 +26,7 @@ from ...numerics.dense import Dense, dense, gather_steps
 from ...numerics.radau import Step, truncate_step
 from ...numerics.root_between import root_between
 from ...psi.function import Psi
-from .analytic import Complex, Rational, rational
+from .rational_approximation import Complex, RationalApproximation, approximate_rationally
 from .slide import Slide
 
 TRACE_DEGREE, MAX_HALVINGS = (
@@ -52,7 +52,7 @@ class NotAnalyticError(Exception):
 
 
 @dataclass(frozen=True)
-class WayOut:
+class DelayedExitPoint:
     """The exit of a motion from an unstable critical set.
 
     Attributes
@@ -68,7 +68,7 @@ class WayOut:
 
 def cut_at_exit(
     field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array], part: Slide
-) -> tuple[Slide, WayOut | None]:
+) -> tuple[Slide, DelayedExitPoint | None]:
     """Cut a slide on an unstable critical set where the motion leaves it.
 
     Parameters
@@ -122,7 +122,7 @@ class Growth:
         self.cuts = np.unique(np.concatenate([times, *(_sign_changes(of, fine) for of in (self.rate, self._focus))]))
         self.at = np.concatenate([[0.0], np.cumsum(self._between(self.cuts[:-1], self.cuts[1:]))])
 
-    def way_out(self, unstable: float) -> WayOut | None:
+    def way_out(self, unstable: float) -> DelayedExitPoint | None:
         """Return when the motion leaves the set, which lost its stability at a time; None if not while it is followed.
 
         Raises
@@ -130,11 +130,11 @@ class Growth:
         NotAnalyticError
         """
         end = self._reaches(0.0, unstable)
-        found = [] if end is None else [WayOut(end, None)]
+        found = [] if end is None else [DelayedExitPoint(end, None)]
         if np.ptp(self.e, axis=0).max() > REST_CHANGE:
             for time, height in self._singular(float(self.motion.times[-1]) if end is None else end):
                 t = self._reaches(self._growth(time.real) + height, max(unstable, time.real))
-                found += [] if t is None else [WayOut(t, time)]
+                found += [] if t is None else [DelayedExitPoint(t, time)]
         return min(found, key=lambda way: way.t, default=None)
 
     def place(self, t: float) -> Array:
@@ -220,8 +220,8 @@ class Growth:
                 yield start + span * time, height
 
 
-def _rational_interpolant(t: Array, f: Array, error: float) -> Rational:
-    found = rational(t, f, error)
+def _rational_interpolant(t: Array, f: Array, error: float) -> RationalApproximation:
+    found = approximate_rationally(t, f, error)
     if found is None:
         raise NotAnalyticError
     poles = found.poles()
@@ -231,13 +231,13 @@ def _rational_interpolant(t: Array, f: Array, error: float) -> Rational:
     return found
 
 
-def _singularities(trace: Rational, det: Rational) -> Complex:
+def _singularities(trace: RationalApproximation, det: RationalApproximation) -> Complex:
     """Zeros of det J, and poles of both, in the upper half plane."""
     found = np.concatenate([det.zeros(), det.poles(), trace.poles()])
     return found[found.imag > 0.0]
 
 
-def _height(trace: Rational, det: Rational, time: complex) -> float | None:
+def _height(trace: RationalApproximation, det: RationalApproximation, time: complex) -> float | None:
     """V up to a singular time, along the eigenvalue that falls on the way, or leads; None if it is no end for that.
 
     At a zero of det J it is none if the other eigenvalue vanishes.

@@ -27,17 +27,17 @@ from ...words import say
 from ..locations import Ascent
 from ..result import Phase
 from ..tracked_set import in_disc
-from .decide import Decision, critical_name, decide_arrival, decide_start, from_hemisphere
 from .delay import REST_CHANGE, NotAnalyticError
-from .folded import Fold, fold
-from .past_hopf import departure_point, ring, stay
-from .phase_under_way import Delaying, MotionPart
+from .delayed_exit import cut_at_delayed_exit, departure_point, exit_circle
+from .fold_classification import Fold, classify_fold
+from .pending_phase import PendingDelay, PendingPhase
+from .sigma_decision import Decision, critical_name, decide_arrival, decide_from_hemisphere, decide_start
 from .slide import Slide, slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import slip
 
 if TYPE_CHECKING:
-    from .phase_builder import PhaseBuilder
+    from .compiled_run_phases import PhaseBuilder
 
 
 CLOSER_FACTOR = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
@@ -71,7 +71,7 @@ class HybridRun:
     atol: float
     most: int
     taken: list[Step] = made_with(default_factory=list)
-    parts: list[MotionPart] = made_with(default_factory=list)
+    parts: list[PendingPhase] = made_with(default_factory=list)
     ascent: Ascent | None = None  # of the phase to come
     compiled: CompiledPhases | None = None
     decided: Decision | None = None  # what follows at first, where that is known
@@ -95,7 +95,7 @@ class HybridRun:
         onto: str | None = None,
         e: Sequence[Array] = (),
         p: Sequence[Array] = (),
-        delaying: Delaying | None = None,
+        delaying: PendingDelay | None = None,
     ) -> None:
         """Add a phase, as far as no terminal event stops it."""
         start, kept, stopped = self.t, taken, False
@@ -110,7 +110,7 @@ class HybridRun:
             self.t, self.state = max(kept[-1].end, start), kept[-1].last
         delaying = replace(delaying, way=None) if stopped and delaying is not None else delaying
         phase = Phase(kind, start, self.t, reason, onto)
-        self.parts.append(MotionPart(phase, times, self.ascent, e, p, delaying=delaying))
+        self.parts.append(PendingPhase(phase, times, self.ascent, e, p, delaying=delaying))
         self.ascent = None
         if stopped:
             raise AtEventError
@@ -204,7 +204,7 @@ class HybridRun:
         """Name the crossing, where what follows an arrival is to leave."""
         if decision.kind == "leave":
             phase = Phase("cross", self.t, self.t, decision.reason)
-            self.parts.append(MotionPart(phase, [self.t], self.ascent, theta=decision.theta))
+            self.parts.append(PendingPhase(phase, [self.t], self.ascent, theta=decision.theta))
             self.ascent = None
         return decision
 
@@ -233,7 +233,7 @@ class HybridRun:
         return slide(self.formulas, self.own, e, self.t, self.state[2:], self.t_end, **options, **how)
 
     def follow(
-        self, part: Slide, reason: str, onto: str | None, on_cycle: bool = False, delaying: Delaying | None = None
+        self, part: Slide, reason: str, onto: str | None, on_cycle: bool = False, delaying: PendingDelay | None = None
     ) -> Decision | None:
         """Add a slide, and decide what follows where it has ended, as its end says."""
         self.add("slide", part.taken, reason, onto, part.places, delaying=delaying)
@@ -249,7 +249,9 @@ class HybridRun:
             reason = say("ends at the equator", C=C, theta=theta)
             return Decision("leave", reason, theta=theta)
         if part.end == "fold":
-            at = fold(self.formulas, part.e, self.state[2:], C, "fold" if self.line is None else "fold in a line")
+            at = classify_fold(
+                self.formulas, part.e, self.state[2:], C, "fold" if self.line is None else "fold in a line"
+            )
             if at.exchange:
                 return self.past_loss(part.e, C, at.exchange, at.reason)
             return Decision("stop", at.reason) if at.left_to_eps else self.past_fold(part.e, at)
@@ -312,7 +314,7 @@ class HybridRun:
     def onward(self, reason: str, z: Array, points: Array) -> Decision:
         """Follow orbits of the layer problem from where an attractor was."""
         try:
-            decision = from_hemisphere(self.system, self.own, z, points)
+            decision = decide_from_hemisphere(self.system, self.own, z, points)
         except ValueError as error:  # at the edge of where the formulas are defined
             return Decision("stop", f"{reason} {error}")
         if self.psi is None and decision.kind != "stop":
@@ -340,19 +342,19 @@ class HybridRun:
         if resting and part.taken:  # its name is another past the sets that it has met
             C = critical_name(self.system, self.psi, part.taken[0].at(0.5)[2:], e)
         try:
-            on = stay(self.formulas, self.psi, (taken, before.e), part, C, how)
+            on = cut_at_delayed_exit(self.formulas, self.psi, (taken, before.e), part, C, how)
         except NotAnalyticError:
             return Decision("stop", say("Hopf, not analytic", C=C, how=how))
         if resting and before.ascent is not None:
             z = [taken[0].first[2:], *(step.last[2:] for step in (*taken, *on.part.taken))]
             self.leaving = departure_point(self.formulas, self.psi, e, z, before.ascent.path())
-        return self.follow(on.part, on.reason, C, delaying=Delaying(before.times[0], on.way, how))
+        return self.follow(on.part, on.reason, C, delaying=PendingDelay(before.times[0], on.way, how))
 
     def left_set(self, e: Array, reason: str) -> Decision:
         """C, which repels, is left: to the side on which the motion came, or all around where none is known."""
         points, self.leaving = self.leaving, None
         if self.line is None or points is None:
-            return self.onward(reason, self.state[2:], ring(self.own, e) if points is None else points)
+            return self.onward(reason, self.state[2:], exit_circle(self.own, e) if points is None else points)
         away = points[0] - in_disc(self.own, e)
         return self.in_line(float(self.line.n @ (e + away)), reason)
 

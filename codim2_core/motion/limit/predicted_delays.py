@@ -20,7 +20,7 @@ from ...systems.typed import System
 from ...tables import Results
 from ..delay import Delay, delay
 from .delay import REST_CHANGE, NotAnalyticError, cut_at_exit
-from .folded import fold
+from .fold_classification import classify_fold
 from .slide import Slide, slide
 
 __all__ = ["delays"]
@@ -101,7 +101,7 @@ def _predict_delay(formulas: Field, psi: Psi, C: CriticalSet, name: str, z: Arra
     if before.end not in ("hopf", "fold"):
         return None
     hopf = before.taken[-1]
-    how = "Hopf" if before.end == "hopf" else fold(formulas, before.e, hopf.last[2:], name, "fold").exchange
+    how = "Hopf" if before.end == "hopf" else classify_fold(formulas, before.e, hopf.last[2:], name, "fold").exchange
     if not how or (how != "Hopf" and np.ptp(before.places, axis=0).max() > REST_CHANGE):
         return None
     after = slide(

@@ -107,44 +107,46 @@ def slide(
     """
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
-    sheet = FixedManifold(field, e, z) if resting else SlowManifold(field, e, z)
-    gauges = _gauges(sheet, psi, on_cycle=lives is not None, line=line)
+    manifold = FixedManifold(field, e, z) if resting else SlowManifold(field, e, z)
+    gauges = _gauges(manifold, psi, on_cycle=lives is not None, line=line)
     if delayed:
         del gauges["hopf"]
 
     def alive(z: Array) -> bool:
         if lives is None or lives(z):
             return True
-        e = sheet.at(z)
-        return e is not None and abs(trace(sheet, psi, e, z)) < NEAR_HOPF * float(
-            np.abs(sheet.slopes(e, z)[:2, :2]).max()
+        e = manifold.at(z)
+        return e is not None and abs(trace(manifold, psi, e, z)) < NEAR_HOPF * float(
+            np.abs(manifold.slopes(e, z)[:2, :2]).max()
         )
 
-    problem = sheet.problem(atol / rtol)
-    rate = np.array(field.value(*sheet.e.tolist(), 0.0, 0.0, *z.tolist())[2:])
+    problem = manifold.problem(atol / rtol)
+    rate = np.array(field.value(*manifold.e.tolist(), 0.0, 0.0, *z.tolist())[2:])
     pace = own_time(problem, z, rate)
     h, shortest = 1e-2 * pace, MIN_STEP * min(pace, t_end - t)
     if compiled is None or lives is not None or resting:
         ahead = _in_python(
-            sheet, until_blow_up(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest)
+            manifold, until_blow_up(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest)
         )
     else:
         safe = StepRequirements(
-            psi, math.copysign(1.0, determinant(sheet, sheet.e, z)), None if line is None else line.n
+            psi, math.copysign(1.0, determinant(manifold, manifold.e, z)), None if line is None else line.n
         )
-        ahead = _compiled_steps(sheet, compiled.slide(problem, sheet.e, t, t_end, z, h, most, shortest), safe)
+        ahead = _compiled_steps(manifold, compiled.slide(problem, manifold.e, t, t_end, z, h, most, shortest), safe)
     taken: list[Step] = []
-    places = [sheet.e]
+    places = [manifold.e]
     try:
         for step, whole, after, is_safe in ahead:
-            found: list[tuple[float, str]] = [] if is_safe else _end_fractions(sheet, gauges, step, places[-1], after)
+            found: list[tuple[float, str]] = (
+                [] if is_safe else _end_fractions(manifold, gauges, step, places[-1], after)
+            )
             if not alive(step.last):
                 found.append((_last_alive(alive, step), "cycle"))
             if found:
                 u, name = min(found)
                 last = step.at(u)
                 taken.append(_lift_step(step, u))
-                end = sheet.at(last)
+                end = manifold.at(last)
                 places.append(after if end is None else end)
                 return Slide(taken, name, places[-1], places)
             taken.append(whole)
@@ -152,8 +154,8 @@ def slide(
     except StepsTooShortError as error:
         if taken and t_end - taken[-1].end <= shortest:  # the rounding of t_end is left
             return Slide(taken, "time", places[-1], places)
-        end = _end_reason(sheet)
-        return Slide(taken, end, sheet.e, places, error if end == "given up" else None)
+        end = _end_reason(manifold)
+        return Slide(taken, end, manifold.e, places, error if end == "given up" else None)
     except TooManyStepsError as error:
         return Slide(taken, "given up", places[-1], places, error)
     return Slide(taken, "time", places[-1], places)
@@ -168,18 +170,18 @@ class _Ahead(NamedTuple):
     is_safe: bool
 
 
-def _in_python(sheet: SlowManifold, ahead: Iterator[Step]) -> Iterator[_Ahead]:
-    """Take the steps of the slow flow; the sheet moves with them."""
+def _in_python(manifold: SlowManifold, ahead: Iterator[Step]) -> Iterator[_Ahead]:
+    """Take the steps of the slow flow; the manifold moves with them."""
     for step in ahead:
-        after = sheet.at(step.last)
+        after = manifold.at(step.last)
         if after is None:
             raise StepsTooShortError
-        yield _Ahead(step, _lift_step(step, 1.0), after, isinstance(sheet, FixedManifold))
+        yield _Ahead(step, _lift_step(step, 1.0), after, isinstance(manifold, FixedManifold))
 
 
-def _compiled_steps(sheet: SlowManifold, motion: CompiledSlow, safe: StepRequirements) -> Iterator[_Ahead]:
-    """Take the steps of a compiled slide; the sheet is moved to where an end may be near."""
-    z = sheet.z
+def _compiled_steps(manifold: SlowManifold, motion: CompiledSlow, safe: StepRequirements) -> Iterator[_Ahead]:
+    """Take the steps of a compiled slide; the manifold is moved to where an end may be near."""
+    z = manifold.z
     try:
         for part in motion.chunks():
             if not len(part.starts):
@@ -194,42 +196,42 @@ def _compiled_steps(sheet: SlowManifold, motion: CompiledSlow, safe: StepRequire
                 array[:2] = 0.0
             for step, whole, before, after, is_safe in zip(zs, wholes, e[:, 0], e[:, -1], known, strict=True):
                 if not is_safe:
-                    sheet.begin(before, step.first)
+                    manifold.begin(before, step.first)
                 yield _Ahead(step, whole, after, is_safe)
                 z = step.last
     except StepsTooShortError:
-        sheet.begin(motion.y[:2].copy(), z)
+        manifold.begin(motion.y[:2].copy(), z)
         raise
 
 
 def _end_fractions(
-    sheet: SlowManifold, gauges: dict[str, Callable[[Array, Array], float]], step: Step, before: Array, after: Array
+    manifold: SlowManifold, gauges: dict[str, Callable[[Array, Array], float]], step: Step, before: Array, after: Array
 ) -> list[tuple[float, str]]:
     """Fractions of a step at which the slide ends, and how."""
-    place = cache(partial(_critical_set_at, sheet, step))
+    place = cache(partial(_critical_set_at, manifold, step))
     found: list[tuple[float, str]] = []
     for name, gauge in gauges.items():
         u = _first_negative(gauge, place, gauge(before, step.first), gauge(after, step.last))
         if u is not None:
             found.append((u, name))
-    lost = _lost(sheet, step, before, after)
+    lost = _lost(manifold, step, before, after)
     if lost is not None and all(lost[0] < u for u, _ in found):
-        sheet.begin(lost[1].e, lost[1].z)
+        manifold.begin(lost[1].e, lost[1].z)
         return [(lost[0], "fold")]
     return found
 
 
-def _lost(sheet: SlowManifold, step: Step, before: Array, after: Array) -> tuple[float, SlowManifold] | None:
+def _lost(manifold: SlowManifold, step: Step, before: Array, after: Array) -> tuple[float, SlowManifold] | None:
     """Return up to which fraction of a step the set is there that it begins on, and that; None if to its end.
 
     At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
     """
-    last = SlowManifold(sheet.field, after, step.last)
-    u, there = _track_sheet(SlowManifold(sheet.field, before, step.first), step, 1.0, SHORTEST_PART, last)
+    last = SlowManifold(manifold.field, after, step.last)
+    u, there = _track_slow_manifold(SlowManifold(manifold.field, before, step.first), step, 1.0, SHORTEST_PART, last)
     return None if there is last else (u, there)
 
 
-def _track_sheet(
+def _track_slow_manifold(
     here: SlowManifold, step: Step, to: float, least: float, last: SlowManifold | None = None
 ) -> tuple[float, SlowManifold]:
     """Follow a set to a fraction of a step, in parts not below the least one, or as far as it is there.
@@ -239,7 +241,7 @@ def _track_sheet(
     u, part = 0.0, to
     while part > least:
         at = min(u + part, to)
-        ahead = last if at == to and last is not None else _search_sheet(here, step.at(at))
+        ahead = last if at == to and last is not None else _search_slow_manifold(here, step.at(at))
         if ahead is not None and here.joined(ahead):
             if at == to:
                 return at, ahead
@@ -248,14 +250,14 @@ def _track_sheet(
     return u, here
 
 
-def _search_sheet(here: SlowManifold, z: Array) -> SlowManifold | None:
+def _search_slow_manifold(here: SlowManifold, z: Array) -> SlowManifold | None:
     """Search the set at another z, close to one that is known."""
     e = here.at(z)
     return None if e is None else SlowManifold(here.field, e, z)
 
 
 def _gauges(
-    sheet: SlowManifold, psi: Psi, on_cycle: bool, line: InvariantLine | None
+    manifold: SlowManifold, psi: Psi, on_cycle: bool, line: InvariantLine | None
 ) -> dict[str, Callable[[Array, Array], float]]:
     """Return what turns negative, as functions of e and z, where the sliding ends, by the name of the end."""
     found: dict[str, Callable[[Array, Array], float]] = {
@@ -263,30 +265,30 @@ def _gauges(
     }
     if line is not None:
         n = line.n
-        return {**found, "fold": lambda e, z: -float(n @ sheet.slopes(e, z)[:2, :2] @ n)}
-    sign = math.copysign(1.0, determinant(sheet, sheet.e, sheet.z))
+        return {**found, "fold": lambda e, z: -float(n @ manifold.slopes(e, z)[:2, :2] @ n)}
+    sign = math.copysign(1.0, determinant(manifold, manifold.e, manifold.z))
     turn = -1.0 if on_cycle else 1.0  # around a stable cycle C is unstable: tr J > 0
     return {
         **found,
-        "fold": lambda e, z: sign * determinant(sheet, e, z),
-        "hopf": lambda e, z: -turn * trace(sheet, psi, e, z),
+        "fold": lambda e, z: sign * determinant(manifold, e, z),
+        "hopf": lambda e, z: -turn * trace(manifold, psi, e, z),
     }
 
 
-def _end_reason(sheet: SlowManifold) -> str:
+def _end_reason(manifold: SlowManifold) -> str:
     """Say what ends the set where steps become too short to go on."""
-    if complement(sheet.e) < EQUATOR_GAP:
+    if complement(manifold.e) < EQUATOR_GAP:
         return "equator"
-    size = float(np.abs(sheet.slopes(sheet.e, sheet.z)[:2, :2]).max())
-    return "fold" if abs(determinant(sheet, sheet.e, sheet.z)) < AT_FOLD * size**2 else "given up"
+    size = float(np.abs(manifold.slopes(manifold.e, manifold.z)[:2, :2]).max())
+    return "fold" if abs(determinant(manifold, manifold.e, manifold.z)) < AT_FOLD * size**2 else "given up"
 
 
-def _critical_set_at(sheet: SlowManifold, step: Step, u: float) -> tuple[Array | None, Array]:
+def _critical_set_at(manifold: SlowManifold, step: Step, u: float) -> tuple[Array | None, Array]:
     """Return the critical set, None where there is none, and z at a fraction of a step."""
     z = step.at(u)
-    e = sheet.at(z)
+    e = manifold.at(z)
     if e is None:
-        at, there = _track_sheet(SlowManifold(sheet.field, sheet.e, sheet.z), step, u, LEAST_PART * u)
+        at, there = _track_slow_manifold(SlowManifold(manifold.field, manifold.e, manifold.z), step, u, LEAST_PART * u)
         return (there.e if at == u else None), z
     return e, z
 

@@ -6,9 +6,10 @@ import time
 import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.packing import unpack
+from codim2_app.frame.background_results import Jobs
 from codim2_app.frame.budget import (
-    LAYER,
-    MOST_STANDING,
+    LAYER_BUDGET,
+    MAX_EQUILIBRIA,
     WORDS,
     BackgroundLayers,
     Budget,
@@ -16,7 +17,6 @@ from codim2_app.frame.budget import (
     layers_of,
     wildness,
 )
-from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.frame.work_queue import WorkQueue
 from codim2_app.state.controls import ExplorerState, preset_values
@@ -74,7 +74,7 @@ def test_what_was_quick_is_computed_with_the_frame_until_the_formula_is_wilder()
     assert scene.runs["equator"] == 1
     with pytest.raises(PendingLayer):
         scene.evolve(k=1000.0)["equator"]
-    budget.told(scene, type(found)({}, dict.fromkeys(quick, 2 * LAYER), {}))
+    budget.told(scene, type(found)({}, dict.fromkeys(quick, 2 * LAYER_BUDGET), {}))
     with pytest.raises(PendingLayer):
         scene.evolve(k=1.2)["equator"]
 
@@ -83,7 +83,7 @@ def test_that_a_layer_has_become_quick_is_believed_by_halves():
     """A worker that has searched for one frame finds the same at once for the next, and this thread would search."""
     scene, budget = make_scene(typed()), Budget()
     scene.ask_before(budget.before)
-    for took in (8.0 * LAYER, 0.0, 0.0):
+    for took in (8.0 * LAYER_BUDGET, 0.0, 0.0):
         budget.told(scene, BackgroundLayers({}, {"location": 0.0, "equator": took}, {}))
         with pytest.raises(PendingLayer):
             scene["equator"]
@@ -112,7 +112,7 @@ def test_a_formula_too_wild_to_draw_is_named_so():
         executor.run()
         last = header(frames, rest=True)
     assert "too complicated" in last["left_out"]
-    assert f"at most {MOST_STANDING}" in last["left_out"]
+    assert f"at most {MAX_EQUILIBRIA}" in last["left_out"]
     assert "separatrices" in last["left_out"]
     assert last["left_out"].count("limit directions") == 1  # one reason, one sentence
 
@@ -146,7 +146,7 @@ def test_outcomes_of_a_slow_spiral_are_computed_beside_the_frames_until_they_are
     frames.budget._timed[None][1]["outcomes"] = 0.001
     assert "picture" not in header(frames, set={"a": 2.1}).get("late", [])  # as quick as it was
     assert "picture" in header(frames, set=SPIRAL)["late"]  # winds for longer than any that was timed
-    frames.budget.told(frames.scene, BackgroundLayers({}, {"outcomes": 5 * LAYER}, {}))
+    frames.budget.told(frames.scene, BackgroundLayers({}, {"outcomes": 5 * LAYER_BUDGET}, {}))
     assert "picture" in header(frames, set={"a": -0.05})["late"]
     assert not frames.scene.runs["outcomes"] - 1
 
@@ -164,15 +164,15 @@ def test_orbits_that_are_launched_are_timed_before_they_are_computed_here():
 def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_for(monkeypatch):
     """What took long here is computed beside the next frame, and here again once it is quick: believed by halves."""
     clock = iter(range(1000))
-    monkeypatch.setattr("codim2_app.frame.budget.time.perf_counter", lambda: 0.01 * LAYER * next(clock))
+    monkeypatch.setattr("codim2_app.frame.budget.time.perf_counter", lambda: 0.01 * LAYER_BUDGET * next(clock))
     scene, budget = make_scene(preset_values("case1-cm4")), Budget()
     scene.ask_before(budget.before)
     budget.begin()
     scene["classification"]
     _, took = budget._timed[None]
     assert took.keys() >= {"equator", "critical", "classification"}
-    assert sum(took.values()) == pytest.approx(0.01 * LAYER * (next(clock) - 1))  # no second counted twice
-    took["equator"] = 2 * LAYER
+    assert sum(took.values()) == pytest.approx(0.01 * LAYER_BUDGET * (next(clock) - 1))  # no second counted twice
+    took["equator"] = 2 * LAYER_BUDGET
     with pytest.raises(PendingLayer):
         scene.evolve(f1=-0.6)["equator"]
     budget.told(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
@@ -191,7 +191,7 @@ def test_a_layer_is_slow_that_is_slow_twice_by_the_processors_time(monkeypatch):
     late("perf_counter")  # it waited for a processor
     for f1 in (-0.6, -0.61):
         scene.evolve(f1=f1)["equator"]
-    assert budget._timed.get(None, (0, {}))[1].get("equator", 0.0) < LAYER
+    assert budget._timed.get(None, (0, {}))[1].get("equator", 0.0) < LAYER_BUDGET
     late(*clocks)
     budget.begin()
     scene.evolve(f1=-0.62)["equator"]  # once: a kernel may have been loaded

@@ -5,7 +5,7 @@ import weakref
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 
 import pytest
-from codim2_app.frame.jobs import Jobs
+from codim2_app.frame.background_results import Jobs
 from codim2_app.frame.work_queue import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue
 
 

@@ -7,8 +7,8 @@ from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
+from codim2_app.frame.background_results import Jobs
 from codim2_app.frame.frame_context import FrameContext
-from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import orbits
 from codim2_app.state.controls import ExplorerState

@@ -6,8 +6,8 @@ from concurrent.futures import Executor, Future
 import numpy as np
 import pytest
 from codim2_app.draw.packing import unpack
+from codim2_app.frame.background_results import Jobs
 from codim2_app.frame.frame_context import FrameContext
-from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
 from codim2_app.panels import filippov, orbits, psi, solid

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 import pytest
-from codim2_app.frame.cluster import ClusterError
+from codim2_app.frame.dask_executor import ClusterError
 from codim2_app.server.cli import main
 from codim2_app.server.commands import psi_of
 
@@ -167,7 +167,7 @@ def test_a_census_on_a_cluster_that_is_not_there(capsys, monkeypatch):
     def missing(_):
         raise ClusterError("no Dask scheduler answers at tcp://127.0.0.1:9.")
 
-    monkeypatch.setattr("codim2_app.server.commands.cluster", missing)
+    monkeypatch.setattr("codim2_app.server.commands.dask_executor", missing)
     assert main(["census", "--dask", "tcp://127.0.0.1:9"]) == 2
     assert "no Dask scheduler answers" in capsys.readouterr().err
 

@@ -5,8 +5,8 @@ import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.lines.spacing import SEPARATION
 from codim2_app.draw.packing import INT16_STEP, PACKING_PIXEL, unpack
+from codim2_app.frame.background_results import Jobs
 from codim2_app.frame.budget import Budget
-from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import complete_changes, evolve_scene, make_scene
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits

@@ -17,7 +17,7 @@ from codim2_app.export.export_request import TYPES, ExportRequest, make_file, se
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.files import DATA
 from codim2_app.export.view import WHOLE, view_of
-from codim2_app.frame.jobs import Jobs
+from codim2_app.frame.background_results import Jobs
 from codim2_app.state.links import read_link
 from codim2_app.view import export_jobs as takings
 from codim2_app.view.export_jobs import ExportJobs
@@ -149,7 +149,7 @@ def test_a_newer_wish_replaces_an_older(executor):
     executor.submit(begin.wait)  # none has begun before all are asked for
     for i, kind in enumerate(("json", "npz", "tex")):
         taking.answer({"id": i, "kind": kind}, answers.put, later.put)
-        assert frames.jobs.turns.pending <= 1
+        assert frames.jobs.queue.pending <= 1
     begin.set()
     while answers.empty():
         later.get(timeout=PATIENCE)()

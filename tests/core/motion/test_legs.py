@@ -11,7 +11,7 @@ import pytest
 from codim2_core import ELinear, Event, System, examples, psi, simulate_nonsmooth
 from codim2_core.initial_value import compiled_hybrid
 from codim2_core.motion import nonsmooth
-from codim2_core.motion.limit import phase_builder
+from codim2_core.motion.limit import compiled_run_phases
 from codim2_core.motion.result import Phase, SimulationStatus
 
 SPAN = (0.0, 6.0)
@@ -84,8 +84,8 @@ def test_it_is_handed_over_where_the_next_phase_is_not_sure(monkeypatch, by_phas
     folds = System(U=("z1 - c**2 - 0.09", "-s"), W=("-1",))
     state = (0.3, 0.1, 0.5)
     monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)
-    handed, own = [], phase_builder.PhaseBuilder.onward
-    monkeypatch.setattr(phase_builder.PhaseBuilder, "onward", lambda one: handed.append(one) or own(one))
+    handed, own = [], compiled_run_phases.PhaseBuilder.onward
+    monkeypatch.setattr(compiled_run_phases.PhaseBuilder, "onward", lambda one: handed.append(one) or own(one))
     found, other = (run(folds, state, 1e-8, psi.constant()) for run in (_as_it_is, by_phase))
     assert [part.phase.kind for part in handed[0].parts] == ["slip"]
     assert [_told(phase) for phase in found.phases] == [_told(phase) for phase in other.phases]

@@ -31,7 +31,7 @@ Blocks = dict[str, NDArray[Any] | Polylines]
 LATER, NOT_DRAWN = object(), object()
 
 
-def told_once(name: Classification) -> str:
+def sentence_without_degeneracies(name: Classification) -> str:
     """Return the sentence of a portrait without what its degeneracies, shown below it, say again."""
     sentence = name.sentence
     for degeneracy in name.degeneracies:
@@ -40,7 +40,7 @@ def told_once(name: Classification) -> str:
 
 
 @lru_cache(maxsize=64)
-def breaks(psi: Psi) -> str:
+def violated_conditions(psi: Psi) -> str:
     """Say which of the conditions R1 to R5 a family of Psi does not meet, and where; empty if it meets all."""
     missed = [condition for condition in psi.check() if not condition.holds]
     names = ", ".join(condition.name for condition in missed)
@@ -192,7 +192,7 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: RequestedLay
         header["all_directions"] = bool(equator.all_directions)
         header["cycle"] = None if cycle is None else float(cycle.exponent)
     if _fresh(now, "psi", asked.scene.psi):
-        header["psi_note"] = breaks(asked.scene.psi)
+        header["psi_note"] = violated_conditions(asked.scene.psi)
     critical = () if critical is NOT_DRAWN else critical
     if critical is not LATER and _fresh(now, "critical", critical):
         where = asked.scene.problem.location
@@ -209,7 +209,7 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: RequestedLay
         header["portrait"] = {
             "case": name.case,
             "name": name.name,
-            "sentence": told_once(name) if isinstance(name, Classification) else "",
+            "sentence": sentence_without_degeneracies(name) if isinstance(name, Classification) else "",
             "degeneracies": [[item.name, item.sentence] for item in name.degeneracies],
         }
     flow = None if flow is LATER or flow is NOT_DRAWN else flow

@@ -16,10 +16,10 @@ from bokeh.io.doc import patch_curdoc
 from tornado.ioloop import IOLoop
 
 #: Has a function called; any thread may ask.
-Later = Callable[[Callable[[], None]], Any]
+Scheduler = Callable[[Callable[[], None]], Any]
 
 
-def later(document: Document) -> Later:
+def next_tick_scheduler(document: Document) -> Scheduler:
     """Return what has functions called for a document of Bokeh's, with its lock; none once its session is over."""
     return partial(IOLoop.current().add_callback, _call_next_tick, document)
 

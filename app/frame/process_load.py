@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 
 #: Seconds over which the load is measured.
-SPAN = 0.25
+MIN_MEASURED_SECONDS = 0.25
 
 _STATISTICS = Path("/proc/thread-self/schedstat")
 
@@ -31,7 +31,7 @@ class Load:
         """Return the share, 0 to 1; called with every frame, by the thread that makes it."""
         now = time.perf_counter()
         passed = now - self._since[0]
-        if passed >= SPAN:
+        if passed >= MIN_MEASURED_SECONDS:
             work = processor_seconds()
             self.share = round(min(1.0, max(0.0, (work - self._since[1]) / passed)), 2)
             self._since = now, work

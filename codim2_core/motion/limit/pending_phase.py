@@ -1,4 +1,4 @@
-"""A phase of a nonsmooth motion while the motion is under way."""
+"""Phases of a nonsmooth motion whose end is not known yet: they become a `Phase` once the motion is."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from ...systems.kinds import AnySystem
 from ..delay import delay
 from ..locations import Ascent, Leaving, Location, OfState, OnCycle, OnSet
 from ..result import Phase
-from .delay import WayOut
+from .delay import DelayedExitPoint
 
 
 @dataclass(frozen=True)
-class Delaying:
+class PendingDelay:
     """A slide on a critical set that has lost its stability: since when the motion is on it, and when it leaves."""
 
     t_in: float
-    way: WayOut | None  # None if it does not while the slide lasts
+    way: DelayedExitPoint | None  # None if it does not while the slide lasts
     bifurcation: str = "Hopf"
 
 
 @dataclass(frozen=True)
-class MotionPart:
+class PendingPhase:
     """A phase whose motion is under way: made a `Phase` when all of it is known."""
 
     phase: Phase
@@ -37,7 +37,7 @@ class MotionPart:
     e: Sequence[Array] = ()  # at `times`, while it slides
     p: Sequence[Array] = ()  # also, while it slides on a cycle of a general system
     theta: float | None = None  # in which a crossing leaves
-    delaying: Delaying | None = None
+    delaying: PendingDelay | None = None
 
     def placed(self, system: AnySystem, psi: Psi, motion: Dense) -> Phase:
         """Return the phase, which knows where it lies at any of its times."""

@@ -12,18 +12,16 @@ from ...cycles.limit_cycles import limit_cycles
 from ...layer_problem.critical import CriticalSet, critical_sets
 from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ...layer_problem.problem import LayerProblem
-from ...portrait.approach import outcome_towards
-from ...portrait.outcome_classification import ends, judge, orbits_to_end
+from ...portrait.outcome_classification import judge, omega_limits_of, orbits_to_end
+from ...portrait.outcomes import outcome_towards
 from ...psi.constructors import comparison_families, constant
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
 
-AT_MIDDLE = 1e-12  # |p| of a critical set that x = y = 0 lies on
-ORBITS_AROUND, START_DISTANCE = (
-    8,
-    1e-3,
-)  # orbits from around such a set that does not attract, and how far from it they start
+ORIGIN_TOLERANCE = 1e-12  # |p| of a critical set that x = y = 0 lies on
+ORBITS_AROUND = 8  # orbits from around such a set that does not attract
+START_DISTANCE = 1e-3  # from it, at which they start
 
 
 @dataclass(frozen=True)
@@ -69,7 +67,7 @@ def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -
     return _decision_of_outcome(own, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
 
 
-def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
+def decide_from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
     """Decide what becomes of orbits of the layer problem at z that are now at points of the hemisphere.
 
     Parameters
@@ -80,7 +78,7 @@ def from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Dec
         In the projected disc, |p| < 1. Where they end at different places the decision is "stop".
     """
     hemisphere = LayerProblem(system.at(tuple(z.tolist())), psi)
-    found = ends(hemisphere, orbits_to_end(hemisphere, points))
+    found = omega_limits_of(hemisphere, orbits_to_end(hemisphere, points))
     verdict, onto, leaving, _, reason, _ = judge(hemisphere, found, "Orbits go on from there")
     return _decision_of_outcome(hemisphere, verdict, onto, leaving, reason)
 
@@ -116,7 +114,7 @@ def _index(label: str | None) -> int:
     return int(digits) - 1 if digits else 0
 
 
-def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
+def decide_from_origin(system: AnySystem, psi: Psi, z: Array) -> Decision:
     """Decide what follows from a state on Sigma: x = y = 0 is p = 0 for every eps, so its orbit of the layer problem.
 
     Parameters
@@ -127,7 +125,7 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
     at = tuple(z.tolist())
     equator = equator_equilibria(system, at)
     sets = critical_sets(system, psi, at)
-    middle = [i for i, C in enumerate(sets) if math.hypot(*C.p.tolist()) <= AT_MIDDLE]
+    middle = [i for i, C in enumerate(sets) if math.hypot(*C.p.tolist()) <= ORIGIN_TOLERANCE]
     if middle:
         i = middle[0]
         onto = "C" if len(sets) == 1 else f"C{i + 1}"
@@ -135,13 +133,13 @@ def from_middle(system: AnySystem, psi: Psi, z: Array) -> Decision:
             return Decision("slide", say("middle is stable", kind=sets[i].kind, onto=onto), sets[i].e, onto=onto)
         angle = math.tau * np.arange(ORBITS_AROUND) / ORBITS_AROUND
         ring = START_DISTANCE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        decision = from_hemisphere(system, psi, z, ring)
+        decision = decide_from_hemisphere(system, psi, z, ring)
         return replace(decision, reason=f"{say('middle is a set', onto=onto)} {decision.reason}")
     border = np.flatnonzero(equator.radially_degenerate)
     if len(border) == 1 and not any(_stable(C) for C in sets):
         theta = float(equator.theta[border[0]])
         return Decision("border", say("on the equator"), _unit(theta), theta, "C")
-    decision = from_hemisphere(system, psi, z, np.zeros((1, 2)))
+    decision = decide_from_hemisphere(system, psi, z, np.zeros((1, 2)))
     return replace(decision, reason=f"{say('middle')} {decision.reason}")
 
 
@@ -160,7 +158,7 @@ def decide_start(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
         the open hemisphere; with none, the one way out; else stop.
     """
     if psi is not None:
-        return from_middle(system, psi, z)
+        return decide_from_origin(system, psi, z)
     at = tuple(z.tolist())
     asked = comparison_families()
     stable = [tuple(i for i, C in enumerate(critical_sets(system, own, at)) if _stable(C)) for own in asked]

@@ -8,7 +8,7 @@ import pytest
 
 from codim2_core import SimulationStatus, System, psi, simulate, simulate_nonsmooth
 from codim2_core.initial_value.field import field
-from codim2_core.motion.limit.folded import fold
+from codim2_core.motion.limit.fold_classification import classify_fold
 
 PSI = psi.constant()
 
@@ -86,7 +86,7 @@ def test_beside_a_canard_point_it_is_a_jump_point_or_a_rest(shift):
 )
 def test_what_a_fold_is_by_the_eigenvalues_of_its_slow_flow(a, b, word, decided):
     """Node, saddle, both borders: l^2 - b l + 2 a = 0."""
-    found = fold(field(parabola(a, b, "-s + 0.1*c")), np.zeros(2), np.zeros(2), "C1", "fold")
+    found = classify_fold(field(parabola(a, b, "-s + 0.1*c")), np.zeros(2), np.zeros(2), "C1", "fold")
     assert word in found.reason
     assert found.left_to_eps is not decided
     if word == "folded node":

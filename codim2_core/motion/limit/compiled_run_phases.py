@@ -1,4 +1,4 @@
-"""Phases of a motion in the limit that was followed compiled; what is said of them is made when it is read."""
+"""Build the phases of a compiled run in the limit; their sentences are made when they are read."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from ...words import say
 from ..locations import Ascent
 from ..result import Phase
 from ..tracked_set import in_disc
-from .decide import Decision, critical_name, decide_arrival
-from .phase_under_way import MotionPart
+from .pending_phase import PendingPhase
+from .sigma_decision import Decision, critical_name, decide_arrival
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,7 +32,7 @@ class PhaseBuilder:
     psi : Psi or None
     line : InvariantLine or None
         The invariant line that the motion stays in.
-    found : Followed
+    found : DecidedMotion
     """
 
     system: AnySystem
@@ -46,7 +46,7 @@ class PhaseBuilder:
         return self.found.onward == WHOLE
 
     @cached_property
-    def parts(self) -> list[MotionPart]:
+    def parts(self) -> list[PendingPhase]:
         """The phases, in order."""
         return [self._part(i, leg) for i, leg in enumerate(self.found.legs)]
 
@@ -79,16 +79,16 @@ class PhaseBuilder:
         along = float(line.n @ [math.cos(theta), math.sin(theta)])
         return math.copysign(1.0, along) * line.n
 
-    def _part(self, i: int, leg: Segment) -> MotionPart:
+    def _part(self, i: int, leg: Segment) -> PendingPhase:
         times = self.found.motion.times
         span = float(times[leg.first]), float(times[leg.last])
         if leg.kind == SLIDE:
             phase = Phase.told_later("slide", *span, partial(self._arrival, leg.first, leg.theta))
             at = slice(leg.first, leg.last + 1)
-            return MotionPart(phase, times[at].tolist(), self.ascent(leg.first, leg.theta), list(self.found.sets[at]))
+            return PendingPhase(phase, times[at].tolist(), self.ascent(leg.first, leg.theta), list(self.found.sets[at]))
         if leg.kind == LEAVE:
-            return MotionPart(Phase.told_later("slip", *span, partial(self._end, i, leg.theta)), [], None)
-        return MotionPart(Phase("slip", *span, say("starts outside")), [], None)
+            return PendingPhase(Phase.told_later("slip", *span, partial(self._end, i, leg.theta)), [], None)
+        return PendingPhase(Phase("slip", *span, say("starts outside")), [], None)
 
     def _arrival(self, row: int, theta: float) -> tuple[str, str | None]:
         """Say why it slides from the beginning of a step on, and on what."""

@@ -1,4 +1,4 @@
-"""A function of one variable continued from an interval into the complex plane, by a rational function (AAA).
+"""Rational approximation of a function on an interval by AAA, by which it is continued into the complex plane.
 
 Y. Nakatsukasa, O. Sete and L. N. Trefethen, "The AAA algorithm for rational approximation", SIAM J. Sci. Comput. 40,
 A1494 (2018): barycentric, its support points chosen one after the other where the error is largest.
@@ -14,11 +14,11 @@ import numpy as np
 from ...arrays import Array, Complex
 
 MAX_SUPPORT_POINTS = 40  # support points
-DOUBLET = 1e3  # poles whose residue is below this many tolerances, of |f| and of the interval, are rounding's
+MAX_DOUBLET_RESIDUE = 1e3  # in tolerances of |f| times the interval: poles of less are made by rounding
 
 
 @dataclass(frozen=True, eq=False)
-class Rational:
+class RationalApproximation:
     """``sum w_j f_j/(t - t_j) / sum w_j/(t - t_j)``.
 
     Attributes
@@ -55,7 +55,7 @@ class Rational:
         found = self._roots(self.weights)
         away = found[:, None] - self.points
         residues = (self.weights * self.values / away).sum(axis=1) / -(self.weights / away**2).sum(axis=1)
-        least = DOUBLET * self.tolerance * self.size * float(np.ptp(self.points))
+        least = MAX_DOUBLET_RESIDUE * self.tolerance * self.size * float(np.ptp(self.points))
         return found[np.abs(residues) > least]
 
     def _roots(self, weights: Array) -> Complex:
@@ -69,7 +69,7 @@ class Rational:
         return found[np.isfinite(found)]
 
 
-def rational(t: Array, f: Array, tolerance: float) -> Rational | None:
+def approximate_rationally(t: Array, f: Array, tolerance: float) -> RationalApproximation | None:
     """Approximate f, given at t (n,), to a tolerance of its size; None where that takes too many points."""
     size = float(np.abs(f).max())
     chosen: list[int] = []
@@ -84,5 +84,5 @@ def rational(t: Array, f: Array, tolerance: float) -> Rational | None:
         approximation = f.copy()
         approximation[rest] = cauchy @ (weights * f[chosen]) / (cauchy @ weights)
         if np.abs(f - approximation).max() <= tolerance * size:
-            return Rational(t[chosen], f[chosen], weights, size, tolerance)
+            return RationalApproximation(t[chosen], f[chosen], weights, size, tolerance)
     return None

@@ -1,5 +1,5 @@
 import pytest
-from codim2_app.frame import load as module
+from codim2_app.frame import process_load as module
 
 
 @pytest.mark.parametrize(("worked", "share"), [(0.0, 0.0), (0.2, 0.4), (0.5, 1.0)])

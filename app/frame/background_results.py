@@ -21,9 +21,9 @@ _served: list[WorkQueue] = []
 _given: WeakKeyDictionary[Executor, WorkQueue] = WeakKeyDictionary()
 
 
-def serve_with(turns: WorkQueue) -> None:
-    """Give the jobs of this process these turns: a server shares its worker processes by them."""
-    _served[:] = [turns]
+def serve_with(queue: WorkQueue) -> None:
+    """Give the jobs of this process this work queue: a server shares its worker processes by it."""
+    _served[:] = [queue]
 
 
 class Jobs:
@@ -36,12 +36,12 @@ class Jobs:
     """
 
     def __init__(self, executor: Executor | None = None) -> None:
-        self._given = None if executor is None else _turns_of(executor)
+        self._given = None if executor is None else _queue_of(executor)
         self._wishes: dict[str, tuple[Hashable, Future[Any]]] = {}
 
     @property
-    def turns(self) -> WorkQueue:
-        """Return the turns that all browsers share."""
+    def queue(self) -> WorkQueue:
+        """Return the work queue that all browsers share."""
         if self._given is not None:
             return self._given
         return _served[0] if _served else in_a_thread()
@@ -56,32 +56,32 @@ class Jobs:
         key : hashable
             Everything that the result depends on.
         make : callable
-            ``make(*arguments)`` computes it; must not be None. Input that the core refuses gives `Failed`. On a server
-            both travel to another process: functions of modules, and values that can be pickled.
+            ``make(*arguments)`` computes it; must not be None. Input that the core refuses gives `FailedResult`. On a
+            server both travel to another process: functions of modules, and values that can be pickled.
         """
         whole = (name, key)
-        turns = self.turns
+        queue = self.queue
         wish = self._wishes.get(name)
         if wish is not None and wish[0] != key:
-            turns.drop(id(self), (name, wish[0]), GRACE_SECONDS)
+            queue.drop(id(self), (name, wish[0]), GRACE_SECONDS)
             wish = None
-        result = turns.result(whole)
+        result = queue.result(whole)
         if result is not None:
             self._wishes.pop(name, None)
             return result
         if wish is None:
-            self._wishes[name] = key, turns.want(id(self), whole, make, *arguments)
+            self._wishes[name] = key, queue.want(id(self), whole, make, *arguments)
         elif wish[1].done():
             self._wishes.pop(name)
             return wish[1].result()
-        turns.stop_unwanted(id(self), GRACE_SECONDS)
+        queue.stop_unwanted(id(self), GRACE_SECONDS)
         return None
 
     def drop(self, name: str) -> None:
         """Want nothing under a name any more: its work is stopped, unless another browser wants it."""
         wish = self._wishes.pop(name, None)
         if wish is not None:
-            self.turns.drop(id(self), (name, wish[0]))
+            self.queue.drop(id(self), (name, wish[0]))
 
     def future(self, name: str) -> Future[Any] | None:
         """Return what is being waited for under a name, if anything is."""
@@ -91,9 +91,9 @@ class Jobs:
     def leave(self) -> None:
         """End what this browser alone wanted: it has gone."""
         self._wishes.clear()
-        self.turns.leave(id(self))
+        self.queue.leave(id(self))
 
 
-def _turns_of(executor: Executor) -> WorkQueue:
-    """Return the turns of an executor, the same ones for all that name it."""
+def _queue_of(executor: Executor) -> WorkQueue:
+    """Return the work queue of an executor, the same one for all that name it."""
     return _given.setdefault(executor, WorkQueue(executor))

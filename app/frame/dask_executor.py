@@ -12,7 +12,7 @@ class ClusterError(Exception):
     """There is no cluster to work on: what is missing, in a sentence."""
 
 
-def cluster(address: str) -> tuple[Executor, int]:
+def dask_executor(address: str) -> tuple[Executor, int]:
     """Return the executor of a Dask cluster, and how many works it does at a time.
 
     Parameters

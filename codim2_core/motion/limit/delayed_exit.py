@@ -1,4 +1,4 @@
-"""The slide on a critical set that has lost its stability, while the loss is delayed, and where it is left to.
+"""The delayed exit of a slide from a critical set that has lost its stability, and where the motion leaves to.
 
 That is past a Hopf bifurcation, or an exchange of stability on a set that does not move.
 """
@@ -17,25 +17,25 @@ from ...numerics.radau import Step
 from ...psi.function import Psi
 from ...words import say
 from ..tracked_set import in_disc, jacobian
-from .decide import ORBITS_AROUND, START_DISTANCE
-from .delay import WayOut, cut_at_exit
+from .delay import DelayedExitPoint, cut_at_exit
+from .sigma_decision import ORBITS_AROUND, START_DISTANCE
 from .slide import Slide
 
 ARRIVAL_DISTANCE = 1e-3  # from a set, in p, at which it is asked on which side a motion comes
 
 
 @dataclass(frozen=True)
-class Stay:
+class DelayedExit:
     """The slide past the bifurcation, cut where the motion leaves; why it goes on; and the way out."""
 
     part: Slide
     reason: str
-    way: WayOut | None
+    way: DelayedExitPoint | None
 
 
-def stay(
+def cut_at_delayed_exit(
     field: Field, psi: Psi, before: tuple[Sequence[Step], Sequence[Array]], part: Slide, C: str | None, how: str
-) -> Stay:
+) -> DelayedExit:
     """Cut a slide past the bifurcation where the motion leaves the set.
 
     Parameters
@@ -60,10 +60,10 @@ def stay(
     key = "Hopf, delayed"
     if way is not None:
         key = "Hopf, delayed until" if way.buffer is None else "Hopf, delayed until the buffer"
-    return Stay(part, say(key, C=C, how=how), way)
+    return DelayedExit(part, say(key, C=C, how=how), way)
 
 
-def ring(psi: Psi, e: Array) -> Array:
+def exit_circle(psi: Psi, e: Array) -> Array:
     """Points (k, 2) of the projected disc around a critical set, from which orbits show where a motion leaves it to."""
     angle = math.tau * np.arange(ORBITS_AROUND) / ORBITS_AROUND
     return in_disc(psi, e) + START_DISTANCE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)

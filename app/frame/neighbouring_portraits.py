@@ -19,7 +19,7 @@ from ..state.chosen_system import NORMAL
 from ..state.controls import ExplorerState
 
 
-def sides(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, Any] | None:
+def neighbouring_portraits(scene: Scene, values: Mapping[str, Any], control: str) -> dict[str, Any] | None:
     """Return the portraits a little below and a little above the present value of a control.
 
     Parameters

@@ -13,7 +13,7 @@ from bokeh.document import Document
 from bokeh.io import curdoc
 from bokeh.server.contexts import BokehSessionContext
 from bokeh.server.session import ServerSession
-from codim2_app.frame.later import later
+from codim2_app.frame.document_callbacks import next_tick_scheduler
 from tornado.ioloop import IOLoop
 
 
@@ -66,7 +66,7 @@ def test_it_is_called_in_its_turn_with_the_documents_lock():
             done.append("still before")
 
         first = asyncio.ensure_future(context.with_locked_document(before))
-        soon = later(document)
+        soon = next_tick_scheduler(document)
         await asyncio.to_thread(soon, lambda: done.append(("first", curdoc() is document, locked())))
         soon(lambda: done.append(("second", curdoc() is document, locked())))
         asked_for.set()
@@ -82,7 +82,7 @@ def test_it_is_not_called_once_the_session_is_over(gone):
     async def asked():
         document, context = opened()
         done = []
-        later(document)(lambda: done.append("called"))
+        next_tick_scheduler(document)(lambda: done.append("called"))
         context.session.destroy()
         if gone == "forgotten":
             del context
@@ -111,7 +111,7 @@ def test_it_leaves_nothing_that_a_search_must_find(how, monkeypatch):
             await turns(5)
 
         first = asyncio.ensure_future(context.with_locked_document(busy)) if how == "while it is locked" else None
-        soon = later(document)
+        soon = next_tick_scheduler(document)
         if how == "of a thread":
             await asyncio.to_thread(soon, function)
         else:

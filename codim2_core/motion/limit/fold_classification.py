@@ -25,8 +25,8 @@ from ...words import say
 
 SINGULAR_SPEED = 1e-5  # |e'| in units of what it is made of, below which a fold is a folded singularity
 DIFFERENCE_STEP = 1e-5  # in e and z, for derivatives
-STRAIGHT = 1e-4  # second derivative along the kernel, in units of D_e U, below which a crossing is a pitchfork
-SINGLE = 1e-4  # product of the eigenvalues in units of their squares, below which one is taken for 0
+MAX_PITCHFORK_CURVATURE = 1e-4  # second derivative along the kernel of a pitchfork, in units of D_e U
+MAX_ZERO_PRODUCT = 1e-4  # of the eigenvalues, in units of their squares, below which one is taken for 0
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,8 @@ class Fold:
     beyond: Array | None = None
 
 
-def fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold:
-    """Say what the fold at e is.
+def classify_fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold:
+    """Classify the fold at e.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold
     D, Dz, W, We = _parts(formulas, at)
     across, bends = _transverse_slope(formulas, at, D, Dz)
     if float(np.abs(across).max()) <= SINGULAR_SPEED * float(np.abs(D).max() + np.abs(Dz).max()):
-        kind = "transcritical" if abs(bends) > STRAIGHT * float(np.abs(D).max()) else "pitchfork"
+        kind = "transcritical" if abs(bends) > MAX_PITCHFORK_CURVATURE * float(np.abs(D).max()) else "pitchfork"
         return Fold(say(kind, C=C), exchange=kind)
     size = float(np.abs(D).max() * np.abs(Dz).max() * (np.abs(W).max() + np.abs(We).max()))
     if not float(np.abs(_flow(formulas, at)[:2]).max()) < SINGULAR_SPEED * size:
@@ -79,7 +79,7 @@ def fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold
     M = np.column_stack([(_flow(formulas, at + h) - _flow(formulas, at - h)) / (2.0 * DIFFERENCE_STEP) for h in steps])
     total, squares = float(np.trace(M)), float(np.trace(M @ M))
     product, scale = 0.5 * (total**2 - squares), total**2 + abs(squares)
-    if abs(product) < SINGLE * scale:
+    if abs(product) < MAX_ZERO_PRODUCT * scale:
         return Fold(say("folded, degenerate", C=C), left_to_eps=True)
     if product < 0.0:
         return Fold(say("folded saddle", C=C), left_to_eps=True)
