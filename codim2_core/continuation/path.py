@@ -351,8 +351,11 @@ class _BranchPath:
         return "span" if beyond else None
 
     def _fold(self, i: int) -> Asking[BranchPoint | None]:
-        """Find the point between the i-th one and the one before at which the exponent is zero."""
-        around, k = self.points[max(i - 2, 0) : i + 2], min(i, 2)
+        """Find the point between the i-th one and the one before at which the exponent is zero.
+
+        By bisection alone where the exponent has a kink, as that of a cycle does which grazes a circle where Psi has.
+        """
+        around, k, middle = self.points[max(i - 2, 0) : i + 2], min(i, 2), None
         for halved in range(MAX_HALVINGS):
             here, there = around[k - 1], around[k]
             course = ArclengthCurve(self.tracer, around)
@@ -371,7 +374,7 @@ class _BranchPath:
             middle = self.tracer.point(*closed, here.tangent)
             same = (middle.turn.exponent > 0.0) == (here.turn.exponent > 0.0)
             around, k = [middle, there] if same else [here, middle], 1
-        return None
+        return middle
 
 
 def _fits(here: BranchPoint, there: BranchPoint, sought: _PendingPoint) -> bool:
