@@ -161,7 +161,7 @@ def custom_kernel(expression: Expression) -> Custom:
     """
     values = expression.evaluate({"s": PROBES})
     kernel = Custom(expression, _find_saturation(expression, values))
-    values = np.where(PROBES < kernel.saturation, values, 0.0)
+    values = np.where(kernel.saturation > PROBES, values, 0.0)
     bad = ~np.isfinite(values)
     if bad.any():
         s, value = _first_bad(bad), values[int(np.argmax(bad))]
@@ -220,7 +220,7 @@ def _find_saturation(expression: Expression, values: Array) -> float:
     rounding = 1e-13 * max(1.0, float(values[0]))
     reaches_zero = abs(expression.evaluate({"s": place})) <= NEGLIGIBLE * place
     fades = expression.evaluate({"s": 0.99 * place}) < rounding
-    negative = bool((values[PROBES > place] < -rounding).any())
+    negative = bool((values[place < PROBES] < -rounding).any())
     return place if reaches_zero and not fades and not negative else math.inf
 
 
