@@ -1,4 +1,4 @@
-"""What one mechanism does under several laws of friction, beside each other."""
+"""Compare what a mechanism does under several laws of friction: sticks, chatters or slides."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .limit_cycles import cycles_of
 
 @dataclass(frozen=True, slots=True)
 class LawVerdict(Tabled):
-    """What one law of friction makes of a system.
+    """The verdict on a system under one law of friction.
 
     Attributes
     ----------
@@ -89,10 +89,10 @@ def compare_laws(system: AnySystem, laws: Mapping[str, tuple[Psi, float]], z: Ar
     sap: chatters, tr J = 28.00, creep 0.0e+00 m/s
     """
     at = system.at(z)
-    return LawVerdicts(_verdict(name, LayerProblem(at, law), eps) for name, (law, eps) in laws.items())
+    return LawVerdicts(_verdict_under(name, LayerProblem(at, law), eps) for name, (law, eps) in laws.items())
 
 
-def _verdict(name: str, problem: LayerProblem, eps: float) -> LawVerdict:
+def _verdict_under(name: str, problem: LayerProblem, eps: float) -> LawVerdict:
     stable = [C for C in problem.critical if C.kind.startswith("stable")]
     found = cycles_of(problem)
     chatters = [cycle for cycle in found if cycle.stable]

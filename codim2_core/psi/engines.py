@@ -6,6 +6,7 @@ that the friction could carry it does not stick but creeps, with the slip ``eps 
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -20,7 +21,7 @@ MAX_BISECTIONS = 200
 
 @dataclass(frozen=True)
 class Engine:
-    """What an engine documents of its friction.
+    """The friction of a physics engine as it is documented.
 
     Attributes
     ----------
@@ -119,7 +120,7 @@ ENGINES = {
         ),
         Engine(
             "ipc", "IPC", QUADRATIC,
-            "M. Li et al. (2020), Incremental potential contact, ACM Trans. Graph. 39; ipc-toolkit, smooth_friction_f1",
+            "Li, Ferguson et al. (2020), Incremental potential contact, ACM TOG 39(4); ipc-toolkit, smooth_friction_f1",
             _ipc_eps,
         ),
         Engine(
@@ -202,6 +203,6 @@ def engine_eps(name: str, **settings: float | tuple[float, ...]) -> float:
 
 
 def _engine_of_name(name: str) -> Engine:
-    if name not in ENGINES:
-        raise ValueError(f"there is no engine {name!r}; choose one of {', '.join(ENGINES)}.")
+    if not isinstance(name, str) or name not in ENGINES:
+        raise ValueError(f"there is no engine of the name {reprlib.repr(name)}; choose one of {', '.join(ENGINES)}.")
     return ENGINES[name]

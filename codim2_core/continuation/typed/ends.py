@@ -75,8 +75,8 @@ def hopf_end(name: str, value: float, problem: LayerProblem, place: Sequence[flo
     """Name the end at a Hopf point of the critical set next to a place, with the exponent of the cycle next to it."""
     C = min(problem.critical, key=lambda C: math.dist(C.p, place))
     period = 2.0 * math.pi / math.sqrt(C.determinant)
-    born = "in a band" if abs(exponent) < BAND_EXPONENT else "stable" if exponent < 0.0 else "unstable"
-    sentence = say(f"born, {born}", name=name, value=value)
+    key = "born, stable" if exponent < 0.0 else "born, unstable"
+    sentence = say("born, in a band" if abs(exponent) < BAND_EXPONENT else key, name=name, value=value)
     x, y = C.p.tolist()
     return TypedBranchEnd(CyclePoint("Hopf", value, period, 0.0, sentence), (value, period, 0.0, 0.0, x, y))
 

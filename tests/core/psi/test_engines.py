@@ -1,4 +1,4 @@
-"""Laws of physics engines that reach |e| = 1 at a finite slip: their conditions, their places in the code, their eps."""
+"""Laws of physics engines that reach |e| = 1 at a finite slip: their conditions, creep, cycles and eps."""
 
 import math
 
