@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .layer_problem.critical import CriticalSet, critical_sets
     from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
     from .motion.delay import Delay
-    from .motion.limit.ahead import delays
+    from .motion.limit.predicted_delays import delays
     from .motion.nonsmooth import simulate_nonsmooth
     from .motion.periodic.result import PeriodicMotion, PeriodicStatus
     from .motion.periodic.search import periodic_motion
@@ -39,7 +39,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .portrait.separatrices import Separatrices, Separatrix, separatrices
     from .psi.function import Psi
     from .scene import Scene
-    from .sliding.along import slow_portrait
+    from .sliding.along_z import slow_portrait
     from .sliding.filippov import FilippovSliding, filippov_sliding
     from .sliding.flow import sliding_flow
     from .sliding.slow_portrait_result import SlowPortrait
@@ -140,7 +140,7 @@ _HOMES = {
     "layer_problem.critical": "CriticalSet critical_sets",
     "layer_problem.equator": "EquatorCycle EquatorEquilibria equator_cycle equator_equilibria",
     "motion.delay": "Delay",
-    "motion.limit.ahead": "delays",
+    "motion.limit.predicted_delays": "delays",
     "motion.nonsmooth": "simulate_nonsmooth",
     "motion.periodic.result": "PeriodicMotion PeriodicStatus",
     "motion.periodic.search": "periodic_motion",
@@ -155,7 +155,7 @@ _HOMES = {
     "portrait.separatrices": "Separatrices Separatrix separatrices",
     "psi.function": "Psi",
     "scene": "Scene",
-    "sliding.along": "slow_portrait",
+    "sliding.along_z": "slow_portrait",
     "sliding.filippov": "FilippovSliding filippov_sliding",
     "sliding.flow": "sliding_flow",
     "sliding.slow_portrait_result": "SlowPortrait",

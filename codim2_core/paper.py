@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import re
 
+from .critical_changes import CRITICAL_CHANGES
+
 #: Label, what it is called, and its title (of sections the paper's, of the others what it shows, in a few words).
 PRINTED: dict[str, tuple[str, str]] = {
     "fig:friction": ("Figure 1", "Coulomb friction with one and with two degrees of freedom"),
@@ -78,7 +80,7 @@ PRINTED: dict[str, tuple[str, str]] = {
     "fig:simNCM4": ("Figure 24(e)", ""),
     "fig:sim_5cases": ("Figure 24", "Case I, computed"),
 }
-#: What changes along a parameter and on curves of an atlas, each kind once: where the paper has it.
+#: What changes along a parameter and on curves of an atlas, each kind once: where the paper has it (`label_of`).
 CHANGES: dict[str, str] = {
     "saddle-node": "fig:SNBIF, eq:tangencies",
     "pitchfork": "fig:SNBIF",
@@ -90,12 +92,9 @@ CHANGES: dict[str, str] = {
     "fold of critical sets": "eq:scjaco",
     "pitchfork of critical sets": "eq:scjaco",
     "change of critical sets": "eq:critical_set",
-    "det J = 0": "eq:scjaco",
     "det A = 0": "thm:lineps1",
     "line of equilibria": "thm:lineps1",
-    "Hopf": "sec:case3",
     "tr J = 0": "sec:case3",
-    "node-focus": "fig:bads",
     "neutral equator": "thm:geneps0",
     "degenerate": "thm:geneps0",
     "undefined": "U has no value",
@@ -104,6 +103,12 @@ CHANGES: dict[str, str] = {
     "heteroclinic cycle": "sec:case3",
     "saddle connection": "sec:case3",
 }
+
+
+def label_of(kind: str) -> str:
+    """Return where the paper has a kind of change."""
+    return next((row.label for row in CRITICAL_CHANGES if row.kind == kind), None) or CHANGES[kind]
+
 
 _LABEL = re.compile(r"((?:fig|sec|thm|prop|lem|tab|def|rem):\w+)(\(\w\))?")
 _EQUATION = re.compile(r"(?:, )?\(?eq:\w+\)?")

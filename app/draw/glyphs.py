@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codim2_core.layer_problem.eigendirections import Linearised
-from codim2_core.scene.launched import LaunchedOrbits
+from codim2_core.scene.launched_orbits import LaunchedOrbits
 from codim2_core.words import subscript
 
 Points = NDArray[np.float64]

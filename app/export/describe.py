@@ -12,7 +12,7 @@ from codim2_core.systems.typed import System
 from codim2_core.words import written_number
 
 from ..draw.mathml import plain_symbol
-from ..state.chosen import NORMAL
+from ..state.chosen_system import NORMAL
 from .view import View
 
 

@@ -21,7 +21,7 @@ from ..draw.layers import layer_table
 from ..draw.mathml import plain_symbol
 from ..draw.packing import pack, unpack
 from ..draw.theme import MEASURES, themes
-from ..state.chosen import parameters_of
+from ..state.chosen_system import parameters_of
 from ..state.controls import NUMBERS, ExplorerState
 from ..state.pace import paced_values
 from .describe import place_words, psi_words, system_words

@@ -18,7 +18,7 @@ from ..frame.scenes import make_scene
 from ..frame.window import Window, resample_for_window
 from ..slow_layers import basins, outcomes
 from ..state.choices import OWN_AXIS as OWN
-from ..state.chosen import System_, parameters_of
+from ..state.chosen_system import System_, parameters_of
 from ..state.links import Link, Look, compress_query, read_link, write_link
 
 #: Of the whole picture's width: curves of a figure are sampled within a quarter of it.

@@ -18,14 +18,12 @@ from typing import Any
 
 import numpy as np
 
-from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
-from codim2_core.systems.kinds import AnySystem
 
 from ..phrases import say
-from .alarm import at_most
 from .faults import FAILURES
+from .time_limit import CompileClock, at_most
 
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
 LAYER, FRAME = 0.008, 0.02
@@ -122,9 +120,9 @@ def layers_of(
         if name in FOLLOWING and (why := wild(scene)):
             left_out[name] = why
             continue
-        began = time.thread_time()
+        began, compiling = time.thread_time(), CompileClock()
         try:
-            with at_most(seconds):
+            with at_most(seconds, compiling):
                 scene[name]
         except TimeoutError:
             left_out[name] = say("too long a layer", seconds=seconds)
@@ -133,7 +131,7 @@ def layers_of(
                 return BackgroundLayers(scene.results(), took, {**others, **left_out})
         except FAILURES as error:
             left_out[name] = str(error)
-        took[name] = time.thread_time() - began
+        took[name] = time.thread_time() - began - compiling.seconds
     return BackgroundLayers(scene.results(), took, left_out)
 
 
@@ -169,18 +167,20 @@ class Budget:
     Parameters
     ----------
     elsewhere : callable, optional
-        Says whether formulas, of Psi or of a system, are compiled in other processes only; by default in this one too.
+        Says whether the formulas of a scene are compiled in other processes only; by default in this one too.
     """
 
-    def __init__(self, elsewhere: Callable[[Psi, AnySystem], bool] = lambda _psi, _system: False) -> None:
+    def __init__(self, elsewhere: Callable[[Scene], bool] = lambda _scene: False) -> None:
         self._elsewhere = elsewhere
         self._timed: OrderedDict[Hashable, tuple[int, dict[str, float]]] = OrderedDict()
         self._left_out: OrderedDict[Hashable, Mapping[str, str]] = OrderedDict()
-        self._spent = self._timed_so_far = 0.0  # by what layers cost before; by the clock
+        self._slow_once: set[str] = set()
+        self.begin()
 
     def begin(self) -> None:
         """Begin a frame."""
-        self._spent = self._timed_so_far = 0.0
+        self._spent = self._timed_so_far = 0.0  # by what layers cost before; by the clock
+        self._worked_before = time.thread_time()
 
     def before(self, scene: Scene, name: str) -> Callable[[], None] | None:
         """Let a layer be computed here and now, or raise; return what is to be called when it is.
@@ -192,7 +192,7 @@ class Budget:
         OmittedLayer
             It is not drawn of this system.
         """
-        why = self._left_out.get(self.key(scene), {}).get(name)
+        why = self._left_out.get(self.key(scene), {}).get(name) if self._left_out else None
         if why is not None:
             raise OmittedLayer(WORDS.get(name, name), why)
         bounded, formula = self.bounded(scene), self._formula(scene)
@@ -205,15 +205,21 @@ class Budget:
             cost = took.get(name, 0.0)
         else:
             cost = took.get(name, math.inf) if wildness(scene) <= wildest else math.inf
-        if cost > LAYER or self._spent + cost > FRAME or self._elsewhere(scene.psi, scene.system):
+        if cost > LAYER or self._spent + cost > FRAME or self._elsewhere(scene):
             raise PendingLayer(name)
         self._spent += cost
-        return partial(self._computed, formula, name, time.thread_time(), self._timed_so_far)
+        return partial(self._computed, formula, name, time.perf_counter(), self._timed_so_far)
 
     def _computed(self, formula: Hashable, name: str, began: float, before_it: float) -> None:
         """Note what a layer took here, without the layers that it asked for."""
-        took = time.thread_time() - began
+        took = time.perf_counter() - began
         own, self._timed_so_far = took - (self._timed_so_far - before_it), before_it + took
+        if own > LAYER:  # or this thread waited: asking how long it has worked takes longer than many a layer
+            own = min(own, time.thread_time() - self._worked_before)
+        if own > LAYER and name not in self._slow_once:
+            self._slow_once.add(name)  # a kernel was loaded, or garbage looked for: what is slow twice is slow
+            return
+        self._slow_once.discard(name)
         _, before = self._timed.setdefault(formula, (0, {}))
         before[name] = max(own, 0.5 * before.get(name, 0.0))
 
@@ -233,7 +239,8 @@ class Budget:
         _, before = self._timed.get(formula, (0, {}))
         now = {name: max(took, 0.5 * before.get(name, 0.0)) for name, took in found.seconds.items()}
         self._timed[formula] = (3 * wildness(scene) // 2 + 8, {**before, **now})
-        self._left_out[self.key(scene)] = found.left_out
+        if found.left_out:
+            self._left_out[self.key(scene)] = found.left_out
         for kept in (self._timed, self._left_out):
             while len(kept) > REMEMBERED_SCENES:
                 kept.popitem(last=False)

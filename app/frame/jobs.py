@@ -11,7 +11,11 @@ from concurrent.futures import Executor, Future
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from .turns import WorkQueue, in_a_thread
+from .work_queue import WorkQueue, in_a_thread
+
+#: For which work goes on that a newer wish has replaced: a worker that is stopped leaves its place to one that must
+#: load all kernels, and in a drag no picture would ever be done.
+GRACE_SECONDS = 1.0
 
 _served: list[WorkQueue] = []
 _given: WeakKeyDictionary[Executor, WorkQueue] = WeakKeyDictionary()
@@ -48,7 +52,7 @@ class Jobs:
         Parameters
         ----------
         name : str
-            What it is for; a wish of the same name with another key is dropped, and its work stopped.
+            What it is for; a wish of the same name with another key is dropped, and its work stopped if it is long.
         key : hashable
             Everything that the result depends on.
         make : callable
@@ -59,7 +63,7 @@ class Jobs:
         turns = self.turns
         wish = self._wishes.get(name)
         if wish is not None and wish[0] != key:
-            self.drop(name)
+            turns.drop(id(self), (name, wish[0]), GRACE_SECONDS)
             wish = None
         result = turns.result(whole)
         if result is not None:
@@ -70,6 +74,7 @@ class Jobs:
         elif wish[1].done():
             self._wishes.pop(name)
             return wish[1].result()
+        turns.stop_unwanted(id(self), GRACE_SECONDS)
         return None
 
     def drop(self, name: str) -> None:

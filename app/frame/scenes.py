@@ -12,8 +12,8 @@ from codim2_core.systems.typed import System
 
 from ..draw.theme import PICTURE_REACH
 from ..state.choices import COEFFICIENTS, SLOW_CONTROLS
-from ..state.chosen import NORMAL, System_, TextError, build, parameters_of
 from ..state.chosen_psi import build_psi
+from ..state.chosen_system import NORMAL, System_, TextError, build, parameters_of
 from ..state.cleaning import InputError
 from ..state.launches import read_launches
 from ..state.opening import opening_values

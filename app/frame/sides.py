@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from codim2_core.diagrams.sides import NeighbouringPortraits
-from codim2_core.diagrams.sides import sides as portraits_beside
+from codim2_core.diagrams.neighbouring_portraits import NeighbouringPortraits
+from codim2_core.diagrams.neighbouring_portraits import sides as portraits_beside
 from codim2_core.examples import catalogue
 from codim2_core.layer_problem.vary import names
 from codim2_core.scene import Scene
@@ -15,7 +15,7 @@ from codim2_core.systems.typed import System
 
 from ..draw.mathml import plain_symbol
 from ..state.choices import SLOW_CONTROLS
-from ..state.chosen import NORMAL
+from ..state.chosen_system import NORMAL
 from ..state.controls import ExplorerState
 
 

@@ -11,19 +11,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from codim2_core.motion.limit.ahead import delays
-from codim2_core.portrait.attracting import attracting_set
+from codim2_core.motion.limit.predicted_delays import delays
+from codim2_core.portrait.attracting_set import attracting_set
 from codim2_core.psi.function import Psi
-from codim2_core.sliding.along import slow_portrait
-from codim2_core.sliding.over import slow_plane
+from codim2_core.sliding.along_z import slow_portrait
+from codim2_core.sliding.slow_plane import slow_plane
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
 from codim2_core.words import written_label
 
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 from ..phrases import say
 from ..slow_layers.short import short
 from ..state.choices import SLOW_CONTROLS
-from ..state.chosen import System_, slow_ranges
+from ..state.chosen_system import System_, slow_ranges
 from ..state.slider_range import edited_range, slider_range
 from .panel import Panel
 

@@ -13,9 +13,9 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
 from ..draw.thumbnails import thumbnail
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 from ..state.choices import CENSUSES, MOST_CENSUS
-from ..state.chosen import NORMAL, OWN_SYSTEM
+from ..state.chosen_system import NORMAL, OWN_SYSTEM
 from .panel import Panel
 
 #: Coefficients of an example are brought below this, in the range of their sliders, by another unit of time.

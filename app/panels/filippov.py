@@ -16,9 +16,9 @@ from codim2_core.psi.function import Psi
 from codim2_core.sliding.affine import AffinePlane, affine_plane
 from codim2_core.sliding.filippov import filippov_sliding
 
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 from ..slow_layers.short import short
-from ..state.chosen import System_
+from ..state.chosen_system import System_
 
 CURVE_POINTS = 97  # of the curve
 MAX_HALF_SIDE = (

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from codim2_core.scene import Scene
 
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 from ..lessons.asking import goal_is_reached, judge, pose, stands
 from ..lessons.facts import COMPILED, facts_of
 from ..lessons.lesson import Lesson, LessonQuestion, Prose, portrait_of

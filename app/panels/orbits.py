@@ -14,12 +14,12 @@ from codim2_core.orbits.in_time import in_time
 from codim2_core.psi.function import Psi
 from codim2_core.systems.kinds import FrozenSystem
 
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 from ..phrases import say
 from ..slow_layers import typed_start
 from ..slow_layers.short import short
 from ..slow_layers.typed_start import RTOL
-from ..state.chosen import System_
+from ..state.chosen_system import System_
 from ..state.launches import TYPED, read_launches, selected_place
 from .panel import Panel
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 
 PANEL_SCRIPTS = Path(__file__).parents[1] / "static" / "panels"
 

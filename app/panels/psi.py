@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 from ..slow_layers.short import short
 from .panel import Panel
 

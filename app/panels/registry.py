@@ -9,8 +9,8 @@ from __future__ import annotations
 from importlib import import_module
 
 from ..frame.budget import OmittedLayer, PendingLayer
-from ..frame.draft import FrameContext
 from ..frame.faults import FAILURES, sentence_of
+from ..frame.frame_context import FrameContext
 from ..slow_layers import basins, outcomes
 from ..state.controls import set_options
 from .panel import Panel

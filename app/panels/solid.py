@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
-from codim2_core.sliding.along import slow_portrait
-from codim2_core.sliding.over import directions_along
+from codim2_core.sliding.along_z import slow_portrait
+from codim2_core.sliding.slow_plane import directions_along
 
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 from ..state.choices import SLOW_CONTROLS, SOLIDS
-from ..state.chosen import System_
+from ..state.chosen_system import System_
 from . import filippov
 from .along import NO_SLOW_VARIABLE, slow_spans
 from .panel import Panel

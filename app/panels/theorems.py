@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from codim2_core.paper import cite
 from codim2_core.theorems.certificates import Certificate
 
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 from .panel import Panel
 
 CertificateRow = tuple[str, str, str, str, list[tuple[str, float]]]

@@ -13,7 +13,7 @@ from codim2_core.systems.typed import System
 from ..lessons.library import lessons
 from ..phrases import say
 from ..state.choices import SETTING
-from ..state.chosen import NORMAL
+from ..state.chosen_system import NORMAL
 from ..state.controls import CONTROL_NAMES, first_values
 from .rooms import MOST_TRIES, Guest, GuestRow, RoomError, code_of, process_rooms, settings_of
 

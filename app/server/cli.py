@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import gc
+import io
 import multiprocessing
 import os
 import socket
@@ -13,14 +14,14 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from ..docs import place
+from ..docs import docs_folder
 from ..frame.cluster import ClusterError, cluster
-from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets, add_prove
+from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets, add_prove, join_negative_numbers
+from .downloads import add_data, add_figure, add_film, add_live
 from .process.files import many_files
 from .process.logs import log_to_stderr
 from .process.stopping import stop_when_asked
 from .settings import add_settings, unknown_settings
-from .taking import add_data, add_figure, add_film, add_live
 
 
 def parser() -> argparse.ArgumentParser:
@@ -58,9 +59,12 @@ def _at_a_screen() -> bool:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; return the exit status."""
-    chosen = parser().parse_args(arguments)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="replace")  # a terminal that lacks Greek letters, as Windows' cp1252 does
+    chosen = parser().parse_args(join_negative_numbers(sys.argv[1:] if arguments is None else arguments))
     if "run" in chosen:
-        return chosen.run(chosen)
+        return _run_into_pipe(chosen)
     if chosen.command == "warm":
         return _warm()
     if multiprocessing.parent_process() is not None:
@@ -69,7 +73,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     for sentence in unknown_settings():
         print(f"codim2: {sentence}", file=sys.stderr)
-    place.serve_folder(chosen.docs)
+    docs_folder.serve_folder(chosen.docs)
+    if chosen.docs is not None and docs_folder.site() is None:
+        print(f"codim2: {chosen.docs} holds no site; build it: codim2 docs {chosen.docs}", file=sys.stderr)
+        return 1
     log_to_stderr(chosen.log_json, chosen.log_level)
     try:
         _try_to_listen(chosen.address, chosen.port)
@@ -89,6 +96,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print("codim2: stopped", flush=True)
         os._exit(0)  # workers end with their server, and there is nothing to save: an orderly exit waits for both
     return 0
+
+
+def _run_into_pipe(chosen: argparse.Namespace) -> int:
+    """Run a command; where who reads has enough, as `head` has, nothing is said."""
+    try:
+        status = chosen.run(chosen)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for what is left in the buffer
+        return 0
+    return status
 
 
 def _warm() -> int:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
+import re
 import shlex
 import shutil
 import sys
+from collections.abc import Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
@@ -41,9 +43,9 @@ def add_prove(commands: Any) -> None:
 
 def _add_system(command: Any) -> None:
     for name in ("a", "b", "d"):
-        command.add_argument(f"-{name}", type=float, required=name != "b", default=0.0, help=f"{name} of A")
+        command.add_argument(f"-{name}", type=number, required=name != "b", default=0.0, help=f"{name} of A")
     for name in ("f1", "f2"):
-        command.add_argument(f"--{name}", type=float, default=0.0)
+        command.add_argument(f"--{name}", type=number, default=0.0)
     _add_psi(command)
 
 
@@ -98,8 +100,29 @@ def add_docs(commands: Any) -> None:
     command.set_defaults(run=docs)
 
 
+def number(text: str) -> float:
+    """Read a number as the page does: -.5, 1e-3, −7,5; and a fraction, -2/3."""
+    top, _, bottom = text.strip().replace("−", "-").replace(",", ".").partition("/")
+    try:
+        return float(top) / float(bottom or 1)
+    except (ValueError, ZeroDivisionError):
+        raise argparse.ArgumentTypeError(f"{text!r} given; give a number such as -0.5, 1e-3 or 2/3.") from None
+
+
+def join_negative_numbers(words: Sequence[str]) -> list[str]:
+    """Join an option and the negative number after it, which argparse takes for an option: "-d", "-1e-3"."""
+    joined: list[str] = []
+    for word in words:
+        negative = re.match(r"[-−][.\d]", word)
+        if negative and joined and joined[-1].startswith("-") and "=" not in joined[-1]:
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined
+
+
 def _whole_number(text: str) -> int:
-    value = float(text)
+    value = number(text)
     if not value.is_integer():
         raise argparse.ArgumentTypeError(f"{text} is no whole number")
     return int(value)
@@ -183,7 +206,10 @@ def prove(chosen: argparse.Namespace) -> int:
     for i, (cycle, alone) in enumerate(zip(found, proved.cycles, strict=True)):
         told = f"{cycle.kind}, period {_six(cycle.period)}, multiplier {_six(cycle.multiplier)}"
         print(f"  cycle {i + 1}: {told}{', proved' if alone else ''}")
-    if chosen.output is not None and proved.certificate is not None:
+    if chosen.output is not None and proved.certificate is None:
+        print(f"codim2: {chosen.output} is not written: what is said above rests on no certificate.", file=sys.stderr)
+        return 1
+    if chosen.output is not None:
         proved.save(chosen.output)
         print(f"wrote {chosen.output}; to check it: {Path(sys.executable).name} {proved.checker()} < {chosen.output}")
     return 0 if proved else 1
@@ -230,11 +256,11 @@ def census(chosen: argparse.Namespace) -> int:
     wide = max(len(row.name) for row in found.table)
     if found.contradictions:
         print(f"codim2: {found.contradictions} systems contradict index theory; please report this.", file=sys.stderr)
+    if chosen.csv:
+        found.to_csv(chosen.csv)
     print(f"\r{'portrait':{wide}} {'count':>12} {'share':>9}  95 % interval")
     for row in found.table:
         print(f"{row.name:{wide}} {row.count:12d} {row.share:9.5f}  {row.low:.5f} to {row.high:.5f}")
-    if chosen.csv:
-        found.to_csv(chosen.csv)
     return 0
 
 
@@ -266,6 +292,6 @@ def notebooks(chosen: argparse.Namespace) -> int:
 def docs(chosen: argparse.Namespace) -> int:
     """Build the site."""
     from ..docs.build import main
-    from ..docs.place import PACKAGED_SITE
+    from ..docs.docs_folder import PACKAGED_SITE
 
     return main(PACKAGED_SITE if chosen.folder is None else chosen.folder)

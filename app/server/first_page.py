@@ -27,8 +27,8 @@ KEPT_PAGES = 64  # addresses
 BUSY = (
     '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
     '<meta http-equiv="refresh" content="{0}"><meta name="color-scheme" content="light dark"><title>Busy</title>'
-    '<p role="status" style="font:18px/1.5 sans-serif;max-width:26em;margin:20vh auto;padding:0 1em">All places '
-    "are taken just now. This page tries again every {0} seconds, and opens as its address says as soon as one is free."
+    '<p role="status" style="font:18px/1.5 sans-serif;max-width:26em;margin:20vh auto;padding:0 1em">All places on '
+    "this server are taken. This page tries again every {0} seconds and opens as soon as one is free."
     "</p></html>"
 )
 RETRY = 20  # seconds

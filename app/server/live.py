@@ -21,17 +21,17 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from ..frame.budget import Budget
 from ..phrases import say
-from ..state.asked import MOST_CONTROLS
-from ..state.chosen import NORMAL
+from ..state.chosen_system import NORMAL
 from ..state.cleaning import InputError
 from ..state.controls import ExplorerState
 from ..state.links import Link, read_link
 from ..state.opening import opening_values
+from ..state.request_reading import MOST_CONTROLS
 from ..view.answers import AnswerQueue
 from ..view.markup import offered_text, settings
 from ..view.refresh import Frames
-from ..view.warmup import elsewhere, is_ready_for_all
-from .rota import Rota
+from ..view.warmup import FormulaQuota, is_ready_for_all
+from .session_queue import Rota
 
 #: Bytes of one message from a browser: a request is a few hundred.
 MOST_SENT = 200_000
@@ -66,7 +66,7 @@ def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
 
 def open_page(link: Link) -> tuple[Frames, str, bytes]:
     """Return what a page shows, what its script must know, and its first frame."""
-    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget(elsewhere))
+    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget(FormulaQuota().elsewhere))
     first = frames.answer({"all": True})
     frames.publish()  # what cannot be drawn is not in the state
     config = {**settings(link.state, frames.locked, link.look), "page": True, "refused": frames.refused, "dark": False}

@@ -14,7 +14,7 @@ from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metri
 from tornado.web import RequestHandler
 
 from ..frame.load import load
-from ..frame.turns import WorkQueue
+from ..frame.work_queue import WorkQueue
 from ..rooms.rooms import Rooms
 from ..view import warmup
 from .live import LivePages

@@ -19,9 +19,9 @@ from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.process import task_id
 from tornado.web import RequestHandler
 
-from ..docs.served import Docs, ToDocs
+from ..docs.docs_handlers import Docs, ToDocs
 from ..frame.jobs import serve_with
-from ..frame.turns import WorkQueue
+from ..frame.work_queue import WorkQueue
 from ..frame.workers import Workers, processors
 from ..rooms.board import Board
 from ..rooms.rooms import MOST_ROOMS, SHARING_SECONDS, Rooms
@@ -33,9 +33,9 @@ from .headers import transform
 from .live import MOST_SENT, LiveConnection, LivePages
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
-from .process.door import Door
+from .process.compile_throttle import stand_back
+from .process.listener import Listener
 from .process.ports import listen_by_own, share_port
-from .process.standing_back import stand_back
 from .scripts import routes
 
 #: What the workers find imported.
@@ -145,11 +145,11 @@ def make_server(
     parent = os.getpid()
     board = Board(processes)
     places = LivePages(sessions)
-    door = partial(Door, counts=Counter(), places=sessions, health=json.dumps(health()))
-    with share_port(processes, door):
+    listen = partial(Listener, counts=Counter(), places=sessions, health=json.dumps(health()))
+    with share_port(processes, listen):
         server = _server(port, address, allow_origin, processes, prefix, places, options)
     keep_steady(server.io_loop)
-    listen_by_own(server, address, door)
+    listen_by_own(server, address, listen)
     board.belong(task_id() or 0)
     kept = Rooms(board, rooms)
     _keep(kept)

@@ -25,7 +25,7 @@ def _take_away() -> str:
     return bundle(SCRIPT_FOLDER / "takeaway.js")
 
 
-#: The explorer's own, by name. The menu "Take away" is loaded when it is first opened.
+#: The explorer's own, by name. The menu "Export" is loaded when it is first opened.
 SCRIPTS = {"explorer.js": script, "takeaway.js": _take_away}
 
 

@@ -16,12 +16,13 @@ LEVELS = ("debug", "info", "warning", "error")
 OTHERS = frozenset({"CODIM2_CHROMIUM", "CODIM2_PAPER", "CODIM2_NGINX", "CODIM2_TEST_RUN", "CODIM2_BEFORE"})
 
 
-def whole_number(least: int) -> Callable[[str], int]:
-    """Return what reads a whole number that is not smaller."""
+def whole_number(least: int, most: int | None = None) -> Callable[[str], int]:
+    """Return what reads a whole number that is neither smaller nor larger."""
 
     def number(text: str) -> int:
-        if not text.strip().isdecimal() or int(text) < least:
-            raise argparse.ArgumentTypeError(f"{text!r} given; give a whole number from {least} on.")
+        if not text.strip().isdecimal() or int(text) < least or (most is not None and int(text) > most):
+            allowed = f"from {least} on" if most is None else f"from {least} to {most}"
+            raise argparse.ArgumentTypeError(f"{text!r} given; give a whole number {allowed}.")
         return int(text)
 
     return number
@@ -73,7 +74,7 @@ class Setting:
 
 
 SETTINGS = (
-    Setting("port", 5006, "0 takes any free port", whole_number(0), "PORT", second="PORT"),
+    Setting("port", 5006, "0 takes any free port", whole_number(0, 65535), "PORT", second="PORT"),
     Setting("address", "localhost", "0.0.0.0 for all interfaces", str, "HOST"),
     Setting("allow-origin", (), "a host under which browsers reach this server; may be repeated", host, "HOST[:PORT]",
             "CODIM2_ORIGINS"),

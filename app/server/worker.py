@@ -12,7 +12,7 @@ from numba.core.registry import cpu_target
 from codim2_core.figures.presets import presets
 from codim2_core.scene import Scene
 
-from ..export import taking  # noqa: F401 (what a browser takes away is made there)
+from ..export import export_request  # noqa: F401 (what a browser takes away is made there)
 from ..panels import registry  # noqa: F401 (its panels' functions are what is asked for)
 from .kernel_cache import prepare
 

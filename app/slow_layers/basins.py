@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from codim2_core.portrait.basins import DISC, Box, basins_of
 from codim2_core.scene import Scene
 
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 
 BASIN_COLOUR_COUNT = 4  # colours of the theme
 CELLS_ACROSS = 128  # across the disc: smoothed, five pixels of a picture of 640

@@ -9,7 +9,7 @@ from codim2_core.scene import Scene
 from codim2_core.words import written_label
 
 from ..frame.budget import wild
-from ..frame.draft import FrameContext
+from ..frame.frame_context import FrameContext
 
 #: The kinds that the ring tells apart, and what the table says of each.
 WORDS = {

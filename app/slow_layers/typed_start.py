@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from codim2_core.examples import Ball, catalogue
-from codim2_core.motion.agreement import agreement
+from codim2_core.motion.compare_with_limit import agreement
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.regularised import LARGEST_EPS, SMALLEST_EPS, simulate
 from codim2_core.motion.result import Simulation
@@ -21,8 +21,8 @@ from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
-from ..frame.draft import FrameContext
-from ..state.chosen import System_, slow_symbols
+from ..frame.frame_context import FrameContext
+from ..state.chosen_system import System_, slow_symbols
 from ..state.cleaning import InputError
 from ..state.launches import TYPED
 from ..state.opening import opening_launch

@@ -16,7 +16,7 @@ from codim2_core import psi as psi_families
 
 from ..draw.layers import LAYERS
 from .choices import OWN_AXIS, SETTING, SLIDER_AXES
-from .chosen import titles
+from .chosen_system import titles
 from .controls import CONTROL_NAMES, NUMBERS, Angle, ExplorerState
 from .launches import read_launches
 from .portraits import portrait_keys

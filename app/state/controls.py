@@ -17,7 +17,7 @@ from codim2_core import psi as psi_families
 
 from ..draw.layers import LAYERS, default_layers
 from .choices import CENSUSES, MAX_TRAJECTORIES, MOST_CENSUS, PANEL_NAMES, SLOW_CONTROLS, SOLIDS
-from .chosen import NORMAL, titles
+from .chosen_system import NORMAL, titles
 from .launches import MAX_LAUNCHES
 from .opening import opening_values
 from .portraits import portrait_keys, portrait_values

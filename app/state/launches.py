@@ -1,7 +1,7 @@
 """Orbits that a user launched: points of the picture, as one short text in the link: ``0.3,0.2;1.5,-0.1,-:slow one``.
 
 Each is x,y in the picture (|p| < 1 on the hemisphere, 1 + rho outside), then ``,-`` if it is hidden and ``:name`` if it
-has a name. The same grammar is read by `static/hands/launches.js`.
+has a name. The same grammar is read by `static/interaction/launches.js`.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from urllib.parse import parse_qsl, urlencode
 
 from ..draw.theme import MAX_HALF_VIEW, NEAREST
 from ..phrases import say
-from .chosen import BOXES, NORMAL
+from .chosen_system import BOXES, NORMAL
 from .cleaning import LONGEST_TEXT, InputError, clean
 from .controls import CONTROL_NAMES, ExplorerState, preset_values
 from .opening import opening_values

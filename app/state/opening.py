@@ -7,7 +7,7 @@ from typing import Any
 from codim2_core.examples import catalogue
 
 from .choices import OWN_AXIS, SLOW_CONTROLS
-from .chosen import NORMAL, has_atlas, starting_launch, starting_z
+from .chosen_system import NORMAL, has_atlas, starting_launch, starting_z
 
 
 def opening_values(choice: str) -> dict[str, Any]:

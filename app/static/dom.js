@@ -3,7 +3,7 @@
 const written = new WeakMap()
 
 /** @param {Element} element @param {string} markup */
-export function put(element, markup) {
+export function setMarkup(element, markup) {
   if (written.get(element) === markup) return
   written.set(element, markup)
   element.innerHTML = markup
@@ -28,7 +28,7 @@ export function save(blob, name) {
 export function size(bytes) { return bytes < 1e6 ? `${Math.ceil(bytes / 1000)} kB` : `${(bytes / 1e6).toFixed(1)} MB` }
 
 /** Copy what a box holds. @param {any} box */
-export async function copied(box) {
+export async function copyText(box) {
   box.select()
   // the clipboard is there on https and localhost only; the older way works on a lecturer's plain LAN address
   try { await navigator.clipboard.writeText(box.value) } catch { document.execCommand("copy") }

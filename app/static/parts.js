@@ -1,14 +1,14 @@
 // Parts of an explorer that act on all of it: panels, hands on the picture, dialogs, the second portrait beside it.
 
-import {Panels} from "./beside/panels.js"
+import {Panels} from "./widgets/panels.js"
 import {slidersOf} from "./controls/controls.js"
-import {twoFingers} from "./hands/gestures.js"
-import {Grab, KEYS, turnedTo} from "./hands/grab.js"
-import {Hands} from "./hands/hands.js"
-import {Pointing} from "./hands/pointing.js"
-import {Beamer, busy, enlarged} from "./page/beamer.js"
+import {twoFingers} from "./interaction/gestures.js"
+import {Grab, KEYS, turnedTo} from "./interaction/grab.js"
+import {Hands} from "./interaction/hands.js"
+import {Pointing} from "./interaction/pointing.js"
+import {Beamer, busy, enlarge} from "./page/beamer.js"
 import {Help} from "./page/help.js"
-import {squeezed, writeLink} from "./page/links.js"
+import {compressQuery, writeLink} from "./page/links.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
 import {Comets} from "./picture/comets.js"
@@ -31,7 +31,7 @@ export function panelsOf(explorer) {
     valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
     follow: (name, set) => { setters[name] = set },
     take: (wish, progress) => explorer.takes.ask({theme: explorer.theme.name, ...wish}, progress), film: config.film, untake: (kind) => explorer.takes.stop(kind),
-    trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarged(explorer.picture.list, 1 / explorer.picture.times),
+    trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarge(explorer.picture.list, 1 / explorer.picture.times),
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),
@@ -132,7 +132,7 @@ export function addDialogs(explorer) {
   const {root, config, picture, theme} = explorer
   new Help(root, explorer.find("dialog.helping"))
   const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer, lift: config.look.lift, views: explorer.views?.carried}})
-  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await squeezed(query(), config.link.version)}`}))
+  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await compressQuery(query(), config.link.version)}`}))
   explorer.find(".share").addEventListener("click", () => share.open())
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
 }

@@ -1,5 +1,5 @@
 // Coordinates as an SVG writes them.
 
-export const fixed = (value) => Number(value.toFixed(2))
+export const toCoordinate = (value) => Number(value.toFixed(2))
 /** @param {number[][]} points */
-export const polyline = (points) => points.length ? `M${points.map(([x, y]) => `${fixed(x)} ${fixed(y)}`).join("L")}` : ""
+export const polyline = (points) => points.length ? `M${points.map(([x, y]) => `${toCoordinate(x)} ${toCoordinate(y)}`).join("L")}` : ""

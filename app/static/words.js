@@ -3,8 +3,8 @@
 export const escape = (text) => String(text).replace(/[&<>"]/g, (c) => ({"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;"})[c])
 
 // Indices of the paper's letters, lowered: λ_ρ, e_Ψ, θ_i. A text is escaped first; markup is so already.
-export const lowered = (markup) => markup.replace(/([λeLθC])_([ρθΨεi])/g, "$1<sub>$2</sub>")
-export const formula = (text) => lowered(escape(text))
+export const lowerIndices = (markup) => markup.replace(/([λeLθC])_([ρθΨεi])/g, "$1<sub>$2</sub>")
+export const formula = (text) => lowerIndices(escape(text))
 
 /** A sentence that begins with something's name. @param {string} text */
 export const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1)
@@ -21,7 +21,7 @@ export function plain(value) { return String(Number(value.toPrecision(6))) }
 export const minus = (text) => text.replaceAll("-", "−")
 
 // A number that shows a claim: what is zero up to rounding is told apart from what is small.
-export const measured = (value) => value !== 0 && Math.abs(value) < 1e-9 ? digits(value) : minus(plain(value))
+export const claimNumber = (value) => value !== 0 && Math.abs(value) < 1e-9 ? digits(value) : minus(plain(value))
 
 export const pair = (v, places) => `(${digits(v[0], places)}, ${digits(v[1], places)})`
 
@@ -40,21 +40,21 @@ export const SAYS = {
   attractingEquator: "None: the equator is a closed orbit, attracting outside",
   repellingEquator: "None: the equator is a closed orbit, repelling outside",
   neutralEquator: "None: the equator is a closed orbit, neutral to first order",
-  noCriticalSet: "No critical set is on the hemisphere.",
+  noCriticalSet: "There is no critical set on the hemisphere.",
   slidingEnds: "Sliding ends here: no critical set and no limit cycle attracts.",
   slowRest: "The slow flow has come to rest: z′ = 0.",
-  rangeEnds: "The end of the range.",
+  rangeEnds: "The range ends here.",
   number: "Type a number such as −0.5.",
-  range: "Type a number with its slider’s range, such as 0.3 in [0, 1].",
+  range: "Type a number with the range of its slider, such as 0.3 in [0, 1].",
   rangeHere: "The range of its slider",
   lost: "Connection lost. Reload the page, or run the cell again.",
   trying: "Connection lost. Trying again …",
-  renewed: "There is a new version of the explorer. Reload the page to have it: what is set here stays.",
+  renewed: "A new version of the explorer is available. Reload the page: your settings stay.",
   reload: "Reload",
-  noFiles: "The server does not answer: there are no files now.",
+  noFiles: "The server does not answer, so no files can be made now.",
   waiting: "Waiting for the server …",
-  follows: "This system takes longer than a frame; its picture follows …",
-  compiling: "Compiling, once: trajectories are sketched …",
+  follows: "This system takes longer than one frame; its picture follows …",
+  compiling: "Compiling once; trajectories are sketched meanwhile …",
   looking: "Looking for limit cycles …",
   drawnNormal: "a, b, d, f₁, f₂ are independent and standard normal: one choice among others.",
   drawnQuadratic: "U₁ and U₂ are polynomials of degree two in c and s, their twelve coefficients independent and standard normal.",
@@ -62,15 +62,15 @@ export const SAYS = {
   provedNone: "proved: none",
   provedOne: "proved",
   prove: "Prove this count",
-  proving: "Searching for a proof, some seconds …",
+  proving: "Searching for a proof; this takes some seconds …",
   stop: "Stop",
   certificate: "Certificate",
   checker: "Program that checks it",
-  roomDots: "A dot has all else as it is here. Click it, or a row, to open its settings; undo brings yours back.",
-  roomEmpty: "Each phone that enters is a dot on the chart.",
-  roomLocal: "This page is open at localhost, which phones do not reach: open it at this machine’s own address (codim2 serve --address 0.0.0.0 --allow-origin ADDRESS:PORT).",
-  grab: "C, the critical set: drag it, or use the arrow keys, and f follows",
-  turns: "Drag it, or use the arrow keys: f follows.",
+  roomDots: "Filled: differs from you only in these two parameters. Hollow: in others too. Click a dot or a row to open its settings; undo restores yours.",
+  roomEmpty: "Students join from their phones; each appears as an anonymous dot on the chart.",
+  roomLocal: "Phones cannot reach this page at localhost. Open it at this machine’s own address (codim2 serve --address 0.0.0.0 --allow-origin ADDRESS:PORT).",
+  grab: "The critical set C: drag it, or use the arrow keys, and f follows",
+  turns: "Drag it or use the arrow keys, and f follows.",
   grabMe: "drag me out of the sphere",
   leftHere: "C has left: sliding ends here",
   lift: "Lift ⤴", flat: "Flat ⤵",
@@ -81,20 +81,20 @@ export const SAYS = {
   circles: "C repels, a stable cycle surrounds it",
   chatters: "sliding along Σ is unstable",
   yours: "Yours",
-  keptHere: "What you have typed, kept in this browser.",
-  keptInPage: "What you have typed, kept until this page is closed.",
+  keptHere: "What you have typed is stored in this browser.",
+  keptInPage: "What you have typed is stored until this page is closed.",
   removed: "Removed:",
   putBack: "Put back",
   ballAbove: "The ball, seen from above",
   puckAbove: "The puck, seen from above: pushed by f, held by friction A e",
   orbit: "Launched orbit",
-  pointAt: "Point at the curve or at a mark on Σ to read its numbers, or press Enter on the picture for one after the other.",
+  pointAt: "Point at the curve or at a mark on Σ for its numbers, or press Enter on the picture to step through them.",
   limitVector: "the limit vector",
-  candidate: "An end of what convex combinations of limit vectors reach on Σ",
-  affine: "The affine combination on Σ, the one that is linear in e",
-  selected: "The slow flow on a critical set, as the blowup selects it",
-  carried: "Copied: opened in another browser, it adds what you have done to what was done there.",
-  aim: "Click or tap the place in the picture; or move the cross with the arrow keys and press Enter.",
+  candidate: "An extreme convex combination of limit vectors on Σ",
+  affine: "The affine combination on Σ that is linear in e",
+  selected: "The slow flow on a critical set, selected by the blow-up",
+  carried: "The link is copied. Opened in another browser, it adds your work to what was done there.",
+  aim: "Click or tap the place in the picture, or move the cross with the arrow keys and press Enter.",
   cycles: "Limit cycle",
   separatrices: "Separatrix",
   basinUndecided: "undecided",
@@ -106,12 +106,12 @@ export const SAYS = {
   neutral: "neutral",
   complex: "A complex pair has no eigenvectors in the plane.",
   idle: "Claims that do not apply here",
-  nothingDrifts: "Nothing drifts along z: the slow flow is zero wherever Σ slides.",
-  nothingHappens: "Nothing that stands still changes in this range.",
+  nothingDrifts: "z is at rest wherever Σ slides: the slow flow is zero.",
+  nothingHappens: "No equilibrium changes in this range.",
   nothingSlides: "Nothing slides in this range: there is no critical set.",
   every: "Every direction is an eigenvector.",
-  undecided: "The linearisation does not decide: no eigenvectors are drawn.",
-  gone: "is not there at this setting.",
+  undecided: "The linearisation does not decide, so no eigenvectors are drawn.",
+  gone: "does not exist at this setting.",
   ends: "v₁₃ combines the limit vectors v₁ and v₃, and v₂₄ combines v₂ and v₄.",
   secondPortrait: "Second portrait",
   differsIn: "differs in",
@@ -121,8 +121,8 @@ export const SAYS = {
 }
 
 // The first sentence: the push, what can be balanced, and what becomes of it, as markup.
-export const pushed = (/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ last, /** @type {boolean} */ more) => `Pushed with |f| = ${push}; ${more ? "only" : "up to"} ${held} can be balanced in this direction: <strong>${last}</strong>.`
-export const notPushed = (/** @type {string} */ last) => `Not pushed, f = 0: <strong>${last}</strong>.`
+export const pushSentence = (/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ last, /** @type {boolean} */ more) => `Pushed with |f| = ${push}; ${more ? "only" : "up to"} ${held} can be balanced in this direction: <strong>${last}</strong>.`
+export const noPushSentence = (/** @type {string} */ last) => `Not pushed, f = 0: <strong>${last}</strong>.`
 
 // Curves that are one object, by its name.
 export const CURVES = {R: "ρ-nullcline, U·e = 0", T: "θ-nullcline, Θ = 0", U1: "Nullcline U₁ = 0", U2: "Nullcline U₂ = 0", H: "Hyperbola of the limit directions, Θ = 0"}
@@ -131,13 +131,13 @@ export const CURVES = {R: "ρ-nullcline, U·e = 0", T: "θ-nullcline, Θ = 0", U
 export function slowWords(flow, symbols = []) {
   const name = (i) => symbols.length >= flow.length ? symbols[i] : (flow.length > 1 ? `z${"₁₂₃₄₅₆₇₈₉"[i] ?? i + 1}` : "z")
   const of = flow.length > 1 ? `, of ${name(0)} only` : ""
-  const sense = !flow[0] ? flow.some(Boolean) ? `${name(0)} at rest` : "at rest" : flow[0] > 0 ? `⊙ out of the page${of}: ${name(0)} grows` : `⊗ into the page${of}: ${name(0)} falls`
+  const sense = !flow[0] ? flow.some(Boolean) ? `${name(0)} at rest` : "at rest" : flow[0] > 0 ? `⊙ out of the page${of}: ${name(0)} increases` : `⊗ into the page${of}: ${name(0)} decreases`
   return {flow: flow.map((v, i) => `${name(i)}′ = ${digits(v)}`).join(", "), sense}
 }
 
 // Which way orbits turn, as it is seen in the picture.
 /** @param {number} way */
-export const turned = (way) => `Orbits turn ${way > 0 ? "anticlockwise" : "clockwise"}.`
+export const senseSentence = (way) => `Orbits turn ${way > 0 ? "anticlockwise" : "clockwise"}.`
 
 // How a phase of a motion is called; of a ball also in the words of mechanics.
 export const phaseWords = (kind, ball) => ({slip: "slips", slide: ball ? "slides (the ball sticks and rolls)" : "slides", delay: "slides on, delayed", cross: "crosses"})[kind]

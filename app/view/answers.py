@@ -10,8 +10,8 @@ from tornado.ioloop import IOLoop
 
 from ..frame.later import Later
 from ..rooms.visitor import Visitor
+from .export_jobs import ExportJobs, Reply
 from .refresh import Frames
-from .taking import ExportJobs, Reply
 
 #: Seconds for which an answer waits for a picture that is computed beside the frames.
 PICTURE_WAIT_SECONDS = 0.25

@@ -18,7 +18,7 @@ from numba.core import caching, compiler_lock
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher
 
-from .alone import lock_path
+from .compile_lock import lock_path
 
 _one_thread: Any = compiler_lock.global_compiler_lock
 

@@ -24,7 +24,7 @@ from panel.viewable import Child
 from param.parameterized import resolve_value
 
 from codim2_core.scene import Scene
-from codim2_core.scene.launched import LaunchedOrbits
+from codim2_core.scene.launched_orbits import LaunchedOrbits
 
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
@@ -32,7 +32,7 @@ from ..draw.still import page_of, still
 from ..frame.later import later
 from ..frame.picture import make_frame
 from ..phrases import say
-from ..state.chosen import System_
+from ..state.chosen_system import System_
 from ..state.controls import CONTROL_NAMES, ExplorerState
 from .answers import AnswerQueue
 from .cell import Cell, kernel

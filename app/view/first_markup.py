@@ -6,7 +6,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from typing import Any
 
-from ..docs.place import site
+from ..docs.docs_folder import site
 from ..draw.packing import unpack
 from ..draw.svg import draw
 from ..frame.budget import Budget
@@ -14,12 +14,12 @@ from ..frame.jobs import Jobs
 from ..state.links import Link
 from .markup import explorer_html
 from .refresh import Frames
-from .warmup import elsewhere, is_ready_for_all
+from .warmup import is_ready_for_all
 
 
 def page_markup(link: Link) -> tuple[str, bool]:
     """Return the markup of the page of an address, with its first picture, and whether all of the picture is in it."""
-    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget(elsewhere))
+    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget())
     frames.jobs = Jobs(NoBackground())
     first = frames.answer({"all": True})
     frames.publish()

@@ -51,7 +51,7 @@ MARKS: tuple[tuple[str, str, str], ...] = (
     ("M7 1.5L12 7L7 12.5L2 7Z", "m ink", "repels,"),
     ("M7 2L12.5 12H1.5Z", "m ink", "degenerate"),
     ("M2.5 2.5H11.5V11.5H2.5Z", "m crit fill", "C: square node, circle focus, cross saddle; filled: stable"),
-    ("⊙ ⊗", "", "z grows (out of the page), falls (into it)"),
+    ("⊙ ⊗", "", "z increases (out of the page) or decreases (into it)"),
     ("M0 7H4M7 7H11", "m separatrix", "dashed separatrices arrive, full ones leave"),
     ("M0 7H14", "m lines-in", "U₁ = 0, U₂ = 0 inside,"),
     ("M0 7H14", "m lines-out", "outside"),

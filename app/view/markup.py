@@ -24,7 +24,7 @@ from ..export.printing import has_typst
 from ..panels.registry import PANELS_BY_NAME
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
-from ..state.chosen import BOXES, titles
+from ..state.chosen_system import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values
 from ..state.links import BROUGHT, VERSION, Look
 from ..state.portraits import portrait_keys, portraits

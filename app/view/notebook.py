@@ -20,7 +20,7 @@ from codim2_core.systems.typed import System
 from ..frame.scenes import locked_controls
 from ..panels.parameters.axes import axes_there
 from ..state.choices import SLOW_CONTROLS
-from ..state.chosen import System_, titles
+from ..state.chosen_system import System_, titles
 from ..state.cleaning import InputError, clean
 from ..state.controls import CONTROL_NAMES, ExplorerState
 from .cell import kernel

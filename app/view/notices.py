@@ -12,7 +12,7 @@ from codim2_core.systems.typed import System
 from ..lessons.library import lessons
 from ..phrases import say
 from ..slow_layers.typed_start import launch_of
-from ..state.chosen import NORMAL, texts_of
+from ..state.chosen_system import NORMAL, texts_of
 from ..state.cleaning import InputError
 
 

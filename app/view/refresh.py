@@ -23,24 +23,24 @@ from ..draw import glyphs
 from ..draw.lines import arrowheads, spacing
 from ..draw.packing import pack
 from ..frame.budget import BackgroundLayers, Budget, OmittedLayer, layers_of
-from ..frame.draft import FrameContext
 from ..frame.faults import sentence_of
+from ..frame.frame_context import FrameContext
 from ..frame.jobs import Jobs
 from ..frame.load import load
 from ..frame.picture import Blocks, RequestedLayers, make_frame
 from ..frame.scenes import complete_changes, cut_after, evolve_scene, locked_controls, make_scene
 from ..frame.sides import sides
-from ..frame.turns import FailedResult
 from ..frame.window import Window, inputs, resample_for_window
+from ..frame.work_queue import FailedResult
 from ..panels import registry
 from ..panels.parameters.axes import opening_axes
-from ..state.asked import read_request
-from ..state.changes import compatible_changes, culprit
 from ..state.choices import SLIDER_AXES
-from ..state.chosen import GIVEN, System_, describe
+from ..state.chosen_system import GIVEN, System_, describe
 from ..state.cleaning import InputError, clean
 from ..state.controls import TYPED_IN, ExplorerState, first_values, preset_values
 from ..state.grabbed import GRAB, PUSH, push_for
+from ..state.request_reading import read_request
+from ..state.setting_changes import compatible_changes, culprit
 from . import warmup
 from .notices import left_out
 

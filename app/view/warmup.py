@@ -26,7 +26,7 @@ from ..draw.lines.arrowheads import arrowheads
 from ..draw.lines.spacing import evenly
 from ..frame.scenes import make_scene
 from ..state.controls import first_values
-from .alone import alone
+from .compile_lock import alone
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 
@@ -35,6 +35,8 @@ GENERAL = "kernels of general systems"
 #: Formulas that a process which answers visitors compiles in its life: Numba never gives back the machine code, about
 #: 2.5 MB each. The core keeps all of these, so that no frame compiles one again. Later ones are for the workers.
 MOST_COMPILED = 48
+#: Formulas that one page has compiled so, and the settings of one that it asks for before: who types has one of each.
+MAX_PAGE_FORMULAS, MIN_SETTINGS = 8, 4
 
 #: Seconds for which a server's kernels wait for somebody to ask for the first page, and, if so, at most for it to be
 #: sent: it needs none of them, and is half as fast beside them.
@@ -244,20 +246,44 @@ def is_ready(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
 def _formulas_of(psi: Psi, system: AnySystem | None) -> Hashable:
     """Return what is typed of both, and is compiled; None if nothing is."""
     typed = None if system is None else system.typed
-    if typed is not None:
-        return psi, typed.U
-    return psi if psi.expression is not None else None
+    found = psi if psi.expression is not None else None, None if typed is None else typed.U
+    return found if any(found) else None
 
 
-def elsewhere(psi: Psi, system: AnySystem) -> bool:
-    """Whether these formulas are compiled in workers only: this process has compiled its share of others."""
-    key = _formulas_of(psi, system)
-    return key is not None and len(_formulas) >= MOST_COMPILED and key not in _formulas and not is_warm(psi, system)
+def _is_here(psi: Psi, system: AnySystem) -> bool:
+    """Whether nothing of both was typed, or this process has compiled it."""
+    return _formulas_of(psi, system) is None or is_warm(psi, system)
 
 
 def is_ready_for_all(psi: Psi, system: AnySystem) -> bool:
-    """Say of a page whether all its layers can be drawn, here or by workers, see `is_ready` and `elsewhere`."""
-    return elsewhere(psi, system) or is_ready(psi, system)
+    """Say of a page whether all its layers can be drawn, here or by workers, who compile what is typed."""
+    return is_ready(psi, system) if _is_here(psi, system) else is_ready()
+
+
+class FormulaQuota:
+    """Quota of one page in the process that answers: what it moves is compiled there, and not all that it types."""
+
+    def __init__(self) -> None:
+        self._begun: set[Hashable] = set()
+        self._last: tuple[Hashable, Hashable] = None, None  # formulas, and the setting
+        self._settings = 0  # of these formulas, one after the other
+
+    def elsewhere(self, scene: Scene) -> bool:
+        """Whether a scene is for the workers; if its formulas are moved, see that it is not for long."""
+        psi, system = scene.psi, scene.system
+        if _is_here(psi, system):
+            return False
+        key, setting = _formulas_of(psi, system), scene.key("plane", "psi", "launch")
+        if (key, setting) != self._last:
+            self._settings = self._settings + 1 if key == self._last[0] else 1
+            self._last = key, setting
+        if self._settings > MIN_SETTINGS and (key in _formulas or self._may_begin()):
+            self._begun.add(key)
+            is_ready(psi, system)
+        return True
+
+    def _may_begin(self) -> bool:
+        return len(self._begun) < MAX_PAGE_FORMULAS and len(_formulas) < MOST_COMPILED
 
 
 def _is_compiled(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:

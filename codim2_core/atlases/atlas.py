@@ -15,17 +15,18 @@ from ..arrays import Array, read_only
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
+from ..systems.affine import in_axes_of
+from .codim_two_points import crossings, each_once
 from .connections.connection_curves import KINDS, connection_curves
+from .curve_numbers import curve_numbers, places
 from .curves import curves_of
 from .cycles.cycle_curves import KIND, cycle_curves
-from .degenerate import degenerate_lines
+from .degenerate_lines import degenerate_lines
 from .family import PlaneFamily, Ranges
-from .numbers import curve_numbers, places
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
-from .special import crossings, each_once
-from .starts import NO_SEEDS, CurveSeeds, seeds_beside
-from .undefined import undefined_borders
+from .seed_net import NO_SEEDS, CurveSeeds, seeds_beside
+from .undefined_regions import undefined_borders
 
 __all__ = [
     "Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "atlas", "curves_over", "with_bifurcations_of_cycles",
@@ -186,6 +187,7 @@ def with_bifurcations_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLik
 def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> PlaneFamily:
     """Check what `atlas` is given, and return what all of it is computed from."""
     slow = tuple(np.ravel(np.asarray(z, float)).tolist())
+    system = in_axes_of(system, across, up)
     for what, name in (("across", across), ("up", up)):
         check_name(system, psi, slow, what, name)
     there = names_of(system, psi, slow)

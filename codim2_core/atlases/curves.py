@@ -10,11 +10,11 @@ import numpy as np
 from ..arrays import Array
 from ..curves.arclength import TracedLine, zero_between
 from ..curves.polyline import distance
-from . import conditions, plane_conditions, special, starts, tracing
-from .degenerate import DegenerateLine
+from . import codim_two_points, conditions, plane_conditions, seed_net, tracing
+from .codim_two_points import SpecialPlace
+from .degenerate_lines import DegenerateLine
 from .family import PlaneFamily
-from .special import SpecialPlace
-from .starts import NO_SEEDS, CurveSeeds
+from .seed_net import NO_SEEDS, CurveSeeds
 from .tracing import TracedCurve, TracedCurves
 
 LAST_STEP = 0.04  # of the ranges: last step of the curve of a neutral equator, whose mean takes ever more angles
@@ -31,30 +31,30 @@ def curves_of(
 
     They are begun in cells of the net, and from the seeds.
     """
-    on, through, turning = starts.on_equator(family, lines)
-    folds, hopfs, foci = starts.interior_cells(family, lines)
+    on, through, turning = seed_net.on_equator(family, lines)
+    folds, hopfs, foci = seed_net.interior_cells(family, lines)
     found = _true(
         tracing.saddle_nodes(family, on, seeds.equator) + tracing.through_equator(family, through, seeds.equator), lines
     )
-    points = [point for one in found.curves for point in special.special_points_along(family, one)]
-    corners = special.corners(points)
+    points = [point for one in found.curves for point in codim_two_points.special_points_along(family, one)]
+    corners = codim_two_points.corners(points)
     if family.affine:
         kept = [one for one in found.curves if one.kind != "transcritical" or not _singular(family, one)]
         found = TracedCurves(kept, found.unfinished)
         singular = plane_conditions.singular_matrix(family)
-        more = tracing.in_the_plane("det A = 0", singular, starts.of_plane(singular))
+        more = tracing.in_the_plane("det A = 0", singular, seed_net.of_plane(singular))
     else:
         more = tracing.folds(family, folds, seeds.within)
     turning_points = tracing.hopfs(family, hopfs, corners, seeds.within)
     real = [part for one in turning_points.curves for part in _with_positive_determinant(family, one)]
     more += TracedCurves(real, turning_points.unfinished) + tracing.node_foci(family, foci, corners, seeds.within)
-    meetings = special.crossings([one for one in found.curves if one.kind == "saddle-node"])
+    meetings = codim_two_points.crossings([one for one in found.curves if one.kind == "saddle-node"])
     ends = [v[1:] for v in corners] + [one.plane for one in meetings]
     neutral = plane_conditions.neutral_equator(family)
-    turned = tracing.in_the_plane("neutral equator", neutral, starts.on_steps(neutral, turning))
+    turned = tracing.in_the_plane("neutral equator", neutral, seed_net.on_steps(neutral, turning))
     more += TracedCurves([_to_ends(one, ends) for one in turned.curves], turned.unfinished)
     more = _true(more, lines)
-    points += [point for one in more.curves for point in special.special_points_along(family, one)]
+    points += [point for one in more.curves for point in codim_two_points.special_points_along(family, one)]
     return found + more, [one for one in points if not any(line.holds(one.plane) for line in lines)]
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from .. import drawing
 from ..arrays import Array
-from ..paper import CHANGES, cite
+from ..paper import cite, label_of
 from ..tables import Tabled, paragraphs, point, result_rows, table_number
 
 __all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "SamplingReport"]
@@ -49,7 +49,7 @@ class AtlasCurve(Tabled):
     @property
     def label(self) -> str:
         """The paper's label."""
-        return CHANGES[self.kind]
+        return label_of(self.kind)
 
     def _row_(self) -> tuple[str, ...]:
         return self.kind, point(self.points[0]), point(self.points[-1]), str(len(self.points))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..arrays import Array
 from ..curves.arclength import CurveEdge, StepBounds, TracedLine, square_edges, tangent, trace_curve
 from ..curves.newton import Condition, newton
-from . import conditions, starts
+from . import conditions, seed_net
 from .family import MAX_RADIUS_SQUARED, PlaneFamily
 
 EQUATOR_STEPS = StepBounds(0.08, 0.12, 1500, 2.0 * math.pi)
@@ -105,13 +105,13 @@ def saddle_nodes(family: PlaneFamily, cells: Array, seeds: Sequence[Array] = ())
         lambda v: abs(conditions.EquatorEquations(family, v).turning) < FORK_RESIDUAL,
         COVERED_FORK_CELLS,
     )
-    return _trace_curves((plain, forked), cells, starts.EQUATOR_CELL, EQUATOR_STEPS, seeds)
+    return _trace_curves((plain, forked), cells, seed_net.EQUATOR_CELL, EQUATOR_STEPS, seeds)
 
 
 def through_equator(family: PlaneFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
     """Curves on which a critical set comes to the equator."""
     sought = CurveKind("transcritical", conditions.through_equator(family), _square_edges(3))
-    return _trace_curves((sought,), cells, starts.EQUATOR_CELL, EQUATOR_STEPS, seeds)
+    return _trace_curves((sought,), cells, seed_net.EQUATOR_CELL, EQUATOR_STEPS, seeds)
 
 
 def folds(family: PlaneFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
@@ -124,14 +124,14 @@ def folds(family: PlaneFamily, cells: Array, seeds: Sequence[Array] = ()) -> Tra
         lambda v: math.hypot(*conditions.InteriorEquations(family, v).U) < FORK_RESIDUAL,
         COVERED_FORK_CELLS,
     )
-    return _trace_curves((plain, forked), cells, starts.CELL, INTERIOR_STEPS, seeds)
+    return _trace_curves((plain, forked), cells, seed_net.CELL, INTERIOR_STEPS, seeds)
 
 
 def hopfs(family: PlaneFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> TracedCurves:
     """Curves on which tr J = 0, of saddles too."""
     sought = CurveKind("Hopf", conditions.hopf(family), _square_edges(4, MAX_RADIUS_SQUARED))
     sure = [*(_seed_beside_corner(family, v, 0.0) for v in corners), *seeds]
-    return _all_to_equator(family, _trace_curves((sought,), cells, starts.cell_within(family), INTERIOR_STEPS, sure))
+    return _all_to_equator(family, _trace_curves((sought,), cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
 
 
 def node_foci(family: PlaneFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> TracedCurves:
@@ -152,7 +152,7 @@ def node_foci(family: PlaneFamily, cells: Array, corners: Sequence[Array], seeds
         for sign in (1.0, -1.0)
     ]  # fmt: skip
     sure = [*(_seed_beside_corner(family, v, sign) for v in corners for sign in (2.0, -2.0)), *seeds]
-    return _all_to_equator(family, _trace_curves(both, cells, starts.cell_within(family), INTERIOR_STEPS, sure))
+    return _all_to_equator(family, _trace_curves(both, cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
 
 
 def _seed_beside_corner(family: PlaneFamily, corner: Array, level: float) -> Array | None:
@@ -177,7 +177,7 @@ def _seed_beside_corner(family: PlaneFamily, corner: Array, level: float) -> Arr
 
 def in_the_plane(kind: str, condition: Condition, cells: Array) -> TracedCurves:
     """Curves of a function of both parameters alone."""
-    return _trace_curves((CurveKind(kind, condition, _square_edges(2)),), cells, starts.PLANE_CELL, PLANE_STEPS)
+    return _trace_curves((CurveKind(kind, condition, _square_edges(2)),), cells, seed_net.PLANE_CELL, PLANE_STEPS)
 
 
 def _square_edges(n: int, inner: float = math.inf) -> list[CurveEdge]:

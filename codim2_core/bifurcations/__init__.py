@@ -15,7 +15,7 @@ from .cycles import cycle_folds
 from .equator import closed_equator, heteroclinic
 from .parameter_changes import ParameterChange, hill_changes, parameter_changes
 from .plane_regions import Region, regions
-from .trace import hopf, node_focus
+from .trace_curves import hopf, node_focus
 
 __all__ = [
     "BifurcationCurve",

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..continuation.branches import folds_along
 from ..continuation.columns import AMPLITUDE, HEIGHT
-from ..continuation.varied_system import AffineCoefficients
+from ..continuation.parameter_family import AffineCoefficients
 from ..cycles.section import Section
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
@@ -19,7 +19,7 @@ from .curve import Array, BifurcationCurve, SpecialPoint, matrix, plain_point, r
 from .equator import coefficients_at, neutral_loop
 from .fold_of_cycles import FoldEquations
 from .geometry import Geometry
-from .trace import hopf
+from .trace_curves import hopf
 
 MIN_AMPLITUDE = 2e-3  # amplitude of a cycle that is all but C
 HOPF_END_AMPLITUDE = 0.05  # amplitude below which a branch that breaks off beside a generalised Hopf point ends there

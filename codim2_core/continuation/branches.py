@@ -1,8 +1,8 @@
 """Branches of limit cycles along one parameter: from where they are born, through folds, to where they end.
 
 A cycle is a fixed point of the return map of `cycles`; `turns` has its derivatives and
-`trace` follows it. Branches are begun at every Hopf point and at every end on the equator
-(`ends`), and at every cycle that is seen at one of several values and that no branch has yet passed: so
+`branch_tracer` follows it. Branches are begun at every Hopf point and at every end on the equator
+(`branch_ends`), and at every cycle that is seen at one of several values and that no branch has yet passed: so
 closed branches between two folds are found too.
 """
 
@@ -18,24 +18,24 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..cycles.fixed_point_search import find_fixed_points, sample_return_map, search
 from ..cycles.limit_cycles import reason_for_none
-from ..cycles.search import find_fixed_points, sample_return_map, search
 from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import limits, vary
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..words import say
-from .asking import run_batched
-from .assembled import PointRow, build_branch, point_row
-from .ends import BranchEnd, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
-from .path import BAND_HEIGHT, all_traced, trace_branch
+from .admissible_interval import admissible_interval
+from .batching import run_batched
+from .branch_arrays import PointRow, build_branch, point_row
+from .branch_ends import BranchEnd, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
+from .branch_tracer import BranchTracer
+from .parameter_family import AffineCoefficients, Asking, ParameterFamily, reversible, run_batch, side_by_side
 from .points import BranchPoints, TurnGuess, points_at_value, reversed_trace
+from .predictor_corrector import BAND_HEIGHT, all_traced, trace_branch
 from .result import CycleBranch, CycleBranches, CyclePoint
-from .sought import admissible_interval
-from .trace import BranchTracer
 from .turns import ReturnMapPoint
-from .varied_system import AffineCoefficients, Asking, ParameterFamily, reversible, run_batch, side_by_side
 
 __all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
 

@@ -1,7 +1,8 @@
 """Turns of the return map of the layer problem with their exact derivatives, many at once, for continuation of cycles.
 
-The section is the ray ``e = e_C + r u`` of `cycles.search`, ``r = R/(1 + exp(-xi))``; all of it depends on the value
-mu of the parameter that varies. With ``F = x2'``, ``D = D e_Psi`` and ``F x v = F1 v2 - F2 v1``, a deviation obeys
+The section is the ray ``e = e_C + r u`` of `cycles.fixed_point_search`, ``r = R/(1 + exp(-xi))``; all of it depends
+on the value mu of the parameter that varies. With ``F = x2'``, ``D = D e_Psi`` and ``F x v = F1 v2 - F2 v1``, a
+deviation obeys
 
     F x delta(end) = exp(E) F x delta(0) + M,    E = int div dtau,    M = int exp(E(tau, end)) F x U_mu dtau
 
@@ -135,7 +136,7 @@ def integrate_turns(
         Steps after which a turn is given up.
     """
     from ..cycles.many import placing
-    from .measured import turn_quadratures
+    from .turn_quadratures import turn_quadratures
 
     start, x2 = sections.starts(xi)
     states = placing.hemisphere(x2)

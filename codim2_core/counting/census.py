@@ -10,8 +10,8 @@ import numpy as np
 
 from ..psi import constructors
 from ..psi.function import Psi
+from .checkpoint import CountedChunks
 from .draws import DRAWS, Draw
-from .kept import CountedChunks
 from .table import Census, make_census
 from .tally import CensusPlan, Tally, tally
 

@@ -31,10 +31,10 @@ from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..tables import Tabled, paragraphs, point, result_rows, table_number
 from ..words import say
+from .fixed_point_search import ReturnMapSamples, sample_return_map, search
 from .orbit import Orbit, orbit
 from .proof.result import Proof, covers
 from .resolution import count_sentence
-from .search import ReturnMapSamples, sample_return_map, search
 from .section import FixedPoint, Section
 
 __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
@@ -194,7 +194,8 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool 
     -------
     LimitCycles
         Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. Elsewhere the `reason` says
-        how they were searched for: by samples (`search`, `first_turns`), which prove nothing of what they do not show.
+        how they were searched for: by samples (`fixed_point_search`, `first_turns`), which prove nothing
+        of what they do not show.
 
     Examples
     --------

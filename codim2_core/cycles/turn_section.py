@@ -64,10 +64,10 @@ class TurnSection:
     @cached_property
     def kernel(self) -> Any:
         """The compiled first turn: its module, and what its compiled field keeps alive."""
-        from ..stepping import problem
+        from ..stepping import right_hand_side
         from . import turn_map
 
-        return turn_map, problem.problem(self.at, self.psi)
+        return turn_map, right_hand_side.problem(self.at, self.psi)
 
     @cached_property
     def pull(self) -> EquatorPull:

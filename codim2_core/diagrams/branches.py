@@ -6,9 +6,10 @@ from numpy.typing import ArrayLike
 
 from ..layer_problem.vary import check_name, usual_span
 from ..psi.function import Psi
+from ..systems.affine import in_axes_of
 from ..systems.kinds import AnySystem
+from .equilibrium_branches import equilibrium_branches
 from .result import Branches
-from .standing import equilibrium_branches
 
 __all__ = ["Branches", "branches"]
 
@@ -60,6 +61,7 @@ def branches(
     >>> cycle.start.kind, cycle.end.kind, bool(cycle.stable[-1]), round(float(cycle.period[-1]), 6)
     ('Hopf', 'span', True, 0.606696)
     """
+    system = in_axes_of(system, along)
     check_name(system, psi, z, "along", along)
     span = usual_span(system, psi, z, along) if span is None else span
     found = equilibrium_branches(system, psi, along, span, z)

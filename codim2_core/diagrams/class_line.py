@@ -14,7 +14,7 @@ from ..psi.function import Psi
 from ..tables import Tabled, table_number
 from .classes import classes_over
 from .critical import OFF_CENTRE
-from .standing import equilibrium_branches
+from .equilibrium_branches import equilibrium_branches
 
 __all__ = ["ClassInterval", "class_line"]
 

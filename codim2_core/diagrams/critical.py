@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Array
+from ..critical_changes import HOPF, NODE_FOCUS
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.sign_changes import roots
 from ..psi.constructors import with_parameter
@@ -209,7 +210,7 @@ def _hopf_point(path: SystemPath, value: float) -> SpecialValue:
     if not math.isfinite(number):
         number = 0.0
     born = "supercritical" if number < 0.0 else "subcritical" if number > 0.0 else "degenerate"
-    return SpecialValue("Hopf", value, place, say(f"Hopf, {born}", number=number), number)
+    return SpecialValue(HOPF.kind, value, place, say(f"Hopf, {born}", number=number), number)
 
 
 def _neutral_point(path: SystemPath, value: float) -> SpecialValue:
@@ -219,4 +220,4 @@ def _neutral_point(path: SystemPath, value: float) -> SpecialValue:
 
 def _focus_point(path: SystemPath, value: float) -> SpecialValue:
     place = _point(path, value)[2]
-    return SpecialValue("node-focus", value, place, say("between node and focus"))
+    return SpecialValue(NODE_FOCUS.kind, value, place, NODE_FOCUS.says)

@@ -13,7 +13,7 @@ import numpy as np
 from .. import drawing
 from ..arrays import Array
 from ..continuation.result import CycleBranch, CycleBranches, CyclePoint
-from ..paper import CHANGES
+from ..paper import label_of
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..tables import Tabled, frame, html_table, paragraphs, table_number, write_csv
@@ -61,7 +61,7 @@ class SpecialValue(Tabled):
     @property
     def label(self) -> str:
         """The paper's label."""
-        return CHANGES[self.kind]
+        return label_of(self.kind)
 
     def _row_(self) -> tuple[str, ...]:
         return self.kind, table_number(self.value), self.sentence
@@ -186,7 +186,7 @@ class Branches:
     def with_cycles(self) -> Branches:
         """Return the same with branches of limit cycles, which take longer."""
         from ..continuation.branches import continue_cycles  # here: both load the compiler
-        from ..continuation.typed.search import continue_typed
+        from ..continuation.typed.typed_search import continue_typed
 
         path = linear_path(self.system, self.psi, self.z, self.along, values_over(self.span))
         if path is None or self.psi.saturation < math.inf:  # where the section of `continue_cycles` ends at finite |x2|

@@ -106,8 +106,9 @@ class _Reader:
         shown = ascii(self.text[start : start + 60])
         shown = ("..." if start else "") + shown + ("..." if len(self.text) > start + 60 else "")
         allowed = f"numbers, {', '.join(words)}, + - * / ** ( ) | | and {' '.join(_CALLED)}"
+        advice = mend[0].upper() + mend[1:] + "." * (not mend.endswith("?"))
         return ExpressionError(
-            f"cannot read {shown}: at column {column}, {what}. Allowed are {allowed}. Mend: {mend}.",
+            f"cannot read {shown}: at column {column}, {what}. Allowed are {allowed}. {advice}",
             self.text,
             column,
         )

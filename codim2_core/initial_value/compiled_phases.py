@@ -14,7 +14,7 @@ from .field import Field
 from .line import InvariantLine
 
 if TYPE_CHECKING:
-    from .compiled import CompiledMotion
+    from .compiled_motion import CompiledMotion
     from .compiled_slow import CompiledSlow
 
 
@@ -34,7 +34,7 @@ class CompiledPhases:
     field : Field
     line : InvariantLine or None
     rtol, floor : float
-        As in `initial_value.compiled.CompiledMotion`.
+        As in `initial_value.compiled_motion.CompiledMotion`.
     """
 
     problem: Problem
@@ -57,7 +57,7 @@ class CompiledPhases:
         BlowUpError, TooManyStepsError
             As `bounded` does.
         """
-        from .compiled import CompiledMotion  # loads the compiler
+        from .compiled_motion import CompiledMotion  # loads the compiler
 
         own = (self.problem, self.field, constant(), 0.0, self.line)
         motion = CompiledMotion(*own, t, t_end, state, OF_SLIPS * self.rtol, self.floor, h, most, farthest)

@@ -11,7 +11,7 @@ from ..numerics.dense import StepArray
 from ..numerics.growth import too_short
 from ..numerics.radau import Problem, TooManyStepsError
 from ..psi.constructors import constant
-from .compiled import CompiledMotion, failure
+from .compiled_motion import CompiledMotion, failure
 from .field import Field
 from .kernels.motion import LEAST_STEP, SHORT
 from .kernels.slow import SLOPES, SLOW_EXTENT, SLOW_RATES, VALUE, flow, sets

@@ -17,8 +17,8 @@ from ..systems.elinear import ELinear
 from ..systems.reading import short_repr
 from ..systems.typed import System
 from ..words import say
-from .measured import read_measurement
-from .slipping import Slipping, TooLongError, integrate_slip
+from .measurement import read_measurement
+from .slip_phase import Slipping, TooLongError, integrate_slip
 
 Interval = tuple[float, float]
 

@@ -22,9 +22,9 @@ from ..systems.elinear import ELinear
 from ..systems.typed import System
 from ..words import say
 from .algebra import Algebra, MatrixRow
+from .formula_reading import ZERO
 from .grip import Grip
 from .parts import Parts
-from .reading import ZERO
 
 
 @dataclass(frozen=True, eq=False)

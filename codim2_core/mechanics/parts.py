@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from ..expressions.expression import Expression
-from . import reading
+from . import formula_reading
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,19 +27,23 @@ class Parts:
 
     def __post_init__(self) -> None:
         fix = object.__setattr__
-        v, z = reading.velocities(self.velocities), reading.slow(self.slow)
-        parameters = reading.parameters(self.parameters, (*v, *z))
+        v, z = formula_reading.velocities(self.velocities), formula_reading.slow(self.slow)
+        parameters = formula_reading.parameters(self.parameters, (*v, *z))
         positions = tuple(word for word in z if word not in v)
         still, all_ = (*positions, *parameters), (*"csxy", *v, *positions, *parameters)
         n, held = len(v), not isinstance(self.normal, str) and hasattr(self.normal, "__len__")
-        fix(self, "M", reading.matrix(self.M, "M", n, n, still))
-        fix(self, "J", reading.matrix(self.J, "J", 2, n, still))
-        fix(self, "force", reading.row(self.force, "force", n, all_))
-        fix(self, "mu", reading.coefficient(self.mu, all_))
-        read = reading.row(self.normal, "normal", n, still) if held else reading.formula(self.normal, "normal", all_)
+        fix(self, "M", formula_reading.matrix(self.M, "M", n, n, still))
+        fix(self, "J", formula_reading.matrix(self.J, "J", 2, n, still))
+        fix(self, "force", formula_reading.row(self.force, "force", n, all_))
+        fix(self, "mu", formula_reading.coefficient(self.mu, all_))
+        read = (
+            formula_reading.row(self.normal, "normal", n, still)
+            if held
+            else formula_reading.formula(self.normal, "normal", all_)
+        )
         fix(self, "normal", read)
-        fix(self, "rates", reading.rates(self.rates, positions, all_))
-        fix(self, "surface", reading.row(self.surface, "surface", 2, (*z, *parameters)))
+        fix(self, "rates", formula_reading.rates(self.rates, positions, all_))
+        fix(self, "surface", formula_reading.row(self.surface, "surface", 2, (*z, *parameters)))
         fix(self, "velocities", v)
         fix(self, "slow", z)
         fix(self, "parameters", parameters)

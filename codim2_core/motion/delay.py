@@ -8,7 +8,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..initial_value.field import Field
-from ..initial_value.sheet import solve_critical
+from ..initial_value.slow_manifold import solve_critical
 from ..numerics.dense import Dense
 from ..tables import Tabled, point
 from ..words import say

@@ -23,16 +23,16 @@ from ..numerics.radau import TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .checks import checked_span, checked_states, checked_tolerances, with_time
-from .limit.course import AtEventError, HybridRun, StopError
-from .past import Past
-from .places import OfState
+from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
+from .backward_run import Past
+from .limit.hybrid_run import AtEventError, HybridRun, StopError
+from .locations import OfState
 from .regularised import MANY_MOTIONS, MAX_STEPS, count_steps, waited_for
 from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
 
 if TYPE_CHECKING:
-    from .limit.legs import PhaseBuilder
+    from .limit.phase_builder import PhaseBuilder
 
 __all__ = ["simulate_nonsmooth"]
 
@@ -92,7 +92,7 @@ def simulate_nonsmooth(
     The regularised motion differs from it by O(eps), as long as it does not leave Sigma. Leaving along a limit
     direction, also after a crossing, it differs by O(eps^min(1, |lambda_theta|/lambda_rho)), outside an invariant line;
     after an exit through the equator (fig:transcrit) by O(eps^(2 q/(1 + 2 q))) where Psi ~ s^(1 - q/2): 4/5 for
-    Psi = 1, near 1 for one that falls exponentially. See `agreement.limit_order`.
+    Psi = 1, near 1 for one that falls exponentially. See `compare_with_limit.limit_order`.
 
     Parameters
     ----------
@@ -235,8 +235,8 @@ def _run_motions(asked: _NonsmoothRun, states: Array) -> Iterator[Simulation]:
     outside = [i for i, first in enumerate(states) if first[:2].any()] if not asked.watched else []
     legs: dict[int, PhaseBuilder] = {}
     if outside:
-        from ..initial_value.courses import run_hybrid  # loads the compiler
-        from .limit.legs import PhaseBuilder
+        from ..initial_value.compiled_hybrid import run_hybrid  # loads the compiler
+        from .limit.phase_builder import PhaseBuilder
 
         lines = [invariant_line(asked.formulas, states[i]) for i in outside]
         own = (asked.rtol, asked.atol / asked.rtol, asked.max_steps)

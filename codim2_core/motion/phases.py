@@ -22,10 +22,10 @@ from ..numerics.dense import Dense
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .followed import TrackedSet, followed_critical_set, place_on_hemisphere
 from .limit.decide import critical_name, from_hemisphere
-from .places import OfState
+from .locations import OfState
 from .result import Phase
+from .tracked_set import TrackedSet, followed_critical_set, place_on_hemisphere
 
 CONTACT_RADIUS = 20.0  # r in units of eps within which a motion is in contact with Sigma
 FOLLOWING_RADIUS = 3.0  # and from which on what it follows then is said to begin: |p| < 0.95

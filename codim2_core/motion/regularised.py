@@ -24,14 +24,14 @@ from ..numerics.growth import BlowUpError, until_blow_up
 from ..numerics.radau import Problem, Step, TooManyStepsError, steps
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .checks import checked_span, checked_states, checked_tolerances, with_time
-from .past import Past
+from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
+from .backward_run import Past
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation
 from .variation.regularised import of_regularised
 
 if TYPE_CHECKING:
-    from ..initial_value.compiled import CompiledMotion
+    from ..initial_value.compiled_motion import CompiledMotion
 
 __all__ = ["simulate"]
 
@@ -190,7 +190,7 @@ class _RegularisedRun:
 
     def compiled(self, states: Array) -> tuple[Simulation, ...]:
         """Follow motions compiled from the start, in as few calls as there are cores."""
-        from ..initial_value.compiled import failure, integrate_compiled  # loads the compiler
+        from ..initial_value.compiled_motion import failure, integrate_compiled  # loads the compiler
         from ..initial_value.kernels.motion import UNDEFINED
 
         formulas, psi, eps, rtol, atol = self.formulas, self.psi, self.eps, self.rtol, self.atol
@@ -280,7 +280,9 @@ def _integrate_regularised(
                     t, state, h = step.end, step.last, step.h
                     break
         if t < span[1] and len(taken) == max(0, patience):
-            from ..initial_value.compiled import CompiledMotion  # loads the compiler, which most motions do without
+            from ..initial_value.compiled_motion import (
+                CompiledMotion,  # loads the compiler, which most motions do without
+            )
 
             motion = CompiledMotion(
                 problem, formulas, psi, eps, line, t, span[1], state, rtol, atol / rtol, h, max_steps - len(taken)
@@ -327,5 +329,5 @@ def count_steps(formulas: Field, steps: int) -> None:
 
 def _is_compiled(formulas: Field) -> bool:
     """Whether the formulas are compiled already; none are before the compiler has been loaded."""
-    module = sys.modules.get(resolve_name("..initial_value.compiled", __package__))
+    module = sys.modules.get(resolve_name("..initial_value.compiled_motion", __package__))
     return module is not None and module.is_compiled(formulas)

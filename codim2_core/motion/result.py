@@ -15,11 +15,11 @@ from .. import drawing
 from ..arrays import Array
 from ..expressions.names import SLOW_NAMES
 from ..numerics.dense import Dense
-from ..tables import Tabled, frame, paragraphs, result_rows, table_number
+from ..tables import MAX_ROWS, Tabled, frame, paragraphs, result_rows, table_number
 from ..words import say
 from .delay import Delay
-from .drawn import Drawn, drawn_curve
-from .places import NO_POINTS, Ascent, Location
+from .locations import NO_POINTS, Ascent, Location
+from .picture_curve import Drawn, drawn_curve
 
 if TYPE_CHECKING:
     from .variation.result import Variation
@@ -179,6 +179,11 @@ class Simulation:
     events: tuple[Array, ...]
     _phases: Callable[[], tuple[Phase, ...]] = field(repr=False)
     _variation: Callable[[tuple[str, ...]], Variation] = field(repr=False)
+
+    def __repr__(self) -> str:
+        phases = ", ".join(f"{one.kind} from {one.t_start:.6g}" for one in self.phases[:MAX_ROWS])
+        span = f"{self.times[0]:.6g} to {self.times[-1]:.6g}"
+        return f"<motion for eps = {self.eps:g} from t = {span}: {phases}. {self.reason}>"
 
     def _repr_html_(self) -> str:
         return (self._repr_svg_() or "") + result_rows(self.phases) + paragraphs([self.reason])

@@ -22,7 +22,7 @@ from ..arrays import Array
 from ..numerics.trigonometric import radial_zeros
 from ..systems.coefficients import Coefficients
 from ..systems.frozen import FrozenSystem
-from .typed import Kind
+from .general_nullclines import Kind
 
 ConicCurve = Callable[[Array], Array]  # a parameter in [0, 1] -> points of the closed e-disc
 

@@ -64,7 +64,7 @@ def crossings(
     ----------
     run : Program
     kind : int
-        As in `trace`.
+        As in `trace_nullcline`.
     outside : bool
     reach : float
         Radius to which the outside is followed.
@@ -75,7 +75,7 @@ def crossings(
     size : float
         Of U.
     """
-    from .trace import flat_cells, stationary  # on first use: it loads the compiler
+    from .trace_nullcline import flat_cells, stationary  # on first use: it loads the compiler
 
     width = float(np.abs(nodes[1:, 1:] - nodes[:-1, :-1]).max())
     i, j = np.nonzero(flat_cells(parts, width))
@@ -114,7 +114,7 @@ def _crossing_at(
     run: Program, kind: int, outside: bool, X: float, Y: float, value: float, size: float, r: float
 ) -> Crossing | None:
     """Return the crossing at a point where the gradient vanishes, or None if it is none."""
-    from .trace import sample
+    from .trace_nullcline import sample
 
     while r >= MIN_RADIUS:
         ring = sample(*run.arrays, outside, np.array([X, Y]) + r * _UNIT)[kind, 0]

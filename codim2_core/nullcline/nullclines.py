@@ -17,9 +17,9 @@ from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from ..tables import Results, Tabled, point
 from .conics import ConicCurve, Straight, affine_field, chord_ends, conic, lines
+from .general_nullclines import Kind, inside_curves, outside_curves
 from .polylines import picture_points
-from .refining import Seen, on_component
-from .typed import Kind, inside_curves, outside_curves
+from .view_refinement import Seen, on_component
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,8 @@ import numpy as np
 from ..arrays import Array
 from ..psi.function import Psi
 from .conics import Arc, ConicCurve, Straight
-from .refining import Seen, refine_curve, to_picture
-from .typed import Traced
+from .general_nullclines import Traced
+from .view_refinement import Seen, refine_curve, to_picture
 
 Exactly = Callable[[Array], Array]
 

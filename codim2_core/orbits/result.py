@@ -65,6 +65,11 @@ class Trajectories:
         for array in (self.buffer, self.clock, self.offsets, self.ends, self.codes):
             array.flags.writeable = False
 
+    def __repr__(self) -> str:
+        ends = Counter(one.value for one in self.status)
+        told = "; ".join(f"{count}: {end}" for end, count in ends.most_common())
+        return f"<{len(self)} trajectories, {self.evaluations} evaluations. {told}>"
+
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
 

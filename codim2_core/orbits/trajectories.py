@@ -48,7 +48,7 @@ _warm: set[str] = set()
 def _kernels() -> SimpleNamespace:
     """Load the compiled parts on first use: compiling, or loading from the disk cache, starts with their first call."""
     from ..stepping import lanes, layout, rosenbrock
-    from ..stepping import problem as stepping_problem
+    from ..stepping import right_hand_side as stepping_problem
 
     return SimpleNamespace(
         integrate=lanes.integrate,

@@ -24,9 +24,8 @@ from ..psi.function import Psi
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from ..words import say, written_label
-from .endings import angular_sign, radially_neutral
-from .outcomes import Outcome, Outcomes, on_arcs
-from .verdicts import (
+from .omega_limits import angular_sign, radially_neutral
+from .outcome_classification import (
     ARRIVAL_ANGLES,
     OUTER_ANGLES,
     Array,
@@ -36,6 +35,7 @@ from .verdicts import (
     spiralling,
     with_flow,
 )
+from .outcomes import Outcome, Outcomes, on_arcs
 
 __all__ = ["approach_outcomes"]
 

@@ -20,7 +20,7 @@ from ..orbits.trajectories import trajectories
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..tables import html_table, point, table_number
-from .endings import CAPTURE, critical_label, drawn_time, endings
+from .omega_limits import CAPTURE, critical_label, drawn_time, endings
 
 COARSEST = 32  # cells across the disc at first
 OUTSIDE, UNDECIDED_CELL = -2, -1

@@ -15,7 +15,7 @@ from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..numerics.trigonometric import INPUT_ROUNDING
 from ..tables import Tabled, paragraphs, result_rows
 from ..words import SENTENCES, power, say, subscript, written_label
-from .endings import critical_label, radially_neutral_ones
+from .omega_limits import critical_label, radially_neutral_ones
 
 
 @dataclass(frozen=True, slots=True)

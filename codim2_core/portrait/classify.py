@@ -25,7 +25,7 @@ from .classification import (
     undecided_degeneracy,
 )
 from .classify_typed import general_consequence, general_name
-from .endings import radially_neutral_ones
+from .omega_limits import radially_neutral_ones
 
 _MULTIPLE = {
     2: undecided_degeneracy(

@@ -10,7 +10,7 @@ from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .endings import drawn_time, radially_neutral
+from .omega_limits import drawn_time, radially_neutral
 from .saddle_connections import gaps_between, name_connections
 from .separatrix import Separatrices, Separatrix
 from .separatrix_branches import bent_branch, branches_inside, outside_half_saddle, ray

@@ -22,7 +22,7 @@ from ..orbits.trajectories import Status, Trajectories, concatenate, continuatio
 from ..psi.function import Psi
 from ..systems.frozen import FrozenSystem
 from ..words import say
-from .endings import (
+from .omega_limits import (
     CAPTURE,
     CONNECTION,
     RISE_TIMES,

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from ..orbits.both_directions import Orbits
 from ..orbits.duration import drawn_duration, is_stiff
 from ..orbits.seeds import ring, structured_seeds, window_seeds
 from ..orbits.sketch import Sketch, sketch
 from ..orbits.trajectories import Trajectories, continuation, trajectories
-from ..orbits.whole import Orbits
-from ..portrait.endings import radially_neutral_ones
+from ..portrait.omega_limits import radially_neutral_ones
 from ..psi import constructors
 from .setting import SceneSetting
 

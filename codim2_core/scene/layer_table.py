@@ -11,9 +11,9 @@ from ..bifurcations import BifurcationCurve, Region, critical_boundary, regions,
 from ..cycles.limit_cycles import closed_orbits, cycles_of
 from ..layer_problem.eigendirections import find_eigendirections
 from ..layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
-from ..nullcline.meeting import Conics, conics_of
+from ..nullcline.direction_hyperbola import Conics, conics_of
 from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
-from ..nullcline.refining import Seen
+from ..nullcline.view_refinement import Seen
 from ..portrait.approach import outcomes_of
 from ..portrait.classify import portrait, portrait_name
 from ..portrait.separatrices import Separatrices, separatrices_of
@@ -21,7 +21,7 @@ from ..sliding.flow import flow_on
 from ..systems.bounds import MIN_NUMBER
 from ..theorems.certificates import Certificate, certificates_of
 from .drawn_orbits import continuations, orbits, seeds_of, sketch_orbits
-from .launched import LaunchedOrbits, launched_orbits
+from .launched_orbits import LaunchedOrbits, launched_orbits
 from .setting import SceneSetting
 
 

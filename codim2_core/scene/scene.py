@@ -202,6 +202,9 @@ class Scene:
         """
         return drawing.overlay(self)
 
+    def __repr__(self) -> str:
+        return f"Scene({self.system!r}, {self.psi!r}, z={self.z})"
+
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
 

@@ -9,7 +9,13 @@ from ..expressions.names import FAST_NAMES
 from .coefficients import Coefficients
 from .elinear import ELinear
 
-__all__ = ["as_elinear"]
+__all__ = ["as_elinear", "in_axes_of"]
+
+
+def in_axes_of(system: Any, *names: str) -> Any:
+    """Return a system, one made `from_matrix` in its normal form where it is that form's a, b or d that are named."""
+    turned = getattr(system, "given_matrix", None) is not None and not {"a", "b", "d"}.isdisjoint(names)
+    return system.rotated() if turned else system
 
 
 def as_elinear(system: Any) -> ELinear | Coefficients | None:

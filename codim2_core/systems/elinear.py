@@ -136,6 +136,11 @@ class ELinear:
                 tuple(entry(v, f"A[{i + 1},{j + 1}]") for j, v in enumerate(row))
                 for i, row in enumerate(_grid(self.given_matrix, "A", "(2, 2)", 2))
             ))  # fmt: skip
+            (a11, a12), (a21, a22) = self.given_matrix
+            if all(isinstance(v, float) for v in (a11, a12, a21, a22)):
+                a, b, d, _, _ = in_normal_form(a11, a12, a21, a22)
+                for name, value in (("a", a), ("b", b), ("d", d)):
+                    fix(self, name, value)
 
     @classmethod
     def from_matrix(
@@ -207,8 +212,11 @@ class ELinear:
         Parameters
         ----------
         **changes
-            Any of a, b, d, f, f1, f2, B, g, or a name in `parameters`.
+            Any of a, b, d, f, f1, f2, B, g, or a name in `parameters`. Where a, b or d of a system made `from_matrix`
+            are changed, all of them are of its normal form.
         """
+        if self.given_matrix is not None and {"a", "b", "d"} & changes.keys():
+            return self.rotated().evolve(**changes)
         parameters = dict(self.parameters)
         fields: dict[str, Any] = {}
         f = list(self.f)
@@ -217,14 +225,29 @@ class ELinear:
                 parameters[name] = value
             elif name in ("f1", "f2"):
                 f[int(name[1]) - 1] = value
-            elif name in ("a", "b", "d") and self.given_matrix is not None:
-                raise ValueError(f"{name} belongs to the rotated form; this system was made from_matrix: make it anew.")
             elif name in ("a", "b", "d", "f", "B", "g"):
                 fields[name] = value
             else:
                 allowed = ", ".join(["a", "b", "d", "f", "f1", "f2", "B", "g", *parameters])
                 raise ValueError(f"{name!r} is no coefficient of this system; it has {allowed}.")
         return replace(self, **{"f": tuple(f), "parameters": tuple(parameters.items()), **fields})
+
+    def rotated(self) -> ELinear:
+        """Return a system made `from_matrix` as the a, b, d, f, B that it is in its normal form (lem:normalform).
+
+        Raises
+        ------
+        ValueError
+            A, f or B holds text.
+        """
+        if self.given_matrix is None:
+            return self
+        if any(what[0] in "fAB" for what, _ in self.expressions):
+            raise ValueError(
+                "A, f or B holds text, so a, b, d are no numbers here; vary its parameters, or give a, b, d."
+            )
+        at = self._at((0.0,) * self.m)
+        return ELinear(at.a, at.b, at.d, (at.f1, at.f2), at.B.tolist() if self.B else None, self.g, self.parameters)
 
     @cached_property
     def moves_with_z(self) -> bool:

@@ -5,30 +5,37 @@ from __future__ import annotations
 from .sentence import Sentence
 
 SENTENCES: dict[str, Sentence] = {
-    "case1(b)": Sentence("Case I, |A⁻¹f| > 1: no critical set; 2 or 4 limit directions.", "the claim"),
+    "case1(b)": Sentence(
+        "Case I, |A⁻¹f| > 1: there is no critical set, and there are 2 or 4 limit directions.", "the claim"
+    ),
     "case1(c)": Sentence("Case I has five generic portraits: CM0, CM2, CM4, NCM2 and NCM4.", "the claim"),
     "not Case I": Sentence("This is not Case I: a and d are not of one sign.", "why it does not apply"),
     "count not generic": Sentence(
-        "The equator is degenerate here, so that the count of directions is not a generic one.", "the finding"
+        "The equator is degenerate here, so the number of directions is not generic.", "the finding"
     ),
     "none, on a border": Sentence(
-        "No critical set, and {count} limit directions: on the border between the generic counts.", "the finding"
+        ("There is no critical set, and there are {count} limit directions: on the border between the generic counts."),
+        "the finding",
     ),
-    "none, generic": Sentence("No critical set, and {count} limit directions.", "the finding"),
+    "none, generic": Sentence("There is no critical set, and there are {count} limit directions.", "the finding"),
     "portrait not generic": Sentence("The portrait is not a generic one: {names}.", "why it does not apply"),
-    "this one": Sentence("This one is {name}.", "the finding"),
-    "case2(b)": Sentence("Case II, |A⁻¹f| > 1: no critical set; 2 or 4 limit directions.", "the claim"),
+    "this one": Sentence("This portrait is {name}.", "the finding"),
+    "case2(b)": Sentence(
+        "Case II, |A⁻¹f| > 1: there is no critical set, and there are 2 or 4 limit directions.", "the claim"
+    ),
     "not Case II": Sentence("This is not Case II: a and d of opposite sign with det A < 0.", "why it does not apply"),
-    "one for each separatrix": Sentence("One limit direction for each separatrix of the saddle.", "the finding"),
+    "one for each separatrix": Sentence(
+        "There is one limit direction for each separatrix of the saddle.", "the finding"
+    ),
     "geneps0(a)": Sentence("Where Θ(θ) = 0 the equator of the hemisphere has an equilibrium.", "the claim"),
-    "all are equilibria": Sentence("Θ ≡ 0: every point of the equator is one.", "the finding"),
+    "all are equilibria": Sentence("Θ ≡ 0: every point of the equator is an equilibrium.", "the finding"),
     "no equilibrium": Sentence("Θ has no zero here: the equator is a closed orbit (see (c)).", "the finding"),
     "geneps0(b)": Sentence(
         "At an equilibrium of the equator the rates outwards and up the hemisphere are λ_ρ and −λ_ρ.", "the claim"
     ),
     "none isolated": Sentence("There are no isolated equilibria on the equator.", "why it does not apply"),
     "goes on up": Sentence(
-        "What arrives from outside goes on up the hemisphere along the same direction, and the other way round.",
+        ("Trajectories that arrive from outside continue up the hemisphere along the same direction, and vice versa."),
         "the finding",
     ),
     "geneps0(c)": Sentence(
@@ -38,12 +45,12 @@ SENTENCES: dict[str, Sentence] = {
     "equator ends": Sentence("The equator {ends} outside and {other} on the hemisphere.", "the finding"),
     "geneps1: z": Sentence("On the hemisphere z stays constant.", "the claim"),
     "geneps1: z, why": Sentence(
-        "z′ = ρ W in the fast time T, and ρ = 0 on the hemisphere: it holds for every system.", "the finding"
+        "z′ = ρ W in the fast time T, and ρ = 0 on the hemisphere, so this holds for every system.", "the finding"
     ),
-    "one set": Sentence("There is a critical set, and only one, just if |A⁻¹f| < 1.", "the claim"),
+    "one set": Sentence("There is exactly one critical set if |A⁻¹f| < 1, and otherwise none.", "the claim"),
     "no inverse": Sentence("det A = 0 within rounding: A has no inverse.", "why it does not apply"),
     "border of existence": Sentence("|A⁻¹f| = {length:.6g}: the critical set is on the equator.", "the finding"),
-    "slow flow of C": Sentence("The slow flow is −B A⁻¹f + g, as the Filippov convention has it.", "the claim"),
+    "slow flow of C": Sentence("The slow flow is −B A⁻¹f + g, as in the Filippov convention.", "the claim"),
     "W not e-linear": Sentence("W is not e-linear.", "why it does not apply"),
     "no isolated critical set": Sentence("There is no isolated critical set.", "why it does not apply"),
     "no slow variable": Sentence("There is no slow variable (m = 0).", "why it does not apply"),
@@ -76,8 +83,10 @@ SENTENCES: dict[str, Sentence] = {
     "every direction, b = 0": Sentence("b = 0 and f = 0: every direction is a limit direction.", "the finding"),
     "D1, here": Sentence("|b| = {b:.6g}, |f| = {f:.6g}.", "the finding"),
     "D2": Sentence(
-        "For b = 0 and f₂ = 0 (or f₁ = 0) two limit directions lie on an axis, and two more, θ = ±arccos(f₁/(d − "
-        "a)), exist if |f₁| < |d − a|.",
+        (
+            "For b = 0 and f₂ = 0 (or f₁ = 0) two limit directions lie on an axis. Two more, θ = ±arccos(f₁/(d − "
+            "a)), exist if |f₁| < |d − a|."
+        ),
         "the claim",
     ),
     "not D2": Sentence("b ≠ 0, or neither component of f is zero.", "why it does not apply"),
@@ -85,26 +94,32 @@ SENTENCES: dict[str, Sentence] = {
         "a = d, b = 0 and f = 0: every direction is a limit direction.", "why it does not apply"
     ),
     "ball": Sentence(
-        "The ball sticks and rolls if |f| < |a|, that is |z| below a critical value: a stable node, on which z′ = "
-        "5f/7.",
+        (
+            "The ball sticks and rolls if |f| < |a|, so |z| is below a critical value. It is on a stable node "
+            "with z′ = 5f/7."
+        ),
         "the claim",
     ),
     "not the ball": Sentence("This is not the ball at the bottom of a pool.", "why it does not apply"),
-    "ball, on the border": Sentence(
-        "|z| has its critical value: the critical set is just on the equator.", "the finding"
-    ),
+    "ball, on the border": Sentence("|z| has its critical value: the critical set is on the equator.", "the finding"),
     "attracting and repelling": Sentence(
-        "Six limit directions (i − 1)π/3, all radially attracting but Q₁; C₊ is a saddle and C₋ a stable node, for "
-        "every Ψ.",
+        (
+            "All six limit directions (i − 1)π/3 attract radially except Q₁. For every Ψ, C₊ is a saddle and C₋ "
+            "a stable node."
+        ),
         "the claim",
     ),
     "not attracting and repelling": Sentence(
         "This is not the example with attracting and repelling directions.", "why it does not apply"
     ),
-    "within a third": Sentence("What arrives within π/3 of θ = 0 crosses, everything else slides.", "the finding"),
+    "within a third": Sentence(
+        "Trajectories that arrive within π/3 of θ = 0 cross, and all others slide.", "the finding"
+    ),
     "non-unique": Sentence(
-        "C₁ and C₃, at c = ∓χ/2, are stable nodes for every Ψ and C₂ a saddle; the slow flows ±χ + 1/4 differ: "
-        "sliding is not unique.",
+        (
+            "C₁ and C₃, at c = ∓χ/2, are stable nodes for every Ψ, and C₂ is a saddle. Their slow flows ±χ + 1/4 "
+            "differ, so sliding is not unique."
+        ),
         "the claim",
     ),
     "not non-unique": Sentence(
@@ -116,7 +131,7 @@ SENTENCES: dict[str, Sentence] = {
     "lem:ePsi(a)": Sentence("e_Ψ is equivariant under rotations: e_Ψ(R(φ)(x, y)) = R(φ) e_Ψ(x, y).", "the claim"),
     "through the square": Sentence("Ψ enters through x² + y² only.", "the finding"),
     "lem:ePsi(b)": Sentence("e_Ψ(kx, ky; kε) = e_Ψ(x, y; ε) for k > 0: it is homogeneous of degree 0.", "the claim"),
-    "one scale": Sentence("So ε only sets the scale: the picture in κ₂ is one for all ε.", "the finding"),
+    "one scale": Sentence("So ε only sets the scale: the picture in κ₂ is the same for all ε.", "the finding"),
     "lem:ePsi(c)": Sentence("e_Ψ(x, y; 1) is one-to-one: |e_Ψ| increases with ζ = |(x₂, y₂)|.", "the claim"),
     "one place": Sentence(
         "Every e in the open disc has one place (x₂, y₂), so a critical set is one point of the chart.", "the finding"
@@ -124,61 +139,63 @@ SENTENCES: dict[str, Sentence] = {
     "complement": Sentence("1 − |e_Ψ|² = Ψ/(ζ² + Ψ), and Ψ > 0.", "the finding"),
     "lem:ePsi(e)": Sentence("D e_Ψ is positive definite: its trace and its determinant are positive.", "the claim"),
     "saddle stays": Sentence(
-        "So a saddle of U stays a saddle for every Ψ, and every orbit turns in the one sense of U.", "the finding"
+        "So a saddle of U stays a saddle for every Ψ, and every orbit turns in the sense of U.", "the finding"
     ),
     "stands still": Sentence(
-        "Where U((c, s)) = 0 inside the disc, the layer problem stands still in the scaling chart.", "the claim"
+        "Where U((c, s)) = 0 inside the disc, the layer problem has an equilibrium in the scaling chart.", "the claim"
     ),
-    "vanishes there": Sentence("Put into the equations of the chart, U vanishes there.", "the finding"),
+    "vanishes there": Sentence("U vanishes there when it is put into the equations of the chart.", "the finding"),
     "sign of the determinant": Sentence(
         "A critical set is a saddle, whatever Ψ is, if det D U < 0; a node or focus if det D U > 0.", "the claim"
     ),
     "independent of Ψ": Sentence("The slow flow on a critical set does not depend on Ψ.", "the claim"),
     "elsewhere in the chart": Sentence(
-        "Each Ψ puts the critical set elsewhere in the chart, and all give one slow flow.", "the finding"
+        "Each Ψ moves the critical set in the chart, but its slow flow is always the same.", "the finding"
     ),
     "slow manifold": Sentence(
-        "Beside a normally hyperbolic C lies a slow manifold C_ε, ε-close to it; to first order its flow is that on C.",
+        ("A slow manifold C_ε lies within O(ε) of a normally hyperbolic C; to first order its flow is that on C."),
         "the claim",
     ),
     "m = 0, an equilibrium": Sentence(
         "There is no slow variable (m = 0): C is an equilibrium.", "why it does not apply"
     ),
-    "frozen": Sentence("The system is frozen at one z: nothing is known of C beside it.", "why it does not apply"),
+    "frozen": Sentence("The system is frozen at one z, so C is unknown at other z.", "why it does not apply"),
     "up to second order": Sentence(
-        "x₂* + ε J⁻¹ Dx₂* W meets the equations of the slow manifold up to ε².", "the finding"
+        "x₂* + ε J⁻¹ Dx₂* W satisfies the equations of the slow manifold up to ε².", "the finding"
     ),
     "case1(a)": Sentence(
-        "Case I, |A⁻¹f| < 1: a unique critical set that all orbits of the layer problem reach; 0, 2 or 4 limit "
-        "directions. (Time runs backwards for a, d > 0.)",
+        (
+            "Case I, |A⁻¹f| < 1: all orbits reach a unique critical set (backwards in time for a, d > 0). There "
+            "are 0, 2 or 4 limit directions."
+        ),
         "the claim",
     ),
     "case2(a)": Sentence(
-        "Case II, |A⁻¹f| < 1: C is a saddle for every Ψ, and there are exactly four limit directions, each a saddle "
-        "of the radial and angular flow.",
+        (
+            "Case II, |A⁻¹f| < 1: C is a saddle for every Ψ. There are exactly four limit directions, each a "
+            "saddle of the radial and angular flow."
+        ),
         "the claim",
     ),
     "one sign": Sentence(
         "The divergence is {sign} everywhere, so there is no limit cycle, and C is {kind}.", "the finding"
     ),
-    "vanishes in one": Sentence("Θ vanishes in 1 direction, up to rounding.", "the finding"),
+    "vanishes in one": Sentence("Θ vanishes in one direction, up to rounding.", "the finding"),
     "vanishes in": Sentence("Θ vanishes in {count} directions, up to rounding.", "the finding"),
-    "one set here": Sentence("|A⁻¹f| = {length:.6g}: one critical set.", "the finding"),
-    "no set here": Sentence("|A⁻¹f| = {length:.6g}: no critical set.", "the finding"),
+    "one set here": Sentence("|A⁻¹f| = {length:.6g}, so there is one critical set.", "the finding"),
+    "no set here": Sentence("|A⁻¹f| = {length:.6g}, so there is no critical set.", "the finding"),
     "condition number": Sentence(
-        "The condition number of A is {number:.1e}: a check of A⁻¹f in doubles would say nothing.",
+        "The condition number of A is {number:.1e}: double precision cannot check A⁻¹f.",
         "why it does not apply",
     ),
     "no cycle there": Sentence("There is no limit cycle.", "why it does not apply"),
     "D2, at the pitchfork": Sentence(
-        "|f| = {f:.6g}, |d − a| = {spread:.6g}. Pitchfork exactly at |f| = |d − a|.", "the finding"
+        "|f| = {f:.6g} and |d − a| = {spread:.6g}: exactly the pitchfork |f| = |d − a|.", "the finding"
     ),
-    "D2, here": Sentence("|f| = {f:.6g}, |d − a| = {spread:.6g}. Pitchfork at |f| = |d − a|.", "the finding"),
-    "no rotation": Sentence("It is in the form already.", "the finding"),
+    "D2, here": Sentence("|f| = {f:.6g} and |d − a| = {spread:.6g}. The pitchfork is at |f| = |d − a|.", "the finding"),
+    "no rotation": Sentence("It already has this form.", "the finding"),
     "rotated": Sentence("The axes are turned by {phi:.6g}.", "the finding"),
-    "ball sticks": Sentence(
-        "It slides along Σ, in the paper’s words: the ball sticks and rolls, and z decays.", "the finding"
-    ),
+    "ball sticks": Sentence("Σ slides: the ball sticks and rolls, and z decays.", "the finding"),
     "ball slips": Sentence("Nothing slides along Σ: the ball slips.", "the finding"),
     "lem:ePsi(d)": Sentence("|e_Ψ|² < 1.", "the claim"),
     "one sign of two determinants": Sentence(

@@ -6,22 +6,24 @@ from .sentence import Sentence
 
 SENTENCES: dict[str, Sentence] = {
     "neutral closed equator": Sentence(
-        "The equator is a closed orbit with exponent 0: it neither attracts nor repels to first order.",
+        "The equator is a closed orbit with exponent 0: to first order it neither attracts nor repels.",
         "exponent 0 within rounding",
     ),
     "two have met": Sentence(
-        "Θ has a double zero: two limit directions have just met (Figure 20). Counted once here.", "multiplicity 2"
+        "Θ has a double zero: two limit directions meet here (Figure 20). They are counted once.", "multiplicity 2"
     ),
     "one splits, D2": Sentence(
-        "Θ has a triple zero with λ_θ = 0: one limit direction is splitting into three (degenerate case D2). "
-        "Counted once here.",
+        (
+            "Θ has a triple zero with λ_θ = 0: one limit direction splits into three here (degenerate case D2). "
+            "It is counted once."
+        ),
         "multiplicity 3, b = 0",
     ),
     "four have met": Sentence(
-        "Θ has a fourfold zero: all four limit directions have met. Counted once here.", "multiplicity 4, e-linear"
+        "Θ has a fourfold zero: all four limit directions meet here. They are counted once.", "multiplicity 4, e-linear"
     ),
     "cusp": Sentence(
-        "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp. Counted once here.",
+        "Θ has a triple zero: two saddle-nodes of limit directions meet in a cusp. They are counted once.",
         "multiplicity 3, not symmetric",
     ),
     "nothing turns": Sentence(
@@ -29,8 +31,10 @@ SENTENCES: dict[str, Sentence] = {
         "a = d, b = 0, f = 0",
     ),
     "linear centre": Sentence(
-        "tr J = 0 within rounding: to first order C is a centre of the layer problem. Nonlinear terms decide "
-        "whether it is one, or a focus, as at a Hopf bifurcation.",
+        (
+            "tr J = 0 within rounding: to first order C is a centre of the layer problem. Nonlinear terms decide "
+            "whether it is a centre or a focus, as at a Hopf bifurcation."
+        ),
         "tr J = 0 within rounding, one critical set",
     ),
     "true centre": Sentence(
@@ -38,71 +42,83 @@ SENTENCES: dict[str, Sentence] = {
         "a = d = 0, or a = −d and |f₁| = |f₂|",
     ),
     "between the cases": Sentence(
-        "{which}: on the border between Case I and Cases II, III (Table 1).", "a = 0 or d = 0"
+        "{which}: the system lies on the border between Case I and Cases II, III (Table 1).", "a = 0 or d = 0"
     ),
     "one splits": Sentence(
-        "Θ has a triple zero: one limit direction is splitting into three. Counted once here.",
+        "Θ has a triple zero: one limit direction splits into three here. It is counted once.",
         "multiplicity 3, symmetric",
     ),
     "four directions have met": Sentence(
-        "Θ has a fourfold zero: four limit directions have met. Counted once here.", "multiplicity 4"
+        "Θ has a fourfold zero: four limit directions meet here. They are counted once.", "multiplicity 4"
     ),
     "no turning": Sentence("Θ ≡ 0: every direction is a limit direction.", "Θ vanishes identically"),
     "arc of directions": Sentence(
-        "Θ vanishes on a whole arc: every direction from θ = {first:.4g} to {last:.4g} is a limit direction. The "
-        "others are counted.",
+        (
+            "Θ vanishes on an arc: every direction from θ = {first:.4g} to {last:.4g} is a limit direction. Only "
+            "the others are counted."
+        ),
         "Θ vanishes between two of its kinks",
     ),
-    "many have met": Sentence("{count} limit directions have met. Counted once here.", "multiplicity above 4"),
+    "many have met": Sentence("{count} limit directions meet here. They are counted once.", "multiplicity above 4"),
     "everything at rest": Sentence("U ≡ 0: every point of the hemisphere is an equilibrium.", "U vanishes identically"),
     "curve of zeros": Sentence("U = 0 along a whole curve of the hemisphere.", "zeros of U are not isolated"),
-    "zero on the equator": Sentence(
-        "U = 0 on the equator: a critical set is just reaching it (Figure 19).", "U = 0 there"
-    ),
-    "sets have met": Sentence("det J = 0: two critical sets have just met. Counted once here.", "a double zero of U"),
+    "zero on the equator": Sentence("U = 0 on the equator: a critical set reaches it here (Figure 19).", "U = 0 there"),
+    "sets have met": Sentence("det J = 0: two critical sets meet here. They are counted once.", "a double zero of U"),
     "more sets have met": Sentence(
-        "det J = 0: three or more critical sets have met. Counted once here.", "a zero of higher order, of index not 0"
+        "det J = 0: three or more critical sets meet here. They are counted once.",
+        "a zero of higher order, of index not 0",
     ),
     "corner": Sentence(
-        "U is not differentiable at a critical set, and its sides do not agree: whether it attracts, repels or is a "
-        "saddle is not decided by a linearisation.",
+        (
+            "U is not differentiable at a critical set, and its sides disagree. A linearisation cannot decide "
+            "whether it attracts, repels or is a saddle."
+        ),
         "U has a kink at a critical set",
     ),
     "linear centre, one of them": Sentence(
-        "tr J = 0 within rounding: to first order a critical set is a centre of the layer problem. Nonlinear terms "
-        "decide whether it is one, or a focus, as at a Hopf bifurcation.",
+        (
+            "tr J = 0 within rounding: to first order a critical set is a centre. Nonlinear terms decide whether "
+            "it is a centre or a focus, as at a Hopf bifurcation."
+        ),
         "tr J = 0 within rounding",
     ),
     "undecided somewhere": Sentence(
-        "Somewhere on the hemisphere it could not be decided whether U = 0: is U smooth and finite there?",
+        "It is undecided whether U = 0 somewhere on the hemisphere. Check that U is smooth and finite there.",
         "the search is not proven",
     ),
     "index mismatch": Sentence(
-        "The indices of the critical sets found add up to {indices}, but U turns {degree} times on the equator: a "
-        "critical set or a limit direction is missing.",
+        (
+            "The indices of the critical sets add up to {indices}, but U turns {degree} times on the equator. A "
+            "critical set or a limit direction is missing."
+        ),
         "indices and degree differ",
     ),
-    "exists once": Sentence("One critical set: |A⁻¹f| < 1 (Theorem 4.1).", "the status of the closed form"),
-    "exists not": Sentence("No critical set: |A⁻¹f| > 1 (Theorem 4.1).", "the status of the closed form"),
+    "exists once": Sentence(
+        "There is one critical set, since |A⁻¹f| < 1 (Theorem 4.1).", "the status of the closed form"
+    ),
+    "exists not": Sentence(
+        "There is no critical set, since |A⁻¹f| > 1 (Theorem 4.1).", "the status of the closed form"
+    ),
     "exists on the equator": Sentence(
         "|A⁻¹f| = 1 within rounding: the critical set lies on the equator (transcritical, Figure 19).",
         "the status of the closed form",
     ),
     "singular, none": Sentence(
-        "det A = 0 within rounding, and f is not in the range of A: no critical set.", "the status of the closed form"
+        "det A = 0 within rounding and f is not in the range of A, so there is no critical set.",
+        "the status of the closed form",
     ),
     "singular, a line": Sentence(
-        "det A = 0 within rounding, and f is in the range of A: a whole line A e = −f of equilibria.",
+        "det A = 0 within rounding and f is in the range of A, so the line A e = −f consists of equilibria.",
         "the status of the closed form",
     ),
     "singular, outside": Sentence(
-        "det A = 0 within rounding; the line A e = −f misses the hemisphere: no critical set.",
+        "det A = 0 within rounding and the line A e = −f misses the hemisphere, so there is no critical set.",
         "the status of the closed form",
     ),
     "everything, e-linear": Sentence(
-        "A = 0 and f = 0: every point of the hemisphere is an equilibrium of the layer problem.", "A = 0 and f = 0"
+        "A = 0 and f = 0, so every point of the hemisphere is an equilibrium of the layer problem.", "A = 0 and f = 0"
     ),
     "nearer": Sentence(
-        "In double precision it cannot be told from a setting nearer than {within} of {of}.", "within rounding"
+        "In double precision it cannot be told from a setting within {within} of {of}.", "within rounding"
     ),
 }

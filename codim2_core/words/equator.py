@@ -6,33 +6,37 @@ from .sentence import Sentence
 
 SENTENCES: dict[str, Sentence] = {
     "closed orbit, neutral": Sentence(
-        "The equator is a closed orbit ({turn}), neutral: orbits beside it neither approach nor leave.", "exponent 0"
+        "The equator is a closed orbit ({turn}) and neutral: nearby orbits neither approach nor leave it.", "exponent 0"
     ),
     "closed orbit": Sentence(
         "The equator is a closed orbit ({turn}), {outside} from outside and {inside} from the hemisphere.",
         "Θ has no zero",
     ),
     "at most four": Sentence(
-        "Θ has at most 4 zeros, a closed form. Their number is decided by its discriminant, where rounding could "
-        "blur that in exact arithmetic: none is missing.",
+        (
+            "Θ has at most 4 zeros, in closed form, and none is missing. Its discriminant decides their number, "
+            "in exact arithmetic where rounding matters."
+        ),
         "e-linear",
     ),
     "Q at": Sentence("{Q} at θ = {theta:.4g}: {kind}.", "one equilibrium"),
     "every direction of the equator": Sentence(
         "Every direction is a limit direction: Θ vanishes identically.", "Θ ≡ 0"
     ),
-    "no equilibria": Sentence("No equilibria on the equator: it is a closed orbit.", "Θ has no zero"),
+    "no equilibria": Sentence("The equator has no equilibria: it is a closed orbit.", "Θ has no zero"),
     "no equilibria found": Sentence(
-        "No equilibria were found on the equator; that there are none is not proved.", "none, `proven` is False"
+        "No equilibria were found on the equator, but it is not proved that there are none.", "none, `proven` is False"
     ),
-    "no more proved": Sentence("That there are no more is not proved.", "`proven` is False"),
-    "equilibria": Sentence("{count} {noun} on the equator.", "all simple"),
+    "no more proved": Sentence("It is not proved that there are no others.", "`proven` is False"),
+    "equilibria": Sentence("The equator has {count} {noun}.", "all simple"),
     "equilibria, some degenerate": Sentence(
-        "{count} {noun} on the equator, {some} of them degenerate.", "a multiple zero"
+        "The equator has {count} {noun}, of which {some} degenerate.", "a multiple zero"
     ),
     "on a net": Sentence(
-        "Θ is not smooth: between its kinks its zeros are looked for on a net of {net} directions. No proof that "
-        "none was missed.",
+        (
+            "Θ is not smooth: its zeros between kinks are found on a net of {net} directions. It is not proved "
+            "that none is missed."
+        ),
         "a kink of Θ",
     ),
     "exact series": Sentence(
@@ -44,9 +48,11 @@ SENTENCES: dict[str, Sentence] = {
         "interpolated",
     ),
     "bounds": Sentence(
-        "Bounds from its derivatives and Σ k⁴|c_k| show |Θ| > 0 on every arc without a zero, and Θ monotone on "
-        "every arc with one: none is missing.",
+        (
+            "Bounds from its derivatives and Σ k⁴|c_k| prove that no zero is missing: on each arc Θ has one sign "
+            "or is monotone."
+        ),
         "proven",
     ),
-    "close to a multiple zero": Sentence("Close to a multiple zero the count could not be decided.", "not proven"),
+    "close to a multiple zero": Sentence("The number of zeros close to a multiple zero is undecided.", "not proven"),
 }

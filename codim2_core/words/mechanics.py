@@ -6,19 +6,25 @@ from .sentence import Sentence
 
 SENTENCES: dict[str, Sentence] = {
     "grips": Sentence(
-        "It cannot start to slip: sticking needs a friction of {needed:.4g}, and there is {there:.4g} that way.",
+        (
+            "It cannot start to slip: sticking needs a friction of {needed:.4g}, and {there:.4g} is available in "
+            "that direction."
+        ),
         "Coulomb's law with one coefficient, a critical set inside",
     ),
     "can grip": Sentence(
-        "It can stick: that needs a friction of {needed:.4g}, and there is {there:.4g} that way.",
+        "It can stick: this needs a friction of {needed:.4g}, and {there:.4g} is available in that direction.",
         "a critical set inside, friction by a matrix or a constraint",
     ),
     "grip lost": Sentence(
-        "It cannot stick: that needs a friction of {needed:.4g}, and there is {there:.4g} that way.",
+        (
+            "It cannot stick: this needs a friction of {needed:.4g}, and only {there:.4g} is available in that "
+            "direction."
+        ),
         "no critical set inside",
     ),
     "contact opens": Sentence(
-        "The contact opens: to stick, the normal force would have to be {normal:.4g}.", "N is not positive"
+        "The contact opens: sticking would need a normal force of {normal:.4g}.", "N is not positive"
     ),
     "fitted": Sentence(
         "{found}; it slips at {angle:.4g}° ({low:.4g} to {high:.4g}) at the end, and does not stop.",

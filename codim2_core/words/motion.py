@@ -10,36 +10,41 @@ SENTENCES: dict[str, Sentence] = {
     "rests on a repelling set": Sentence(
         "It rests on a critical set that repels along the line.", "in a line, nowhere to go"
     ),
-    "slides in a line": Sentence("Along it comes the critical set {onto}: sliding.", "in a line, a critical set ahead"),
-    "crosses in a line": Sentence(
-        "Along it there is no critical set: crossing, it leaves along θ = {theta:.4g}.", "in a line, the equator ahead"
+    "slides in a line": Sentence(
+        "It meets the critical set {onto} on the line and slides.", "in a line, a critical set ahead"
     ),
-    "arrives in a line": Sentence("Arrives at Σ in an invariant line.", "a slip ends, in an invariant line"),
+    "crosses in a line": Sentence(
+        "There is no critical set on the line: it crosses Σ and leaves along θ = {theta:.4g}.",
+        "in a line, the equator ahead",
+    ),
+    "arrives in a line": Sentence("It reaches Σ in an invariant line.", "a slip ends, in an invariant line"),
     "variation undefined": Sentence(
-        "The derivatives are not known past t = {t:.6g}: those of a formula are not finite there.",
+        "The derivatives are unknown after t = {t:.6g}, where those of a formula are not finite.",
         "D (U, W) is not finite",
     ),
     "variation on a cycle": Sentence(
-        "The derivatives are not known past t = {t:.6g}: the motion slides on a limit cycle from there.",
+        "The derivatives are unknown after t = {t:.6g}, where the motion begins to slide on a limit cycle.",
         "a slide on a limit cycle of a general system",
     ),
     "variation past an end": Sentence(
-        "The derivatives are not known past t = {t:.6g}: sliding does not end at the equator there.",
+        "The derivatives are unknown after t = {t:.6g}, where sliding ends away from the equator.",
         "a fold, a Hopf bifurcation, the end of a cycle",
     ),
     "variation ends at Sigma": Sentence(
-        "The derivatives are not known at t = {t:.6g}: the motion ends as it arrives at Σ.", "no phase after an arrival"
+        "The derivatives are unknown at t = {t:.6g}, where the motion ends as it reaches Σ.",
+        "no phase after an arrival",
     ),
-    "leaves": Sentence("Leaves Σ along θ = {theta:.4g}.", "after a crossing"),
+    "leaves": Sentence("It leaves Σ along θ = {theta:.4g}.", "after a crossing"),
     "ends at the equator": Sentence(
-        "{C} reaches the equator (Figure 19) and sliding ends: slips away along θ = {theta:.4g}.",
+        "{C} reaches the equator (Figure 19), so sliding ends and the motion leaves along θ = {theta:.4g}.",
         "a critical set comes to the equator",
     ),
     "cycle shrinks": Sentence(
-        "The limit cycle shrinks onto {C} (Hopf): sliding on {C}.", "a Hopf bifurcation, passed backwards"
+        "The limit cycle shrinks onto {C} in a Hopf bifurcation, and the motion slides on {C}.",
+        "a Hopf bifurcation, passed backwards",
     ),
     "cycle ends at once": Sentence(
-        "The limit cycle ends at once: where orbits go from it is not known.", "a cycle of a typed system that is gone"
+        "The limit cycle ends at once: it is unknown where orbits go from it.", "a cycle of a typed system that is gone"
     ),
     "fold in a line": Sentence("{C} ends in a fold.", "det J = 0, in an invariant line"),
     "fold": Sentence("{C} ends in a fold (det J = 0).", "det J = 0"),
@@ -52,77 +57,96 @@ SENTENCES: dict[str, Sentence] = {
         "det J = 0, the sets cross, odd across",
     ),
     "exchange, moving": Sentence(
-        "{C} moves as it loses its stability: which set the motion follows on is left to terms of order ε.",
+        "{C} moves as it loses its stability: terms of order ε decide which set the motion follows.",
         "det J = 0, an exchange of stability on a set that is not at rest",
     ),
     "canard point": Sentence(
-        "{C} ends in a fold at which the slow flow turns too (a canard point): whether the motion leaves there, stays, "
-        "or follows the repelling set beyond for a time (a canard) is left to terms of order ε.",
+        (
+            "{C} ends in a fold where the slow flow also changes direction (a canard point). Terms of order ε "
+            "decide whether the motion leaves, stays, or follows the repelling set."
+        ),
         "det J = 0, W = 0, m = 1",
     ),
     "folded node": Sentence(
-        "{C} ends in a fold at a folded node, to which a whole range of motions comes: canards follow the repelling "
-        "set beyond for a time, all others leave there.",
+        (
+            "{C} ends in a fold at a folded node. Canards follow the repelling set beyond for some time, and all "
+            "other motions leave."
+        ),
         "det J = 0, a folded singularity, both eigenvalues of one sign",
     ),
     "folded saddle": Sentence(
-        "{C} ends in a fold at a folded saddle: the motion is a canard in the limit, and for how long it follows the "
-        "repelling set beyond is left to ε.",
+        (
+            "{C} ends in a fold at a folded saddle, and the limit is a canard. Terms of order ε decide how long "
+            "it follows the repelling set."
+        ),
         "det J = 0, a folded singularity, eigenvalues of two signs",
     ),
     "folded, degenerate": Sentence(
-        "{C} ends in a fold at a folded singularity with an eigenvalue 0: what follows is left to ε.",
+        ("{C} ends in a fold at a folded singularity with an eigenvalue 0: terms of order ε decide what follows."),
         "det J = 0, a folded singularity, an eigenvalue 0",
     ),
     "cycle ends": Sentence("The limit cycle ends.", "a limit cycle vanishes as z moves"),
-    "cycle ends, not found": Sentence("Where orbits go from it was not found.", "no single cycle just before"),
+    "cycle ends, not found": Sentence("It was not found where orbits go from it.", "no single cycle just before"),
     "cycle ends, not decided": Sentence(
-        "Where orbits go from it is not decided within resolution.", "a cycle is found again beside it"
+        "It is undecided, within resolution, where orbits go from it.", "a cycle is found again beside it"
     ),
-    "onward depends": Sentence("Where orbits go from there may depend on Ψ: give it.", "no family of Ψ was given"),
+    "onward depends": Sentence("What follows may depend on Ψ: give it.", "no family of Ψ was given"),
     "Hopf, delayed": Sentence(
-        "{C} loses its stability ({how}), and the motion stays near it: to the end of this phase it is attracted more "
-        "than repelled.",
+        (
+            "{C} loses its stability ({how}), but the motion stays near it: up to the end of this phase it is "
+            "attracted more than repelled."
+        ),
         "tr J = 0 or an exchange of stability, way out after the end",
     ),
     "Hopf, delayed until": Sentence(
-        "{C} loses its stability ({how}), and the motion stays near it until it is repelled as much as it was "
-        "attracted (way in = way out). Any disturbance that is not exponentially small in 1/ε ends that sooner.",
+        (
+            "{C} loses its stability ({how}), but the motion stays near it until repulsion balances attraction "
+            "(way in = way out). A disturbance that is not exponentially small in 1/ε ends this sooner."
+        ),
         "tr J = 0, analytic",
     ),
     "Hopf, delayed until the buffer": Sentence(
-        "{C} loses its stability ({how}), and the motion stays near it: a complex time at which an eigenvalue is 0 or "
-        "singular (buffer point) ends that before way in = way out. Any disturbance that is not exponentially small in "
-        "1/ε ends it sooner.",
+        (
+            "{C} loses its stability ({how}). The motion stays near it up to a buffer point, "
+            "where an eigenvalue at complex time is 0 or singular. "
+            "A disturbance that is not exponentially small in 1/ε ends this sooner."
+        ),
         "tr J = 0, analytic, C moves",
     ),
     "delay, open": Sentence(
-        "{C} loses its stability ({how}), and the motion stays near it as far as it was followed: till there it is "
-        "attracted more than repelled.",
+        (
+            "{C} loses its stability ({how}), but the motion stays near it to the end of the range: so far it is "
+            "attracted more than repelled."
+        ),
         "tr J = 0, way out after the end of the range",
     ),
     "Hopf, left": Sentence("The motion leaves {C}, which is unstable.", "the end of a delay"),
     "Hopf, not analytic": Sentence(
-        "{C} loses its stability (Hopf): after what delay is not known, for its eigenvalues are not smooth in time.",
+        "{C} loses its stability (Hopf). The delay is unknown, since its eigenvalues are not smooth in time.",
         "tr J = 0, a kink",
     ),
     "Hopf depends": Sentence(
-        "{C} loses its stability ({how}): where, and after what delay, depends on Ψ: give it.",
+        "{C} loses its stability ({how}). Where, and after what delay, depends on Ψ: give it.",
         "tr J = 0, no family of Ψ was given",
     ),
-    "border moves in": Sentence("It moves inwards: sliding.", "a critical set on the equator, moving in"),
-    "border moves out": Sentence("It moves out: slips.", "a critical set on the equator, moving out"),
+    "border moves in": Sentence("It moves inwards, and the motion slides.", "a critical set on the equator, moving in"),
+    "border moves out": Sentence(
+        "It moves outwards, and the motion slips.", "a critical set on the equator, moving out"
+    ),
     "arrival depends": Sentence(
-        "Arrives at Σ at θ = {theta:.4g}; what follows depends on Ψ: give it.",
+        "It reaches Σ at θ = {theta:.4g}. What follows depends on Ψ: give it.",
         "no family of Ψ was given, and they differ",
     ),
     "saddle reached": Sentence(
-        "But {onto} is a {kind}: which side is left to ε.", "the orbit ends on a critical set that is not stable"
+        "But {onto} is a {kind}: terms of order ε decide on which side it leaves.",
+        "the orbit ends on a critical set that is not stable",
     ),
     "spiral phase": Sentence(
-        "At which phase of the spiral it leaves is left to ε.", "crossing, with no limit direction"
+        "Terms of order ε decide at which phase of the spiral it leaves.", "crossing, with no limit direction"
     ),
-    "middle is stable": Sentence("On Σ, x = y = 0 is the {kind} {onto}: sliding.", "e = 0 is a stable critical set"),
+    "middle is stable": Sentence(
+        "On Σ, x = y = 0 is the {kind} {onto}, and the motion slides.", "e = 0 is a stable critical set"
+    ),
     "middle is a set": Sentence(
         "On Σ, x = y = 0 is {onto} itself, which does not attract.",
         "e = 0 is a critical set that is not stable",
@@ -133,81 +157,88 @@ SENTENCES: dict[str, Sentence] = {
         "Whether the critical set is stable depends on Ψ: give it.", "no family of Ψ was given, and they differ"
     ),
     "several to slide on": Sentence(
-        "There are {count} stable critical sets: sliding is not unique on Σ.",
+        "There are {count} stable critical sets, so sliding is not unique on Σ.",
         "no Ψ given, several stable critical sets",
     ),
     "cycles to slide on": Sentence(
-        "There are limit cycles, and no Ψ was given: sliding is not unique on Σ.", "no Ψ given, stable limit cycles"
+        "There are limit cycles and no Ψ was given, so sliding is not unique on Σ.",
+        "no Ψ given, stable limit cycles",
     ),
     "one way out": Sentence(
-        "On Σ nothing attracts; the one way out is θ = {theta:.4g} ({Q}).", "nothing attracts, one direction does"
+        "Nothing attracts on Σ, and the only way out is θ = {theta:.4g} ({Q}).", "nothing attracts, one direction does"
     ),
     "other ways": Sentence(
         "Not all of the hemisphere leads there: {which} leads away from Σ.",
         "some of the hemisphere leads to a limit direction",
     ),
     "starts, follows nothing": Sentence(
-        "The motion starts within O(ε) of Σ, and follows nothing there.", "(x, y) = 0, ε > 0"
+        "The motion starts within O(ε) of Σ and follows no critical set.", "(x, y) = 0, ε > 0"
     ),
     "passes": Sentence(
-        "Passes Σ within {near:g} ε, and follows nothing there: crossing.", "within 20 ε for a time, ε > 0"
+        "It passes Σ within {near:g} ε and follows no critical set: it crosses.", "within 20 ε for a time, ε > 0"
     ),
-    "has left": Sentence("Leaves Σ: further than {near:g} ε away.", "after a crossing, ε > 0"),
-    "no longer follows": Sentence("No longer follows {onto}, and slips away.", "a slide ends, ε > 0"),
-    "end of span": Sentence("Reached the end of the time span.", "the status of a simulation"),
-    "at an event": Sentence("Stopped at a terminal event.", "the status of a simulation"),
+    "has left": Sentence("It leaves Σ and is further than {near:g} ε away.", "after a crossing, ε > 0"),
+    "no longer follows": Sentence("It no longer follows {onto}, and slips away.", "a slide ends, ε > 0"),
+    "end of span": Sentence("It reached the end of the time span.", "the status of a simulation"),
+    "at an event": Sentence("It stopped at a terminal event.", "the status of a simulation"),
     "not unique": Sentence(
-        "Stopped: in the limit ε → 0 what follows is not unique, or not known.", "the status of a simulation"
+        "It stopped: in the limit ε → 0 what follows is not unique, or not known.", "the status of a simulation"
     ),
-    "past on Sigma": Sentence("It is known from where it left Σ.", "a past in the limit that begins on Sigma"),
-    "past ends": Sentence("Stopped: what was before is not told by the state.", "the status of a past"),
+    "past on Sigma": Sentence(
+        "It is known from the moment at which it left Σ.", "a past in the limit that begins on Sigma"
+    ),
+    "past ends": Sentence("It stopped: the state does not tell what came before.", "the status of a past"),
     "has left Sigma": Sentence(
         "It left Σ at t = {t:.6g}, where motions meet.", "a past in the limit that begins on Sigma"
     ),
     "past forgotten": Sentence(
-        "What slides forgets where it came from: before t = {t:.6g} differences of the tolerance would have grown "
-        "beyond a hundredth.",
+        ("Sliding forgets where it came from: before t = {t:.6g} errors within the tolerance would grow beyond 0.01."),
         "a motion followed backwards",
     ),
-    "blows up": Sentence("Stopped: the motion grows beyond all bounds in finite time.", "the status of a simulation"),
+    "blows up": Sentence("It stopped: the motion becomes infinite in finite time.", "the status of a simulation"),
     "step limit": Sentence(
-        "Stopped at the step limit: the motion varies too fast for the time span (around a limit cycle once in a "
-        "time of order ε), or comes to where its formulas are undefined; shorten the span, allow more steps, or "
-        "take the limit ε → 0.",
+        (
+            "It stopped at the step limit: the motion is too fast, as on a limit cycle, or its formulas are undefined. "
+            "Shorten the span, raise max_steps, or take the limit ε → 0."
+        ),
         "the status of a simulation",
     ),
     "repels angularly": Sentence(
-        "θ = {theta:.4g} repels angularly too: orbits leave in a whole sector around it.",
+        "θ = {theta:.4g} also repels angularly: orbits leave in a whole sector around it.",
         "nothing single to leave along",
     ),
     "nothing leaves": Sentence(
-        "Nothing leaves Σ along θ = {theta:.4g} there: its radial eigenvalue is not positive, and does not become so.",
+        "No trajectory leaves Σ along θ = {theta:.4g}, since its radial eigenvalue does not become positive.",
         "λ with index ρ is not positive",
     ),
     "phases differ": Sentence(
-        "The phases for ε = {eps:.3g} are not those of the limit: from about t = {t:.4g} on the motion {here}, and "
-        "in the limit it {there}. ε is not yet small against what happens there.",
+        (
+            "For ε = {eps:.3g} the phases differ from those of the limit. From about t = {t:.4g} the motion "
+            "{here}, while in the limit it {there}. ε is not yet small enough there."
+        ),
         "ε > 0 beside the limit",
     ),
-    "blow-up time": Sentence("It blows up near t = {t:.10g}.", "a solution grows beyond bounds"),
-    "undefined from": Sentence("Its formulas are undefined from t = {t:.10g} on.", "a formula ends"),
+    "blow-up time": Sentence("The motion becomes infinite near t = {t:.10g}.", "a solution grows beyond bounds"),
+    "undefined from": Sentence("Its formulas are undefined after t = {t:.10g}.", "a formula ends"),
     "no way out": Sentence(
-        "On Σ nothing attracts, and no one direction collects what leaves it: what follows is not unique.",
+        "Nothing attracts on Σ, and no single direction leads away, so what follows is not unique.",
         "no Ψ given, neither an attractor nor a way out",
     ),
     "several ways out": Sentence(
-        "On Σ nothing attracts, and {count} directions lead away from it: what follows is not unique.",
+        "Nothing attracts on Σ, and {count} directions lead away from it, so what follows is not unique.",
         "no Ψ given, several ways out",
     ),
     "one to slide on": Sentence(
-        "On Σ there is one stable critical set, {onto}: sliding.", "no Ψ given, one stable critical set"
+        "Σ has one stable critical set, {onto}, and the motion slides.", "no Ψ given, one stable critical set"
     ),
-    "starts, follows": Sentence("The motion starts within O(ε) of Σ, and follows {onto}: sliding.", "on Σ, ε > 0"),
-    "comes, follows": Sentence("Comes within O(ε) of Σ, and follows {onto}: sliding.", "a slip ends, ε > 0"),
-    "goes on": Sentence("Goes on within O(ε) of Σ, to {onto}: sliding.", "from one set to another, ε > 0"),
+    "starts, follows": Sentence("The motion starts within O(ε) of Σ, follows {onto} and slides.", "on Σ, ε > 0"),
+    "comes, follows": Sentence("It comes within O(ε) of Σ, follows {onto} and slides.", "a slip ends, ε > 0"),
+    "goes on": Sentence("It stays within O(ε) of Σ, passes to {onto} and slides.", "from one set to another, ε > 0"),
     "errors decide": Sentence(
-        "{onto} repels from here on, and the motion is nearer to it than errors of the computation: when it leaves, "
-        "and to which side, may be decided by them.",
+        (
+            "From here {onto} repels, and the motion is closer to it than numerical errors. These may decide "
+            "when and to which side it leaves."
+        ),
         "a loss of stability after attraction by more than 1/rtol, ε > 0",
     ),
     "phases agree": Sentence(
@@ -218,5 +249,5 @@ SENTENCES: dict[str, Sentence] = {
         "it leaves Σ.",
         "ε > 0 beside the limit, an exit",
     ),
-    "no z to follow": Sentence("There is no z to follow (m = 0).", "a cycle of a typed system, m = 0"),
+    "no z to follow": Sentence("There is no slow variable to follow (m = 0).", "a cycle of a typed system, m = 0"),
 }

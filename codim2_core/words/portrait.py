@@ -7,73 +7,91 @@ from .sentence import Sentence
 SENTENCES: dict[str, Sentence] = {
     # limit directions
     "all directions": Sentence("Every direction is a limit direction.", "Θ vanishes identically"),
-    "closed equator": Sentence("No limit directions: the equator is a closed orbit.", "Θ has no zero, exponent 0"),
+    "closed equator": Sentence(
+        "There are no limit directions: the equator is a closed orbit.", "Θ has no zero, exponent 0"
+    ),
     "closed equator, stable": Sentence(
-        "No limit directions: the equator is a closed orbit that attracts outside and repels on the hemisphere.",
+        (
+            "There are no limit directions: the equator is a closed orbit that attracts outside and repels on "
+            "the hemisphere."
+        ),
         "Θ has no zero, exponent < 0",
     ),
     "closed equator, unstable": Sentence(
-        "No limit directions: the equator is a closed orbit that repels outside and attracts on the hemisphere.",
+        (
+            "There are no limit directions: the equator is a closed orbit that repels outside and attracts on "
+            "the hemisphere."
+        ),
         "Θ has no zero, exponent > 0",
     ),
-    "one arrives": Sentence("1 limit direction: trajectories reach Σ along it.", "one zero, λ with index ρ < 0"),
-    "one leaves": Sentence("1 limit direction: trajectories leave Σ along it.", "one zero, λ with index ρ > 0"),
-    "all arrive": Sentence("{count} limit directions: trajectories reach Σ along them.", "all radially attracting"),
-    "all leave": Sentence("{count} limit directions: trajectories leave Σ along them.", "all radially repelling"),
+    "one arrives": Sentence("Trajectories reach Σ along the only limit direction.", "one zero, λ with index ρ < 0"),
+    "one leaves": Sentence("Trajectories leave Σ along the only limit direction.", "one zero, λ with index ρ > 0"),
+    "all arrive": Sentence("Trajectories reach Σ along all {count} limit directions.", "all radially attracting"),
+    "all leave": Sentence("Trajectories leave Σ along all {count} limit directions.", "all radially repelling"),
     "both": Sentence(
-        "{count} limit directions: trajectories reach Σ along {arriving} and leave it along {leaving}.", "both kinds"
+        "Of {count} limit directions, trajectories reach Σ along {arriving} and leave it along {leaving}.", "both kinds"
     ),
     "some arrive": Sentence(
-        "{count} limit directions: trajectories reach Σ along {moving} of them.", "the others are neutral"
+        "Of {count} limit directions, trajectories reach Σ along {moving}.", "the others are neutral"
     ),
     "some leave": Sentence(
-        "{count} limit directions: trajectories leave Σ along {moving} of them.", "the others are neutral"
+        "Of {count} limit directions, trajectories leave Σ along {moving}.", "the others are neutral"
     ),
-    "none moves": Sentence("Limit directions: {count}.", "every λ with index ρ is 0"),
+    "none moves": Sentence("The number of limit directions is {count}.", "every λ with index ρ is 0"),
     "neutral directions": Sentence(
-        "{which} radially neutral: to first order trajectories neither reach Σ nor leave it there.",
+        "{which} radially neutral: to first order trajectories neither reach nor leave Σ there.",
         "λ with index ρ is 0 within rounding",
     ),
     "directions unproved": Sentence(
-        "These limit directions were found; that there are no more is not proved.",
+        "It is not proved that there are no other limit directions.",
         "`EquatorEquilibria.proven` is False",
     ),
     "no directions found": Sentence(
-        "No limit direction was found; that there is none is not proved.", "none, `EquatorEquilibria.proven` is False"
+        "No limit direction was found, but it is not proved that there is none.",
+        "none, `EquatorEquilibria.proven` is False",
     ),
     # critical sets of the e-linear system
-    "crossing": Sentence("There is no critical set, so nothing slides: what reaches Σ crosses it.", "|A⁻¹f| > 1"),
+    "crossing": Sentence("There is no critical set, so trajectories that reach Σ cross it.", "|A⁻¹f| > 1"),
     "repelled": Sentence("There is no critical set, and nothing reaches Σ.", "|A⁻¹f| > 1, no direction attracts"),
-    "stable sliding": Sentence("The critical set C is a {kind}: stable sliding along Σ.", "Case I, stable"),
+    "stable sliding": Sentence("The critical set C is a {kind}, so sliding along Σ is stable.", "Case I, stable"),
     "stable, unreached": Sentence(
-        "The critical set C is a {kind}, but nothing reaches Σ: only what is there slides.", "stable, none attracts"
+        "The critical set C is a {kind}, but no trajectory reaches Σ: only a start on Σ slides.",
+        "stable, none attracts",
     ),
     "stable in part": Sentence(
-        "The critical set C is a {kind}: sliding along C is stable. What arrives elsewhere may cross.",
+        ("The critical set C is a {kind}, so sliding along C is stable. Other trajectories that reach Σ may cross it."),
         "stable, outside Case I",
     ),
     "saddle": Sentence(
-        "The critical set C is a saddle whatever Ψ is: sliding along Σ is unstable, almost every orbit leaves.",
+        ("The critical set C is a saddle for every Ψ: sliding along Σ is unstable, and almost every orbit leaves."),
         "det A < 0",
     ),
-    "unstable": Sentence("The critical set C is an {kind}: sliding along C itself is unstable.", "unstable"),
+    "unstable": Sentence("The critical set C is an {kind}, so sliding along C is unstable.", "unstable"),
     "centre": Sentence("The critical set C is a centre to first order.", "tr J = 0 within rounding"),
     "closed orbits around": Sentence(
         "The critical set C is a centre: closed orbits surround it.", "tr J = 0 where the layer problem says more"
     ),
     # critical sets of other systems
-    "no isolated set": Sentence("No isolated critical set inside.", "a curve of zeros, or zeros on the equator"),
+    "no isolated set": Sentence(
+        "There is no isolated critical set on the hemisphere.", "a curve of zeros, or zeros on the equator"
+    ),
     "no critical set": Sentence("There is no critical set.", "U has no zero in the disc, proven"),
     "no set found": Sentence(
-        "No critical set was found inside; that there is none is not proved.", "none, the search left something open"
+        "No critical set was found, but it is not proved that there is none.", "none, the search left something open"
     ),
     "sets unproved": Sentence(
-        "Critical sets found: {kinds}; that there are no more is not proved.", "some, the search left something open"
+        "The critical sets found are {kinds}; it is not proved that there are no others.",
+        "some, the search left something open",
     ),
-    "none stable": Sentence("Critical sets: {kinds}. None is stable.", "none stable"),
-    "one stable": Sentence("Critical sets: {kinds}. There is one way to slide stably along Σ.", "one stable"),
+    "none stable": Sentence("The critical sets are {kinds}. None is stable.", "none stable"),
+    "one stable": Sentence(
+        "The critical sets are {kinds}. Exactly one of the ways to slide along Σ is stable.", "one stable"
+    ),
     "several stable": Sentence(
-        "Critical sets: {kinds}. There are {count} ways to slide stably along Σ: it depends on the approach.",
+        (
+            "The critical sets are {kinds}. There are {count} ways to slide stably along Σ, and the approach "
+            "decides which."
+        ),
         "several stable, cycles included",
     ),
     # limit cycles that attract
@@ -101,7 +119,7 @@ SENTENCES: dict[str, Sentence] = {
         "the only zero of Θ is double",
     ),
     "single direction": Sentence(
-        "Only the trajectories exactly along {Q} arrive at it: those beside it turn to the next ones.",
+        "Only the trajectories exactly along {Q} arrive at it; those beside it turn to other directions.",
         "radially attracting, angularly repelling",
     ),
     "spiral": Sentence(
@@ -109,18 +127,24 @@ SENTENCES: dict[str, Sentence] = {
         "closed, stable outside",
     ),
     "neutral approach": Sentence(
-        "{Q} is radially neutral (a critical set comes to the equator): to first order nothing arrives or leaves.",
+        (
+            "{Q} is radially neutral, since a critical set reaches the equator: to first order nothing arrives "
+            "or leaves."
+        ),
         "λ with index ρ is 0",
     ),
     "repels": Sentence("{Q} repels radially and angularly: nothing tends to it.", "both eigenvalues > 0"),
-    "leads away": Sentence("{Q} repels radially: what turns towards it leaves Σ.", "repels radially, not angularly"),
+    "leads away": Sentence(
+        "{Q} repels radially: trajectories that turn towards it leave Σ.", "repels radially, not angularly"
+    ),
     "turns away": Sentence(
-        "Those that come in beside it turn away: crossing, in the words of Section 5.2.",
+        "Trajectories that come in beside it turn away: crossing, in the words of Section 5.2.",
         "radially repelling, angularly attracting, beside one that attracts radially",
     ),
     "all lead away": Sentence("Every direction leads away from Σ.", "Θ ≡ 0, U.e > 0"),
     "some lead": Sentence(
-        "Every direction is a limit direction, and some lead to Σ, others away from it.", "Θ ≡ 0, U.e of both signs"
+        "Every direction is a limit direction: some lead to Σ, and others lead away from it.",
+        "Θ ≡ 0, U.e of both signs",
     ),
     "at rest": Sentence("U vanishes on the equator: to first order nothing arrives or leaves.", "U ≡ 0"),
     "neutral equator": Sentence(
@@ -130,33 +154,35 @@ SENTENCES: dict[str, Sentence] = {
         "The closed equator repels outside: trajectories spiral away and never reach Σ.", "exponent > 0"
     ),
     # and where they go
-    "slides": Sentence("They reach the critical set {label}, a {kind}: sliding.", "they end at a critical set"),
+    "slides": Sentence("They reach the critical set {label}, a {kind}, and slide.", "they end at a critical set"),
     "slides around": Sentence(
-        "They wind onto a limit cycle around C: sliding, with the slow flow of C on average (Proposition 4.2).",
+        ("They wind onto a limit cycle around C and slide, on average with the slow flow of C (Proposition 4.2)."),
         "they end on a limit cycle, e-linear",
     ),
     "slides on a cycle": Sentence(
-        "They wind onto a limit cycle: sliding, with the mean slow flow over the cycle.", "they end on a limit cycle"
+        "They wind onto a limit cycle and slide with the mean slow flow over the cycle.", "they end on a limit cycle"
     ),
-    "crosses": Sentence("They leave along θ = {theta} ({label}): crossing.", "they end at a limit direction"),
+    "crosses": Sentence("They cross Σ and leave along θ = {theta} ({label}).", "they end at a limit direction"),
     "crosses spiralling": Sentence(
-        "They come down to the closed equator and spiral away: crossing.", "they end on the closed equator"
+        "They reach the closed equator, cross Σ and spiral away.", "they end on the closed equator"
     ),
     "several ends": Sentence(
         "{many}, and they end at different places: {labels}.", "a family of orbits with more than one ending"
     ),
-    "saddle ahead": Sentence("They run into the saddle {label}: which side is left to ε.", "a saddle connection"),
+    "saddle ahead": Sentence(
+        "They run into the saddle {label}: terms of order ε decide on which side they leave.", "a saddle connection"
+    ),
     "neutral ahead": Sentence(
-        "They come to {label}, which is radially neutral: terms of higher order decide whether they leave Σ there.",
+        ("They reach {label}, which is radially neutral: terms of higher order decide whether they leave Σ there."),
         "they end at a limit direction with λ with index ρ = 0",
     ),
     "rest ahead": Sentence(
-        "They come to rest at an equilibrium that is not isolated: terms of higher order decide what they do there.",
+        "They come to rest at an equilibrium that is not isolated: terms of higher order decide what follows.",
         "they end on a curve of equilibria",
     ),
-    "unfollowed": Sentence("They were followed for long and came to no end.", "the computation gave up"),
+    "unfollowed": Sentence("They were integrated for a long time and reached no limit set.", "the computation gave up"),
     "alike": Sentence(
-        "With other Ψ some slide on C and others around it: the slow flow is the same.",
+        "For other Ψ some slide on C and others around it, with the same slow flow.",
         "e-linear: all families slide, not all on the same set",
     ),
 }

@@ -7,8 +7,8 @@ from functools import cache
 from string import Formatter
 
 from . import changes, claims, cycles, degenerate, equator, mechanics, motion, orbits, periodic, portrait, slow_flow
+from .number_text import power, written_label, written_number
 from .sentence import Sentence
-from .written import power, written_label, written_number
 
 #: The sentences of each room, by the room's name.
 ROOMS: dict[str, dict[str, Sentence]] = {

@@ -5,23 +5,24 @@ from __future__ import annotations
 from .sentence import Sentence
 
 SENTENCES: dict[str, Sentence] = {
-    "along: sliding": Sentence("Sliding: a stable critical set.", "an interval of z"),
+    "along: sliding": Sentence("There is a stable critical set: Σ slides.", "an interval of z"),
     "along: unstable": Sentence(
-        "No stable critical set: it slides only on an unstable one, or on a limit cycle around it.", "an interval of z"
+        "There is no stable critical set: it slides only on an unstable one, or on a limit cycle around it.",
+        "an interval of z",
     ),
-    "along: crossing": Sentence("No critical set: nothing slides.", "an interval of z"),
+    "along: crossing": Sentence("There is no critical set: nothing slides.", "an interval of z"),
     "along: exchange": Sentence("det J = 0: critical sets meet and exchange their kinds.", "kinds exchange at one z"),
     "along: equator": Sentence(
         "A critical set passes through the equator (transcritical, Figure 19).",
         "the number of critical sets changes on the equator",
     ),
     "along: fold": Sentence(
-        "Two critical sets meet and vanish: a fold, det J = 0.", "the number of critical sets changes inside"
+        "det J = 0: two critical sets meet in a fold and vanish.", "the number of critical sets changes inside"
     ),
     "along: Hopf": Sentence("tr J = 0: the critical set becomes {kind}.", "stable becomes unstable"),
     "along: node-focus": Sentence("Δ(J) = 0: the critical set becomes {kind}.", "a node becomes a focus, or back"),
     "affine: none single": Sentence(
-        "det A = 0 within rounding: no single affine combination of limit vectors is tangent to Σ.", "det A = 0"
+        "det A = 0 within rounding: no unique affine combination of limit vectors is tangent to Σ.", "det A = 0"
     ),
     "Filippov: unique": Sentence(
         "All convex combinations of the limit vectors that are tangent to Σ are one vector: Filippov sliding is "
@@ -34,7 +35,10 @@ SENTENCES: dict[str, Sentence] = {
         "a whole set",
     ),
     "Filippov: touches": Sentence(
-        "Σ only touches the hull of the limit vectors, within 10⁻¹⁰: whether a combination is tangent is undecided.",
+        (
+            "Σ only touches the hull of the limit vectors, within 10⁻¹⁰: it is undecided whether a combination "
+            "is tangent."
+        ),
         "Σ on the boundary of the hull",
     ),
     "Filippov: none": Sentence(
@@ -42,22 +46,30 @@ SENTENCES: dict[str, Sentence] = {
         "Σ outside the hull",
     ),
     "affine: convex": Sentence(
-        "The plane of affine combinations of limit vectors meets Σ in one point (×), a convex combination: there is "
-        "sliding.",
+        (
+            "The plane of affine combinations of limit vectors meets Σ in one point (×), a convex combination, "
+            "so there is sliding."
+        ),
         "|A⁻¹f| < 1",
     ),
     "affine: not convex": Sentence(
-        "The plane of affine combinations of limit vectors meets Σ in one point (×), which is no convex "
-        "combination: there is crossing.",
+        (
+            "The plane of affine combinations of limit vectors meets Σ in one point (×). It is not a convex "
+            "combination, so there is crossing."
+        ),
         "|A⁻¹f| > 1",
     ),
     "affine: limit vector": Sentence(
-        "The plane of affine combinations of limit vectors meets Σ in one point (×), which is itself a limit "
-        "vector, within rounding: between sliding and crossing.",
+        (
+            "The plane of affine combinations of limit vectors meets Σ in one point (×). Within rounding it is a "
+            "limit vector: between sliding and crossing."
+        ),
         "|A⁻¹f| = 1 within rounding",
     ),
-    "along: attracts": Sentence("z′ = 0: it attracts along the critical set.", "a zero of the slow flow, m = 1"),
-    "along: repels": Sentence("z′ = 0: it repels along the critical set.", "a zero of the slow flow, m = 1"),
+    "along: attracts": Sentence(
+        "z′ = 0: this point attracts along the critical set.", "a zero of the slow flow, m = 1"
+    ),
+    "along: repels": Sentence("z′ = 0: this point repels along the critical set.", "a zero of the slow flow, m = 1"),
     "along one: attracts": Sentence("{z}′ = 0: along {z} alone it attracts; the other slow variables move.", "m > 1"),
     "along one: repels": Sentence("{z}′ = 0: along {z} alone it repels; the other slow variables move.", "m > 1"),
 }

@@ -16,7 +16,7 @@ import numpy as np
 
 import codim2_core as c2
 from codim2_core.continuation.branches import continue_cycles
-from codim2_core.diagrams.standing import equilibrium_branches
+from codim2_core.diagrams.equilibrium_branches import equilibrium_branches
 
 PERIODS = {3: 0.5044751410092433, 4: 0.6066957493683202}  # of Case III's cycle, by extrapolation at 22 digits
 CLEAR = 1e-4  # exponent from which a period is known better than its value is rounded

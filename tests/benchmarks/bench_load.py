@@ -20,11 +20,15 @@ import numpy as np
 
 from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, overtaken, serving
 from .app_servers import queued
-from .visits import TICKS, Chair, seated
+from .visits import TICKS, TICKS_OF_TEN, WILD, Chair, Waited, beside, seated
 
 CHAIRS = (1, 8, 16, 24, 32, 40)
 SECONDS = 12.0
 LONGEST = 0.1  # seconds: the p95 that is borne
+#: Visitors of two processes, at how many of ten ticks they move, and the p95 of frames and of openings to reach, ms.
+FIGURES = ((60, 3, 20, 100), (60, 10, 50, 300), (100, 10, 100, 500))
+MOVES = tuple(what for what in TICKS if what != "type")  # what is typed waits by design
+FRAMES, MAX_OWN = 10_000, 50  # of a neighbour of a wild visitor; ms
 
 
 @dataclass(frozen=True)
@@ -45,9 +49,14 @@ class Load:
         wanted = kinds or tuple(TICKS)
         return [delay for chair in self.chairs for what in wanted for delay in chair.delays[what]]
 
-    def p95(self) -> float:
-        """Return the delay in seconds below which 95 of 100 frames stayed."""
-        found = self.delays()
+    def own_p95(self, *kinds: str) -> float:
+        """Return the p95 of own delays, in ms: without waiting for a processor that others had."""
+        found = [delay for chair in self.chairs for what in kinds for delay in chair.own[what]]
+        return 1e3 * float(np.quantile(found, 0.95)) if found else math.inf
+
+    def p95(self, *kinds: str) -> float:
+        """Return the delay in seconds below which 95 of 100 frames, or those of some kinds, stayed."""
+        found = self.delays(*kinds)
         return float(np.quantile(found, 0.95)) if found else math.inf
 
     def rates(self) -> tuple[float, float]:
@@ -79,24 +88,67 @@ def since(before: dict[str, float], after: dict[str, float]) -> dict[str, float]
     return {what: max(0.0, after[what] - before[what]) for what in after}
 
 
+def waiting(pid: int, servers: int) -> Waited:
+    """Return what tells for how long this thread has waited, and the one that answers which has waited least."""
+    ones = [f"/proc/{one}/schedstat" for one in served(pid, servers)]
+    return lambda: (queued(), min(map(queued, ones)))
+
+
+def crowd(port: int, pid: int, processes: int, size: int, seconds: float, moving: int = TICKS_OF_TEN) -> Load:
+    """Return what a crowd has met."""
+    one = served(pid, processes)[0]
+    before, began, waited = spent(pid, processes), time.perf_counter(), queued(f"/proc/{one}/schedstat")
+    seats = asyncio.run(seated(port, size, seconds, moving, waiting(pid, processes)))
+    took, after = time.perf_counter() - began, spent(pid, processes)
+    waited = queued(f"/proc/{one}/schedstat") - waited
+    used = since(before, after)
+    frames = max(1, sum(chair.answered for chair in seats))
+    shares = {what: share / took for what, share in used.items()}
+    asyncio.run(at_rest(pid))
+    return Load(seats, shares, used["server processes"] / frames, waited / took)
+
+
 def crowds(processes: int, chairs: tuple[int, ...], seconds: float) -> dict[int, Load]:
     """Return what crowds have met, by their size."""
-    found = {}
     with serving("explorer", str(processes)) as (port, pid):
         asyncio.run(seated(port, 4, 4.0))
         asyncio.run(at_rest(pid))
-        for size in chairs:
-            one = served(pid, processes)[0]
-            before, began, waited = spent(pid, processes), time.perf_counter(), queued(f"/proc/{one}/schedstat")
-            seats = asyncio.run(seated(port, size, seconds))
-            took, after = time.perf_counter() - began, spent(pid, processes)
-            waited = queued(f"/proc/{one}/schedstat") - waited
-            used = since(before, after)
-            frames = max(1, sum(chair.answered for chair in seats))
-            shares = {what: share / took for what, share in used.items()}
-            found[size] = Load(seats, shares, used["server processes"] / frames, waited / took)
+        return {size: crowd(port, pid, processes, size, seconds) for size in chairs}
+
+
+def figures(quick: bool) -> str:
+    """Return what is to be reached beside what is, as Markdown."""
+    lines = [
+        "| 2 processes: visitors | they move at | frames: p95, own p95, ms (to reach) "
+        "| openings: p95, own p95, ms (to reach) "
+        "| server's processor time a frame, ms | load of the machine |",
+        "|---|---|---|---|---|---|",
+    ]
+    frames = FRAMES // (10 if quick else 1)
+    with serving("explorer", "2") as (port, pid):
+        asyncio.run(seated(port, 4, 4.0))
+        asyncio.run(at_rest(pid))
+        for size, moving, frame, opening in FIGURES[: 1 if quick else None]:
+            load = crowd(port, pid, 2, size, 5.0 if quick else SECONDS, moving)
+            lines.append(
+                f"| {size} | {moving} of 10 ticks | {1e3 * load.p95(*MOVES):.0f}, {load.own_p95(*MOVES):.0f} ({frame}) "
+                f"| {1e3 * load.p95('open'):.0f}, {load.own_p95('open'):.0f} ({opening}) "
+                f"| {1e3 * load.frame:.1f} | {os.getloadavg()[0]:.1f} |"
+            )
+    with serving("explorer") as (port, pid):  # one process: it is known who has waited for a processor
+        asyncio.run(seated(port, 4, 4.0))
+        asyncio.run(at_rest(pid))
+        lines += [
+            "",
+            f"| 1 process: beside one who draws | own max, p99, p50 of {frames} frames, ms (max to reach) |",
+            "|---|---|",
+        ]
+        for what, wild in WILD.items():
+            own = 1e3 * np.array(asyncio.run(beside(port, wild, frames, waiting(pid, 1))))
+            p99, p50 = np.quantile(own, (0.99, 0.5))
+            lines.append(f"| {what} | {own.max():.0f}, {p99:.0f}, {p50:.0f} ({MAX_OWN}) |")
             asyncio.run(at_rest(pid))
-    return found
+    return "\n".join(lines)
 
 
 def carried(found: dict[int, Load]) -> int:
@@ -165,7 +217,7 @@ def report(quick: bool = False) -> str:
             f"{saturated(found[chairs[-1]], processes)}",
             "",
         ]
-    lines.append(first_come(quick))
+    lines += [first_come(quick), "", figures(quick)]
     return "\n".join(lines)
 
 

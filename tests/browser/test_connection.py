@@ -10,7 +10,7 @@ from tests.app.serving import serving
 BANNER = ".codim2 .banner"
 #: A page that a test answers in a server's place is from elsewhere, and would have to ask whether it may open a line.
 ANSWERED = {"permissions": ["local-network-access"]}
-RENEWED = "There is a new version of the explorer. Reload the page to have it: what is set here stays. Reload"
+RENEWED = "A new version of the explorer is available. Reload the page: your settings stay. Reload"
 
 
 @pytest.fixture

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.diagrams.standing import equilibrium_branches
+from codim2_core.diagrams.equilibrium_branches import equilibrium_branches
 
 from .asymmetric import PSI, at, equator, size, system
 from .drawn import SCRIPTS, colour, numbers, plots, table

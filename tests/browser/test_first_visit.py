@@ -140,7 +140,13 @@ def test_the_sheet_of_keys_and_marks_is_there_on_demand(open_page, options):
     sheet = explorer.find("dialog.helping")
     explorer.page.keyboard.press("?")
     assert sheet.is_visible()
-    for words in ("Keys and hands", "Shift and drag", "eigenvector, stable", "Approach outcomes", "Limit direction Q"):
+    for words in (
+        "Keyboard and mouse",
+        "Shift and drag",
+        "eigenvector, stable",
+        "Approach outcomes",
+        "Limit direction Q",
+    ):
         assert words in sheet.text_content()
     assert sheet.evaluate("(it) => it.scrollWidth <= it.clientWidth")
     explorer.page.keyboard.press("Escape")

@@ -263,10 +263,10 @@ def test_theorems_come_with_their_numbers_and_follow(explorer):
     assert rows.count() == 0
     open_panel(explorer, "Theorems")
     claim = rows.filter(has_text="Theorem 4.3(c)")
-    assert "This one is CM4." in claim.text_content()
+    assert "This portrait is CM4." in claim.text_content()
     assert "limit directions" in claim.locator("table").text_content()
     explorer.type("f1", "3")
-    assert "This one is NCM2." in rows.filter(has_text="Theorem 4.3(c)").text_content()
+    assert "This portrait is NCM2." in rows.filter(has_text="Theorem 4.3(c)").text_content()
     assert rows.filter(has_text="✗").count() == 0
 
 

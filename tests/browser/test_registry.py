@@ -68,7 +68,7 @@ All orbits reach **C**.
 """
 
 SCRIPT = """
-import {register} from "%s/beside/panels.js"
+import {register} from "%s/widgets/panels.js"
 
 register("twice", (box, {settings, move}) => {
   box.innerHTML = '<button type="button"></button>'

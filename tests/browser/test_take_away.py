@@ -1,4 +1,4 @@
-"""The menu "Take away": each file is clicked for, read, and held against the core."""
+"""The menu "Export": each file is clicked for, read, and held against the core."""
 
 import csv
 import io

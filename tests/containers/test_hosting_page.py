@@ -77,8 +77,11 @@ HERE = "cd ~/codim2 && . .venv/bin/activate\n"
 
 
 def test_the_page_on_hosting_word_for_word_on_a_clean_machine(machine):
-    """From the clone to TLS, two replicas and a rolling restart, at the name and the ports of the page."""
-    (install, _container), (begin, restart) = commands("One machine"), commands("Behind a proxy with TLS, two replicas")
+    """From the clone to TLS, three replicas and a rolling restart, at the name and the ports of the page."""
+    (install, _container), (begin, restart) = (
+        commands("One machine"),
+        commands("Behind a proxy with TLS, three replicas"),
+    )
     *before, serve = install.splitlines()
     assert serve.startswith("codim2 serve ")
     upgrade = re.search(r"for an upgrade, after `(.*?)`", page())[1]
@@ -93,7 +96,7 @@ def test_the_page_on_hosting_word_for_word_on_a_clean_machine(machine):
     )
     visit = VISIT.format(f"https://{NAME}/")
     first = begin.replace("sudo nginx -s reload", "sudo nginx")
-    pids = "cat 5006.pid 5007.pid | tee /dev/stderr > {0}\n"
+    pids = "cat 5006.pid 5007.pid 5008.pid | tee /dev/stderr > {0}\n"
     told = follow(
         machine,
         f"{HERE}{certificate}{first}{visit}{pids.format('before')}sudo nginx -s reload\n"

@@ -10,7 +10,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from codim2_app.frame.cluster import cluster
-from codim2_app.frame.turns import WorkQueue
+from codim2_app.frame.work_queue import WorkQueue
 from codim2_app.server.cli import main
 
 import codim2_core as c2

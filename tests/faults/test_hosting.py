@@ -1,13 +1,14 @@
-"""The proxy's configuration in the repository, with two replicas behind it: nginx as Debian has it."""
+"""The proxy's configuration in the repository, with three replicas behind it: nginx as Debian has it."""
 
 import asyncio
 import os
 import re
 import shutil
+import signal
 import subprocess
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from urllib.request import urlopen
 
@@ -15,6 +16,8 @@ import pytest
 import yaml
 from codim2_app.draw.packing import unpack
 from codim2_app.server.settings import SETTINGS
+from tornado.httpclient import HTTPClientError, HTTPRequest
+from tornado.websocket import WebSocketClosedError
 
 from tests.app.serving import serving
 from tests.benchmarks.app_load import free_port
@@ -36,9 +39,12 @@ def proxy(folder, port, replicas, prefix=""):
         there, below = re.search(r'`sed -e "s\|(location.*?)\|(.*?)\|" -e`', PAGE.read_text(encoding="utf-8")).groups()
         assert there in text
         text = text.replace(there, below)
-    for name, own in zip(("5006", "5007"), replicas, strict=True):
-        assert f"127.0.0.1:{name}" in text
-        text = text.replace(f"127.0.0.1:{name}", f"127.0.0.1:{own}")
+    first, *others = re.findall(r" *server 127.*\n", text)
+    lines = [re.sub(":[0-9]+", f":{own}", first) for own in replicas]
+    assert len(lines) <= 1 + len(others)
+    text = text.replace(first, "".join(lines))
+    for line in others:
+        text = text.replace(line, "")
     own = folder / "nginx.conf"
     own.write_text(f"daemon off;\npid {folder}/pid;\nerror_log {folder}/error.log;\n{text}")
     kinds = ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
@@ -89,16 +95,19 @@ def test_the_compose_file_builds_this_and_sets_what_there_is():
         assert each["CODIM2_ORIGINS"] == f"localhost:{port}"
 
 
+def replica(i, port, own, prefix=""):
+    """One of those that the compose file starts, at a port of its own behind the proxy's."""
+    given = {**os.environ, **{name: str(value) for name, value in environments()[i].items()}}
+    given |= {"CODIM2_ORIGINS": f"localhost:{port}", **({"CODIM2_PREFIX": prefix} if prefix else {})}
+    return serving("--port", own, "--workers", "1", environment=given)
+
+
 @needs_nginx
 @pytest.mark.parametrize("prefix", ["", "/explorer"])
-def test_a_rolling_restart_of_two_replicas_behind_nginx_loses_no_state(tmp_path, prefix):
+def test_a_rolling_restart_of_replicas_behind_nginx_loses_no_state(tmp_path, prefix):
     """Each is ended and started again in its turn; an address opens as it was at any time."""
     port, ports = free_port(), [str(free_port()) for _ in range(2)]
-    given = [{**os.environ, **{name: str(value) for name, value in each.items()}} for each in environments()]
-
-    def start(i):
-        own = {**given[i], "CODIM2_ORIGINS": f"localhost:{port}", **({"CODIM2_PREFIX": prefix} if prefix else {})}
-        return serving("--port", ports[i], environment=own)
+    start = lambda i: replica(i, port, ports[i], prefix)
 
     with ThreadPoolExecutor(1) as pool, ExitStack() as one, ExitStack() as two:
         running = (one, two)
@@ -115,6 +124,67 @@ def test_a_rolling_restart_of_two_replicas_behind_nginx_loses_no_state(tmp_path,
                 assert talk() == [0.0]
                 running[i].enter_context(start(i))
             assert talk() == [0.0]
+
+
+PAGES, TICKS = 9, 30
+
+
+async def dragged(port, number, at_tick):
+    """Drag as a page does that comes back with its address when its server is gone; return what it had to, at ticks."""
+
+    async def come(a):
+        while True:
+            with suppress(OSError, HTTPClientError):
+                address = f"ws://localhost:{port}/live?a={a}"
+                return await Wire.at(HTTPRequest(address, headers={"Cookie": f"codim2=page{number}"}))
+            await asyncio.sleep(0.05)
+
+    a, lost = -1.0 - number, []
+    wire = await come(a)
+    for tick in range(TICKS):
+        await at_tick(tick)
+        a -= 0.01
+        try:
+            await wire.frame(tick, a=a)
+        except (ConnectionError, WebSocketClosedError):
+            await wire.vanish()
+            wire = await come(a)  # the address has the newest value
+            lost.append(tick)
+        assert unpack(await wire.frame(TICKS + tick, b=0.01 * tick))[0]["errors"] == {}
+        await wire.send({"take": {"kind": "json", "id": tick}})
+        shown = re.search(r"[?&]a=([-.0-9]+)", (await wire.message())["file"].decode())[1]
+        assert float(shown) == pytest.approx(a)
+    await wire.close()
+    return lost
+
+
+@needs_nginx
+def test_one_of_three_replicas_is_killed_in_a_drag_and_no_page_loses_its_state(tmp_path):
+    port, ports = free_port(), [str(free_port()) for _ in environments()]
+    there = lambda own: float(re.search(r"codim2_pages\{.*?\} (\S+)", read(own, "metrics"))[1])
+    read = lambda own, what: urlopen(f"http://localhost:{own}/{what}").read().decode()
+    seen = []
+
+    async def play(pids):
+        halfway = asyncio.Barrier(PAGES)
+
+        async def at_tick(tick):
+            if tick != TICKS // 2:
+                return
+            if await halfway.wait() == 0:
+                seen.extend([await asyncio.to_thread(there, own) for own in ports])
+                os.kill(pids[seen.index(max(seen))], signal.SIGKILL)
+            await halfway.wait()
+
+        return await asyncio.gather(*(dragged(port, number, at_tick) for number in range(PAGES)))
+
+    with ThreadPoolExecutor(1) as pool, ExitStack() as running:
+        pids = [running.enter_context(replica(i, port, own)).pid for i, own in enumerate(ports)]
+        with proxy(tmp_path, port, ports):
+            assert answers(port)
+            lost = pool.submit(asyncio.run, play(pids)).result()
+    assert sum(seen) == PAGES
+    assert sorted(map(len, lost)) == [0] * int(PAGES - max(seen)) + [1] * int(max(seen))
 
 
 def commands(title):

@@ -14,6 +14,8 @@ from tests.work import wait_until
 
 AT_ONCE = 4  # visitors: one after the other they would wait for their own machine most of the time
 FORGOTTEN = 30.0  # seconds
+BEGUN = MOST_COMPILED + 10  # visits whose formulas are compiled in the process that answers, as far as it does
+MOVED = 12  # settings of a formula: its first ones are timed by workers
 PLATEAU = 40e6  # bytes by which what is held after a thousand visits may exceed what is held after a hundred
 
 
@@ -77,14 +79,21 @@ def test_work_that_nobody_wants_any_more_ends_in_mid_work(address, how):
     assert asyncio.run(talk())
 
 
+async def drawn(wire, number, **values):
+    """Ask for a frame until nothing of its picture is late; return its header."""
+    header, _ = unpack(await wire.frame(number, **values))
+    while "picture" in header.get("late", []) or not header["ready"]:
+        await wire.send({"id": number, "rest": True})
+        header, _ = unpack(await wire.next_frame())
+    return header
+
+
 async def type_and_vanish(port, i):
-    """Open a page, move a slider, type a Psi that nobody has typed before, wait for its orbits, and go."""
+    """Open a page, type a Psi that nobody has typed before, move a slider until it is compiled here, and go."""
     wire = await Wire.connect(port)
-    await wire.frame(1, a=app_load.value(i))
-    header, _ = unpack(await wire.frame(2, psi="custom", psi_text=f"1/(1+s)+exp(-{1 + i}*s)"))
-    while not header["ready"]:
-        await asyncio.sleep(0.1)
-        header, _ = unpack(await wire.frame(3))
+    await drawn(wire, 1, psi="custom", psi_text=f"1/(1+s)+exp(-{1 + i}*s)")
+    for tick in range(MOVED if i < BEGUN else 1):
+        await drawn(wire, 2 + tick, a=app_load.value(i + tick))
     await wire.vanish()
 
 
@@ -113,8 +122,7 @@ def test_a_thousand_visits_hold_no_more_than_a_hundred():
     async def both(port, pid):
         return [each async for each in held(port, pid)]
 
-    begun = MOST_COMPILED + 10
-    first = [(i, type_and_vanish if i < begun else drag_and_vanish) for i in range(150)]
+    first = [(i, type_and_vanish if i < BEGUN else drag_and_vanish) for i in range(150)]
     others = [(i, drag_and_vanish if i % 10 else type_and_vanish) for i in range(150, 1000)]
     with app_load.serving("forgetful") as (port, pid):
         before, after = asyncio.run(both(port, pid))
@@ -122,3 +130,20 @@ def test_a_thousand_visits_hold_no_more_than_a_hundred():
     assert after["Frames"] == 1
     assert after["Scene"] <= before["Scene"]
     assert after["resident"] - before["resident"] < PLATEAU, (before, after)
+
+
+def test_who_types_without_end_uses_nothing_up():
+    """Sixty texts, each drawn: none is compiled in the process that answers, and another's new formula is drawn."""
+
+    async def play(port):
+        wild, other = [await Wire.connect(port) for _ in range(2)]
+        for k in range(1, 60):
+            await drawn(wild, k, psi="custom", psi_text=f"1/(1+s)+exp(-{k}*s)")
+        said = (await drawn(other, 1, psi="custom", psi_text="1/(1+s)+exp(-s/2)"))["errors"]
+        left = await asyncio.to_thread(app_load.left, port)
+        await wild.close()
+        await other.close()
+        return said, left["formulas"]
+
+    with app_load.serving("forgetful") as (port, _):
+        assert asyncio.run(play(port)) == ({}, 0)

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the system boun
 #: A server whose files never have enough: each asks for more memory, and uses it or not.
 SERVER = """
 import sys
-from codim2_app.view import taking
+from codim2_app.view import export_jobs
 from codim2_app.server.cli import main
 
 def hungry(view, wish):
@@ -27,7 +27,7 @@ def hungry(view, wish):
     while True:
         held.append({block})
 
-taking.make_file = hungry
+export_jobs.make_file = hungry
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))
 """

@@ -11,12 +11,12 @@ from concurrent.futures import Executor, Future
 from typing import Any
 
 from codim2_app.draw.packing import unpack
-from codim2_app.export.taking import ExportRequest, seen_by
+from codim2_app.export.export_request import ExportRequest, seen_by
 from codim2_app.frame.budget import Budget
 from codim2_app.frame.faults import FAULT
 from codim2_app.frame.jobs import Jobs
 from codim2_app.phrases import say
-from codim2_app.state.chosen import BOXES
+from codim2_app.state.chosen_system import BOXES
 from codim2_app.state.controls import CONTROL_NAMES, ExplorerState
 from codim2_app.state.links import read_link
 from codim2_app.view.refresh import Frames

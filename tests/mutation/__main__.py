@@ -1,7 +1,7 @@
 """Do the tests notice a wrong formula? ``python -m tests.mutation [NAME ...] [--sample N] [--record]``.
 
 NAME is a room or a module: ``layer_problem``, ``core.portrait.classify``, ``app.draw``, ``static``,
-``static/beside/ball.js``; without one, everything is tried: the core, the app's Python and its JavaScript. One
+``static/widgets/ball.js``; without one, everything is tried: the core, the app's Python and its JavaScript. One
 expression at a time is changed (`mutants`, `javascript`), and those tests of the room (`targets`) that reach the
 changed function are run, the quickest first, up to the first failure, or as long as ``--seconds`` says: in place where
 that can be (`live`), else with the module imported anew; what Numba compiles is run as Python (`interpreted`). Nothing

@@ -158,8 +158,8 @@ def test_those_that_lived_can_be_tried_again():
 
 
 def test_what_was_found_is_read_as_it_was_written():
-    some = Found("core.sliding.over", 3, 5, 40, 7)
-    other = Found("static/beside/ball.js", 2, 2, 2, 0, "1a2b3c4")
+    some = Found("core.sliding.slow_plane", 3, 5, 40, 7)
+    other = Found("static/widgets/ball.js", 2, 2, 2, 0, "1a2b3c4")
     text = written([some, other])
     assert read(text) == {one.name: one for one in (some, other)}
     assert "| core.sliding | 3 of 5 | 60 % |" in text

@@ -13,7 +13,7 @@ from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 from codim2_core.layer_problem.problem import LayerProblem
-from codim2_core.nullcline.meeting import conics_of
+from codim2_core.nullcline.direction_hyperbola import conics_of
 from codim2_core.sliding.affine import affine_plane
 from tests.app.panels.opening import settled
 

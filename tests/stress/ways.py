@@ -15,7 +15,7 @@ import numpy as np
 import codim2_core as c2
 from codim2_core import psi
 from codim2_core.atlases.faces import inside_polygons
-from codim2_core.motion.agreement import agreement
+from codim2_core.motion.compare_with_limit import agreement
 
 FAMILIES = (psi.constant(), psi.rational(), psi.tanh(), psi.hill(3.0))
 #: Of the ranges: nearer to a curve, or of the span to a special value, nothing is compared.
@@ -132,7 +132,7 @@ def limit_and_eps(rng: random.Random) -> tuple[str, list[str]]:
     for eps in (1e-6, 1e-8, 1e-10):
         run = c2.simulate(system, family, eps, start, (0.0, 1.5))
         found = agreement(system, family, run, limit)
-        said = [] if found.same or any("may be decided" in phase.reason for phase in run.phases) else [found.sentence]
+        said = [] if found.same or any("may decide" in phase.reason for phase in run.phases) else [found.sentence]
         if not said:
             break
     return f"motion of {system.U}, {family.text}, from {start}", said

@@ -8,16 +8,16 @@ from string import Formatter
 import pytest
 from codim2_app import phrases
 from codim2_app.draw.packing import unpack
-from codim2_app.frame import budget, turns
+from codim2_app.frame import budget, work_queue
 from codim2_app.panels.parameters.atlas_columns import atlas_columns
 from codim2_app.server.live import link_of
-from codim2_app.state import asked, links
+from codim2_app.state import links, request_reading
 from codim2_app.state.controls import ExplorerState
 from codim2_app.state.links import decompress_query, read_link
 from codim2_app.view.refresh import Frames
 
 from codim2_core import System, equator_equilibria, psi
-from codim2_core.atlases import starts, tracing
+from codim2_core.atlases import seed_net, tracing
 from codim2_core.atlases.atlas import curves_over, with_regions
 from codim2_core.atlases.result import SamplingReport
 from codim2_core.scene import Scene
@@ -59,7 +59,7 @@ def memory(_key):
     def hungry():
         raise MemoryError
 
-    assert turns.compute(hungry).sentence == phrases.say("memory")
+    assert work_queue.compute(hungry).sentence == phrases.say("memory")
 
 
 def address_failed(_key, monkeypatch):
@@ -111,7 +111,7 @@ def by_curves(key):
     """The cells of the net are those of the search; what is there is not said to come."""
     whole, curves = followed()
     assert note(whole) == phrases.SENTENCES[key].says
-    assert {str(starts.PARAMETER_CELLS), str(starts.INTERIOR_CELLS)} == set(re.findall(r"1/(\d+)", note(whole)))
+    assert {str(seed_net.PARAMETER_CELLS), str(seed_net.INTERIOR_CELLS)} == set(re.findall(r"1/(\d+)", note(whole)))
     assert note(curves) == phrases.SENTENCES["regions to come"].says
     assert curves.regions == ()
 
@@ -166,7 +166,7 @@ def planes(psi_name):
 
 def request(given, **wanted):
     def check(key):
-        _, values, said = asked.read_request(given)
+        _, values, said = request_reading.read_request(given)
         told = fields(key, said)
         assert wanted.items() <= told.items()
         assert not values or key == "values left out"
@@ -245,7 +245,7 @@ CHECKS = {
     "request of a wrong kind": request([1], kind="list"),
     "values of a wrong kind": request({"set": 3.0}, kind="float"),
     "too many values": request(
-        {"set": dict.fromkeys(map(str, range(99)), 0)}, count="99", most=str(asked.MOST_CONTROLS)
+        {"set": dict.fromkeys(map(str, range(99)), 0)}, count="99", most=str(request_reading.MOST_CONTROLS)
     ),
     "values left out": request({"set": {"a": 1.0, "psi_text": "s" * 10**5}}),
     "address names": address("v=1&foo=1&bar=2"),

@@ -7,8 +7,8 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, bifurcations, psi
+from codim2_core.diagrams.equilibrium_branches import equilibrium_branches
 from codim2_core.diagrams.result import SpecialValue
-from codim2_core.diagrams.standing import equilibrium_branches
 from codim2_core.words import recognise
 
 from .read_back import number
@@ -110,13 +110,13 @@ ALONG = {
     "set reaches the equator": (typed("k - c - c**3", "-s + 0.1*c"), ONE, "k", (1.5, 2.6)),
     "two sets meet": (typed("k - c**2", "-s + 0.1*c"), ONE, "k", (-0.3, 0.4)),
     "set splits": (typed("k*c - c**3", "-s"), ONE, "k", (-0.4, 0.3)),
-    "saddle turns": (typed("k*c - c**2", "-s"), ONE, "k", (-0.4, 0.3)),
-    "Hopf, typed": (typed("k*c - s", "c + k*s - s**3"), ONE, "k", (-0.3, 0.2)),
+    "det J = 0": (typed("k*c - c**2", "-s"), ONE, "k", (-0.4, 0.3)),
+    "Hopf": (typed("k*c - s", "c + k*s - s**3"), ONE, "k", (-0.3, 0.2)),
     "Hopf, supercritical": (ELinear(172, 186, -200, (-86, -93)), HILL, "n", (2.0, 2.6)),
     "Hopf, degenerate": (ELinear(-1, 3, 1.2), ONE, "a", (-1.6, -0.9)),
     "Hopf, degenerate, reversible": (ELinear(-1, 3, 1.2, (0.5, 0.5)), HILL, "d", (0.6, 1.9)),
     "trace touches zero": (ELinear(1, 3, -1, (0.0, 0.0)), ONE, "f1", (-0.5, 0.5)),
-    "between node and focus": (ELinear(-1, 0.1, -2, (0.0, 0.0)), ONE, "b", (0.1, 1.0)),
+    "node-focus": (ELinear(-1, 0.1, -2, (0.0, 0.0)), ONE, "b", (0.1, 1.0)),
     "line at one value": (ELinear(-1, 0, 1, (0.3, 0.0)), ONE, "d", (-0.7, 0.6)),
     "through infinity": (ELinear(-1, 0, 1, (0.3, 0.2)), ONE, "d", (-0.7, 0.6)),
     "nothing turns at f = 0": (ELinear(-1, 0, -1, (0.3, 0.0)), ONE, "f1", (-0.7, 0.6)),
@@ -136,13 +136,13 @@ AT_A_VALUE = {
     "two sets meet": counts(0, 2),
     "one comes or goes": counts(0, 1),
     "set splits": counts(0, 2),
-    "saddle turns": counts(0, 0, "determinant"),
-    "Hopf, typed": hopf,
+    "det J = 0": counts(0, 0, "determinant"),
+    "Hopf": hopf,
     "Hopf, supercritical": hopf,
     "Hopf, subcritical": hopf,
     "Hopf, degenerate": hopf,
     "trace touches zero": counts(0, 0),
-    "between node and focus": counts(0, 0, "discriminant"),
+    "node-focus": counts(0, 0, "discriminant"),
     "line at one value": counts(0, None),
     "through infinity": counts(0, 0),
     "changes over Ψ": over_psi,

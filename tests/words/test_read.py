@@ -17,7 +17,7 @@ ASIDE = {
     "server/commands.py": "the command's own help",
     "server/first_page.py": "a page of its own, held in tests/app/server",
     "server/kernel_cache.py": "the log",
-    "server/taking.py": "the command's own",
+    "server/downloads.py": "the command's own",
     "frame/workers.py": "the log; what is told is said by phrases",
     "draw/layers.py": "tooltips of layers",
     "state/controls.py": "tooltips of controls",
@@ -77,3 +77,29 @@ def test_every_notice_is_said_somewhere(key):
 def test_every_sentence_of_the_browser_is_said_somewhere():
     sources = "\n".join(path.read_text(encoding="utf-8") for path in STATIC.rglob("*.js") if path.name != "words.js")
     assert {key for key in browser() if f"SAYS.{key}" not in sources} == set()
+
+
+#: Constructions that no sentence has: they read as translated, or do not say who does what.
+REFUSED = re.compile(
+    r"what stands still|\b(is|are) told\b|left to (ε|terms)|\bturns its\b|lets go|[Cc]ounted once here|has just met"
+    r"|\bWho \w+s\b|\bnot so\b|all else|the one way|come to no end|: left out|just now"
+)
+MOST_WORDS = 25
+#: Flesch's reading ease of all sentences together; 70 reads as plain English (Flesch 1948).
+READING_EASE = 70.0
+
+
+def spoken(line):
+    """Sentences of a line of the registry, as words: formulas and fields count as what is spoken for them."""
+    text = line.split("]: ", 1)[-1] if "]: " in line else line.split(": ", 2)[-1]
+    return [re.findall(r"[^\W\d_]{2,}|\{\w+|\d+|[a-zA-ZΨΣΘ]\b", one) for one in re.split(r"(?<=[.?!…])\s+", text)]
+
+
+def test_sentences_are_short_and_plain():
+    assert not [line for line in lines() if REFUSED.search(line.split("]: ", 1)[-1])]
+    every = [words for line in lines() for words in spoken(line) if words]
+    assert not [words for words in every if len(words) > MOST_WORDS]
+    said = [word.lower() for words in every for word in words]
+    syllables = sum(max(1, len(re.findall(r"[aeiouy]+", word.removesuffix("e")))) for word in said)
+    ease = 206.835 - 1.015 * len(said) / len(every) - 84.6 * syllables / len(said)
+    assert ease > READING_EASE, ease

@@ -81,7 +81,7 @@ REFUSED = [
     (own(W="z9"), "text:W", "W1 names z9, but W has 1 row: use z"),
     (own(U1="+".join("abdghijklmnopq")), "text:U1", "use at most 12"),
     (own(W="1e400"), "text:W", "number"),
-    (own(U1="T*c"), "text:U1", "is time"),
+    (own(U1="T*c"), "text:U1", "is the time"),
     ({"system": "ball_in_pool", "parameters": {"m": 0}}, "parameters", "−∞ at z = (4, 0)"),
 ]  # fmt: skip
 BARE = {"layers": [], "trajectories": 0, "panel": "psi"}

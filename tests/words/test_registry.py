@@ -10,6 +10,7 @@ ROOT = Path(__file__).parents[2]
 #: What is no statement about a system: data with texts of its own, and what is said of a wrong input.
 ASIDE = {
     "words": "the registry",
+    "critical_changes.py": "rows that the registry reads",
     "paper.py": "what the paper's labels are called",
     "figures": "captions of the presets, data",
     "examples": "what a system is, data",
@@ -68,7 +69,7 @@ def test_every_sentence_is_registered_once():
 def test_every_sentence_is_said_somewhere():
     rooms = (path for path in (ROOT / "codim2_core").iterdir() if path.name != "words")
     sources = "\n".join(path.read_text() for room in rooms for path in [room, *room.rglob("*.py")] if path.is_file())
-    composed = {"becomes homoclinic", "becomes heteroclinic"}  # `continuation.typed.ends`
+    composed = {"becomes homoclinic", "becomes heteroclinic"}  # `continuation.typed.typed_ends`
     composed |= {"no cycle", "one cycle", "cycles", "Hopf", "left", "reached", "along", "along one"}
     said = {key for key in SENTENCES if f'"{key}"' in sources or f"'{key}'" in sources}
     assert {re.split("[,:]", key)[0] for key in SENTENCES.keys() - said} <= composed
@@ -77,7 +78,7 @@ def test_every_sentence_is_said_somewhere():
 def test_numbers_and_names_are_written_in_one_way():
     text = say("comes down", label="Q2", theta=-1.0471975)
     assert text == "Comes down to Q₂ and leaves Σ along θ = −1.047."
-    assert say("leaves", theta=-6.12e-17) == "Leaves Σ along θ = 0."
+    assert say("leaves", theta=-6.12e-17) == "It leaves Σ along θ = 0."
     assert say("end of the branch span", name="f1", value=1.5e-7) == "f₁ = 1.5 · 10⁻⁷: the end of the span."
     assert recognise(text) == [("comes down", {"label": "Q₂", "theta": "−1.047"})]
     assert [key for key, _ in recognise(say("cycle shrinks", C="C2"))] == ["cycle shrinks"]

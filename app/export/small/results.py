@@ -25,7 +25,7 @@ from codim2_core.portrait.basins import Basins
 from codim2_core.portrait.separatrix import Separatrices
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
-from codim2_core.scene.launched import LaunchedOrbits
+from codim2_core.scene.launched_orbits import LaunchedOrbits
 from codim2_core.sliding.slow_portrait_result import SlowPortrait
 
 from ...draw import glyphs

@@ -56,7 +56,9 @@ def latex(view: View) -> str:
     parts = [
         _tabular(("", r"$\theta$", r"$\lambda_\rho$", r"$\lambda_\theta$", ""), directions, "lrrrl")
         if directions
-        else in_latex("Every direction is a limit direction." if equator.all_directions else "No limit directions.")
+        else in_latex(
+            "Every direction is a limit direction." if equator.all_directions else "There are no limit directions."
+        )
     ]
     sets = _critical_rows(scene)
     if sets:

@@ -20,7 +20,7 @@ from codim2_core.systems.coefficients import Coefficients
 from ...draw import plane_curves
 from ...draw.packing import Polylines
 from ...draw.thumbnails import thumbnails
-from ...frame.draft import FrameContext
+from ...frame.frame_context import FrameContext
 from ...phrases import say
 from ..panel import Panel
 from .atlas_columns import atlas_columns, short, strip_columns

@@ -13,10 +13,10 @@ from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 
 from ...draw.mathml import plain_symbol
-from ...frame.draft import FrameContext
+from ...frame.frame_context import FrameContext
 from ...phrases import say
 from ...state.choices import COEFFICIENTS, OWN_AXIS, SLIDER_AXES, SLOW_CONTROLS
-from ...state.chosen import NORMAL, OWN_SYSTEM, PARAMETER_RANGE, parameter_ranges, slow_ranges
+from ...state.chosen_system import NORMAL, OWN_SYSTEM, PARAMETER_RANGE, parameter_ranges, slow_ranges
 from ...state.controls import ExplorerState
 from ...state.opening import axes_of
 from ...state.slider_range import edited_range, slider_range

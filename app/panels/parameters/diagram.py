@@ -18,7 +18,7 @@ from codim2_core.diagrams.branches import Branches, branches
 
 from ...draw.thumbnails import MAX_KEPT as MAX_FRAMES
 from ...draw.thumbnails import thumbnails
-from ...frame.draft import FrameContext
+from ...frame.frame_context import FrameContext
 from ...phrases import say
 from ...state.pace import MIN_PACE, SLOW_DISTANCE
 from ..panel import Panel

@@ -18,7 +18,7 @@ from codim2_core.psi.function import Psi
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.frozen import FrozenSystem
 
-from ...frame.draft import FrameContext
+from ...frame.frame_context import FrameContext
 from ...phrases import say
 from ..panel import Panel
 

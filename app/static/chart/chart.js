@@ -4,11 +4,11 @@
 
 import {shape} from "./marks.js"
 import {meet} from "./regions.js"
-import {fixed, polyline} from "../svg.js"
+import {toCoordinate, polyline} from "../svg.js"
 import {digits, escape} from "../words.js"
-import {grouped} from "./groups.js"
+import {groupMarks} from "./groups.js"
 import {scale, wordedTicks} from "./scale.js"
-import {beside, Space, TEXT, textSize} from "./space.js"
+import {labelBox, Space, TEXT, textSize} from "./space.js"
 
 /**
  * @typedef {{span: number[], word?: string, ticks?: [number, string][], hidden?: boolean, most?: number}} Axis
@@ -111,10 +111,10 @@ export class Chart {
     const parts = []
     for (const {from, to, name, title} of plot.bands ?? []) {
       const [a, b] = [from, to].map((v) => Math.max(left, Math.min(right, x.at(v))))
-      parts.push(`<rect class="band ${name}" x="${fixed(a)}" y="${fixed(top)}" width="${fixed(Math.max(0, b - a))}" height="${fixed(bottom - top)}">${title ? `<title>${escape(title)}</title>` : ""}</rect>`)
+      parts.push(`<rect class="band ${name}" x="${toCoordinate(a)}" y="${toCoordinate(top)}" width="${toCoordinate(Math.max(0, b - a))}" height="${toCoordinate(bottom - top)}">${title ? `<title>${escape(title)}</title>` : ""}</rect>`)
     }
     for (const {name, points, loops = [points], whole, label, title} of plot.areas ?? []) {
-      const all = whole ? `M${fixed(left)} ${fixed(top)}H${fixed(right)}V${fixed(bottom)}H${fixed(left)}Z` : ""
+      const all = whole ? `M${toCoordinate(left)} ${toCoordinate(top)}H${toCoordinate(right)}V${toCoordinate(bottom)}H${toCoordinate(left)}Z` : ""
       parts.push(`<path class="area ${name}"${label ? ` data-region="${escape(label)}"` : ""} fill-rule="evenodd" d="${all}${loops.map((loop) => `${polyline(loop.map(place))}Z`).join("")}">${title ? `<title>${escape(title)}</title>` : ""}</path>`)
     }
     if (plot.zeros) {
@@ -129,28 +129,28 @@ export class Chart {
       parts.push(`<path class="line ${line.name}"${line.opacity === undefined ? "" : ` stroke-opacity="${line.opacity.toFixed(2)}"`} d="${polyline(points)}">${line.title ? `<title>${escape(line.title)}</title>` : ""}</path>`)
     }
     for (const one of plot.arrows ?? []) parts.push(this.arrow(one, place([one.x, one.y]), x.slope, y.slope))
-    const within = `<svg class="plot" x="${fixed(left)}" y="${fixed(top)}" width="${fixed(right - left)}" height="${fixed(bottom - top)}" viewBox="${fixed(left)} ${fixed(top)} ${fixed(right - left)} ${fixed(bottom - top)}">${parts.join("")}</svg>`
+    const within = `<svg class="plot" x="${toCoordinate(left)}" y="${toCoordinate(top)}" width="${toCoordinate(right - left)}" height="${toCoordinate(bottom - top)}" viewBox="${toCoordinate(left)} ${toCoordinate(top)} ${toCoordinate(right - left)} ${toCoordinate(bottom - top)}">${parts.join("")}</svg>`
     const dots = (plot.dots ?? []).map((dot) => {
       const [u, v] = place([dot.x, dot.y])
       this.space.box([u, v, 2 * dot.r + 4, 2 * dot.r + 4])
-      return `<circle class="dot ${dot.name}" cx="${fixed(u)}" cy="${fixed(v)}" r="${dot.r}">${dot.title ? `<title>${escape(dot.title)}</title>` : ""}</circle>`
+      return `<circle class="dot ${dot.name}" cx="${toCoordinate(u)}" cy="${toCoordinate(v)}" r="${dot.r}">${dot.title ? `<title>${escape(dot.title)}</title>` : ""}</circle>`
     })
     const marks = (plot.marks ?? []).map((mark) => ({...mark, px: x.at(mark.x), py: y.at(mark.y)})).filter((mark) => mark.px >= left - 1 && mark.px <= right + 1)
-    return `<g class="chart-plot">${within}<rect class="frame" x="${fixed(left)}" y="${fixed(top)}" width="${fixed(right - left)}" height="${fixed(bottom - top)}"/>${this.ticks(frame)}${dots.join("")}${grouped(marks, GROUP).map((group) => this.mark(group)).join("")}</g>`
+    return `<g class="chart-plot">${within}<rect class="frame" x="${toCoordinate(left)}" y="${toCoordinate(top)}" width="${toCoordinate(right - left)}" height="${toCoordinate(bottom - top)}"/>${this.ticks(frame)}${dots.join("")}${groupMarks(marks, GROUP).map((group) => this.mark(group)).join("")}</g>`
   }
 
   ticks({plot, left, right, top, bottom, x, y, ticksX, ticksY}) {
-    const parts = ticksY.map(([value, text]) => `<path class="tick" d="M${fixed(left - 3)} ${fixed(y.at(value))}h3"/><text class="tick-y" data-value="${value}" x="${fixed(left - 5)}" y="${fixed(Math.min(bottom, y.at(value) + 0.35 * TEXT))}" text-anchor="end">${escape(text)}</text>`)
+    const parts = ticksY.map(([value, text]) => `<path class="tick" d="M${toCoordinate(left - 3)} ${toCoordinate(y.at(value))}h3"/><text class="tick-y" data-value="${value}" x="${toCoordinate(left - 5)}" y="${toCoordinate(Math.min(bottom, y.at(value) + 0.35 * TEXT))}" text-anchor="end">${escape(text)}</text>`)
     if (!plot.x.hidden) {
       const word = plot.x.word ?? "", wide = textSize(word)[0]
       for (const [value, text] of ticksX) {
         const at = x.at(value), [width] = textSize(text)
         const clear = !word || at + width / 2 < right - wide - 4
-        parts.push(`<path class="tick" d="M${fixed(at)} ${fixed(bottom)}v3"/>${clear ? `<text class="tick-x" data-value="${value}" x="${fixed(Math.max(left + width / 2 - 6, Math.min(this.width - width / 2, at)))}" y="${fixed(bottom + 1.25 * TEXT)}" text-anchor="middle">${escape(text)}</text>` : ""}`)
+        parts.push(`<path class="tick" d="M${toCoordinate(at)} ${toCoordinate(bottom)}v3"/>${clear ? `<text class="tick-x" data-value="${value}" x="${toCoordinate(Math.max(left + width / 2 - 6, Math.min(this.width - width / 2, at)))}" y="${toCoordinate(bottom + 1.25 * TEXT)}" text-anchor="middle">${escape(text)}</text>` : ""}`)
       }
-      if (word) parts.push(`<text class="word" x="${fixed(right)}" y="${fixed(bottom + 1.25 * TEXT)}" text-anchor="end">${escape(word)}</text>`)
+      if (word) parts.push(`<text class="word" x="${toCoordinate(right)}" y="${toCoordinate(bottom + 1.25 * TEXT)}" text-anchor="end">${escape(word)}</text>`)
     }
-    if (plot.title) parts.push(`<text class="title" x="${fixed(left)}" y="${fixed(top - 5)}">${plot.title}</text>`)
+    if (plot.title) parts.push(`<text class="title" x="${toCoordinate(left)}" y="${toCoordinate(top - 5)}">${plot.title}</text>`)
     return parts.join("")
   }
 
@@ -162,18 +162,18 @@ export class Chart {
       const most = within && Math.hypot(...[x, y].map((axis, i) => Math.max(...within[i].map((v) => Math.abs(axis.at(v) - axis.at(near[i]))))))
       const corners = ([u, v, w, h]) => [[-1, -1], [-1, 1], [1, -1], [1, 1], [0, -1], [0, 1]].map(([i, j]) => [x.back(u + i * w / 2), y.back(v + j * h / 2)])
       const allowed = (box) => inside(box) && (!label.allowed || corners(box).every(([u, v]) => label.allowed(u, v)))
-      const middles = at ? beside([x.at(at[0]), y.at(at[1])], text) : this.space.around([x.at(near[0]), y.at(near[1])], most)
+      const middles = at ? labelBox([x.at(at[0]), y.at(at[1])], text) : this.space.around([x.at(near[0]), y.at(near[1])], most)
       const found = this.space.place(text, middles, allowed)
       if (!found) return ""
       this.placed.push({index: this.placed.length, text, box: [found[0], found[1], ...textSize(text)]})
-      return `<text class="${name}" data-word="${this.placed.length - 1}" x="${fixed(found[0])}" y="${fixed(found[1] + 0.35 * TEXT)}" text-anchor="middle">${escape(text)}</text>`
+      return `<text class="${name}" data-word="${this.placed.length - 1}" x="${toCoordinate(found[0])}" y="${toCoordinate(found[1] + 0.35 * TEXT)}" text-anchor="middle">${escape(text)}</text>`
     }).join("")
   }
 
   /** @param {Arrow} one @param {number[]} at px */
   arrow({u, v, length, name = ""}, [px, py], slopeX, slopeY) {
     const turn = Math.atan2(v * slopeY, u * slopeX) * 180 / Math.PI, half = length / 2
-    return `<path class="arrow ${name}" transform="translate(${fixed(px)} ${fixed(py)}) rotate(${fixed(turn)})" d="M${fixed(-half)} 0H${fixed(half)}m-4-3l4 3l-4 3"/>`
+    return `<path class="arrow ${name}" transform="translate(${toCoordinate(px)} ${toCoordinate(py)}) rotate(${toCoordinate(turn)})" d="M${toCoordinate(-half)} 0H${toCoordinate(half)}m-4-3l4 3l-4 3"/>`
   }
 
   mark(group) {
@@ -182,7 +182,7 @@ export class Chart {
     this.groups.push(group)
     const title = group.map((one) => one.title).join("\n")
     const inner = group.length > 1 ? `<circle class="many" r="7"/><text class="number" y="3.6" text-anchor="middle">${group.length}</text>` : shape(group[0].kind)
-    return `<g class="special ${escape(group.length > 1 ? "group" : group[0].name ?? "")}" data-group="${this.groups.length - 1}" data-kind="${escape(group.map((one) => one.kind).join(" "))}" transform="translate(${fixed(px)} ${fixed(py)})"><title>${escape(title)}</title><circle class="catch" r="11"/>${inner}</g>`
+    return `<g class="special ${escape(group.length > 1 ? "group" : group[0].name ?? "")}" data-group="${this.groups.length - 1}" data-kind="${escape(group.map((one) => one.kind).join(" "))}" transform="translate(${toCoordinate(px)} ${toCoordinate(py)})"><title>${escape(title)}</title><circle class="catch" r="11"/>${inner}</g>`
   }
 
   // The line at the present value of x, through all plots.
@@ -192,7 +192,7 @@ export class Chart {
     if (!path) return
     const seen = this.frames.map((frame) => ({...frame, at: value === null ? NaN : frame.x.at(value)})).filter(({at, left, right}) => at >= left - 0.1 && at <= right + 0.1)
     this.cover(([u, v, wide]) => seen.some(({at, top, bottom}) => v >= top && v <= bottom && Math.abs(u - at) < wide / 2 + 2))
-    path.setAttribute("d", seen.map(({at, top, bottom}) => `M${fixed(at)} ${fixed(top)}V${fixed(bottom)}`).join(""))
+    path.setAttribute("d", seen.map(({at, top, bottom}) => `M${toCoordinate(at)} ${toCoordinate(top)}V${toCoordinate(bottom)}`).join(""))
   }
 
   /**
@@ -207,16 +207,16 @@ export class Chart {
     if (!frame) return
     const place = (/** @type {number[]} */ [u, v]) => [frame.x.at(u), frame.y.at(v)]
     const covered = dots.map((dot) => [...place([dot.x, dot.y]), 2 * dot.r, 2 * dot.r])
-    const parts = dots.map((dot, i) => `<circle class="dot ${dot.name}" cx="${fixed(covered[i][0])}" cy="${fixed(covered[i][1])}" r="${dot.r}"/>`)
+    const parts = dots.map((dot, i) => `<circle class="dot ${dot.name}" cx="${toCoordinate(covered[i][0])}" cy="${toCoordinate(covered[i][1])}" r="${dot.r}"/>`)
     if (path) parts.unshift(`<path class="path" d="${polyline(path.map(place))}"/>`)
     const inside = tag && frame.x.at(tag.at[0]) >= frame.left && frame.x.at(tag.at[0]) <= frame.right && frame.y.at(tag.at[1]) >= frame.top && frame.y.at(tag.at[1]) <= frame.bottom
     if (inside) {
       const [u, v] = place(tag.at), [width, height] = textSize(tag.text)
       const at = [Math.max(frame.left + width / 2 + 2, Math.min(frame.right - width / 2 - 2, u)), v < frame.top + 26 ? v + 19 : v - 17]
       covered.push([...at, width, height])
-      parts.push(`<text class="${tag.name}" x="${fixed(at[0])}" y="${fixed(at[1] + 0.35 * TEXT)}" text-anchor="middle">${escape(tag.text)}</text>`)
+      parts.push(`<text class="${tag.name}" x="${toCoordinate(at[0])}" y="${toCoordinate(at[1] + 0.35 * TEXT)}" text-anchor="middle">${escape(tag.text)}</text>`)
     }
-    holder.innerHTML = `<svg class="plot" x="${fixed(frame.left)}" y="${fixed(frame.top)}" width="${fixed(frame.right - frame.left)}" height="${fixed(frame.bottom - frame.top)}" viewBox="${fixed(frame.left)} ${fixed(frame.top)} ${fixed(frame.right - frame.left)} ${fixed(frame.bottom - frame.top)}">${parts.join("")}</svg>`
+    holder.innerHTML = `<svg class="plot" x="${toCoordinate(frame.left)}" y="${toCoordinate(frame.top)}" width="${toCoordinate(frame.right - frame.left)}" height="${toCoordinate(frame.bottom - frame.top)}" viewBox="${toCoordinate(frame.left)} ${toCoordinate(frame.top)} ${toCoordinate(frame.right - frame.left)} ${toCoordinate(frame.bottom - frame.top)}">${parts.join("")}</svg>`
     this.cover((box, text) => (tag && text === tag.text) || covered.some((other) => meet(other, box)))
   }
 
@@ -282,7 +282,7 @@ export class Chart {
     const text = `${line.title ? `${line.title}: ` : ""}${frame.plot.x.word ?? "x"} = ${digits(x)}, ${digits(y)}`
     const [width] = textSize(text)
     const u = Math.max(2 + width / 2, Math.min(this.width - 2 - width / 2, px)), v = py < frame.top + 24 ? py + 18 : py - 12
-    holder.innerHTML = `<circle class="read-at" cx="${fixed(px)}" cy="${fixed(py)}" r="3.2"/><text class="read-words" x="${fixed(u)}" y="${fixed(v)}" text-anchor="middle">${escape(text)}</text>`
+    holder.innerHTML = `<circle class="read-at" cx="${toCoordinate(px)}" cy="${toCoordinate(py)}" r="3.2"/><text class="read-words" x="${toCoordinate(u)}" y="${toCoordinate(v)}" text-anchor="middle">${escape(text)}</text>`
   }
 
   nearest({px, py, frame}) {

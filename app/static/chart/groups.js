@@ -7,7 +7,7 @@
  * @param {number} reach px
  * @returns {Mark[][]} in the order of px
  */
-export function grouped(marks, reach) {
+export function groupMarks(marks, reach) {
   const groups = []
   for (const mark of [...marks].sort((one, other) => one.px - other.px)) {
     const near = groups.find((group) => Math.hypot(group[0].px - mark.px, group[0].py - mark.py) < reach)

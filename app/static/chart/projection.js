@@ -8,7 +8,7 @@
  * @param {number} elevation
  * @returns {[number, number, number]} right, up, depth
  */
-export function seen([x, y, z], azimuth, elevation) {
+export function rotateView([x, y, z], azimuth, elevation) {
   const c = Math.cos(azimuth), s = Math.sin(azimuth), ce = Math.cos(elevation), se = Math.sin(elevation)
   const away = s * x + c * y
   return [c * x - s * y, ce * z + se * away, ce * away - se * z]

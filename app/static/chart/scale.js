@@ -18,7 +18,7 @@ export function scale([from, to], [first, last]) {
  * @param {number} value
  * @param {number[]} span low, high
  */
-export function rounded(value, [low, high]) {
+export function roundToSpan(value, [low, high]) {
   const decimals = 3 - Math.floor(Math.log10(high - low))
   return Number(value.toFixed(Math.max(0, decimals))) + 0 // no -0
 }

@@ -98,7 +98,7 @@ function nearby() {
  * @param {number[]} point px
  * @param {string} text
  */
-export function beside([x, y], text) {
+export function labelBox([x, y], text) {
   const [width] = textSize(text)
   const middles = []
   for (const gap of [6, 12, 20]) {

@@ -1,6 +1,6 @@
 // Controls: a slider with an editable number, whose range widens for a typed value.
 
-import {sidewaysOnly} from "../hands/gestures.js"
+import {sidewaysOnly} from "../interaction/gestures.js"
 import {rangeFor} from "./ranges.js"
 import {SAYS, escape, plain} from "../words.js"
 
@@ -112,8 +112,8 @@ export class NumberControl {
 }
 
 // What a long sentence says first, and what stands behind "more": the list of what is allowed, or what follows it.
-export function folded(sentence) {
-  const listed = sentence.match(/^(.*?\.) (Allowed are .*?\.)(?: (Mend: .*))?$/s)
+export function foldAllowed(sentence) {
+  const listed = sentence.match(/^(.*?\.) (Allowed are .*?\.)(?: (.*))?$/s)
   if (listed) return [[listed[1], listed[3]].filter(Boolean).join(" "), listed[2]]
   const end = sentence.length > LONG ? sentence.indexOf(". ", 40) : -1
   return end < 0 ? [sentence, ""] : [sentence.slice(0, end + 1), sentence.slice(end + 2)]
@@ -123,7 +123,7 @@ export function sayAt(box, sentence) {
   const error = box.querySelector(".error")
   box.classList.toggle("bad", Boolean(sentence))
   if (!error) return
-  const [told, rest] = folded(sentence ?? "")
+  const [told, rest] = foldAllowed(sentence ?? "")
   if (error.dataset.said !== sentence) {
     error.textContent = told
     if (rest) error.insertAdjacentHTML("beforeend", ` <details><summary>more</summary>${escape(rest)}</details>`)

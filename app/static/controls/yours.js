@@ -38,7 +38,7 @@ const core = ({kind, values}) => JSON.stringify(kind === "psi" ? values.psi_text
  * @param {"own" | "typed" | "psi"} kind @param {Record<string, any>} values @param {string} fresh a new id
  * @returns {{list: Entry[], current: string}}
  */
-export function noted(list, current, kind, values, fresh) {
+export function addEntry(list, current, kind, values, fresh) {
   const entry = {id: fresh, name: "", kind, values: structuredClone(values)}
   if (!fits(entry)) return {list, current}
   const known = list.find((one) => one.kind === kind && core(one) === core(entry))
@@ -59,13 +59,13 @@ function within(list) {
 }
 
 /** @param {Entry[]} list @param {string} id @param {string} name */
-export const named = (list, id, name) => list.map((one) => one.id === id ? {...one, name: name.trim().slice(0, LONGEST_NAME)} : one)
+export const renameEntry = (list, id, name) => list.map((one) => one.id === id ? {...one, name: name.trim().slice(0, LONGEST_NAME)} : one)
 
 /** @param {Entry[]} list @param {string} id */
 export const without = (list, id) => list.filter((one) => one.id !== id)
 
 /** Put one back where it was. @param {Entry[]} list @param {Entry} entry @param {number} at */
-export const restored = (list, entry, at) => list.some((one) => one.id === entry.id) ? list : within([...list.slice(0, at), entry, ...list.slice(at)])
+export const restoreEntry = (list, entry, at) => list.some((one) => one.id === entry.id) ? list : within([...list.slice(0, at), entry, ...list.slice(at)])
 
 /** What stands for an entry without a name. @param {Entry} entry @param {Record<string, {name: string, label: string, text: string}[]>} boxes */
 export function formulaOf({kind, values}, boxes) {

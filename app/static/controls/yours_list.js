@@ -2,7 +2,7 @@
 // there is none, in the page.
 
 import {SAYS, escape} from "../words.js"
-import {formulaOf, named, noted, readYours, restored, without} from "./yours.js"
+import {formulaOf, renameEntry, addEntry, readYours, restoreEntry, without} from "./yours.js"
 
 const STORE = "codim2-yours"
 
@@ -30,7 +30,7 @@ export class YoursList {
     })
     box.addEventListener("change", (event) => {
       const id = event.target.closest("li").dataset.yours
-      this.change((list) => named(list, id, event.target.value))
+      this.change((list) => renameEntry(list, id, event.target.value))
     })
     window.addEventListener("storage", (event) => { if (event.key === STORE) { this.read(); this.show() } })
     this.show()
@@ -52,7 +52,7 @@ export class YoursList {
     if (what === "put-back") {
       const {entry, at} = this.removed
       this.removed = null
-      this.change((list) => restored(list, entry, at))
+      this.change((list) => restoreEntry(list, entry, at))
       return
     }
     const at = this.list.findIndex((one) => one.id === id), entry = this.list[at]
@@ -84,7 +84,7 @@ export class YoursList {
   put(which, kind, values) {
     this.change((list) => {
       this.last = Math.max(this.last, ...list.map(({id}) => Number(id) || 0)) + 1
-      const found = noted(list, this.current[which], kind, values, String(this.last))
+      const found = addEntry(list, this.current[which], kind, values, String(this.last))
       this.current[which] = found.current
       return found.list
     })

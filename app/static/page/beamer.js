@@ -7,7 +7,7 @@ const PANEL = 1 / 620 // the size of a panel's letters, by the screen's height i
 const SIZED = ["size", "width", "dx", "dy"] // what is in px
 
 /** What is drawn, with letters, marks and lines so many times as large. @param {any[]} list @param {number} times */
-export function enlarged(list, times) {
+export function enlarge(list, times) {
   if (times === 1) return list
   return list.map((item) => ({...item, ...Object.fromEntries(SIZED.filter((name) => name in item).map((name) => [name, item[name] * times]))}))
 }

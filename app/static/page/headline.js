@@ -1,8 +1,8 @@
 // The first sentence: how hard it is pushed, how much can be held in that direction, and what becomes of it. Its numbers
 // are dragged: the push as it is, what is balanced with all of A. Of the e-linear system that the sliders set.
 
-import {put} from "../dom.js"
-import {SAYS, digits, notPushed, pushed} from "../words.js"
+import {setMarkup} from "../dom.js"
+import {SAYS, digits, noPushSentence, pushSentence} from "../words.js"
 
 const FULL = 160 // px in which a dragged number changes by its own size
 const LEAST = 0.05 // what a push of none is dragged as
@@ -56,9 +56,9 @@ export class Headline {
   draw() {
     const {push, held} = pushOf(this.values), number = (which, value, words) => `<b class="dragged" role="slider" tabindex="0" data-number="${which}" aria-label="${words}" aria-valuenow="${digits(value, 3)}">${digits(value, 3)}</b>`
     const last = verdict(this.kinds, this.cycle)
-    const told = this.does.own() && last && (push < 1e-12 ? notPushed(last) : held > 0 && Number.isFinite(held) && pushed(number("push", push, SAYS.push), number("held", held, SAYS.held), last, push > held))
+    const told = this.does.own() && last && (push < 1e-12 ? noPushSentence(last) : held > 0 && Number.isFinite(held) && pushSentence(number("push", push, SAYS.push), number("held", held, SAYS.held), last, push > held))
     this.box.hidden = !told
-    put(this.box, told || "")
+    setMarkup(this.box, told || "")
   }
 
   /** So many times the push, or so many times A. @param {string} which @param {number} times @param {Plane} v */

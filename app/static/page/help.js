@@ -4,23 +4,23 @@ import {escape} from "../words.js"
 
 /** @type {[string, string][]} what is pressed or done, and what it does */
 export const KEYS = [
-  ["?", "this sheet"],
-  ["click, tap", "launches the orbit through that point; on a mark or a named curve, pins its card"],
-  ["press and drag", "the orbit follows; from the start of one, moves it"],
-  ["drag C, or a Q", "f follows: it puts C where it is held, and turns Q by as little as it can; arrow keys do so too"],
-  ["hover, or Tab", "the name, numbers and eigenvectors of what is there; Enter pins it"],
-  ["Esc", "lets go of what is pinned; closes a sheet"],
-  ["Shift and drag, Ctrl and wheel", "move and enlarge the picture; on a phone with two fingers"],
-  ["Ctrl+Z, Ctrl+Shift+Z", "undo, redo; also the browser’s Back and Forward"],
-  ["← → ↑ ↓", "on a slider, in a chart, in the row of panels"],
-  ["Enter", "takes a typed number; one beyond a slider’s range widens it; 0.3 in [0, 1] sets both"],
-  ["click on a symbol", "the range of its slider"],
-  ["l", "lifts the picture onto the hemisphere, and lays it flat; drag, wheel or arrow keys turn it"],
-  ["Space", "comets drift along the orbits"],
-  ["b", "for the beamer: full screen, letters by the height of the screen; controls come with the pointer and fade; Esc ends it"],
-  ["p", "for the beamer: a panel beside the picture"],
-  ["k, then → and ←", "for the beamer: keep a view; go from one kept view to the next, as a clicker does with Page Up and Down"],
-  ["two panes", "the button for two portraits side by side; shares: the sliders that move both"],
+  ["?", "opens this sheet"],
+  ["click, tap", "launches an orbit; on a mark or a named curve, pins its numbers"],
+  ["press and drag", "moves the launched orbit with the pointer"],
+  ["drag C, or a Q", "changes f so that C or Q follows; arrow keys do the same"],
+  ["hover, or Tab", "shows the name, numbers and eigenvectors of an object; Enter pins it"],
+  ["Esc", "unpins an object; closes a sheet"],
+  ["Shift and drag, Ctrl and wheel", "move and zoom the picture; on a phone use two fingers"],
+  ["Ctrl+Z, Ctrl+Shift+Z", "undo and redo; the browser’s Back and Forward do the same"],
+  ["← → ↑ ↓", "move a slider, a point in a chart, or along the panels"],
+  ["Enter", "accepts a typed number and widens the slider if needed; 0.3 in [0, 1] also sets its range"],
+  ["click on a symbol", "sets the range of its slider"],
+  ["l", "lifts the picture onto the hemisphere, or lays it flat; drag, wheel or arrow keys turn it"],
+  ["Space", "sends comets along the orbits"],
+  ["b", "fills the screen for the beamer, with large letters; move the pointer to show the controls; Esc ends it"],
+  ["p", "shows a panel beside the picture on the beamer"],
+  ["k, then → and ←", "saves a view for the beamer, then goes from one saved view to the next; a clicker does the same"],
+  ["two panes", "shows two portraits side by side; “shares” lists the sliders that move both"],
 ]
 
 // How eigenvectors are drawn, as in objects.js.
@@ -47,7 +47,7 @@ export class Help {
     const layers = [...this.root.querySelectorAll(".legend .layer[data-layer]")].map((label) => `<dt>${label.querySelector(".swatch").outerHTML} ${escape(label.textContent.trim())}</dt><dd>${escape(label.title)}</dd>`)
     const arrows = ARROWS.map(([colour, dash, head, end, words]) => `<span><svg viewBox="0 0 26 16" width="26" height="16" aria-hidden="true"><path d="M0 8H${end}" fill="none" stroke="var(--${colour})" stroke-width="2.4" stroke-dasharray="${dash}"/><path d="${head}" fill="var(--${colour})"/></svg> ${words}</span>`)
     this.dialog.innerHTML = `<form method="dialog"><button class="close" title="Close" aria-label="Close">✕</button></form>
-      <h2>Keys and hands</h2><dl>${KEYS.map(([key, words]) => `<dt><kbd>${escape(key)}</kbd></dt><dd>${escape(words)}</dd>`).join("")}</dl>
+      <h2>Keyboard and mouse</h2><dl>${KEYS.map(([key, words]) => `<dt><kbd>${escape(key)}</kbd></dt><dd>${escape(words)}</dd>`).join("")}</dl>
       <h2>Marks</h2><div class="marks">${taken(".reading")}${arrows.join("")}</div>
       <h2>Layers</h2><dl>${layers.join("")}</dl>
       <h2>Words</h2><dl>${taken(".about dl")}</dl>`

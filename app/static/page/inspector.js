@@ -1,6 +1,6 @@
 // What is always in view beside the picture: the portrait's name and sentence, what is degenerate, the slow flow.
 
-import {put, say} from "../dom.js"
+import {setMarkup, say} from "../dom.js"
 import {escape, formula, slowWords} from "../words.js"
 
 /** What lies on both sides of a degenerate setting, as markup. @param {any} sides */
@@ -24,7 +24,7 @@ export class Inspector {
     say(this.find(".portrait-name"), name)
     say(this.find(".portrait-case"), which ? `Case ${which}` : "")
     say(this.find(".sentence"), sentence.replace(/^(Case \S+, )?\S+\. /, ""))
-    put(this.find(".degeneracies"), degeneracies
+    setMarkup(this.find(".degeneracies"), degeneracies
       .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${formula(words)}</p>`).join("") + besides(sides))
   }
 

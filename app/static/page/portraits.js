@@ -1,6 +1,6 @@
 // The choice of a portrait, from the list or the gallery, and what it is: the paper's figure, or what has been changed of it.
 
-import {put} from "../dom.js"
+import {setMarkup} from "../dom.js"
 import {capital, formula} from "../words.js"
 
 export class Portraits {
@@ -28,6 +28,6 @@ export class Portraits {
     if (this.select) this.select.title = p?.title ?? ""
     const here = values.preset || (same && config.page ? config.first : "")
     for (const button of this.small) button.classList.toggle("here", button.dataset.preset === here)
-    put(this.words, formula(!p ? (same && config.page ? config.opening : "") : same ? capital(`${p.label}. ${p.note}`) : `changed from ${p.label}`))
+    setMarkup(this.words, formula(!p ? (same && config.page ? config.opening : "") : same ? capital(`${p.label}. ${p.note}`) : `changed from ${p.label}`))
   }
 }

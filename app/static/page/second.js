@@ -2,7 +2,7 @@
 // but for those of its own, which the text `beside` holds as a query. The two tell each other by messages.
 
 import {slidersOf} from "../controls/controls.js"
-import {written} from "./links.js"
+import {linkValue} from "./links.js"
 import {SAYS, escape} from "../words.js"
 
 export const SECOND = "codim2-second" // of the frame: by it the explorer inside knows what it is
@@ -22,10 +22,10 @@ export function readOwn(text, defaults) {
 }
 
 /** @param {Record<string, any>} own */
-export const writeOwn = (own) => new URLSearchParams(Object.entries(own).map(([name, value]) => [name, written(value)])).toString()
+export const writeOwn = (own) => new URLSearchParams(Object.entries(own).map(([name, value]) => [name, linkValue(value)])).toString()
 
 /** Those of some values that are others than before. @param {Record<string, any>} now @param {Record<string, any>} before */
-const others = (now, before) => Object.fromEntries(Object.entries(now).filter(([name, value]) => written(value) !== written(before[name])))
+const others = (now, before) => Object.fromEntries(Object.entries(now).filter(([name, value]) => linkValue(value) !== linkValue(before[name])))
 
 /** What the page with the first portrait does. */
 export class Second {

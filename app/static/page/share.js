@@ -1,20 +1,20 @@
 // The dialog "Share": the link of the present view, its QR code for the phones in the room, and a frame for another page.
 
-import {copied} from "../dom.js"
-import {squeezed} from "./links.js"
+import {copyText} from "../dom.js"
+import {compressQuery} from "./links.js"
 import {SAYS, escape} from "../words.js"
 
 const MARKUP = `
   <form method="dialog"><button class="close" title="Close" aria-label="Close">✕</button></form>
   <h2>This view as a link</h2>
-  <p class="note">It carries every value, what was typed, launched orbits, the lesson, the zoom and kept views.</p>
+  <p class="note">The link carries every value, your formulas, launched orbits, the lesson, the zoom and saved views.</p>
   <div class="row"><input type="text" class="address" readonly aria-label="Link of this view"><button type="button" data-copies="address">Copy</button></div>
   <img class="qr" alt="QR code of the link" hidden>
   <div class="rooms"><h2>A room</h2>
-    <p class="note">Phones that enter your room are dots on your atlas: their present settings, without names.</p>
+    <p class="note">Students join from their phones; each appears as an anonymous dot.</p>
     <div class="row"><button type="button" class="open-room">Open a room</button> <label>enter one <input type="text" class="code" maxlength="8" size="6" placeholder="code" spellcheck="false" autocomplete="off" autocapitalize="characters"></label><button type="button" class="enter-room">Enter</button></div></div>
   <h2>In another page</h2>
-  <p class="note">A frame with the picture and the controls that you name: <label>controls <input type="text" class="names" value="f1,f2" spellcheck="false" autocomplete="off"></label></p>
+  <p class="note"><label>Embed with these sliders: <input type="text" class="names" value="f1,f2" spellcheck="false" autocomplete="off"></label></p>
   <div class="row"><input type="text" class="html" readonly aria-label="HTML of the frame"><button type="button" data-copies="html">Copy</button></div>
   <p class="note told" role="status"></p>
   <div class="take"></div>`
@@ -40,7 +40,7 @@ export class Share {
     if (!this.dialog.firstElementChild) this.make()
     this.find(".told").textContent = ""
     const query = this.query()
-    const short = await squeezed(query, this.version)
+    const short = await compressQuery(query, this.version)
     const page = location.origin + location.pathname
     const address = `${page}?${short}`
     this.find(".address").value = address
@@ -77,7 +77,7 @@ export class Share {
     for (const button of /** @type {NodeListOf<HTMLElement>} */ (this.dialog.querySelectorAll("[data-copies]"))) {
       button.addEventListener("click", async () => {
         const box = this.find(`.${button.dataset.copies}`)
-        await copied(box)
+        await copyText(box)
         this.find(".told").textContent = "Copied."
       })
     }

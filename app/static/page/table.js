@@ -1,8 +1,8 @@
 // The puck in the first view: the system that the sliders set, seen from above. Play has it slip, stick and slip from the
 // typed start of “Orbits”, while z moves and the same motion runs as a dot on the sphere.
 
-import {Player, sampled} from "../beside/player.js"
-import {Puck} from "../beside/puck.js"
+import {Player, sampleAt} from "../widgets/player.js"
+import {Puck} from "../widgets/puck.js"
 import {pushOf} from "./headline.js"
 
 const LARGEST = 1.5 // the slider's end, of what can be balanced
@@ -66,9 +66,9 @@ export class Table {
   }
 
   show() {
-    const {motion, player, does} = this, z = sampled(motion.t, motion.states, player.at)[4]
+    const {motion, player, does} = this, z = sampleAt(motion.t, motion.states, player.at)[4]
     this.puck.show(null, player.at)
-    does.trace([undefined, motion.picture], sampled(motion.t, motion.picture, player.at))
+    does.trace([undefined, motion.picture], sampleAt(motion.t, motion.picture, player.at))
     if (z !== undefined) does.move({z: Number(z.toPrecision(4))})
   }
 }

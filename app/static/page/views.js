@@ -2,7 +2,7 @@
 // values between two of one system are run through.
 
 import {busy} from "./beamer.js"
-import {put} from "../dom.js"
+import {setMarkup} from "../dom.js"
 import {escape} from "../words.js"
 
 const STORE = "codim2-views"
@@ -18,7 +18,7 @@ const numbersOf = (values) => Object.fromEntries([...Object.entries(values), ...
  * What changes from one view to another: numbers that can be run through, as [name, from, to], or null where it is another system.
  * @param {Record<string, any>} from @param {Record<string, any>} to @returns {[string, number, number][] | null}
  */
-export function between(from, to) {
+export function interpolateViews(from, to) {
   const same = (name) => JSON.stringify(from[name]) === JSON.stringify(to[name])
   if (!OTHER.every(same)) return null
   const before = numbersOf(from)
@@ -80,14 +80,14 @@ export class Views {
 
   write() {
     const button = (view, words, title, more = "") => `<button type="button" data-view="${view}" title="${escape(title)}" aria-label="${escape(title)}"${more}>${words}</button>`
-    put(this.box, button("keep", "+", "Keep this view (k)") + this.list.map(({name}, i) => button(i, String(i + 1), `View ${i + 1}: ${name}`, ` aria-pressed="${i === this.at}"`)).join("") + (this.at >= 0 ? button("drop", "−", "Drop this view") : ""))
+    setMarkup(this.box, button("keep", "+", "Keep this view (k)") + this.list.map(({name}, i) => button(i, String(i + 1), `View ${i + 1}: ${name}`, ` aria-pressed="${i === this.at}"`)).join("") + (this.at >= 0 ? button("drop", "−", "Drop this view") : ""))
   }
 
   go(i) {
     const {does} = this, {set, seen} = this.list[i], view = {...structuredClone(does.first), ...structuredClone(set)}
     this.at = i
     this.write()
-    const run = ++this.run, ways = between(does.values, view), still = matchMedia("(prefers-reduced-motion: reduce)").matches
+    const run = ++this.run, ways = interpolateViews(does.values, view), still = matchMedia("(prefers-reduced-motion: reduce)").matches
     if (!ways?.length || still) { does.open(view, seen); return }
     const start = performance.now()
     const step = (/** @type {number} */ now) => {

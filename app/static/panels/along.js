@@ -1,10 +1,10 @@
 // The panel "Along z": where Sigma slides, the slow flow on each critical set, and play, which lets z drift with it.
 
 import {Chart} from "../chart/chart.js"
-import {largest, rounded, spanOf} from "../chart/scale.js"
+import {largest, roundToSpan, spanOf} from "../chart/scale.js"
 import {shape} from "../chart/marks.js"
-import {register} from "../beside/panels.js"
-import {Ticker} from "../beside/player.js"
+import {register} from "../widgets/panels.js"
+import {Ticker} from "../widgets/player.js"
 import {SAYS, digits, escape, slowName} from "../words.js"
 
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown
@@ -32,7 +32,7 @@ class Along {
     this.svg = this.find(".along")
     this.chart = new Chart(this.svg, {
       aspect: (width) => Math.min(0.66 * width, 460),
-      onMove: (value) => { if (this.data) this.setControls({[this.data.control]: rounded(value, this.data.span)}) },
+      onMove: (value) => { if (this.data) this.setControls({[this.data.control]: roundToSpan(value, this.data.span)}) },
       onKey: (way, far) => this.step(way, far),
       onMark: (/** @type {any[]} */ [mark]) => this.setControls({[this.data.control]: mark.go}),
     })
@@ -40,7 +40,7 @@ class Along {
     this.planeChart = new Chart(this.plane, {
       aspect: (width) => width,
       onRedraw: () => this.showPlace(),
-      onMove: (z, z2) => { if (this.planeData) this.setControls({z: rounded(z, this.planeData.spans[0]), z2: rounded(z2, this.planeData.spans[1])}) },
+      onMove: (z, z2) => { if (this.planeData) this.setControls({z: roundToSpan(z, this.planeData.spans[0]), z2: roundToSpan(z2, this.planeData.spans[1])}) },
     })
     this.ticker = new Ticker(this.find(".play"), (ms, next) => this.drifts(ms, next))
     this.data = null
@@ -56,7 +56,7 @@ class Along {
   step([across, up], far) {
     if (!this.data) return
     const {span: [low, high], control} = this.data
-    this.setControls({[control]: rounded(this.values[control] + (across + up) * (high - low) / (far ? 20 : 200), [low, high])})
+    this.setControls({[control]: roundToSpan(this.values[control] + (across + up) * (high - low) / (far ? 20 : 200), [low, high])})
   }
 
   apply({header}, late) {

@@ -1,10 +1,10 @@
 // The panel "Atlas": two parameters as a plane, with a portrait of each of its regions.
 // The plane of f comes in closed form and belongs to f(z); any other two axes are mapped by the server at rest.
 
-import {axesMarkup, AxisChoice, ZoomButtons} from "../beside/axes.js"
+import {axesMarkup, AxisChoice, ZoomButtons} from "../widgets/axes.js"
 import {polygons} from "../picture/frames.js"
-import {colours, Pad} from "../beside/pad.js"
-import {register} from "../beside/panels.js"
+import {colours, Pad} from "../widgets/pad.js"
+import {register} from "../widgets/panels.js"
 import {Dots} from "../room/dots.js"
 import {rangeFor, reachFor} from "../controls/ranges.js"
 

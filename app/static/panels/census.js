@@ -1,7 +1,7 @@
 // The panel "Census": a bar for each portrait among systems drawn at random, as long as its share, with a small portrait;
 // a click opens the system of that name that lies farthest from a border.
 
-import {register} from "../beside/panels.js"
+import {register} from "../widgets/panels.js"
 import {SAYS, escape} from "../words.js"
 
 // What stays as it is when an example is opened: how it is drawn, and under which Psi.
@@ -14,7 +14,7 @@ export function percent(share, low, high) {
 }
 
 /** @param {number} count */
-export const spaced = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, "\u202f")
+export const groupDigits = (count) => String(count).replace(/\B(?=(\d{3})+$)/g, "\u202f")
 
 class Census {
   constructor(box, tools) {
@@ -65,7 +65,7 @@ class Census {
     const [, base] = this.tools.settings.draws[values.census]
     for (const [i, option] of [...this.find(".census-size").children].entries()) {
       option.value = String(i)
-      option.textContent = spaced(base * 10 ** i)
+      option.textContent = groupDigits(base * 10 ** i)
     }
     this.find(".census-draw").value = values.census
     this.find(".census-size").value = String(values.census_size)
@@ -75,7 +75,7 @@ class Census {
     if (this.rows.length) this.find(".census-said").textContent = this.drawn === "normal" ? SAYS.drawnNormal : SAYS.drawnQuadratic
     const most = Math.max(...this.rows.map(([, , , , high]) => high))
     const across = (share) => (100 * share / most).toFixed(2)
-    this.find(".census-list").innerHTML = this.rows.map(([name, count, share, low, high], i) => `<button type="button" data-row="${i}" title="${escape(name)}: ${spaced(count)} systems, ${percent(low, low, high)} to ${percent(high, low, high)} %">
+    this.find(".census-list").innerHTML = this.rows.map(([name, count, share, low, high], i) => `<button type="button" data-row="${i}" title="${escape(name)}: ${groupDigits(count)} systems, ${percent(low, low, high)} to ${percent(high, low, high)} %">
       <span class="census-portrait">${this.portraits[name] ?? ""}</span><span class="census-name">${escape(name)}</span><span class="census-share">${percent(share, low, high)} %</span>
       <svg class="census-bar" viewBox="0 0 100 10" preserveAspectRatio="none" aria-hidden="true"><rect width="${across(share)}" height="10"/><path d="M${across(low)} 5H${across(high)}"/></svg></button>`).join("")
     this.mark()

@@ -2,13 +2,13 @@
 // A click sets the parameter; a click on a special point goes exactly there. Above it a film strip: the portraits before,
 // at and after each special value, with a sentence for the nearest; play goes through them, slowly near one.
 
-import {axesMarkup, AxisChoice, ZoomButtons} from "../beside/axes.js"
-import {put, save} from "../dom.js"
+import {axesMarkup, AxisChoice, ZoomButtons} from "../widgets/axes.js"
+import {setMarkup, save} from "../dom.js"
 import {Chart} from "../chart/chart.js"
-import {rounded, spanOf} from "../chart/scale.js"
+import {roundToSpan, spanOf} from "../chart/scale.js"
 import {shape} from "../chart/marks.js"
-import {register} from "../beside/panels.js"
-import {PLAY_SECONDS, Ticker} from "../beside/player.js"
+import {register} from "../widgets/panels.js"
+import {PLAY_SECONDS, Ticker} from "../widgets/player.js"
 import {SAYS, escape, formula, minus, plain} from "../words.js"
 
 const TURN = 2 * Math.PI
@@ -37,10 +37,10 @@ class Diagram {
     this.data = null
     this.chart = new Chart(this.svg, {
       aspect: (width) => Math.min((this.data?.cycles?.pieces.length ? 1.3 : 0.86) * width, this.data?.cycles?.pieces.length ? 820 : 620),
-      onMove: (value, _, plot) => this.go(rounded(value, this.chart.plots[plot].x.span)),
+      onMove: (value, _, plot) => this.go(roundToSpan(value, this.chart.plots[plot].x.span)),
       onKey: ([across, up], far) => {
         const [low, high] = this.data.span
-        this.go(rounded(this.tools.valueOf(this.values.along) + (across + up) * (high - low) / (far ? 20 : 200), [low, high]))
+        this.go(roundToSpan(this.tools.valueOf(this.values.along) + (across + up) * (high - low) / (far ? 20 : 200), [low, high]))
       },
       onMark: (marks) => this.visit(marks),
     })
@@ -58,7 +58,7 @@ class Diagram {
     const plays = on && this.fits(), span = this.data?.span
     this.rests = 0
     if (plays && this.at >= span[1]) this.go(span[0])
-    if (!plays && this.ticker.playing && this.fits()) this.go(this.event(this.at) ? this.at : rounded(this.at, span))
+    if (!plays && this.ticker.playing && this.fits()) this.go(this.event(this.at) ? this.at : roundToSpan(this.at, span))
     this.ticker.toggle(plays)
   }
 
@@ -145,7 +145,7 @@ class Diagram {
     const item = strip.children[at]
     if (item) strip.scrollLeft = item.offsetLeft - (strip.clientWidth - item.offsetWidth) / 2
     const where = nearest && (nearest.value === value ? "At" : nearest.value > value ? "Before" : "After")
-    put(this.find(".happens"), nearest ? `<b>${where} ${escape(nearest.kind)}, ${this.word} = ${minus(plain(nearest.value))}:</b> ${formula(nearest.sentence)}` : SAYS.nothingHappens)
+    setMarkup(this.find(".happens"), nearest ? `<b>${where} ${escape(nearest.kind)}, ${this.word} = ${minus(plain(nearest.value))}:</b> ${formula(nearest.sentence)}` : SAYS.nothingHappens)
   }
 
   drawAll() {

@@ -1,9 +1,9 @@
 // The panel "Lessons": the course as a list, or one lesson: text with live numbers, and questions in four steps.
 
-import {register} from "../beside/panels.js"
-import {joined, packed, progressOf, unpacked, withStep} from "../beside/progress.js"
-import {copied, put} from "../dom.js"
-import {SAYS, escape, formula, lowered, plain} from "../words.js"
+import {register} from "../widgets/panels.js"
+import {joinProgress, packProgress, progressOf, unpackProgress, withStep} from "../widgets/progress.js"
+import {copyText, setMarkup} from "../dom.js"
+import {SAYS, escape, formula, lowerIndices, plain} from "../words.js"
 
 const STORE = "codim2-lessons"
 const FAR = 4, STEP = 0.05 // from the middle, a mark is nearer; as far does the cross go with one key
@@ -18,7 +18,7 @@ class Lessons {
     this.asked = "" // which question waits for its answer, as in a link
     this.aimed = null // where the arrow keys have moved the cross
     const brought = new URLSearchParams(globalThis.location?.search).get("done")
-    if (brought) this.store(joined(this.progress(), unpacked(brought)))
+    if (brought) this.store(joinProgress(this.progress(), unpackProgress(brought)))
     box.addEventListener("click", (event) => this.click(event))
     box.addEventListener("pointerdown", (event) => this.grab(event))
     box.addEventListener("keydown", (event) => this.key(event))
@@ -142,7 +142,7 @@ class Lessons {
       option.classList.toggle("right", k === truth)
       option.classList.toggle("wrong", k === choice && k !== truth)
     }
-    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not so."}</b> ${lowered([why, explain].filter(Boolean).join(" "))}</p>`
+    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not quite."}</b> ${lowerIndices([why, explain].filter(Boolean).join(" "))}</p>`
     const vary = section.querySelector(".vary")
     if (vary) vary.hidden = false
     section.querySelector(".verdict").scrollIntoView({block: "nearest"})
@@ -152,7 +152,7 @@ class Lessons {
   showGoal({question: i, reached, now}) {
     const goal = this.section(i)?.querySelector(".goal")
     if (!goal) return
-    put(goal, reached ? "<b>Done ✓</b>" : `<b>Not yet.</b> ${formula(`Now ${now}.`)}`)
+    setMarkup(goal, reached ? "<b>Done ✓</b>" : `<b>Not yet.</b> ${formula(`Now ${now}.`)}`)
     if (reached) this.keep(i, "goal")
   }
 
@@ -172,9 +172,9 @@ class Lessons {
 
   async carry() {
     const box = this.box.querySelector(".carried-link")
-    box.value = `${location.origin}${location.pathname}?${new URLSearchParams({panel: "lessons", done: packed(this.progress())})}`
+    box.value = `${location.origin}${location.pathname}?${new URLSearchParams({panel: "lessons", done: packProgress(this.progress())})}`
     box.hidden = false
-    await copied(box)
+    await copyText(box)
     this.box.querySelector(".carried").textContent = SAYS.carried
   }
 

@@ -1,8 +1,8 @@
 // The panel "Numbers": tables of equator equilibria, critical sets, outcomes and limit cycles, slow flow along z, marks.
 
-import {put} from "../dom.js"
-import {register} from "../beside/panels.js"
-import {Proof, marked} from "../beside/proof.js"
+import {setMarkup} from "../dom.js"
+import {register} from "../widgets/panels.js"
+import {Proof, proofMark} from "../widgets/proof.js"
 import {roundUp} from "../controls/ranges.js"
 import {SAYS, digits, eigen, escape, pair, plain, slowWords} from "../words.js"
 
@@ -47,7 +47,7 @@ class Numbers {
       this.cycles(header.cycles)
     }
     if (header.outcomes) this.outcomes(header.outcomes.rows)
-    if (header.unable?.outcomes) put(this.find(".outcome-table"), `<h2>Approach outcomes</h2><p class="note">${escape(header.unable.outcomes)}</p>`)
+    if (header.unable?.outcomes) setMarkup(this.find(".outcome-table"), `<h2>Approach outcomes</h2><p class="note">${escape(header.unable.outcomes)}</p>`)
     this.find(".outcome-table").classList.toggle("old", late.includes("outcomes"))
     if ("slow_flow" in header) this.slow(header.slow_flow, this.tools.values.z)
   }
@@ -58,7 +58,7 @@ class Numbers {
       <tr><td></td><td class="words" colspan="3">${q.type[i]}${q.multiplicity[i] > 1 ? `, multiplicity ${q.multiplicity[i]}` : ""}</td></tr>`)
     const words = all ? SAYS.allDirections : cycle === null ? SAYS.noDirection :
       `${cycle < 0 ? SAYS.attractingEquator : cycle > 0 ? SAYS.repellingEquator : SAYS.neutralEquator} (exponent ${digits(cycle)}).`
-    put(this.find(".equator-table"), `<h2>Equator equilibria${marked(q.proved, rows.length)}</h2>` + (rows.length
+    setMarkup(this.find(".equator-table"), `<h2>Equator equilibria${proofMark(q.proved, rows.length)}</h2>` + (rows.length
       ? `<table><tr><th></th><th>θ</th><th>λ<sub>ρ</sub></th><th>λ<sub>θ</sub></th></tr>${rows.join("")}</table>` : `<p class="note">${words}</p>`))
   }
 
@@ -71,7 +71,7 @@ class Numbers {
       <tr><td>Δ(J)</td><td>${digits(c.discriminant[i])}</td></tr>
       <tr><td>eigenvalues</td><td>${eigen(c.eigenvalues[i])}</td></tr>
       ${c.slow_flow[i].length && c.label.length > 1 ? `<tr><td>z′</td><td>${c.slow_flow[i].map((v) => digits(v)).join(", ")}</td></tr>` : ""}</table>`)
-    put(this.find(".critical-table"), `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}${marked(c.proved, rows.length)}</h2>` + (rows.join("") || `<p class="note">${SAYS.noCriticalSet}</p>`))
+    setMarkup(this.find(".critical-table"), `<h2>${c.label.length > 1 ? "Critical sets" : "Critical set"}${proofMark(c.proved, rows.length)}</h2>` + (rows.join("") || `<p class="note">${SAYS.noCriticalSet}</p>`))
   }
 
   cycles(c) {
@@ -80,13 +80,13 @@ class Numbers {
     const rows = c.kind.map((kind, i) => `<table><tr><td><b>Limit cycle</b></td><td><b>${kind}</b>${holds.whole ? "" : this.proof.cycle(i)}</td></tr>
       <tr><td>period (fast time τ)</td><td>${digits(c.period[i])}</td></tr><tr><td>multiplier</td><td>${digits(c.multiplier[i])}</td></tr></table>`)
     const words = [...(rows.length ? [] : [c.reason]), ...c.notes].map((text) => `<p class="note">${escape(text)}</p>`)
-    put(this.find(".cycle-table"), `<h2>Limit cycles${marked(holds.whole, rows.length)}</h2>` + rows.join("") + words.join(""))
+    setMarkup(this.find(".cycle-table"), `<h2>Limit cycles${proofMark(holds.whole, rows.length)}</h2>` + rows.join("") + words.join(""))
   }
 
   outcomes(rows) {
     const items = rows.map(([label, kind, words, sentence, families]) => `<li><i class="outcome ${kind}"></i><b>${escape(label)}</b> ${escape(words)}
       <p class="note">${escape(sentence)}</p>${families.map(([what, psis]) => `<p class="note"><b>${escape(what)}</b> with Ψ = ${psis.map(escape).join("; ")}</p>`).join("")}</li>`)
-    put(this.find(".outcome-table"), `<h2>Approach outcomes</h2><ul>${items.join("")}</ul>`)
+    setMarkup(this.find(".outcome-table"), `<h2>Approach outcomes</h2><ul>${items.join("")}</ul>`)
   }
 
   // An arrow along the z axis; z points out of the page, as in the paper's circled dot and cross.

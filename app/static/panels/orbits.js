@@ -2,10 +2,10 @@
 // the chosen one over time, for ε → 0 and with one tick for ε > 0.
 
 import {slider} from "../controls/controls.js"
-import {changed, cleanName, coloursOf, readLaunches, without, writeLaunches} from "../hands/launches.js"
-import {MARKUP, OrbitInTime, TYPED} from "../beside/orbit_in_time.js"
-import {register} from "../beside/panels.js"
-import {escape, measured, pair, plain, slowName} from "../words.js"
+import {changeLaunch, cleanName, coloursOf, readLaunches, without, writeLaunches} from "../interaction/launches.js"
+import {MARKUP, OrbitInTime, TYPED} from "../widgets/orbit_in_time.js"
+import {register} from "../widgets/panels.js"
+import {escape, claimNumber, pair, plain, slowName} from "../words.js"
 
 const COLOURS = 6
 const SHORT = 0.999 // of the time asked for: what ends before says why
@@ -50,11 +50,11 @@ class Orbits {
         if (i + 1 < tools.values.orbit) this.choose(tools.values.orbit - 1)
         this.put(without(launches, i))
       }
-      else if (button.classList.contains("hide")) this.put(changed(launches, i, {hidden: !launches[i].hidden}))
+      else if (button.classList.contains("hide")) this.put(changeLaunch(launches, i, {hidden: !launches[i].hidden}))
     })
     this.list.addEventListener("change", (event) => {
       const i = Number(event.target.closest("li").dataset.orbit)
-      this.put(changed(this.launches(), i, {name: cleanName(event.target.value)}))
+      this.put(changeLaunch(this.launches(), i, {name: cleanName(event.target.value)}))
     })
   }
 
@@ -96,7 +96,7 @@ class Orbits {
     this.typed.classList.toggle("chosen", typed)
     this.typed.querySelector(".choose").setAttribute("aria-pressed", typed)
     this.eps.checked = wanted
-    this.find(".orbit-eps span").textContent = wanted ? `and for ε = ${measured(10 ** values.log_eps)}` : "and for ε > 0"
+    this.find(".orbit-eps span").textContent = wanted ? `and for ε = ${claimNumber(10 ** values.log_eps)}` : "and for ε > 0"
     this.find("[data-control=log_eps]").hidden = !wanted
     this.find("[data-control=t_end]").hidden = !typed
     const outside = !typed && Math.hypot(launches[chosen - 1].x, launches[chosen - 1].y) > 1

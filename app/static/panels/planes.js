@@ -3,8 +3,8 @@
 
 import {Chart} from "../chart/chart.js"
 import {largest} from "../chart/scale.js"
-import {eigenvalues, kindAt, withDouble} from "../beside/jacobian.js"
-import {register} from "../beside/panels.js"
+import {eigenvalues, kindAt, withDouble} from "../widgets/jacobian.js"
+import {register} from "../widgets/panels.js"
 import {SAYS, digits, eigen, escape} from "../words.js"
 
 const TRAIL = 90 // positions remembered

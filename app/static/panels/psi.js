@@ -1,7 +1,7 @@
 // The panel "Ψ" (fig:component): Ψ(s), and the smooth step L_Ψ(l; ε) = l/√(l² + ε²Ψ(l²/ε²)) along a line through 0.
 
 import {Chart} from "../chart/chart.js"
-import {register} from "../beside/panels.js"
+import {register} from "../widgets/panels.js"
 import {escape, plain} from "../words.js"
 
 const SHOWN = [[1, "s3"], [0.3, "s1"], [0.1, "s0"]] // ε, and the class of its curve

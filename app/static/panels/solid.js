@@ -1,11 +1,11 @@
 // The panel "3-D": the hemisphere of the blowup, or hemispheres stacked along z. Turned here, without asking the server.
 
-import {register} from "../beside/panels.js"
-import {Told} from "../beside/told.js"
+import {register} from "../widgets/panels.js"
+import {Told} from "../widgets/told.js"
 import {say} from "../dom.js"
-import {seen} from "../chart/projection.js"
+import {rotateView} from "../chart/projection.js"
 import {largest} from "../chart/scale.js"
-import {lifted} from "../picture/lift.js"
+import {paintLifted} from "../picture/lift.js"
 import {SAYS, digits, minus, plain} from "../words.js"
 
 /** Whether the two ends of what slides combine two limit vectors each. @param {{candidates: number[], combined: number[][][]}} data */
@@ -73,7 +73,7 @@ class Stack {
 
   // From space to the canvas, in px, with the depth.
   project(point) {
-    const [right, up, depth] = seen(point, this.azimuth, this.elevation)
+    const [right, up, depth] = rotateView(point, this.azimuth, this.elevation)
     return [this.cx + this.scale * right, this.cy - this.scale * up, depth]
   }
 
@@ -141,7 +141,7 @@ class Stack {
   paintSphere(w, h) {
     this.scale = Math.min(w / (2 * REACH), h / (Math.cos(this.elevation) + 2 * REACH * Math.sin(this.elevation)))
     this.cy = h / 2 + this.scale * Math.cos(this.elevation) * 0.3
-    lifted(this.g, this.tools.drawn(), {up: 1, azimuth: this.azimuth, elevation: this.elevation, x: this.cx, y: this.cy, scale: this.scale}, {width: w, height: h})
+    paintLifted(this.g, this.tools.drawn(), {up: 1, azimuth: this.azimuth, elevation: this.elevation, x: this.cx, y: this.cy, scale: this.scale}, {width: w, height: h})
     this.chart()
   }
 

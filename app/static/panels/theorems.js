@@ -1,15 +1,15 @@
 // The panel "Theorems": the paper's claims on the present system, each with the numbers that show it. What bears on it comes
 // first, with a card for each bifurcation that it sits on; the rest is folded.
 
-import {register} from "../beside/panels.js"
-import {put} from "../dom.js"
+import {register} from "../widgets/panels.js"
+import {setMarkup} from "../dom.js"
 import {besides} from "../page/inspector.js"
-import {SAYS, escape, formula, measured} from "../words.js"
+import {SAYS, escape, formula, claimNumber} from "../words.js"
 
 const MARK = {holds: ["✓", "holds"], fails: ["✗", "fails"], "does not apply": ["–", "idle"]}
 
 function row([theorem, statement, verdict, sentence, numbers]) {
-  const table = numbers.map(([name, value]) => `<tr><td>${formula(name)}</td><td>${measured(value)}</td></tr>`)
+  const table = numbers.map(([name, value]) => `<tr><td>${formula(name)}</td><td>${claimNumber(value)}</td></tr>`)
   return `<li class="${MARK[verdict][1]}"><b>${MARK[verdict][0]} ${escape(verdict)}</b> <code>${escape(theorem)}</code>
     <p>${formula(statement)}</p><p class="note">${formula(sentence)}</p>${table.length ? `<table>${table.join("")}</table>` : ""}</li>`
 }
@@ -21,12 +21,12 @@ register("theorems", (box, {settings}) => {
     apply({header}) {
       if (header.portrait) {
         const {degeneracies, sides} = header.portrait
-        put(cards, degeneracies.map(([title, words]) => `<li class="bifurcation"><b>${escape(title)}</b> <code>${escape(settings[title] ?? "")}</code><p>${formula(words)}</p>${besides(sides)}</li>`).join(""))
+        setMarkup(cards, degeneracies.map(([title, words]) => `<li class="bifurcation"><b>${escape(title)}</b> <code>${escape(settings[title] ?? "")}</code><p>${formula(words)}</p>${besides(sides)}</li>`).join(""))
       }
       if (!header.theorems) return
       const [bears, idle] = [true, false].map((wanted) => header.theorems.filter(([, , verdict]) => (verdict !== "does not apply") === wanted).map(row).join(""))
       const open = list.querySelector("details")?.open ? " open" : ""
-      put(list, `<ul class="theorem-list">${bears}</ul><details class="fold"${open}><summary>${SAYS.idle}</summary><ul class="theorem-list">${idle}</ul></details>`)
+      setMarkup(list, `<ul class="theorem-list">${bears}</ul><details class="fold"${open}><summary>${SAYS.idle}</summary><ul class="theorem-list">${idle}</ul></details>`)
     },
   }
 })

@@ -114,7 +114,7 @@ export class Lift {
     g.setTransform(ratio, 0, 0, ratio, 0, 0)
     g.clearRect(0, 0, w, h)
     g.lineJoin = "round"
-    lifted(g, [...this.picture.drawn.list, ...this.picture.above.list], camera, {width: w, height: h})
+    paintLifted(g, [...this.picture.drawn.list, ...this.picture.above.list], camera, {width: w, height: h})
   }
 }
 
@@ -122,7 +122,7 @@ export class Lift {
  * Draw a list on the hemisphere and the floor: first what is outside, then the hemisphere, what is behind it, what is in front.
  * @param {any} g @param {any[]} list @param {Parameters<typeof projection>[0]} camera @param {{width: number, height: number}} size px
  */
-export function lifted(g, list, camera, {width, height}) {
+export function paintLifted(g, list, camera, {width, height}) {
   const at = projection(camera), box = {x: 0, y: 0, width, height}, space = new Space(width, height)
   const plain = (item) => paint(g, [item], AT, box, /** @type {any} */ (null))
   const lines = list.filter(({kind}) => kind === "curves").map((item) => ({...item, ...split(item, at)}))

@@ -1,6 +1,6 @@
 // The picture: keeps the newest of what the frames bring, and draws it in the task that brings it.
 
-import {enlarged} from "../page/beamer.js"
+import {enlarge} from "../page/beamer.js"
 import {crossList, displayList, traceList} from "./display.js"
 import {makeRenderer, repaint} from "./painter.js"
 
@@ -67,7 +67,7 @@ export class Picture {
       if (this.waiting) { this.waiting = false; this.draw() }
     })
     const {inner_width: width = ROOMY} = this.plot // in a small picture names take more of it
-    this.drawn.list = enlarged(displayList({...this.state, times: this.times * Math.max(1, ROOMY / width)}), this.times)
+    this.drawn.list = enlarge(displayList({...this.state, times: this.times * Math.max(1, ROOMY / width)}), this.times)
     this.put(this.drawn)
   }
 
@@ -80,7 +80,7 @@ export class Picture {
   }
 
   drawTrace() {
-    this.above.list = enlarged([...this.comets, ...this.pointed, ...crossList(this.crossed, this.state.theme), ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
+    this.above.list = enlarge([...this.comets, ...this.pointed, ...crossList(this.crossed, this.state.theme), ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
     this.put(this.above)
   }
 

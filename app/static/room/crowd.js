@@ -46,7 +46,7 @@ function fixed(mine, axes, families) {
  * @param {{axes: string[], plane: boolean, first: Values, names: string[], families: any}} chart `plane`: of f(z)
  * @returns {{row: Row, x: number, y: number}[]}
  */
-export function placed(rows, mine, {axes, plane, first, names, families}) {
+export function placeDots(rows, mine, {axes, plane, first, names, families}) {
   const held = fixed(mine, axes, families)
   const others = Object.keys(mine.parameters).filter((name) => !axes.includes(`own:${name}`))
   return rows.flatMap((row) => {

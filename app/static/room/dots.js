@@ -1,10 +1,10 @@
 // The phones of a room in the lecturer's atlas: a dot each on the chart, and below it how many show which portrait.
 
-import {grouped} from "../chart/groups.js"
-import {regionClass} from "../beside/pad.js"
-import {fixed} from "../svg.js"
+import {groupMarks} from "../chart/groups.js"
+import {regionClass} from "../widgets/pad.js"
+import {toCoordinate} from "../svg.js"
 import {SAYS, escape, formula} from "../words.js"
-import {lessons, placed, settings, tally} from "./crowd.js"
+import {lessons, placeDots, settings, tally} from "./crowd.js"
 
 const R = 5, REACH = 9, HANDLE = 9 // px: of a dot; within which dots are drawn as one, with their number; of the handle
 
@@ -48,7 +48,7 @@ export class Dots {
     this.list.hidden = !rows
     this.rows = rows ?? []
     const {first, setting: names, families} = this.tools
-    this.places = placed(this.rows, mine, {axes, plane, first, names, families})
+    this.places = placeDots(this.rows, mine, {axes, plane, first, names, families})
     if (this.told !== rows || this.here !== this.places.length) this.count()
     this.told = rows
     this.here = this.places.length
@@ -59,9 +59,9 @@ export class Dots {
     const {rows} = this, all = tally(rows), most = Math.max(1, ...all.map(([, some]) => some.length))
     const away = rows.length - this.places.length
     this.list.innerHTML = `<h2>${rows.length} ${rows.length === 1 ? "phone" : "phones"} in the room</h2>
-      <ul>${all.map(([name, some]) => `<li><button type="button" data-name="${escape(name)}" title="Open the settings of one of them; once more: of the next"><span>${formula(name || "not named yet")}</span><i class="${regionClass(name)}" style="width:${fixed(100 * some.length / most)}%"></i><b>${some.length}</b></button></li>`).join("")}</ul>
+      <ul>${all.map(([name, some]) => `<li><button type="button" data-name="${escape(name)}" title="Open the settings of one of them; once more: of the next"><span>${formula(name || "not named yet")}</span><i class="${regionClass(name)}" style="width:${toCoordinate(100 * some.length / most)}%"></i><b>${some.length}</b></button></li>`).join("")}</ul>
       ${lessons(rows).map(([title, there, questions]) => `<h3>${escape(title)}: ${there} there</h3>
-        ${questions.map(([n, many, right]) => `<p class="bar"><span>question ${n + 1}</span><i class="right" style="width:${fixed(100 * right / many)}%"></i><b>${right} of ${many} right</b></p>`).join("")}`).join("")}
+        ${questions.map(([n, many, right]) => `<p class="bar"><span>question ${n + 1}</span><i class="right" style="width:${toCoordinate(100 * right / many)}%"></i><b>${right} of ${many} right</b></p>`).join("")}`).join("")}
       <p class="note">${rows.length ? SAYS.roomDots : SAYS.roomEmpty}${away ? ` ${away} not on this chart: another value or system, or one too long to be sent.` : ""}</p>`
   }
 
@@ -74,11 +74,11 @@ export class Dots {
     const held = (/** @type {any} */ {px, py}) => Math.hypot(px - u, py - v) < HANDLE
     const inside = (/** @type {any} */ {px, py}) => px >= frame.left && px <= frame.right && py >= frame.top && py <= frame.bottom
     const marks = (this.places ?? []).map((one) => ({...one, px: frame.x.at(one.x), py: frame.y.at(one.y)})).filter(inside)
-    this.groups = grouped(marks, REACH)
+    this.groups = groupMarks(marks, REACH)
     const markup = this.groups.map((group, i) => {
       const [{px, py, row}] = group, many = group.length > 1
       const title = many ? `${group.length} phones: ${tally(group.map((one) => one.row)).map(([name, some]) => `${some.length} × ${name}`).join(", ")}` : row[1]
-      return `<g class="phone${held(group[0]) ? " held" : ""}" data-apart data-phone="${i}" transform="translate(${fixed(px)} ${fixed(py)})"><title>${escape(`${title}. Click: open these settings`)}</title><circle r="${many ? R + 2 + Math.min(6, group.length / 6) : R}"/>${many ? `<text y="3.8" text-anchor="middle">${group.length}</text>` : ""}</g>`
+      return `<g class="phone${held(group[0]) ? " held" : ""}" data-apart data-phone="${i}" transform="translate(${toCoordinate(px)} ${toCoordinate(py)})"><title>${escape(`${title}. Click: open these settings`)}</title><circle r="${many ? R + 2 + Math.min(6, group.length / 6) : R}"/>${many ? `<text y="3.8" text-anchor="middle">${group.length}</text>` : ""}</g>`
     }).join("")
     let holder = pad.svg.querySelector(".crowd")
     if (!holder) {

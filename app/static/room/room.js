@@ -1,7 +1,7 @@
 // A room: opened by a lecturer, whose atlas then shows the phones that are in it; or entered by a student, who is told so.
 
-import {put} from "../dom.js"
-import {squeezed} from "../page/links.js"
+import {setMarkup} from "../dom.js"
+import {compressQuery} from "../page/links.js"
 import {SAYS, escape} from "../words.js"
 
 const STORE = "codim2-room" // of this tab: a page that is loaded again is in its room again
@@ -129,7 +129,7 @@ export class Room {
 
   say(markup, ...buttons) {
     this.bar.hidden = false
-    put(this.bar, `<span>${markup}</span>${buttons.map(([act, words, on]) => `<button type="button" data-room="${act}"${on === undefined ? "" : ` aria-pressed="${on}"`}>${words}</button>`).join("")}`)
+    setMarkup(this.bar, `<span>${markup}</span>${buttons.map(([act, words, on]) => `<button type="button" data-room="${act}"${on === undefined ? "" : ` aria-pressed="${on}"`}>${words}</button>`).join("")}`)
   }
 
   // The lecturer's line, and the number in the dialog.
@@ -152,7 +152,7 @@ export class Room {
     find(".room-local").textContent = SAYS.roomLocal
     this.tell()
     if (!this.dialog.open) this.dialog.showModal()
-    const view = await squeezed(this.tools.query(), this.tools.version)
+    const view = await compressQuery(this.tools.query(), this.tools.version)
     find(".qr").src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: `${page}?room=${this.code}&${view}`})}`
   }
 

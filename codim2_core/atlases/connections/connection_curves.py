@@ -12,8 +12,8 @@ from ...layer_problem.problem import LayerProblem
 from ...words import say
 from ..family import PlaneFamily
 from ..result import AtlasCurve, AtlasPoint
-from .following import ConnectionCurve, trace_connection
-from .lines import EQUILIBRIUM_KINDS, ConnectionSearch, ConnectionSeed, lines_beside_takens, straight
+from .connection_seeds import EQUILIBRIUM_KINDS, ConnectionSearch, ConnectionSeed, lines_beside_takens, straight
+from .connection_tracing import ConnectionCurve, trace_connection
 from .splitting import BranchPair
 
 LOOP, CYCLE, CONNECTION = KINDS = "homoclinic loop", "heteroclinic cycle", "saddle connection"

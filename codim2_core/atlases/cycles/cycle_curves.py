@@ -12,8 +12,8 @@ from ...arrays import Array, read_only
 from ...words import say
 from ..family import PlaneFamily
 from ..result import AtlasCurve, AtlasPoint
-from .following import CENTRE, FoldCurve, trace_fold
-from .lines import FoldSeed, along_lines, seeds_beside_bautin
+from .fold_seeds import FoldSeed, along_lines, seeds_beside_bautin
+from .fold_tracing import CENTRE, FoldCurve, trace_fold
 
 KIND = "fold of cycles"
 GENERALISED_HOPF = "generalised Hopf"

@@ -9,7 +9,7 @@ import numpy as np
 from ...cycles.turn_section import TurnSection
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem
-from .foot import Array, HemispherePoint
+from .section_base import Array, HemispherePoint
 
 CROSSING_SLACK = 0.05  # of a turn: what lies so shortly before a crossing is judged by its angle alone
 

@@ -12,7 +12,7 @@ from ...arrays import Array
 from ...layer_problem.critical import CriticalSet
 from ...numerics.sign_changes import lowest, vertex
 from ..equator import link_zeros
-from .narrowing import narrow_change
+from .narrow_changes import narrow_change
 from .rounding import States
 from .state import State, WindingTest
 

@@ -13,7 +13,7 @@ from ...layer_problem.critical import CriticalSet, critical_sets
 from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ...layer_problem.problem import LayerProblem
 from ...portrait.approach import outcome_towards
-from ...portrait.verdicts import ends, judge, orbits_to_end
+from ...portrait.outcome_classification import ends, judge, orbits_to_end
 from ...psi.constructors import comparison_families, constant
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem

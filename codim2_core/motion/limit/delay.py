@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Array
 from ...initial_value.field import Field
-from ...initial_value.sheet import complement, solve_critical
+from ...initial_value.slow_manifold import complement, solve_critical
 from ...numerics.dense import Dense, dense, gather_steps
 from ...numerics.radau import Step, truncate_step
 from ...numerics.root_between import root_between

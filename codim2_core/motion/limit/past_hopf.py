@@ -16,7 +16,7 @@ from ...initial_value.field import Field
 from ...numerics.radau import Step
 from ...psi.function import Psi
 from ...words import say
-from ..followed import in_disc, jacobian
+from ..tracked_set import in_disc, jacobian
 from .decide import ORBITS_AROUND, START_DISTANCE
 from .delay import WayOut, cut_at_exit
 from .slide import Slide

@@ -20,7 +20,7 @@ from ...initial_value.field import Field
 from ...initial_value.line import InvariantLine
 from ...initial_value.problem import own_time
 from ...initial_value.safe_steps import SAFE_NODES, StepRequirements
-from ...initial_value.sheet import FixedManifold, SlowManifold, complement, determinant, trace
+from ...initial_value.slow_manifold import FixedManifold, SlowManifold, complement, determinant, trace
 from ...numerics.dense import StepArray
 from ...numerics.growth import until_blow_up
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...arrays import Array
 from ...initial_value.compiled_phases import CompiledPhases
-from ...initial_value.leaving import polynomial_of
+from ...initial_value.departure import polynomial_of
 from ...initial_value.problem import arrival_radius
 from ...numerics.growth import until_blow_up
 from ...numerics.radau import Problem, Step, TooManyStepsError, steps

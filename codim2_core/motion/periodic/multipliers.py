@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from ...arrays import Array, Complex
 from ...initial_value.field import Field
 from ...psi.function import Psi
-from ..followed import place_on_hemisphere
 from ..result import Simulation
+from ..tracked_set import place_on_hemisphere
 from ..variation.result import Variation
 
 

@@ -12,7 +12,7 @@ from ...initial_value.field import Field, field
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
-from ..checks import checked_state, checked_tolerances, with_time
+from ..argument_checks import checked_state, checked_tolerances, with_time
 from ..regularised import LARGEST_EPS, MAX_STEPS, SMALLEST_EPS
 from ..result import Simulation
 from .multipliers import matching_distances, multipliers

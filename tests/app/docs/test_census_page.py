@@ -4,7 +4,7 @@ import math
 import re
 
 import pytest
-from codim2_app.docs.place import PACKAGED_SITE
+from codim2_app.docs.docs_folder import PACKAGED_SITE
 
 import codim2_core as c2
 from codim2_core.counting.table import interval

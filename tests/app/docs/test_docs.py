@@ -8,7 +8,7 @@ from urllib.parse import unquote, urlsplit
 import codim2_app
 import pytest
 from codim2_app.docs import gallery
-from codim2_app.docs.place import serve_folder, site
+from codim2_app.docs.docs_folder import serve_folder, site
 from codim2_app.lessons.library import built_in
 from codim2_app.server.cli import main
 

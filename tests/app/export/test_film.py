@@ -167,7 +167,7 @@ def test_a_picture_of_play_costs_what_moves_in_it():
 
 @pytest.mark.parametrize("query", ["v=1", "orbits=0.3,0.4&orbit=0", "orbits=0.3,0.4,-"])
 def test_without_a_launched_orbit_there_is_no_play(query):
-    with pytest.raises(ValueError, match="click the picture to launch one"):
+    with pytest.raises(ValueError, match="Click the picture to launch one"):
         film(view_of(query), PLAY)
 
 

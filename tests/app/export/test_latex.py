@@ -48,7 +48,7 @@ def test_its_numbers_are_those_of_the_core():
     for i, theta in enumerate(scene["equator"].theta):
         assert f"$Q_{{{i + 1}}}$ & {latex_number(theta)} & {latex_number(scene['equator'].lambda_rho[i])} &" in text
     assert "a = 172" in text
-    assert "No limit directions." in latex(view_of("case1-cm0"))
+    assert "There are no limit directions." in latex(view_of("case1-cm0"))
 
 
 def test_words_and_numbers_in_latex():

@@ -4,7 +4,7 @@ import re
 
 import pytest
 import segno
-from codim2_app.export.taking import ExportRequest, file_name, make_file
+from codim2_app.export.export_request import ExportRequest, file_name, make_file
 from codim2_app.export.view import view_of
 
 

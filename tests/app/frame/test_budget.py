@@ -1,6 +1,7 @@
 """The thread that answers all visitors computes no layer of a typed system that is not known to be quick."""
 
 import pickle
+import time
 
 import pytest
 from codim2_app.draw.layers import LAYERS
@@ -17,7 +18,7 @@ from codim2_app.frame.budget import (
 )
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
-from codim2_app.frame.turns import WorkQueue
+from codim2_app.frame.work_queue import WorkQueue
 from codim2_app.state.controls import ExplorerState, preset_values
 from codim2_app.view.refresh import Frames
 
@@ -92,7 +93,7 @@ def test_that_a_layer_has_become_quick_is_believed_by_halves():
 
 def test_what_is_compiled_elsewhere_is_not_computed_here_however_quick_it_is():
     scene, full = make_scene(typed(layers=["critical", "equator"])), []
-    budget = Budget(lambda psi, system: bool(full))
+    budget = Budget(lambda _scene: bool(full))
     scene.ask_before(budget.before)
     quick = dict.fromkeys(("equator", "location", "critical"), 0.001)
     budget.told(scene, BackgroundLayers({}, quick, {}))
@@ -110,7 +111,7 @@ def test_a_formula_too_wild_to_draw_is_named_so():
     while executor.given:
         executor.run()
         last = header(frames, rest=True)
-    assert "too wild" in last["left_out"]
+    assert "too complicated" in last["left_out"]
     assert f"at most {MOST_STANDING}" in last["left_out"]
     assert "separatrices" in last["left_out"]
     assert last["left_out"].count("limit directions") == 1  # one reason, one sentence
@@ -163,7 +164,7 @@ def test_orbits_that_are_launched_are_timed_before_they_are_computed_here():
 def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_for(monkeypatch):
     """What took long here is computed beside the next frame, and here again once it is quick: believed by halves."""
     clock = iter(range(1000))
-    monkeypatch.setattr("codim2_app.frame.budget.time.thread_time", lambda: 0.01 * LAYER * next(clock))
+    monkeypatch.setattr("codim2_app.frame.budget.time.perf_counter", lambda: 0.01 * LAYER * next(clock))
     scene, budget = make_scene(preset_values("case1-cm4")), Budget()
     scene.ask_before(budget.before)
     budget.begin()
@@ -176,6 +177,27 @@ def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_fo
         scene.evolve(f1=-0.6)["equator"]
     budget.told(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
     assert len(scene.evolve(f1=-0.7)["equator"]) > 0
+
+
+def test_a_layer_is_slow_that_is_slow_twice_by_the_processors_time(monkeypatch):
+    clocks = {"perf_counter": time.perf_counter, "thread_time": time.thread_time}
+    scene, budget = make_scene(preset_values("case1-cm4")), Budget()
+    scene.ask_before(budget.before)
+
+    def late(*names):
+        for name, clock in clocks.items():
+            monkeypatch.setattr(time, name, (lambda clock=clock: 1e4 * clock()) if name in names else clock)
+
+    late("perf_counter")  # it waited for a processor
+    for f1 in (-0.6, -0.61):
+        scene.evolve(f1=f1)["equator"]
+    assert budget._timed.get(None, (0, {}))[1].get("equator", 0.0) < LAYER
+    late(*clocks)
+    budget.begin()
+    scene.evolve(f1=-0.62)["equator"]  # once: a kernel may have been loaded
+    scene.evolve(f1=-0.63)["equator"]
+    with pytest.raises(PendingLayer):
+        scene.evolve(f1=-0.64)["equator"]
 
 
 def test_a_scene_travels_by_its_inputs():

@@ -5,7 +5,8 @@ import weakref
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 
 import pytest
-from codim2_app.frame.turns import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue
+from codim2_app.frame.jobs import Jobs
+from codim2_app.frame.work_queue import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue
 
 
 class Held(Executor):
@@ -71,6 +72,35 @@ def test_what_several_want_is_computed_once_and_ends_with_the_last_of_them():
     turns.leave("b")
     assert len(executor.stopped) == 1
     assert turns.pending == 0
+
+
+def test_what_a_newer_wish_replaces_goes_on_for_a_second_as_another_worker_would_have_to_begin(monkeypatch):
+    executor, now = Held(), [100.0]
+    monkeypatch.setattr("codim2_app.frame.work_queue.time.monotonic", lambda: now[0])
+    jobs = Jobs(executor)
+    assert jobs.ask("picture", 1, str, "old") is None
+    assert jobs.ask("picture", 2, str, "new") is None
+    assert not executor.stopped
+    assert names(executor) == ["old", "new"]
+    assert jobs.ask("picture", 2, str, "new") == "new"
+    jobs.ask("picture", 3, str, "long")
+    jobs.ask("picture", 4, str, "newer")
+    now[0] += 0.9
+    jobs.ask("picture", 4, str, "newer")
+    assert not executor.stopped
+    now[0] += 0.2
+    jobs.ask("picture", 4, str, "newer")
+    assert [args[1] for args in executor.stopped] == ["long"]
+
+
+def test_what_a_newer_wish_replaced_ends_with_its_page():
+    executor = Held()
+    jobs = Jobs(executor)
+    for key in (1, 2):
+        jobs.ask("picture", key, str, f"{key}")
+    jobs.leave()
+    assert [args[1] for args in executor.stopped] == ["1"]
+    assert names(executor) == ["1"]
 
 
 def test_what_waits_is_never_begun_for_those_who_left():

@@ -65,7 +65,7 @@ def test_a_mark_is_right_near_its_place_and_told_how_far_it_is():
     scene = make_scene(values_of(COURSE["04-sliding"], {"a": -1.0, "d": -1.0, "b": 0.0, "f1": 0.5, "f2": 0.0}))
     assert judge(question, scene, (0.5 + MARK_TOLERANCE - 0.01, 0.0))["right"]
     far = judge(question, scene, (0.5, 0.41))
-    assert (far["right"], far["why"]) == (False, "Your mark is 0.41 radii of the disc from it.")
+    assert (far["right"], far["why"]) == (False, "The right place is 0.41 radii of the disc from your mark.")
     assert judge(question, scene, 0)["why"]  # there is one
     none = make_scene(values_of(COURSE["04-sliding"], {"a": -1.0, "d": -1.0, "b": 0.0, "f1": 1.5, "f2": 0.0}))
     assert judge(question, none, 0)["right"]

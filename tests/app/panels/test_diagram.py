@@ -120,7 +120,7 @@ def test_what_cannot_be_varied_is_said():
     _, header = opened("diagram", along="n")
     assert "Ψ = 3/(3 + (4s)ⁿ)" in header["unable"]["diagram"]
     frames = Frames(ExplorerState(panel="diagram", along="a"), c2.ELinear("-1 + z", 0, -2, (0.2, 0.3), g=("z1",)))
-    assert "given by your system" in settled(frames, all=True)["unable"]["diagram"]
+    assert "Your system fixes a" in settled(frames, all=True)["unable"]["diagram"]
 
 
 @pytest.mark.parametrize("name", SLIDER_AXES)

@@ -7,7 +7,7 @@ from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
-from codim2_app.frame.draft import FrameContext
+from codim2_app.frame.frame_context import FrameContext
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import orbits
@@ -140,7 +140,7 @@ def test_the_tick_adds_the_motion_for_eps_and_leaves_the_limit_as_it_is():
 
 def test_an_orbit_on_the_equator_says_why_it_has_no_time():
     header = visitor(orbits="1,0")()
-    assert "no time t passes" in header["unable"]["orbit"]
+    assert "no time passes" in header["unable"]["orbit"]
 
 
 def test_before_the_kernels_are_there_it_is_late():

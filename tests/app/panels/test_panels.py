@@ -79,11 +79,11 @@ def test_planes_of_another_psi_have_the_families_beside_it():
 def test_theorems_are_evaluated_with_their_numbers():
     frames, header = opened("theorems")
     rows = {row[0]: row for row in header["theorems"]}
-    assert rows["Theorem 4.3(c)"][2:4] == ["holds", "This one is CM4."]
+    assert rows["Theorem 4.3(c)"][2:4] == ["holds", "This portrait is CM4."]
     assert ["limit directions", 4.0] in rows["Theorem 4.3(c)"][4]
     assert rows["Theorem 4.4(a)"][2] == "does not apply"
     assert "theorems" not in ask(frames, trajectories=32)
-    assert {row[0]: row for row in ask(frames, f1=3.0)["theorems"]}["Theorem 4.3(c)"][3] == "This one is NCM2."
+    assert {row[0]: row for row in ask(frames, f1=3.0)["theorems"]}["Theorem 4.3(c)"][3] == "This portrait is NCM2."
     ask(frames, panel="numbers")
     runs = frames.scene.runs["certificates"]
     ask(frames, a=-1.5)

@@ -6,13 +6,13 @@ from concurrent.futures import Executor, Future
 import numpy as np
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.frame.draft import FrameContext
+from codim2_app.frame.frame_context import FrameContext
 from codim2_app.frame.jobs import Jobs
 from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
 from codim2_app.panels import filippov, orbits, psi, solid
 from codim2_app.slow_layers.typed_start import launch_of
-from codim2_app.state.chosen import build
+from codim2_app.state.chosen_system import build
 from codim2_app.state.cleaning import InputError
 from codim2_app.state.controls import ExplorerState
 from codim2_app.state.opening import opening_values
@@ -141,7 +141,7 @@ def test_the_limit_is_drawn_on_the_set_that_the_words_name():
     assert motion["same"]
     coarse = sent(orbits, **given, log_eps=-0.5)["orbit_motion"]
     assert not coarse["same"]
-    assert "not those of the limit" in coarse["agreement"]
+    assert "differ from those of the limit" in coarse["agreement"]
 
 
 def test_a_jump_up_the_hemisphere_takes_no_time():

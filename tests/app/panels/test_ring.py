@@ -22,7 +22,7 @@ def test_outcomes_are_live_where_a_theorem_answers_and_at_rest_otherwise():
     assert header["outcomes"]["kind"] == ["slide", "misses", "misses", "slide"]
     label, kind, _, sentence, families = header["outcomes"]["rows"][0]
     assert (label, kind) == ("Q₁", "slide")
-    assert sentence.endswith("the slow flow is the same.")
+    assert sentence.endswith("with the same slow flow.")
     assert [words for words, _ in families] == ["slides on C", "slides around cycle 1"]
 
 

@@ -8,7 +8,7 @@ from codim2_app.draw.packing import unpack
 from codim2_app.frame import budget
 from codim2_app.frame.budget import Budget
 from codim2_app.frame.jobs import Jobs
-from codim2_app.frame.turns import FailedResult
+from codim2_app.frame.work_queue import FailedResult
 from codim2_app.panels import registry
 from codim2_app.panels.panel import Panel
 from codim2_app.state.controls import ExplorerState

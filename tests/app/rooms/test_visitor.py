@@ -7,7 +7,7 @@ from codim2_app.lessons.library import lessons
 from codim2_app.rooms import rooms
 from codim2_app.rooms.rooms import MOST_TRIES, Rooms
 from codim2_app.rooms.visitor import Visitor
-from codim2_app.state.chosen import NORMAL
+from codim2_app.state.chosen_system import NORMAL
 from codim2_app.state.controls import ExplorerState, first_values
 from codim2_app.view.refresh import Frames
 

@@ -1,7 +1,10 @@
 """The commands that answer in the terminal say what the core says."""
 
 import json
+import os
 import re
+import subprocess
+import sys
 
 import pytest
 from codim2_app.frame.cluster import ClusterError
@@ -74,7 +77,7 @@ def test_prove_says_what_is_proved_and_writes_the_certificate(capsys, tmp_path):
     path = tmp_path / "certificate.json"
     assert main(["prove", "-a", "1", "-b", "3", "-d", "-2", "--f1", "0.4", "--f2", "0.1", "-o", str(path)]) == 0
     said = capsys.readouterr().out
-    assert said.startswith("Limit cycles: 0. That there are these limit cycles and no other is proved")
+    assert said.startswith("Limit cycles: 0. It is proved that there are no other limit cycles")
     assert f"check.py < {path}" in said
     assert check(json.loads(path.read_text())) == (0, True)
     assert (
@@ -82,6 +85,35 @@ def test_prove_says_what_is_proved_and_writes_the_certificate(capsys, tmp_path):
         == 1
     )
     assert "The count is not proved" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("words", ["-a -.5 -d -1e-3", "-a=-1/2 -d −0,001", "-a -5e-1 -d=-0.001"])
+def test_numbers_are_read_as_on_the_page(words, capsys):
+    assert main(["classify", *words.split()]) == 0
+    assert "tr J = −0.501" in capsys.readouterr().out
+    with pytest.raises(SystemExit):
+        main(["classify", "-a", "1/0", "-d", "1"])
+    assert "give a number such as" in capsys.readouterr().err
+
+
+def test_a_theorem_leaves_no_certificate_to_write(capsys, tmp_path):
+    path = tmp_path / "certificate.json"
+    assert main(f"prove -a -1 -b 3 -d -1.5 --f1 .3 --f2 .1 -o {path}".split()) == 1
+    assert str(path) in capsys.readouterr().err
+    assert not path.exists()
+
+
+def test_files_are_there_before_a_pipe_is_closed(tmp_path):
+    words = ["census", "--count", "3000", "--csv", str(tmp_path / "t.csv")]
+    reading, writing = os.pipe()
+    os.close(reading)
+    said = subprocess.run(
+        [sys.executable, "-m", "codim2_app.server.cli", *words],
+        stdout=writing, stderr=subprocess.PIPE, env=os.environ | {"PYTHONIOENCODING": "cp1252"},
+    )  # fmt: skip
+    os.close(writing)
+    assert (said.stderr, said.returncode) == (b"", 0)
+    assert len((tmp_path / "t.csv").read_text().splitlines()) > 10
 
 
 def test_presets_are_listed(capsys):

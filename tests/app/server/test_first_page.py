@@ -199,7 +199,7 @@ def test_more_pages_than_places_are_asked_to_wait(full):
     code, after, words = talk(crowd())
     assert code == 503
     assert int(after) > 0
-    assert "All places are taken just now." in words
+    assert "All places on this server are taken" in words
     assert f'http-equiv="refresh" content="{after}"' in words
 
 

@@ -5,7 +5,7 @@ from urllib.request import urlopen
 
 from codim2_app.draw.packing import unpack
 from codim2_app.server.live import merge_requests
-from codim2_app.state.asked import MOST_CONTROLS
+from codim2_app.state.request_reading import MOST_CONTROLS
 from tornado.httpclient import HTTPClientError, HTTPRequest
 
 from tests.benchmarks.wire import Wire

@@ -2,7 +2,7 @@
 
 import asyncio
 
-from codim2_app.server.rota import FOURTH, Rota
+from codim2_app.server.session_queue import FOURTH, Rota
 
 from .test_first_page import talk
 

@@ -39,7 +39,7 @@ def test_hosting_services_say_the_port_and_pages_addresses_are_hosts():
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"CODIM2_PORT": "many"}, "'many' given; give a whole number from 0 on."),
+        ({"CODIM2_PORT": "many"}, "'many' given; give a whole number from 0 to 65535."),
         (["--log-level", "loud"], "invalid choice: 'loud'"),
         (["--processes", "-3"], "'-3' given; give a whole number from 1 on."),
         (["--sessions", "0"], "'0' given; give a whole number from 1 on."),

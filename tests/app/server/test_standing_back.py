@@ -3,8 +3,8 @@
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from codim2_app.server.process import standing_back
-from codim2_app.server.process.standing_back import LOOK, MAX_PAUSE_SECONDS, Answering, stand_back
+from codim2_app.server.process import compile_throttle
+from codim2_app.server.process.compile_throttle import LOOK, MAX_PAUSE_SECONDS, Answering, stand_back
 from numba import njit
 from numba.core import event
 
@@ -28,14 +28,14 @@ class Clock:
 @pytest.fixture
 def clock(monkeypatch):
     found = Clock()
-    monkeypatch.setattr(standing_back, "time", found)
+    monkeypatch.setattr(compile_throttle, "time", found)
     return found
 
 
 @pytest.fixture
 def answering(monkeypatch):
     found = Answering()
-    monkeypatch.setattr(standing_back, "answering", found)
+    monkeypatch.setattr(compile_throttle, "answering", found)
     return found
 
 
@@ -59,7 +59,7 @@ def passes(clock, before, takes):
 def test_a_pass_waits_until_the_answer_has_gone(clock, answering):
     answering.__enter__()
     clock.when = [(100.01, lambda: answering.__exit__())]
-    first, second = passes(clock, standing_back._Before(), [0.001, 0.001])
+    first, second = passes(clock, compile_throttle._Before(), [0.001, 0.001])
     assert first == pytest.approx(0.01, abs=2 * LOOK)
     assert second == 0.0
 
@@ -67,12 +67,12 @@ def test_a_pass_waits_until_the_answer_has_gone(clock, answering):
 def test_it_waits_for_no_longer_than_it_has_compiled(clock, answering):
     """Or a process that always answers would never compile."""
     with answering:
-        waited = passes(clock, standing_back._Before(), [0.004, 0.2, 0.004, 0.0])
+        waited = passes(clock, compile_throttle._Before(), [0.004, 0.2, 0.004, 0.0])
     assert waited == pytest.approx([MAX_PAUSE_SECONDS, 0.004, MAX_PAUSE_SECONDS, 0.004], abs=2 * LOOK)
 
 
 def test_whoever_answers_and_compiles_itself_waits_for_nothing(clock, answering):
-    before = standing_back._Before()
+    before = compile_throttle._Before()
     with answering:
         before.on_start(None)
     assert clock.now == 100.0
@@ -102,7 +102,7 @@ class Told(event.Listener):
 
 def test_numba_tells_before_each_pass_and_only_once(monkeypatch):
     listener = Told()
-    monkeypatch.setattr(standing_back, "_Before", lambda: listener)
+    monkeypatch.setattr(compile_throttle, "_Before", lambda: listener)
     stand_back.cache_clear()
     stand_back()
     stand_back()

@@ -4,9 +4,9 @@ import json
 
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.state.asked import MAX_TEXT_CHARACTERS, MOST_CONTROLS, read_request
 from codim2_app.state.cleaning import InputError, clean
 from codim2_app.state.controls import CONTROL_NAMES, ExplorerState
+from codim2_app.state.request_reading import MAX_TEXT_CHARACTERS, MOST_CONTROLS, read_request
 from codim2_app.view.refresh import Frames
 from hypothesis import given
 from hypothesis import strategies as st

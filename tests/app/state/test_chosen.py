@@ -2,7 +2,17 @@
 
 import numpy as np
 import pytest
-from codim2_app.state.chosen import BOXES, OWN_SYSTEM, TYPED, TextError, build, describe, starting_z, texts_of, titles
+from codim2_app.state.chosen_system import (
+    BOXES,
+    OWN_SYSTEM,
+    TYPED,
+    TextError,
+    build,
+    describe,
+    starting_z,
+    texts_of,
+    titles,
+)
 
 import codim2_core as c2
 from codim2_core import examples
@@ -76,15 +86,15 @@ def test_text_that_cannot_be_used_names_its_box_and_column(choice, texts, box, c
 @pytest.mark.parametrize(
     ("choice", "box", "text", "said"),
     [
-        (OWN_SYSTEM, "U1", "U1", "names a box"),
-        (OWN_SYSTEM, "U2", "-s + U1*c", "names a box"),
-        (OWN_SYSTEM, "W", "W", "names a box"),
-        (TYPED, "d", "-1 - a", "names a box"),
-        (OWN_SYSTEM, "U1", "-c + Psi", "without regularisation"),
-        (OWN_SYSTEM, "U1", "-c*psi(s)", "without regularisation"),
-        (OWN_SYSTEM, "W", "eps*c", "without regularisation"),
-        (TYPED, "d", "-1 - t", "is time"),
-        (OWN_SYSTEM, "U2", "-T*s", "is time"),
+        (OWN_SYSTEM, "U1", "U1", "is the name of a box"),
+        (OWN_SYSTEM, "U2", "-s + U1*c", "is the name of a box"),
+        (OWN_SYSTEM, "W", "W", "is the name of a box"),
+        (TYPED, "d", "-1 - a", "is the name of a box"),
+        (OWN_SYSTEM, "U1", "-c + Psi", "no regularisation"),
+        (OWN_SYSTEM, "U1", "-c*psi(s)", "no regularisation"),
+        (OWN_SYSTEM, "W", "eps*c", "no regularisation"),
+        (TYPED, "d", "-1 - t", "is the time"),
+        (OWN_SYSTEM, "U2", "-T*s", "is the time"),
     ],
 )
 def test_a_name_with_another_meaning_gets_no_slider(choice, box, text, said):
@@ -118,7 +128,7 @@ def test_boxes_that_were_not_touched_keep_their_text():
 
 @pytest.mark.parametrize("text", ["theta", "-sin(theta)", "Theta*c"])
 def test_theta_is_no_slider_but_says_write_c(text):
-    with pytest.raises(TextError, match="write c for cos"):
+    with pytest.raises(TextError, match="rite c for cos"):
         build(OWN_SYSTEM, {"U1": text}, {})
 
 

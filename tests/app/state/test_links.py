@@ -12,7 +12,7 @@ from urllib.parse import parse_qs
 import pytest
 from codim2_app.draw.theme import NEAREST
 from codim2_app.frame.scenes import make_scene
-from codim2_app.state.chosen import BOXES, has_atlas, titles
+from codim2_app.state.chosen_system import BOXES, has_atlas, titles
 from codim2_app.state.controls import NUMBERS, ExplorerState, first_values, preset_values
 from codim2_app.state.links import (
     DEFAULTS_BY_VERSION,
@@ -159,7 +159,7 @@ def test_a_link_carries_kept_views_cleaned_and_that_the_picture_is_lifted():
 def test_views_that_cannot_be_read_are_told(text):
     link = read_link({"views": text, "f1": "0.5"})
     assert (link.look.views, link.state.f1) == ((), 0.5)
-    assert "kept views" in str(link.errors[0])
+    assert "saved views" in str(link.errors[0])
 
 
 @given(st.text(max_size=300))
@@ -174,7 +174,7 @@ def test_a_link_that_would_swell_or_was_cut_is_told():
     whole = compress_query(write_link({**first_values(), "system": "own", "texts": {"U1": "-2*c + sin(3*s)/4"}}))
     assert "s=" in whole
     link = read_link(whole[:-9])
-    assert ["copy the whole link" in str(e) for e in link.errors] == [True]
+    assert ["Copy the whole link" in str(e) for e in link.errors] == [True]
     assert link.state.values() == first_values()
     packer = zlib.compressobj(9, zlib.DEFLATED, -15)
     bomb = urlsafe_b64encode(packer.compress(b"a" * 10_000_000) + packer.flush()).decode()

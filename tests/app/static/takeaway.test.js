@@ -1,4 +1,4 @@
-// The menu "Take away": what each of its buttons asks for, and what becomes of the answer.
+// The menu "Export": what each of its buttons asks for, and what becomes of the answer.
 import assert from "node:assert/strict"
 import test from "node:test"
 

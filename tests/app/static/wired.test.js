@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {register} from "../../../app/static/beside/panels.js"
+import {register} from "../../../app/static/widgets/panels.js"
 import {asked, busy, click, CONFIG, FIRST, hand, memory, OWN, pull, query, setBox, settled, shows, SYSTEM, type, wired} from "./played/wiring.js"
 
 let tools = /** @type {any} */ (null)
@@ -172,7 +172,7 @@ test("what is under way is told, until nothing is", () => {
   one.tick(1000)
   assert.equal(one.sent.length, 2) // nothing is late any more
   one.answer({late: ["picture"]})
-  assert.equal(busy(one), "This system takes longer than a frame; its picture follows …")
+  assert.equal(busy(one), "This system takes longer than one frame; its picture follows …")
   one.answer({})
   assert.equal(busy(one), "")
   asked(one)
@@ -222,7 +222,7 @@ test("the page's own markup is used, and the server's drawing stays until Bokeh 
 test("a page that a server of another version wrote is left as it is, and says so", () => {
   const one = wired({edition: "after"}), bar = /** @type {any} */ (one.document.querySelector(".banner"))
   assert.equal(one.root, null)
-  assert.match(bar.textContent, /^There is a new version .* Reload$/)
+  assert.match(bar.textContent, /^A new version .* Reload$/)
   assert.deepEqual([bar.hidden, Object.keys(one.connections)], [false, []])
   assert.ok(one.document.querySelector(".first"))
 })

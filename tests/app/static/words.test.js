@@ -2,7 +2,7 @@ import assert from "node:assert/strict"
 import {readFileSync, readdirSync} from "node:fs"
 import test from "node:test"
 
-import {SAYS, digits, eigen, escape, measured, formula, pair, phaseWords, plain, slowName, slowWords} from "../../../app/static/words.js"
+import {SAYS, digits, eigen, escape, claimNumber, formula, pair, phaseWords, plain, slowName, slowWords} from "../../../app/static/words.js"
 
 test("numbers have four places, a real minus, and no exponent where none is needed", () => {
   assert.equal(digits(0), "0")
@@ -10,7 +10,7 @@ test("numbers have four places, a real minus, and no exponent where none is need
   assert.equal(digits(123.456), "123.5")
   assert.equal(digits(-0.00012345), "−1.23e−4")
   assert.equal(plain(0.1 + 0.2), "0.3")
-  assert.equal(measured(-0.5), "−0.5")
+  assert.equal(claimNumber(-0.5), "−0.5")
 })
 
 test("words at the borders of their forms", () => {
@@ -22,10 +22,10 @@ test("words at the borders of their forms", () => {
   assert.equal(digits(0.001), "0.001")
   assert.equal(digits(0.00099), "9.90e−4")
   assert.equal(digits(1234.5, 6), "1234.50")
-  assert.equal(measured(0), "0")
-  assert.equal(measured(1e-9), "1e−9")
-  assert.equal(measured(9e-10), "9.00e−10")
-  assert.equal(measured(-1.1e-9), "−1.1e−9")
+  assert.equal(claimNumber(0), "0")
+  assert.equal(claimNumber(1e-9), "1e−9")
+  assert.equal(claimNumber(9e-10), "9.00e−10")
+  assert.equal(claimNumber(-1.1e-9), "−1.1e−9")
   assert.equal(pair([1, -20]), "(1.000, −20.00)")
   assert.deepEqual([0, 1, 2].map(slowName), ["z", "z2", "z3"])
 })
@@ -40,8 +40,8 @@ test("what was typed cannot become markup", () => {
 })
 
 test("the arrow into the page is of the first slow variable, and says so where there are others", () => {
-  assert.deepEqual(slowWords([0.5]), {flow: "z′ = 0.500", sense: "⊙ out of the page: z grows"})
-  assert.deepEqual(slowWords([-1, 2], ["u", "v"]), {flow: "u′ = −1.000, v′ = 2.000", sense: "⊗ into the page, of u only: u falls"})
+  assert.deepEqual(slowWords([0.5]), {flow: "z′ = 0.500", sense: "⊙ out of the page: z increases"})
+  assert.deepEqual(slowWords([-1, 2], ["u", "v"]), {flow: "u′ = −1.000, v′ = 2.000", sense: "⊗ into the page, of u only: u decreases"})
   assert.equal(slowWords([0, 2]).sense, "z₁ at rest")
   assert.equal(slowWords([0]).sense, "at rest")
   assert.match(slowWords(Array(11).fill(1)).flow, /, z₉′ = 1\.000, z10′ = 1\.000, z11′ = 1\.000$/)

@@ -6,7 +6,7 @@ import zlib
 from contextlib import contextmanager
 
 import pytest
-from codim2_app.view import alone, compiled_once
+from codim2_app.view import compile_lock, compiled_once
 from codim2_app.view.compiled_once import hold_name, once
 from numba import cfunc, njit
 from numba.core.ccallback import CFunc
@@ -23,15 +23,15 @@ except BlockingIOError:
 
 def asked(name):
     """What another process finds."""
-    file, byte = alone.lock_path().with_suffix(".kernels"), zlib.crc32(name.encode())
+    file, byte = compile_lock.lock_path().with_suffix(".kernels"), zlib.crc32(name.encode())
     command = [sys.executable, "-S", "-c", ASK, str(file), str(byte)]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 
 
 @pytest.fixture
 def folder(monkeypatch, tmp_path):
-    monkeypatch.setattr(alone.tempfile, "tempdir", str(tmp_path))
-    monkeypatch.setattr(alone.config, "CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(compile_lock.tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(compile_lock.config, "CACHE_DIR", str(tmp_path))
     return tmp_path
 
 
@@ -46,7 +46,7 @@ def test_others_wait_for_a_kernel_and_for_no_other(folder):
 
 
 def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
-    monkeypatch.setattr(alone.tempfile, "tempdir", str(folder / "none"))
+    monkeypatch.setattr(compile_lock.tempfile, "tempdir", str(folder / "none"))
     done = []
     with hold_name("one kernel"):
         done.append(1)

@@ -62,7 +62,7 @@ def test_a_link_that_cannot_be_drawn_draws_the_rest_and_says_what_not(query, con
         ("seen=1,1,1,1", "seen"),
         ("controls=<b>", "controls"),
         ("v=99", "version"),
-        ("s=notthewhole", "copy the whole link"),
+        ("s=notthewhole", "Copy the whole link"),
         ("system=nothing", "nothing"),
         ("solid=" + "x" * 5000, "xxx"),
     ],

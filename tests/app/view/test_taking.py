@@ -11,17 +11,17 @@ from weakref import ref
 
 import pytest
 from codim2_app.draw.theme import themes
+from codim2_app.export import export_request as made
 from codim2_app.export import film as films
-from codim2_app.export import taking as made
+from codim2_app.export.export_request import TYPES, ExportRequest, make_file, seen_by
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.files import DATA
-from codim2_app.export.taking import TYPES, ExportRequest, make_file, seen_by
 from codim2_app.export.view import WHOLE, view_of
 from codim2_app.frame.jobs import Jobs
 from codim2_app.state.links import read_link
-from codim2_app.view import taking as takings
+from codim2_app.view import export_jobs as takings
+from codim2_app.view.export_jobs import ExportJobs
 from codim2_app.view.refresh import Frames
-from codim2_app.view.taking import ExportJobs
 
 from codim2_core.cycles.proof.check import check
 from tests.work import PATIENCE
@@ -62,7 +62,7 @@ def test_a_proof_is_taken_with_its_certificate_and_the_program_that_checks_it(ex
     query = "a=1&b=3&d=-2&f1=0.4&f2=0.1&psi=constant"
     found = json.loads(asked(executor, query, {"id": 5, "kind": "proof"})["file"])
     assert (found["whole"], found["cycles"]) == (True, [])
-    assert "no other is proved" in found["sentence"]
+    assert "there are no other limit cycles" in found["sentence"]
     assert check(json.loads(found["certificate"])) == (0, True)
     assert found["checker"].startswith('"""Check a certificate')
     found = json.loads(asked(executor, "preset=case1-cm4", {"id": 6, "kind": "proof"})["file"])
@@ -221,7 +221,7 @@ def test_a_film_of_play_is_drawn_in_larger_parts_and_refused_where_nothing_was_l
     assert (progress["done"], progress["all"]) == (5, 5)
     assert film["file"][:3] == b"GIF"
     [answer] = conversation(executor, {**FILM, "sliders": ["play"]})
-    assert "click the picture" in answer["error"]
+    assert "Click the picture" in answer["error"]
 
 
 def test_a_film_that_is_stopped_draws_no_more(executor, monkeypatch):

@@ -3,7 +3,7 @@
 import pytest
 
 from codim2_core import ELinear, psi
-from codim2_core.continuation.varied_system import ParameterFamily, TurnQuestion, run_batch
+from codim2_core.continuation.parameter_family import ParameterFamily, TurnQuestion, run_batch
 from codim2_core.layer_problem.vary import vary
 
 SYSTEM = ELinear(1.0, 1.3, -1.2, (0.33, 0.07))

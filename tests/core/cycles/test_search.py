@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from codim2_core.cycles import search
+from codim2_core.cycles import fixed_point_search
 from codim2_core.words import recognise
 
 from .sections import Line
@@ -24,7 +24,7 @@ def test_a_cycle_just_born_is_where_its_expansion_vanishes(sign):
         r = lambda xi: 1.0 / (1.0 + np.exp(-xi))
         section = Line(lambda xi: linear + r(xi) ** 2 * (square + 300.0 * r(xi) + 1e5 * r(xi) ** 2))
         section.critical = SimpleNamespace(trace=linear * omega / (2.0 * math.pi), discriminant=-(omega**2))
-        return search._newborn(section)
+        return fixed_point_search._newborn(section)
 
     found = made(square)
     size = math.sqrt(-linear / square)
@@ -54,7 +54,7 @@ def sought(displacement, trace=1.0, discriminant=1.0, backward=None):
             return super().displacement(xi, rtol, backward)
 
     against = backward
-    found, notes = search.search(search.sample_return_map(Ray(displacement)))
+    found, notes = fixed_point_search.search(fixed_point_search.sample_return_map(Ray(displacement)))
     assert all(not one.born or one.xi == -20.0 for one in found)
     return [(one.xi, one.repelling, one.touching) for one in found], [key for n in notes for key, _ in recognise(n)]
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, critical_sets, psi
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
-from codim2_core.diagrams.standing import equilibrium_branches
+from codim2_core.diagrams.equilibrium_branches import equilibrium_branches
 
 halves = st.integers(-9, 9).map(lambda k: 0.5 * k)
 

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import codim2_core as c2
+from codim2_core.diagrams.equilibrium_branches import equilibrium_branches
 from codim2_core.diagrams.result import Branches
-from codim2_core.diagrams.standing import equilibrium_branches
 from codim2_core.layer_problem import vary
 from tests.core.general_systems import NONUNIQUE
 

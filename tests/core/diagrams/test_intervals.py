@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.diagrams.standing import equilibrium_branches
+from codim2_core.diagrams.equilibrium_branches import equilibrium_branches
 from codim2_core.layer_problem.vary import vary
 
 PARTS = np.array([1e-4, 1e-2, 0.2, 0.5, 0.8, 0.99, 0.9999])

@@ -1,7 +1,7 @@
 """Portraits on both sides of a setting."""
 
 import codim2_core as c2
-from codim2_core.diagrams.sides import sides
+from codim2_core.diagrams.neighbouring_portraits import sides
 from codim2_core.layer_problem.vary import names
 
 

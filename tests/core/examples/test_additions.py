@@ -1,7 +1,7 @@
 """An example is one file and one line, a preset one record: others are added and used through the public API."""
 
 import pytest
-from codim2_app.state.chosen import describe, titles
+from codim2_app.state.chosen_system import describe, titles
 from codim2_app.state.cleaning import clean
 from codim2_app.state.controls import preset_values
 from codim2_app.state.links import read_link

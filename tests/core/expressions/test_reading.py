@@ -2,6 +2,7 @@
 
 import math
 import pickle
+import re
 import sys
 
 import pytest
@@ -36,7 +37,7 @@ def test_hostile_text_is_refused_quickly(text):
     assert isinstance(error, ValueError)
     assert f"column {error.column}" in str(error)
     assert "Allowed are" in str(error)
-    assert "Mend: " in str(error)
+    assert re.search(r"Allowed are .*\. [A-Z].*[.?]$", str(error))
     assert error.column >= 1
     assert len(str(error)) < 700
     assert str(error).isascii()
@@ -97,14 +98,14 @@ def test_only_text(text):
 
 def test_mends_are_named():
     for text, mend in [
-        ("s s", "write s*s"),
-        ("1/2s", "write (1/2)*c, or 1/(2*c)"),
-        ("0,5", "write decimals with a point"),
-        ("min(s)", "write min(u, v)"),
-        ("snh(s)", "did you mean sinh"),
-        ("sin s", "write sin(...)"),
+        ("s s", "Write s*s"),
+        ("1/2s", "Write (1/2)*c, or 1/(2*c)"),
+        ("0,5", "Write decimals with a point"),
+        ("min(s)", "Write min(u, v)"),
+        ("snh(s)", "Did you mean sinh"),
+        ("sin s", "Write sin(...)"),
     ]:
-        with pytest.raises(ExpressionError, match="Mend: ") as caught:
+        with pytest.raises(ExpressionError, match=r"Allowed are .*\. [A-Z].*[.?]$") as caught:
             parse(text, ("s",))
         assert mend in str(caught.value)
     error = ExpressionError("m", "1+?", 3)
@@ -136,8 +137,8 @@ def test_what_people_write_is_read(text, plain):
 
 def test_where_e_is_known_an_angle_is_told_as_c_and_s():
     for text in ("cos(theta)", "θ"):
-        with pytest.raises(ExpressionError, match=r"write c for cos\(theta\) and s for sin\(theta\)"):
+        with pytest.raises(ExpressionError, match=r"rite c for cos\(theta\) and s for sin\(theta\)"):
             parse(text, ("c", "s"))
         with pytest.raises(ExpressionError) as caught:
             parse(text, ("x",))
-        assert "cos(theta)" not in str(caught.value).split("Mend")[1]
+        assert "for cos(theta)" not in str(caught.value)

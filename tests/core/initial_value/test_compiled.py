@@ -5,7 +5,7 @@ import pytest
 
 from codim2_core import ELinear, Event, System, examples, simulate
 from codim2_core import psi as families
-from codim2_core.initial_value.compiled import is_compiled
+from codim2_core.initial_value.compiled_motion import is_compiled
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.problem import plane_problem
 from codim2_core.motion import regularised

@@ -8,9 +8,9 @@ from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, System, simulate_nonsmooth
 from codim2_core import psi as families
-from codim2_core.initial_value import compiled, courses
+from codim2_core.initial_value import compiled_hybrid, compiled_motion
 from codim2_core.initial_value.field import field
-from codim2_core.initial_value.kernels.course import LEAVE, SLIDE, SLIP, WHOLE
+from codim2_core.initial_value.kernels.hybrid_run import LEAVE, SLIDE, SLIP, WHOLE
 from codim2_core.initial_value.kernels.motion import BLOWN_UP, FINISHED, LIMIT, SHORT
 from codim2_core.initial_value.line import invariant_line
 from codim2_core.initial_value.problem import plane_problem
@@ -23,7 +23,7 @@ TURNS = System(U=("-2*c + 1.5*c*s + 2.4*sin(z1) + 0.3*x", "-s + 0.9*cos(z1)"), W
 def _followed(system, psi, eps, first, span, rtol=1e-6, most=1000):
     first, own = np.atleast_2d(np.array(first, float)), field(system)
     lines = [invariant_line(own, state) for state in first]
-    return compiled.integrate_compiled(own, psi, eps, lines, first, span, rtol, 0.01, most)
+    return compiled_motion.integrate_compiled(own, psi, eps, lines, first, span, rtol, 0.01, most)
 
 
 def test_a_slip_is_what_scipy_finds():
@@ -88,7 +88,7 @@ CASES = {
 def _course(system, first, t_end, rtol=1e-5, psi=TANH, most=1000):
     first, own = np.atleast_2d(np.array(first, float)), field(system)
     lines = [invariant_line(own, state) for state in first]
-    return courses.run_hybrid(own, psi, lines, first, (0.0, t_end), rtol, 0.01, most)
+    return compiled_hybrid.run_hybrid(own, psi, lines, first, (0.0, t_end), rtol, 0.01, most)
 
 
 def _by_phase(monkeypatch, system, first, t_end, psi=TANH, rtol=1e-8):

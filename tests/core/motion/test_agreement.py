@@ -7,7 +7,7 @@ import pytest
 
 from codim2_core import ELinear, System, equator_equilibria, examples, simulate, simulate_nonsmooth
 from codim2_core import psi as families
-from codim2_core.motion.agreement import agreement, limit_order
+from codim2_core.motion.compare_with_limit import agreement, limit_order
 from codim2_core.motion.result import Phase
 
 PSI, RATIONAL = families.constant(), families.rational()
@@ -62,7 +62,7 @@ def test_the_words_tell_whether_phases_agree():
     coarse = simulate(system, PSI, 0.3, (0.25, 0.3, 0.0), (0.0, 2.0))
     told = agreement(system, PSI, coarse, limit)
     assert not told.same
-    assert "not those of the limit" in told.sentence
+    assert "differ from those of the limit" in told.sentence
     assert "slides on C₃" in told.sentence
 
 
@@ -113,10 +113,10 @@ def test_where_phases_differ_the_earlier_time_is_told():
     slide, cross = Phase("slide", 0.3, 1.0, "", "C2"), Phase("cross", 0.6, 0.6, "")
     system = ELinear(-1.0, 0.5, -2.0)
     for own, limit, words in (
-        ((slip, slide), (later, cross), "t = 0.3 on the motion slides on C₂, and in the limit it crosses Σ"),
-        ((later, cross), (slip, slide), "t = 0.3 on the motion crosses Σ, and in the limit it slides on C₂"),
-        ((slip, slide), (later,), "t = 0.3 on the motion slides on C₂, and in the limit it goes on as before"),
-        ((slip,), (later, cross), "t = 0.6 on the motion goes on as before, and in the limit it crosses Σ"),
+        ((slip, slide), (later, cross), "t = 0.3 the motion slides on C₂, while in the limit it crosses Σ"),
+        ((later, cross), (slip, slide), "t = 0.3 the motion crosses Σ, while in the limit it slides on C₂"),
+        ((slip, slide), (later,), "t = 0.3 the motion slides on C₂, while in the limit it goes on as before"),
+        ((slip,), (later, cross), "t = 0.6 the motion goes on as before, while in the limit it crosses Σ"),
     ):
         found = agreement(system, RATIONAL, simulated(own), simulated(limit))
         assert not found.same

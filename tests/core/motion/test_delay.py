@@ -189,7 +189,7 @@ def test_ahead_it_is_looked_as_far_as_the_ranges(start, spans, left):
     if left is None:
         assert delay.z_out is None
         assert delay.z[-1, 0] == pytest.approx(0.4)
-        assert "as far as it was followed" in delay.reason
+        assert "to the end of the range" in delay.reason
     else:
         assert delay.z_out[0] == pytest.approx(left, abs=1e-9)
 

@@ -51,7 +51,7 @@ def test_where_formulas_end_the_motion_does(which):
     run = motion(which, System(U=("-c", "-s"), W=("-1/2 + log(z) - log(z)",)), (1.0, 0.0, 1.0), 3.0)
     assert run.status is SimulationStatus.STEP_LIMIT
     assert run.times[-1] == pytest.approx(2.0, abs=1e-6)
-    assert "undefined from t = 2" in run.reason
+    assert "undefined after t = 2" in run.reason
 
 
 @pytest.mark.parametrize("which", ALL)

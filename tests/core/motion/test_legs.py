@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, Event, System, examples, psi, simulate_nonsmooth
-from codim2_core.initial_value import courses
+from codim2_core.initial_value import compiled_hybrid
 from codim2_core.motion import nonsmooth
-from codim2_core.motion.limit import legs
+from codim2_core.motion.limit import phase_builder
 from codim2_core.motion.result import Phase, SimulationStatus
 
 SPAN = (0.0, 6.0)
@@ -56,8 +56,8 @@ def _told(phase: Phase) -> tuple[str, str | None, str]:
 def test_it_is_the_motion_phase_by_phase(monkeypatch, by_phase, case, own):
     system, state, is_decided = CASES[case]
     monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)
-    steps, count = [], courses.run_hybrid
-    monkeypatch.setattr(courses, "run_hybrid", lambda *given: steps.append(count(*given)) or steps[-1])
+    steps, count = [], compiled_hybrid.run_hybrid
+    monkeypatch.setattr(compiled_hybrid, "run_hybrid", lambda *given: steps.append(count(*given)) or steps[-1])
     rtol = 1e-8
     found, other = (
         simulate_nonsmooth(system, state, SPAN, own, rtol=rtol, atol=rtol),
@@ -84,8 +84,8 @@ def test_it_is_handed_over_where_the_next_phase_is_not_sure(monkeypatch, by_phas
     folds = System(U=("z1 - c**2 - 0.09", "-s"), W=("-1",))
     state = (0.3, 0.1, 0.5)
     monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)
-    handed, own = [], legs.PhaseBuilder.onward
-    monkeypatch.setattr(legs.PhaseBuilder, "onward", lambda one: handed.append(one) or own(one))
+    handed, own = [], phase_builder.PhaseBuilder.onward
+    monkeypatch.setattr(phase_builder.PhaseBuilder, "onward", lambda one: handed.append(one) or own(one))
     found, other = (run(folds, state, 1e-8, psi.constant()) for run in (_as_it_is, by_phase))
     assert [part.phase.kind for part in handed[0].parts] == ["slip"]
     assert [_told(phase) for phase in found.phases] == [_told(phase) for phase in other.phases]

@@ -76,7 +76,7 @@ def test_crossing_at_once_and_coming_back():
     assert kinds(run) == ["slip", "cross", "slip", "slide"]
     cross = run.phases[1]
     assert cross.t_start == cross.t_end == run.phases[0].t_end
-    assert "crossing" in cross.reason
+    assert "crosses" in cross.reason
     # Leaving: z' = mu g - 2 z, x' = 7/2 mu g - 2 z from (0, z) on.
     z0, friction, t = run.dense(cross.t_end)[2], 0.2 * G, 1.0
     z = (z0 - friction / 2) * math.exp(-2 * t) + friction / 2

@@ -12,7 +12,7 @@ from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
 from codim2_core.initial_value.events import Event
 from codim2_core.motion import regularised
-from codim2_core.motion.drawn import MAX_POINTS, MIN_TIMES
+from codim2_core.motion.picture_curve import MAX_POINTS, MIN_TIMES
 from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus
 from tests.core.strategies import coefficient, regularisations

@@ -34,11 +34,23 @@ def along_a_line(k):
 
 
 CASES = [  # … and what is said of its last phase
-    (fold, (0.0, 0.0, 0.3), 1.0, families.constant(), "C₁ ends in a fold (det J = 0). They leave along θ = 0.06199"),
-    (hopf, (8.5e-4, 5.2e-4, 0.3), 0.9, families.hill(3), "C loses its stability (Hopf), and the motion stays near it"),
-    (cycle, (8.5e-4, 5.2e-4, 0.3), 2.6, families.hill(3), "C reaches the equator (Figure 19) and sliding ends"),
-    (equator, (0.3, -0.2, 0.1), 3.0, families.tanh(), "C reaches the equator (Figure 19) and sliding ends"),
-    (along_a_line, (0.0, 0.0, 0.3), 1.0, families.constant(), "C₁ ends in a fold. Along it there is no critical set"),
+    (
+        fold,
+        (0.0, 0.0, 0.3),
+        1.0,
+        families.constant(),
+        "C₁ ends in a fold (det J = 0). They cross Σ and leave along θ = 0.06199",
+    ),
+    (hopf, (8.5e-4, 5.2e-4, 0.3), 0.9, families.hill(3), "C loses its stability (Hopf), but the motion stays near it"),
+    (cycle, (8.5e-4, 5.2e-4, 0.3), 2.6, families.hill(3), "C reaches the equator (Figure 19), so sliding ends"),
+    (equator, (0.3, -0.2, 0.1), 3.0, families.tanh(), "C reaches the equator (Figure 19), so sliding ends"),
+    (
+        along_a_line,
+        (0.0, 0.0, 0.3),
+        1.0,
+        families.constant(),
+        "C₁ ends in a fold. There is no critical set on the line",
+    ),
 ]
 
 

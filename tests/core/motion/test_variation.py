@@ -208,14 +208,14 @@ def test_where_it_is_not_known_is_said():
     case_3 = System(U=("172*c - 186*s - 172*z", "186*c - 200*s - 186*z"), W=("c/2",))
     run = simulate_nonsmooth(case_3, (8.5e-4, 5.2e-4, 0.45), (0.0, 0.2), psi.hill(3))
     found = run.variation()
-    assert found.reason.startswith("The derivatives are not known past t = 0.0")
+    assert found.reason.startswith("The derivatives are unknown after t = 0.0")
     assert "limit cycle" in found.reason
     assert found.times[-1] == run.phases[1].t_start
     fold = System(U=("-(c**2) + z", "-s"), W=("-1",))  # C at c = sqrt(z) is gone at z = 0
     run = simulate_nonsmooth(fold, (0.3, 0.0, 0.5), (0.0, 3.0), psi.constant())
     ended = next(phase for phase in run.phases if phase.kind == "slide").t_end
     found = run.variation()
-    assert "does not end at the equator" in found.reason
+    assert "ends away from the equator" in found.reason
     assert found.times[-1] == pytest.approx(ended, abs=1e-9)
 
 
@@ -223,7 +223,7 @@ def test_a_slope_that_is_not_finite_ends_what_is_known():
     system = System(U=("-1 + 0*c", "-s"), W=("sqrt(z)",))  # its derivative at z = 0 is infinite
     run = simulate(system, psi.constant(), 0.1, (1.0, 0.2, 0.0), (0.0, 0.5))
     found = run.variation()
-    assert found.reason == "The derivatives are not known past t = 0: those of a formula are not finite there."
+    assert found.reason == "The derivatives are unknown after t = 0, where those of a formula are not finite."
     assert found.times.tolist() == [0.0]
     np.testing.assert_array_equal(found.last, np.eye(3))
     assert np.isnan(found.rate).all()

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from codim2_core import nullclines, psi
 from codim2_core.layer_problem.equator_zeros import component_zeros
-from codim2_core.nullcline.typed import ALL_POINTS, MOST_POINTS, inside_curves
+from codim2_core.nullcline.general_nullclines import ALL_POINTS, MOST_POINTS, inside_curves
 from codim2_core.systems.typed import System
 from tests.core.general_systems import ATTRACTING, NONUNIQUE, circle, polynomials
 from tests.core.strategies import regularisations

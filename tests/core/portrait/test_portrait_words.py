@@ -75,12 +75,15 @@ def test_a_zero_of_theta_is_named_by_its_multiplicity(power, name):
 @pytest.mark.parametrize(
     ("U", "words"),
     [
-        (("(c - 1)*(2 + s)", "s"), "No isolated critical set inside."),  # one on the equator
-        (("(c - s)*(2 + c)", "(c - s)*(3 + s)"), "No isolated critical set inside."),  # a curve
-        (("c*s - s*c", "0*c*s"), "No isolated critical set inside."),
+        (("(c - 1)*(2 + s)", "s"), "There is no isolated critical set on the hemisphere."),  # one on the equator
+        (("(c - s)*(2 + c)", "(c - s)*(3 + s)"), "There is no isolated critical set on the hemisphere."),  # a curve
+        (("c*s - s*c", "0*c*s"), "There is no isolated critical set on the hemisphere."),
         (("c*s + 2", "s"), "There is no critical set."),
-        (("c**2 - 1/4", "-s"), "Critical sets: 1 saddle, 1 stable node. There is one way to slide stably along Σ."),
-        (("c**2 - 1/4", "s"), "Critical sets: 1 saddle, 1 unstable node. None is stable"),
+        (
+            ("c**2 - 1/4", "-s"),
+            "The critical sets are 1 saddle, 1 stable node. Exactly one of the ways to slide along Σ is stable.",
+        ),
+        (("c**2 - 1/4", "s"), "The critical sets are 1 saddle, 1 unstable node. None is stable"),
         (("-c*(c**2 - 1/4)", "-s"), "1 saddle, 2 stable nodes. There are 2 ways to slide stably along Σ"),
     ],
 )

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core.sliding.along import slow_portrait
+from codim2_core.sliding.along_z import slow_portrait
 
 
 @pytest.mark.parametrize("psi", [c2.psi.constant(), c2.psi.tanh()], ids=lambda p: p.family)

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from codim2_core import ELinear
+from codim2_core import ELinear, branches, psi
 
 number = st.floats(-10, 10).map(lambda v: round(v, 9))
 
@@ -37,6 +37,19 @@ def test_parameters_change_without_new_text():
 )
 def test_number_of_slow_variables(m, system):
     assert system.m == m
+
+
+def test_a_b_d_of_a_matrix_are_those_of_its_normal_form():
+    given = ELinear.from_matrix([[1, -2], [3, -4]], f=(0.1, 0.2), B=[[1.0, -2.0]], g=[0.5])
+    turned = given.rotated()
+    assert (turned.at().plane, turned.at().B.tolist()) == (given.at().plane, given.at().B.tolist())
+    assert (given.a, given.b, given.d) == (turned.a, turned.b, turned.d)
+    assert f"a={given.a}" in repr(given)
+    assert given.evolve(a=-1.0, f1=0.3) == turned.evolve(a=-1.0, f1=0.3)
+    family = psi.hill(3)
+    found, expected = (branches(one, family, "a", (-5, 2), with_cycles=False).special for one in (given, turned))
+    assert [(one.kind, one.value) for one in found] == [(one.kind, one.value) for one in expected]
+    assert found
 
 
 @settings(max_examples=20)
@@ -94,7 +107,7 @@ def test_from_matrix_takes_entries_that_depend_on_z():
         (lambda: ELinear(1, 0, 1).evolve(q=3), "'q' is no coefficient"),
         (lambda: ELinear("z2", 0, 1, g=[1.0]).m, "a names z2, but g has 1 row: use z, or give B and g 2 rows"),
         (lambda: ELinear.from_matrix([1, 2, 3]), "(2, 2)"),
-        (lambda: ELinear.from_matrix([[1, 2], [3, 4]]).evolve(a=1), "from_matrix"),
+        (lambda: ELinear.from_matrix([["z", 2], [3, 4]]).evolve(a=1), "holds text"),
     ],
 )
 def test_bad_input_says_what_and_how_to_mend(make, says):

@@ -55,7 +55,7 @@ test("a proxy whose server is down is no server, nor is silence: it is tried aga
 test("a server of another version is not gone to before a person says so", async () => {
   const kept = global.location
   const {said, waiting, again} = await lost([null, 200], true, 1, '{"edition": "two"}')
-  assert.deepEqual(said.splice(0), ["lost", "Connection lost. Trying again …", "There is a new version of the explorer. Reload the page to have it: what is set here stays."])
+  assert.deepEqual(said.splice(0), ["lost", "Connection lost. Trying again …", "A new version of the explorer is available. Reload the page: your settings stay."])
   assert.equal(waiting, false)
   global.location = {reload: () => said.push("reload")}
   try { again() } finally { global.location = kept }

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Space, TEXT, beside, textSize} from "../../../../app/static/chart/space.js"
+import {Space, TEXT, labelBox, textSize} from "../../../../app/static/chart/space.js"
 import {PLOT, made} from "../played/charted.js"
 import {near} from "../played/reading.js"
 
@@ -212,7 +212,7 @@ test("middles around a place: all that lie inside, the nearest first, from the n
 })
 
 test("a name stands beside its point, not over it, at three distances in eight directions", () => {
-  const text = "a name", [width, height] = textSize(text), middles = beside([100, 50], text)
+  const text = "a name", [width, height] = textSize(text), middles = labelBox([100, 50], text)
   assert.deepEqual([width, height], [0.56 * TEXT * 6 + 2, TEXT])
   assert.deepEqual(textSize("abc", 20), [0.56 * 20 * 3 + 2, 20])
   assert.equal(middles.length, 24)

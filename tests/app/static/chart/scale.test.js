@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {largest, rounded, scale, spanOf, ticks, wordedTicks} from "../../../../app/static/chart/scale.js"
+import {largest, roundToSpan, scale, spanOf, ticks, wordedTicks} from "../../../../app/static/chart/scale.js"
 
 test("a scale goes there and back, also upside down", () => {
   const y = scale([-2, 6], [300, 20])
@@ -78,8 +78,8 @@ test("zeros, and values that differ by rounding, are one value and have a scale"
 })
 
 test("a value under a hand is as fine as its span is narrow, however far from 0 that is", () => {
-  const found = [[0.12345678, [-2, 2]], [0.1006, [-2, 2]], [1.23456789, [-20, 20]], [-0.12345678, [-0.4, 0.4]], [7.77777777, [0, 99]], [0.3, [-2, 2]]].map(([value, span]) => rounded(/** @type {number} */ (value), /** @type {number[]} */ (span)))
+  const found = [[0.12345678, [-2, 2]], [0.1006, [-2, 2]], [1.23456789, [-20, 20]], [-0.12345678, [-0.4, 0.4]], [7.77777777, [0, 99]], [0.3, [-2, 2]]].map(([value, span]) => roundToSpan(/** @type {number} */ (value), /** @type {number[]} */ (span)))
   assert.deepEqual(found, [0.123, 0.101, 1.23, -0.1235, 7.78, 0.3])
-  assert.deepEqual([rounded(123.456789, [123, 123.5]), rounded(1000.12345678, [1000, 1000.2]), rounded(1234.6, [0, 90000])], [123.4568, 1000.1235, 1235])
-  assert.ok(Object.is(rounded(-0.0001, [-2, 2]), 0))
+  assert.deepEqual([roundToSpan(123.456789, [123, 123.5]), roundToSpan(1000.12345678, [1000, 1000.2]), roundToSpan(1234.6, [0, 90000])], [123.4568, 1000.1235, 1235])
+  assert.ok(Object.is(roundToSpan(-0.0001, [-2, 2]), 0))
 })

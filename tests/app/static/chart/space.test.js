@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {beside, Space, textSize} from "../../../../app/static/chart/space.js"
+import {labelBox, Space, textSize} from "../../../../app/static/chart/space.js"
 
 // The independent check: whether a segment meets a box, by clipping.
 /** @param {number[][]} segment @param {number[]} box */
@@ -47,7 +47,7 @@ test("a label stands where it is allowed, as near to its favourite place as it c
 })
 
 test("a name begins close beside its point and never over it", () => {
-  for (const [x, y] of beside([100, 50], "n = 3")) {
+  for (const [x, y] of labelBox([100, 50], "n = 3")) {
     const [width, height] = textSize("n = 3")
     assert.ok(Math.abs(x - 100) > width / 2 || Math.abs(y - 50) > height / 2)
   }
@@ -83,7 +83,7 @@ test("a text takes the first place that is free, and no other text takes it then
 })
 
 test("a name stands close beside its point, to the right and above first", () => {
-  const middles = beside([10, 20], "a"), width = textSize("a")[0]
+  const middles = labelBox([10, 20], "a"), width = textSize("a")[0]
   assert.equal(middles.length, 24)
   const at = (i, place) => place.forEach((v, k) => assert.ok(Math.abs(middles[i][k] - v) < 1e-9, `${i}: ${middles[i]}`))
   at(0, [10 + 6 + width / 2 - 2, 20 - 9])

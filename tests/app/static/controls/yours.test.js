@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {MOST, formulaOf, named, noted, readYours, restored, without} from "../../../../app/static/controls/yours.js"
+import {MOST, formulaOf, renameEntry, addEntry, readYours, restoreEntry, without} from "../../../../app/static/controls/yours.js"
 import {FIRST, OWN, VALUES, click, memory, pull, type, wired} from "../played/wiring.js"
 
 const BOXES = {own: [{name: "U1", label: "ẋ = U₁", text: "-c"}, {name: "U2", label: "ẏ = U₂", text: "-s"}, {name: "W", label: "ż = W", text: "1"}], typed: [{name: "a", label: "a", text: "-2"}, {name: "b", label: "b", text: "0"}]}
@@ -10,50 +10,50 @@ const own = (U1, more = {}) => ({system: "own", texts: {U1, U2: "-s"}, parameter
 const many = (count, name = "") => Array.from({length: count}, (_, i) => ({id: `i${i}`, name, kind: /** @type {"own"} */ ("own"), values: own(`-c*${i}`)}))
 
 test("typing on changes the entry that it began, another beginning makes another one", () => {
-  let {list, current} = noted([], "", "own", own("-c*2"), "a")
+  let {list, current} = addEntry([], "", "own", own("-c*2"), "a")
   assert.deepEqual([current, list.length], ["a", 1])
-  ;({list, current} = noted(list, current, "own", own("-c*23"), "b"))
+  ;({list, current} = addEntry(list, current, "own", own("-c*23"), "b"))
   assert.deepEqual([current, list.map(({values}) => values.texts.U1)], ["a", ["-c*23"]])
-  ;({list, current} = noted(list, "", "own", own("-c*7"), "c"))
+  ;({list, current} = addEntry(list, "", "own", own("-c*7"), "c"))
   assert.deepEqual(list.map(({id}) => id), ["c", "a"])
-  ;({list, current} = noted(list, current, "own", own("-c*23", {parameters: {k: 2}}), "d")) // it is there already
+  ;({list, current} = addEntry(list, current, "own", own("-c*23", {parameters: {k: 2}}), "d")) // it is there already
   assert.deepEqual([current, list.map(({id}) => id), list[0].values.parameters], ["a", ["a"], {k: 2}])
 })
 
 test("the same texts of another kind of system are another entry, and so is what is typed of it", () => {
-  const typed = {...own("-c*2"), system: "typed"}, first = noted([], "", "own", own("-c*2"), "a").list
-  const both = noted(first, "", "typed", typed, "b")
+  const typed = {...own("-c*2"), system: "typed"}, first = addEntry([], "", "own", own("-c*2"), "a").list
+  const both = addEntry(first, "", "typed", typed, "b")
   assert.deepEqual([both.current, both.list.map(({id, kind}) => `${id} ${kind}`)], ["b", ["b typed", "a own"]])
-  const after = noted(first, "a", "typed", {...own("-c*3"), system: "typed"}, "c")
+  const after = addEntry(first, "a", "typed", {...own("-c*3"), system: "typed"}, "c")
   assert.deepEqual([after.current, after.list.map(({id, kind}) => `${id} ${kind}`)], ["c", ["c typed", "a own"]])
 })
 
 test("what has a name is not typed over", () => {
-  const list = named(noted([], "", "own", own("-c*2"), "a").list, "a", "  mine  ")
+  const list = renameEntry(addEntry([], "", "own", own("-c*2"), "a").list, "a", "  mine  ")
   assert.equal(list[0].name, "mine")
-  const after = noted(list, "a", "own", own("-c*3"), "b")
+  const after = addEntry(list, "a", "own", own("-c*3"), "b")
   assert.deepEqual([after.current, after.list.map(({id, name}) => `${id} ${name}`)], ["b", ["b ", "a mine"]])
-  assert.equal(named(list, "a", "x".repeat(99))[0].name.length, 40)
+  assert.equal(renameEntry(list, "a", "x".repeat(99))[0].name.length, 40)
 })
 
 test("the list is bounded: the oldest without a name goes, then the oldest", () => {
   assert.equal(MOST, 24)
   const full = many(MOST)
-  assert.deepEqual(noted(full, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...full.slice(0, -1).map(({id}) => id)])
+  assert.deepEqual(addEntry(full, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...full.slice(0, -1).map(({id}) => id)])
   const last = full.map((one, i) => i > 2 ? {...one, name: "kept"} : one)
-  assert.deepEqual(noted(last, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...last.filter((_, i) => i !== 2).map(({id}) => id)])
+  assert.deepEqual(addEntry(last, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...last.filter((_, i) => i !== 2).map(({id}) => id)])
   const young = full.map((one, i) => i > 0 ? {...one, name: "kept"} : one) // only what is new has no name, and this
-  assert.deepEqual(noted(young, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...young.slice(1).map(({id}) => id)])
+  assert.deepEqual(addEntry(young, "", "own", own("new"), "n").list.map(({id}) => id), ["n", ...young.slice(1).map(({id}) => id)])
   const all = many(MOST, "kept")
-  assert.equal(noted(all, "", "own", own("new"), "n").list.at(-1)?.id, `i${MOST - 2}`)
-  assert.deepEqual(noted([], "", "own", own("c".repeat(7000)), "n"), {list: [], current: ""})
+  assert.equal(addEntry(all, "", "own", own("new"), "n").list.at(-1)?.id, `i${MOST - 2}`)
+  assert.deepEqual(addEntry([], "", "own", own("c".repeat(7000)), "n"), {list: [], current: ""})
 })
 
 test("what is removed can be put back where it was", () => {
   const list = many(3), after = without(list, "i1")
   assert.deepEqual(after.map(({id}) => id), ["i0", "i2"])
-  assert.deepEqual(restored(after, list[1], 1), list)
-  assert.equal(restored(list, list[1], 1), list)
+  assert.deepEqual(restoreEntry(after, list[1], 1), list)
+  assert.equal(restoreEntry(list, list[1], 1), list)
 })
 
 test("a storage that holds something else is an empty list, and of a list what fits", () => {
@@ -136,7 +136,7 @@ test("where there is no storage the list lives in the page, and says so; there i
   const one = wired({values: CUSTOM}, {...FIRST, system: OWN}, {localStorage: none})
   write(one, "-c*2")
   assert.equal(one.find(".yours summary").textContent, "Yours (1)")
-  assert.equal(one.find(".yours .note").textContent, "What you have typed, kept until this page is closed.")
+  assert.equal(one.find(".yours .note").textContent, "What you have typed is stored until this page is closed.")
   assert.equal(one.find(".banner").hidden, true)
   const full = {getItem: () => null, setItem() { throw new Error("quota") }}, two = wired({values: CUSTOM}, {...FIRST, system: OWN}, {localStorage: full})
   write(two, "-c*2"); write(two, "-c*3")

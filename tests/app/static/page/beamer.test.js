@@ -2,13 +2,13 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Beamer, enlarged} from "../../../../app/static/page/beamer.js"
+import {Beamer, enlarge} from "../../../../app/static/page/beamer.js"
 import {page} from "../played/page.js"
 
 test("all that is in pixels is larger; what is in the picture stays", () => {
   const list = [{kind: "circle", radius: 1, width: 2}, {kind: "mark", layer: "critical", x: 0.2, y: 0.3, size: 12, width: 2.5}, {kind: "label", layer: "critical", x: 0.2, y: 0.3, dx: 13, dy: -11, size: 16}, {kind: "label", layer: "equator", x: 0, y: -1, away: [0.1, -0.25], view: 1.75, size: 15}]
-  assert.equal(enlarged(list, 1), list)
-  const [circle, mark, own, outside] = enlarged(list, 2)
+  assert.equal(enlarge(list, 1), list)
+  const [circle, mark, own, outside] = enlarge(list, 2)
   assert.deepEqual(circle, {kind: "circle", radius: 1, width: 4})
   assert.deepEqual([mark.x, mark.y, mark.size, mark.width], [0.2, 0.3, 24, 5])
   assert.deepEqual([own.x, own.dx, own.dy, own.size], [0.2, 26, -22, 32])

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {register} from "../../../../app/static/beside/panels.js"
+import {register} from "../../../../app/static/widgets/panels.js"
 import {asked, click, FIRST, memory, OWN, SYSTEM, type, wired} from "../played/wiring.js"
 
 let tools = /** @type {any} */ (null)

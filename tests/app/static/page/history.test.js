@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 import {inflateRawSync} from "node:zlib"
 
-import {register} from "../../../../app/static/beside/panels.js"
+import {register} from "../../../../app/static/widgets/panels.js"
 import {click, FIRST, press, pull, query, settled, wired} from "../played/wiring.js"
 
 register("numbers", () => ({})) // the panel that is open: until it is there, something is under way

@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 import {inflateRawSync} from "node:zlib"
 
-import {squeezed, writeLink} from "../../../../app/static/page/links.js"
+import {compressQuery, writeLink} from "../../../../app/static/page/links.js"
 
 const DEFAULTS = {a: -2, f1: 0.5, z: 0, psi: "constant", preset: "", system: "normal", texts: {}, layers: ["inside", "rho"]}
 const CONFIG = {
@@ -37,8 +37,8 @@ test("what is seen has six digits; a frame in another page names its controls", 
 })
 
 test("a long link is carried compressed, a short one as it is", async () => {
-  assert.equal(await squeezed("v=3&f1=1", 3), "v=3&f1=1")
-  const long = `v=3&texts=${"c*s%2B".repeat(60)}`, short = await squeezed(long, 3)
+  assert.equal(await compressQuery("v=3&f1=1", 3), "v=3&f1=1")
+  const long = `v=3&texts=${"c*s%2B".repeat(60)}`, short = await compressQuery(long, 3)
   assert.ok(short.length < long.length && /^v=3&s=[\w-]+$/.test(short))
   assert.equal(inflateRawSync(Buffer.from(short.slice(6), "base64url")).toString(), long)
 })

@@ -2,15 +2,15 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {between, Views} from "../../../../app/static/page/views.js"
+import {interpolateViews, Views} from "../../../../app/static/page/views.js"
 import {page} from "../played/page.js"
 
 const FIRST = {system: "normal", texts: {}, psi: "constant", psi_text: "", beside: "", parameters: {}, f1: 0, a: -1, layers: ["rho"]}
 
 test("between two views of one system there are numbers, its own too; between two systems there is nothing", () => {
-  assert.deepEqual(between(FIRST, {...FIRST, f1: 2, layers: []}), [["f1", 0, 2]])
-  assert.deepEqual(between({...FIRST, system: "own", parameters: {mu: 1, k: 3}}, {...FIRST, system: "own", parameters: {mu: 2, k: 3}}), [["own:mu", 1, 2]])
-  assert.equal(between(FIRST, {...FIRST, psi: "tanh", f1: 1}), null)
+  assert.deepEqual(interpolateViews(FIRST, {...FIRST, f1: 2, layers: []}), [["f1", 0, 2]])
+  assert.deepEqual(interpolateViews({...FIRST, system: "own", parameters: {mu: 1, k: 3}}, {...FIRST, system: "own", parameters: {mu: 2, k: 3}}), [["own:mu", 1, 2]])
+  assert.equal(interpolateViews(FIRST, {...FIRST, psi: "tanh", f1: 1}), null)
 })
 
 function views(still = false, brought = /** @type {any[]} */ ([]), kept = "") {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {percent, spaced} from "../../../../app/static/panels/census.js"
+import {percent, groupDigits} from "../../../../app/static/panels/census.js"
 import {opened} from "../played/reading.js"
 
 const SETTINGS = {draws: {normal: ["e-linear", 10000], quadratic: ["quadratic in e", 50]}, most: 2}
@@ -46,8 +46,8 @@ test("what is drawn, and how many, are two lists", () => {
 test("what cannot be counted is said", () => {
   const one = census()
   one.frame({census: {draw: "normal", rows: ROWS}})
-  one.frame({unable: {census: "This takes too long, and was stopped."}})
-  assert.equal(one.find(".census-said").textContent, "This takes too long, and was stopped.")
+  one.frame({unable: {census: "This took too long and was stopped."}})
+  assert.equal(one.find(".census-said").textContent, "This took too long and was stopped.")
   assert.equal(one.all(".census-list button").length, 0)
 })
 
@@ -55,5 +55,5 @@ test("a share has as many digits as are certain", () => {
   assert.equal(percent(0.27303, 0.27294, 0.27311), "27.303")
   assert.equal(percent(0.04, 0.03, 0.052), "4")
   assert.equal(percent(0.00002, 0.000006, 0.00007), "0.002")
-  assert.equal(spaced(27302655), "27\u202f302\u202f655")
+  assert.equal(groupDigits(27302655), "27\u202f302\u202f655")
 })

@@ -86,7 +86,7 @@ test("the panel along: play goes with the slow flow, to where it rests or the ra
   go(100, 2)
   one.tick(100)
   assert.equal(one.values.z, still)
-  for (const [z, drift, words] of /** @type {[number, any, string][]} */ ([[4.9999, {on: "C", flow: [2]}, "The end of the range."], [-2.9999, {on: "C", flow: [-2]}, "The end of the range."], [0, {on: "C", flow: [1e-4]}, "The slow flow has come to rest: z′ = 0."], [0, null, "Sliding ends here: no critical set and no limit cycle attracts."]])) {
+  for (const [z, drift, words] of /** @type {[number, any, string][]} */ ([[4.9999, {on: "C", flow: [2]}, "The range ends here."], [-2.9999, {on: "C", flow: [-2]}, "The range ends here."], [0, {on: "C", flow: [1e-4]}, "The slow flow has come to rest: z′ = 0."], [0, null, "Sliding ends here: no critical set and no limit cycle attracts."]])) {
     one.set({z})
     one.frame({drift})
     one.fire(one.find(".play"), "click")
@@ -191,11 +191,11 @@ test("the panel planes: trace to the right, determinant upward, eigenvalues besi
   assert.ok(stable.every(([x, y]) => x <= 0.02 && y >= -0.02) && stable.some(([x]) => x < -1) && stable.some(([, y]) => y > 1))
   assert.ok(eigen.areas[0].points.every(([x]) => x <= 0.02) && eigen.areas[0].points.some(([, y]) => y < -1))
   one.frame({critical: {label: [], kind: [], trace: [], determinant: [], x2: []}})
-  assert.equal(one.find(".plane-note").textContent, "No critical set is on the hemisphere.")
+  assert.equal(one.find(".plane-note").textContent, "There is no critical set on the hemisphere.")
   const bare = opened("planes", {})
   bare.frame({critical: {label: [], kind: [], trace: [], determinant: [], x2: []}})
   const hidden = () => [".trace-plane", ".eigen-plane"].map((name) => bare.find(name).hasAttribute("hidden"))
-  assert.deepEqual([hidden(), bare.find(".plane-note").textContent], [[true, true], "No critical set is on the hemisphere."]) // no empty charts
+  assert.deepEqual([hidden(), bare.find(".plane-note").textContent], [[true, true], "There is no critical set on the hemisphere."]) // no empty charts
   bare.frame({critical: {label: ["C"], kind: ["degenerate"], trace: [0], determinant: [0], x2: [[0, 0]]}})
   assert.deepEqual(hidden(), [false, false])
   {

@@ -44,7 +44,7 @@ test("the panel diagram: a film strip holds the portraits before, at and after, 
   const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0}, {film: true, settings: {slow: 0.25, near: 0.05}})
   const here = () => one.all(".frames button").findIndex((item) => item.classList.contains("here")), told = () => one.find(".happens").textContent
   one.frame({diagram: {...DIAGRAM, special: []}, ...AXES})
-  assert.equal(told(), "Nothing that stands still changes in this range.")
+  assert.equal(told(), "No equilibrium changes in this range.")
   one.frame({diagram: DIAGRAM})
   assert.deepEqual([here(), told()], [-1, "Before Hopf, f₁ = 3: A pair crosses."]) // nothing is drawn between yet
   one.frame({film: [[-0.5, "CM2", "<svg></svg>"], [1, "", ""], [2, "CM4", ""], [3, "", ""], [4.5, "CM0", ""]]})

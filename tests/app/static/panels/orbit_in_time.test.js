@@ -3,9 +3,9 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {angleTicks} from "../../../../app/static/beside/orbit_in_time.js"
+import {angleTicks} from "../../../../app/static/widgets/orbit_in_time.js"
 import "../../../../app/static/panels/orbits.js"
-import {sampled} from "../../../../app/static/beside/player.js"
+import {sampleAt} from "../../../../app/static/widgets/player.js"
 import {close, opened, plots} from "../played/reading.js"
 
 const near = (found, expected, most) => assert.ok(close(found, expected, most), `${JSON.stringify(found)} is not ${JSON.stringify(expected)}`)
@@ -274,8 +274,8 @@ test("ticks of an angle are parts of π, where there are some", () => {
 })
 
 test("between samples a motion is linear, beyond them it stays", () => {
-  near(sampled([0, 1, 3], [[0, 2, 4], [5, 5, 1]], 2), [3, 3])
-  near(sampled([0, 1, 3], [[0, 2, 4]], -1), [0])
-  near(sampled([0, 1, 3], [[0, 2, 4]], 9), [4])
-  near(sampled([1, 1], [[3, 4]], 1), [3])
+  near(sampleAt([0, 1, 3], [[0, 2, 4], [5, 5, 1]], 2), [3, 3])
+  near(sampleAt([0, 1, 3], [[0, 2, 4]], -1), [0])
+  near(sampleAt([0, 1, 3], [[0, 2, 4]], 9), [4])
+  near(sampleAt([1, 1], [[3, 4]], 1), [3])
 })

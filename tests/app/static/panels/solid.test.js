@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import "../../../../app/static/panels/solid.js"
-import {seen} from "../../../../app/static/chart/projection.js"
+import {rotateView} from "../../../../app/static/chart/projection.js"
 import {opened} from "../played/reading.js"
 
 const WIDTH = 360, HEIGHT = 240
@@ -35,7 +35,7 @@ test("the panel solid: the hemisphere is the picture, lifted, with its axes and 
   const one = solid({})
   const all = paths(one.drawn()), elevation = 0.5
   const scale = Math.min(WIDTH / 2.84, HEIGHT / (Math.cos(elevation) + 2.84 * Math.sin(elevation))), cy = HEIGHT / 2 + scale * Math.cos(elevation) * 0.3
-  const at = (point) => { const [right, up] = seen(point, -0.6, elevation); return [WIDTH / 2 + scale * right, cy - scale * up] }
+  const at = (point) => { const [right, up] = rotateView(point, -0.6, elevation); return [WIDTH / 2 + scale * right, cy - scale * up] }
   const [floor, back, front] = all.filter(({how, colour}) => how === "stroke" && colour === "orbit")
   near(floor.points.flat(), [...at([1.2, 0.2, 0]), ...at([1.25, 0.2, 0])])
   near(front.points.flat(), [...at([0.1, -0.9, Math.sqrt(0.18)]), ...at([0.1, -0.85, Math.sqrt(1 - 0.01 - 0.7225)])])
@@ -58,11 +58,11 @@ test("the panel solid: what the Filippov view shows is told under the pointer, a
   one.drawn()
   assert.equal(told().hidden, false)
   const lift = (value) => 1.5 * (value + 0.5 - 0.5), scale = Math.min(WIDTH / 2.3, HEIGHT / (1.9 * Math.cos(0.5) + 2 * Math.sin(0.5)))
-  const at = (point) => { const [right, up] = seen(point, -0.6, 0.5); return {clientX: WIDTH / 2 + scale * right, clientY: HEIGHT / 2 - scale * up} }
+  const at = (point) => { const [right, up] = rotateView(point, -0.6, 0.5); return {clientX: WIDTH / 2 + scale * right, clientY: HEIGHT / 2 - scale * up} }
   const hover = (point, more = {}) => { one.fire(one.canvas, "pointermove", {...at(point), ...more}); return told().textContent }
   assert.equal(hover([0, 1, lift(0)]), "F*(θ), θ = 90.00°: the limit vector (U₁, U₂, W) = (0, 1.000, 0)")
   assert.match(hover([0, 0, lift(0.125)]), /critical set.*\(stable node\), z′ = 0\.1250*$/)
-  assert.match(hover([0, 0, lift(-0.25)]), /^An end.*z′ = −0\.250*$/)
+  assert.match(hover([0, 0, lift(-0.25)]), /^An extreme convex combination.*z′ = −0\.250*$/)
   assert.match(hover([9, 9, 9]), /^Point at/)
   one.fire(one.canvas, "pointerdown", {...at([0, 0, lift(0.25)]), pointerType: "touch"}) // a finger has no hover
   assert.match(told().textContent, /z′ = 0\.250*$/)
@@ -78,7 +78,7 @@ test("the panel solid: Enter tells one thing of the Filippov view after the othe
   const press = (more = {}) => { one.fire(one.canvas, "keydown", {key: "Enter", ...more}); return told() }
   const rings = () => paths(one.drawn()).filter(({how, points}) => how === "stroke" && points.length === 1).length
   const none = rings()
-  assert.match(press(), /^An end.*−0\.250*$/)
+  assert.match(press(), /^An extreme convex combination.*−0\.250*$/)
   assert.equal(rings(), none + 1)
   assert.match(press(), /z′ = 0\.250*$/)
   assert.match(press(), /stable node/)
@@ -98,7 +98,7 @@ test("the panel solid: a hand turns it, and so do keys, never from below", () =>
   const place = (drawn) => paths(drawn).find(({how, colour}) => how === "fill" && colour === "attr").points.at(-1).slice(1, 3)
   const turned = (act) => { one.canvas.recorder.drawn.splice(0); act(); one.tick(20); return place(one.canvas.recorder.drawn) }
   const at = (azimuth, elevation) => {
-    const scale = Math.min(WIDTH / 2.84, HEIGHT / (Math.cos(elevation) + 2.84 * Math.sin(elevation))), [right, up] = seen([0.6, 0.8, 0], azimuth, elevation)
+    const scale = Math.min(WIDTH / 2.84, HEIGHT / (Math.cos(elevation) + 2.84 * Math.sin(elevation))), [right, up] = rotateView([0.6, 0.8, 0], azimuth, elevation)
     return [WIDTH / 2 + scale * right, HEIGHT / 2 + scale * Math.cos(elevation) * 0.3 - scale * up]
   }
   near(place(one.drawn()), at(-0.6, 0.5))
@@ -122,7 +122,7 @@ test("the panel solid: discs stacked upward along z, directions on the cylinder,
   const one = solid({stack: {control: "z", span: [-1, 3], discs: [{z: -1, lines: [[[0.1, 0.2], [0.3, 0.1]]]}, {z: 3, lines: []}], directions: [[0.25, 0.5, 1, 0], [0.75, 2, 0, 1], [0.5, -1.2, 0, 1]], sets: [{points: [[0.1, 0, 0], [0.2, 0.1, 0.25], [0.3, 0, 0.5], [0.4, 0, 0.75], [0.5, 0, 1]], stable: true, flow: 1}, {points: [[-0.5, 0.1, 0.2], [-0.4, 0.2, 0.6]], stable: false, flow: -1}]}, ...MARKS}, {solid: "stack"})
   const all = paths(one.drawn()), e = 0.5, tall = 2.6
   const scale = Math.min(WIDTH / 2.5, HEIGHT / (tall * Math.cos(e) + 2.3 * Math.sin(e) + 0.5)), cy = HEIGHT / 2 + scale * Math.cos(e) * tall / 2
-  const at = (x, y, share) => { const [right, up] = seen([x, y, tall * share], -0.6, e); return [WIDTH / 2 + scale * right, cy - scale * up] }
+  const at = (x, y, share) => { const [right, up] = rotateView([x, y, tall * share], -0.6, e); return [WIDTH / 2 + scale * right, cy - scale * up] }
   const discs = all.filter(({how, colour}) => how === "fill" && colour === "panel").map(({points}) => points[0].slice(1, 3))
   near(discs.flat(), [...at(0, 0, 0), ...at(0, 0, 1)])
   const orbit = all.find(({how, colour}) => how === "stroke" && colour === "orbit")
@@ -155,7 +155,7 @@ const FILIPPOV = {
 // Where a limit vector of these is drawn.
 function atFilippov([u, v, w]) {
   const e = 0.5, scale = Math.min(WIDTH / 2.3, HEIGHT / (1.9 * Math.cos(e) + 2 * Math.sin(e)))
-  const [right, up] = seen([u / 2, v / 2, 1.5 * ((w + 1) / 3 - 0.5)], -0.6, e)
+  const [right, up] = rotateView([u / 2, v / 2, 1.5 * ((w + 1) / 3 - 0.5)], -0.6, e)
   return [WIDTH / 2 + scale * right, HEIGHT / 2 - scale * up]
 }
 

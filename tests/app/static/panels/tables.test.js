@@ -5,7 +5,7 @@ import test from "node:test"
 import "../../../../app/static/panels/lessons.js"
 import "../../../../app/static/panels/numbers.js"
 import "../../../../app/static/panels/orbits.js"
-import {Panels, register} from "../../../../app/static/beside/panels.js"
+import {Panels, register} from "../../../../app/static/widgets/panels.js"
 import {page} from "../played/page.js"
 import {opened} from "../played/reading.js"
 
@@ -27,7 +27,7 @@ test("the panel numbers: each number under its head", () => {
   assert.equal(one.find(".critical-table h2").textContent, "Critical set")
   assert.ok(!cells(one, ".critical-table").some(([name]) => name === "z′")) // it stands below
   one.frame({critical: Object.fromEntries(Object.keys(C).map((name) => [name, []]))})
-  assert.equal(one.find(".critical-table .note").textContent, "No critical set is on the hemisphere.")
+  assert.equal(one.find(".critical-table .note").textContent, "There is no critical set on the hemisphere.")
 })
 
 test("the panel numbers: an equator without directions says how it is run through", () => {
@@ -144,7 +144,7 @@ test("the panel numbers: the arrow along z starts at z and points as z′ does",
   let now = read([0.5, -1])
   assert.deepEqual([now.from, now.dot], [at(2), at(2)])
   assert.ok(Math.abs(now.tip - (at(2) - 14 - 44 / 3)) < 1e-9 && now.tip < now.to && now.to < now.from)
-  assert.match(now.words, /z₁′ = 0\.500, z₂′ = −1\.000⊙ out of the page, of z₁ only: z₁ grows/)
+  assert.match(now.words, /z₁′ = 0\.500, z₂′ = −1\.000⊙ out of the page, of z₁ only: z₁ increases/)
   now = read([-1, 1])
   assert.ok(Math.abs(now.tip - (at(2) + 36)) < 1e-9 && now.tip > now.to && now.to > now.from)
   assert.match(now.words, /⊗ into the page/)
@@ -265,7 +265,7 @@ test("the panel lessons: a question hides, asks, judges and remembers", () => {
   one.frame({judged: {question: 0, right: false, truth: 1, why: "No.", explain: "Because."}})
   assert.deepEqual(one.said(), [["cross", null]])
   const marked = () => [...section(0).querySelectorAll("[data-choice]")].map((it) => it.className)
-  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent, section(0).querySelector(".vary").hidden, kept], [["", "right", "wrong"], "Not so. No. Because.", false, {}])
+  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent, section(0).querySelector(".vary").hidden, kept], [["", "right", "wrong"], "Not quite. No. Because.", false, {}])
   one.set({quiz: "0.250000.1"})
   one.frame({judged: {question: 0, right: true, truth: 1, explain: "Yes."}})
   assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent], [["", "right", ""], "Right. Yes."])
@@ -314,7 +314,7 @@ test("the panel lessons: a place is marked by a click on the picture, or by arro
   asked.mark({x: -0.5, y: 0.25})
   assert.deepEqual([one.said(), asked], [[["choose", "quiz", "0.250000.3500.4250"]], null])
   one.frame({judged: {question: 0, right: false, truth: null, why: "Far.", explain: "There."}})
-  assert.deepEqual([one.said(), one.find(".verdict").textContent], [[["cross", {x: -0.5, y: 0.25, right: false}]], "Not so. Far. There."])
+  assert.deepEqual([one.said(), one.find(".verdict").textContent], [[["cross", {x: -0.5, y: 0.25, right: false}]], "Not quite. Far. There."])
   one.fire(one.find(".begin"), "click")
   one.said()
   asked.mark({x: 4.1, y: 0}) // as far as no link says

@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {crossList, displayList} from "../../../../app/static/picture/display.js"
-import {enlarged} from "../../../../app/static/page/beamer.js"
+import {enlarge} from "../../../../app/static/page/beamer.js"
 import {Bitmaps, paint} from "../../../../app/static/picture/paint.js"
 
 const critical = {label: ["C₁", "C₂"], sense: ["⊙", "⊗"], x: [-0.72, 0.72], y: [0.47, 0.47], colour: ["c", "c"], shape: ["square", "square"], size: [12, 12], filled: [true, true]}
@@ -23,7 +23,7 @@ test("a label near the equator on the right stands on the left of its mark, and 
 
 // Q at (0, 1), its name by (0.12, 0.16), 0.2 away from it; with 350 px to 3.5 the picture has 100 to 1.
 const equator = {label: ["Q₁"], x: [0], y: [1], label_x: [0.12], label_y: [1.16], colour: ["c"], shape: ["circle"], size: [12], filled: [1]}
-const named = (times = 1) => enlarged(displayList({table: [{name: "equator", parts: []}], layers: ["equator"], old: [], header: {equator}, blocks: {}, theme: {}, measures: {light: [-0.3, 0.4], middle: 0.5, ring: [1, 1.1], hatches: {}, view: 1.75}}), times).filter(({kind}) => kind === "label")
+const named = (times = 1) => enlarge(displayList({table: [{name: "equator", parts: []}], layers: ["equator"], old: [], header: {equator}, blocks: {}, theme: {}, measures: {light: [-0.3, 0.4], middle: 0.5, ring: [1, 1.1], hatches: {}, view: 1.75}}), times).filter(({kind}) => kind === "label")
 function whereNamed(scale, width, times) {
   const texts = []
   const ctx = new Proxy({}, {get: (_, name) => (...all) => { if (name === "fillText") texts.push(all); return {width: 40} }, set: () => true})

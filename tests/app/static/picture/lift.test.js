@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {lifted, projection} from "../../../../app/static/picture/lift.js"
+import {paintLifted, projection} from "../../../../app/static/picture/lift.js"
 import {recorder} from "../played/page.js"
 
 const ABOVE = {up: 0, azimuth: 0, elevation: Math.PI / 2, x: 100, y: 80, scale: 50}
@@ -21,7 +21,7 @@ test("from above the plane is seen as it is; lifted, the middle of the disc is t
 /** What is drawn of some items: [path moves and lines of each stroke, with how it is seen], and the texts with their places. */
 function drawn(items, camera) {
   const {pen, drawn: calls} = recorder(), strokes = /** @type {[number, number[][]][]} */ ([])
-  lifted(pen, [{kind: "page", colour: "p"}, ...items], camera, {width: 200, height: 160})
+  paintLifted(pen, [{kind: "page", colour: "p"}, ...items], camera, {width: 200, height: 160})
   let alpha = 1, steps = /** @type {number[][]} */ ([])
   for (const [name, ...all] of calls) {
     if (name === "=" && all[0] === "globalAlpha") alpha = all[1]

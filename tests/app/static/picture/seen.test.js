@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {register} from "../../../../app/static/beside/panels.js"
+import {register} from "../../../../app/static/widgets/panels.js"
 import {packed, pull, settled, wired} from "../played/wiring.js"
 
 register("numbers", () => ({})) // the panel that is open: until it is there, something is under way

@@ -10,7 +10,7 @@ import {KEPT, summary} from "./kept.js"
 import {page} from "./page.js"
 import {DRAWN} from "./reading.js"
 import {story} from "./wiring.js"
-import {Panels} from "../../../../app/static/beside/panels.js"
+import {Panels} from "../../../../app/static/widgets/panels.js"
 import {Rest} from "../../../../app/static/asking/rest.js"
 import "../../../../app/static/panels/along.js"
 import "../../../../app/static/panels/atlas.js"
@@ -48,7 +48,7 @@ const HANDS = {
   ],
   census: [
     [".census-list button@1", "click"], [".census-size", "change"], [".census-draw", "change"], ["frame", {census_here: "III NCM2"}], ["late", ["census"]],
-    ["values", {census: "quadratic", census_size: 2}], ["frame", {unable: {census: "This takes too long, and was stopped."}}],
+    ["values", {census: "quadratic", census_size: 2}], ["frame", {unable: {census: "This took too long and was stopped."}}],
   ],
   diagram: [
     [".diagram", "pointerdown", {clientX: 222, clientY: 60}], [".diagram", "pointerup"], [".diagram", "keydown", {key: "ArrowLeft"}], [".diagram", "keydown", {key: "ArrowUp", shiftKey: true}],

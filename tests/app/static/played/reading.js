@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 
 import {page} from "./page.js"
-import {Panels} from "../../../../app/static/beside/panels.js"
+import {Panels} from "../../../../app/static/widgets/panels.js"
 import {Rest} from "../../../../app/static/asking/rest.js"
 
 const SYMBOLS = {a: "a", f1: "f₁", f2: "f₂", n: "n", z: "z", z2: "z₂", log_eps: "log₁₀ ε", t_end: "until t", "own:mu": "μ"}

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {lessons, placed, settings, tally} from "../../../../app/static/room/crowd.js"
+import {lessons, placeDots, settings, tally} from "../../../../app/static/room/crowd.js"
 import {Room} from "../../../../app/static/room/room.js"
 import "../../../../app/static/panels/atlas.js"
 import {page} from "../played/page.js"
@@ -13,7 +13,7 @@ const FIRST = {a: -2, b: 0, d: -1, f1: -0.5, f2: 0, system: "normal", texts: {},
 const NAMES = Object.keys(FIRST), FAMILIES = {constant: {}, hill: {parameter: "n"}, custom: {typed: true}}
 const row = (number, name, own, lesson = null) => /** @type {import("../../../../app/static/room/crowd.js").Row} */ ([number, name, own, lesson])
 const on = (axes, plane = false) => ({axes, plane, first: FIRST, names: NAMES, families: FAMILIES})
-const spots = (rows, mine, chart) => placed(rows, {...FIRST, ...mine}, chart).map(({row: [number], x, y}) => [number, x, y])
+const spots = (rows, mine, chart) => placeDots(rows, {...FIRST, ...mine}, chart).map(({row: [number], x, y}) => [number, x, y])
 
 test("in the plane of f a phone is at its f(z), if A and Ψ are the lecturer's", () => {
   const rows = [row(1, "CM4", {}), row(2, "CM2", {f1: 1, f2: -0.5, z: 2, k2: 0.25}), row(3, "CM0", {a: 1}), row(4, "CM4", {psi: "hill"}), row(5, "CM4", {B1: 3, n: 4})]
@@ -46,7 +46,7 @@ test("all settings of a phone, and how many show what", () => {
 })
 
 test("settings are alike to nine digits, whatever their size; a typed Ψ by its text", () => {
-  const alike = (own, mine) => placed([row(1, "CM4", own)], {...FIRST, ...mine}, on(["f1", "f2"])).length > 0
+  const alike = (own, mine) => placeDots([row(1, "CM4", own)], {...FIRST, ...mine}, on(["f1", "f2"])).length > 0
   assert.deepEqual([1 + 1e-10, 1 + 1e-8].map((times) => alike({a: 3e6 * times}, {a: 3e6})), [true, false])
   assert.deepEqual([1e-10, 1e-8].map((more) => alike({a: more}, {a: 0})), [true, false])
   const own = (text) => ({psi: "custom", psi_text: text})

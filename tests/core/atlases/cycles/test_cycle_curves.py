@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.atlases.atlas import curves_over, with_folds_of_cycles
-from codim2_core.atlases.cycles import cycle_curves, lines
+from codim2_core.atlases.cycles import cycle_curves, fold_seeds
 
 RADIAL = c2.System(
     U=(
@@ -27,7 +27,7 @@ def folds(system, psi, *names_and_ranges):
 @pytest.fixture
 def no_lines(monkeypatch):
     """Only what begins at generalised Hopf points is followed: lines take seconds."""
-    monkeypatch.setattr(lines, "LINE_OFFSETS", ())
+    monkeypatch.setattr(fold_seeds, "LINE_OFFSETS", ())
 
 
 @pytest.mark.usefixtures("no_lines")
@@ -93,4 +93,4 @@ def test_regions_are_not_cut_and_what_stops_within_is_told(monkeypatch):
     told = with_folds_of_cycles(RADIAL, c2.psi.tanh(), found).points
     stopped = [point for point in told if point.kind == "undecided"]
     assert [np.hypot(*point.place) < 0.02 for point in stopped] == [True]
-    assert "no further" in stopped[0].sentence
+    assert "continued only" in stopped[0].sentence

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from codim2_core.continuation.typed.ends import limit_value
+from codim2_core.continuation.typed.typed_ends import limit_value
 
 
 def turns(*periods):

@@ -180,7 +180,7 @@ def test_a_band_of_closed_orbits_at_one_value_is_no_branch(span):
     system = c2.System(U=("s*(1 + 0.3*c)", "0.1 - c + 0.2*c*c + p*s"), W=(), parameters={"p": 0.0})
     found = c2.branches(system, c2.psi.constant(), "p", span)
     assert len(found.cycles) == 0
-    assert found.cycles.notes == ("p = 0: closed orbits fill a band within resolution, and none is a limit cycle.",)
+    assert found.cycles.notes == ("p = 0: closed orbits fill a band within resolution, so none is a limit cycle.",)
     assert {point.kind for point in found.special} == {"Hopf", "neutral equator"}
     for p in (-0.1, 0.0, 0.1):
         assert not c2.limit_cycles(system.evolve(p=p), c2.psi.constant())

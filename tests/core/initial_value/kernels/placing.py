@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from codim2_core import System
 from codim2_core import psi as families
-from codim2_core.initial_value.compiled import functions_of
+from codim2_core.initial_value.compiled_motion import functions_of
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels import slow
 from codim2_core.initial_value.kernels.rate import MotionConstants

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from codim2_core import System
-from codim2_core.initial_value.compiled import functions_of
+from codim2_core.initial_value.compiled_motion import functions_of
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels import slow
 from codim2_core.initial_value.kernels.arrival import (

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, System
-from codim2_core.initial_value import courses
+from codim2_core.initial_value import compiled_hybrid
 from codim2_core.initial_value.field import field
-from codim2_core.initial_value.kernels.course import LEAVE, SLIDE, SLIP, WHOLE
+from codim2_core.initial_value.kernels.hybrid_run import LEAVE, SLIDE, SLIP, WHOLE
 from codim2_core.initial_value.line import invariant_line
 
 from .placing import TANH
@@ -17,7 +17,7 @@ from .placing import TANH
 def _followed(system, first, t_end, rtol=1e-3, most=10000, psi=TANH):
     first, own = np.atleast_2d(np.array(first, float)), field(system)
     lines = [invariant_line(own, state) for state in first]
-    return courses.run_hybrid(own, psi, lines, first, (0.0, t_end), rtol, 0.01, most)
+    return compiled_hybrid.run_hybrid(own, psi, lines, first, (0.0, t_end), rtol, 0.01, most)
 
 
 def test_without_slow_variables_a_slide_stays_to_the_end():

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from codim2_core import System
-from codim2_core.initial_value.kernels.leave import leave
-from codim2_core.initial_value.leaving import FAST_START, TILT
+from codim2_core.initial_value.departure import FAST_START, TILT
+from codim2_core.initial_value.kernels.departure_step import leave
 
 from .placing import placed
 

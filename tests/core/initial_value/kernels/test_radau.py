@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core.initial_value.compiled import numbers_of_tableau
+from codim2_core.initial_value.compiled_motion import numbers_of_tableau
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels import radau
 from codim2_core.initial_value.kernels.stages import tableau_of, workspace

@@ -1,0 +1,124 @@
+"""Listening sockets that let nobody take all descriptors, and keep some for who asks whether the server lives.
+
+Each connection is a descriptor. Who has too many of them, and all who come when nearly all are taken, are let go; but
+for a moment each may ask for ``/health``, which is answered here.
+"""
+
+from __future__ import annotations
+
+import errno
+import logging
+import re
+import socket
+import time
+from collections import Counter
+from contextlib import suppress
+from typing import Any
+
+from tornado.ioloop import IOLoop
+
+from .files import max_files
+
+#: Descriptors that are no visitor's: files, workers, and those that wait to be let go.
+RESERVED, MAX_PENDING = 64, 16
+#: Connections of one address for each place: a browser opens six for a page, and one is its line.
+MAX_PER_PLACE = 8
+#: Seconds for which nobody is accepted when the system has no descriptor left, and between two lines about it.
+PAUSE_SECONDS, TOLD_SECONDS = 1.0, 60.0
+#: Seconds for which one who is let go may say what he wants.
+PENDING_SECONDS = 5.0
+HEALTH = re.compile(rb"(GET|HEAD) \S*/health[ ?]")
+ANSWER = "HTTP/1.1 200 OK\r\nContent-Type: application/json\r\nContent-Length: {}\r\nConnection: close\r\n\r\n{}"
+
+_log = logging.getLogger(__name__)
+
+
+class CountedConnection(socket.socket):
+    """A connection that is counted until it is closed."""
+
+    def __init__(self, connection: socket.socket, address: str, counts: Counter[str]) -> None:
+        super().__init__(fileno=connection.detach())
+        self._address, self._counts = address, counts
+        counts[address] += 1
+
+    def close(self) -> None:
+        """Close it; counted once."""
+        if self.fileno() >= 0:
+            self._counts[self._address] -= 1
+            if not self._counts[self._address]:
+                del self._counts[self._address]
+        super().close()
+
+
+class Listener(socket.socket):
+    """A listening socket with bounds.
+
+    Parameters
+    ----------
+    listening : socket
+        In place of which this is.
+    counts : Counter of str
+        How many connections each address has, by all listeners of this process.
+    places : int
+        Pages that the process lets in.
+    health : str
+        What ``/health`` says.
+    """
+
+    def __init__(self, listening: socket.socket, counts: Counter[str], places: int, health: str) -> None:
+        super().__init__(fileno=listening.detach())
+        self.setblocking(False)
+        self.most = max(1, max_files() - RESERVED)
+        self.most_of_one = max(1, min(self.most // 2, MAX_PER_PLACE * places))
+        self._health = ANSWER.format(len(health.encode()), health).encode()
+        self._counts = counts
+        self._pending: dict[socket.socket, None] = {}  # in the order in which they came
+        self._told = -TOLD_SECONDS
+
+    def accept(self) -> tuple[socket.socket, Any]:
+        """Return the next connection that may be let in; BlockingIOError if there is none now."""
+        try:
+            found, address = super().accept()
+        except OSError as error:
+            if error.errno in (errno.EMFILE, errno.ENFILE):
+                self._pause()
+                raise BlockingIOError from error
+            raise
+        if self._counts.total() < self.most and self._counts[address[0]] < self.most_of_one:
+            return CountedConnection(found, address[0], self._counts), address
+        self._tell("connections of %s are let go: it has %d", address[0], self._counts[address[0]])
+        self._keep_waiting(found)
+        raise BlockingIOError
+
+    def _pause(self) -> None:
+        self._tell("no descriptor is left; nobody is accepted for %g s", PAUSE_SECONDS)
+        loop = IOLoop.current()
+        loop.update_handler(self, 0)
+        loop.call_later(PAUSE_SECONDS, lambda: self.fileno() >= 0 and loop.update_handler(self, IOLoop.READ))
+
+    def _tell(self, words: str, *of: Any) -> None:
+        if (now := time.monotonic()) - self._told >= TOLD_SECONDS:
+            self._told = now
+            _log.warning(words, *of)
+
+    def _keep_waiting(self, found: socket.socket) -> None:
+        """Wait until somebody says what he wants, for a while and as long as few come after him."""
+        self._pending[found] = None
+        loop = IOLoop.current()
+        loop.add_handler(found, self._hear, IOLoop.READ)
+        loop.call_later(PENDING_SECONDS, self._let_go, found)
+        if len(self._pending) > MAX_PENDING:
+            self._let_go(next(iter(self._pending)))
+
+    def _hear(self, found: Any, _: int) -> None:
+        with suppress(OSError):
+            found.setblocking(False)
+            if HEALTH.match(found.recv(1000)):
+                found.send(self._health)
+        self._let_go(found)
+
+    def _let_go(self, found: socket.socket) -> None:
+        if found in self._pending:
+            del self._pending[found]
+            IOLoop.current().remove_handler(found)
+            found.close()

@@ -1,0 +1,93 @@
+"""Turns about a point of the hemisphere over the plane of two parameters.
+
+A place is v = (x, u, v): x the place on a ray from that point to the equator, ``ln(r/(reach - r))`` over
+`LOG_SIZE_SCALE`, and both parameters in the unit square. A cycle closes where `shift` is zero, and is a fold where
+its exponent is, too.
+"""
+
+from __future__ import annotations
+
+import math
+from copy import copy
+
+import numpy as np
+
+from ...arrays import Array
+from ...continuation.typed.ray import Ray
+from ...continuation.typed.section_base import HemispherePoint, correct_zero, hemisphere_place
+from ...continuation.typed.typed_turn import TurnOrbit, turn
+from ...systems.frozen import FrozenSystem
+from ..family import PlaneFamily
+
+LOG_SIZE_SCALE = 6.0  # of x: steps along curves are as long in it as in the unit square
+DIFFERENCE_STEP = 1e-6  # for derivatives, which tell the way and not the place
+MAX_RAY_COORDINATE = 40.0  # |x|
+MAX_CACHE_DISTANCE = 0.01  # of the square: so far from where it is known the critical set is kept
+
+
+class EncirclingTurns:
+    """Turns about a critical set that is followed over the plane, or about a point that stays.
+
+    Parameters
+    ----------
+    family : Family
+    place : ndarray (2,)
+        Of the unit square, where it is known.
+    e : ndarray (2,)
+        (c, s) there.
+    u : ndarray (2,)
+        Direction of the ray.
+    critical : bool
+        Whether it is a critical set.
+    """
+
+    def __init__(self, family: PlaneFamily, place: Array, e: Array, u: Array, critical: bool = True) -> None:
+        self.family, self.u = family, u
+        self._known = [(np.array(place, float), np.array(e, float))]
+        self._still = None if critical else hemisphere_place(family.psi_at(place), self._known[0][1])
+
+    def towards(self, u: Array) -> EncirclingTurns:
+        """Return the same in another direction."""
+        turned = copy(self)
+        turned.u = u
+        return turned
+
+    def ray(self, place: Array) -> Ray | None:
+        """Return the ray at a place of the square; None where there is none."""
+        try:
+            at = self.family.frozen(place)
+        except ValueError:  # beyond what is allowed
+            return None
+        psi = self.family.psi_at(place)
+        foot = self._still or self._followed(at, place)
+        return None if foot is None else Ray(at, psi, foot, self.u)
+
+    def _followed(self, at: FrozenSystem, place: Array) -> HemispherePoint | None:
+        nearest = min(self._known, key=lambda one: math.dist(one[0], place))
+        e = correct_zero(at, nearest[1])
+        if e is None:
+            return None
+        if math.dist(nearest[0], place) > MAX_CACHE_DISTANCE:
+            self._known.append((place.copy(), e))
+        return hemisphere_place(self.family.psi_at(place), e)
+
+    def turn(self, v: Array) -> TurnOrbit | None:
+        """Follow one turn; None if it does not return."""
+        ray = self.ray(v[1:]) if abs(v[0]) < MAX_RAY_COORDINATE else None
+        if ray is None:
+            return None
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            return turn(ray, LOG_SIZE_SCALE * float(v[0]), math.nan, None, ray.critical, False)
+
+    def fold(self, v: Array) -> tuple[Array, Array]:
+        """Shift and exponent, both zero on a fold, with their derivatives; NaN where there is no turn."""
+        here = self._values(v)
+        if not np.isfinite(here).all():
+            return here, np.full((2, 3), math.nan)
+        return here, np.stack(
+            [(self._values(v + way) - here) / DIFFERENCE_STEP for way in DIFFERENCE_STEP * np.eye(3)], axis=1
+        )
+
+    def _values(self, v: Array) -> Array:
+        found = self.turn(v)
+        return np.full(2, math.nan) if found is None else np.array([found.turn.shift, found.turn.exponent])

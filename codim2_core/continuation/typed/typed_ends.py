@@ -1,0 +1,175 @@
+"""Name the beginning or end of a branch of cycles of a general system."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ...layer_problem.problem import LayerProblem
+from ...numerics.root_between import root_between
+from ...words import say
+from ..branch_arrays import PointRow
+from ..result import CyclePoint
+from ..turns import ReturnMapPoint
+from .section_base import Array, SectionBase
+
+#: Distance from a saddle, and ebar, at which a cycle that nears it all the time is all but a loop.
+LOOP_DISTANCE, EQUATOR_HEIGHT = 0.03, 0.03
+PERIOD_GROWTH = 1.05  # times the period before: what goes to a loop becomes slower
+LIMIT_TOLERANCE, MAX_END_DISTANCE = (
+    1e-4,
+    0.1,
+)  # of the span: how far from the last cycle a loop may be, and what is special
+LIMIT_PERIOD_GROWTH = 1.5  # times the period before: cycles that tell the value to which those of growing periods tend
+RATE_BOUNDS = 0.05, 20.0  # with which powers of the period the values come to it
+SADDLE_NODE_DISTANCE = 2.0  # times the way to it: there a saddle-node, to which they come more slowly, may be the end
+MAX_LIMIT_DISTANCE = 10.0  # times the way of the last cycles: how far from the last one is what they come to
+
+
+BAND_EXPONENT = 1e-10  # of the smallest cycle followed: it is one of a band
+
+
+class MarkedValue(Protocol):
+    """A special value of what stands still, as `diagrams` finds them."""
+
+    @property
+    def kind(self) -> str:
+        """Return the kind of the bifurcation."""
+        ...
+
+    @property
+    def value(self) -> float:
+        """Return the value of the parameter."""
+        ...
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """In the projected disc."""
+        ...
+
+
+@dataclass(frozen=True)
+class LastCycles:
+    """The last cycles of a branch: the turn, the states along it, an earlier one, and the limit of their values."""
+
+    turn: ReturnMapPoint
+    states: Array
+    before: ReturnMapPoint
+    earlier: Array
+    limit: float | None
+
+
+@dataclass(frozen=True)
+class TypedBranchEnd:
+    """An end: what it is, and the limit of the branch there where that is no cycle."""
+
+    point: CyclePoint
+    limit: PointRow | None = None
+
+
+def hopf_end(name: str, value: float, problem: LayerProblem, place: Sequence[float], exponent: float) -> TypedBranchEnd:
+    """Name the end at a Hopf point of the critical set next to a place, with the exponent of the cycle next to it."""
+    C = min(problem.critical, key=lambda C: math.dist(C.p, place))
+    period = 2.0 * math.pi / math.sqrt(C.determinant)
+    key = "born, stable" if exponent < 0.0 else "born, unstable"
+    sentence = say("born, in a band" if abs(exponent) < BAND_EXPONENT else key, name=name, value=value)
+    x, y = C.p.tolist()
+    return TypedBranchEnd(CyclePoint("Hopf", value, period, 0.0, sentence), (value, period, 0.0, 0.0, x, y))
+
+
+def equator_end(
+    name: str, turn: ReturnMapPoint, marked: Sequence[MarkedValue], width: float, centre: SectionBase
+) -> TypedBranchEnd | None:
+    """Name the end at the closed equator, where its exponent changes its sign; None if that is not nearby."""
+    near = [
+        m.value for m in marked if m.kind == "neutral equator" and abs(m.value - turn.value) < MAX_END_DISTANCE * width
+    ]
+    if not near:
+        return None
+    value = min(near, key=lambda v: abs(v - turn.value))
+    away = 1.0 + math.hypot(*centre.place(value).p)
+    point = CyclePoint("equator", value, math.inf, away, say("becomes the equator", name=name, value=value))
+    return TypedBranchEnd(point, (value, math.inf, away, 0.0, *turn.p))
+
+
+def limit_value(turns: Sequence[ReturnMapPoint]) -> float | None:
+    """Extrapolate the values of cycles whose periods grow, as v + C period^-r through three; None if they do not."""
+    three = [turns[-1]]
+    for turn in reversed(turns[:-1]):
+        if (
+            len(three) < 3 and 0.0 < LIMIT_PERIOD_GROWTH * turn.period < three[-1].period
+        ):  # one carried too far may be negative
+            three.append(turn)
+    last, middle, first = (three * 3)[:3]
+    way = middle.value - last.value
+    if len(three) < 3 or not (ratio := (first.value - middle.value) / way if way else 0.0) > 0.0:
+        return None
+    one, two = (math.log(last.period / turn.period) for turn in (first, middle))
+
+    def miss(r: float) -> float:
+        return 1.0 - math.exp(r * (two - one)) - ratio * (math.exp(r * (two - one)) - math.exp(-r * one))
+
+    if miss(RATE_BOUNDS[0]) * miss(RATE_BOUNDS[1]) > 0.0:
+        return None
+    power = root_between(miss, *RATE_BOUNDS) * two
+    return last.value + way * math.exp(-power) / math.expm1(-power)
+
+
+def loop_end(
+    name: str, last: LastCycles, problem: LayerProblem, marked: Sequence[MarkedValue], width: float
+) -> TypedBranchEnd | None:
+    """Name the end at a loop of saddles, which cycles near ever more slowly; None if they do not."""
+    turn = last.turn
+    if turn.period < PERIOD_GROWTH * last.before.period:
+        return None
+    ahead = {m.kind: m for m in reversed(marked) if _lies_ahead(m, last, width)}  # the first of each kind
+    fold, meeting = ahead.get("fold of critical sets"), ahead.get("saddle-node")
+    if fold is not None and min(_gaps([fold.place], last.states)) < LOOP_DISTANCE:
+        return _make_end(
+            "saddle-node on the cycle", say("meets two sets", name=name, value=fold.value), turn, fold.value
+        )
+    sunk, settled = _comes_to_equator(last), abs(turn.value - last.before.value) < LIMIT_TOLERANCE * width
+    value = turn.value if last.limit is None else last.limit
+    reached = meeting is not None and abs(meeting.value - turn.value) < SADDLE_NODE_DISTANCE * abs(value - turn.value)
+    if sunk and meeting is not None and (reached or not settled):
+        sentence = say("meets a saddle-node", name=name, value=meeting.value)
+        return _make_end("saddle-node on the equator", sentence, turn, meeting.value)
+    saddles = [C.p for C in problem.critical if C.kind == "saddle"]
+    # What cycles of growing periods tend to holds an equilibrium: one on the equator where there is no saddle within.
+    coming_down = sunk or (not saddles and turn.height < last.before.height)
+    if coming_down and len(problem.equator) and (settled or 0.0 < abs(turn.value - value) < LIMIT_TOLERANCE * width):
+        how = "attracting" if turn.exponent < 0.0 else "repelling"
+        sentence = say("becomes a loop", how=how, name=name, value=value)
+        return _make_end("heteroclinic cycle through the equator", sentence, turn, value)
+    pairs = zip(_gaps(saddles, last.states), _gaps(saddles, last.earlier), strict=True)
+    near = sum(now < LOOP_DISTANCE and now < before for now, before in pairs)
+    if near and settled:
+        kind = "homoclinic" if near == 1 else "heteroclinic"
+        return _make_end(f"{kind} cycle", say(f"becomes {kind}", name=name, value=turn.value), turn, turn.value)
+    return None
+
+
+def _comes_to_equator(last: LastCycles) -> bool:
+    """Whether cycles come down to the equator."""
+    return last.turn.height < EQUATOR_HEIGHT and last.turn.height < last.before.height
+
+
+def _lies_ahead(mark: MarkedValue, last: LastCycles, width: float) -> bool:
+    """Whether a special value lies ahead, and the last cycles come to it: a loop is where their values accumulate."""
+    way = last.turn.value - last.before.value
+    ahead = (mark.value - last.turn.value) * math.copysign(1.0, way)
+    return 0.0 <= ahead < min(MAX_END_DISTANCE * width, MAX_LIMIT_DISTANCE * abs(way))
+
+
+def _make_end(kind: str, sentence: str, turn: ReturnMapPoint, value: float) -> TypedBranchEnd:
+    point = CyclePoint(kind, value, math.inf, turn.amplitude, sentence)
+    return TypedBranchEnd(point, (value, math.inf, turn.amplitude, math.copysign(math.inf, turn.exponent), *turn.p))
+
+
+def _gaps(places: Sequence[Sequence[float]] | Sequence[Array], states: Array) -> list[float]:
+    """Smallest distances in the disc of places from a cycle."""
+    return [float(np.hypot(*(states[:, :2] - p).T).min()) for p in places]

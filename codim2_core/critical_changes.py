@@ -1,0 +1,81 @@
+"""Kinds of special values of a critical set that its Jacobian J alone decides: a row each, in this one place.
+
+A row is a test function of tr J and det J (eq:scjaco; Kuznetsov 2004, Section 10.2), with its name, its sentence, and
+where the paper has it. Where two rows part what a critical set is called, diagrams find the value by that function and
+by comparing; any other row is looked for along the branches of critical sets. Tables, exports, the page and its marks
+take what they say of a kind from here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+TestFunction = Callable[[Any, Any], Any]  # of tr J and det J, numbers or arrays
+
+
+@dataclass(frozen=True, slots=True)
+class CriticalChange:
+    """A kind of special value of a critical set.
+
+    Attributes
+    ----------
+    kind : str
+        Its name.
+    function : callable
+        Of tr J and det J: it goes through zero there.
+    holds : callable
+        Of tr J and det J: whether a zero is of this kind.
+    says, when : str
+        The sentence for people, and when it is said.
+    label : str
+        The paper's label.
+    parts : bool
+        Whether a critical set has another name on the other side.
+    """
+
+    kind: str
+    function: TestFunction
+    holds: TestFunction
+    says: str
+    when: str
+    label: str
+    parts: bool = False
+
+
+NODE_FOCUS = CriticalChange(
+    "node-focus",
+    lambda trace, determinant: trace**2 - 4.0 * determinant,
+    lambda _, determinant: determinant > 0.0,
+    "tr(J)² = 4 det J: the critical set changes between node and focus.",
+    "the discriminant of J is zero",
+    "fig:bads",
+    parts=True,
+)
+HOPF = CriticalChange(
+    "Hopf",
+    lambda trace, _: trace,
+    lambda _, determinant: determinant > 0.0,
+    "Hopf: tr J = 0 < det J.",
+    "tr J = 0 < det J",
+    "sec:case3",
+    parts=True,
+)
+DETERMINANT = CriticalChange(
+    "det J = 0",
+    lambda _, determinant: determinant,
+    lambda trace, _: trace == trace,
+    "det J = 0: a critical set turns from a saddle into another kind.",
+    "det J = 0",
+    "eq:scjaco",
+    parts=True,
+)
+CRITICAL_CHANGES = [NODE_FOCUS, HOPF, DETERMINANT]
+
+
+def change_between(one: str, other: str) -> CriticalChange:
+    """Return what lies between two kinds of critical sets, such as "stable node" and "stable focus"."""
+    if one.split()[0] == other.split()[0]:
+        return NODE_FOCUS
+    return DETERMINANT if "saddle" in (one, other) else HOPF

@@ -1,0 +1,371 @@
+"""The course of a nonsmooth motion: it slips, arrives at Sigma, slides or crosses, and leaves, phase after phase."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from dataclasses import field as made_with
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...arrays import Array
+from ...cycles.limit_cycles import limit_cycles
+from ...initial_value.compiled_phases import CompiledPhases
+from ...initial_value.departure import leave
+from ...initial_value.events import EventWatch
+from ...initial_value.field import Field
+from ...initial_value.line import InvariantLine
+from ...layer_problem.equator import equator_equilibria
+from ...numerics.dense import StepArray
+from ...numerics.radau import Problem, Step, TooManyStepsError
+from ...psi import constructors
+from ...psi.function import Psi
+from ...systems.kinds import AnySystem
+from ...words import say
+from ..locations import Ascent
+from ..result import Phase
+from ..tracked_set import in_disc
+from .decide import Decision, critical_name, decide_arrival, decide_start, from_hemisphere
+from .delay import REST_CHANGE, NotAnalyticError
+from .folded import Fold, fold
+from .past_hopf import departure_point, ring, stay
+from .phase_under_way import Delaying, MotionPart
+from .slide import Slide, slide
+from .slide_on_cycle import slide_on_cycle
+from .slip import slip
+
+if TYPE_CHECKING:
+    from .phase_builder import PhaseBuilder
+
+
+CLOSER_FACTOR = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
+SAME_DIRECTION = 1e-12  # 1 - cos: directions that differ by a rounding of either
+CYCLE_POINTS = 16  # points of a cycle that has ended, from which orbits are followed
+PAST = 1e-6  # of the time ahead, or of the slide behind: how far past its end it is looked at what follows
+
+
+class StopError(Exception):
+    """The limit is not unique, or not known; the message says why."""
+
+
+class AtEventError(Exception):
+    """A terminal event."""
+
+
+@dataclass
+class HybridRun:
+    """A motion under way."""
+
+    system: AnySystem
+    psi: Psi | None
+    formulas: Field
+    problem: Problem
+    line: InvariantLine | None
+    watch: EventWatch
+    t: float
+    state: Array
+    t_end: float
+    rtol: float
+    atol: float
+    most: int
+    taken: list[Step] = made_with(default_factory=list)
+    parts: list[MotionPart] = made_with(default_factory=list)
+    ascent: Ascent | None = None  # of the phase to come
+    compiled: CompiledPhases | None = None
+    decided: Decision | None = None  # what follows at first, where that is known
+    leaving: Array | None = None  # points of the disc by which the set is left that is slid on, where they are known
+
+    @property
+    def own(self) -> Psi:
+        """Psi, or Psi = 1 where none is given."""
+        return constructors.constant() if self.psi is None else self.psi
+
+    @property
+    def left(self) -> int:
+        """Steps and phases that may still be taken."""
+        return self.most - len(self.taken) - len(self.parts)
+
+    def add(
+        self,
+        kind: str,
+        taken: list[Step],
+        reason: str,
+        onto: str | None = None,
+        e: Sequence[Array] = (),
+        p: Sequence[Array] = (),
+        delaying: Delaying | None = None,
+    ) -> None:
+        """Add a phase, as far as no terminal event stops it."""
+        start, kept, stopped = self.t, taken, False
+        for i, step in enumerate(taken if self.watch.events else ()):
+            last = self.watch.step(step)
+            if last is not None:
+                kept, stopped = [*taken[:i], last], True
+                break
+        times = [start, *(step.end for step in kept)] if len(e) else []
+        if kept:
+            self.taken += kept
+            self.t, self.state = max(kept[-1].end, start), kept[-1].last
+        delaying = replace(delaying, way=None) if stopped and delaying is not None else delaying
+        phase = Phase(kind, start, self.t, reason, onto)
+        self.parts.append(MotionPart(phase, times, self.ascent, e, p, delaying=delaying))
+        self.ascent = None
+        if stopped:
+            raise AtEventError
+
+    def go_on(self, legs: PhaseBuilder) -> None:
+        """Begin where a motion that was followed compiled was handed over."""
+        motion = legs.found.motion
+        before = StepArray(motion.states[0], motion.times[:-1], motion.lengths, motion.states[1:], motion.polynomials)
+        self.taken, self.parts, self.decided = list(before), list(legs.parts), legs.onward()
+        self.t, self.state = float(motion.times[-1]), motion.states[-1].copy()
+        if self.decided.kind == "slide":
+            self.ascent = legs.ascent(len(motion.lengths), legs.found.theta)
+
+    def run(self) -> None:
+        """Follow the motion to the end of its time.
+
+        Raises
+        ------
+        AtEventError, StopError, BlowUpError, TooManyStepsError
+            It ends before; what has been followed is kept.
+        """
+        decision = self.decided
+        if decision is None:
+            on = not self.state[:2].any()
+            decision = self.first() if on else self.slip([], say("starts outside"))
+        while decision is not None and self.t < self.t_end:
+            if self.left <= 0:
+                raise TooManyStepsError
+            if decision.kind == "stop":
+                raise StopError(decision.reason)
+            decision = self.leave(decision) if decision.kind == "leave" else self.slide(decision)
+
+    def first(self) -> Decision:
+        """Decide what follows from a start on Sigma."""
+        if self.line is not None:
+            return self.in_line(0.0, say("starts in a line"))
+        decision = decide_start(self.system, self.psi, self.state[2:])
+        if self.psi is not None:
+            self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
+        return self.at_border(decision) if decision.kind == "border" else decision
+
+    def in_line(self, q: float, reason: str) -> Decision:
+        """Decide what follows on Sigma in an invariant line, where the layer problem is that of one variable."""
+        assert self.line is not None
+        z, n = self.state[2:], self.line.n
+        onward = self.line.onward(q, z)
+        if onward is None:
+            if self.line.slope(q, z) >= 0.0:
+                return Decision("stop", f"{reason} {say('rests on a repelling set')}")
+            onward = q
+        self.ascent = Ascent(self.system, self.own, z, along=(in_disc(self.own, q * n), in_disc(self.own, onward * n)))
+        if abs(onward) < 1.0:
+            e = onward * n
+            onto = critical_name(self.system, self.own, z, e)
+            return Decision("slide", f"{reason} {say('slides in a line', onto=onto)}", e, onto=onto)
+        theta = math.atan2(*(onward * n)[::-1].tolist())
+        if self.on_equator(theta, z):
+            return self.at_border(Decision("border", f"{reason} {say('on the equator')}", onward * n, theta, "C"))
+        reason = f"{reason} {say('crosses in a line', theta=theta)}"
+        return Decision("leave", reason, theta=theta)
+
+    def slip(self, begun: list[Step], reason: str) -> Decision | None:
+        """Slip, and decide what follows at Sigma."""
+        taken, t, state = list(begun), self.t, self.state
+        if begun:
+            t, state = begun[-1].end, begun[-1].last
+        largest = 0.0
+        while True:
+            part = slip(self.problem, t, state, self.t_end, self.rtol, self.left, largest, self.compiled)
+            if part.theta is None:
+                self.add("slip", taken + part.taken, reason)
+                if part.stopped is not None:
+                    raise part.stopped
+                return None
+            if self.line is not None:
+                self.add("slip", taken + part.taken, reason)
+                q = float(self.line.n @ [math.cos(part.theta), math.sin(part.theta)])
+                return self.crossed(self.in_line(math.copysign(1.0, q), say("arrives in a line")))
+            z = part.taken[-1].last[2:]
+            decision = decide_arrival(self.system, self.psi, z, part.theta)
+            if decision.kind != "away":
+                self.add("slip", taken + part.taken, reason)
+                self.ascent = Ascent(self.system, self.own, z, part.theta)
+                return self.crossed(decision)
+            # It will turn away from Sigma: go on from where it was close, and look again from closer.
+            taken += part.taken[:-1]
+            t, state = taken[-1].end, taken[-1].last
+            largest = math.hypot(state[0], state[1]) * CLOSER_FACTOR
+
+    def crossed(self, decision: Decision) -> Decision:
+        """Name the crossing, where what follows an arrival is to leave."""
+        if decision.kind == "leave":
+            phase = Phase("cross", self.t, self.t, decision.reason)
+            self.parts.append(MotionPart(phase, [self.t], self.ascent, theta=decision.theta))
+            self.ascent = None
+        return decision
+
+    def leave(self, decision: Decision) -> Decision | None:
+        """Leave Sigma, and slip."""
+        assert decision.theta is not None
+        first = leave(self.formulas, decision.theta, self.t, self.state[2:], self.t_end, self.line)
+        if isinstance(first, str):
+            raise StopError(f"{decision.reason} {first}")
+        crossed = bool(self.parts) and self.parts[-1].phase.kind == "cross"
+        reason = say("leaves", theta=decision.theta) if crossed else decision.reason
+        return self.slip([first], reason)
+
+    def slide(self, decision: Decision) -> Decision | None:
+        """Slide, and decide what follows where that ends."""
+        assert decision.e is not None
+        on_cycle = decision.kind == "cycle"
+        if on_cycle and self.system.typed is not None:
+            return self.slide_on_cycle(decision)
+        part = self.slid(decision.e, lives=self.has_cycle if on_cycle else None, line=self.line)
+        return self.follow(part, decision.reason, decision.onto, on_cycle)
+
+    def slid(self, e: Array, **how: Any) -> Slide:
+        """Follow the slow flow from the critical set at e."""
+        options = {"rtol": self.rtol, "atol": self.atol, "most": self.left, "compiled": self.compiled}
+        return slide(self.formulas, self.own, e, self.t, self.state[2:], self.t_end, **options, **how)
+
+    def follow(
+        self, part: Slide, reason: str, onto: str | None, on_cycle: bool = False, delaying: Delaying | None = None
+    ) -> Decision | None:
+        """Add a slide, and decide what follows where it has ended, as its end says."""
+        self.add("slide", part.taken, reason, onto, part.places, delaying=delaying)
+        if part.stopped is not None:
+            raise part.stopped
+        C = "C" if on_cycle else onto
+        if part.end == "time":
+            return None
+        if part.end == "left":
+            return self.left_set(part.e, say("Hopf, left", C=C))
+        if part.end == "equator":
+            theta = math.atan2(part.e[1], part.e[0])
+            reason = say("ends at the equator", C=C, theta=theta)
+            return Decision("leave", reason, theta=theta)
+        if part.end == "fold":
+            at = fold(self.formulas, part.e, self.state[2:], C, "fold" if self.line is None else "fold in a line")
+            if at.exchange:
+                return self.past_loss(part.e, C, at.exchange, at.reason)
+            return Decision("stop", at.reason) if at.left_to_eps else self.past_fold(part.e, at)
+        if part.end == "cycle":
+            return self.past_cycle(self.ahead(part.e, PAST))
+        if on_cycle:
+            return Decision("slide", say("cycle shrinks", C=C), part.e, onto=C)
+        return self.past_loss(part.e, C)
+
+    def slide_on_cycle(self, decision: Decision) -> Decision | None:
+        """Slide on a limit cycle of a general system."""
+        assert decision.onto is not None
+        index, z = int(decision.onto.split()[1]) - 1, self.state[2:]
+        if not len(z):
+            raise StopError(f"{decision.reason} {say('no z to follow')}")
+        part = slide_on_cycle(self.system, self.own, index, self.t, z, self.t_end, self.left)
+        self.add("slide", part.taken, decision.reason, decision.onto, part.e, part.p)
+        if part.lives:
+            return None
+        if not part.taken:
+            return Decision("stop", say("cycle ends at once"))
+        return self.past_cycle(self.state[2:] + 10.0 * (self.state[2:] - part.taken[-1].first[2:]))
+
+    def ahead(self, e: Array, part: float, beyond: Array | None = None) -> Array:
+        """Return z a small part of the time ahead, or of the slide that has ended, along the slow flow at e."""
+        z, slid = self.state[2:], self.t - self.parts[-1].phase.t_start
+        flow = np.array(self.formulas.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:])
+        way = flow if beyond is None else np.linalg.norm(flow) * beyond
+        return z + part * min(self.t_end - self.t, slid or math.inf) * way
+
+    def past_fold(self, e: Array, at: Fold) -> Decision:
+        """C has met another critical set and both are gone: follow the orbit that leaves the place."""
+        past = self.ahead(e, PAST, at.beyond)
+        if self.line is not None:
+            here, self.state = self.state, np.concatenate([self.state[:2], past])
+            decision = self.in_line(float(self.line.n @ e), at.reason)
+            self.state = here
+            return decision
+        point = in_disc(self.own, e)[None]
+        self.ascent = Ascent(self.system, self.own, past, start=point[0])
+        # Just past the fold orbits take long to leave the place; a little further they are followed to their end.
+        for further in (1.0, 1e2, 3e3):
+            decision = self.onward(at.reason, self.ahead(e, further * PAST, at.beyond), point)
+            if decision.kind != "stop":
+                break
+        return decision
+
+    def past_cycle(self, ahead: Array) -> Decision:
+        """Follow orbits from all around a cycle that has ended."""
+        reason = say("cycle ends")
+        last = [cycle for cycle in limit_cycles(self.system, self.own, tuple(self.state[2:].tolist())) if cycle.stable]
+        if len(last) != 1:
+            return Decision("stop", f"{reason} {say('cycle ends, not found')}")
+        points = last[0].points
+        decision = self.onward(reason, ahead, points[:: max(1, len(points) // CYCLE_POINTS)])
+        if decision.kind == "cycle":  # it comes and goes within the resolution of the search
+            return Decision("stop", f"{reason} {say('cycle ends, not decided')}")
+        return decision
+
+    def onward(self, reason: str, z: Array, points: Array) -> Decision:
+        """Follow orbits of the layer problem from where an attractor was."""
+        try:
+            decision = from_hemisphere(self.system, self.own, z, points)
+        except ValueError as error:  # at the edge of where the formulas are defined
+            return Decision("stop", f"{reason} {error}")
+        if self.psi is None and decision.kind != "stop":
+            return Decision("stop", f"{reason} {say('onward depends')}")
+        return replace(decision, reason=f"{reason} {decision.reason}")
+
+    def has_cycle(self, z: Array) -> bool:
+        """Whether the layer problem at z has a stable limit cycle."""
+        return any(cycle.stable for cycle in limit_cycles(self.system, self.own, tuple(z.tolist())))
+
+    def past_loss(self, e: Array, C: str | None, how: str = "Hopf", met: str = "") -> Decision | None:
+        """C has lost its stability to the fast flow: slide on it for as long as the loss is delayed.
+
+        Where it has exchanged it with other sets, as `met` says, that is if it does not move: it is then a slow
+        manifold for every eps. One that moves is none, and terms of order eps part the sets.
+        """
+        resting = how != "Hopf"
+        if self.psi is None:
+            return Decision("stop", say("Hopf depends", C=C, how=how))
+        before = self.parts[-1]
+        if resting and np.ptp(before.e, axis=0).max() > REST_CHANGE:
+            return Decision("stop", f"{met} {say('exchange, moving', C=C)}")
+        taken = self.taken[len(self.taken) + 1 - len(before.times) :]
+        part = self.slid(e, delayed=True, resting=resting)
+        if resting and part.taken:  # its name is another past the sets that it has met
+            C = critical_name(self.system, self.psi, part.taken[0].at(0.5)[2:], e)
+        try:
+            on = stay(self.formulas, self.psi, (taken, before.e), part, C, how)
+        except NotAnalyticError:
+            return Decision("stop", say("Hopf, not analytic", C=C, how=how))
+        if resting and before.ascent is not None:
+            z = [taken[0].first[2:], *(step.last[2:] for step in (*taken, *on.part.taken))]
+            self.leaving = departure_point(self.formulas, self.psi, e, z, before.ascent.path())
+        return self.follow(on.part, on.reason, C, delaying=Delaying(before.times[0], on.way, how))
+
+    def left_set(self, e: Array, reason: str) -> Decision:
+        """C, which repels, is left: to the side on which the motion came, or all around where none is known."""
+        points, self.leaving = self.leaving, None
+        if self.line is None or points is None:
+            return self.onward(reason, self.state[2:], ring(self.own, e) if points is None else points)
+        away = points[0] - in_disc(self.own, e)
+        return self.in_line(float(self.line.n @ (e + away)), reason)
+
+    def on_equator(self, theta: float, z: Array) -> bool:
+        """Tell whether a critical set lies on the equator in a direction: lambda_rho is 0 there."""
+        equator = equator_equilibria(self.system, z)
+        there = np.cos(equator.theta[equator.radially_degenerate] - theta)
+        return bool((there > 1.0 - SAME_DIRECTION).any())
+
+    def at_border(self, decision: Decision) -> Decision:
+        """Start where the critical set lies on the equator: it moves in, or lambda_rho becomes positive."""
+        assert decision.theta is not None
+        first = leave(self.formulas, decision.theta, self.t, self.state[2:], self.t_end, self.line)
+        if isinstance(first, str):
+            return Decision("slide", f"{decision.reason} {say('border moves in')}", decision.e, onto="C")
+        return Decision("leave", f"{decision.reason} {say('border moves out')}", theta=decision.theta)

@@ -1,0 +1,208 @@
+"""Locate a phase of a motion: its e, and its p in the projected disc, at any time; and its origin.
+
+Regularised, both are those of the state. In the limit eps -> 0 they are those of the set that is followed, and what
+happens in no time, the orbit of the layer problem up the hemisphere (fig:side_of_sphere), is kept as a path.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from ..arrays import Array
+from ..cycles.limit_cycles import limit_cycles
+from ..initial_value.field import field
+from ..initial_value.slow_manifold import solve_critical
+from ..layer_problem.equator import equator_equilibria
+from ..numerics.dense import Dense
+from ..orbits.trajectories import continuation, trajectories
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem
+from .tracked_set import in_disc
+
+FASTEST, MAX_ASCENT_LENGTH = 60.0, 4.0  # time T and length for which an orbit up the hemisphere is followed
+ASCENT_START = 0.9995  # |p| from which an orbit is followed that leaves the closed equator
+NO_POINTS = np.zeros((0, 2))
+NO_POINTS.flags.writeable = False
+
+
+class Location(Protocol):
+    """The location of a phase."""
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p, each (k, 2), at times (k,)."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class OfState:
+    """The place that the state itself says.
+
+    Attributes
+    ----------
+    motion : Dense
+    psi : Psi or None
+        None for the limit eps = 0.
+    eps : float
+        Not read in the limit.
+    t_start, t_end : float
+        Of the phase.
+    """
+
+    motion: Dense
+    psi: Psi | None
+    eps: float
+    t_start: float
+    t_end: float
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p."""
+        xy = self.motion(t)[:, :2]
+        if self.psi is not None:
+            r = np.hypot(*xy.T)
+            p = xy / np.hypot(r, self.eps)[:, None]
+            zeta = r / self.eps
+            modulus = self.psi.modulus(zeta)
+            gain = np.divide(modulus, r, out=np.zeros_like(r), where=r > 0.0)
+            return xy * gain[:, None], p
+        for i in np.flatnonzero(~xy.any(axis=1)):  # at the moment of arrival, or of leaving
+            xy[i] = self.beside(float(t[i]))
+        size = np.hypot(*xy.T)
+        e = np.divide(xy, size[:, None], out=np.zeros_like(xy), where=size[:, None] > 0.0)
+        return e, e
+
+    def beside(self, t: float) -> Array:
+        """Return (x, y) within the phase, a moment after or before a time at which it is 0."""
+        times, states = self.motion.times, self.motion.states
+        off = np.flatnonzero(states[:, :2].any(axis=1) & (self.t_start <= times) & (times <= self.t_end))
+        if len(off):
+            return states[off[np.argmin(np.abs(times[off] - t))], :2].copy()
+        return self.motion(0.5 * (self.t_start + self.t_end))[:2]
+
+
+@dataclass(frozen=True, eq=False)
+class OnSet:
+    """On a critical set that was followed in z.
+
+    Attributes
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    motion : Dense
+    times : ndarray (k,)
+        Increasing; where e is known.
+    e : ndarray (k, 2)
+    """
+
+    system: AnySystem
+    psi: Psi
+    motion: Dense
+    times: Array
+    e: Array
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p."""
+        formulas, z = field(self.system), self.motion(t)[:, 2:]
+        found = np.stack([np.interp(t, self.times, column) for column in self.e.T], axis=-1)
+        for i, guess in enumerate(found):
+            e = solve_critical(formulas, guess, z[i])
+            if e is not None and math.hypot(e[0], e[1]) <= 1.0:
+                found[i] = e
+        return found, np.array([in_disc(self.psi, e) for e in found]).reshape(-1, 2)
+
+
+@dataclass(frozen=True, eq=False)
+class OnCycle:
+    """On a limit cycle of the layer problem: the means of e and of p over it.
+
+    Attributes
+    ----------
+    times : ndarray (k,)
+    e, p : ndarray (k, 2)
+    """
+
+    times: Array
+    e: Array
+    p: Array
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p."""
+        means = [np.stack([np.interp(t, self.times, column) for column in of.T], axis=-1) for of in (self.e, self.p)]
+        return means[0], means[1]
+
+
+@dataclass(frozen=True)
+class Leaving:
+    """A crossing, which takes no time: where it leaves Sigma.
+
+    Attributes
+    ----------
+    theta : float
+    """
+
+    theta: float
+
+    def at(self, t: Array) -> tuple[Array, Array]:
+        """Return e and p."""
+        e = np.tile([math.cos(self.theta), math.sin(self.theta)], (len(t), 1))
+        return e, e.copy()
+
+
+@dataclass(frozen=True, eq=False)
+class Ascent:
+    """The orbit of the layer problem that a phase begins with, in no time.
+
+    Attributes
+    ----------
+    system : ELinear, System, Coefficients or Frozen
+    psi : Psi
+    z : ndarray (m,)
+    theta : float or None
+        Angle of arrival; None where it begins at `start`.
+    start : ndarray (2,) or None
+        In the projected disc.
+    along : tuple of (2,) arrays or None
+        The ends of a way along an invariant line, which needs no integration.
+    """
+
+    system: AnySystem
+    psi: Psi
+    z: Array
+    theta: float | None = None
+    start: Array | None = None
+    along: tuple[Array, Array] | None = None
+
+    def path(self, onto: str | None = None) -> Array:
+        """Points (k, 2) in the projected disc, with one turn of a cycle onto which it leads; none if none leave."""
+        up = self._orbit()
+        if not len(up) or onto is None or not onto.startswith("cycle"):
+            return up
+        k = int(onto.split()[1]) - 1
+        cycles = limit_cycles(self.system, self.psi, tuple(self.z.tolist()))
+        if not k < len(cycles):
+            return up
+        turn = cycles[k].points[:-1]
+        nearest = int(np.argmin(np.hypot(*(turn - up[-1]).T)))
+        return np.concatenate([up, np.roll(turn, -nearest, axis=0), turn[nearest : nearest + 1]])
+
+    def _orbit(self) -> Array:
+        if self.along is not None:
+            return np.stack(self.along)
+        try:
+            if self.start is None:
+                assert self.theta is not None
+                limits = equator_equilibria(self.system, self.z).theta
+                if len(limits):
+                    theta = min(limits, key=lambda limit: abs(math.remainder(limit - self.theta, math.tau)))
+                    up = continuation(self.system, self.psi, [theta], self.z, t_max=FASTEST, length=MAX_ASCENT_LENGTH)
+                    return up.points[0]
+                start = ASCENT_START * np.array([math.cos(self.theta), math.sin(self.theta)])
+            else:
+                start = self.start
+            seeds = start[None]
+            return trajectories(self.system, self.psi, seeds, self.z, t_max=FASTEST, length=MAX_ASCENT_LENGTH).points[0]
+        except ValueError:  # a start that nothing leaves
+            return NO_POINTS

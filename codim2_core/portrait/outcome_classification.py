@@ -1,0 +1,261 @@
+"""Verdicts on orbits of the layer problem by their omega limit sets: slide, cross, or undecided."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from ..arrays import Array
+from ..cycles.limit_cycles import cycles_of, reason_for_none
+from ..cycles.predicted_limit_sets import predicted_limit_sets
+from ..layer_problem.problem import LayerProblem
+from ..orbits.batch_by_psi import batch_by_psi, states_at
+from ..orbits.departures import departures_under
+from ..orbits.options import DEFAULT_MAX_STEPS, Stepping, stepping
+from ..orbits.result import Status, Trajectories
+from ..words import say, written_label, written_number
+from .omega_limits import (
+    CAPTURE,
+    CONNECTION,
+    TOLD,
+    OmegaLimit,
+    critical_label,
+    drawn_time,
+    endings,
+    nears_end,
+    radially_neutral,
+    radially_neutral_ones,
+)
+
+
+class OutcomeVerdict(NamedTuple):
+    """The verdict on some orbits, with the fields of `outcomes.Outcome`."""
+
+    verdict: str
+    onto: str | None = None
+    leaving: float | None = None
+    slow_flow: Array | None = None
+    reason: str = ""
+    why: str = ""
+
+
+RTOL = 1e-8
+# Steps after which samples of the return map are asked where orbits go: about a critical set that repels they are not
+# bound for it, and what comes to the equator had done so within 119 steps (5300 orbits of 150 random systems).
+EARLY, SOON = 700, 128
+FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
+ARRIVAL_ANGLES = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
+OUTER_ANGLES = ARRIVAL_ANGLES[
+    [0, -1]
+]  # where these two end apart, the others need not be followed to see that there is more than one end
+
+
+def _may_predict(problem: LayerProblem) -> bool:
+    """Whether samples of a return map may tell where orbits go: of an e-linear system in its own axes."""
+    return problem.at.normal_form is not None and problem.at.as_given is not None
+
+
+def ends(problem: LayerProblem, lines: Trajectories) -> list[OmegaLimit]:
+    """Say where trajectories end."""
+    return endings(
+        problem.at,
+        problem.psi,
+        lines,
+        problem.equator,
+        problem.critical,
+        lambda: cycles_of(problem),
+        rtol=RTOL,
+        foretold=partial(predicted_limit_sets, problem) if _may_predict(problem) else None,
+    )
+
+
+def orbits_to_end(problem: LayerProblem, points: Array) -> Trajectories:
+    """Follow points of the picture (k, 2) until they have ended somewhere."""
+    return _orbits_to_end(problem, partial(states_at, points), None)
+
+
+def from_equator(
+    problem: LayerProblem,
+    which: Sequence[int],
+    wide: Sequence[int] = (),
+    lines: Trajectories | None = None,
+    angles: Array = ARRIVAL_ANGLES,
+) -> Trajectories:
+    """Follow the orbits that leave some limit directions (from 0) up the hemisphere, and those around the wide ones.
+
+    `lines` are the early parts of them, if they have been followed.
+    """
+    return _orbits_to_end(problem, lambda: _leaving_states([problem], which, wide, [angles])[0], lines)
+
+
+def _leaving_states(
+    problems: Sequence[LayerProblem], which: Sequence[int], wide: Sequence[int], angles: Sequence[Array]
+) -> list[Array]:
+    """States of the orbits that leave limit directions under each Psi, and of those around the wide ones."""
+    one, psis = problems[0], [problem.psi for problem in problems]
+    leaving = departures_under(one.at, psis, one.equator.theta[list(which)], RTOL, backward=False)
+    return [
+        np.concatenate([states, states_at(_points_around(one, wide, own))]) if wide else states
+        for states, own in zip(leaving, angles, strict=True)
+    ]
+
+
+def _options(problem: LayerProblem, early: bool) -> Stepping:
+    """Say how orbits are followed: as long as it takes, or `early` to where samples may tell where they will end."""
+    limit = DEFAULT_MAX_STEPS
+    if early and _may_predict(problem):
+        limit = SOON if problem.critical and all(C.kind.startswith("unstable") for C in problem.critical) else EARLY
+    time = drawn_time(problem.at, problem.equator)
+    return stepping(time, RTOL, 0.1 * RTOL, capture=CAPTURE, samples="ends", step_limit=limit)
+
+
+def begin_orbits(problems: Sequence[LayerProblem], states: Sequence[Array]) -> list[Trajectories]:
+    """Follow orbits of one system under several Psi, those of each problem, side by side: the early part of them."""
+    options = [_options(problem, early=True) for problem in problems]
+    found: dict[int, Trajectories] = {}
+    for option in dict.fromkeys(options):
+        some = [i for i, own in enumerate(options) if own == option]
+        lines = batch_by_psi(problems[0].at, [problems[i].psi for i in some], [states[i] for i in some], option)
+        found.update(zip(some, lines, strict=True))
+    return [found[i] for i in range(len(problems))]
+
+
+def _orbits_to_end(problem: LayerProblem, states: Callable[[], Array], lines: Trajectories | None) -> Trajectories:
+    """Follow orbits until they have ended, or go round and round and samples tell where they will end."""
+    if lines is None:
+        (lines,) = begin_orbits([problem], [states()])
+    if not _may_predict(problem):
+        return lines
+    cut = [
+        i
+        for i, status in enumerate(lines.status)
+        if status is Status.STEP_LIMIT
+        and not (lines.ends[i, 2] > TOLD and nears_end(problem.critical, lines.ends[i, :2], backward=False))
+    ]
+    if not cut or None not in predicted_limit_sets(problem, lines.ends[cut]):
+        return lines
+    return batch_by_psi(problem.at, [problem.psi], [states()], _options(problem, early=False))[0]
+
+
+def _ending_label(end: OmegaLimit) -> str:
+    if end.label != "undecided":
+        return written_label(end.label)
+    return "an equilibrium that is not isolated" if end.sentence == Status.EQUILIBRIUM.value else "no end found"
+
+
+def judge(problem: LayerProblem, found: Sequence[OmegaLimit], many: str) -> OutcomeVerdict:
+    """Judge trajectories that end so."""
+    if len({end.label for end in found}) > 1:
+        where = ", ".join(dict.fromkeys(_ending_label(end) for end in found))
+        return OutcomeVerdict("undecided", reason=say("several ends", many=many, labels=where), why="several")
+    end = found[0]
+    label = end.label
+    if end.sentence == CONNECTION:
+        return OutcomeVerdict("undecided", reason=say("saddle ahead", label=written_label(label)), why="several")
+    if label.startswith("Q") and radially_neutral(problem.equator, int(label[1:]) - 1):
+        return OutcomeVerdict("undecided", reason=say("neutral ahead", label=written_label(label)), why="neutral")
+    for i, C in enumerate(problem.critical):
+        if label == critical_label(problem.critical, i):
+            return OutcomeVerdict(
+                "slide", label, None, C.slow_flow, say("slides", label=written_label(label), kind=C.kind)
+            )
+    if label.startswith("cycle"):
+        reason = say("slides on a cycle" if problem.at.normal_form is None else "slides around")
+        return OutcomeVerdict("cycle", label, reason=reason)
+    if label.startswith("Q"):
+        theta = written_number(end.angle) if end.angle is not None else "?"
+        return OutcomeVerdict("cross", label, end.angle, None, say("crosses", theta=theta, label=written_label(label)))
+    if label == "equator":
+        return OutcomeVerdict("cross", label, reason=say("crosses spiralling"))
+    if end.sentence == Status.EQUILIBRIUM.value:
+        return OutcomeVerdict("undecided", reason=say("rest ahead"), why="neutral")
+    return OutcomeVerdict("undecided", reason=say("unfollowed"), why="unfollowed")
+
+
+def with_flow(problem: LayerProblem, judged: OutcomeVerdict) -> OutcomeVerdict:
+    """Add the slow flow on a cycle, for which the cycle is followed: only where it is told."""
+    if judged.verdict != "cycle" or judged.onto is None or judged.slow_flow is not None:
+        return judged
+    cycles, k = cycles_of(problem), int(judged.onto.split()[1]) - 1
+    # one that does not close in the steps allowed is foretold, and is not among them
+    return judged._replace(slow_flow=cycles[k].slow_flow) if k < len(cycles) else judged
+
+
+def _all_end_on_C(problem: LayerProblem) -> bool:
+    """Whether no orbit that leaves the equator can end but on the one critical set, which is stable.
+
+    Where a theorem forbids limit cycles (`reason_for_none`), it ends at equilibria or a graphic of orbits between them,
+    Poincare and Bendixson; and where lambda_rho < 0 at all Q no orbit of the open hemisphere comes to one.
+    """
+    equator, critical, form = problem.equator, problem.critical, problem.at.normal_form
+    if form is None or len(critical) != 1 or not critical[0].kind.startswith("stable"):
+        return False
+    down = all(rate < 0.0 for rate in equator.lambda_rho.tolist()) and not any(radially_neutral_ones(equator))
+    return down and not len(equator.arcs) and reason_for_none(form, critical, problem.location) is not None
+
+
+def _wide(problem: LayerProblem, which: Sequence[int]) -> list[int]:
+    """Limit directions that a whole family of orbits leaves."""
+    equator = problem.equator
+    return [i for i in which if not (equator.multiplicity[i] == 1 and equator.lambda_theta[i] < 0.0)]
+
+
+def _points_around(problem: LayerProblem, wide: Sequence[int], angles: Array = ARRIVAL_ANGLES) -> Array:
+    """Points around limit directions, at some angles from the equator."""
+    theta, height = problem.equator.theta[list(wide)][:, None] + FAN * np.cos(angles), FAN * np.sin(angles)
+    around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
+    return around.reshape(-1, 2)
+
+
+def arriving_begun(problems: Sequence[LayerProblem], which: Sequence[int]) -> list[Trajectories | None]:
+    """Integrate the early part of the orbits of `judge_arrivals`, under several Psi side by side; None without any.
+
+    Of all but the first, which are only compared with it, families are followed at their `OUTER_ANGLES` angles.
+    """
+    if not which:
+        return [None] * len(problems)
+    follow = [not _all_end_on_C(problem) for problem in problems]
+    some = list(itertools.compress(problems, follow))
+    angles = [ARRIVAL_ANGLES if problem is problems[0] else OUTER_ANGLES for problem in some]
+    lines = iter(begin_orbits(some, _leaving_states(some, which, _wide(problems[0], which), angles)) if some else ())
+    return [next(lines) if one else None for one in follow]
+
+
+def judge_arrivals(
+    problem: LayerProblem, which: Sequence[int], lines: Trajectories | None = None, angles: Array = ARRIVAL_ANGLES
+) -> list[OutcomeVerdict]:
+    """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side.
+
+    `lines` are those of `arriving_begun`, if they have been integrated. With `OUTER_ANGLES` for angles the verdicts are
+    the same, but what they say of a whole family is not told of all of it.
+    """
+    if not which:
+        return []
+    if lines is None and _all_end_on_C(problem):
+        C = problem.critical[0]
+        return [
+            OutcomeVerdict("slide", "C", None, C.slow_flow, say("slides", label=written_label("C"), kind=C.kind))
+        ] * len(which)
+    wide, count = _wide(problem, which), len(angles)
+    found = ends(problem, from_equator(problem, which, wide, lines, angles))
+    mains, beside = found[: len(which)], found[len(which) :]
+    fans = {i: beside[k * count : (k + 1) * count] for k, i in enumerate(wide)}
+    judged = []
+    for i, main in zip(which, mains, strict=True):
+        fan = fans.get(i, [])
+        if fan and count < len(ARRIVAL_ANGLES) and len({main.label, *(end.label for end in fan)}) == 1:
+            fan = ends(problem, orbits_to_end(problem, _points_around(problem, [i])))
+        judged.append(judge(problem, [main, *fan], "A whole family of orbits leaves Q" if i in fans else ""))
+    return judged
+
+
+def spiralling(problem: LayerProblem, many: str = "Orbits leave the closed equator at all angles") -> OutcomeVerdict:
+    """Judge what leaves the equator at all angles."""
+    angle = 2.0 * math.pi * np.arange(8) / 8.0
+    ring = 0.9995 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return judge(problem, ends(problem, orbits_to_end(problem, ring)), many)

@@ -1,0 +1,261 @@
+"""Orbits that somebody launches: each drawn both ways through its seed, with words for where it goes and comes from."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import drawing
+from ..arrays import Array
+from ..cycles.limit_cycles import cycles_of
+from ..layer_problem.critical import CriticalSet
+from ..layer_problem.hemisphere import outside_flow
+from ..layer_problem.problem import LayerProblem
+from ..orbits.both_directions import Orbits
+from ..orbits.result import Status, Trajectories
+from ..orbits.trajectories import concatenate, trajectories
+from ..portrait.approach import outcomes_of
+from ..portrait.omega_limits import AT_SADDLE, CAPTURE, OmegaLimit, critical_label, drawn_time, endings, nearest
+from ..portrait.outcomes import Outcome
+from ..systems.frozen import FrozenSystem
+from ..tables import html_table, point
+from ..words import say
+
+RTOL = 1e-9
+MAX_WINDING_LENGTH = 40.0  # picture units drawn of an orbit that winds
+EXTENSION_FACTOR = 30.0  # how many times longer than it is drawn an orbit is followed to see where it ends
+CUT = (Status.LENGTH, Status.T_MAX)  # drawn lines that have not ended
+LOST = 1e-9  # rho below which a drawn point |p| = 1 + rho does not tell it, and that takes no time to speak of
+
+
+@dataclass(frozen=True)
+class LimitSet:
+    """The limit set of an orbit, forward or backward in time.
+
+    Attributes
+    ----------
+    label : str
+        "C" (or "C1", ...), "Q1", ..., "cycle 1", "equator", "away" (it leaves the view) or "undecided".
+    onto : str or None
+        For an orbit from outside that reaches Sigma: what it slides on, or leaves along, then.
+    after : float or None
+        For an orbit from outside that reaches Sigma: the time t of eq:vf until then (before the seed: since then).
+        None where the line ends before, as it winds for too long.
+    sentence : str
+    """
+
+    label: str
+    onto: str | None
+    after: float | None
+    sentence: str
+
+
+@dataclass(frozen=True, eq=False)
+class LaunchedOrbits:
+    """Orbits through given points of the picture.
+
+    Attributes
+    ----------
+    orbits : Orbits
+        Their lines; the time T of each is 0 at its seed.
+    goes, comes : tuple of LimitSet
+        Forward and backward in time.
+    """
+
+    orbits: Orbits
+    goes: tuple[LimitSet, ...]
+    comes: tuple[LimitSet, ...]
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def _repr_html_(self) -> str:
+        starts = [point(line[0]) for line in self.orbits.forward.points]
+        fates = [(go.sentence, come.sentence) for go, come in zip(self.goes, self.comes, strict=True)]
+        found = [(start, *fate) for start, fate in zip(starts, fates, strict=True)]
+        if not found:
+            return "<p>no orbit is launched</p>"
+        return (self._repr_svg_() or "") + html_table(("starts at", "goes", "comes"), found)
+
+    def __len__(self) -> int:
+        return len(self.goes)
+
+
+NO_ORBITS = LaunchedOrbits(Orbits(concatenate([]), concatenate([])), (), ())
+
+
+def launched_orbits(
+    problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0
+) -> LaunchedOrbits:
+    """Follow orbits through points of the picture, and say where they go and where they come from.
+
+    Parameters
+    ----------
+    problem : LayerProblem
+    seeds : (k, 2)
+        Points of the picture.
+    view, pixel : float
+        Of the picture.
+
+    Returns
+    -------
+    LaunchedOrbits
+    """
+    if not len(seeds):
+        return NO_ORBITS
+    at, psi = problem.at, problem.psi
+    time = drawn_time(at, problem.equator)
+    back, ahead = (
+        trajectories(
+            at,
+            psi,
+            seeds,
+            t_max=time,
+            rtol=RTOL,
+            atol=0.1 * RTOL,
+            backward=backward,
+            view=view,
+            pixel=pixel,
+            capture=CAPTURE,
+            length=MAX_WINDING_LENGTH,
+        )
+        for backward in (True, False)
+    )
+    inside = np.hypot(seeds[:, 0], seeds[:, 1]) < 1.0
+    fates = []
+    for line, backward in ((ahead, False), (back, True)):
+        half = _orbits_to_end(problem, line, seeds, EXTENSION_FACTOR * time, view, backward)
+        found: list[LimitSet | None] = [None] * len(seeds)
+        within = np.flatnonzero(inside).tolist()
+        for i, end in zip(within, _endings(problem, half, within, backward), strict=True):
+            found[i] = _on_hemisphere(end, problem.critical, backward)
+        for i in np.flatnonzero(~inside).tolist():
+            arrived = line.status[i] not in CUT or line.ends[i, 2] < LOST
+            found[i] = _outside(problem, half, i, _time(at, line, i) if arrived else None, backward)
+        fates.append(tuple(fate for fate in found if fate is not None))
+    return LaunchedOrbits(Orbits(back, ahead), *fates)
+
+
+def _orbits_to_end(
+    problem: LayerProblem, line: Trajectories, seeds: Array, time: float, view: float, backward: bool
+) -> Trajectories:
+    """Return the trajectories with the ends that those cut off would come to, were they drawn on."""
+    cut = [i for i, status in enumerate(line.status) if status in CUT]
+    if not cut:
+        return line
+    on = trajectories(
+        problem.at,
+        problem.psi,
+        seeds[cut],
+        t_max=time,
+        rtol=RTOL,
+        atol=0.1 * RTOL,
+        backward=backward,
+        view=view,
+        capture=CAPTURE,
+        samples="ends",
+    )
+    ends, codes = line.ends.copy(), line.codes.copy()
+    ends[cut], codes[cut] = on.ends, on.codes
+    return Trajectories(line.buffer, line.clock, line.offsets, ends, codes)
+
+
+def _endings(problem: LayerProblem, lines: Trajectories, which: list[int], backward: bool) -> list[OmegaLimit]:
+    """Return where some of the trajectories end; their last points say enough."""
+    last = lines.offsets[1:][which] - 1
+    ends = Trajectories(
+        lines.buffer[last], lines.clock[last], np.arange(len(which) + 1), lines.ends[which], lines.codes[which]
+    )
+    return endings(
+        problem.at,
+        problem.psi,
+        ends,
+        problem.equator,
+        problem.critical,
+        lambda: cycles_of(problem),
+        rtol=RTOL,
+        backward=backward,
+    )
+
+
+def _on_hemisphere(end: OmegaLimit, critical: tuple[CriticalSet, ...], backward: bool) -> LimitSet:
+    label = end.label
+    for i, C in enumerate(critical):
+        if label == critical_label(critical, i):
+            words = say("comes from a set" if backward else "tends to a set", label=label, kind=_a(C.kind))
+            return LimitSet(label, None, None, words)
+    if label.startswith("cycle"):
+        return LimitSet(label, None, None, say("unwinds" if backward else "winds", label=label))
+    if label.startswith("Q"):
+        words = say("comes up" if backward else "comes down", label=label, theta=end.angle)
+        return LimitSet(label, None, None, words)
+    if label == "equator":
+        words = say("spirals up" if backward else "spirals down")
+        return LimitSet(label, None, None, words)
+    return LimitSet("undecided", None, None, say("not followed", why=end.sentence))
+
+
+def _outside(problem: LayerProblem, half: Trajectories, i: int, after: float | None, backward: bool) -> LimitSet:
+    equator = problem.equator
+    status = half.status[i]
+    if status is Status.LEFT_VIEW:
+        return LimitSet("away", None, None, say("comes from outside" if backward else "leaves the picture"))
+    if status is Status.ON_EQUATOR:
+        return LimitSet("equator", None, None, say("stays on the equator"))
+    k, gap = nearest(equator, math.atan2(half.ends[i, 1], half.ends[i, 0])) if len(equator) else (0, math.inf)
+    at_saddle = status in CUT and half.ends[i, 2] < AT_SADDLE and gap < AT_SADDLE  # saddles capture nothing
+    if (status is Status.ARRIVED and len(equator)) or at_saddle:
+        label, theta = f"Q{k + 1}", float(equator.theta[k])
+    elif status is Status.SPIRALLED:
+        k, label, theta = None, "equator", None
+    else:
+        return LimitSet("undecided", None, None, say("not followed", why=status.value))
+    known: dict[str, object] = {"label": label, "theta": theta, "t": after}
+    way = ("" if k is not None else ", in a spiral") + ("" if after is None else ", timed")
+    if backward:
+        return LimitSet(label, None, after, say("left" + way, **known))
+    found = outcomes_of(problem)
+    then, onto = _what_follows(found.whole if k is None or found.whole is not None else found.directions[k])
+    return LimitSet(label, onto, after, f"{say('reached' + way, **known)} {then}")
+
+
+def _what_follows(outcome: Outcome | None) -> tuple[str, str | None]:
+    if outcome is None or outcome.verdict in ("undecided", "misses"):
+        return say("then undecided"), None
+    if outcome.verdict == "cross" and outcome.leaving is None:
+        return say("then crosses, in a spiral"), outcome.onto
+    if outcome.verdict == "cross":
+        return say("then crosses", theta=outcome.leaving), outcome.onto
+    onto = f"limit {outcome.onto}" if outcome.verdict == "cycle" else outcome.onto
+    return say("then slides", onto=onto), outcome.onto
+
+
+def _a(kind: str) -> str:
+    return f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"
+
+
+def _time(at: FrozenSystem, lines: Trajectories, i: int) -> float:
+    """Return t = ∫ rho dT along a drawn line outside, to its arrival.
+
+    Between drawn points rho changes almost exponentially in T, for which the integral is
+    (rho2 - rho1) dT/log(rho2/rho1). A drawn rho = |p| - 1 below `LOST` has no digits left, and beside the ray of a
+    saddle the next point drawn may be e^-100 away: from the last point before, what is left is rho/|lambda_rho|, to
+    leading order, or in a spiral rho over the mean rate so far.
+    """
+    start, stop = lines.offsets[i], lines.offsets[i + 1]
+    line, clock = lines.buffer[start:stop], np.abs(lines.clock[start:stop])
+    rho = np.hypot(line[:, 0], line[:, 1]) - 1.0
+    rho[-1] = lines.ends[i, 2]
+    lost = np.flatnonzero(rho < LOST)
+    known = slice(0, max(int(lost[0]), 1) if len(lost) else None)
+    line, rho, clock = line[known], rho[known], clock[known]
+    steps, ratio = np.diff(clock), np.log(rho[1:] / rho[:-1])
+    flat = np.abs(ratio) < 1e-8
+    mean = np.where(flat, 0.5 * (rho[1:] + rho[:-1]), np.diff(rho) / np.where(flat, 1.0, ratio))
+    if lines.status[i] is Status.SPIRALLED:
+        rate = math.log(rho[0] / rho[-1]) / float(clock[-1])
+    else:
+        rate = abs(float(outside_flow(at, math.atan2(line[-1, 1], line[-1, 0]))[0]))
+    return float((mean * steps).sum() + (rho[-1] / rate if rate > 0.0 else 0.0))
