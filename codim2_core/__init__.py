@@ -13,6 +13,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .atlases.atlas import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, atlas
     from .counting.census import census
     from .counting.table import Census
+    from .cycles.laws import LawVerdict, LawVerdicts, compare_laws
     from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
     from .diagrams.branches import branches
     from .diagrams.result import Branches
@@ -69,6 +70,8 @@ __all__ = [
     "Event",
     "FilippovSliding",
     "Frozen",
+    "LawVerdict",
+    "LawVerdicts",
     "LimitCycle",
     "LimitCycles",
     "NullclineBranch",
@@ -94,6 +97,7 @@ __all__ = [
     "census",
     "certificates",
     "classify",
+    "compare_laws",
     "critical_sets",
     "delays",
     "equator_cycle",
@@ -126,6 +130,7 @@ _HOMES = {
     "atlases.atlas": "Atlas AtlasCurve AtlasPoint AtlasRegion atlas",
     "counting.census": "census",
     "counting.table": "Census",
+    "cycles.laws": "LawVerdict LawVerdicts compare_laws",
     "cycles.limit_cycles": "LimitCycle LimitCycles limit_cycles",
     "diagrams.branches": "branches",
     "diagrams.result": "Branches",

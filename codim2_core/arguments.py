@@ -173,6 +173,13 @@ def regularisations(name: str, value: Any) -> Any:
     raise ValueError(f"{name} is {short_repr(value)}; give several regularisation functions, such as (psi.tanh(),).")
 
 
+def friction_laws(name: str, value: Any) -> Any:
+    """Check laws of friction by name, each a Psi and its eps."""
+    if not isinstance(value, Mapping) or not all(isinstance(one, tuple) and len(one) == 2 for one in value.values()):
+        raise ValueError(f"{name} is {short_repr(value)}; give pairs by name, such as {{'sap': (psi.tanh(), 1e-3)}}.")
+    return {key: (psi(f"{name}[{key!r}]", law), number("eps", eps)) for key, (law, eps) in value.items()}
+
+
 def file(name: str, value: Any) -> Any:
     """Check the path of a file."""
     if isinstance(value, str | Path) and str(value) and not Path(value).is_dir():
@@ -203,6 +210,7 @@ BY_NAME: Mapping[str, Check] = {
     "coefficients": at_z,
     "cycles": cycles,
     "compare": regularisations,
+    "laws": friction_laws,
     "progress": function,
     "executor": executor,
     "samples": text,

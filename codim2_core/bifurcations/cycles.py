@@ -49,7 +49,7 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
         kind "fold of cycles". `values` holds the cycle's amplitude, the largest distance from C in the projected disc.
         `special` names the points where it turns back, "cusp of cycles", and how a branch ends other than at a
         generalised Hopf point: "resonant loop", "touching", "equator" or "undecided". Empty, with the
-        reason in `sentence`, where none was found.
+        reason in `sentence`, where none was found, or where ``|e_Psi|`` reaches 1 at a finite slip.
 
     Raises
     ------
@@ -59,8 +59,9 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     a, b, d = matrix(a, b, d)
     label = "sec:case3"
     curve = hopf(a, b, d, psi)
-    if not curve.branches:
-        return BifurcationCurve("fold of cycles", "folds of cycles: none", label, (), sentence=curve.sentence)
+    if psi.saturation < math.inf or not curve.branches:
+        sentence = curve.sentence if psi.saturation == math.inf else say("folds need R3")
+        return BifurcationCurve("fold of cycles", "folds of cycles: none", label, (), sentence=sentence)
     points = [np.array(s.place) for s in curve.special if s.type == "generalised Hopf"]
     found = _FoldCurves(a, b, d, psi, points)
     found.from_hopf()

@@ -92,8 +92,8 @@ def continue_cycles(
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
         raise ValueError(f"span is {span!r}; give finite numbers low < high.")
 
-    if system.typed is not None:
-        raise ValueError("continue_cycles is for e-linear systems; give an ELinear.")
+    if system.typed is not None or psi.saturation < math.inf:
+        raise ValueError("continue_cycles is for e-linear systems and Psi > 0 (R3); branches continues the others.")
     straight = None
     if name in PLANE and name in system.variable and not getattr(system, "given_matrix", None):
         # nothing else varies: coefficients are checked and evaluated once

@@ -54,6 +54,7 @@ MIN_TURN_BUDGET, TURN_BUDGET_RATIO = (
     4,
 )  # steps of a turn that a point may cost at least, and times those of the point before it
 MAX_HALVINGS = 8  # of an interval in which a fold is not found at once
+KINKED_FOLD_CHANGE = 1e-7  # of the span, by which the value turns back on both sides of a fold found by bisection
 FOLD_SLACK = 1e-3  # of a step: how far outside of it its fold may seem to be
 LEAST_EXPONENT_RATIO = (
     0.5  # of the size of the exponent at a point: where it may be as small as that nearby, it is looked at
@@ -351,8 +352,11 @@ class _BranchPath:
         return "span" if beyond else None
 
     def _fold(self, i: int) -> Asking[BranchPoint | None]:
-        """Find the point between the i-th one and the one before at which the exponent is zero."""
-        around, k = self.points[max(i - 2, 0) : i + 2], min(i, 2)
+        """Find the point between the i-th one and the one before at which the exponent is zero.
+
+        By bisection alone where the exponent has a kink, as that of a cycle does which grazes a circle where Psi has.
+        """
+        around, k, middle = self.points[max(i - 2, 0) : i + 2], min(i, 2), None
         for halved in range(MAX_HALVINGS):
             here, there = around[k - 1], around[k]
             course = ArclengthCurve(self.tracer, around)
@@ -371,7 +375,8 @@ class _BranchPath:
             middle = self.tracer.point(*closed, here.tangent)
             same = (middle.turn.exponent > 0.0) == (here.turn.exponent > 0.0)
             around, k = [middle, there] if same else [here, middle], 1
-        return None
+        sides = [point.nu - middle.nu for point in self.points[i - 1 : i + 1]] if middle is not None else [0.0, 0.0]
+        return middle if sides[0] * sides[1] > 0.0 and min(map(abs, sides)) > KINKED_FOLD_CHANGE else None
 
 
 def _fits(here: BranchPoint, there: BranchPoint, sought: _PendingPoint) -> bool:

@@ -19,6 +19,7 @@ from .equator_pull import LOST, MIN_HEIGHT, SUNK, EquatorPull, equator_pull
 
 FIRST_SAMPLES = 64  # so many that lanes are full to the last
 INNER_RADIUS, OUTER_ZETA = 1e-4, 1e5  # of the reach R, and in zeta: how near C and the equator the section is sampled
+LAST_XI = math.log(9.0)  # xi from which samples are even in ln |x2|
 COARSE_RTOL, FINE_RTOL = 1e-9, 1e-13  # tolerances
 MAX_FIRST_ZETA = 1e6  # zeta from which the outer samples begin, at most
 MAX_STEPS, MAX_TURN_TIME = 2000, 1e6  # steps tried, and T in units of 1/|(a, b, d, f1, f2)|
@@ -214,8 +215,30 @@ class Section:
 
         return return_map, fields.field(self.psi)
 
+    @cached_property
+    def last(self) -> tuple[float, float]:
+        """Return where r ends as the measure of the section (inf if never): xi and |x2|; further out it is ln |x2|.
+
+        Where ``|e_Psi|`` is 1 from a finite |x2| on, r = reach is a whole radius, along which the section goes on: U is
+        constant there, across the ray and so across that radius, in one sense.
+        """
+        if self.psi.saturation == math.inf:
+            return math.inf, math.inf
+        return LAST_XI, float(self._on_ray(np.array([LAST_XI]))[1][0])
+
+    def _on_ray(self, xi: Array) -> tuple[Array, Array]:
+        """Return e (n, 2) and |x2| (n,) at parameters (n,) of the ray ``e_C + r u``."""
+        inner = self.reach / (1.0 + np.exp(-xi))
+        rest = self.reach / (1.0 + np.exp(xi))  # reach - inner, to all digits
+        e = self.e + inner[:, None] * self.u
+        modulus = np.minimum(np.hypot(e[:, 0], e[:, 1]), 1.0)
+        return e, self.psi.radius(modulus, np.clip(rest * (inner + self.other), 1e-300, 1.0))
+
     def xi_at_radius(self, zeta: Array) -> Array:
         """Find the parameter, to first order, far out where |x2| = zeta."""
+        xi, last = self.last
+        if xi < math.inf:
+            return xi + np.log(zeta / last)
         gap = np.maximum(self.psi.complement(zeta), 1e-290) / (self.reach + self.other)
         return np.log(self.reach) - np.log(np.minimum(gap, self.reach))
 
@@ -226,12 +249,16 @@ class Section:
         return self._states[1:]
 
     def _placed(self, xi: Array) -> tuple[Array, Array]:
-        inner = self.reach / (1.0 + np.exp(-xi))
-        rest = self.reach / (1.0 + np.exp(xi))  # reach - inner, to all digits
-        e = self.e + inner[:, None] * self.u
-        modulus = np.minimum(np.hypot(e[:, 0], e[:, 1]), 1.0)
-        zeta = self.psi.radius(modulus, np.clip(rest * (inner + self.other), 1e-300, 1.0))
-        x2 = zeta[:, None] * e / np.maximum(modulus, 1e-300)[:, None]
+        last_xi, last = self.last
+        e, zeta = self._on_ray(np.minimum(xi, last_xi))
+        further = np.flatnonzero(xi > last_xi)
+        if len(further):
+            zeta[further] = last * np.exp(xi[further] - last_xi)
+            # (reach - r)(r + other) = 1 - |e|^2
+            half, complement = 0.5 * (self.reach + self.other), self.psi.complement(zeta[further])
+            rest = complement / (half + np.sqrt(half * half - complement))
+            e[further] = self.e + (self.reach - rest)[:, None] * self.u
+        x2 = zeta[:, None] * e / np.maximum(np.hypot(e[:, 0], e[:, 1]), 1e-300)[:, None]
         height = 1.0 / np.hypot(1.0, zeta)
         states = np.column_stack([x2 * height[:, None], height])
         return states, self.coordinate(states)
@@ -304,11 +331,8 @@ class Section:
 
     def grid(self) -> Array:
         """Choose samples: even in ln r near C, in ln zeta near the equator."""
-        inner = np.linspace(math.log(INNER_RADIUS), math.log(9.0), FIRST_SAMPLES - 24)
-        r, rest = self.reach / (1.0 + math.exp(-inner[-1])), self.reach / (1.0 + math.exp(inner[-1]))
-        modulus = min(math.hypot(*(self.e + r * self.u).tolist()), 1.0)
-        gap = min(max(rest * (r + self.other), 1e-300), 1.0)
-        start = min(max(self.psi.radius(modulus, gap), 1e-3), MAX_FIRST_ZETA)
+        inner = np.linspace(math.log(INNER_RADIUS), LAST_XI, FIRST_SAMPLES - 24)
+        start = min(max(float(self._on_ray(inner[-1:])[1][0]), 1e-3), MAX_FIRST_ZETA)
         outer = self.xi_at_radius(np.geomspace(start, max(OUTER_ZETA, 10.0 * start), 25)[1:])
         xi = np.concatenate([inner, outer[outer > inner[-1] + 1e-3]])
         return np.unique(np.minimum(xi, 600.0))

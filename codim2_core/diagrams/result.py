@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -188,7 +189,7 @@ class Branches:
         from ..continuation.typed.typed_search import continue_typed
 
         path = linear_path(self.system, self.psi, self.z, self.along, values_over(self.span))
-        if path is None:
+        if path is None or self.psi.saturation < math.inf:  # where the section of `continue_cycles` ends at finite |x2|
             of = self.system, self.psi, self.along, self.span, self.z
             return replace(self, cycles=continue_typed(*of, self.standing))
         ends = [self.span[0], *(v for gap in self.gaps for v in gap), self.span[1]]

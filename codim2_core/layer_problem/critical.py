@@ -78,6 +78,16 @@ class CriticalSet(Tabled):
         """Return the index of U about it, read from its kind: -1 for a saddle, 0 for a saddle-node, else 1."""
         return {"saddle": -1, "saddle-node": 0}.get(self.kind, 1)
 
+    def creep(self, eps: float) -> float:
+        """Return the slip speed ``eps |x2|`` on it: what regularised friction creeps with where friction would stick.
+
+        Parameters
+        ----------
+        eps : float
+            In units of the velocity (x, y), m/s say; of a physics engine see `psi.engine_eps`.
+        """
+        return eps * math.hypot(*self.x2)
+
     def _row_(self) -> tuple[str, ...]:
         return point(self.e), self.kind, table_number(self.trace), table_number(self.determinant), point(self.slow_flow)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -72,7 +73,7 @@ def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
         if radial > NEUTRAL_RATIO * abs(angular):
             if angular < 0.0 and not in_line:
                 order = min(order, -angular / radial)
-        else:
+        elif psi.saturation == math.inf:  # else U is that of the limit down to |(x, y)| of order eps
             power = 2.0 + 2.0 * float(psi.steepness(FAR_OUT))
             order = min(order, 2.0 * power / (1.0 + 2.0 * power))
     return order

@@ -4,16 +4,21 @@ from collections.abc import Callable
 from functools import partial
 
 from .constructors import constant, custom, exponential, hill, make, rational, tanh
+from .engines import ENGINES, Engine, engine, engine_eps
 from .families import FAMILIES, Family, Parameter, register, unregister
 from .function import Psi
 
 __all__ = [
+    "ENGINES",
     "FAMILIES",
+    "Engine",
     "Family",
     "Parameter",
     "Psi",
     "constant",
     "custom",
+    "engine",
+    "engine_eps",
     "exponential",
     "hill",
     "make",

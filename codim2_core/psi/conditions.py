@@ -10,12 +10,13 @@ import numpy as np
 from ..expressions.expression import Expression, parse
 from .condition import Condition, PsiCheck
 from .families.record import Family
-from .kernel import Kernel
+from .kernel import VECTOR, Kernel
 from .typed import NEGLIGIBLE, PROBES, Array, first_not_positive, refine
 
 PROBED = "as far as probing s from 0 to 1e16 can tell"
 # exp(-s) and its like: beyond some s a formula of size 1 is rounding only
 VALUE_ROUNDING = 1e-11
+JUST_BEFORE = 1e-6  # of the s at which |e_Psi| reaches 1: so far before it a derivative is read
 
 
 @lru_cache(maxsize=64)
@@ -42,13 +43,13 @@ def _probe(expression: Expression, kernel: Kernel) -> PsiCheck:
             derivatives.append(derivatives[-1].derivative("s"))
         except ValueError:  # too long to differentiate again
             break
-    values = expression.evaluate({"s": PROBES})
+    values = kernel.value(VECTOR, PROBES)
     scale = _scale(values, kernel.limit)
     return PsiCheck(
-        _smooth(derivatives, values, scale),
+        _smooth(derivatives, values, scale, kernel.saturation),
         _starts_at_one(float(values[0])),
-        _check_positivity(expression, values),
-        _never_rises(derivatives[1], values),
+        _check_positivity(expression, values, kernel.saturation),
+        _never_rises(derivatives[1], values, kernel.saturation),
         _smooth_at_infinity(expression, kernel, 1.0 / scale),
     )
 
@@ -69,20 +70,27 @@ def _starts_at_one(value: float) -> Condition:
     return Condition("R2", False, 0.0, f"Ψ(0) = {value:.6g}, not 1; {mend}.")
 
 
-def _check_positivity(expression: Expression, values: Array) -> Condition:
+def _check_positivity(expression: Expression, values: Array, saturation: float) -> Condition:
+    if saturation < math.inf:
+        return Condition(
+            "R3", False, saturation,
+            f"Ψ reaches 0 at s = {saturation:.6g} and stays there: |e_Ψ| = 1 from ζ = {math.sqrt(saturation):.6g} on. "
+            "e_Ψ is one-to-one, and D e_Ψ invertible, inside that circle only; outside it the layer problem is the "
+            "nonsmooth system.",
+        )  # fmt: skip
     place = first_not_positive(expression, values)
     if place is None:
         return Condition("R3", True, None, f"Ψ(s) > 0, {PROBED}.")
     return Condition("R3", False, place, f"Ψ(s) ≤ 0 at s = {place:.6g}.")
 
 
-def _never_rises(rate: Expression, values: Array) -> Condition:
+def _never_rises(rate: Expression, values: Array, saturation: float) -> Condition:
     scale = float(np.max(np.abs(values)))
 
     def falls(s: Array) -> Array:
         # a change of relative size ROUNDING over the scale s + 1 cannot be told from rounding
         slope = rate.evaluate({"s": s})
-        return ~(slope * (1.0 + s) > VALUE_ROUNDING * scale)
+        return ~(slope * (1.0 + s) > VALUE_ROUNDING * scale) | (s >= saturation)
 
     good = falls(PROBES)
     if good.all():
@@ -100,7 +108,7 @@ def _never_rises(rate: Expression, values: Array) -> Condition:
     )  # fmt: skip
 
 
-def _smooth(derivatives: list[Expression], values: Array, scale: float) -> Condition:
+def _smooth(derivatives: list[Expression], values: Array, scale: float, saturation: float) -> Condition:
     for order, expression in enumerate(derivatives):
         # an infinite value, or 0/0 in a formula such as cosh(sqrt(s)), which is smooth all the same
         if not math.isfinite(expression.evaluate({"s": 0.0})) and _diverges(expression, order, scale):
@@ -109,6 +117,9 @@ def _smooth(derivatives: list[Expression], values: Array, scale: float) -> Condi
         place = _jump(expression, values, scale * _NEAR[order][0])
         if place is not None:
             return _rough(place, order, "jumps or is undefined")
+        before = derivatives[order].evaluate({"s": (1.0 - JUST_BEFORE) * saturation}) if saturation < math.inf else 0.0
+        if abs(before) * saturation**order > math.sqrt(JUST_BEFORE):
+            return _rough(saturation, order, "jumps")
     return Condition("R1", True, None, f"Ψ is smooth, {PROBED}.")
 
 
@@ -160,6 +171,8 @@ def _jump(expression: Expression, values: Array, least: float) -> float | None:
 
 def _smooth_at_infinity(expression: Expression, kernel: Kernel, scale: float) -> Condition:
     """R5 by the growth of derivatives of Ψ(1/σ) as σ falls to 0: a bounded one grows by no power of 1/σ."""
+    if kernel.saturation < math.inf:
+        return Condition("R5", True, None, "Ψ(1/s) is 0 near s = 0.")
     limit = kernel.limit
     late = expression.evaluate({"s": PROBES[PROBES >= 1e12]})
     known = math.isfinite(expression.evaluate({"s": math.inf}))  # 1/(1+log(1+s)) tends to 0, though slowly

@@ -76,6 +76,11 @@ class Psi:
         """``Psi_1(0)``, the limit of Psi(s) as s grows (R5)."""
         return self.kernel.limit
 
+    @property
+    def saturation(self) -> float:
+        """The zeta from which ``|e_Psi|`` is 1, where friction saturates at a finite slip; inf if R3 holds."""
+        return math.sqrt(self.kernel.saturation)
+
     @overload
     def __call__(self, s: float) -> float: ...
     @overload

@@ -49,6 +49,7 @@ class Kernel:
     """The interface of a family; `lib` is `SCALAR` or `VECTOR`, called inside ``np.errstate(all="ignore")``."""
 
     limit: float = 0.0  # Psi_1(0), R5
+    saturation: float = math.inf  # the s from which Psi is 0, where R3 fails
 
     def value(self, lib: Any, s: Any) -> Any:
         """Psi(s)."""

@@ -25,32 +25,36 @@ VERDICT = "Ψ cannot be used: "
 
 @dataclass(frozen=True)
 class Custom(Kernel):
-    """Psi given by a formula in s."""
+    """Psi given by a formula in s, up to the s at which ``|e_Psi|`` is 1; from there on Psi is 0."""
 
     expression: Expression
+    saturation: float = math.inf
 
     @cached_property
     def _rate(self) -> Expression:
         return self.expression.derivative("s")
 
-    def value(self, lib: Any, s: Any) -> Any:
+    def _evaluate(self, lib: Any, s: Any) -> Any:
         values = self.expression.evaluate({"s": s})
-        return lib.where(s == math.inf, self.limit, values)
+        return values if self.saturation == math.inf else lib.where(s < self.saturation, values, 0.0)
+
+    def value(self, lib: Any, s: Any) -> Any:
+        return lib.where(s == math.inf, self.limit, self._evaluate(lib, s))
 
     def slope(self, lib: Any, s: Any) -> Any:
         rate = self._rate.evaluate({"s": s})
-        if lib.all(rate == rate):
-            return rate
-        # 0/0 at s = 0, as for 1/cosh(sqrt(s)); inf/inf in a tail that has long become 0, as for 1/(1+exp(s))
-        nearby = self._rate.evaluate({"s": lib.maximum(s, 1e-12)})
-        return lib.where(rate == rate, rate, lib.where(nearby == nearby, nearby, 0.0))
+        if not lib.all(rate == rate):
+            # 0/0 at s = 0, as for 1/cosh(sqrt(s)); inf/inf in a tail that has long become 0, as for 1/(1+exp(s))
+            nearby = self._rate.evaluate({"s": lib.maximum(s, 1e-12)})
+            rate = lib.where(rate == rate, rate, lib.where(nearby == nearby, nearby, 0.0))
+        return rate if self.saturation == math.inf else lib.where(s < self.saturation, rate, 0.0)
 
     def root(self, lib: Any, zeta: Any) -> Any:
-        return lib.sqrt(lib.maximum(self.expression.evaluate({"s": self._square(lib, zeta)}), 0.0))
+        return lib.sqrt(lib.maximum(self._evaluate(lib, self._square(lib, zeta)), 0.0))
 
     def kappa(self, lib: Any, zeta: Any) -> Any:
         s = self._square(lib, zeta)
-        values = self.expression.evaluate({"s": s})
+        values = self._evaluate(lib, s)
         used = (values > TINY_PSI) & (s > 0.0)
         ratio = -s * self.slope(lib, s) / lib.where(used, values, 1.0)
         return lib.where(used, ratio, 0.0)
@@ -63,6 +67,8 @@ class Custom(Kernel):
     @cached_property
     def limit(self) -> float:  # type: ignore[override]
         """Psi_1(0): the formula at s = inf if IEEE arithmetic knows it, else extrapolated from large s."""
+        if self.saturation < math.inf:
+            return 0.0
         at_infinity = self.expression.evaluate({"s": math.inf})
         last = [self.expression.evaluate({"s": s}) for s in (1e12, 1e14, 1e16)]
         if at_infinity == math.inf or abs(at_infinity - last[2]) <= abs(at_infinity - last[1]):
@@ -77,7 +83,7 @@ class Custom(Kernel):
         """Tabulate ln w, ln zeta and d ln zeta/d ln w at the probes where all are known; as arrays and as lists."""
         zeta = np.sqrt(PROBES[1:])
         with np.errstate(all="ignore"):
-            values = self.expression.evaluate({"s": PROBES[1:]})
+            values = self._evaluate(VECTOR, PROBES[1:])
             good = values > TINY_PSI
             log_w = np.log(zeta) - 0.5 * np.log(np.where(good, values, 1.0))
             rate = 1.0 / np.maximum(1.0 + self.kappa(VECTOR, zeta), 1e-3)
@@ -117,7 +123,7 @@ class Custom(Kernel):
         # below the table zeta is proportional to w; above it Psi is negligible or tends to its limit
         lo = lib.where(log_w < first, log_w - 400.0, lo)
         t = lib.where(log_w < first, log_w + (self._table[4][0] - first), t)
-        hi = lib.where(log_w > last, lib.maximum(log_w, t) + 400.0, hi)
+        hi = lib.where(log_w > last, lib.minimum(lib.maximum(log_w, t) + 400.0, 0.5 * math.log(self.saturation)), hi)
         for _ in range(100):
             zeta = lib.exp(t)
             root = lib.maximum(self.root(lib, zeta), 1e-170)
@@ -125,7 +131,7 @@ class Custom(Kernel):
             lo, hi = lib.where(miss < 0.0, t, lo), lib.where(miss > 0.0, t, hi)
             new = t - miss / lib.maximum(1.0 + self.kappa(lib, zeta), 1e-3)
             new = lib.where((new >= lo) & (new <= hi), new, 0.5 * (lo + hi))
-            done = lib.all(abs(new - t) < 1e-7)
+            done = lib.all(lib.maximum(abs(new - t), abs(miss)) < 1e-7)
             t = new
             if done:
                 break
@@ -137,7 +143,7 @@ class Custom(Kernel):
     def polish(self, lib: Any, zeta: Any, w: Any) -> Any:
         """Polish a root as every family does, with Psi evaluated once."""
         s = zeta * zeta
-        values = self.expression.evaluate({"s": s})
+        values = self._evaluate(lib, s)
         used = values > TINY_PSI
         values = lib.where(used, values, TINY_PSI)
         kappa = lib.where(used, -s * self.slope(lib, s) / values, 0.0)
@@ -151,10 +157,11 @@ def custom_kernel(expression: Expression) -> Custom:
     Raises
     ------
     ValueError
-        The Psi is unusable: not finite or not positive somewhere, or |e_Psi| does not rise from 0 to 1.
+        The Psi is unusable: not finite or negative somewhere, or |e_Psi| does not rise from 0 to 1.
     """
-    kernel = Custom(expression)
     values = expression.evaluate({"s": PROBES})
+    kernel = Custom(expression, _find_saturation(expression, values))
+    values = np.where(kernel.saturation > PROBES, values, 0.0)
     bad = ~np.isfinite(values)
     if bad.any():
         s, value = _first_bad(bad), values[int(np.argmax(bad))]
@@ -162,12 +169,12 @@ def custom_kernel(expression: Expression) -> Custom:
             f"{VERDICT}{expression.text} is {value} at s = {s:.6g}. It must be finite for all s ≥ 0; "
             "rewrite it so that it can be computed from s = 0 to 1e16, e.g. exp(-s) for 1/exp(s)."
         )
-    place = first_not_positive(expression, values)
+    place = first_not_positive(expression, values) if kernel.saturation == math.inf else None
     if place is not None:
         value = expression.evaluate({"s": place})
         raise ValueError(
-            f"{VERDICT}{expression.text} is {value:.6g} at s = {place:.6g}. It must be positive for all s ≥ 0 (R3), "
-            "or s + Ψ(s) is not and |e_Ψ| is not below 1; choose e.g. 1/(1+s)."
+            f"{VERDICT}{expression.text} is {value:.6g} at s = {place:.6g}. It must be positive, or fall to 0 and stay "
+            "there, or |e_Ψ| exceeds 1; choose e.g. 1/(1+s), or max(1-s, 0) for a friction that saturates."
         )
     if values[-1] > 1e-6 * PROBES[-1]:
         top = 1.0 / math.sqrt(1.0 + float(values[-1] / PROBES[-1]))
@@ -191,6 +198,30 @@ def custom_kernel(expression: Expression) -> Custom:
             "(R4) is always right, e.g. 1/(1+s)."
         )
     return kernel
+
+
+def _find_saturation(expression: Expression, values: Array) -> float:
+    """Find the s at which ``|e_Psi|`` reaches 1, that is Psi falls to 0 from a visible size; inf if it never does.
+
+    There Psi/s has its minimum, 0; what the formula says beyond, unless it is negative, is not used (`Custom`).
+    """
+    with np.errstate(all="ignore"):
+        falls = np.diff(values[1:] / PROBES[1:]) < 0.0
+    i = int(np.argmin(falls))
+    if falls[i] or i == 0:
+        return math.inf
+    rate = expression.derivative("s")
+
+    def falling(s: float) -> bool:
+        value = expression.evaluate({"s": s})
+        return value > 0.0 and s * rate.evaluate({"s": s}) < value
+
+    place = refine(falling, float(PROBES[i]), float(PROBES[i + 2]))
+    rounding = 1e-13 * max(1.0, float(values[0]))
+    reaches_zero = abs(expression.evaluate({"s": place})) <= NEGLIGIBLE * place
+    fades = expression.evaluate({"s": 0.99 * place}) < rounding
+    negative = bool((values[place < PROBES] < -rounding).any())
+    return place if reaches_zero and not fades and not negative else math.inf
 
 
 def first_not_positive(expression: Expression, values: Array) -> float | None:

@@ -108,8 +108,9 @@ def _unit_gain(r2, w, parameter):  # noqa: ARG001 (a gain is called with all thr
 gain, kind = _unit_gain, float
 
 
-def _typed_gain(source: str, parameter: str) -> Any:
+def _typed_gain(source: str, parameter: str, saturation: float) -> Any:
     """Write the gain for Psi given as Python source in s and a parameter, as `Expression.python_source` writes it."""
+    largest = min(LARGE_ZETA, saturation)
     scope: dict[str, Any] = {"math": math, **kernels.called}
     exec(f"def psi(s, {parameter}):\n    return {source}\n", scope)  # written by Expression: names and math.* only
     psi = njit(error_model="numpy")(scope["psi"])
@@ -117,7 +118,7 @@ def _typed_gain(source: str, parameter: str) -> Any:
     def gain(r2, w, parameter):
         w2 = w * w
         shape = 0.0
-        if r2 < LARGE_ZETA * w2:
+        if r2 < largest * w2:
             shape = w2 * psi(r2 / w2, parameter)
             if not 0.0 <= shape < math.inf:  # a formula that leaves R1 here: the nonsmooth field instead
                 shape = 0.0
@@ -138,6 +139,8 @@ class GainVariant:
         The parameter is read as an int.
     parameter : str
         What the source calls the parameter.
+    saturation : float
+        The s from which Psi is 0, whatever the source says.
     cached : bool
         The disk cache holds it: so for the families of this package.
     """
@@ -145,11 +148,12 @@ class GainVariant:
     key: Callable[..., Any] | str
     whole: bool = False
     parameter: str = "parameter"
+    saturation: float = math.inf
     cached: bool = False
 
     def make(self, lanes: Callable[..., None]) -> Any:
         """Compile a function of all lanes, which calls ``gain(r2, w, kind(P[PSI]))``, with this gain in its place."""
-        own = _typed_gain(self.key, self.parameter) if isinstance(self.key, str) else self.key
+        own = _typed_gain(self.key, self.parameter, self.saturation) if isinstance(self.key, str) else self.key
         versions = {"expm1": expm1, "log": log}  # beside math's, these run in vector registers
         bound = FunctionType(own.__code__, {**own.__globals__, **versions}, own.__name__, None, own.__closure__)
         gain = njit(fastmath=ARITHMETIC, error_model="numpy", forceinline=not isinstance(self.key, str))(bound)
@@ -183,9 +187,8 @@ def variant(psi: Psi, smooth: bool, whole: bool = True) -> GainVariant:
         expression = psi.expression if record.typed else record.expression()
         if expression is None:
             raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
-        return GainVariant(
-            expression.python_source(), parameter=record.names[-1] if len(record.names) > 1 else "parameter"
-        )
+        parameter = record.names[-1] if len(record.names) > 1 else "parameter"
+        return GainVariant(expression.python_source(), False, parameter, psi.kernel.saturation)
     whole = whole and record.whole(psi.parameter)
     key = record.gain_whole if whole and record.gain_whole is not None else record.gain
     return GainVariant(key, whole, cached=key.__module__.startswith(__name__.split(".")[0] + "."))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ..arrays import Array
@@ -11,7 +13,6 @@ from .facts import RAY_ANGLES, Certificate, verdict_of
 
 ZETA = np.geomspace(1e-3, 1e3, 49)
 CLAIM_ROUNDING = 1e-12
-UNDERFLOW = 1e-280
 
 
 def e_psi(psi: Psi, xy: Array, eps: float) -> Array:
@@ -61,7 +62,7 @@ def _one_to_one(psi: Psi) -> Certificate:
     worst = float(np.abs(back / inner - 1.0).max(initial=0.0))
     return Certificate(
         "lem:ePsi(c)", say("lem:ePsi(c)"),
-        verdict_of(rises and worst <= 1e-9),
+        verdict_of(rises and worst <= 1e-9 and psi.saturation == math.inf),
         (("least increase of |e_Ψ| sampled", float(np.diff(modulus).min())), ("largest |ζ(|e_Ψ|)/ζ − 1|", worst)),
         say("one place"),
     )  # fmt: skip
@@ -72,28 +73,10 @@ def _shorter(psi: Psi) -> Certificate:
     # 1 - |e|^2 = Psi/(s + Psi), without cancellation
     values = psi(s)
     least = float((values / (s + values)).min())
-    positive = _stays_positive(psi, s, values)
     return Certificate(
-        "lem:ePsi(d)", say("lem:ePsi(d)"), verdict_of(positive and least >= 0.0),
+        "lem:ePsi(d)", say("lem:ePsi(d)"), verdict_of(psi.saturation == math.inf and least >= 0.0),
         (("least 1 − |e_Ψ|² sampled", least),), say("complement"),
     )  # fmt: skip
-
-
-def _stays_positive(psi: Psi, s: Array, values: Array) -> bool:
-    """Whether samples of Psi are positive until they underflow: then the last ones above 0 are as small as doubles are.
-
-    A Psi that is 0 from some s on, max(0, 1 - s) say, ends at its own rounding instead.
-    """
-    zero = np.flatnonzero(~(values > 0.0))
-    if not len(zero):
-        return True
-    first = int(zero[0])
-    if first == 0 or not (values[first:] == 0.0).all():
-        return False
-    low, high = float(s[first - 1]), float(s[first])
-    while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (middle, high) if psi(middle) > 0.0 else (low, middle)
-    return float(psi(low)) < UNDERFLOW
 
 
 def _positivity_claim(psi: Psi) -> Certificate:
@@ -110,7 +93,7 @@ def _positivity_claim(psi: Psi) -> Certificate:
     gap = float(np.abs(D - np.diag([radial, tangential])).max())
     return Certificate(
         "rem:jaco_properties", say("lem:ePsi(e)"),
-        verdict_of(least >= 0.0 and gap <= 1e-7),
+        verdict_of(least >= 0.0 and gap <= 1e-7 and psi.saturation == math.inf),
         (("least of tr·|(ζ, √Ψ)| and det·(ζ² + Ψ)", least), ("difference from differences of e_Ψ", gap)),
         say("saddle stays"),
     )  # fmt: skip

@@ -49,6 +49,9 @@ SENTENCES: dict[str, Sentence] = {
         "The fold ends where the loop through the equator is neutral.", "a fold of cycles"
     ),
     "two cycles meet": Sentence("Two limit cycles, one stable and one unstable, meet and vanish.", "a fold of cycles"),
+    "folds need R3": Sentence(
+        "Folds of cycles are traced for Ψ > 0 (R3) only; branches finds them along one parameter.", "|e_Ψ| reaches 1"
+    ),
     "no fold of cycles": Sentence(
         "No fold of cycles begins on the Hopf curve, and none was found on {lines} lines across the disc of C.",
         "the search found none",

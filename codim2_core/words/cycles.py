@@ -205,6 +205,10 @@ SENTENCES: dict[str, Sentence] = {
         "{name} = {value:.6g}: Hopf bifurcation of a critical set, subcritical: the cycle born there is unstable.",
         "a branch begins, exponent positive",
     ),
+    "born, in a band": Sentence(
+        "{name} = {value:.6g}: Hopf bifurcation of a critical set, degenerate: closed orbits fill a band there.",
+        "a branch begins, exponent 0",
+    ),
     "no branch, typed": Sentence(
         (
             "No limit cycle was found for {name} from {low:.6g} to {high:.6g}. None is born at a Hopf point, and "

@@ -15,8 +15,9 @@ import codim2_core
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 OWN = {"codim2_core", "codim2_app", "tests"}
-# Run as programs, or needed by a library that is imported.
+# Run as programs, needed by a library that is imported, or asked for by pytest.importorskip.
 COMMANDS = {
+    "mujoco",
     "matplotlib",
     "pyright",
     "pytest-xdist",

@@ -30,6 +30,7 @@ GOOD = {
     c2.census: {"psi": PSI, "count": 1000},
     c2.certificates: PLANE,
     c2.classify: PLANE,
+    c2.compare_laws: {"system": SYSTEM, "laws": {"tanh": (PSI, 1e-3)}, "z": 0.1},
     c2.critical_sets: PLANE,
     c2.delays: {**PLANE, "spans": [(-1.0, 1.0)]},
     c2.equator_cycle: {"system": SYSTEM, "z": 0.1},
@@ -46,6 +47,8 @@ GOOD = {
     c2.trajectories: {**PLANE, "seeds": [(0.2, 0.3)]},
     c2.psi.constant: {},
     c2.psi.custom: {"text": "1/(1+s)"},
+    c2.psi.engine: {"name": "ipc"},
+    c2.psi.engine_eps: {"name": "ipc"},
     c2.psi.exponential: {},
     c2.psi.hill: {"n": 3},
     c2.psi.make: {"family": "hill", "parameter": 3.0, "text": "1/(1+s)"},
@@ -150,7 +153,7 @@ def test_a_wrong_value_is_told_by_the_name_of_its_parameter(function, name, tmp_
         except (ValueError, TypeError) as error:
             told = error
         if told is not None:
-            said, called = str(told), {"parameter": "n", "events": "events?", "name": "family"}.get(name, name)
+            said, called = str(told), {"parameter": "n", "events": "events?", "name": "(family|engine)"}.get(name, name)
             assert isinstance(told, ExpressionError) or re.search(rf"\b{called}\b", said), (words, said)
             assert len(said) < 400, (words, said)
             assert said.endswith((".", "…")), (words, said)

@@ -30,6 +30,9 @@ SADDLE_NODE_DISTANCE = 2.0  # times the way to it: there a saddle-node, to which
 MAX_LIMIT_DISTANCE = 10.0  # times the way of the last cycles: how far from the last one is what they come to
 
 
+BAND_EXPONENT = 1e-10  # of the smallest cycle followed: it is one of a band
+
+
 class MarkedValue(Protocol):
     """A special value of what stands still, as `diagrams` finds them."""
 
@@ -68,11 +71,12 @@ class TypedBranchEnd:
     limit: PointRow | None = None
 
 
-def hopf_end(name: str, value: float, problem: LayerProblem, place: Sequence[float], stable: bool) -> TypedBranchEnd:
-    """Name the end at a Hopf point of the critical set next to a place; whether the cycles born there are stable."""
+def hopf_end(name: str, value: float, problem: LayerProblem, place: Sequence[float], exponent: float) -> TypedBranchEnd:
+    """Name the end at a Hopf point of the critical set next to a place, with the exponent of the cycle next to it."""
     C = min(problem.critical, key=lambda C: math.dist(C.p, place))
     period = 2.0 * math.pi / math.sqrt(C.determinant)
-    sentence = say("born, stable" if stable else "born, unstable", name=name, value=value)
+    key = "born, stable" if exponent < 0.0 else "born, unstable"
+    sentence = say("born, in a band" if abs(exponent) < BAND_EXPONENT else key, name=name, value=value)
     x, y = C.p.tolist()
     return TypedBranchEnd(CyclePoint("Hopf", value, period, 0.0, sentence), (value, period, 0.0, 0.0, x, y))
 

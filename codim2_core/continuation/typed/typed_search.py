@@ -153,8 +153,7 @@ class TypedSearch:
         if first is None:
             self.notes.append(say("birth not caught", kind="Hopf", name=self.name, value=mark.value))
         elif -1e-12 <= first[1] <= 1.0 + 1e-12:
-            problem, stable = self.problem(mark.value), first[0].exponent < 0.0
-            start = hopf_end(self.name, mark.value, problem, mark.place, stable)
+            start = hopf_end(self.name, mark.value, self.problem(mark.value), mark.place, first[0].exponent)
             self._keep(self._followed(tracer, tracer.point(*first, (1.0, 0.0))), start)
 
     def _from_equator(self, mark: MarkedValue) -> None:
@@ -328,7 +327,7 @@ class TypedSearch:
         if trace.reason == "C" and self.hopf:
             mark = min(self.hopf, key=lambda m: abs(m.value - turn.value))
             self.used.add(id(mark))
-            return hopf_end(self.name, mark.value, self.problem(mark.value), mark.place, turn.exponent < 0.0)
+            return hopf_end(self.name, mark.value, self.problem(mark.value), mark.place, turn.exponent)
         found = None
         if trace.reason == "equator" or turn.height < BAND_HEIGHT:
             found = equator_end(self.name, turn, self.marked, self.width, pieces[-1].tracer.family.centre)

@@ -36,6 +36,10 @@ from codim2_core.psi.function import Psi
         ("1+s**0.5", {"R1": 0.0, "R4": 0.0, "R5": math.inf}),
         ("1/(1+s+0.1*abs(s-1))*1.1", {"R1": 1.0}),
         ("exp(1-abs(s-1))", {"R1": 1.0, "R4": 0.0}),
+        ("max(1-s, 0)", {"R1": 1.0, "R3": 1.0}),
+        ("(4-s+abs(4-s))/8", {"R1": 4.0, "R3": 4.0}),
+        ("max(1-s, 0)**2", {"R1": 1.0, "R3": 1.0}),
+        ("max(1-s, 0.04)", {"R1": 0.96}),
         ("1+0.2*sin(log(1+s))", {"R4": 0.0, "R5": math.inf}),
     ],
 )
@@ -66,7 +70,7 @@ def test_no_false_alarm_in_a_family_that_meets_all(a, p, c):
     ("text", "message"),
     [
         ("1-s", "is 0 at s = 1"),
-        ("(1-s+abs(1-s))/2", "is 0 at s = 1"),
+        ("max(1-s, 0)-max(s-5, 0)", "at s = 1"),
         ("cos(s)", "at s = 1.5708"),
         ("0", "is 0 at s = 0"),
         ("-1", "is -1 at s = 0"),
