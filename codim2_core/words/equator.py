@@ -30,7 +30,7 @@ SENTENCES: dict[str, Sentence] = {
     "no more proved": Sentence("It is not proved that there are no others.", "`proven` is False"),
     "equilibria": Sentence("The equator has {count} {noun}.", "all simple"),
     "equilibria, some degenerate": Sentence(
-        "The equator has {count} {noun}, of which {some} degenerate.", "a multiple zero"
+        "The equator has {count} {noun} ({some} degenerate).", "a multiple zero"
     ),
     "on a net": Sentence(
         (

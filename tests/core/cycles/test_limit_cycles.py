@@ -126,7 +126,7 @@ def test_reasons():
     assert "divergence is negative" in reason(-0.2, 1, -0.3, 0.1, 0.2)
     assert "divergence is positive" in reason(0.2, 1, 0, 0.01, 0.02)
     assert "saddle" in reason(1, 0.3, -1, 0.2, 0.1)
-    assert "no critical set" in reason(-1, 0, -1, 1.1, 0.0)
+    assert "there is none" in reason(-1, 0, -1, 1.1, 0.0)
     assert "preserves area" in reason(0, 1, 0, 0.1, 0.2)
     assert "f = 0" in reason(1, 3, -2, 0, 0)
     assert "reversible" in reason(1, 3, -1, 0.5, -0.5)

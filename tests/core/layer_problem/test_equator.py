@@ -73,7 +73,7 @@ def test_result_is_read_only_and_speaks():
     assert found.labels == ("Q1", "Q2", "Q3", "Q4")
     assert found.kind(0) == "radially repelling, angularly repelling"
     assert found.kind(1) == "radially repelling, angularly attracting"
-    assert found.summary == "4 equilibria on the equator."
+    assert found.summary == "The equator has 4 equilibria."
     assert found.sentence(1).startswith("Q₂ at θ = 1.047: radially repelling")
 
 
@@ -91,7 +91,7 @@ def test_pitchfork_of_the_paper():
 def test_degenerate_kinds():
     saddle_node = equator_equilibria(system(3, 1, 3, 0.6, 0.8))
     assert saddle_node.kind(0) == "radially repelling, angularly non-hyperbolic: saddle-node"
-    assert "1 of them degenerate" in saddle_node.summary
+    assert "(1 degenerate)" in saddle_node.summary
     cusp = equator_equilibria(system(0, 1.5 * math.sin(0.6), 1, *cusp_force(0.3)))
     assert 3 in cusp.multiplicity
     assert any("cusp" in cusp.kind(i) for i in range(len(cusp)))
