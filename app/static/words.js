@@ -127,11 +127,10 @@ export const noPushSentence = (/** @type {string} */ last) => `Not pushed, f = 0
 // Curves that are one object, by its name.
 export const CURVES = {R: "ρ-nullcline, U·e = 0", T: "θ-nullcline, Θ = 0", U1: "Nullcline U₁ = 0", U2: "Nullcline U₂ = 0", H: "Hyperbola of the limit directions, Θ = 0"}
 
-// The slow flow on C by its parts: ⊙ and ⊗ are of the first slow variable, which is said where there are others.
+// The slow flow on C by its parts: ⊙ (out of the page) and ⊗ (into it) are of the first slow variable.
 export function slowWords(flow, symbols = []) {
   const name = (i) => symbols.length >= flow.length ? symbols[i] : (flow.length > 1 ? `z${"₁₂₃₄₅₆₇₈₉"[i] ?? i + 1}` : "z")
-  const of = flow.length > 1 ? `, of ${name(0)} only` : ""
-  const sense = !flow[0] ? flow.some(Boolean) ? `${name(0)} at rest` : "at rest" : flow[0] > 0 ? `⊙ out of the page${of}: ${name(0)} increases` : `⊗ into the page${of}: ${name(0)} decreases`
+  const sense = !flow[0] ? flow.some(Boolean) ? `${name(0)} at rest` : "at rest" : flow[0] > 0 ? `⊙ ${name(0)} increases` : `⊗ ${name(0)} decreases`
   return {flow: flow.map((v, i) => `${name(i)}′ = ${digits(v)}`).join(", "), sense}
 }
 

@@ -40,8 +40,8 @@ test("what was typed cannot become markup", () => {
 })
 
 test("the arrow into the page is of the first slow variable, and says so where there are others", () => {
-  assert.deepEqual(slowWords([0.5]), {flow: "z′ = 0.500", sense: "⊙ out of the page: z increases"})
-  assert.deepEqual(slowWords([-1, 2], ["u", "v"]), {flow: "u′ = −1.000, v′ = 2.000", sense: "⊗ into the page, of u only: u decreases"})
+  assert.deepEqual(slowWords([0.5]), {flow: "z′ = 0.500", sense: "⊙ z increases"})
+  assert.deepEqual(slowWords([-1, 2], ["u", "v"]), {flow: "u′ = −1.000, v′ = 2.000", sense: "⊗ u decreases"})
   assert.equal(slowWords([0, 2]).sense, "z₁ at rest")
   assert.equal(slowWords([0]).sense, "at rest")
   assert.match(slowWords(Array(11).fill(1)).flow, /, z₉′ = 1\.000, z10′ = 1\.000, z11′ = 1\.000$/)
