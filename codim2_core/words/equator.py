@@ -29,9 +29,7 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "no more proved": Sentence("It is not proved that there are no others.", "`proven` is False"),
     "equilibria": Sentence("The equator has {count} {noun}.", "all simple"),
-    "equilibria, some degenerate": Sentence(
-        "The equator has {count} {noun} ({some} degenerate).", "a multiple zero"
-    ),
+    "equilibria, some degenerate": Sentence("The equator has {count} {noun} ({some} degenerate).", "a multiple zero"),
     "on a net": Sentence(
         (
             "Θ is not smooth: its zeros between kinks are found on a net of {net} directions. It is not proved "

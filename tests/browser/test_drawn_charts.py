@@ -291,6 +291,6 @@ def test_numbers(opened, setting):
         np.testing.assert_allclose(numbers(rows[name]), wanted, rtol=2e-3, atol=1e-3)
     rate = C.slow_flow[0]
     assert numbers(page.find(".slow b").text_content().replace("z′", ""))[0] == pytest.approx(rate, rel=2e-3, abs=6e-4)
-    assert ("out of" if rate > 0 else "into") in page.find(".slow").text_content()
+    assert ("increases" if rate > 0 else "decreases") in page.find(".slow").text_content()
     start, tip = (numbers(part)[-1] for part in page.find(".slow .z-arrow").get_attribute("d").split("V"))
     assert (tip < start) == (rate > 0)  # z points up, pixels run down
