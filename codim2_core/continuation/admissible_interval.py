@@ -22,7 +22,7 @@ def admissible_interval(family: ParameterFamily, low: float, high: float) -> tup
 
     Parameters
     ----------
-    family : VariedSystem
+    family : ParameterFamily
     low, high : float
     """
 

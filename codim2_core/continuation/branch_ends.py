@@ -64,7 +64,7 @@ def hopf_ends(family: ParameterFamily, low: float, high: float) -> list[BranchEn
 
     Parameters
     ----------
-    family : VariedSystem
+    family : ParameterFamily
     low, high : float
     """
 
@@ -88,7 +88,7 @@ def equator_ends(family: ParameterFamily, low: float, high: float) -> list[Branc
 
     Parameters
     ----------
-    family : VariedSystem
+    family : ParameterFamily
     low, high : float
     """
 
@@ -147,7 +147,7 @@ def loop_ends(family: ParameterFamily, low: float, high: float) -> list[BranchEn
 
     Parameters
     ----------
-    family : VariedSystem
+    family : ParameterFamily
     low, high : float
     """
     columns = values(low, high, GAP_VALUES)
@@ -172,7 +172,7 @@ def loop_end(family: ParameterFamily, low: float, high: float, loop: Loop) -> Br
 
     Parameters
     ----------
-    family : VariedSystem
+    family : ParameterFamily
     low, high : float
     loop : Loop
         At, or near, one of them.
@@ -227,7 +227,7 @@ def at_equator(
 
     Parameters
     ----------
-    family : VariedSystem
+    family : ParameterFamily
     value : float
         Of the last cycle.
     direction : float

@@ -33,7 +33,7 @@ class BranchTracer:
 
     Parameters
     ----------
-    family : VariedSystem, or VariedRay
+    family : ParameterFamily, or VariedRay
         Whom turns are asked of.
     low, high : float
     """
@@ -129,13 +129,13 @@ class TurnSearch:
     Parameters
     ----------
     tracer : BranchTracer
-    guess : Guess
+    guess : TurnGuess
     carry : float
         Product of the last two corrections below which the last is made without another turn.
 
     Attributes
     ----------
-    guess : Guess
+    guess : TurnGuess
         Where the next turn is asked for.
     found : (Turn, nu), or None
     over : bool

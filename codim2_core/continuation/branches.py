@@ -137,7 +137,7 @@ def folds_along(lines: Sequence[AffineCoefficients], low: float, high: float) ->
 
     Parameters
     ----------
-    lines : sequence of Straight
+    lines : sequence of AffineCoefficients
     low, high : float
 
     Returns

@@ -33,7 +33,7 @@ class TurnQuestion(NamedTuple):
 
     Attributes
     ----------
-    family : VariedSystem, or VariedRay
+    family : ParameterFamily, or VariedRay
     xi, values : list of float
     backward : list of bool
         Followed backward in time, which is accurate where the cycle repels. The result is the same.
@@ -152,7 +152,7 @@ class ParameterFamily:
         Size of changes of the value.
     bounds : (float, float), optional
         What the parameter may be.
-    straight : Straight, optional
+    straight : AffineCoefficients, optional
         The same as `at`, where it is so simple.
     """
 

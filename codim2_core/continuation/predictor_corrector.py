@@ -66,7 +66,7 @@ def trace_branch(tracer: BranchTracer, start: BranchPoint) -> Asking[BranchPoint
 
     Parameters
     ----------
-    tracer : Tracer
+    tracer : BranchTracer
     start : Point
     """
     path = _BranchPath(tracer, start)
@@ -82,7 +82,7 @@ def all_traced(
 
     Parameters
     ----------
-    tracer : Tracer
+    tracer : BranchTracer
     starts : sequence of Point
 
     Returns

@@ -1,4 +1,4 @@
-"""Fixed points of the return map on a global section; see `cycles` for the section.
+"""Fixed points of the return map on a global section; see `section` for that.
 
 The section is ``e = e_C + r u``, ``r = R/(1 + exp(-xi))`` with R where it meets the equator; xi is a parameter of
 it that resolves both ends. A point is measured by ``q = ln u.(x2 - x2_C)``, which increases along the section, and

@@ -12,7 +12,7 @@ from ..arrays import Array
 from ..numerics.dense import Dense
 from ..psi.constructors import constant
 from ..psi.function import Psi
-from .compiled_motion import functions_of, numbers_of_tableau, shared_out
+from .compiled_motion import functions_of, line_directions, numbers_of_tableau, shared_out
 from .field import Field
 from .kernels.explicit import DENSE_DEGREE
 from .kernels.hybrid_run import PHASE_NUMBERS, TOLD, follow_courses
@@ -98,10 +98,7 @@ def run_hybrid(
     outside, inside = functions_of(field, constant()), functions_of(field, own)
     addresses = np.array([*outside.addresses, *(one.address for one in flow()), inside.addresses[2]], np.int64)
     numbers = np.array([rtol, floor, *span, own.parameter, _is_affine(field), psi is not None], float)
-    along = np.zeros((len(first), 2))
-    for i, line in enumerate(lines):
-        if line is not None:
-            along[i] = line.n
+    along = line_directions(lines)
 
     def part(cut: slice) -> list[DecidedMotion]:
         found = follow_courses(addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))

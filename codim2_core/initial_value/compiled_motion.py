@@ -265,16 +265,18 @@ def integrate_compiled(
         The rate is not finite at one of the states; the message names the first.
     """
     made, count = functions_of(field, psi), len(first)
-    numbers, along = np.array([eps, rtol, floor, *span, psi.parameter]), np.zeros((count, 2))
-    for i, line in enumerate(lines):
-        if line is not None:
-            along[i] = line.n
+    numbers, along = np.array([eps, rtol, floor, *span, psi.parameter]), line_directions(lines)
 
     def part(cut: slice) -> list[CompletedMotion]:
         found = follow_all(made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))
         return _split_motions(*found, first.shape[1])
 
     return shared_out(part, count)
+
+
+def line_directions(lines: Sequence[InvariantLine | None]) -> Array:
+    """Return the direction (k, 2) of the invariant line of each motion, 0 where there is none."""
+    return np.array([(0.0, 0.0) if line is None else line.n for line in lines], float).reshape(-1, 2)
 
 
 def shared_out(part: Callable[[slice], list[Any]], count: int) -> list[Any]:

@@ -79,7 +79,7 @@ class LayerProblem:
 
     Parameters
     ----------
-    at : AtZ
+    at : FrozenSystem
     psi : Psi
     cut : float
         Angle from which limit directions are counted: Q1 is the first at or after it.

@@ -36,7 +36,7 @@ def drawn_duration(at: FrozenSystem, equator: EquatorEquilibria, critical: tuple
 
     Parameters
     ----------
-    at : AtZ
+    at : FrozenSystem
     equator : EquatorEquilibria
     critical : tuple of CriticalSet, optional
         Left out for trajectories outside, which end on the equator or beyond.

@@ -45,7 +45,7 @@ def sketch(at: FrozenSystem, psi: Psi, seeds: Array, t_max: float, length: float
 
     Parameters
     ----------
-    at : AtZ
+    at : FrozenSystem
     psi : Psi
     seeds : (k, 2)
         Points of the picture, all on the hemisphere (|p| < 1) or all outside.

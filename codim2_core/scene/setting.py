@@ -18,7 +18,7 @@ class SceneSetting(Protocol):
 
     Attributes
     ----------
-    coefficients : AtZ
+    coefficients : FrozenSystem
         The system frozen at z.
     problem : LayerProblem
         Its layer problem under Psi; what one layer finds in it is kept for the others.

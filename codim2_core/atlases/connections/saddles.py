@@ -45,7 +45,7 @@ class Branch:
 
     Attributes
     ----------
-    at : AtZ
+    at : FrozenSystem
     psi : Psi
         What it is a branch of.
     backward : bool

@@ -37,7 +37,7 @@ def split_at_homoclinic(
 
     Parameters
     ----------
-    tracer : Tracer
+    tracer : BranchTracer
     trace : Trace
     problem : callable
         value -> layer problem.

@@ -19,7 +19,7 @@ class Ray(TurnSection):
 
     Parameters
     ----------
-    at : AtZ
+    at : FrozenSystem
     psi : Psi
     foot : Place
     u : ndarray (2,)

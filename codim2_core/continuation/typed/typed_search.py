@@ -82,7 +82,7 @@ def continue_typed(
     name : str
     span : (low, high)
     z : (m,) floats
-    marked : sequence of Marked
+    marked : sequence of MarkedValue
         The special values of what stands still on the span.
 
     Returns
