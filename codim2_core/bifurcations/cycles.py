@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..continuation.branches import folds_along
-from ..continuation.columns import AMPLITUDE, HEIGHT
 from ..continuation.parameter_family import AffineCoefficients
-from ..cycles.section import Section
+from ..continuation.quadrature_columns import AMPLITUDE, HEIGHT
+from ..cycles.global_section import Section
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
 from ..words import say

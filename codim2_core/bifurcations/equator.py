@@ -18,7 +18,7 @@ import numpy as np
 from ..curves.arclength import StepBounds, trace_curve, zero_between
 from ..curves.newton import finite_differences, newton
 from ..curves.polyline import distance
-from ..cycles.loop import gap, loops
+from ..cycles.heteroclinic_cycle import gap, loops
 from ..layer_problem.equator import equator_cycle
 from ..layer_problem.linearisation import determinant_sign
 from ..numerics.root_between import root_between

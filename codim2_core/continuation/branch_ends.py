@@ -2,7 +2,7 @@
 
 On the closed hemisphere a cycle of the e-linear layer problem can only shrink to C (Hopf), meet another (fold), or
 reach the equator: the closed equator where its exponent changes sign, a loop through two half-saddles
-(`cycles.loop`), or such a loop through a saddle-node of the equator.
+(`cycles.heteroclinic_cycle`), or such a loop through a saddle-node of the equator.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..arrays import Array
-from ..cycles.loop import Loop, gaps, loops
+from ..cycles.heteroclinic_cycle import Loop, gaps, loops
 from ..layer_problem.closed_equator import exponents as closed_exponents
 from ..layer_problem.closed_equator import slowest_turn
 from ..layer_problem.equator import equator_cycle, number_of_directions

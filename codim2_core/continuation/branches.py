@@ -1,7 +1,7 @@
 """Branches of limit cycles along one parameter: from where they are born, through folds, to where they end.
 
 A cycle is a fixed point of the return map of `cycles`; `turns` has its derivatives and
-`branch_tracer` follows it. Branches are begun at every Hopf point and at every end on the equator
+`corrector` follows it. Branches are begun at every Hopf point and at every end on the equator
 (`branch_ends`), and at every cycle that is seen at one of several values and that no branch has yet passed: so
 closed branches between two folds are found too.
 """
@@ -30,9 +30,9 @@ from .admissible_interval import admissible_interval
 from .batching import run_batched
 from .branch_arrays import PointRow, build_branch, point_row
 from .branch_ends import BranchEnd, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
-from .branch_tracer import BranchTracer
+from .branch_points import BranchPoints, TurnGuess, points_at_value, reversed_trace
+from .corrector import BranchTracer
 from .parameter_family import AffineCoefficients, Asking, ParameterFamily, reversible, run_batch, side_by_side
-from .points import BranchPoints, TurnGuess, points_at_value, reversed_trace
 from .predictor_corrector import BAND_HEIGHT, all_traced, trace_branch
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .turns import ReturnMapPoint

@@ -11,9 +11,9 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from ..arrays import Array
-from ..cycles.many.sections import Indices, Sections, critical_points
-from ..cycles.orbit import MOST_STEPS
-from ..cycles.section import Section
+from ..cycles.batch.sections import Indices, Sections, critical_points
+from ..cycles.global_section import Section
+from ..cycles.periodic_orbit import MOST_STEPS
 from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
 from ..psi.constructors import many

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, pairwise, takewhile
 
-from .branch_tracer import DIFFERENCE_STEP, MAX_LOG_Y, ArclengthCurve, BranchTracer, TurnSearch, distance
+from .branch_points import BranchPoint, BranchPoints, TurnGuess
+from .corrector import DIFFERENCE_STEP, MAX_LOG_Y, ArclengthCurve, BranchTracer, TurnSearch, distance
 from .parameter_family import Asking, side_by_side
-from .points import BranchPoint, BranchPoints, TurnGuess
 from .predictor import CurvePoint
 
 MAX_STEP = 0.03  # the longest step

@@ -1,4 +1,4 @@
-"""Fixed points of the return map on a global section; see `section` for that.
+"""Fixed points of the return map on a global section; see `global_section` for that.
 
 The section is ``e = e_C + r u``, ``r = R/(1 + exp(-xi))`` with R where it meets the equator; xi is a parameter of
 it that resolves both ends. A point is measured by ``q = ln u.(x2 - x2_C)``, which increases along the section, and
@@ -14,8 +14,8 @@ import numpy as np
 
 from ..numerics.root_between import root_through
 from ..words import say
-from .resolution import NEAR_FOLD, UNRESOLVED, Samples, near_fold, zeros
-from .section import COARSE_RTOL, FINE_RTOL, INNER_RADIUS, Array, FixedPoint, Section
+from .displacement_sampling import NEAR_FOLD, UNRESOLVED, Samples, near_fold, zeros
+from .global_section import COARSE_RTOL, FINE_RTOL, INNER_RADIUS, Array, FixedPoint, Section
 
 FOLD_NOISE = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
 MIN_JUMP_WIDTH = 1e-3  # width at which a jump from -inf to +inf is left to the map backward in time

@@ -31,11 +31,11 @@ from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..tables import Tabled, paragraphs, point, result_rows, table_number
 from ..words import say
+from .displacement_sampling import count_sentence
 from .fixed_point_search import ReturnMapSamples, sample_return_map, search
-from .orbit import Orbit, orbit
+from .global_section import FixedPoint, Section
+from .periodic_orbit import Orbit, orbit
 from .proof.result import Proof, covers
-from .resolution import count_sentence
-from .section import FixedPoint, Section
 
 __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
 
@@ -194,7 +194,7 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool 
     -------
     LimitCycles
         Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. Elsewhere the `reason` says
-        how they were searched for: by samples (`fixed_point_search`, `first_turns`), which prove nothing
+        how they were searched for: by samples (`fixed_point_search`, `typed_cycles`), which prove nothing
         of what they do not show.
 
     Examples
@@ -309,7 +309,7 @@ def _rotate_cycles(found: ClosedOrbits, angle: float) -> ClosedOrbits:
 
 
 def _general(problem: LayerProblem) -> ClosedOrbits:
-    from .first_turns import find
+    from .typed_cycles import find
 
     found, reason, notes = find(problem.at, problem.psi, problem.critical)
     cycles = tuple(_cycle(crossing, closed, sense) for crossing, closed, sense in found)

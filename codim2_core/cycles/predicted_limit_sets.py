@@ -1,8 +1,9 @@
 """Predict limit sets of e-linear orbits from samples of the return map, without integrating them.
 
-The return map of the global section (`section`) increases. So an orbit on the section goes, turn by turn, to the first
-fixed point in the sense of its displacement, and along the section that sense changes at fixed points only: where
-samples resolve the map (`resolution`), they tell it. They place no fixed point and follow no cycle, which costs more.
+The return map of the global section (`global_section`) increases. So an orbit on the section goes, turn by turn, to
+the first fixed point in the sense of its displacement, and along the section that sense changes at fixed points only:
+where samples resolve the map (`displacement_sampling`), they tell it. They place no fixed point and integrate no cycle,
+which costs more.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ import numpy as np
 from ..arrays import Array
 from ..layer_problem.problem import LayerProblem, found_once
 from .fixed_point_search import ReturnMapSamples
+from .global_section import COARSE_RTOL
 from .limit_cycles import shown_of
-from .section import COARSE_RTOL
 
 ON_C = -1
 

@@ -186,7 +186,7 @@ class Branches:
     def with_cycles(self) -> Branches:
         """Return the same with branches of limit cycles, which take longer."""
         from ..continuation.branches import continue_cycles  # here: both load the compiler
-        from ..continuation.typed.typed_search import continue_typed
+        from ..continuation.typed.typed_branches import continue_typed
 
         path = linear_path(self.system, self.psi, self.z, self.along, values_over(self.span))
         if path is None or self.psi.saturation < math.inf:  # where the section of `continue_cycles` ends at finite |x2|

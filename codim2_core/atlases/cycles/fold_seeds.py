@@ -12,9 +12,9 @@ import numpy as np
 from ...arrays import Array
 from ...continuation.turns import ReturnMapPoint
 from ...continuation.typed.section_base import e_at
+from ...continuation.typed.typed_branches import TypedSearch
 from ...continuation.typed.typed_family import VariedRay
-from ...continuation.typed.typed_search import TypedSearch
-from ...cycles.turn_section import TurnSection
+from ...cycles.ray_section import TurnSection
 from ...layer_problem.critical import critical_sets
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem

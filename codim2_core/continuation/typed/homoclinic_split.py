@@ -14,8 +14,8 @@ import numpy as np
 from ...cycles.limit_cycles import surrounds
 from ...layer_problem.problem import LayerProblem
 from ..batching import run_batched
-from ..branch_tracer import BranchTracer
-from ..points import BranchPoint, BranchPoints, TurnGuess
+from ..branch_points import BranchPoint, BranchPoints, TurnGuess
+from ..corrector import BranchTracer
 from ..turns import ReturnMapPoint
 from .section_base import Array
 from .typed_family import run_typed_batch

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ...cycles.turn_section import TurnSection
+from ...cycles.ray_section import TurnSection
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem
 from .section_base import Array, HemispherePoint

@@ -1,4 +1,4 @@
-"""Any system in which one parameter varies, with its ray; `continuation.branch_tracer` asks it for turns."""
+"""Any system in which one parameter varies, with its ray; `continuation.corrector` asks it for turns."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...cycles.orbit import STEP_NODES, gauss, path
+from ...cycles.periodic_orbit import STEP_NODES, gauss, path
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem
 from ..turn_quadratures import MAX_EXPONENT

@@ -9,8 +9,8 @@ from scipy.integrate import quad
 from codim2_core import ELinear, bifurcations, equator_cycle, psi
 from codim2_core.bifurcations.geometry import Geometry
 from codim2_core.continuation.branches import continue_cycles
+from codim2_core.cycles.heteroclinic_cycle import gap, loops
 from codim2_core.cycles.limit_cycles import limit_cycles
-from codim2_core.cycles.loop import gap, loops
 
 ABD = (1.0, 1.3, -1.2)
 A = np.array([[1.0, -1.3], [1.3, -1.2]])

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from codim2_core.cycles.orbit import Orbit
+from codim2_core.cycles.periodic_orbit import Orbit
 
 UNEVEN = np.array([0.0, 0.3, 0.5, 1.1, 1.2, 2.0, 2.3, 3.1])
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from codim2_core import psi
-from codim2_core.cycles.return_map import returns
-from codim2_core.cycles.turn_map import first_turns
+from codim2_core.cycles.return_map_kernel import returns
+from codim2_core.cycles.winding_return_kernel import first_turns
 from codim2_core.stepping.fields import field
 from codim2_core.stepping.layout import LANES
 from codim2_core.stepping.numbers import SHARED_SIZE

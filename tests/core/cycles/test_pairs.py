@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, psi
+from codim2_core.cycles.displacement_sampling import unresolved_intervals
 from codim2_core.cycles.limit_cycles import limit_cycles
-from codim2_core.cycles.resolution import unresolved_intervals
 
 # (a, b, d), f, n of the Hill family, and how many cycles: each was missed by samples judged by their heights
 MISSED = [

@@ -26,7 +26,7 @@ from ..orbits.departures import departures
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from .equator_pull import SUNK
-from .section import MAX_STEPS, MAX_TURN_TIME, SUNK_INWARD, Array, Section, rays
+from .global_section import MAX_STEPS, MAX_TURN_TIME, SUNK_INWARD, Array, Section, rays
 
 RTOL = 1e-12
 
@@ -146,7 +146,7 @@ def _section_crossings(
 def _follow_to_sections(
     sections: Sequence[Section], starts: Sequence[Array], rtol: float, backward: bool
 ) -> tuple[Array, list[int]]:
-    """Follow an orbit to each section: where it ends, and the code of `return_map.returns`."""
+    """Follow an orbit to each section: where it ends, and the code of `return_map_kernel.returns`."""
     from ..stepping.fields import field_of_each
 
     psi = sections[0].psi

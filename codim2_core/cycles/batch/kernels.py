@@ -11,8 +11,8 @@ from ...layer_problem.border import CANCELS
 from ...numerics import double_double
 from ...stepping.numbers import PSI, SHARED_SIZE
 from ..equator_pull import LOST, MIN_HEIGHT, SUNK
-from ..return_map import RETURNED, single_step
-from ..section import INNER_RADIUS, SUNK_INWARD
+from ..global_section import INNER_RADIUS, SUNK_INWARD
+from ..return_map_kernel import RETURNED, single_step
 
 _add = njit(cache=True, error_model="numpy")(double_double.add_pairs)
 _product = njit(cache=True, error_model="numpy")(double_double.product)

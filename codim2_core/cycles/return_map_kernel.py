@@ -1,4 +1,4 @@
-"""Compiled return map of the layer problem on the section where x2' has one given direction; see `section`.
+"""Compiled return map of the layer problem on the section where x2' has one given direction; see `global_section`.
 
 With ``x2' = U``, the field of `stepping.fields` gives ``U = p' - p w'/w``: the section ``u.U = 0`` needs nothing of
 Psi. Lanes step as in `stepping`; a lane that has crossed goes back to the start of its step and finds the length

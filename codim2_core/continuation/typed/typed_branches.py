@@ -14,7 +14,7 @@ from functools import lru_cache
 from numpy.typing import ArrayLike
 
 from ...cycles.limit_cycles import LimitCycle, closed_orbits
-from ...cycles.turn_section import TurnSection
+from ...cycles.ray_section import TurnSection
 from ...layer_problem.problem import LayerProblem
 from ...layer_problem.vary import limits, vary
 from ...psi.function import Psi
@@ -24,9 +24,9 @@ from ...words import say
 from ..batching import run_batched
 from ..branch_arrays import PointRow, build_branch, point_row
 from ..branch_ends import values
-from ..branch_tracer import BranchTracer
+from ..branch_points import BranchPoint, BranchPoints, TurnGuess, points_at_value, reversed_trace
+from ..corrector import BranchTracer
 from ..parameter_family import CACHE_SIZE
-from ..points import BranchPoint, BranchPoints, TurnGuess, points_at_value, reversed_trace
 from ..predictor_corrector import BAND_HEIGHT, trace_branch
 from ..result import CycleBranch, CycleBranches, CyclePoint
 from ..turns import ReturnMapPoint

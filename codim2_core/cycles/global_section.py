@@ -71,7 +71,7 @@ def rays(
 
 
 class AnySection(Protocol):
-    """A curve that cycles cross, and the first return to it: what `orbit` needs of it.
+    """A curve that cycles cross, and the first return to it: what `periodic_orbit` needs of it.
 
     Attributes
     ----------
@@ -211,9 +211,9 @@ class Section:
     def kernel(self) -> Any:
         """The compiled return map: its module, and the function for this Psi."""
         from ..stepping import fields
-        from . import return_map
+        from . import return_map_kernel
 
-        return return_map, fields.field(self.psi)
+        return return_map_kernel, fields.field(self.psi)
 
     @cached_property
     def last(self) -> tuple[float, float]:
@@ -277,7 +277,7 @@ class Section:
         limit: int = MAX_STEPS,
         elsewhere: bool = False,
     ) -> tuple[Array, Array, Any, Any]:
-        """Follow one turn: states on return (n, 3), times, codes and recorded steps of `return_map.returns`."""
+        """Follow one turn: states on return (n, 3), times, codes and recorded steps of `return_map_kernel.returns`."""
         module, function = self.kernel
         away = states[:, :2] / states[:, 2:] - self.critical.x2
         nearest = min(self.inner, float(np.hypot(away[:, 0], away[:, 1]).min()))

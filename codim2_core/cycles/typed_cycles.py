@@ -5,8 +5,9 @@ a ray runs to the equator. The angle about its foot grows by 2 pi along a closed
 point on the ray from which it has first turned by 2 pi exactly when it is back: a fixed point of the map that takes a
 point of the ray to where its orbit is after its first turn. Conversely, every fixed point is a closed orbit.
 
-The map is sampled, forward and backward in time, until its samples resolve it (`resolution`), apart from where it jumps
-(on an orbit that meets a saddle) or ends. That is no proof that none is missed, and the result says so.
+The map is sampled, forward and backward in time, until its samples resolve it (`displacement_sampling`), apart
+from where it jumps (on an orbit that meets a saddle) or ends. That is no proof that none is missed, and the result says
+so.
 """
 
 from __future__ import annotations
@@ -18,10 +19,10 @@ from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
 from ..systems.frozen import FrozenSystem
 from ..words import say
-from .orbit import Orbit, orbit
-from .resolution import NEAR_FOLD, UNRESOLVED, Samples, count_sentence, near_fold, zeros
-from .section import FINE_RTOL, FixedPoint
-from .turn_section import Array, TurnSection
+from .displacement_sampling import NEAR_FOLD, UNRESOLVED, Samples, count_sentence, near_fold, zeros
+from .global_section import FINE_RTOL, FixedPoint
+from .periodic_orbit import Orbit, orbit
+from .ray_section import Array, TurnSection
 
 BAND = 1e-9  # |ln multiplier| at which a closed orbit is one of a band
 CLOSURE_DISTANCE = 1e-7  # distance on the sphere between start and end at which an orbit is closed

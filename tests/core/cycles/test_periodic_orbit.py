@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles.orbit import orbit
-from codim2_core.cycles.section import FixedPoint
-from codim2_core.cycles.turn_section import TurnSection
+from codim2_core.cycles.global_section import FixedPoint
+from codim2_core.cycles.periodic_orbit import orbit
+from codim2_core.cycles.ray_section import TurnSection
 
 H = 0.36
 

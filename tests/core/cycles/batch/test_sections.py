@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles import orbit
-from codim2_core.cycles.many.sections import STEP_NODES, Sections, critical_points
-from codim2_core.cycles.orbit import path
-from codim2_core.cycles.section import FINE_RTOL, Section
+from codim2_core.cycles import periodic_orbit
+from codim2_core.cycles.batch.sections import STEP_NODES, Sections, critical_points
+from codim2_core.cycles.global_section import FINE_RTOL, Section
+from codim2_core.cycles.periodic_orbit import path
 
 # (a, b, d, f1, f2): foci of all senses, in the middle and out of it.
 PLANES = np.array(
@@ -69,7 +69,7 @@ def test_near_the_equator_and_near_a_double_zero_all_digits_are_kept(near):
 @pytest.mark.parametrize("back", [False, True])
 def test_turns_are_those_of_one_system(back, monkeypatch):
     """Ends, and the nodes of all steps; those that do not return are left out."""
-    monkeypatch.setattr(orbit, "STEP_NODES", STEP_NODES)
+    monkeypatch.setattr(periodic_orbit, "STEP_NODES", STEP_NODES)
     psi, ray = c2.psi.hill(3), 0
     many, backward = _all(psi, ray), np.full(5, back)
     backward[1] = not back

@@ -14,8 +14,8 @@ from itertools import accumulate, pairwise
 from typing import Any
 
 from ..numerics.root_between import root_through
+from .branch_points import BranchPoint, TurnGuess
 from .parameter_family import Asking, TurnQuestion
-from .points import BranchPoint, TurnGuess
 from .predictor import CurvePoint, interpolate, predict
 from .turns import ReturnMapPoint
 

@@ -13,7 +13,7 @@ from ..layer_problem.critical import CriticalSet
 from ..psi.function import Psi
 from ..systems.frozen import FrozenSystem
 from .equator_pull import EquatorPull, equator_pull
-from .section import COARSE_RTOL, integrate_turn
+from .global_section import COARSE_RTOL, integrate_turn
 
 INNER_RADIUS, OUTER_HEIGHT, SAMPLE_SPACING = (
     1e-4,
@@ -28,7 +28,7 @@ RAY_DIRECTIONS = 16
 
 
 class TurnSection:
-    """A ray from a critical set to the equator, and the map of first turns on it; as `section.Section`.
+    """A ray from a critical set to the equator, and the map of first turns on it; as `global_section.Section`.
 
     Parameters
     ----------
@@ -65,9 +65,9 @@ class TurnSection:
     def kernel(self) -> Any:
         """The compiled first turn: its module, and what its compiled field keeps alive."""
         from ..stepping import right_hand_side
-        from . import turn_map
+        from . import winding_return_kernel
 
-        return turn_map, right_hand_side.problem(self.at, self.psi)
+        return winding_return_kernel, right_hand_side.problem(self.at, self.psi)
 
     @cached_property
     def pull(self) -> EquatorPull:
@@ -101,7 +101,7 @@ class TurnSection:
     def turn(
         self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = MAX_STEPS
     ) -> tuple[Array, Array, Any, Any]:
-        """Follow one turn: ends (n, 3), times, codes and recorded steps of `turn_map.first_turns`."""
+        """Follow one turn: ends (n, 3), times, codes and recorded steps of `winding_return_kernel.first_turns`."""
         module, function = self.kernel
 
         def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:

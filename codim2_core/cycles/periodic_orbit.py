@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..arrays import Array
-from .section import FINE_RTOL, AnySection, FixedPoint
+from .global_section import FINE_RTOL, AnySection, FixedPoint
 
 STEP_NODES = 6
 MOST_STEPS = 8000
@@ -89,7 +89,7 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Turn
     rtol : float
     backward : bool
     """
-    from .return_map import RETURNED, single_step
+    from .return_map_kernel import RETURNED, single_step
 
     ends, times, codes, steps = section.turn(start[None, :], rtol, backward, MOST_STEPS, MOST_STEPS)
     if codes[0] != RETURNED:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles.loop import gap, loops
+from codim2_core.cycles.heteroclinic_cycle import gap, loops
 
 # a, b, d, f1, f2 with one arc each, found at random
 PLANES = [

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..words import say
-from .section import COARSE_RTOL, FINE_RTOL
+from .global_section import COARSE_RTOL, FINE_RTOL
 
 COARSE_NOISE, FINE_NOISE = 1e-8, 1e-11  # of a displacement at COARSE and FINE
 ERROR_SAFETY = 8.0  # times the estimated error of the cubic
@@ -38,7 +38,7 @@ _INSIDE = np.linspace(0.0, 1.0, INTERVAL_PARTS + 1)
 
 
 class ReturnSection(Protocol):
-    """A section with a return map: `section.Section`, `turn_section.TurnSection`."""
+    """A section with a return map: `global_section.Section`, `ray_section.TurnSection`."""
 
     def states(self, xi: Array) -> tuple[Array, Array]:
         """States (n, 3) and q (n,)."""
