@@ -183,7 +183,7 @@ def _legend(
         tight = any(vector.MAX_LABEL_SCALE * width_of(entry.words, SMALL_SIZE) > end - begin for entry in column)
         for i, entry in enumerate(column):
             middle = y + LINE * (i + 0.5)
-            yield entry.drawn(place, left + x, middle, SAMPLE)
+            yield entry.draw(place, left + x, middle, SAMPLE)
             foot = middle + 0.34 * SMALL_SIZE
             yield vector.words(left + begin, foot, escape(entry.words), SMALL_SIZE, room=0.0 if tight else math.inf)
 

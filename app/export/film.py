@@ -81,14 +81,14 @@ def pictures(view: View, slider: str, style: Style, positions: int, first: int, 
     """Return the pictures of a film from one position on and up to another, as PNG: a film can be drawn in parts."""
     if slider == PLAY:
         return played(view, style, positions, first, last)
-    chosen = Slider.of(view, slider)
+    chosen = Slider.from_text(view, slider)
     places = chosen.values(positions, view.number(chosen.name))
     return [picture(view, slider, value, style) for value in places[first:last]]
 
 
 def picture(view: View, slider: str, value: float, style: Style = STYLE) -> bytes:
     """Return the figure with the slider at a value, which its title tells, as PNG."""
-    chosen = Slider.of(view, slider)
+    chosen = Slider.from_text(view, slider)
     heading = f"{chosen.symbol} = {value:.2f}".replace("-", "−")
     try:
         drawn = figure(view.changed({chosen.name: value}), style, heading)

@@ -47,7 +47,7 @@ class Entry:
     area: str = ""
     sign: str = ""
 
-    def drawn(self, place: Placement, x: float, y: float, width: float) -> str:
+    def draw(self, place: Placement, x: float, y: float, width: float) -> str:
         """Return its sample, `width` wide, with its middle height at y."""
         if self.part is not None:
             dashes = self.part.dash or place.dashes.get(self.part.colour, ())

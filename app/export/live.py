@@ -58,7 +58,7 @@ class Slider:
     events: tuple[float, ...] = ()
 
     @classmethod
-    def of(cls, view: View, text: str) -> Slider:
+    def from_text(cls, view: View, text: str) -> Slider:
         """Return the slider that ``NAME``, ``NAME=LOW,HIGH`` or ``NAME=LOW,HIGH;EVENT,...`` names.
 
         Its range is by default that of the explorer.
@@ -126,7 +126,7 @@ def live(view: View, sliders: Sequence[str]) -> bytes:
     """
     if not 1 <= len(sliders) <= MOST_SLIDERS or len({text.partition("=")[0] for text in sliders}) < len(sliders):
         raise ValueError(f"{len(sliders)} sliders given; give one or two different ones, such as f1 and f2.")
-    chosen = [Slider.of(view, text) for text in sliders]
+    chosen = [Slider.from_text(view, text) for text in sliders]
     count = ONE if len(chosen) == 1 else TWO
     while True:
         places = [slider.values(count, view.number(slider.name)) for slider in chosen]

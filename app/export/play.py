@@ -56,7 +56,7 @@ class Scenery:
     corner: tuple[float, float]
     colours: tuple[str, str]
 
-    def at(self, share: float) -> bytes:
+    def picture_at(self, share: float) -> bytes:
         """Return the picture at a share of the orbit's time, 0 to 1, as PNG."""
         time, points = self.orbit.time, self.orbit.points
         now = time[0] + share * (time[-1] - time[0])
@@ -86,7 +86,7 @@ def pictures(view: View, style: Style, positions: int, first: int, last: int) ->
         No launched orbit is chosen, or no time passes on it; a picture cannot be had.
     """
     still = scenery(view, style)
-    return [still.at(k / (positions - 1)) for k in range(first, last)]
+    return [still.picture_at(k / (positions - 1)) for k in range(first, last)]
 
 
 def scenery(view: View, style: Style) -> Scenery:

@@ -45,7 +45,7 @@ class View:
     system: System_ | None = field(default=None)
 
     @classmethod
-    def of(cls, link: Link) -> View:
+    def from_link(cls, link: Link) -> View:
         """Return what a link shows."""
         window = Window.read([*link.look.seen, 0.0])  # None where nothing, or more than the page can, is zoomed into
         return cls(link.state.values(), WHOLE if window is None else window.rectangle)
@@ -81,7 +81,7 @@ class View:
         first = parameters_of(self.values["system"], self.values["texts"])
         return float({**first, **self.values["parameters"]}[own])
 
-    def changed(self, numbers: Mapping[str, float]) -> View:
+    def with_values(self, numbers: Mapping[str, float]) -> View:
         """Return the view with some of them changed."""
         own = {name.removeprefix(OWN): value for name, value in numbers.items() if name not in self.values}
         plain = {name: value for name, value in numbers.items() if name in self.values}
@@ -114,7 +114,7 @@ def view_of(text: str) -> View:
         It is none of these, or something in it cannot be used.
     """
     if text in presets:
-        return View.of(read_link({"preset": text}))
+        return View.from_link(read_link({"preset": text}))
     query = urlsplit(text).query or (text if "=" in text else "")
     if not query:
         some = ", ".join(list(presets)[:3])
@@ -122,7 +122,7 @@ def view_of(text: str) -> View:
     link = read_link(query)
     if link.errors:
         raise ValueError(" ".join(map(str, link.errors)))
-    return View.of(link)
+    return View.from_link(link)
 
 
 def suffix_of(path: Path, allowed: tuple[str, ...]) -> str:

@@ -182,7 +182,7 @@ class Budget:
         self._spent = self._timed_so_far = 0.0  # by what layers cost before; by the clock
         self._worked_before = time.thread_time()
 
-    def before(self, scene: Scene, name: str) -> Callable[[], None] | None:
+    def check_cost(self, scene: Scene, name: str) -> Callable[[], None] | None:
         """Let a layer be computed here and now, or raise; return what is to be called when it is.
 
         Raises
@@ -195,7 +195,7 @@ class Budget:
         why = self._left_out.get(self.key(scene), {}).get(name) if self._left_out else None
         if why is not None:
             raise OmittedLayer(WORDS.get(name, name), why)
-        bounded, formula = self.bounded(scene), self._formula(scene)
+        bounded, formula = self.is_bounded(scene), self._formula(scene)
         if bounded and name == "launched" and not len(scene.launch):
             return None  # nothing says how long an orbit would take
         if bounded and name in CYCLE_SEARCH_LAYERS and scene["name"].case == "III":
@@ -224,11 +224,11 @@ class Budget:
         before[name] = max(own, 0.5 * before.get(name, 0.0))
 
     @staticmethod
-    def bounded(scene: Scene) -> bool:
+    def is_bounded(scene: Scene) -> bool:
         """Whether nothing in this scene was typed, so that all sizes are known beforehand."""
         return scene.coefficients.typed is None and scene.psi.expression is None
 
-    def told(self, scene: Scene, found: BackgroundLayers) -> None:
+    def record_costs(self, scene: Scene, found: BackgroundLayers) -> None:
         """Remember what layers of a scene took beside the frames, and keep them.
 
         A shorter time than before is believed by halves: a worker that has found something for one frame has it for
@@ -252,7 +252,7 @@ class Budget:
 
     @staticmethod
     def _formula(scene: Scene) -> Hashable:
-        if Budget.bounded(scene):
+        if Budget.is_bounded(scene):
             return None
         typed = scene.coefficients.typed
         return (None if typed is None else typed.U), scene.psi

@@ -153,7 +153,7 @@ def _changed_blocks(
                 offsets, points = part.pieces(result)
                 names = part.owners(result) if part.owners else None
                 if window is not None:
-                    offsets, points, of = window.cut(offsets, points)
+                    offsets, points, of = window.clip_curves(offsets, points)
                     names = names and [names[i] for i in of]
                 blocks[part.name] = Polylines(offsets, points, part.arrows, part.even)
                 if names is not None:

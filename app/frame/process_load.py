@@ -27,7 +27,7 @@ class Load:
         self.share = 0.0
         self._since = time.perf_counter(), processor_seconds()
 
-    def measured(self) -> float:
+    def measure(self) -> float:
         """Return the share, 0 to 1; called with every frame, by the thread that makes it."""
         now = time.perf_counter()
         passed = now - self._since[0]

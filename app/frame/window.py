@@ -49,19 +49,19 @@ class Window:
         return cls((left, right, bottom, top), min(max(pixel, sizes[0] / 4000), sizes[0] / 100))
 
     @property
-    def around(self) -> Rectangle:
+    def with_margin(self) -> Rectangle:
         """The rectangle with its margin."""
         left, right, bottom, top = self.rectangle
         x, y = WINDOW_MARGIN * (right - left), WINDOW_MARGIN * (top - bottom)
         return left - x, right + x, bottom - y, top + y
 
-    def cut(
+    def clip_curves(
         self, offsets: NDArray[np.int64], points: NDArray[np.float64]
     ) -> tuple[NDArray[Any], NDArray[Any], NDArray[np.int64]]:
         """Return the parts of curves that may be seen, as offsets and points, and which curve each is a part of."""
         if len(points) < 2:
             return offsets, points, np.arange(len(offsets) - 1)
-        left, right, bottom, top = self.around
+        left, right, bottom, top = self.with_margin
         low, high = np.minimum(points[:-1], points[1:]), np.maximum(points[:-1], points[1:])
         seen = np.logical_and.reduce((high >= (left, bottom)) & (low <= (right, top)), axis=1)
         joints = offsets[1:-1] - 1

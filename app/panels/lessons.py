@@ -128,7 +128,7 @@ def _add_quiz(draft: FrameContext, lesson: Lesson, quiz: Quiz) -> None:
 
 def _question_values(lesson: Lesson, question: LessonQuestion, seed: int) -> dict[str, Any]:
     """Return the values about which a question is asked: those of the lesson, and what is drawn over them."""
-    start = ExplorerState.of(lesson.values).values()
+    start = ExplorerState.from_values(lesson.values).values()
     drawn = pose(question, start, seed)
     return {**lesson.values, **portrait_of(drawn.get("preset")), **drawn}
 

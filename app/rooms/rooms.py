@@ -52,7 +52,7 @@ class Host:
     closed: float = 0.0
     shown: Any = None
 
-    def there(self, now: float) -> bool:
+    def is_open(self, now: float) -> bool:
         """Say whether the room is open."""
         waits = self.tell is not None or now - self.left < LINGERS
         return not self.closed and waits and now - self.opened < 3600.0 * HOURS
@@ -97,7 +97,7 @@ class Rooms:
     def count(self, now: float | None = None) -> int:
         """Return how many rooms are open."""
         now = time.monotonic() if now is None else now
-        return sum(host.there(now) for host in self.hosts.values())
+        return sum(host.is_open(now) for host in self.hosts.values())
 
     # The lecturer ----------------------------------------------------------------------------------------------
 
@@ -116,7 +116,7 @@ class Rooms:
             raise RoomError(say("no rooms"))
         states = self._states(now)
         code, mark = code_of(key), mark_of(key)
-        known = self._known(code, now)
+        known = self._openings_of(code, now)
         if not key or states.get(code) == "closed" or any(other != mark for _, other in known):
             known = []
             while not key or code in states:
@@ -205,7 +205,7 @@ class Rooms:
         """
         now = time.monotonic() if now is None else now
         for code, host in list(self.hosts.items()):
-            if not host.closed and not host.there(now):
+            if not host.closed and not host.is_open(now):
                 tell, host.closed, host.tell = host.tell, now, None
                 if tell is not None:
                     tell({"ended": code})
@@ -240,7 +240,7 @@ class Rooms:
         rows: dict[str, list[GuestRow]] = {}
         for guest in self.guests.values():
             rows.setdefault(guest.code, []).append(_guest_row(guest))
-        hosts = {host.code: [host.opened, host.there(now), host.closed, host.mark] for host in self.hosts.values()}
+        hosts = {host.code: [host.opened, host.is_open(now), host.closed, host.mark] for host in self.hosts.values()}
         views = {host.code: _short_settings(host.view()) for host in self.hosts.values() if host.tell is not None}
         if not self.board.write({"hosts": hosts, "rows": rows, "views": views}, now):
             bare = {code: [[row[0], row[1], None, row[3]] for row in all_] for code, all_ in rows.items()}
@@ -257,7 +257,7 @@ class Rooms:
                     found.setdefault(code, "open")
         return found
 
-    def _known(self, code: str, now: float) -> list[tuple[float, str]]:
+    def _openings_of(self, code: str, now: float) -> list[tuple[float, str]]:
         """Return when a room was opened, and the mark of its key, by each process that knows it."""
         told = [told["hosts"][code] for _, _, told in self.board.read(now) if code in told["hosts"]]
         return [(opened, mark) for opened, _, _, mark in told]

@@ -122,7 +122,7 @@ class ExplorerState(param.Parameterized):
         return {name: getattr(self, name) for name in CONTROL_NAMES}
 
     @classmethod
-    def of(cls, values: Mapping[str, Any], first: Mapping[str, Any] | None = None) -> ExplorerState:
+    def from_values(cls, values: Mapping[str, Any], first: Mapping[str, Any] | None = None) -> ExplorerState:
         """Return the state of some clean values: those of their preset, if they name one, and theirs over them.
 
         Without a preset they stand over `first`, by default the first setting.

@@ -135,7 +135,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     if unknown:
         shown = ", ".join(map(repr, unknown[:3])) + (f" and {len(unknown) - 3} more" if len(unknown) > 3 else "")
         errors.append(InputError("", say("address names", names=shown)))
-    return Link(ExplorerState.of(good, first), tuple(errors), look)
+    return Link(ExplorerState.from_values(good, first), tuple(errors), look)
 
 
 def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:

@@ -93,7 +93,7 @@ class Cell:
         shown = f'<div id="{place}"></div><script>(() => {{\n{script}\nlive({given})\n}})()</script>'
         return {"text/plain": repr(self.view), "text/html": shown, EXEC_MIME: ""}, {EXEC_MIME: {"id": place}}
 
-    def changed(self) -> None:
+    def refresh_still(self) -> None:
         """Let the still picture follow when nothing changes any more."""
         loop = IOLoop.current()
         if self._waiting is not None:
@@ -111,7 +111,7 @@ class Cell:
         publish = kernel().shell.display_pub.publish
         publish(still(svg, sentence, self.name), transient={"display_id": self.name}, update=update)
         if not finished:
-            self.changed()
+            self.refresh_still()
 
     def answer(self, about: str) -> tuple[dict[str, Any], list[bytes]]:
         """Return what a page asks for, as data and buffers: libraries' names, one of them, or the live view."""

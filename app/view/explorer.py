@@ -89,7 +89,7 @@ class ExplorerView(JSComponent):
     ) -> None:
         given = {name: params.pop(name) for name in SHARED_CONTROLS if name in params}
         values = {name: resolve_value(value) for name, value in given.items()}
-        self.state = ExplorerState.of(values) if state is None else state
+        self.state = ExplorerState.from_values(values) if state is None else state
         if state is not None:
             state.param.update(**values)
         self._opened: dict[str, Any] = {}
@@ -282,7 +282,7 @@ class ExplorerView(JSComponent):
 
     def _settle(self) -> None:
         if self._cell is not None:
-            self._cell.changed()
+            self._cell.refresh_still()
 
     def watch(self, callback: Callable[..., None], *names: str) -> None:
         """Call `callback` when one of the named values of the state has changed."""

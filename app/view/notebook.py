@@ -94,7 +94,7 @@ def explorer(
         values = {**_values_of(system, values), **values}
     _bring_resources()
     warmup.start()
-    view = ExplorerView(ExplorerState.of(values), system, **layout)
+    view = ExplorerView(ExplorerState.from_values(values), system, **layout)
     refused = view.refused
     if refused:
         raise ValueError(" ".join(refused))
@@ -169,7 +169,7 @@ def _values_of(system: System_, values: Mapping[str, Any]) -> dict[str, Any]:
     at = system.at((*z, *[0.0] * (system.m - len(z))))
     shown = {"a": at.a, "b": at.b, "d": at.d, "f1": at.f1, "f2": at.f2, "k1": 0.0, "k2": 0.0, "launch": launch}
     scene = Scene(system, constant(), (*z, *[0.0] * (system.m - len(z))))
-    if len(axes_there(scene, ExplorerState.of(shown).values(), locked_controls(scene, True))) < 2:
+    if len(axes_there(scene, ExplorerState.from_values(shown).values(), locked_controls(scene, True))) < 2:
         shown["panel"] = "numbers"  # there is no atlas
     if system.m:
         shown |= {"B1": float(at.B[0, 0]), "B2": float(at.B[0, 1]), "g0": float(at.g[0])}

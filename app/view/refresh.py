@@ -154,7 +154,7 @@ class Frames:
         if header.get("ready") is False and warmup.done is not None and warmup.done[0] < warmup.done[1]:
             header["compiled"] = warmup.done
         errors = {name: printed_sentence(said) for name, said in errors.items()}
-        return self._packed({"id": request.get("id", 0), "errors": errors, "load": load.measured(), **header}, blocks)
+        return self._pack({"id": request.get("id", 0), "errors": errors, "load": load.measure(), **header}, blocks)
 
     def keep(self) -> None:
         """Note that the last frame was not sent: what it told is told by the next one."""
@@ -162,7 +162,7 @@ class Frames:
         if left:
             self._notices.append(left)
 
-    def _packed(self, header: dict[str, Any], blocks: Blocks) -> bytes:
+    def _pack(self, header: dict[str, Any], blocks: Blocks) -> bytes:
         heads = header.get("ready", True) or (
             arrowheads.is_warm() and spacing.is_warm()
         )  # no frame waits for the compiler
@@ -236,7 +236,7 @@ class Frames:
             registry.add(draft)
             if asked.left_out:
                 header["left_out"] = OmittedLayer.sentence(asked.left_out)
-            if not asked.missing or not self._beside(scene, asked.missing, header):
+            if not asked.missing or not self._compute_beside(scene, asked.missing, header):
                 break
         self._tell_system(header, scene, values, now_sent)
         if scene.pixel > inputs(self.window, rest=True)["pixel"]:
@@ -256,7 +256,7 @@ class Frames:
         elif not isinstance(found, FailedResult):
             (header["portrait"]["sides"],) = found
 
-    def _beside(self, scene: Scene, missing: Sequence[str], header: dict[str, Any]) -> bool:
+    def _compute_beside(self, scene: Scene, missing: Sequence[str], header: dict[str, Any]) -> bool:
         """Have layers computed beside the frames; say whether they are there."""
         assert self.budget is not None  # it says what is missing
         names = tuple(dict.fromkeys(missing))
@@ -267,17 +267,17 @@ class Frames:
             return False
         if isinstance(found, FailedResult):
             found = BackgroundLayers({}, {}, dict.fromkeys(names, found.sentence.rstrip(".")))
-        self.budget.told(scene, found)
+        self.budget.record_costs(scene, found)
         return True
 
     @property
-    def named(self) -> str:
+    def portrait_name(self) -> str:
         """Name of the portrait that the browser has; "" while it has none."""
         name = self._sent.get("classification")
         return name.name if isinstance(name, Classification | PortraitName) else ""
 
     @property
-    def answered(self) -> tuple[Any, ...]:
+    def last_answer(self) -> tuple[Any, ...]:
         """The lesson and the number of its question that was answered last, and whether rightly; () if none was."""
         return self._sent.get("answered", ())
 
@@ -338,7 +338,7 @@ class Frames:
         self.refused = {name: value for name, value in self.refused.items() if name not in wanted}
         header["set"] = {name: value for name, value in self.values.items() if value != before[name]}
         self._unpublished.update(header["set"])
-        return self._packed({"errors": {}, **header}, blocks)
+        return self._pack({"errors": {}, **header}, blocks)
 
 
 def _sides_of(scene: Scene, values: Mapping[str, Any], control: str) -> tuple[dict[str, Any] | None]:

@@ -140,11 +140,11 @@ def integrate_turns(
 
     start, x2 = sections.starts(xi)
     states = kernels.hemisphere(x2)
-    rows, ways = sections.turned(states, RTOL, backward, limit)
+    rows, ways = sections.integrate_turns(states, RTOL, backward, limit)
     if ways is None:
         return ReturnMapPoints(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)), rows)
     if len(rows) < len(sections):
-        sections, start, x2, changes = sections.taken(rows), start[rows], x2[rows], changes[:, rows]
+        sections, start, x2, changes = sections.select(rows), start[rows], x2[rows], changes[:, rows]
     every = np.arange(len(rows))
     places = kernels.distances(ways.inner, states[rows], ways.ends, sections.zeta)
     whose = np.concatenate([ways.whose, every, every, every])

@@ -54,7 +54,7 @@ class CountedChunks:
         while self.upto in self.ahead:
             if self.ahead[self.upto].systems < self.chunk:
                 break
-            self.whole = self.whole.joined(self.ahead.pop(self.upto))
+            self.whole = self.whole.merge(self.ahead.pop(self.upto))
             self.upto += 1
         if self.path is not None and time.monotonic() - self.saved > SAVING_SECONDS:
             self.save()
@@ -63,7 +63,7 @@ class CountedChunks:
         """Return all chunks together, in their order."""
         whole = self.whole
         for chunk in sorted(self.ahead):
-            whole = whole.joined(self.ahead[chunk])
+            whole = whole.merge(self.ahead[chunk])
         return whole
 
     def save(self) -> None:

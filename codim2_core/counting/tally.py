@@ -54,7 +54,7 @@ class Tally:
         """Return the number of systems of all names."""
         return sum(entry.systems for entry in self.found.values())
 
-    def joined(self, other: Tally) -> Tally:
+    def merge(self, other: Tally) -> Tally:
         """Return both together; of equal margins this one's example is kept."""
         found = dict(self.found)
         for name, new in other.found.items():
@@ -92,7 +92,7 @@ def tally(plan: CensusPlan, chunk: int, size: int) -> Tally:
     whole = Tally({})
     for i, system in enumerate(drawn):
         problem = LayerProblem(system.at((0.0,) * getattr(system, "m", 0)), plan.psi)
-        whole = whole.joined(_tally_one(problem, _margin(problem), plan.outcomes, (chunk, i)))
+        whole = whole.merge(_tally_one(problem, _margin(problem), plan.outcomes, (chunk, i)))
     return whole
 
 
@@ -109,7 +109,7 @@ def _of_coefficients(plane: NDArray[np.float64], chunk: int) -> Tally:
     whole = Tally(found, int(np.isin(codes, IMPOSSIBLE).sum()))
     for i, (case, name) in others.items():
         full = f"{case} {name}" if case else name
-        whole = whole.joined(Tally({full: NameCount(1, 0.0, (chunk, i), 0.0, (chunk, i))}))
+        whole = whole.merge(Tally({full: NameCount(1, 0.0, (chunk, i), 0.0, (chunk, i))}))
     return whole
 
 
@@ -120,7 +120,7 @@ def _with_outcomes(plane: NDArray[np.float64], psi: Psi, chunk: int) -> Tally:
     whole = Tally({})
     for i, (a, b, d, f1, f2) in enumerate(plane.tolist()):
         problem = LayerProblem(ELinear(a, b, d, (f1, f2)).at(()), psi)
-        whole = whole.joined(_tally_one(problem, float(margins[i]), True, (chunk, i)))
+        whole = whole.merge(_tally_one(problem, float(margins[i]), True, (chunk, i)))
     return whole
 
 

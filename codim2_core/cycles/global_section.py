@@ -92,7 +92,7 @@ class AnySection(Protocol):
     @property
     def pull(self) -> Any: ...  # noqa: D102
 
-    def shared(self, backward: bool) -> Array:
+    def field_parameters(self, backward: bool) -> Array:
         """Parameters of the compiled field."""
         ...
 
@@ -245,10 +245,10 @@ class Section:
     def states(self, xi: Array) -> tuple[Array, Array]:
         """States (n, 3) = (p_x, p_y, ebar), and q (n,), at parameters (n,); those of the same array are found once."""
         if self._states is None or self._states[0] is not xi:
-            self._states = (xi, *self._placed(xi))
+            self._states = (xi, *self._section_states(xi))
         return self._states[1:]
 
-    def _placed(self, xi: Array) -> tuple[Array, Array]:
+    def _section_states(self, xi: Array) -> tuple[Array, Array]:
         last_xi, last = self.last
         e, zeta = self._on_ray(np.minimum(xi, last_xi))
         further = np.flatnonzero(xi > last_xi)
@@ -286,7 +286,7 @@ class Section:
         def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:
             return module.returns(
                 states,
-                self.shared(backward)[None],
+                self.field_parameters(backward)[None],
                 function.address,
                 self.u[None],
                 centre,
@@ -302,7 +302,7 @@ class Section:
 
         return integrate_turn(self, follow, states, backward, record > 0)
 
-    def shared(self, backward: bool) -> Array:
+    def field_parameters(self, backward: bool) -> Array:
         """Parameters of the compiled field."""
         from ..stepping.layout import SHARED_SIZE
 

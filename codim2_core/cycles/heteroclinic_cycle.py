@@ -157,7 +157,7 @@ def _follow_to_sections(
     near = SUNK_INWARD * np.minimum([section.inner for section in sections], away)
     sense = np.array([-section.plane[1] if backward else section.plane[1] for section in sections])
     ends, _, codes, _ = sections[0].kernel[0].returns(
-        states, np.array([section.shared(backward) for section in sections]), field.address,
+        states, np.array([section.field_parameters(backward) for section in sections]), field.address,
         np.array([section.u for section in sections]), centres, sense, near, np.full(count, SUNK),
         MAX_TURN_TIME, np.array([rtol]), MAX_STEPS, 0, True,
     )  # fmt: skip

@@ -98,7 +98,9 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Turn
     nodes, weights, _ = gauss(STEP_NODES)
     _, function = section.kernel
     places, whose = np.repeat(first, STEP_NODES, axis=0), np.zeros(STEP_NODES * len(h), np.intp)
-    inner = single_step(places, np.outer(h, nodes).ravel(), section.shared(backward)[None], whose, function.address)
+    inner = single_step(
+        places, np.outer(h, nodes).ravel(), section.field_parameters(backward)[None], whose, function.address
+    )
     return TurnQuadrature(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
 
 

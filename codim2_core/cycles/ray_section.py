@@ -74,7 +74,7 @@ class TurnSection:
         """Return the first-order return map of orbits close to the equator."""
         return equator_pull(self.at, None)
 
-    def shared(self, backward: bool) -> Array:
+    def field_parameters(self, backward: bool) -> Array:
         """Parameters of the compiled field that `kernel` keeps alive."""
         _, kept = self.kernel
         return np.array(kept.reversed.shared if backward else kept.shared)
@@ -107,7 +107,7 @@ class TurnSection:
         def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:
             return module.first_turns(
                 states,
-                self.shared(backward),
+                self.field_parameters(backward),
                 function.address,
                 np.array(self.critical.p),
                 SUNK_INWARD * INNER_RADIUS * self.reach,

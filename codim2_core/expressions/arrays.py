@@ -58,7 +58,7 @@ class Program:
         """The five arrays, as the kernels take them."""
         return self.op, self.left, self.right, self.number, self.roots
 
-    def at(self, points: Array) -> Array:
+    def evaluate(self, points: Array) -> Array:
         """Rows and their exact partial derivatives by c and s on Sigma.
 
         Parameters

@@ -97,7 +97,7 @@ class _Reader:
         if what == ",":
             raise self.error(column, "this , separates nothing", "write decimals with a point, such as 0.5")
         if kind != "end":
-            raise self.juxtaposed(what, column)
+            raise self.juxtaposition_error(what, column)
         return compact(self.build.nodes, root)
 
     def error(self, column: int, what: str, mend: str) -> ExpressionError:
@@ -143,7 +143,7 @@ class _Reader:
         """Return what to write for an angle, where e = (c, s) is there; else nothing."""
         return "write c for cos(theta) and s for sin(theta)" if {"c", "s"} <= {*self.names} else ""
 
-    def juxtaposed(self, what: str, column: int) -> ExpressionError:
+    def juxtaposition_error(self, what: str, column: int) -> ExpressionError:
         before = self.tokens[self.at - 1][1]
         return self.error(
             column,
@@ -220,7 +220,7 @@ class _Reader:
         if kind == "name":
             return self.word(what, column)
         if what == "(":
-            return self.closed(column)
+            return self.read_closing(column)
         if what == "|":
             return self.modulus(column)
         found = "the text ends" if kind == "end" else f"there is {what!r}"
@@ -235,7 +235,7 @@ class _Reader:
         if word in _CALLED:
             if not opens:
                 raise self.error(column, f"the function {word} has no argument in parentheses", f"write {word}(...)")
-            return self.called(word, column)
+            return self.read_call(word, column)
         if word in CONSTANTS:
             return self.build.number(CONSTANTS[word])
         near = difflib.get_close_matches(word[:30], [*self.names, *_CALLED], 1)
@@ -250,12 +250,12 @@ class _Reader:
         except ValueError:
             raise self.too_long(column) from None
 
-    def called(self, word: str, column: int) -> int:
+    def read_call(self, word: str, column: int) -> int:
         """Read the arguments of a function: one, or two and more of min and max."""
         opened = self.tokens[self.at][2]
         self.at += 1
         if word in FUNCTIONS:
-            return self.apply(column, word, self.closed(opened))
+            return self.apply(column, word, self.read_closing(opened))
         hidden, self.bars, outer, self.divided = self.bars, 0, self.divided, False
         found, count = self.expression(0), 1
         while self.tokens[self.at][1] == ",":
@@ -279,7 +279,7 @@ class _Reader:
         self.at += 1
         return self.apply(column, "abs", inside)
 
-    def closed(self, column: int) -> int:
+    def read_closing(self, column: int) -> int:
         """Read up to the matching parenthesis."""
         hidden, self.bars, outer, self.divided = self.bars, 0, self.divided, False
         inside = self.expression(0)
@@ -294,7 +294,7 @@ class _Reader:
             if what == ",":
                 raise self.error(here, "this , separates nothing", "functions take one argument, but for min and max")
             if kind != "end":
-                raise self.juxtaposed(what, here)
+                raise self.juxtaposition_error(what, here)
             raise self.error(column, "this ( is never closed", "add ) at its end")
         self.at += 1
 

@@ -43,7 +43,7 @@ class InvariantLine:
         n1, n2 = self.n.tolist()
         return n1, n2
 
-    def along(self, q: float, z: Array) -> float:
+    def radial_speed(self, q: float, z: Array) -> float:
         """Return n.U at e = q n on Sigma."""
         c, s = (q * self.n).tolist()
         u, v = self.field.value(c, s, 0.0, 0.0, *z.tolist())[:2]
@@ -63,17 +63,17 @@ class InvariantLine:
             -1 <= q <= 1.
         z : ndarray (m,)
         """
-        rate = self.along(q, z)
+        rate = self.radial_speed(q, z)
         if not rate:
             return None
         end = math.copysign(1.0, rate)
         net = q + (end - q) * np.arange(1, ZERO_NET + 1) / ZERO_NET
         before = q
         for after in net.tolist():
-            if self.along(after, z) * end <= 0.0:
+            if self.radial_speed(after, z) * end <= 0.0:
                 from scipy.optimize import brentq  # imported late: it takes longer than all of this package
 
-                root = brentq(lambda at: self.along(at, z), before, after, xtol=1e-16)
+                root = brentq(lambda at: self.radial_speed(at, z), before, after, xtol=1e-16)
                 return float(root)  # pyright: ignore[reportArgumentType] (the root alone, as full_output is False)
             before = after
         return end

@@ -82,7 +82,7 @@ class DiscZeros:
 def disc_zeros(key: Hashable) -> DiscZeros:
     """All zeros of U in the disc; `key` is `Frozen.key`."""
     size = component_series(key, "theta").size
-    if size == 0.0 and np.all(program(key).at(_SIZE_NET)[:, :, 0] == 0.0):
+    if size == 0.0 and np.all(program(key).evaluate(_SIZE_NET)[:, :, 0] == 0.0):
         nothing = np.zeros((0, 2))
         return DiscZeros(
             nothing, np.zeros((0, 2, 2)), np.zeros(0, bool), np.zeros(0, bool), np.zeros(0, np.int64), (), False, True,
@@ -146,10 +146,10 @@ def _slopes(run: Program, points: Array, doubtful: NDArray[np.bool_]) -> tuple[A
     Boxes stay undecided at multiple zeros, and where U has corners or unbounded second derivatives. Of a rough zero
     the sides say whether it is an ordinary one: if they all have one orientation.
     """
-    DU = run.at(points)[:, :, 1:]
+    DU = run.evaluate(points)[:, :, 1:]
     degenerate, rough = doubtful.copy(), np.zeros(len(points), bool)
     for i in np.flatnonzero(doubtful | ~np.isfinite(DU).all(axis=(1, 2))):
-        sides = run.at(points[i] + ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS)[:, :, 1:]
+        sides = run.evaluate(points[i] + ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS)[:, :, 1:]
         every = np.concatenate([DU[i : i + 1], sides])
         if not np.isfinite(every).all():
             DU[i], degenerate[i], rough[i] = 0.0, True, True
@@ -167,7 +167,7 @@ def _slopes(run: Program, points: Array, doubtful: NDArray[np.bool_]) -> tuple[A
 
 def _field_size(run: Program) -> float:
     """Largest |U1| + |U2| on a net: what rounding is measured by where U is small on the equator."""
-    values = np.abs(run.at(_SIZE_NET)[:, :, 0]).sum(axis=1)
+    values = np.abs(run.evaluate(_SIZE_NET)[:, :, 0]).sum(axis=1)
     return float(values[np.isfinite(values)].max(initial=0.0))
 
 
@@ -185,7 +185,7 @@ def _classify_undecided(run: Program, boxes: Array, half: float, size: float) ->
     sample = boxes[:: max(1, len(boxes) // CURVE)]
     if len(boxes) >= CURVE and np.ptp(boxes, axis=0).max() > MIN_CURVE_EXTENT:
         ends, ok = _least_squares(run, sample, size, 4.0 * half)
-        singular = np.linalg.svd(run.at(ends[ok])[:, :, 1:], compute_uv=False)
+        singular = np.linalg.svd(run.evaluate(ends[ok])[:, :, 1:], compute_uv=False)
         if ok.mean() > 0.5 and np.median(singular[:, 1]) <= 1e-6 * max(float(np.median(singular[:, 0])), 1e-6 * size):
             return [], True, False
     places: list[Array] = []
@@ -205,7 +205,7 @@ def _classify_undecided(run: Program, boxes: Array, half: float, size: float) ->
 
 def _winding_number(run: Program, middle: Array, radius: float) -> int:
     """Count how often U turns around a small circle; 0 where it is not finite, or turns too fast to tell."""
-    U = run.at(middle + radius * _UNIT_CIRCLE)[:, :, 0]
+    U = run.evaluate(middle + radius * _UNIT_CIRCLE)[:, :, 0]
     if not (np.isfinite(U).all() and U.any(axis=1).all()):
         return 0
     largest = np.abs(U).max(axis=0)  # its rows may be of very different size: that turns nothing
@@ -240,7 +240,7 @@ def _least_squares(run: Program, start: Array, size: float, reach: float) -> tup
     x = start.copy()
     best, value = x.copy(), np.full(len(x), math.inf)
     for _ in range(40):
-        rows = run.at(x)
+        rows = run.evaluate(x)
         U, D = rows[:, :, 0], rows[:, :, 1:]
         norm = np.hypot(U[:, 0], U[:, 1])
         norm = np.where(np.isfinite(norm) & np.isfinite(D).all(axis=(1, 2)), norm, math.inf)

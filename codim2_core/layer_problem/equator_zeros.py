@@ -68,7 +68,7 @@ def _components(run: Program, theta: Array) -> tuple[Array, Array, Array, Array,
     """Theta, its derivative, lambda_rho, its derivative, and (U1, U2), at each angle, by the chain rule."""
     e = directions(theta)
     c, s = e[:, 0], e[:, 1]
-    rows = run.at(e)
+    rows = run.evaluate(e)
     u, v = rows[:, 0, 0], rows[:, 1, 0]
     du = c * rows[:, 0, 2] - s * rows[:, 0, 1]
     dv = c * rows[:, 1, 2] - s * rows[:, 1, 1]
@@ -274,7 +274,7 @@ def _kinks(key: Hashable) -> NDArray[np.float64]:
         run = program(((source,), tuple(values[name] for name in number_names((source,)))))
 
         def value(theta: NDArray[np.float64], run: Program = run) -> NDArray[np.float64]:
-            return np.asarray(run.at(directions(theta))[:, 0, 0], np.float64)
+            return np.asarray(run.evaluate(directions(theta))[:, 0, 0], np.float64)
 
         at = roots(value, [net], [value(net)])
         found += [*at.zeros, *at.touches]

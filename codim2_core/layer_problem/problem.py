@@ -117,11 +117,11 @@ class LayerProblem:
             self._kept[finding] = result
         return self
 
-    def under(self, psi: Psi) -> LayerProblem:
+    def with_psi(self, psi: Psi) -> LayerProblem:
         """Return the layer problem of the same system under another Psi; what Psi has no say in is shared."""
         base = self._base() or self
         if base is not self:
-            return base.under(psi)
+            return base.with_psi(psi)
         if psi == self.psi:
             return self
         if psi not in self._others:

@@ -54,7 +54,7 @@ class Algebra:
         """Return u v."""
         return self._build.apply("*", u, v)
 
-    def over(self, u: int, v: int) -> int:
+    def divide(self, u: int, v: int) -> int:
         """Return u/v."""
         return self._build.apply("/", u, v)
 
@@ -86,14 +86,14 @@ class Algebra:
             for i in range(k + 1, n):
                 if A[i][k] == self.zero:
                     continue
-                factor = self.over(A[i][k], A[k][k])
+                factor = self.divide(A[i][k], A[k][k])
                 for j in range(k + 1, n):
                     A[i][j] = self.minus(A[i][j], self.times(factor, A[k][j]))
                 for b in B:
                     b[i] = self.minus(b[i], self.times(factor, b[k]))
         for b in B:
             for k in reversed(range(n)):
-                b[k] = self.over(self.minus(b[k], self.dot(A[k][k + 1 :], b[k + 1 :])), A[k][k])
+                b[k] = self.divide(self.minus(b[k], self.dot(A[k][k + 1 :], b[k + 1 :])), A[k][k])
         return tuple(map(tuple, B))
 
     def determinant(self, A: Matrix) -> int:
@@ -106,10 +106,10 @@ class Algebra:
             total = (self.minus if j % 2 else self.plus)(total, self.times(entry, minor))
         return total
 
-    def solved(self, A: Matrix, b: MatrixRow) -> MatrixRow | None:
+    def solve(self, A: Matrix, b: MatrixRow) -> MatrixRow | None:
         """Solve A x = b of two or three rows by Cramer's rule; None if the determinant is 0 whatever the names are."""
         size = self.determinant(A)
         if size == self.zero:
             return None
         changed = (tuple((*row[:j], b[i], *row[j + 1 :]) for i, row in enumerate(A)) for j in range(len(A)))
-        return tuple(self.over(self.determinant(one), size) for one in changed)
+        return tuple(self.divide(self.determinant(one), size) for one in changed)

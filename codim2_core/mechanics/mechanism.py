@@ -90,7 +90,7 @@ class Mechanism(Parts):
         known = {word: algebra.name(z) for word, z in zip(self.slow, SLOW_NAMES, strict=False)}
         known.update((word, algebra.name(word)) for word in ("c", "s", "x", "y"))
         rows = [[algebra.enter(entry, known) for entry in row] for row in self.rows]
-        columns = [self.velocities.index(word) for word in self.eliminated]
+        columns = [self.velocities.index(word) for word in self.dependent_velocities]
         kept = [(j, known[word]) for j, word in enumerate(self.velocities) if word in known]
         surface = (algebra.enter(entry, known) for entry in self.surface)
         slips = [algebra.plus(known[side], w) for side, w in zip("xy", surface, strict=True)]
@@ -98,23 +98,23 @@ class Mechanism(Parts):
             algebra.minus(slip, algebra.dot([row[j] for j, _ in kept], [v for _, v in kept]))
             for row, slip in zip(rows, (*slips, algebra.zero), strict=False)
         )
-        found = algebra.solved(tuple(tuple(row[j] for j in columns) for row in rows), rest)
+        found = algebra.solve(tuple(tuple(row[j] for j in columns) for row in rows), rest)
         if found is None:
             raise ValueError(
-                f"the slip does not determine {' and '.join(self.eliminated)}; let slow name other velocities."
+                f"the slip does not determine {' and '.join(self.dependent_velocities)}; let slow name other velocities."
             )
-        return known | dict(zip(self.eliminated, found, strict=True))
+        return known | dict(zip(self.dependent_velocities, found, strict=True))
 
-    def _entered(self, row: Sequence[Expression]) -> MatrixRow:
+    def _enter_row(self, row: Sequence[Expression]) -> MatrixRow:
         return tuple(self._algebra.enter(entry, self._meanings) for entry in row)
 
     @cached_property
     def _responses(self) -> tuple[MatrixRow, ...]:
         """M^-1 times the applied force, the rows of J, and the row of the constraint."""
-        columns = [self._entered(row) for row in (self.force, *self.rows)]
-        return self._algebra.solved_positive(tuple(map(self._entered, self.M)), columns)
+        columns = [self._enter_row(row) for row in (self.force, *self.rows)]
+        return self._algebra.solved_positive(tuple(map(self._enter_row, self.M)), columns)
 
-    def _moved(self, row: Expression, speeds: Mapping[str, int]) -> int:
+    def _time_derivative(self, row: Expression, speeds: Mapping[str, int]) -> int:
         """Return the derivative of a formula by time, whose names move at these speeds."""
         algebra, total = self._algebra, self._algebra.zero
         for word in row.names:
@@ -123,10 +123,10 @@ class Mechanism(Parts):
                 total = algebra.plus(total, algebra.times(slope, speeds[word]))
         return total
 
-    def _turning(self, row: Sequence[Expression]) -> int:
+    def _jacobian_rate(self, row: Sequence[Expression]) -> int:
         """J' v of a row of J, which reads positions alone."""
         speeds = {word: self._algebra.enter(rate, self._meanings) for word, rate in self.rates.items()}
-        slopes = [self._moved(entry, speeds) for entry in row]
+        slopes = [self._time_derivative(entry, speeds) for entry in row]
         return self._algebra.dot(slopes, [self._meanings[word] for word in self.velocities])
 
     @cached_property
@@ -134,19 +134,21 @@ class Mechanism(Parts):
         """Friction by the normal force: -mu e."""
         algebra = self._algebra
         e = (self._meanings["c"], self._meanings["s"])
-        return tuple(algebra.negative(algebra.dot(self._entered(row), e)) for row in self.mu)
+        return tuple(algebra.negative(algebra.dot(self._enter_row(row), e)) for row in self.mu)
 
     @cached_property
     def _normal(self) -> int:
         algebra = self._algebra
-        if not self.held:
+        if not self.has_constraint:
             return algebra.enter(self.normal, self._meanings)
         free, first, second, own = self._responses
-        across = self._entered(self.normal)
+        across = self._enter_row(self.normal)
         # Jn v' + Jn' v = 0 with v' = M^-1 (Q + N (Jn^T - J^T mu e))
         pull = algebra.dot((algebra.dot(across, first), algebra.dot(across, second)), self._coulomb)
         pull = algebra.plus(algebra.dot(across, own), pull)
-        return algebra.negative(algebra.over(algebra.plus(algebra.dot(across, free), self._turning(self.normal)), pull))
+        return algebra.negative(
+            algebra.divide(algebra.plus(algebra.dot(across, free), self._jacobian_rate(self.normal)), pull)
+        )
 
     def _speeds(self, forces: MatrixRow) -> dict[str, int]:
         """Return how all names move under a friction of two components, and the normal force of a constraint."""
@@ -156,13 +158,13 @@ class Mechanism(Parts):
             found[word] = algebra.plus(free[i], algebra.dot([side[i] for side in sides], forces[: len(sides)]))
         return found
 
-    def _apart(self, speeds: Mapping[str, int]) -> MatrixRow:
+    def _slip_rates(self, speeds: Mapping[str, int]) -> MatrixRow:
         """Return (x, y)', and with a constraint the acceleration that it forbids."""
         algebra, found = self._algebra, []
-        moves = [self._moved(entry, speeds) for entry in self.surface]
+        moves = [self._time_derivative(entry, speeds) for entry in self.surface]
         for row, move in zip(self.rows, (*moves, algebra.zero), strict=False):
-            own = algebra.dot(self._entered(row), [speeds[word] for word in self.velocities])
-            found.append(algebra.minus(algebra.plus(own, self._turning(row)), move))
+            own = algebra.dot(self._enter_row(row), [speeds[word] for word in self.velocities])
+            found.append(algebra.minus(algebra.plus(own, self._jacobian_rate(row)), move))
         return tuple(found)
 
     @cached_property
@@ -170,7 +172,7 @@ class Mechanism(Parts):
         """The system of eq:vf: an `ELinear` where U and W are linear in e with no shear, else a `System`."""
         algebra = self._algebra
         speeds = self._speeds((*(algebra.times(self._normal, part) for part in self._coulomb), self._normal))
-        U = [algebra.formula(entry) for entry in self._apart(speeds)[:2]]
+        U = [algebra.formula(entry) for entry in self._slip_rates(speeds)[:2]]
         W = [algebra.formula(speeds[word]) for word in self.slow]
         return _as_normal_form(U, W, self.parameters) or System(U, W, self.parameters)
 
@@ -187,7 +189,7 @@ class Mechanism(Parts):
         known = {**self.parameters, **{word: float(value) for word, value in values.items()}}
         speeds = [known[word] for word in self.velocities]
         rows = [sum(entry.evaluate(known) * v for entry, v in zip(row, speeds, strict=True)) for row in self.rows]
-        if self.held and abs(rows[2]) > 1e-9 * max(1.0, *map(abs, speeds)):
+        if self.has_constraint and abs(rows[2]) > 1e-9 * max(1.0, *map(abs, speeds)):
             raise ValueError(f"these velocities break the constraint: Jn v = {rows[2]:.3g}; give some with Jn v = 0.")
         slip = (row - part.evaluate(known) for row, part in zip(rows, self.surface, strict=False))
         return (*slip, *(known[word] for word in self.slow))
@@ -245,23 +247,27 @@ class Mechanism(Parts):
         ValueError
             z has the wrong length, a force or mu depends on e, or something is not finite there.
         """
-        bare = [*self.force, *(entry for row in self.mu for entry in row), *([] if self.held else [self.normal])]
+        bare = [
+            *self.force,
+            *(entry for row in self.mu for entry in row),
+            *([] if self.has_constraint else [self.normal]),
+        ]
         if any(word in ("c", "s") for row in bare for word in row.names):
             raise ValueError("a force, mu or the normal force depends on e: what sticking needs depends on it too.")
         known = dict(self.parameters, x=0.0, y=0.0)
         known.update(zip(SLOW_NAMES, slow_values(z, len(self.slow)), strict=False))
         names = ("λ1", "λ2", "λ3")  # friction and the normal force: no name of a user
-        rest = self._apart(self._speeds(tuple(map(self._algebra.name, names))))
+        rest = self._slip_rates(self._speeds(tuple(map(self._algebra.name, names))))
         rows = [self._algebra.formula(entry) for entry in rest]
         at = lambda row, one="": row.evaluate({**known, **dict.fromkeys(names, 0.0), **({one: 1.0} if one else {})})
         free = np.array([at(row) for row in rows])
         slopes = np.array([[at(row, one) for one in names[: len(rows)]] for row in rows]) - free[:, None]
-        mu = np.array([[at(self._algebra.formula(entry)) for entry in self._entered(row)] for row in self.mu])
+        mu = np.array([[at(self._algebra.formula(entry)) for entry in self._enter_row(row)] for row in self.mu])
         if not (np.isfinite(slopes).all() and np.isfinite(free).all() and np.isfinite(mu).all()):
             raise ValueError(f"a force is not finite{at_place(tuple(known[w] for w in SLOW_NAMES if w in known))}.")
         found = np.linalg.solve(slopes, -free)
-        normal = float(found[2]) if self.held else float(at(self._algebra.formula(self._normal)))
-        return Grip(found[:2], normal, mu, held=self.held)
+        normal = float(found[2]) if self.has_constraint else float(at(self._algebra.formula(self._normal)))
+        return Grip(found[:2], normal, mu, held=self.has_constraint)
 
 
 def _as_normal_form(

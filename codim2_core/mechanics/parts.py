@@ -49,26 +49,26 @@ class Parts:
         fix(self, "parameters", parameters)
         if any(self.M[i][j] != self.M[j][i] for i in range(n) for j in range(i)):
             raise ValueError("M is not symmetric; give the mass matrix of the kinetic energy, v·Mv/2.")
-        gone, rows = len(self.eliminated), len(self.rows)
+        gone, rows = len(self.dependent_velocities), len(self.rows)
         if gone != rows:
             raise ValueError(
-                f"{gone} of the {n} velocities are no slow variables ({', '.join(self.eliminated) or 'none'}); the "
+                f"{gone} of the {n} velocities are no slow variables ({', '.join(self.dependent_velocities) or 'none'}); the "
                 f"slip{' and the constraint of normal determine' if held else ' determines'} {rows}: "
                 + (f"let slow name {n - rows}." if n >= rows else "give the normal force, or more velocities.")
             )
 
     @property
-    def held(self) -> bool:
+    def has_constraint(self) -> bool:
         """Whether the normal force is that of a constraint."""
         return isinstance(self.normal, tuple)
 
     @property
     def rows(self) -> tuple[tuple[Expression, ...], ...]:
         """Rows of J, and that of the constraint."""
-        return (*self.J, self.normal) if self.held else self.J
+        return (*self.J, self.normal) if self.has_constraint else self.J
 
     @cached_property
-    def eliminated(self) -> tuple[str, ...]:
+    def dependent_velocities(self) -> tuple[str, ...]:
         """Velocities that the slip, and the constraint, determine."""
         return tuple(word for word in self.velocities if word not in self.slow)
 

@@ -32,7 +32,7 @@ class Past(NamedTuple):
     events: tuple[tuple[float, ...], ...]
 
     @classmethod
-    def of(cls, run: Simulation, problem: Problem, rtol: float) -> Past:
+    def from_run(cls, run: Simulation, problem: Problem, rtol: float) -> Past:
         """Return what a motion that was followed backwards, in the time -t, tells of the past.
 
         Parameters
@@ -75,7 +75,7 @@ def _growth(motion: Dense, i: int, problem: Problem) -> float:
     """Return the integral of the growth over one step, by Simpson's rule."""
     rates = []
     for u in (0.0, 0.5, 1.0):
-        state = motion.within(i, u)
+        state = motion.in_step(i, u)
         jacobian = problem.J(state)
         rate = float(np.linalg.eigvals(jacobian).real.max()) if np.isfinite(jacobian).all() else 0.0
         rates.append(max(0.0, rate - FASTER / own_time(problem, state, problem.F(state))))

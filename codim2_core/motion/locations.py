@@ -69,12 +69,12 @@ class OfState:
             gain = np.divide(modulus, r, out=np.zeros_like(r), where=r > 0.0)
             return xy * gain[:, None], p
         for i in np.flatnonzero(~xy.any(axis=1)):  # at the moment of arrival, or of leaving
-            xy[i] = self.beside(float(t[i]))
+            xy[i] = self.position_near(float(t[i]))
         size = np.hypot(*xy.T)
         e = np.divide(xy, size[:, None], out=np.zeros_like(xy), where=size[:, None] > 0.0)
         return e, e
 
-    def beside(self, t: float) -> Array:
+    def position_near(self, t: float) -> Array:
         """Return (x, y) within the phase, a moment after or before a time at which it is 0."""
         times, states = self.motion.times, self.motion.states
         off = np.flatnonzero(states[:, :2].any(axis=1) & (self.t_start <= times) & (times <= self.t_end))

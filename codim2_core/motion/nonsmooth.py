@@ -219,7 +219,7 @@ def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
     past = Past.upto(back, steps, "has left Sigma")
     motion, first = past.motion, float(past.motion.times[0])
     slip = Phase("slip", first, t_start, say("past on Sigma" if arrives else "starts outside"))
-    phases = (slip.placed(OfState(motion, None, 0.0, first, t_start), None),)
+    phases = (slip.with_place(OfState(motion, None, 0.0, first, t_start), None),)
     variation = partial(of_nonsmooth, asked.system, motion, lambda: phases, invariant_line(asked.formulas, last))
     return simulation(
         motion, lambda: phases, variation, past.status,

@@ -71,7 +71,7 @@ class _ReadMotion:
     def states(self) -> Array:
         return self.motion.states
 
-    def near(self, state: Array) -> bool:
+    def is_near(self, state: Array) -> bool:
         return math.hypot(state[0], state[1]) <= CONTACT_RADIUS * self.eps
 
     def set_at(self, state: Array) -> TrackedSet | None:
@@ -83,7 +83,7 @@ class _ReadMotion:
         low, high = 0.0, 1.0
         for _ in range(MAX_HALVINGS):
             middle = 0.5 * (low + high)
-            low, high = (middle, high) if holds(self.motion.within(i, middle)) == before else (low, middle)
+            low, high = (middle, high) if holds(self.motion.in_step(i, middle)) == before else (low, middle)
         return min(float(self.times[i] + high * self.motion.lengths[i]), float(self.times[i + 1]))
 
     def stays(self) -> Iterator[tuple[int, int]]:
@@ -134,7 +134,7 @@ class _ReadMotion:
         """Whether two step ends in a row follow the same set."""
         if here is None or there is None:
             return False
-        middle = self.set_at(self.motion.within(i, 0.5))
+        middle = self.set_at(self.motion.in_step(i, 0.5))
         if middle is None:
             return bool(np.hypot(*(here.e - there.e)) < SAME_SET_DISTANCE)
         return float(np.hypot(*(here.e - middle.e)) + np.hypot(*(there.e - middle.e))) < 3.0 * SAME_SET_DISTANCE
@@ -178,7 +178,7 @@ class _ReadMotion:
     def on_cycle(self, first: int, last: int) -> _Run | None:
         """Return the limit cycle that the motion follows from one step end to another."""
         xy = self.states[first : last + 1, :2]
-        if float(np.abs(self.turned(xy))) < TURNS * math.tau:
+        if float(np.abs(self.turning_angle(xy))) < TURNS * math.tau:
             return None
         followed: list[tuple[int, str]] = []
         for i in np.unique(np.linspace(first, last, ASKED + 1)[1:].astype(int)).tolist():
@@ -192,13 +192,13 @@ class _ReadMotion:
         (begin, onto), (end, _) = followed[0], followed[-1]
         return _Run(begin, end, float(self.times[begin]), float(self.times[end]), onto, None)
 
-    def turned(self, xy: Array) -> float:
+    def turning_angle(self, xy: Array) -> float:
         """Angle through which a part of the motion turns about its middle."""
         about = xy - 0.5 * (xy.min(axis=0) + xy.max(axis=0))
         angle = np.unwrap(np.arctan2(about[:, 1], about[:, 0]))
         return float(angle[-1] - angle[0])
 
-    def ahead(self, state: Array) -> str | None:
+    def leads_to(self, state: Array) -> str | None:
         """Name of the set onto which the orbit of the layer problem through the state leads; None if it leaves."""
         p = place_on_hemisphere(self.psi, self.eps, float(state[0]), float(state[1]))[1]
         if not math.hypot(p[0], p[1]) < 1.0:
@@ -217,8 +217,8 @@ class _ReadMotion:
             initial, final = first == 0, last + 1 == len(self.times)
             runs = self.runs(first, last)
             begins = t if initial else self.contact(first, last, runs)
-            ends = t_end if final else max(self.boundary(last, self.near), runs[-1].t_end if runs else t)
-            onto = self.ahead(self.states[-1]) if final and (not runs or runs[-1].t_end < t_end) else None
+            ends = t_end if final else max(self.boundary(last, self.is_near), runs[-1].t_end if runs else t)
+            onto = self.leads_to(self.states[-1]) if final and (not runs or runs[-1].t_end < t_end) else None
             if onto is not None:
                 if runs and runs[-1].onto == onto:
                     runs[-1] = replace(runs[-1], t_end=t_end)
@@ -286,7 +286,7 @@ class _ReadMotion:
                 return self.boundary(i - 1, close)
         if runs:
             return runs[0].t_start
-        return self.boundary(first - 1, self.near)
+        return self.boundary(first - 1, self.is_near)
 
 
 def phases_of(system: AnySystem, psi: Psi, eps: float, rtol: float, motion: Dense) -> tuple[Phase, ...]:

@@ -221,7 +221,7 @@ def _pasts(asked: _RegularisedRun, states: Array) -> tuple[Simulation, ...]:
         events=tuple(map(reverse_event, asked.events)),
     )
     problem = plane_problem(back.formulas, asked.psi, asked.eps, asked.rtol, asked.atol)
-    pasts = [Past.of(run, problem, asked.rtol) for run in back.runs(states)]
+    pasts = [Past.from_run(run, problem, asked.rtol) for run in back.runs(states)]
     return tuple(asked.told(*past) for past in pasts)
 
 

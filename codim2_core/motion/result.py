@@ -75,7 +75,7 @@ class Phase(Tabled):
         del phase.__dict__["reason"], phase.__dict__["onto"]
         return phase
 
-    def placed(self, place: Location, ascent: Ascent | None) -> Phase:
+    def with_place(self, place: Location, ascent: Ascent | None) -> Phase:
         """Return the phase with where it lies, and how it came there."""
         phase = object.__new__(Phase)
         phase.__dict__.update(self.__dict__, _place=place, _ascent=ascent)

@@ -61,7 +61,7 @@ class Traced:
         return bool(sag.max() <= 1e-12 * (along @ along))
 
     @property
-    def turning(self) -> float:
+    def total_turning(self) -> float:
         """Radians through which the tangent turns, without sign."""
         a, b = self.tangents[:-1], self.tangents[1:]
         cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
@@ -151,7 +151,7 @@ class _Net:
             places = points - (self.first[0], self.second[0])
         return np.floor(places / self.steps).astype(np.int64)
 
-    def passed(self, branch: Traced) -> None:
+    def close_along(self, branch: Traced) -> None:
         """Close the cells along a branch, and their neighbours: a step of the branch is no longer than a cell."""
         i, j = (self._cell(branch.points)[:, None, :] + _NEIGHBOURS).reshape(-1, 2).T
         if self.polar:
@@ -193,26 +193,26 @@ class _Tracer:
     def branches(self) -> list[Traced]:
         """All of them, but no more than make a picture."""
         if not self.outside and self.kind < 2:  # e.U and its like vanish at e = 0: a loop through it may be small
-            start = self._settled(np.zeros(2), 1e-6)
+            start = self._project(np.zeros(2), 1e-6)
             if start is not None and not self._at_crossing(start):
                 self._both_ways(start)
         for i, u in enumerate(self.ends):
             if not self.waiting[i] or self._enough():
                 continue
             self.waiting[i] = False
-            start = self._settled(u, 0.01)
+            start = self._project(u, 0.01)
             if start is not None:
                 start[:2] = u
                 outwards = start[2] * u[0] + start[3] * u[1] > 0.0
-                self._add(self._followed(start if outwards == self.outside else _reverse_tangents(start))[0])
+                self._add(self._trace_curve(start if outwards == self.outside else _reverse_tangents(start))[0])
         for which, crossing in enumerate(self.met):
             for i in range(len(crossing.angles)):
                 if self.unseen[which][i] and not self._enough():
-                    self._through(which, i)
+                    self._trace_half_branch(which, i)
         for middle, cell in self.net.seeds():
             if self._enough():
                 break
-            start = self._settled(middle, 2.0 * cell)
+            start = self._project(middle, 2.0 * cell)
             if start is None:
                 continue
             r = math.hypot(start[0], start[1])
@@ -242,7 +242,7 @@ class _Tracer:
         away = np.hypot(self.circles[:, 0] - start[0], self.circles[:, 1] - start[1])
         return bool((away < self.circles[:, 2]).any())
 
-    def _settled(self, point: Array, reach: float) -> Array | None:
+    def _project(self, point: Array, reach: float) -> Array | None:
         """Return the point of the curve nearest to another, with its tangent."""
         from .trace_nullcline import settle
 
@@ -250,29 +250,29 @@ class _Tracer:
         return np.array([X, Y, tx, ty]) if ok else None
 
     def _both_ways(self, start: Array) -> None:
-        rows, closed = self._followed(start)
+        rows, closed = self._trace_curve(start)
         if not closed:
-            back, _ = self._followed(_reverse_tangents(start))
+            back, _ = self._trace_curve(_reverse_tangents(start))
             rows = np.concatenate([_reverse_rows(back[1:]), rows])
         self._add(rows)
 
-    def _through(self, which: int, i: int) -> None:
+    def _trace_half_branch(self, which: int, i: int) -> None:
         """Trace the branch through a crossing along half-branch i."""
         j = self.met[which].opposite(i)
         self.unseen[which][[i, j]] = False
-        start, other = self._leaving(which, i), self._leaving(which, j)
+        start, other = self._exit_point(which, i), self._exit_point(which, j)
         if start is None or other is None:
             return
-        rows, closed = self._followed(start, (which, i))
+        rows, closed = self._trace_curve(start, (which, i))
         if not closed:
-            rows = np.concatenate([_reverse_rows(self._followed(other)[0]), rows])
+            rows = np.concatenate([_reverse_rows(self._trace_curve(other)[0]), rows])
         self._add(rows)
 
-    def _leaving(self, which: int, i: int) -> Array | None:
+    def _exit_point(self, which: int, i: int) -> Array | None:
         """Return the point where half-branch i leaves the circle around a crossing, with its tangent."""
         crossing = self.met[which]
         guess = crossing.start(i)
-        settled = self._settled(guess[:2], 0.1 * crossing.circle[2])
+        settled = self._project(guess[:2], 0.1 * crossing.circle[2])
         if settled is None:
             return None
         return settled if settled[2:] @ guess[2:] > 0.0 else _reverse_tangents(settled)
@@ -281,9 +281,9 @@ class _Tracer:
         if len(rows) > 1:
             branch = Traced(rows[:, :2].copy(), rows[:, 2:].copy())
             self.found.append(branch)
-            self.net.passed(branch)
+            self.net.close_along(branch)
 
-    def _followed(self, start: Array, origin: tuple[int, int] | None = None) -> tuple[Array, bool]:
+    def _trace_curve(self, start: Array, origin: tuple[int, int] | None = None) -> tuple[Array, bool]:
         """Follow a curve, straight on through crossings; points with tangents (n, 4), and whether it closed.
 
         origin : the crossing and its half-branch at which it starts.
@@ -307,7 +307,7 @@ class _Tracer:
             j = self.met[which].opposite(i)
             if origin == (which, j):
                 return np.concatenate([*pieces, start[None]]), True
-            leaving = self._leaving(which, j)
+            leaving = self._exit_point(which, j)
             if leaving is None or not self.unseen[which][j]:
                 return np.concatenate(pieces), False
             self.unseen[which][[i, j]] = False

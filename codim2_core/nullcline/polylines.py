@@ -58,7 +58,7 @@ def picture_points(curve: ConicCurve, psi: Psi, seen: Seen | None = None, exactl
     if isinstance(curve, Traced) and curve.straight:
         return picture_points(Straight(curve.points[0], curve.points[-1]), psi, seen)
     t, points = _sample_curve(curve, psi)
-    if seen is None or not seen.near(points).any():
+    if seen is None or not seen.steps_in_view(points).any():
         return points
     onto = exactly or (lambda e: e)
     return refine_curve(curve, lambda e: to_picture(psi, onto(e)), t, points, seen)
@@ -75,7 +75,7 @@ def _sample_curve(curve: ConicCurve, psi: Psi) -> tuple[Array, Array]:
             np.concatenate([first[1], *(points[1:] for _, points in others)]),
         )
     count = (
-        MAX_COARSE_POINTS * max(1, math.ceil(curve.turning / math.pi))
+        MAX_COARSE_POINTS * max(1, math.ceil(curve.total_turning / math.pi))
         if isinstance(curve, Traced)
         else MAX_COARSE_POINTS
     )

@@ -29,7 +29,7 @@ class Seen:
     window: tuple[float, float, float, float]
     pixel: float
 
-    def near(self, points: Array) -> NDArray[np.bool_]:
+    def steps_in_view(self, points: Array) -> NDArray[np.bool_]:
         """Tell which steps between neighbouring points (n, 2) may be seen; (n - 1,)."""
         left, right, bottom, top = self.window
         x, y = WINDOW_MARGIN * (right - left), WINDOW_MARGIN * (top - bottom)
@@ -107,7 +107,7 @@ def refine_curve(curve: ConicCurve, place: Callable[[Array], Array], t: Array, p
     points[0], points[-1] = ends
     open_ = np.ones(len(t) - 1, bool)  # steps that have not been looked at
     for _ in range(PASSES):
-        cut = np.flatnonzero(open_ & seen.near(points) & (np.diff(t) > 1e-15))
+        cut = np.flatnonzero(open_ & seen.steps_in_view(points) & (np.diff(t) > 1e-15))
         if not len(cut) or len(t) + 2 * len(cut) > MAX_BRANCH_POINTS:
             break
         thirds = t[cut, None] + (t[cut + 1] - t[cut])[:, None] * (1.0 / 3.0, 2.0 / 3.0)

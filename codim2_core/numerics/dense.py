@@ -68,7 +68,7 @@ class Dense:
             array.flags.writeable = False
         return Dense(*arrays)
 
-    def within(self, i: int, u: float) -> Array:
+    def in_step(self, i: int, u: float) -> Array:
         """State (2 + m,) at the fraction u of step i."""
         return self.states[i] + self.polynomials[i] @ (u ** np.arange(1, self.polynomials.shape[2] + 1))
 

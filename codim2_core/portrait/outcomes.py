@@ -131,7 +131,7 @@ def _comparison(own: LayerProblem, compare: Sequence[Psi] | None) -> _OutcomeQue
         return _OutcomeQuestion(own, [], False)
     if compare is None:
         compare = () if len(own.critical) > MAX_COMPARED_SETS else comparison_families()
-    return _OutcomeQuestion(own, [own.under(other) for other in compare], True)
+    return _OutcomeQuestion(own, [own.with_psi(other) for other in compare], True)
 
 
 def _direction_outcomes(asked: _OutcomeQuestion, indices: Sequence[int]) -> tuple[Outcome, ...]:

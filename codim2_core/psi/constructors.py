@@ -94,7 +94,7 @@ def make(family: str, parameter: float | None = None, text: str = "") -> Psi:
 
 
 def _member(record: Family, parameter: Any) -> Psi:
-    value = 0.0 if record.parameter is None else record.parameter.checked(parameter)
+    value = 0.0 if record.parameter is None else record.parameter.check_value(parameter)
     text = record.text(value)
     if record.kernel is None:
         expression = parse(text, ("s",))

@@ -189,7 +189,7 @@ def variant(psi: Psi, smooth: bool, whole: bool = True) -> GainVariant:
             raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
         parameter = record.names[-1] if len(record.names) > 1 else "parameter"
         return GainVariant(expression.python_source(), False, parameter, psi.kernel.saturation)
-    whole = whole and record.whole(psi.parameter)
+    whole = whole and record.uses_gain_whole(psi.parameter)
     key = record.gain_whole if whole and record.gain_whole is not None else record.gain
     return GainVariant(key, whole, cached=key.__module__.startswith(__name__.split(".")[0] + "."))
 

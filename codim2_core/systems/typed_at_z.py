@@ -102,7 +102,7 @@ class Frozen:
         e = np.asarray(e, float)
         if self._matrix is not None:
             return np.broadcast_to(self._matrix, (*e.shape[:-1], 2, 2))
-        rows = np.asarray(program(self.key).at(e.reshape(-1, 2)), np.float64)
+        rows = np.asarray(program(self.key).evaluate(e.reshape(-1, 2)), np.float64)
         return rows[:, :, 1:].reshape((*e.shape[:-1], 2, 2))
 
     @property

@@ -107,7 +107,7 @@ def case2(facts: Facts) -> tuple[Certificate, ...]:
     equator = facts.equator
     products = (equator.lambda_rho * equator.lambda_theta).tolist()
     saddles = all(
-        C.kind == "saddle" for psi in (facts.psi, *comparison_families(1)) for C in facts.problem.under(psi).critical
+        C.kind == "saddle" for psi in (facts.psi, *comparison_families(1)) for C in facts.problem.with_psi(psi).critical
     )
     holds = saddles and len(products) == 4 and all(v < 0.0 for v in products)
     numbers = (("det J", facts.critical[0].determinant), ("limit directions", float(len(products))),

@@ -106,7 +106,7 @@ def _equilibria(facts: Facts) -> Certificate:
     numbers, worst = [], 0.0
     for label, theta in zip(facts.equator.labels, facts.equator.theta.tolist(), strict=True):
         c, s = math.cos(theta), math.sin(theta)
-        u1, u2 = facts.at.U((c, s))
+        u1, u2 = facts.frozen_system.U((c, s))
         numbers.append((f"Θ at {label}", float(c * u2 - s * u1)))
         worst = max(worst, abs(numbers[-1][1]))
     count = len(numbers)
@@ -127,7 +127,7 @@ def _up_the_sphere(facts: Facts) -> Certificate:
     for label, theta, rate, flat in rows:
         p = np.array([math.cos(theta), math.sin(theta)])
         # ebar'/ebar = -p.U(e_Psi), far out in the scaling chart, where ebar is small
-        up = -float(p @ facts.at.U(facts.psi.modulus(1e8) * p))
+        up = -float(p @ facts.frozen_system.U(facts.psi.modulus(1e8) * p))
         numbers += [(f"λ_ρ at {label}", float(rate)), (f"rate up the hemisphere at {label}", up)]
         # a degenerate one is named so within 1e-4 of the direction of the critical set, with lambda_rho set to 0
         holds &= abs(up + rate) <= (1e-3 if flat else 1e-6) * facts.size
@@ -146,11 +146,11 @@ def _closed_equator(facts: Facts) -> Certificate:
     # The trapezoidal rule converges fast for a periodic analytic integrand; the exponent itself is a closed form.
     theta = np.linspace(0.0, 2.0 * math.pi, 4096, endpoint=False)
     e = np.stack([np.cos(theta), np.sin(theta)], axis=-1)
-    U = facts.at.U(e)
+    U = facts.frozen_system.U(e)
     out, around = (e * U).sum(axis=1), e[:, 0] * U[:, 1] - e[:, 1] * U[:, 0]
     size = facts.size
-    if facts.at.as_given is not None:
-        a, b, d, f1, f2 = facts.at.as_given.plane
+    if facts.frozen_system.as_given is not None:
+        a, b, d, f1, f2 = facts.frozen_system.as_given.plane
         # Theta itself, not the component of U: a, however much larger than b, stays out of it
         around = (d - a) * e[:, 1] * e[:, 0] + f2 * e[:, 0] - f1 * e[:, 1] + b
         size = abs(d - a) + abs(f1) + abs(f2) + abs(b)
@@ -186,7 +186,7 @@ def _solution(facts: Facts) -> tuple[Array, float] | str:
     """Return A⁻¹f and the condition number of A, or why it is not told."""
     if facts.location is not None and facts.location.singular:
         return say("no inverse")
-    A, f = facts.given
+    A, f = facts.own_coefficients
     condition = float(np.linalg.cond(A))
     if not condition < MOST_CONDITION:
         return say("condition number", number=condition)
@@ -213,7 +213,7 @@ def _existence(facts: Facts) -> Certificate:
         C = facts.critical[0]
         zeta = float(np.hypot(*C.x2))
         e = facts.psi.modulus(zeta) * C.x2 / zeta if zeta else C.x2
-        residual = float(abs(facts.at.U(e)).max())
+        residual = float(abs(facts.frozen_system.U(e)).max())
         numbers.append(("|A e_Ψ + f| there", residual))
         holds &= residual <= RELATIVE_TOLERANCE * facts.size
     return Certificate(
@@ -233,14 +233,14 @@ def _has_affine_w(at: FrozenSystem) -> bool:
 def _filippov(facts: Facts) -> Certificate:
     theorem = "thm:lineps1(b)"
     statement = say("slow flow of C")
-    if facts.location is None or not _has_affine_w(facts.at):
+    if facts.location is None or not _has_affine_w(facts.frozen_system):
         return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else say("W not e-linear"))
     if not facts.critical:
         return not_applicable(theorem, statement, say("no isolated critical set"))
-    if not facts.at.m:
+    if not facts.frozen_system.m:
         return not_applicable(theorem, statement, say("no slow variable"))
     e, slow = facts.critical[0].e, facts.critical[0].slow_flow
-    formula = sliding_flow(facts.at)
+    formula = sliding_flow(facts.frozen_system)
     if formula is None:
         return not_applicable(theorem, statement, say("no sliding flow"))
     formula = formula.reshape(slow.shape)
@@ -253,8 +253,8 @@ def _filippov(facts: Facts) -> Certificate:
         half = math.sqrt(max(0.0, 1.0 - (e[0] * u[1] - e[1] * u[0]) ** 2))
         first, second = e + (half - e @ u) * u, e - (half + e @ u) * u
         weight = (half + e @ u) / (2.0 * half)
-        combined = weight * facts.at.W(first) + (1.0 - weight) * facts.at.W(second)
-        across = weight * facts.at.U(first) + (1.0 - weight) * facts.at.U(second)
+        combined = weight * facts.frozen_system.W(first) + (1.0 - weight) * facts.frozen_system.W(second)
+        across = weight * facts.frozen_system.U(first) + (1.0 - weight) * facts.frozen_system.U(second)
         spread = max(spread, float(abs(combined - slow).max()) / size, float(abs(across).max()) / facts.size)
     numbers = [(f"z{i + 1}′", float(v)) for i, v in enumerate(slow)]
     numbers += [("difference from −B A⁻¹f + g", worst), ("difference from six Filippov combinations", spread)]
@@ -279,7 +279,7 @@ def _index(facts: Facts) -> Certificate:
     if degree is None or singular:
         return not_applicable(theorem, statement, say("index not defined"))
     theta = np.linspace(0.0, 2.0 * math.pi, 721)
-    U = facts.at.U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
+    U = facts.frozen_system.U(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
     index = float(sum(C.index for C in facts.critical))
     holds = degree == index
     numbers: list[tuple[str, float]] = [("sum of the indices", index), ("turns, from λ_ρ and Θ", float(degree))]
@@ -298,13 +298,13 @@ def _limit_cycles(facts: Facts, cycles: Iterable[Any] | None) -> Certificate:
     if not found:
         why = say("no cycle given") if cycles is None else say("no cycle there")
         return not_applicable(theorem, statement, why)
-    if facts.location is None or not _has_affine_w(facts.at):
+    if facts.location is None or not _has_affine_w(facts.frozen_system):
         return not_applicable(theorem, statement, NOT_LINEAR if facts.location is None else say("W not e-linear"))
     solution = _solution(facts)
     if isinstance(solution, str):
         return not_applicable(theorem, statement, solution)
     mean = -solution[0]
-    slow = facts.at.W(mean)
+    slow = facts.frozen_system.W(mean)
     numbers, holds = [], True
     size = facts.slow_size
     for i, cycle in enumerate(found):

@@ -94,7 +94,7 @@ class Facts:
     z: tuple[float, ...] = ()
 
     @property
-    def at(self) -> FrozenSystem:
+    def frozen_system(self) -> FrozenSystem:
         """The frozen system."""
         return self.problem.at
 
@@ -104,7 +104,7 @@ class Facts:
         return self.problem.at.normal_form
 
     @property
-    def given(self) -> tuple[Array, Array]:
+    def own_coefficients(self) -> tuple[Array, Array]:
         """A (2, 2) and f (2,) of an e-linear system, in its own axes."""
         form, affine = self.problem.at.as_given, self.problem.at.affine
         assert affine is not None
@@ -116,7 +116,7 @@ class Facts:
     def slow_size(self) -> float:
         """The largest |W| on the edge and in the middle (1 if W = 0): what slow flows are compared with."""
         e = np.stack([np.cos(RAY_ANGLES), np.sin(RAY_ANGLES)], axis=-1)
-        values = np.abs(self.at.W(np.concatenate([e, np.zeros((1, 2))])))
+        values = np.abs(self.frozen_system.W(np.concatenate([e, np.zeros((1, 2))])))
         return float(values.max(initial=0.0)) or 1.0
 
     @property
@@ -160,7 +160,7 @@ class Facts:
     @property
     def size(self) -> float:
         """The largest coefficient (1 if all are zero): what residuals are compared with."""
-        return self.at.size or 1.0
+        return self.frozen_system.size or 1.0
 
     @property
     def generic(self) -> bool:

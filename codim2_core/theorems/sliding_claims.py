@@ -39,7 +39,7 @@ def _stand_still(facts: Facts) -> Certificate:
         return not_applicable(theorem, statement, NO_SET)
     numbers, holds = [], True
     for label, C in zip(_labels(facts), facts.critical, strict=True):
-        residual = float(np.abs(facts.at.U(_e_of(C, facts.psi))).max())
+        residual = float(np.abs(facts.frozen_system.U(_e_of(C, facts.psi))).max())
         numbers.append((f"|U(e_Ψ)| at {label}", residual))
         holds &= residual <= (1e-6 if C.kind in FOLDED else 1e-8) * facts.size
     return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), say("vanishes there"))
@@ -53,7 +53,7 @@ def _kinds_claim(facts: Facts) -> Certificate:
     numbers: list[tuple[str, float]] = []
     holds, words = True, []
     for label, C in zip(_labels(facts), facts.critical, strict=True):
-        (m11, m12), (m21, m22) = facts.at.DU(C.e).tolist()
+        (m11, m12), (m21, m22) = facts.frozen_system.DU(C.e).tolist()
         det, sign = matrix_determinant(m11, m12, m21, m22)
         numbers += [(f"det D U at {label}", det), (f"det J at {label}", C.determinant), (f"tr J at {label}", C.trace)]
         words.append(f"{label} is {'an' if C.kind.startswith('unstable') else 'a'} {C.kind}")
@@ -67,14 +67,14 @@ def _slow_flow(facts: Facts) -> Certificate:
     theorem, statement = "thm:geneps1(c)", say("independent of Ψ")
     if not facts.critical:
         return not_applicable(theorem, statement, NO_SET)
-    if not facts.at.m:
+    if not facts.frozen_system.m:
         return not_applicable(theorem, statement, say("no slow variable"))
     numbers, holds = [], True
     for other in dict.fromkeys((facts.psi, *comparison_families(1))):
-        found = facts.problem.under(other).critical
+        found = facts.problem.with_psi(other).critical
         worst = 0.0
         for C, D in zip(facts.critical, found, strict=False):
-            worst = max(worst, float(np.abs(facts.at.W(_e_of(D, other)) - C.slow_flow).max()))
+            worst = max(worst, float(np.abs(facts.frozen_system.W(_e_of(D, other)) - C.slow_flow).max()))
         numbers.append((f"largest change of z′ with Ψ = {other.words}", worst))
         folded = any(C.kind in FOLDED for C in facts.critical)
         holds &= len(found) == len(facts.critical) and worst <= (1e-4 if folded else 1e-7) * facts.slow_size
@@ -89,9 +89,9 @@ def _slow_manifold(facts: Facts) -> Certificate:
     statement = say("slow manifold")
     if not facts.critical:
         return not_applicable(theorem, statement, NO_SET)
-    if not facts.at.m:
+    if not facts.frozen_system.m:
         return not_applicable(theorem, statement, say("m = 0, an equilibrium"))
-    if facts.system is None or len(facts.z) != facts.at.m:
+    if facts.system is None or len(facts.z) != facts.frozen_system.m:
         return not_applicable(theorem, statement, say("frozen"))
     numbers: list[tuple[str, float]] = []
     holds, skipped = True, []
@@ -109,7 +109,7 @@ def _slow_manifold(facts: Facts) -> Certificate:
         unit = float(np.hypot(1.0, np.hypot(*C.x2))) / length if length else 1.0
         left = []
         for eps in (EPS_VALUES[0] * unit, EPS_VALUES[1] * unit):
-            U = facts.at.U(e_psi(facts.psi, (C.x2 + eps * shift)[None], 1.0)[0])
+            U = facts.frozen_system.U(e_psi(facts.psi, (C.x2 + eps * shift)[None], 1.0)[0])
             left.append(float(np.abs(U - eps * drift).max()))
         numbers += [(f"|x₂ − x₂*|/ε at {label}", length), (f"defect at {label}", left[0])]
         # what is left over is of second order: it falls by 100 where eps falls by 10

@@ -37,7 +37,7 @@ class LabelBox:
             and other.y < self.y + self.height
         )
 
-    def within(self, width: float, height: float) -> bool:
+    def fits(self, width: float, height: float) -> bool:
         """Whether it is in a drawing of this size."""
         return self.x >= 0 and self.y >= 0 and self.x + self.width <= width and self.y + self.height <= height
 
@@ -81,5 +81,5 @@ def clear_of(
         for across, up in LABEL_OFFSETS
         for left in lefts
     ]
-    free = (box for box in boxes if box.within(width, height) and not any(box.meets(other) for other in taken))
+    free = (box for box in boxes if box.fits(width, height) and not any(box.meets(other) for other in taken))
     return next(free, boxes[0])

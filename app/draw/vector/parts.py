@@ -70,9 +70,9 @@ class Placement:
     def points(self, values: Any) -> Any:
         """Return points of the picture in the drawing, as an array (n, 2)."""
         points = (np.asarray(values, float).reshape(-1, 2) - (self.seen[0], self.seen[3])) * (self.scale, -self.scale)
-        return self.rounded(points)
+        return self.round_coordinates(points)
 
-    def rounded(self, points: Any) -> Any:
+    def round_coordinates(self, points: Any) -> Any:
         """Return coordinates with as many decimals as are written."""
         if not self.decimals:
             return np.rint(points).astype(int)
@@ -144,7 +144,7 @@ def arrows(places: Any, angles: Any, size: float, colour: str, place: Placement)
     corners = -np.asarray(angles)[:, None] + (0, 2.4, -2.4)
     u = places[:, :1] + size * place.unit * np.cos(corners)
     v = places[:, 1:] + size * place.unit * np.sin(corners)
-    found = place.path(place.rounded(np.stack([u, v], axis=-1)))
+    found = place.path(place.round_coordinates(np.stack([u, v], axis=-1)))
     return f'<path d="{found.replace("M", "ZM")[1:]}Z" fill="var(--{colour})"/>' if found else ""
 
 

@@ -89,7 +89,7 @@ class Sections:
     def __len__(self) -> int:
         return len(self.plane)
 
-    def taken(self, rows: Indices) -> Sections:
+    def select(self, rows: Indices) -> Sections:
         """Return some of them."""
         some = copy(self)
         for name in ("rate", "plane", "e", "u", "room", "zeta", "x2", "factors", "inner"):
@@ -125,7 +125,7 @@ class Sections:
 
         return field_of_each(self.psi, self.own is None)
 
-    def turned(
+    def integrate_turns(
         self, states: Array, rtol: float | Array, backward: NDArray[np.bool_], limit: int = MOST_STEPS
     ) -> tuple[Indices, TurnQuadratures | None]:
         """Follow one turn from states (n, 3), to one rtol or each to its own (n,).

@@ -88,6 +88,6 @@ class States:
         for near in np.clip(value + (high - low) * _TEST_OFFSETS, low, high).tolist():
             at, _, z_at = vary(*self._given, near)
             frozen = at if at.frozen else Frozen(at.typed, slow_values(z_at, at.m, needed=False))
-            U.append(program(frozen.key).at(_TEST_POINTS)[:, :, 0])
+            U.append(program(frozen.key).evaluate(_TEST_POINTS)[:, :, 0])
         values: NDArray[np.float64] = np.array(U)
         return bool(np.abs(np.tensordot(_RESIDUAL_PROJECTOR, values, 1)).max() <= _MIN_ROUGHNESS * np.abs(values).max())

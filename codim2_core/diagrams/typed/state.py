@@ -42,7 +42,7 @@ class State:
 
     def _field(self, e: Array) -> tuple[Array, Array]:
         """U (..., 2) and D_e U (..., 2, 2) at e (..., 2), compiled."""
-        rows = np.asarray(program(self._problem.at.key).at(e.reshape(-1, 2)), float).reshape(*e.shape[:-1], 2, 3)
+        rows = np.asarray(program(self._problem.at.key).evaluate(e.reshape(-1, 2)), float).reshape(*e.shape[:-1], 2, 3)
         return rows[..., 0], rows[..., 1:]
 
     @property

@@ -115,12 +115,12 @@ class Growth:
         first = taken[0].first
         self.field, self.psi, self.e = field, psi, np.array(places)
         self.motion = dense(taken[0].start, first, [gather_steps(taken, len(first))])
-        self.J = self._along()
+        self.J = self._polynomials()
         times = self.J.times
         fine = np.unique(times[:-1, None] + np.diff(times)[:, None] * np.arange(SIGN_PARTS + 1) / SIGN_PARTS)
         # between these times G is smooth and monotone, as far as signs show it
         self.cuts = np.unique(np.concatenate([times, *(_sign_changes(of, fine) for of in (self.rate, self._focus))]))
-        self.at = np.concatenate([[0.0], np.cumsum(self._between(self.cuts[:-1], self.cuts[1:]))])
+        self.at = np.concatenate([[0.0], np.cumsum(self._integrals(self.cuts[:-1], self.cuts[1:]))])
 
     def way_out(self, unstable: float) -> DelayedExitPoint | None:
         """Return when the motion leaves the set, which lost its stability at a time; None if not while it is followed.
@@ -165,7 +165,7 @@ class Growth:
         J = self.J(t)
         return J[..., 1] - 0.25 * J[..., 0] ** 2
 
-    def _along(self) -> Dense:
+    def _polynomials(self) -> Dense:
         """Trace and determinant of J, as polynomials along the steps, which are halved until these are resolved."""
         nodes = 0.5 - 0.5 * np.cos(math.pi * np.arange(TRACE_DEGREE + 1) / TRACE_DEGREE)
         powers = nodes[1:, None] ** np.arange(1, TRACE_DEGREE + 1)
@@ -186,7 +186,7 @@ class Growth:
             polynomials.append(polynomial)
         return Dense(np.array(ends), np.array(states), np.diff(ends), np.array(polynomials))
 
-    def _between(self, a: ArrayLike, b: ArrayLike) -> Array:
+    def _integrals(self, a: ArrayLike, b: ArrayLike) -> Array:
         """Integrals of G' (k,), by Gauss and Legendre in v, t = a + (b - a)(3 v^2 - 2 v^3): no root is left."""
         a, length = np.asarray(a, float), np.asarray(b, float) - a
         t = a[..., None] + length[..., None] * GAUSS_POINTS**2 * (3.0 - 2.0 * GAUSS_POINTS)
@@ -195,7 +195,7 @@ class Growth:
     def _growth(self, t: float) -> float:
         """G, from 0 at the start."""
         i = min(int(np.searchsorted(self.cuts, t, side="right")) - 1, len(self.cuts) - 2)
-        return float(self.at[i] + self._between(self.cuts[i], t))
+        return float(self.at[i] + self._integrals(self.cuts[i], t))
 
     def _reaches(self, level: float, after: float) -> float | None:
         """Return the first time from `after` on at which G has risen to a level."""

@@ -58,4 +58,4 @@ class PendingPhase:
             how, out = self.delaying.bifurcation, (way is not None, way and way.buffer)
             found = delay(field(system), motion, (times, e), phase.onto, span, *out, how)
             phase = replace(phase, delay=found)
-        return phase.placed(where, self.ascent)
+        return phase.with_place(where, self.ascent)

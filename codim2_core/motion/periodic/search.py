@@ -175,7 +175,7 @@ def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
 def _newton(asked: Shooting, shot: Shot, rtol: float) -> Shot:
     """Take Newton's steps, shorter ones where a whole one does not lead closer."""
     for _ in range(MAX_NEWTON):
-        if not asked.forced and _extent(shot) <= REST_EXTENT:
+        if not asked.is_forced and _extent(shot) <= REST_EXTENT:
             break
         if shot.residual <= RESIDUAL_RTOLS * rtol and shot.step_size <= LOOSE * rtol:
             return shot
@@ -183,10 +183,10 @@ def _newton(asked: Shooting, shot: Shot, rtol: float) -> Shot:
         if ahead is None:
             break
         shot = ahead
-    still = not asked.forced and _extent(shot) <= REST_EXTENT
+    still = not asked.is_forced and _extent(shot) <= REST_EXTENT
     if not still and shot.residual <= LOOSE * rtol and shot.step_size <= np.sqrt(rtol):
         return shot
-    if not asked.forced and _extent(shot) <= NEARLY_STILL:
+    if not asked.is_forced and _extent(shot) <= NEARLY_STILL:
         raise _Stopped(PeriodicStatus.STANDS_STILL, say("comes to rest"), shot)
     raise _Stopped(PeriodicStatus.NO_CONVERGENCE, say("no periodic motion", residual=shot.residual), shot)
 
@@ -205,7 +205,7 @@ def _closer(asked: Shooting, shot: Shot, rtol: float) -> Shot | None:
         except LostError as error:
             lost = error
             continue
-        if ahead.measured(shot.sizes) < (1.0 - 0.1 * part) * shot.residual:
+        if ahead.norm(shot.sizes) < (1.0 - 0.1 * part) * shot.residual:
             return ahead
     if lost is not None and shot.residual > LOOSE * rtol:
         raise lost
@@ -222,8 +222,8 @@ def _not_found(
 ) -> PeriodicMotion:
     missing = np.full(len(run.states[0]), np.nan)
     return _result(
-        status, reason, run, period, asked.forced, asked.advance, np.empty(0, complex), np.empty(0), "undecided",
-        residual, missing, 0.0 if asked.forced else np.nan,
+        status, reason, run, period, asked.is_forced, asked.advance, np.empty(0, complex), np.empty(0), "undecided",
+        residual, missing, 0.0 if asked.is_forced else np.nan,
     )  # fmt: skip
 
 
@@ -239,7 +239,7 @@ def _make_result(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
     change, later = fine.step
     moved = np.abs(fine.state - rough.state) + np.abs(change)
     moved[~asked.free] = 0.0
-    period_error = 0.0 if asked.forced else abs(fine.period - rough.period) + abs(later)
+    period_error = 0.0 if asked.is_forced else abs(fine.period - rough.period) + abs(later)
     stability, why = _verdict(values, errors, fine.variation.within is not None)
     alone = not (np.abs(values - 1.0) <= errors).any()
     said = [say("repeats", period=fine.period)]
@@ -249,7 +249,7 @@ def _make_result(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
     said += [why] + ([] if alone else [say("not isolated")])
     return _result(
         PeriodicStatus.FOUND if alone else PeriodicStatus.NOT_ISOLATED, " ".join(said), fine.run, fine.period,
-        asked.forced, asked.advance, values, errors, stability, fine.residual, moved, period_error,
+        asked.is_forced, asked.advance, values, errors, stability, fine.residual, moved, period_error,
     )  # fmt: skip
 
 

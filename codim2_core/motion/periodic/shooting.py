@@ -74,7 +74,7 @@ class Shooting:
     max_steps: int
 
     @property
-    def forced(self) -> bool:
+    def is_forced(self) -> bool:
         """Whether the period is known."""
         return bool(self.clocks.any())
 
@@ -141,9 +141,9 @@ class Shot:
     @property
     def residual(self) -> float:
         """Its size."""
-        return self.measured(self.sizes)
+        return self.norm(self.sizes)
 
-    def measured(self, sizes: Array) -> float:
+    def norm(self, sizes: Array) -> float:
         """Size of it, small being measured by `sizes`."""
         return float(np.abs(self.miss / sizes).max())
 
@@ -153,7 +153,7 @@ class Shot:
         free, sizes, n = self.of.free, self.sizes[self.of.free], len(self.state)
         matrix = (self.variation.last[:, :n] - np.eye(n))[np.ix_(free, free)] * sizes / sizes[:, None]
         right = -self.miss[free] / sizes
-        if not self.of.forced:
+        if not self.of.is_forced:
             behind = rate_at(self.of.formulas, self.of.psi, self.run, 0) * self.period / sizes
             ahead = self.variation.rate * self.period / sizes
             matrix = np.block([[matrix, ahead[:, None]], [behind[None], np.zeros((1, 1))]])
@@ -161,7 +161,7 @@ class Shot:
         found = _least_solution(matrix, right)
         change = np.zeros(n)
         change[free] = found[: len(sizes)] * sizes
-        return change, 0.0 if self.of.forced else float(found[-1]) * self.period
+        return change, 0.0 if self.of.is_forced else float(found[-1]) * self.period
 
     @property
     def step_size(self) -> float:

@@ -70,13 +70,13 @@ def of_nonsmooth(
     course, legs = _Course(slopes_of(system, names), motion, None), list(_legs(motion, phases()))
     if line is not None and any(course.repels(leg, line.n) for leg in legs):
         course = replace(course, n=line.n)
-    start = course.kept.copy()
+    start = course.line_projector.copy()
     if legs and legs[0].slides:
         start[:2] = 0.0
     fine, coarse, before, reason = [course.none.fine], [course.none.coarse], start, ""
     for leg, following in pairwise([*legs, None]):
         assert leg is not None
-        found, reason = course.along(leg, following, before)
+        found, reason = course.differentiate_leg(leg, following, before)
         before = reduce(lambda product, step: step @ product, found.fine, before)
         fine.append(found.fine)
         coarse.append(found.coarse)
@@ -87,7 +87,7 @@ def of_nonsmooth(
         first @= start
     end = len(matrices)
     times, rate = motion.times[: end + 1], course.rate(legs, end)
-    return chain_propagators(tuple(names), times, matrices, longer, rate, reason, course.within)
+    return chain_propagators(tuple(names), times, matrices, longer, rate, reason, course.line_basis)
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ class _Course:
         """Return the length of the state together with that of the varied numbers."""
         return self.motion.states.shape[1] + len(self.slopes.kept)
 
-    def along(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
+    def differentiate_leg(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
         """Differentiate the steps of a leg, and what happens at its end; say why it is not known further."""
         return self.slide(leg, following, before) if leg.slides else self.slip(leg, following, before)
 
@@ -140,21 +140,24 @@ class _Course:
             last = int(np.searchsorted(self.motion.times, phase.t_end, side="left"))
             reason = say("variation past an end", t=phase.t_end)
         slopes = lambda steps, u: self.slide_slopes(phase, steps, u)
-        return self.solved(range(leg.first, last), slopes, before), reason
+        return self.propagate(range(leg.first, last), slopes, before), reason
 
     def slip(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
         """Along a slip, from where it leaves Sigma to where it arrives."""
-        near = self.near(leg) if leg.to_sigma else leg.last
+        near = self.arrival_step(leg) if leg.to_sigma else leg.last
         coming = self.departure(leg) @ before if leg.from_sigma else before
-        found = self.solved(range(leg.first, near), self.slip_slopes, coming)
+        found = self.propagate(range(leg.first, near), self.slip_slopes, coming)
         if leg.from_sigma:
             for matrices in (found.fine, found.coarse):
-                matrices[0] = self.departed(leg, matrices[0])
+                matrices[0] = self.departure_matrix(leg, matrices[0])
         if not leg.to_sigma:
             return found, ""
         if following is None:
             return found, say("variation ends at Sigma", t=float(self.motion.times[near]))
-        onward, still = self.beginning(following), np.broadcast_to(np.eye(self.size), (leg.last - near, *before.shape))
+        onward, still = (
+            self.initial_rate(following),
+            np.broadcast_to(np.eye(self.size), (leg.last - near, *before.shape)),
+        )
         fine, coarse = np.concatenate([found.fine, still]), np.concatenate([found.coarse, still])
         fine[-1] = self.arrival(near, onward)
         earlier = near - 1 if near > leg.first and self.motion.states[near - 1, :2].any() else near
@@ -162,7 +165,7 @@ class _Course:
         coarse[-1] = self.arrival(earlier, onward)
         return Propagators(fine, coarse), ""
 
-    def near(self, leg: _Leg) -> int:
+    def arrival_step(self, leg: _Leg) -> int:
         """Step of a leg to Sigma at whose beginning its arrival is told best: straight on from there.
 
         Both the rest of the way and how far the direction still turns should be small; where all directions are alike
@@ -182,7 +185,7 @@ class _Course:
         """No steps."""
         return Propagators(*np.zeros((2, 0, self.size, self.size)))
 
-    def solved(self, steps: range, jacobian: Callable[[StepIndices, Array], Array], before: Array) -> Propagators:
+    def propagate(self, steps: range, jacobian: Callable[[StepIndices, Array], Array], before: Array) -> Propagators:
         """Solve along steps; x and y are measured by rho."""
         ends = slice(steps.start, steps.stop + 1)
         sizes = np.ones((len(steps) + 1, self.size))
@@ -195,7 +198,7 @@ class _Course:
         """Jacobian of the slip at fractions of steps."""
         states = states_along(self.motion, steps, u)
         found = pad_jacobians(self.slopes.of_state(*outside(states[:, :2], self.n), states), u.shape)
-        return found if self.n is None else self.kept @ found @ self.kept
+        return found if self.n is None else self.line_projector @ found @ self.line_projector
 
     def slide_slopes(self, phase: Phase, steps: StepIndices, u: Array) -> Array:
         """Jacobian of the slow flow at fractions of steps; the critical set moves by ``D_e U de + D_z U dz = 0``."""
@@ -210,10 +213,10 @@ class _Course:
         slopes = np.zeros((len(e), 2 + self.slopes.m, self.size))
         slopes[:, 2:, 2:] = Dz[:, 2:] + De[:, 2:] @ moved
         found = pad_jacobians(slopes, u.shape)
-        return found if self.n is None else self.kept @ found @ self.kept
+        return found if self.n is None else self.line_projector @ found @ self.line_projector
 
     @cached_property
-    def kept(self) -> Array:
+    def line_projector(self) -> Array:
         """Projector on the changes that are not left out: those that stay in the line."""
         found = np.eye(self.size)
         if self.n is not None:
@@ -235,12 +238,12 @@ class _Course:
         return found
 
     @property
-    def within(self) -> Array | None:
+    def line_basis(self) -> Array | None:
         """Basis of the changes of the state that stay in the line; None without one."""
         if self.n is None:
             return None
         state = self.motion.states.shape[1]
-        stays = [axis for axis in np.eye(state)[2:] if (self.kept[:state, :state] @ axis).any()]
+        stays = [axis for axis in np.eye(state)[2:] if (self.line_projector[:state, :state] @ axis).any()]
         return np.stack([np.append(self.n, np.zeros(state - 2)), *stays], axis=1)
 
     def rests(self, phase: Phase) -> bool:
@@ -258,14 +261,14 @@ class _Course:
         if leg.slides:
             e, state = leg.slides[0].e([leg.slides[0].t_start]), self.motion.states[leg.first]
             return bool(across @ self.slopes.at(e, state[None])[0, :2, :2] @ across >= 0.0)
-        near = [leg.first + 1] * leg.from_sigma + ([self.near(leg)] if leg.to_sigma else [])
+        near = [leg.first + 1] * leg.from_sigma + ([self.arrival_step(leg)] if leg.to_sigma else [])
         states = self.motion.states[near]
         e, _ = outside(states[:, :2])
         U, D = self.slopes.rates(e, states)[:, :2], self.slopes.at(e, states)[:, :2, :2]
         lambda_theta = across @ D @ across - (e * U).sum(axis=1)
         return bool((lambda_theta > NEUTRAL_RATE * np.abs(U).max(axis=1, initial=0.0)).any())
 
-    def beginning(self, leg: _Leg) -> Array:
+    def initial_rate(self, leg: _Leg) -> Array:
         """Rate of the state as a leg begins on Sigma."""
         if leg.slides:
             return self.sliding_rate(leg.slides[0], leg.slides[0].t_start)
@@ -303,17 +306,17 @@ class _Course:
         """
         start = np.eye(self.size)
         start[:2, :2] = 0.0
-        start[2 : 2 + self.slopes.m] += np.outer(self.beginning(leg)[2:], self.later(leg))
+        start[2 : 2 + self.slopes.m] += np.outer(self.initial_rate(leg)[2:], self.later(leg))
         return start
 
     def later(self, leg: _Leg) -> Array:
         """Return the change of the time of leaving by a change of the state; where a slide ended, (x, y) has none."""
-        found, onward = np.zeros(self.size), self.beginning(leg)[:2]
+        found, onward = np.zeros(self.size), self.initial_rate(leg)[:2]
         if not leg.left:
             found[:2] = -onward / (onward @ onward)
         return found
 
-    def departed(self, leg: _Leg, first: Array) -> Array:
+    def departure_matrix(self, leg: _Leg, first: Array) -> Array:
         """Make the matrix of the first step away from Sigma: who leaves later is where it was before."""
         found = first @ self.departure(leg)
         rate = self.slipping_rate(self.motion.states[leg.first + 1])

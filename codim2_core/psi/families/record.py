@@ -41,7 +41,7 @@ class Parameter:
     default: float
     note: str = ""
 
-    def checked(self, value: Any) -> float:
+    def check_value(self, value: Any) -> float:
         """Return a value that is allowed, as a float.
 
         Raises
@@ -143,6 +143,6 @@ class Family:
         """Return the title, with the parameter's value."""
         return self.title if self.parameter is None else f"{self.title}, {self.parameter.name} = {parameter:g}"
 
-    def whole(self, parameter: float) -> bool:
+    def uses_gain_whole(self, parameter: float) -> bool:
         """Whether `gain_whole` is to be used."""
         return self.gain_whole is not None and parameter in range(1, LARGEST_WHOLE + 1)

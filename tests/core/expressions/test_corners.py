@@ -77,7 +77,7 @@ def test_a_slope_at_a_corner_in_all_its_forms(text, x, y, slope):
     assert derivative.evaluate({"x": x, "y": y}) == pytest.approx(slope, rel=1e-15, abs=0)
     assert derivative.evaluate({"x": np.array([x]), "y": y}).tolist() == pytest.approx([slope], rel=1e-15, abs=0)
     plane = parse(re.sub(r"\by\b", "s", re.sub(r"\bx\b", "c", text)), ("c", "s"))
-    assert program(((plane,), ())).at(np.array([[x, y]]))[0, 0, 1] == pytest.approx(slope, rel=1e-15, abs=0)
+    assert program(((plane,), ())).evaluate(np.array([[x, y]]))[0, 0, 1] == pytest.approx(slope, rel=1e-15, abs=0)
 
 
 _BASES = st.sampled_from(

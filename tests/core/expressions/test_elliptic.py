@@ -50,7 +50,7 @@ def test_the_slope_is_that_of_the_exact_integral(name, m):
         h = mpmath.mpf(10) ** -25 * (1 - mpmath.mpf(m))
         true = float((exact(name, m + h) - exact(name, m - h)) / (2 * h)) if abs(m) > 1e-4 else None
     plane = parse(f"{name}(c)", ("c", "s"))
-    value, slope, other = program(((plane,), ())).at(np.array([[m, 0.0]]))[0, 0]
+    value, slope, other = program(((plane,), ())).evaluate(np.array([[m, 0.0]]))[0, 0]
     assert (value, other) == (plane.evaluate({"c": m}), 0.0)
     if true is not None:
         assert slope == pytest.approx(true, rel=1e-12)
@@ -67,7 +67,7 @@ def test_at_the_ends():
     assert [known[name].scalar(1.0) for name in NAMES] == [math.inf, 1.0, 1.0, 1.0, math.inf]
     assert all(math.isnan(known[name].scalar(1.5)) for name in NAMES)
     zero = np.array([[0.0, 0.0]])
-    slopes = [program(((parse(f"{name}(c)", ("c", "s")),), ())).at(zero)[0, 0, 1] for name in NAMES]
+    slopes = [program(((parse(f"{name}(c)", ("c", "s")),), ())).evaluate(zero)[0, 0, 1] for name in NAMES]
     # (2n - 1)/2 times the integral of cos^(2n) sin^2: Wallis
     assert slopes == pytest.approx([math.pi * w for w in (1 / 8, -1 / 8, 1 / 32, 3 / 64, 15 / 512)], rel=1e-14)
 
@@ -83,7 +83,7 @@ def test_bounds_hold_what_is_exact(name, m, half):
     for at in np.linspace(low, high, 7):
         if -2.0 < at < 1.0:
             assert out[0, 0] <= exact(name, float(at)) <= out[0, 1]
-            value, slope = run.at(np.array([[at, 0.0]]))[0, 0, :2]
+            value, slope = run.evaluate(np.array([[at, 0.0]]))[0, 0, :2]
             assert out[0, 0] <= value <= out[0, 1]
             assert out[0, 2] <= slope <= out[0, 3]
     enclose(*run.arrays, low, 1.01, 0.0, 0.0, work, out)

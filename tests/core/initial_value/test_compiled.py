@@ -57,11 +57,11 @@ def test_dense_output_of_all_steps_joins_and_solves_the_equations(eps):
     powers = np.arange(1, motion.polynomials.shape[2] + 1)
     for i, (h, coefficients) in enumerate(zip(motion.lengths, motion.polynomials, strict=True)):
         scale = problem.scale(motion.states[i])
-        np.testing.assert_allclose(motion.within(i, 1.0) / scale, motion.states[i + 1] / scale, atol=1e-13)
+        np.testing.assert_allclose(motion.in_step(i, 1.0) / scale, motion.states[i + 1] / scale, atol=1e-13)
         if h < 10.0 * eps:  # in a slide the rate multiplies what is left of the tolerance
             for u in (0.0, 0.3, 0.8):
                 slope = coefficients @ (powers * u ** (powers - 1)) / h
-                np.testing.assert_allclose(h * slope / scale, h * problem.F(motion.within(i, u)) / scale, atol=1e-5)
+                np.testing.assert_allclose(h * slope / scale, h * problem.F(motion.in_step(i, u)) / scale, atol=1e-5)
 
 
 def test_as_many_slow_variables_as_there_may_be(monkeypatch):

@@ -38,7 +38,7 @@ def test_all_of_a_layer_problem_has_these_names():
     problem = LayerProblem(at, family, 6.0)
     assert problem.equator.theta[0] == 0.0
     assert LayerProblem(at, family, 1.0).equator.theta[0] == pytest.approx(TURN / 3.0)
-    assert problem.under(psi.tanh()).equator is problem.equator
+    assert problem.with_psi(psi.tanh()).equator is problem.equator
     scenes = [c2.Scene(ELinear(-2.0, 0.1, -1.0, (-0.4, 0.05)), cut=cut) for cut in (0.0, 3.0)]
     shift = scenes[0]["equator"].theta.tolist().index(scenes[1]["equator"].theta[0])
     assert shift > 0

@@ -13,18 +13,18 @@ CASE_III = c2.presets["case3-n3"]
 
 def test_another_psi_shares_what_does_not_depend_on_it():
     first = LayerProblem(CASE_III.system.at(CASE_III.z), psi.hill(3))
-    other = first.under(psi.hill(1))
+    other = first.with_psi(psi.hill(1))
     assert other.equator is first.equator
     assert other.location is first.location
     assert other.equator_cycle is first.equator_cycle
     assert other.critical[0].trace != first.critical[0].trace
-    assert first.under(psi.hill(3)) is first
-    assert other.under(psi.constant()).equator is first.equator
+    assert first.with_psi(psi.hill(3)) is first
+    assert other.with_psi(psi.constant()).equator is first.equator
 
 
 def test_one_that_nobody_holds_is_gone_at_once_and_those_under_another_psi_go_on_without_it():
     first = LayerProblem(CASE_III.system.at(CASE_III.z), psi.hill(3))
-    other, gone = first.under(psi.hill(1)), weakref.ref(first)
+    other, gone = first.with_psi(psi.hill(1)), weakref.ref(first)
     on, critical = first.equator, other.critical
     gc.disable()  # a search for garbage stops everybody who drags
     try:
@@ -34,13 +34,13 @@ def test_one_that_nobody_holds_is_gone_at_once_and_those_under_another_psi_go_on
         gc.enable()
     assert other.equator.theta.tolist() == on.theta.tolist()
     assert other.critical is critical
-    assert other.under(psi.hill(1)) is other
-    assert other.under(psi.hill(3)).equator is other.equator
+    assert other.with_psi(psi.hill(1)) is other
+    assert other.with_psi(psi.hill(3)).equator is other.equator
 
 
 def test_it_is_pickled_by_what_it_is_a_problem_of():
     first = LayerProblem(CASE_III.system.at(CASE_III.z), psi.hill(3))
-    for one in (first, first.under(psi.hill(1)), c2.Scene(CASE_III.system, psi.hill(2), CASE_III.z).problem):
+    for one in (first, first.with_psi(psi.hill(1)), c2.Scene(CASE_III.system, psi.hill(2), CASE_III.z).problem):
         again = pickle.loads(pickle.dumps(one))
         assert (again.at.plane, again.psi) == (one.at.plane, one.psi)
         assert again.critical[0].trace == one.critical[0].trace

@@ -170,7 +170,7 @@ def test_closed_loops(radius):
     np.testing.assert_allclose(np.hypot(*(loop.points - [0.1, 0.0]).T), radius, rtol=1e-12)
     length = np.hypot(*np.diff(loop.points, axis=0).T).sum()
     assert length == pytest.approx(2 * math.pi * radius, rel=0.02)
-    assert loop.turning == pytest.approx(2 * math.pi, rel=0.02)
+    assert loop.total_turning == pytest.approx(2 * math.pi, rel=0.02)
 
 
 @given(polynomials, regularisations)
@@ -185,7 +185,7 @@ def test_drawn_polylines_do_not_sag(system, regularisation):
     for branch, (_, curve) in zip(drawn, traced, strict=True):
         assert np.isfinite(branch.points).all()
         assert (np.hypot(*branch.points.T) <= 1 + 1e-12).all()
-        if regularisation.family != "constant" or not (0 < curve.turning < 3):
+        if regularisation.family != "constant" or not (0 < curve.total_turning < 3):
             continue
         exact = curve(fine)
         a, d = branch.points[:-1], np.diff(branch.points, axis=0)

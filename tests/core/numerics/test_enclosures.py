@@ -20,7 +20,7 @@ def test_enclosures_contain(system, middle, half):
     (c, s), work = middle, np.empty((len(run.op), 6))
     enclose(*run.arrays, c - half, c + half, s - half, s + half, work, out)
     points = np.array(middle) + half * np.random.default_rng(0).uniform(-1, 1, (50, 2))
-    values = run.at(points)
+    values = run.evaluate(points)
     slack = 1e-14 * max(1.0, np.abs(values).max())
     for row in range(2):
         for j in range(3):
@@ -46,7 +46,7 @@ def test_every_operation_is_enclosed_and_differentiated(text):
             points[:4] = np.array([c, s]) + half * np.array([(1, 1), (1, -1), (-1, 1), (-1, -1)])
             with np.errstate(all="ignore"):
                 exact = np.concatenate([system.at().U(points)[:, :1], system.at().DU(points)[:, 0]], axis=1)
-            values = run.at(points)[:, 0]
+            values = run.evaluate(points)[:, 0]
             defined = np.isfinite(exact).all(axis=1)
             np.testing.assert_allclose(values[defined], exact[defined], rtol=1e-14, atol=1e-15)
             for j in range(3):

@@ -45,7 +45,7 @@ def test_kernel_gain_derivatives_and_formula_of_a_family_say_the_same(name):
             formula = formula.derivative("s")
             np.testing.assert_allclose(own, formula.evaluate({"s": s}), rtol=1e-6, atol=1e-9)
         assert record.gain is not None
-        whole = record.whole(value) and record.gain_whole is not None
+        whole = record.uses_gain_whole(value) and record.gain_whole is not None
         for w in (0.05, 0.4, 1.0):
             for r2 in (0.1, 0.7, 1.3):
                 exact = 1.0 / math.sqrt(r2 + w * w * psi(r2 / w**2))

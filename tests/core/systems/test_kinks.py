@@ -107,7 +107,7 @@ def test_derivatives_at_the_centre_are_no_nan(U, J):
 @settings(max_examples=20, deadline=None)
 def test_compiled_derivatives_are_those_of_the_formulas(text, c, s):
     expression = parse(text, ("c", "s", "k"))
-    got = program(((expression,), (2.0,) if "k" in expression.names else ())).at(np.array([[c, s]]))[0, 0]
+    got = program(((expression,), (2.0,) if "k" in expression.names else ())).evaluate(np.array([[c, s]]))[0, 0]
     assert np.isfinite(got).all()
     assert got[0] == pytest.approx(expression.evaluate({"c": c, "s": s, "k": 2.0}), rel=1e-12, abs=1e-15)
 

@@ -75,7 +75,7 @@ def test_turns_are_those_of_one_system(back, monkeypatch):
     backward[1] = not back
     xi = np.array([0.0, -1.0, 0.5, -0.5, -2.0])
     starts = np.array([_one(plane, psi, ray).states(x[None])[0][0] for plane, x in zip(PLANES, xi, strict=True)])
-    rows, ways = many.turned(starts, FINE_RTOL, backward)
+    rows, ways = many.integrate_turns(starts, FINE_RTOL, backward)
     paths = [path(_one(p, psi, ray), s, FINE_RTOL, bool(b)) for p, s, b in zip(PLANES, starts, backward, strict=True)]
     assert rows.tolist() == [i for i, one in enumerate(paths) if one is not None]
     assert len(rows) > 2
