@@ -250,15 +250,18 @@ export class Explorer {
     this.find(".outcome-key").hidden = !layers.includes("outcomes")
   }
 
-  // What Python, or another browser that shows this view, has set: the controls follow, unless they are being moved.
-  follow(given) {
+  // What Python, or another browser that shows this view, has set, or what follows from a request of this page (`asked`):
+  // the controls follow, unless they are being moved.
+  follow(given, asked) {
     const {values} = this
     const fresh = Object.entries(given).filter(([name, value]) => !this.requests.holds(name) && JSON.stringify(values[name]) !== JSON.stringify(value))
     for (const [name, value] of fresh) { values[name] = value; this.controls[name]?.set(value) }
     if (fresh.some(([name]) => name === "ranges")) this.showRanges()
     if (fresh.some(([name]) => name === "parameters" || name === "texts")) this.systems.set(values)
     if (!fresh.length) return
-    this.showPanels(); this.showLayers(); this.portraits.tell(); this.keepLink()
+    this.showPanels(); this.showLayers(); this.portraits.tell()
+    if (asked) this.steps.amend()
+    else this.keepLink()
     this.beside?.sync?.()
   }
 
@@ -272,7 +275,7 @@ export class Explorer {
   /** A frame has come. @param {ArrayBuffer} buffer */
   apply(buffer) {
     const frame = readFrame(buffer), {header} = frame, late = header.late ?? []
-    if (header.set) this.follow(header.set)
+    if (header.set) this.follow(header.set, this.requests.out.has(header.id))
     this.systems.apply(frame)
     this.sentences.say({...header.left_out && {"": header.left_out}, ...header.errors})
     if (header.system) this.changed = header.system.choice !== this.choice // what is old is of another system: not shown

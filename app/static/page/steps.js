@@ -24,6 +24,8 @@ export class Listed {
     this.list = [...this.list.slice(0, this.at + 1), snapshot].slice(-MOST)
     this.at = this.list.length - 1
   }
+  /** @param {Snapshot} snapshot */
+  replace(snapshot) { this.list[this.at] = snapshot }
   /** @param {number} by @param {(snapshot: Snapshot) => void} restore */
   go(by, restore) {
     const to = this.at + by
@@ -60,6 +62,8 @@ export class Browsed {
     this.present = snapshot
     this.write("pushState")
   }
+  /** @param {Snapshot} snapshot */
+  replace(snapshot) { this.present = snapshot; this.write("replaceState") }
   /** The browser answers with `popstate`: see `arrived`. @param {number} by */
   go(by) { if (by < 0 ? this.canUndo : this.canRedo) this.history.go(by) }
   /** @param {any} state of the entry that the browser went to @param {(snapshot: Snapshot) => void} restore */
@@ -103,6 +107,11 @@ export class Steps {
     const fresh = this.timer === null
     this.timer = this.clock.setTimeout(() => { if (this.held) { this.timer = null; this.changed() } else this.settle() }, QUIET)
     if (fresh) this.told()
+  }
+  /** What has changed follows from the present step, and belongs to it. */
+  amend() {
+    const now = this.look()
+    if (!this.pending && !same(now, this.kept.present)) this.kept.replace(now)
   }
   /** Keep a step now. */
   settle() {

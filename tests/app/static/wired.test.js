@@ -143,6 +143,19 @@ test("what Python sets is followed, but not over a hand", () => {
   assert.equal(one.find("textarea").value, "s")
 })
 
+test("what the answer to a change sets belongs to its step, however late it comes; what comes unasked is a step", () => {
+  const one = wired(), {steps} = one.root.explorer
+  pull(one, "#c2-f1", "1")
+  one.tick(400)
+  assert.deepEqual([steps.kept.at, steps.pending], [1, false])
+  one.answer({set: {a: 1.5}})
+  one.tick(400)
+  assert.deepEqual([steps.kept.at, steps.kept.present.values.a, query(one).a], [1, 1.5, "1.5"])
+  one.answer({set: {a: 0.5}})
+  one.tick(400)
+  assert.equal(steps.kept.at, 2)
+})
+
 test("a server that does not answer is waited for, and that is said", () => {
   const one = wired()
   one.tick(884) // 900, and so on

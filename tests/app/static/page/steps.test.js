@@ -52,6 +52,16 @@ test("many ticks of one drag are one step", () => {
   assert.equal(steps.canRedo, false)
 })
 
+test("what follows from a step belongs to it: undo passes both at once, and redo brings both back", () => {
+  const time = clock(), {seen, steps, set} = made(new Listed({value: 0}), time)
+  set(1); time.pass(600)
+  seen.value = 1.5; steps.amend(); time.pass(600)
+  steps.undo(); assert.equal(seen.value, 0)
+  steps.redo(); assert.equal(seen.value, 1.5)
+  set(2); seen.value = 2.5; steps.amend(); time.pass(600) // while it settles it is part of it anyway
+  steps.undo(); assert.equal(seen.value, 1.5)
+})
+
 test("a control that is held has not settled, however long it rests", () => {
   const time = clock()
   const {seen, steps, set} = made(new Listed({value: 0}), time)
