@@ -5,20 +5,20 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from ..jit import kernel
 from .quadrature_columns import AMPLITUDE, BY_XI, CHI, EXPONENT, HEIGHT, PARAMETERS, PERIOD, RATE, SHIFT
 
 MAX_EXPONENT = 600.0
 MIN_EIGENVALUE = 1e-280  # eigenvalue of D e_Psi
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _across(v0, v1, w0, w1):
     return v0 * w1 - v1 * w0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _lift_change(c, s, radial, tangential, along, v0, v1):
     """Find dx2 for a change v of e, at the direction (c, s) of x2; its part along x2 is given apart, with its digits.
 
@@ -28,13 +28,13 @@ def _lift_change(c, s, radial, tangential, along, v0, v1):
     return along / radial * c - across * s, along / radial * s + across * c
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _unit_vector(x, y):
     zeta = math.sqrt(x * x + y * y)
     return (x / zeta, y / zeta) if zeta > 0.0 else (1.0, 0.0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _level(c, s, radial, tangential, swelling, v0, v1, u0, u1, still):
     """Find dx2/dmu on the section at fixed y, where e moves by v."""
     vr, vp = c * v0 + s * v1 - swelling, c * v1 - s * v0
@@ -46,7 +46,7 @@ def _level(c, s, radial, tangential, swelling, v0, v1, u0, u1, still):
     return along * c - across * s, along * s + across * c
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _integrals(plane, e0, e1, rho, inner, tangential, radial, first, last, h, sign, weights, matrix, U, out):
     """Write exp(E(tau, end)), F and e at the nodes of one turn; return its exponent and its time in tau.
 
@@ -82,7 +82,7 @@ def _integrals(plane, e0, e1, rho, inner, tangential, radial, first, last, h, si
     return exponent
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _extent(inner, p0, p1, first, last, out):
     """Write the amplitude, by a parabola through the three places about the largest, and the height of one turn."""
     top, at, height = -1.0, first, math.inf
@@ -99,7 +99,7 @@ def _extent(inner, p0, p1, first, last, out):
     out[HEIGHT] = height
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def turn_quadratures(
     plane, changes, rho, e, u, room, centre, x2, starts, ends, first, h, inner, radial, tangential, swelling, sign,
     weights, matrix,

@@ -12,9 +12,9 @@ decide, the system goes to `classify`.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from ..jit import inlined_kernel, kernel
 from ..layer_problem.problem import LayerProblem
 from ..portrait.classify import portrait_name
 from ..psi import constructors
@@ -38,7 +38,7 @@ MAX_COEFFICIENT, MIN_COEFFICIENT = 1e40, 1e-40  # of the coefficients: the discr
 MIN_PRODUCT = 1e-280  # below it products may have lost digits to underflow
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _critical_case(a, b, d, f1, f2):
     """Case (0, 1, 2; -1 undecided), whether there is a critical set, and how far both lie from a border."""
     det, det_size = a * d + b * b, abs(a * d) + b * b
@@ -57,7 +57,7 @@ def _critical_case(a, b, d, f1, f2):
     return case, 1 if gap > 0.0 else 0, min(abs(gap) / (needed + reach), abs(det) / det_size)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _half_direction_count(a, b, d, f1, f2):
     """Half the number of zeros of Theta (-1 undecided), and how far it lies from a border."""
     k = d - a
@@ -93,7 +93,7 @@ def _half_direction_count(a, b, d, f1, f2):
     return 2 if p < -ERROR * p_size and q < -ERROR * q_size else -1, margin
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _filter(plane, codes, margins):  # (n, 5) a, b, d, f1, f2; codes (n,), margins (n,) are written
     for i in range(plane.shape[0]):
         a, b, d, f1, f2 = plane[i, 0], plane[i, 1], plane[i, 2], plane[i, 3], plane[i, 4]

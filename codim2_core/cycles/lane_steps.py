@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from ..stepping.dop853 import ARITHMETIC
+from ..jit import fast_kernel
 from ..stepping.layout import (
     EACH,
     ERROR_3,
@@ -27,7 +26,7 @@ LANE_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step
 TRIALS = 40
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def workspace(shared):
     """Return the workspace and the parameters of a field whose lanes all lie on the hemisphere."""
     S, P = np.zeros(WORKSPACE), np.zeros(WITH_EACH)
@@ -38,28 +37,28 @@ def workspace(shared):
     return S, P
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def load_system(P, shared, lane):
     """Put the numbers of an e-linear system into the lane whose own it is."""
     for c in range(PSI + 1):
         P[EACH + c * LANES + lane] = shared[c]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def load_state(S, state, lane):
     """Let a lane stand at a state (3,)."""
     for c in range(3):
         S[STATE + c * LANES + lane] = state[c]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def load(S, states, base, active):
     """Put the next states into the lanes; one that is left over repeats the first of them."""
     for k in range(LANES):
         load_state(S, states[base + k if k < active else base], k)
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def set_lengths(S, step):
     """Let each lane step by its own length."""
     for k in range(LANES):
@@ -67,7 +66,7 @@ def set_lengths(S, step):
             S[STEP_ROW + c * LANES + k] = step[k]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def to_sphere(S, k):
     """Put NEW back on the sphere, in lane k."""
     x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
@@ -75,7 +74,7 @@ def to_sphere(S, k):
     S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k] = x * length, y * length, w * length
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def step_error(S, k, rtol):
     """Error of the step tried in lane k, in units of what is allowed; puts NEW back on the sphere."""
     plane, height = 1.0 / rtol, 1.0 / (rtol * abs(S[NEW + 2 * LANES + k]) + 1e-300)
@@ -87,14 +86,14 @@ def step_error(S, k, rtol):
     return five / math.sqrt(3.0 * (five + 0.01 * three) + 1e-300)
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def growth(error):
     """By what the next step is longer than one of this error."""
     factor = 0.9 / math.sqrt(math.sqrt(math.sqrt(error + 1e-30)))
     return min(factor if factor > 0.2 else 0.2, 5.0)
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def narrow(k, before, g, step, low, at_low, high, at_high, side):
     """Note what lane k has found at its length, before the section or behind it; by the Illinois rule."""
     if before:
@@ -107,14 +106,14 @@ def narrow(k, before, g, step, low, at_low, high, at_high, side):
         side[k] = -1
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def next_length(k, low, at_low, high, at_high):
     """Return the length at which the chord meets the section, or the middle."""
     found = (low[k] * at_high[k] - high[k] * at_low[k]) / (at_high[k] - at_low[k])
     return found if low[k] < found < high[k] else 0.5 * (low[k] + high[k])
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def log_step(log, logged, S, k, h, i):
     """Write down where the step of lane k starts, its length and whose it is, if there is room; return how many are."""
     if logged >= log.shape[0]:

@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from ..stepping.dop853 import ARITHMETIC, advance
+from ..jit import fast_kernel, inlined_fast_kernel
+from ..stepping.dop853 import advance
 from ..stepping.layout import K0, K12, LANES, NEW, STATE, STEP_ROW, call_field
 from .lane_steps import (
     LANE_TOLERANCE_SHARE,
@@ -33,7 +33,7 @@ RETURNED, TO_CRITICAL_SET, OUTWARD, NO_RETURN_YET = range(4)  # inward: onto C; 
 DONE, FIRST_HALF, AT_HALF_TURN, SECOND_HALF, REFINING = range(5)
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
+@inlined_fast_kernel
 def _velocity(S, state, slope, k):
     """``U = x2'`` of one lane."""
     q = S[slope + 2 * LANES + k] / S[state + 2 * LANES + k]
@@ -42,7 +42,7 @@ def _velocity(S, state, slope, k):
 
 # In one piece: with the judging of errors, the search for the end and the halves of a turn as functions of their own it
 # took no longer (0.96 of the time, paired runs), but the compiler then rounds otherwise (states by 5e-15).
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, limit, record, elsewhere):
     """First return of each state to the section ``u.U = 0``, ``sense (-u2, u1).U > 0`` on which it starts.
 
@@ -185,7 +185,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
     return ends, times, codes, log[:logged]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def single_step(states, lengths, shared, whose, field):
     """Take one step of given length (n,) from each state (n, 3): for short ones as accurate as the stepping.
 

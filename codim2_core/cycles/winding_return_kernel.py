@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from ..stepping.dop853 import ARITHMETIC, advance
+from ..jit import fast_kernel, inlined_fast_kernel
+from ..stepping.dop853 import advance
 from ..stepping.layout import K0, K12, LANES, NEW, STATE, call_field
 from .lane_steps import (
     LANE_TOLERANCE_SHARE,
@@ -34,7 +34,7 @@ MAX_STEP_ANGLE = 2.0  # radians about the point in one step: more could be a tur
 REST_SPEED = 3.0  # times the tolerance: a speed at which an orbit has come to rest
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
+@inlined_fast_kernel
 def _swept_angle(S, centre, k):
     """Angle about the point from STATE to NEW."""
     ax, ay = S[STATE + k] - centre[0], S[STATE + LANES + k] - centre[1]
@@ -44,7 +44,7 @@ def _swept_angle(S, centre, k):
 
 # In one piece: with the stages of a step, the search for the end and the judging of errors as inlined functions of
 # their own, results were the same and took 7 % longer (median of paired runs, process time).
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record):
     """Follow each state until it has gone once round a point.
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from ..jit import kernel
 from .functions import kernels
 from .opcodes import (
     ADD,
@@ -25,7 +25,7 @@ from .opcodes import (
 )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _operate(k, a, b):
     """Value of operation k on a (and b)."""
     if k == ADD:
@@ -51,7 +51,7 @@ def _operate(k, a, b):
     return kernels.value(k, a)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def specialise(op, left, right, number, numbers):
     """Put the numbers in, fold constants, and mark integer powers."""
     for i in range(len(op)):
@@ -68,7 +68,7 @@ def specialise(op, left, right, number, numbers):
 
 # In one piece: with the slopes of an operation as a function of their own, results were the same and took 4 to 7 %
 # longer (paired runs, process time).
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def gradients(op, left, right, number, roots, seed, work, out):
     """Rows and their exact derivatives at one point, by the chain rule forwards.
 
@@ -127,7 +127,7 @@ def gradients(op, left, right, number, roots, seed, work, out):
             out[r, j] = work[roots[r], j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def batch(op, left, right, number, roots, points, out):
     """Rows and their derivatives by c and s at points (k, 2) of Sigma; out : (k, rows, 3)."""
     work = np.empty((len(op), 3))

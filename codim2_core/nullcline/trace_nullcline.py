@@ -10,9 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from ..expressions.interpreter import gradients
+from ..jit import kernel
 
 RHO, THETA, U1, U2 = range(4)  # kinds
 MAX_STEP, MIN_STEP = 0.04, 1e-6  # steps, in units of the disc
@@ -21,7 +21,7 @@ UNEVEN = 1e-3  # a step times the radians by which it bends otherwise than the l
 BORDER, CLOSED_CURVE, CROSSING, STUCK = range(4)  # how a curve ends
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _component_rows(op, left, right, number, roots, outside, X, Y, seed, work, rows):
     """Rows of U and their derivatives by X and Y, at a point of the e-disc or of the picture outside."""
     seed[:] = 0.0
@@ -39,7 +39,7 @@ def _component_rows(op, left, right, number, roots, outside, X, Y, seed, work, r
     gradients(op, left, right, number, roots, seed, work, rows)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _of_kind(kind, seed, rows):
     """Return the component and its derivatives, from the rows of U."""
     if kind >= U1:
@@ -56,14 +56,14 @@ def _of_kind(kind, seed, rows):
     return c * v - s * u, first, second
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _component(op, left, right, number, roots, kind, outside, X, Y, seed, work, rows):
     """Return a component of U and its derivatives by X and Y; seed (4, 3), work (n, 3), rows (2, 3) are scratch."""
     _component_rows(op, left, right, number, roots, outside, X, Y, seed, work, rows)
     return _of_kind(kind, seed, rows)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sample(op, left, right, number, roots, outside, points):
     """All four components with their derivatives at points (k, 2); returns (4, 3, k).
 
@@ -81,7 +81,7 @@ def sample(op, left, right, number, roots, outside, points):
     return out
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def flat_cells(parts, width):
     """Mark the cells, of that size, of a net in which a component and its gradient, parts (3, n, m), may vanish."""
     n, m = parts.shape[1] - 1, parts.shape[2] - 1
@@ -105,7 +105,7 @@ def flat_cells(parts, width):
     return out
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def stationary(op, left, right, number, roots, kind, outside, X, Y, reach):
     """Find a zero of the gradient by Newton's method; (ok, X, Y, value there), not ok farther than `reach` away."""
     seed, work, rows = np.zeros((4, 3)), np.empty((len(op), 3)), np.empty((2, 3))
@@ -133,7 +133,7 @@ def stationary(op, left, right, number, roots, kind, outside, X, Y, reach):
     return step < 1e-7 or abs(gx) + abs(gy) <= 1e-14, X, Y, value
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _newton_along_gradient(op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows):
     """Newton's method along the gradient; (ok, X, Y, gradient), not ok farther than `reach` away.
 
@@ -157,7 +157,7 @@ def _newton_along_gradient(op, left, right, number, roots, kind, outside, X, Y, 
     return True, X, Y, gx, gy
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def settle(op, left, right, number, roots, kind, outside, X, Y, reach, size):
     """Bring a point near a curve onto it; (ok, X, Y, tangent)."""
     seed, work, rows = np.zeros((4, 3)), np.empty((len(op), 3)), np.empty((2, 3))
@@ -171,7 +171,7 @@ def settle(op, left, right, number, roots, kind, outside, X, Y, reach, size):
     return ok, X, Y, -gy / length, gx / length
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _entered_crossing(crossings, X, Y):
     """Return the crossing within whose circle a point lies, or -1."""
     for i in range(len(crossings)):
@@ -180,7 +180,7 @@ def _entered_crossing(crossings, X, Y):
     return -1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _short_of(crossings, X, Y, h):
     """Return a step, at most h, that does not leap over the circle around a crossing."""
     for i in range(len(crossings)):
@@ -189,7 +189,7 @@ def _short_of(crossings, X, Y, h):
     return h
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _tangent(gx, gy, tx, ty):
     """Return the unit vector across a gradient, in the sense of a tangent before, and the angle from that to it."""
     length = math.hypot(gx, gy)
@@ -201,14 +201,14 @@ def _tangent(gx, gy, tx, ty):
     return nx, ny, math.atan2(tx * ny - ty * nx, tx * nx + ty * ny)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _leaps(gx, gy, slope_X, slope_Y):
     """Whether a gradient has changed so much that another branch is close by."""
     change = math.hypot(gx - slope_X, gy - slope_Y)
     return change > 0.5 * min(math.hypot(gx, gy), math.hypot(slope_X, slope_Y))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _home_ahead(home, X, Y, tx, ty, h):
     """Whether the curve, at a point with that tangent, closes within a step at `home`; and how far ahead that is."""
     away_X, away_Y = home[0] - X, home[1] - Y
@@ -216,7 +216,7 @@ def _home_ahead(home, X, Y, tx, ty, h):
     return near and abs(away_X * ty - away_Y * tx) < 0.3 * h, away_X * tx + away_Y * ty
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def trace_nullcline(op, left, right, number, roots, kind, outside, start, home, crossings, largest, size, out):
     """Follow a curve from a point on it.
 
@@ -293,7 +293,7 @@ def trace_nullcline(op, left, right, number, roots, kind, outside, start, home, 
     return count, STUCK, -1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _to_circle(op, left, right, number, roots, kind, outside, h, cX, cY, radius, floor, seed, work, rows, last):
     """Move the last point on along the curve, by less than h, to where it meets a circle."""
     X, Y, tx, ty = last[0], last[1], last[2], last[3]

@@ -11,9 +11,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from ..expressions.interpreter import gradients
+from ..jit import kernel, spliced_kernel
 from .enclosure import enclose
 
 # A square around the disc, off centre so that zeros on the axes lie inside boxes and not on their borders.
@@ -22,7 +22,7 @@ FIRST_BOXES = 8  # boxes along each side
 CAPACITY = 256  # zeros
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _newton(op, left, right, number, roots, c, s, reach, work, seed, rows):
     """Newton's method from (c, s), to rounding; (ok, c, s), not ok beyond `reach` or where it does not converge."""
     c0, s0 = c, s
@@ -41,7 +41,7 @@ def _newton(op, left, right, number, roots, c, s, reach, work, seed, rows):
     return False, c, s
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _contraction(out, y00, y01, y10, y11):
     """Bound of |I - Y D| (largest row sum) over the enclosures of D = (rows' derivatives); inf if there is none."""
     worst = 0.0
@@ -58,7 +58,7 @@ def _contraction(out, y00, y01, y10, y11):
     return worst if worst == worst else math.inf
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _empty(out, rows, half):
     """Whether U has no zero in a box: enclosures `out` over it, values and derivatives `rows` at its middle."""
     for i in range(2):
@@ -79,7 +79,7 @@ def _empty(out, rows, half):
     return max(k0, k1) > (1.0 + q) * half * (1.0 + 1e-12)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _injective_radius(op, left, right, number, roots, c, s, rows, smallest, boxes, out):
     """Half-width of a box around the zero (c, s) in which Krawczyk's test proves it and no other; 0 if none."""
     det = rows[0, 1] * rows[1, 2] - rows[0, 2] * rows[1, 1]
@@ -93,7 +93,7 @@ def _injective_radius(op, left, right, number, roots, c, s, rows, smallest, boxe
     return 0.0
 
 
-@njit(inline="always")
+@spliced_kernel
 def _cover(now):
     """Write the middles of the boxes with which the search starts; their number and half-width."""
     half = 0.5 * SQUARE_SIDE / FIRST_BOXES
@@ -105,7 +105,7 @@ def _cover(now):
     return count, half
 
 
-@njit(inline="always")
+@spliced_kernel
 def _quarter(rest, kept, half, now):
     """Write the middles of the quarters, of this half-width, of the boxes that stay undecided; their number."""
     count = 0
@@ -117,14 +117,14 @@ def _quarter(rest, kept, half, now):
     return count
 
 
-@njit(inline="always")
+@spliced_kernel
 def _is_outside(c, s, half):
     """Whether a box lies outside the disc."""
     gap_c, gap_s = max(abs(c) - half, 0.0), max(abs(s) - half, 0.0)
     return gap_c * gap_c + gap_s * gap_s > 1.0 + 1e-12
 
 
-@njit(inline="always")
+@spliced_kernel
 def _is_known(found, zeros, c, s, half):
     """Whether all of a box lies where a zero that is found is the only one."""
     known = False
@@ -134,7 +134,7 @@ def _is_known(found, zeros, c, s, half):
     return known
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def search(op, left, right, number, roots, levels, most, budget, found, rest):
     """Find all zeros of U in the closed disc and a little beyond it.
 

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
 from ..expressions.opcodes import (
     ADD,
     DIV,
@@ -23,17 +21,18 @@ from ..expressions.opcodes import (
     SUB,
     VAR,
 )
+from ..jit import inlined_kernel, kernel
 from .intervals import LOG, divide, modulus, multiply, outwards, power, range_of, slope_of
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _slope_of_hypot(a, b, lo, hi):
     """Bounds of u/h for u in [a, b] and h = hypot(u, v) in [lo, hi]: within [-1, 1], at the tip too."""
     p, q = divide(a, b, lo, hi)
     return max(p, -1.0), min(q, 1.0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _power_general(a, b, c, d):
     """Return [a, b] ** [c, d] where the base is positive; everything elsewhere."""
     if not a > 0.0:
@@ -48,7 +47,7 @@ def _power_general(a, b, c, d):
     return outwards(math.exp(lo), math.exp(hi))
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _write_linear(k, u, v, w):
     """Write -u, u + v or u - v."""
     for j in (0, 2, 4):
@@ -60,7 +59,7 @@ def _write_linear(k, u, v, w):
             w[j], w[j + 1] = outwards(u[j] - v[j + 1], u[j + 1] - v[j])
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _product(u, v, w):
     """Write u v."""
     w[0], w[1] = multiply(u[0], u[1], v[0], v[1])
@@ -70,7 +69,7 @@ def _product(u, v, w):
         w[j], w[j + 1] = outwards(a + c, b + d)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _quotient(u, v, w):
     """Write u/v, whose derivative is (u' - (u/v) v')/v."""
     w[0], w[1] = divide(u[0], u[1], v[0], v[1])
@@ -80,7 +79,7 @@ def _quotient(u, v, w):
         w[j], w[j + 1] = divide(a, b, v[0], v[1])
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _norm(u, v, w):
     """Write hypot(u, v)."""
     a, b = modulus(u[0], u[1])
@@ -95,7 +94,7 @@ def _norm(u, v, w):
         w[j], w[j + 1] = outwards(a + c, b + d)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _extreme(k, u, v, w):
     """Write min(u, v) or max(u, v); where either may be the one, its derivative is in the hull of both."""
     first, second = (u[1] < v[0], v[1] < u[0]) if k == MIN else (u[0] > v[1], v[0] > u[1])
@@ -108,7 +107,7 @@ def _extreme(k, u, v, w):
             w[j], w[j + 1] = v[j], v[j + 1]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _any_power(u, v, w):
     """Write u**v, whose derivative is u**v (v' log u + v u'/u); without v' it is v u**(v - 1) u'."""
     w[0], w[1] = _power_general(u[0], u[1], v[0], v[1])
@@ -127,7 +126,7 @@ def _any_power(u, v, w):
             w[j], w[j + 1] = multiply(w[0], w[1], a, b)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _write_function(k, exponent, u, w):
     """Write a function of u, or u**exponent with a whole exponent, by the chain rule."""
     if k == POWI:
@@ -143,7 +142,7 @@ def _write_function(k, exponent, u, w):
         w[j], w[j + 1] = multiply(a, b, u[j], u[j + 1])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def enclose(op, left, right, number, roots, c_lo, c_hi, s_lo, s_hi, work, out):
     """Enclose the rows and their derivatives by c and s over a box, on Sigma.
 

@@ -6,10 +6,11 @@ import cmath
 import math
 
 import numpy as np
-from numba import njit
+
+from ..jit import kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _evaluate_series(c, t):
     """``f = Re sum c_k exp(i k t)`` with three derivatives."""
     turn = cmath.exp(1j * t)
@@ -25,7 +26,7 @@ def _evaluate_series(c, t):
     return f, d, w, q
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _only_zero(c, low, high, rising, tolerance):
     """Return (whether there is one, the zero) on an arc where f is monotone, by its signs at the two ends."""
     first, last = _evaluate_series(c, low)[0], _evaluate_series(c, high)[0]
@@ -53,7 +54,7 @@ def _only_zero(c, low, high, rising, tolerance):
     return True, x
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def decide_arcs(c, theta, h, least, most, tolerance, first, fourth, simple):
     """Decide arcs, cutting the undecided ones in four, until none is left or they are shorter than `least`.
 
@@ -109,7 +110,7 @@ def decide_arcs(c, theta, h, least, most, tolerance, first, fourth, simple):
                 theta[4 * i + j] = left[i] + (2 * j - 3) * h
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def lowest_extremum(c, theta, h):
     """Return the smallest |f| at an extremum, of those one Newton step from the net; inf if there is none."""
     lowest = math.inf

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from ..expressions.functions import FIRST_CODE, FUNCTIONS, code, kernels
+from ..jit import kernel, spliced_kernel
 
 ABS, SIGN_CODE, ATAN, COS, COSH = (code[name] for name in ("abs", "sign", "atan", "cos", "cosh"))
 EXP, LOG, SIN, SINH = (code[name] for name in ("exp", "log", "sin", "sinh"))
@@ -25,7 +25,7 @@ HALF_PI = 0.5 * math.pi
 WHOLE_TURN = 2.0 * math.pi
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def outwards(lo, hi):
     """Return bounds moved outwards, and -inf, inf where there are none."""
     if not (lo <= hi):
@@ -33,7 +33,7 @@ def outwards(lo, hi):
     return lo - abs(lo) * WIDER - UNDERFLOW_BOUND, hi + abs(hi) * WIDER + UNDERFLOW_BOUND
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def multiply(a, b, c, d):
     """Return [a, b] [c, d]."""
     if (a == 0.0 and b == 0.0) or (c == 0.0 and d == 0.0):
@@ -44,7 +44,7 @@ def multiply(a, b, c, d):
     return outwards(min(min(p, q), min(r, s)), max(max(p, q), max(r, s)))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def divide(a, b, c, d):
     """Return [a, b]/[c, d]; everything if the divisor may be zero."""
     if not (c > 0.0 or d < 0.0):
@@ -55,7 +55,7 @@ def divide(a, b, c, d):
     return outwards(min(min(p, q), min(r, s)), max(max(p, q), max(r, s)))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def power(a, b, n):
     """Return [a, b] ** n for a whole n."""
     if n == 0.0:
@@ -66,7 +66,7 @@ def power(a, b, n):
     return power_positive(a, b, n)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def power_positive(a, b, n):
     """Return [a, b] ** n for a whole n > 0."""
     if n == 1.0:
@@ -79,7 +79,7 @@ def power_positive(a, b, n):
     return outwards(p, q)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _sine(a, b):
     if not (b - a < WHOLE_TURN):
         return -1.0, 1.0
@@ -94,26 +94,26 @@ def _sine(a, b):
     return max(lo, -1.0), min(hi, 1.0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _cosine(a, b):
     lo, hi = outwards(a + HALF_PI, b + HALF_PI)
     return _sine(lo, hi)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _hyperbolic_cosine(a, b):
     p, q = math.cosh(a), math.cosh(b)
     return outwards(1.0 if a <= 0.0 <= b else min(p, q), max(p, q))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _tangent(a, b):
     if math.floor((a - HALF_PI) / math.pi) != math.floor((b - HALF_PI) / math.pi):
         return -math.inf, math.inf
     return outwards(math.tan(a), math.tan(b))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _monotone_bounds(k, a, b, p, q):
     """Bounds between p and q, what is monotone at a and b, with the blur of the function k."""
     blur = BLUR[k - FIRST_CODE] * WIDER * (1.0 + max(abs(a), abs(b)))
@@ -121,7 +121,7 @@ def _monotone_bounds(k, a, b, p, q):
     return outwards(p - abs(p) * blur, q + abs(q) * blur)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def slope_of(k, a, b, v, w):
     """Range [v, w] of the function k over [a, b] is known; return the range of its derivative."""
     if k == SIN:
@@ -158,7 +158,7 @@ def slope_of(k, a, b, v, w):
     return _monotone_bounds(k, a, b, kernels.slope(k, a, kernels.value(k, a)), kernels.slope(k, b, kernels.value(k, b)))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def modulus(a, b):
     """Return |[a, b]|."""
     if a <= 0.0 <= b:
@@ -166,7 +166,7 @@ def modulus(a, b):
     return min(abs(a), abs(b)), max(abs(a), abs(b))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def range_of(k, a, b):
     """Range of the function k over [a, b]."""
     if k == SIN:

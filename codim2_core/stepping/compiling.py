@@ -7,9 +7,8 @@ from typing import Any
 
 from numba import cfunc
 
+from ..jit import ARITHMETIC
 from .layout import FIELD
-
-ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}
 
 
 def compile_address(function: Callable[..., None], cache: bool) -> Any:

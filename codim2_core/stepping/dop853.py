@@ -9,8 +9,7 @@ E. Hairer, S. P. Norsett, G. Wanner, "Solving Ordinary Differential Equations I"
 
 from __future__ import annotations
 
-from numba import njit
-
+from ..jit import fast_kernel
 from .layout import (
     DENSE_ROWS,
     ERROR_3,
@@ -39,11 +38,9 @@ from .layout import (
     call_field,
 )
 
-ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep their meaning
-
 
 # `advance` and `interpolate` stand in one piece each: see `lanes.integrate`.
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def advance(S, P, field):
     """One trial step of every lane: from STATE, K0 and STEP to NEW and the two error estimates."""
     for m in range(ROW_WIDTH):
@@ -167,7 +164,7 @@ def advance(S, P, field):
         )
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def interpolate(S, P, field):
     """Dense output of the step just tried, order 7: three further stages, seven coefficients in DENSE.
 
@@ -277,7 +274,7 @@ def interpolate(S, P, field):
         )
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def dense(S, m, x):
     """Value of number m of the state, and its derivative in x, at the fraction x of the step in DENSE."""
     u = 1.0 - x

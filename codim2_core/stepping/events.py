@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
-from .dop853 import ARITHMETIC, dense
+from ..jit import fast_kernel
+from .dop853 import dense
 from .layout import BLOCK, GAINS, LANES, NEW, PARAMETERS, PSIS, ROW_WIDTH, SIDE_SIGN, call_field
 
 NO_ATTRACTOR, INTERIOR, ON_EQUATOR_ATTRACTOR = range(3)
@@ -18,7 +17,7 @@ MIRROR = 2 * ROW_WIDTH + PARAMETERS  # room that `is_captured` and `winding` nee
 EQUATOR_SAMPLES = 8 * LANES  # points of the equator at which `winding` looks
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def is_captured(S, P, field, lane, capture, scratch):
     """Whether the state NEW of a lane is within `capture` (arc on the sphere) of an attracting equilibrium.
 
@@ -33,7 +32,7 @@ def is_captured(S, P, field, lane, capture, scratch):
     return _newton_distance(x, y, w, P, field, lane, capture, scratch)[0]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _newton_distance(x, y, w, P, field, lane, capture, scratch):
     """Return what is within `capture` by a Newton step, and where that leads: w is -1 where the answer is final."""
     sign = P[SIDE_SIGN + lane]
@@ -95,7 +94,7 @@ def _newton_distance(x, y, w, P, field, lane, capture, scratch):
     return kind, x * length, y * length, max(ahead * (length if sign < 0.0 else 1.0), 0.0)
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def left_view(S, lane, view):
     """Fraction of the step in DENSE at which an outside lane leaves |(1 + rho) p|_inf <= view, by bisection."""
     low, high = 0.0, 1.0
@@ -113,7 +112,7 @@ def left_view(S, lane, view):
     return high
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def winding(P, field, scratch):
     """-1, 0 or +1: the closed equator repels, is absent or neutral, attracts on the hemisphere (thm:geneps0(c)).
 

@@ -13,17 +13,17 @@ from typing import Any
 
 from numba import (
     carray,  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
-    njit,
 )
 
+from ..jit import inlined_fast_kernel
 from ..psi.function import Psi
-from .compiling import ARITHMETIC, compile_address
+from .compiling import compile_address
 from .gains import GainVariants, arguments, gain, kind, variant
 from .layout import EACH, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, WITH_EACH, call_at
 from .numbers import GAIN, PSI
 
 
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
+@inlined_fast_kernel
 def write_lane(S, out, P, lane, gain, a, b, d, f1, f2):
     """Write one lane of the field, given its gain and coefficients."""
     x, y, w = S[lane], S[lane + LANES], S[lane + 2 * LANES]

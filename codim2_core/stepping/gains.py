@@ -23,9 +23,10 @@ from numba import (
 )
 
 from ..expressions.functions import kernels
+from ..jit import ARITHMETIC, inlined_fast_kernel
 from ..psi.function import Psi
 from ..psi.kernel import UNDERFLOW_BOUND
-from .compiling import ARITHMETIC, CompiledCache, compile_address
+from .compiling import CompiledCache, compile_address
 from .layout import (
     BLOCK,
     BLOCKS,
@@ -93,7 +94,7 @@ def log(x):
     return k * LN2_HIGH + (2.0 * f + (2.0 * f * g * q + k * LN2_LOW))
 
 
-@njit(cache=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
+@inlined_fast_kernel
 def arguments(S, P, lane):
     """``|p|^2`` and ebar (0 outside) in one lane: what a gain depends on."""
     x, y = S[lane], S[lane + LANES]

@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from .dop853 import ARITHMETIC, advance, dense, interpolate
+from ..jit import fast_kernel
+from .dop853 import advance, dense, interpolate
 from .events import INTERIOR, MIRROR, NO_ATTRACTOR, is_captured, left_view, winding
 from .layout import (
     BLOCK,
@@ -49,14 +49,14 @@ LEAVING, SLOW_MARK, OTHER = 1, 2, 4  # marks of lanes to look at
 IDLE = -(1 << 60)  # steps spent by a lane without a trajectory
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _load(S, P, lane, states, signs, i):
     for c in range(3):
         S[STATE + c * LANES + lane] = states[i, c]
     P[SIDE_SIGN + lane] = signs[i]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol):
     """Error norms, projection of NEW to the sphere, and the next step of every lane. Vectorised."""
     rtol, atol = STEP_TOLERANCE_SHARE * rtol, STEP_TOLERANCE_SHARE * atol
@@ -85,7 +85,7 @@ def _judge(S, P, times, steps, tried, accepted, t_max, rtol, atol):
         steps[k] = tried[k] * factor if tried[k] > 0.0 else steps[k]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit):
     """Count the step, and mark the lanes where something may have happened. Vectorised; returns all marks."""
     marks = 0
@@ -105,7 +105,7 @@ def _flag(S, P, times, accepted, spent, flags, t_max, slow, near, view, limit):
     return marks
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _assign_gains(P, own):
     """Give each block of lanes its Psi of those in the rows of `own`: the address of its gain, and its parameter."""
     for k in range(LANES):
@@ -114,7 +114,7 @@ def _assign_gains(P, own):
         P[GAINS + j], P[PSIS + k] = own[m, 0], own[m, 1]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _begin_trajectories(
     S, P, states, signs, following, until, first, who, times, steps, spent, counts, travelled, accepted
 ):
@@ -129,7 +129,7 @@ def _begin_trajectories(
             following[m] += 1
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _try(S, who, times, steps, tried, t_max):
     """Choose the step that each lane tries: its own, or what is left of the time; 0 in a lane without a trajectory."""
     for k in range(LANES):
@@ -140,7 +140,7 @@ def _try(S, who, times, steps, tried, t_max):
         S[STEP_ROW + 2 * LANES + k] = h
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _event(S, P, field, k, flag, times, tried, t_max, capture, view, near, turn, scratch):
     """Whether an accepted step ends its trajectory: the outcome or RUNNING, the time, and the fraction of the step.
 
@@ -163,7 +163,7 @@ def _event(S, P, field, k, flag, times, tried, t_max, capture, view, near, turn,
     return T_MAX if t >= t_max else RUNNING, t, 1.0
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _write_end(S, k, fraction, ends, i):
     """Write the state of a lane at a fraction of its step as the end of trajectory i."""
     if fraction == 0.0:
@@ -180,7 +180,7 @@ def _write_end(S, k, fraction, ends, i):
             ends[i, c] = S[NEW + c * LANES + k]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _accept_steps(S, times, accepted):
     """Let each lane stand where its step has led, if that was accepted. Vectorised."""
     for k in range(LANES):
@@ -194,7 +194,7 @@ def _accept_steps(S, times, accepted):
 
 # In one piece: with the stages of a step, the drawing of a line and its end as inlined functions of their own, results
 # were the same and took 6 to 11 % longer (medians of paired runs, process time).
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit, capture, view, distance, longest):
     """Integrate every row of `states`; scaled so that |U| is about 1.
 

@@ -15,9 +15,10 @@ from typing import Any
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.extending import intrinsic
 
+from ..jit import kernel
 from .numbers import PSI, SHARED_SIZE
 
 # 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
@@ -107,7 +108,7 @@ bits_of_double: Any = intrinsic(_bits_of_double)
 EQUATOR_ROUNDING = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equator: four roundings
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _double_square(x):
     """x^2 and what its rounding lost (Dekker)."""
     big = 134217729.0 * x
@@ -117,7 +118,7 @@ def _double_square(x):
     return square, ((high * high - square) + 2.0 * high * low) + low * low
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _defect(x, y):
     """1 - x^2 - y^2 to a few roundings of itself: near the equator |p| alone, rounded, would lose its digits."""
     x2, x_lost = _double_square(max(abs(x), abs(y)))
@@ -127,7 +128,7 @@ def _defect(x, y):
     return (one - y2) + (((one - (one - y2)) - y2) + lost - x_lost - y_lost)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def states_of(points):
     """States (k, 3), signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (+1); the largest coordinate.
 

@@ -5,16 +5,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from .dop853 import ARITHMETIC
+from ..jit import fast_kernel
 from .layout import LANES
 from .polyline import X, Y, start
 
 BEGUN = -1.0  # in the place of `accepted`, in a lane whose trajectory begins
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def longer(array):
     """Twice the room along the second axis (of lines) or the first (of a table)."""
     k, n, m = array.shape
@@ -26,7 +25,7 @@ def longer(array):
     return larger
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def begin_lines(S, P, cursor, lines, accepted):
     """Put the first point on the line of each lane that begins; K0 is the field there."""
     for k in range(LANES):
@@ -35,7 +34,7 @@ def begin_lines(S, P, cursor, lines, accepted):
             lines[k, 0, 0], lines[k, 0, 1], lines[k, 0, 2] = cursor[X, k], cursor[Y, k], 0.0
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def length_of(lines, k, first, last):
     """Length of the line of a lane between two of its points."""
     total = 0.0
@@ -44,7 +43,7 @@ def length_of(lines, k, first, last):
     return total
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def end_line(lines, counts, k, sign, ends, i, stop):
     """Put the end of trajectory i on the line of its lane k, unless it is there; the line must not be full."""
     scale = 1.0 + ends[i, 2] if sign > 0.0 else 1.0
@@ -55,7 +54,7 @@ def end_line(lines, counts, k, sign, ends, i, stop):
         counts[k] += 1
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def keep_line(store, stored, lines, counts, k):
     """Put the line of a lane behind those that have ended, where there must be room; returns where they end now."""
     for j in range(counts[k]):
@@ -64,7 +63,7 @@ def keep_line(store, stored, lines, counts, k):
     return stored + counts[k]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def in_order(store, stored, where, length):
     """Lines as they were kept, put in the order of their trajectories: points, times, offsets."""
     n = len(where)

@@ -9,9 +9,8 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
-from .dop853 import ARITHMETIC, dense
+from ..jit import fast_kernel
+from .dop853 import dense
 from .layout import K0, LANES, SIDE_SIGN, STATE
 
 # Rows of the cursor, a number a lane each: the last point and the velocity there, its time, the next spacing.
@@ -21,7 +20,7 @@ LONGER = 4.0  # growth of the spacing from one chord to the next
 AIM, ALLOWED = 0.8, 0.9  # of the distance: what a chord aims at, and what it may have
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def picture_state(S, P, lane, x):
     """Picture point and picture velocity (a step's fraction as time) at the fraction x of the step in DENSE."""
     px, ux = dense(S, lane, x)
@@ -33,7 +32,7 @@ def picture_state(S, P, lane, x):
     return radius * px, radius * py, (1.0 + w) * ux + uw * px, (1.0 + w) * uy + uw * py
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def start(S, P, lane, cursor):
     """Put the cursor at a lane's STATE, where K0 is the field."""
     px, py, w = S[STATE + lane], S[STATE + LANES + lane], S[STATE + 2 * LANES + lane]
@@ -48,7 +47,7 @@ def start(S, P, lane, cursor):
     cursor[POINT_SPACING, lane] = 1e300  # to the end of the first step, or what its bend allows
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def append_step(S, P, lane, cursor, lines, count, t0, h, stop, distance):
     """Add the points of one step, from time t0 to `stop` <= t0 + h, to a lane's line.
 

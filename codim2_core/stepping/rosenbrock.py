@@ -16,9 +16,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from .dop853 import ARITHMETIC, dense
+from ..jit import fast_kernel
+from .dop853 import dense
 from .events import INTERIOR, MIRROR, ON_EQUATOR_ATTRACTOR, is_captured, left_view
 from .lanes import MAX_GROWTH, MAX_SHRINKAGE, STEP_SAFETY
 from .layout import (
@@ -56,7 +56,7 @@ MIN_W = 1e-7  # below this w its error counts as if it were this large: the rest
 CALLS = 13  # evaluations a step: 6 stages, 6 for the Jacobian, one to see whether it has arrived
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _project(S, P, high, at):
     """Bring a row to the sphere (outside: p to the circle)."""
     for k in range(LANES):
@@ -70,7 +70,7 @@ def _project(S, P, high, at):
         S[at + 2 * LANES + k] = math.sqrt(1.0 - r2) if up else abs(w) * (length if inside > 0.5 else 1.0)
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _inverse(S, P, high, field, h, J, M):
     """Write ``(I/(GAMMA h) - J)^-1`` of every lane, J of the projected field by central differences; M : (9, LANES)."""
     for c in range(3):
@@ -99,7 +99,7 @@ def _inverse(S, P, high, field, h, J, M):
         M[6, k], M[7, k], M[8, k] = C * inverse, (b * p - a * q) * inverse, (a * e - b * d) * inverse
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _solve(S, M, source, c1, c2, c3, c4, c5, h, target):
     """``M (S[source] + (c1 K1 + ... + c5 K5)/h)`` to a row; the increments of the stages are in K1 to K5."""
     for k in range(LANES):
@@ -115,7 +115,7 @@ def _solve(S, M, source, c1, c2, c3, c4, c5, h, target):
         S[target + 2 * LANES + k] = M[6, k] * x + M[7, k] * y + M[8, k] * w
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _stage(S, P, high, field, a1, a2, a3, a4, a5):
     """Put the field at ``STATE + a1 K1 + ... + a5 K5`` into K6."""
     for m in range(ROW_WIDTH):
@@ -126,7 +126,7 @@ def _stage(S, P, high, field, a1, a2, a3, a4, a5):
     call_field(field, S, TRIAL, K6, P)
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def advance(S, P, high, field, h, J, M):
     """One trial step of every lane: from STATE and K0 to NEW, the error in K7, and the dense output in DENSE."""
     _inverse(S, P, high, field, h, J, M)
@@ -181,7 +181,7 @@ def advance(S, P, high, field, h, J, M):
         )
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _error(S, high, k, rtol, atol):
     """Error of a lane's step, in units of the tolerance; NaN stays."""
     x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
@@ -190,7 +190,7 @@ def _error(S, high, k, rtol, atol):
     return plane + (0.0 if high[k] > 0.5 else height)
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _event(S, P, field, k, capture, view, scratch):
     """Return what ends a lane's trajectory within its step, if anything: a code, and the fraction of the step."""
     x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
@@ -203,7 +203,7 @@ def _event(S, P, field, k, capture, view, scratch):
     return RUNNING, 1.0
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _move_lane(S, k, fraction):
     """Move a lane's state to that fraction of its step; where it is less than 1 it has left the view on the circle."""
     x, y, w = S[NEW + k], S[NEW + LANES + k], S[NEW + 2 * LANES + k]
@@ -218,7 +218,7 @@ def _move_lane(S, k, fraction):
         S[K0 + c * LANES + k] = S[K12 + c * LANES + k]
 
 
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def _begin_lanes(S, P, states, signs, t_max, field, base, many, cursor, lines, times, travelled, counts, h):
     """Give the lanes the trajectories from `base` on, at their starts; those too many repeat the last."""
     for k in range(LANES):
@@ -235,7 +235,7 @@ def _begin_lanes(S, P, states, signs, t_max, field, base, many, cursor, lines, t
 
 # The rest in one piece: with the drawing of a step as a function of its own, results were the same and took 6 % longer
 # (median of paired runs, process time).
-@njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
+@fast_kernel
 def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, capture, view, distance):
     """Follow every row of `states` implicitly.
 

@@ -70,7 +70,7 @@ def room(module: str) -> str:
 
 def is_kernel(module: str) -> bool:
     """Whether Numba compiles what a module defines: its mutants are tried as Python."""
-    return room(module) == "core.stepping" or "from numba import" in modules()[module].read_text()
+    return room(module) == "core.stepping" or "jit import" in modules()[module].read_text()
 
 
 def guards(name: str, kernels: bool = False) -> tuple[str, ...]:

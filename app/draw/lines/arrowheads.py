@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from codim2_core.jit import kernel
 
 #: In px: how far apart arrowheads are at least, how long a curve is for each that it carries, and at least for one.
 CLEARANCE, STRETCH, MIN_LINE_LENGTH = 24.0, 300.0, 16.0
@@ -58,7 +59,7 @@ def is_warm() -> bool:
     return bool(_place_arrowheads.signatures)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _place_arrowheads(offsets, points, clearance, stretch, shortest, tried, left, right, bottom, top):
     """Try places one after the other; a grid of cells as wide as the clearance tells which arrowheads are near."""
     columns, rows = int((right - left) / clearance) + 3, int((top - bottom) / clearance) + 3

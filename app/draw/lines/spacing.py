@@ -10,8 +10,9 @@ import math
 from functools import lru_cache
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from codim2_core.jit import kernel, spliced_kernel
 
 from ..layers import Pieces
 from .arrowheads import of_one_type
@@ -85,13 +86,13 @@ def _order(count: int) -> NDArray[np.int64]:
     return order
 
 
-@njit(inline="always")
+@spliced_kernel
 def _steps(dx, dy, step):
     """Return the number of steps in which a piece of a curve is walked; pieces far outside the picture take few."""
     return 1 + int(min(math.hypot(dx, dy) / step, 1e4))
 
 
-@njit(inline="always")
+@spliced_kernel
 def _store(x, y, stored, places, older, newest, left, bottom, apart, rows):
     """Note a place in its cell; the number of places that are noted."""
     cell = (int((x - left) / apart) + 1) * rows + int((y - bottom) / apart) + 1
@@ -102,7 +103,7 @@ def _store(x, y, stored, places, older, newest, left, bottom, apart, rows):
     return stored
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _kept_pieces(offsets, points, guards, others, order, apart, shortest, left, right, bottom, top):
     """Walk along each curve in steps of half the distance; a grid of cells of that distance tells what is near."""
     columns, rows = int((right - left) / apart) + 3, int((top - bottom) / apart) + 3

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from ...jit import kernel
 from ...layer_problem.border import CANCELS
 from ...numerics import double_double
 from ...stepping.numbers import PSI, SHARED_SIZE
@@ -14,17 +14,17 @@ from ..equator_pull import LOST, MIN_HEIGHT, SUNK
 from ..global_section import INNER_RADIUS, SUNK_INWARD
 from ..return_map_kernel import RETURNED, single_step
 
-_add = njit(cache=True, error_model="numpy")(double_double.add_pairs)
-_product = njit(cache=True, error_model="numpy")(double_double.product)
+_add = kernel(double_double.add_pairs)
+_product = kernel(double_double.product)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _abs_squared(pair):
     high, low = _product(pair[0], pair[0])
     return _add((high, low), (2.0 * pair[0] * pair[1], 0.0 * high))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def critical_points(planes):
     """Find ``e_C = -A^-1 f`` (n, 2) and ``1 - |e_C|^2`` (n,) of (a, b, d, f1, f2) (n, 5), of any size.
 
@@ -48,7 +48,7 @@ def critical_points(planes):
     return e, complement
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def rays(planes, e, complement, signs):
     """Return rate, the plane in its unit, u, room, and |e_C| and u.e_C (n, 2) of sections; `signs` (n, 2) of u."""
     n = len(planes)
@@ -70,7 +70,7 @@ def rays(planes, e, complement, signs):
     return rate, plane, u, room, sides
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def linearise_at_critical(e, sides, room, zeta, radial, tangential):
     """Return x2 of C (n, 2), the eigenvalues (n, 2) of D e_Psi there, and the distance (n,) of the innermost sample."""
     n = len(e)
@@ -86,7 +86,7 @@ def linearise_at_critical(e, sides, room, zeta, radial, tangential):
     return x2, factors, inner
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def section_points(e, u, room, xi):
     """Return r, reach - r, ``1 - |e|^2`` (n, 3), e (n, 2) and |e| (n,), at parameters (n,) of sections."""
     n = len(e)
@@ -99,7 +99,7 @@ def section_points(e, u, room, xi):
     return parts, place, modulus
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def hemisphere(x2):
     """Return states (n, 3) = (p, ebar) at x2 (n, 2)."""
     states = np.empty((len(x2), 3))
@@ -109,7 +109,7 @@ def hemisphere(x2):
     return states
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def lanes(plane, parameters, backward, states, x2, inner):
     """Return what `return_map.returns` is given of each: parameters of the field, sense, floor and sunk."""
     n = len(plane)
@@ -126,7 +126,7 @@ def lanes(plane, parameters, backward, states, x2, inner):
     return shared, sense, floor, sunk
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def collect_nodes(steps, codes, shared, nodes, field):
     """Return, of the turns that return: rows (k,), first node of each, h, and whose nodes are which and where.
 
@@ -164,7 +164,7 @@ def collect_nodes(steps, codes, shared, nodes, field):
     return rows[:k], first[: k + 1], h, whose, single_step(begin, length, shared, own, field)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def distances(inner, states, ends, zeta):
     """Return |x2| at nodes, where turns start and end, and at their centres, one after the other."""
     k, n = len(inner), len(states)

@@ -7,13 +7,12 @@ from functools import reduce
 from types import MappingProxyType
 from typing import Any
 
-from numba import njit
-
+from ...jit import kernel
 from . import FUNCTIONS, code
 
 
 def _jit(function: Callable[..., Any]) -> Any:
-    return njit(function, cache=True, nogil=True, error_model="numpy")
+    return kernel(function)
 
 
 def _otherwise(first: Any, number: int, rest: Any) -> Any:

@@ -11,8 +11,7 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
+from ...jit import kernel
 from ...stepping.layout import bits_of_double, call_field
 from ..line import ZERO_NET
 from .rate import GAIN, RADIUS
@@ -28,7 +27,7 @@ CAPTURED = 1e-2  # in e: so close to a set that attracts, an orbit ends there
 ROOT = 80  # bisections at most
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def write_at(S, m, c, s):
     """Write U, W and their slopes at e = (c, s) on Sigma, at the z in place."""
     S[SET_PLACE], S[SET_PLACE + 1], S[SET_PLACE + 2], S[SET_PLACE + 3] = c, s, 0.0, 0.0
@@ -36,7 +35,7 @@ def write_at(S, m, c, s):
     call_field(bits_of_double(S[VALUE]), S, SET_PLACE, RATES, S)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _field_sizes(S, m):
     """Size of D_e U, and of U."""
     width = 4 + m
@@ -44,7 +43,7 @@ def _field_sizes(S, m):
     return slopes, slopes + abs(S[RATES]) + abs(S[RATES + 1])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _on_the_only_set(S, m):
     """Return whether all orbits of U = A (e - C) slide on C, by the symmetric part of A; C is in place."""
     write_at(S, m, 0.0, 0.0)
@@ -59,7 +58,7 @@ def _on_the_only_set(S, m):
     return math.hypot(S[SET_PLACE], S[SET_PLACE + 1]) < 1.0 - SIGNED and found_set(S, m)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _radial_speed(S, m, n1, n2, q):
     """n.U at e = q n, and its derivative by q."""
     write_at(S, m, q * n1, q * n2)
@@ -68,7 +67,7 @@ def _radial_speed(S, m, n1, n2, q):
     return n1 * S[RATES] + n2 * S[RATES + 1], n1 * across1 + n2 * across2
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _in_line(S, m, n1, n2, theta):
     """Whether an arrival in an invariant line slides; the set is in place."""
     q = math.copysign(1.0, n1 * math.cos(theta) + n2 * math.sin(theta))
@@ -98,7 +97,7 @@ def _in_line(S, m, n1, n2, theta):
     return attracts and abs(high) < 1.0 - SIGNED and found_set(S, m)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _limit_direction(S, m, theta):
     """Angle of the limit direction that an arrival at theta comes to, if it attracts on all sides; else NaN."""
     angle, radial, slope, size, change = theta, 0.0, 0.0, 0.0, 1.0
@@ -128,7 +127,7 @@ def _limit_direction(S, m, theta):
     return angle
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _layer_rate(S, P, gain, p, q):
     """Rate of the layer problem at a point of the projected disc; NaN outside."""
     gap = 1.0 - p * p - q * q
@@ -143,7 +142,7 @@ def _layer_rate(S, P, gain, p, q):
     return u - p * along, v - q * along
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _is_captured(S, P, gain, m, p, q):
     """Whether a point is close to a set that attracts under every Psi, which is then in place."""
     _layer_rate(S, P, gain, p, q)
@@ -161,7 +160,7 @@ def _is_captured(S, P, gain, m, p, q):
     return max(radial, across) < -SIGNED * size and ATTRACTS * size * size < D11 * D22 - D12 * D21
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _ends_on_a_set(S, P, gain, m, angle):
     """Follow an orbit of the layer problem from beside the equator; whether it ends on a set, which is then in place.
 
@@ -191,7 +190,7 @@ def _ends_on_a_set(S, P, gain, m, angle):
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def slides(S, P, gain, n, affine, known, n1, n2, theta):
     """Whether what arrives at Sigma at theta surely slides; the critical set is in place, at the z there.
 

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
-
+from ...jit import kernel
 from ..departure import FAST_START, MAX_CORRECTION, MAX_NEWTON, NEUTRAL_RATE, SLOW_START, TILT, pace
 from .arrival import write_at
 from .slow import RATES, TABLE
 
-_pace = njit(cache=True, nogil=True, error_model="numpy")(pace)
+_pace = kernel(pace)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _polish_theta(S, m, theta):
     """Return the zero of Theta near theta, by Newton's method; NaN where there is none."""
     angle, width = theta, 4 + m
@@ -30,7 +29,7 @@ def _polish_theta(S, m, theta):
     return angle
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def leave(S, m, n1, n2, theta, ahead, linear, square):
     """Write the first, short step away from Sigma; return its length, 0 where the caller has to decide.
 

@@ -9,8 +9,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from ...jit import kernel
 from ..safe_steps import COEFFICIENTS, LEFT_OUT, SAFE_DEGREE, SAFE_NODES
 from .slow import SET_PLACE, TABLE, found_set
 
@@ -21,7 +21,7 @@ EXACT = 1e-15  # of a step
 MIN_PART = 1.0 / 64.0  # of a step: parts that are not sure are halved down to this
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def set_on_step(S, first, polynomial, u):
     """Put the critical set at a fraction of a step in place; say whether there is one.
 
@@ -42,19 +42,19 @@ def set_on_step(S, first, polynomial, u):
     return found_set(S, n - 2)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _gap(S):
     r = math.hypot(S[SET_PLACE], S[SET_PLACE + 1])
     return (1.0 - r) * (1.0 + r)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def determinant(S, n):
     """Det D_e U at the set that was found last."""
     return S[TABLE] * S[TABLE + n + 3] - S[TABLE + 1] * S[TABLE + n + 2]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _write_gauges(S, n, sign, n1, n2, values, node):
     D11, D12, D21, D22 = S[TABLE], S[TABLE + 1], S[TABLE + n + 2], S[TABLE + n + 3]
     values[0, node] = _gap(S)
@@ -70,7 +70,7 @@ def _write_gauges(S, n, sign, n1, n2, values, node):
     values[2, node], values[3, node] = -radial, radial - D11 - D22
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _bounds(values, found):
     """Write the coefficients of the polynomial through values at the nodes; return what it leaves out."""
     for j in range(SAFE_DEGREE + 1):
@@ -81,7 +81,7 @@ def _bounds(values, found):
     return LEFT_OUT * (abs(found[SAFE_DEGREE]) + abs(found[SAFE_DEGREE - 1]))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _zero(S, first, polynomial, low, high, before, after):
     """Fraction of a step at which 1 - |e|^2 is zero, between two where it has opposite signs; NaN where e is lost."""
     kept = 0
@@ -105,7 +105,7 @@ def _zero(S, first, polynomial, low, high, before, after):
     return high if kept == -1 else low
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _part_end(S, first, polynomial, low, high, sign, n1, n2, values, found):
     """Tell of the part of a step between two of its fractions what `step_end` tells of all of it."""
     n = len(first)
@@ -134,7 +134,7 @@ def _part_end(S, first, polynomial, low, high, sign, n1, n2, values, found):
     return AT_EQUATOR_END, _zero(S, first, polynomial, low, high, before, after)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def step_end(S, first, polynomial, sign, n1, n2, values):
     """Tell of a step of (e, z) whether a slide goes on along it, or ends at the equator, at which fraction.
 

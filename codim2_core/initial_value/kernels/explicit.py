@@ -10,8 +10,7 @@ import math
 from types import FunctionType
 from typing import Any
 
-from numba import njit
-
+from ...jit import fast_kernel, inlined_kernel, kernel, spliced_kernel
 from ...numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE, STEP_SAFETY
 from ...stepping import dop853, layout
 from .rate import RATE_PLACES, jacobian, rate_between
@@ -36,7 +35,7 @@ ROOM = RATE_PLACES + layout.WORKSPACE // layout.ROW_WIDTH * MAX_COMPONENTS
 DENSE_DEGREE = 7  # of the dense output
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def _evaluate_field(motion, S, source, target, P):  # noqa: ARG001 (called as `layout.call_field` is)
     rate_between(motion, S, source, S, S, target)
 
@@ -48,13 +47,13 @@ def _compile_component(function: Any) -> Any:
     made = FunctionType(own.__code__, scope, own.__name__)
     # The disk cache knows a function by its file and its qualified name.
     made.__module__, made.__qualname__ = own.__module__, f"{own.__name__}_of_one"
-    return njit(cache=True, nogil=True, fastmath=dop853.ARITHMETIC, error_model="numpy")(made)
+    return fast_kernel(made)
 
 
 _advance, _interpolate = _compile_component(dop853.advance), _compile_component(dop853.interpolate)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def begin(motion, y, work):
     """Write a state, and its rate, where an explicit step begins."""
     S = work.S
@@ -65,7 +64,7 @@ def begin(motion, y, work):
         work.rate[i] = S[K0 + i]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def go_on(motion, work):
     """Begin the next step where the last one ended."""
     S = work.S
@@ -76,7 +75,7 @@ def go_on(motion, work):
         work.size[i] = work.end_size[i]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def attempt(motion, h, clock, work):
     """Try one step: whether it is accepted, and the factor to the next step."""
     S, n = work.S, motion.n
@@ -108,7 +107,7 @@ def attempt(motion, h, clock, work):
     return True, change
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def stiff(motion, h, work):
     """Whether h times a rate is so large that steps may be short for stability alone (at about 6); before `keep`.
 
@@ -125,7 +124,7 @@ def stiff(motion, h, work):
     return h * max(abs(J[0, 0]) + abs(J[0, 1]), abs(J[1, 0]) + abs(J[1, 1])) > 2.0 * STIFF
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def keep(motion, y, clock, work, polynomial, end):
     """Move the state over a step that is accepted; keep its polynomial, nested in u and 1 - u, in powers of u."""
     S = work.S

@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from ...jit import kernel
 from ...stepping.layout import PARAMETERS, double_of_bits
 from ...stepping.numbers import PSI
 from ..safe_steps import SAFE_DEGREE
@@ -44,14 +44,14 @@ MIN_STEP = 1e-14  # of the time in which z changes by its own size: shorter step
 OF_SLIPS = 0.5  # of rtol, asked of the steps of a slip: see `initial_value.compiled_phases`
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _in_place(S, z):
     """Put z, the end of a state, in place."""
     for i in range(2, len(z)):
         S[SET_PLACE + 2 + i] = z[i]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _first_step(S, y, floor):
     """First step tried of a slide: a small part of the time in which z changes by its own size."""
     speed = 0.0
@@ -60,7 +60,7 @@ def _first_step(S, y, floor):
     return FIRST_STEP_SHARE / speed if speed > 0.0 else math.inf
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _truncate_polynomial(polynomial, u):
     """Make a step's polynomial that of its part up to u."""
     power = 1.0
@@ -70,7 +70,7 @@ def _truncate_polynomial(polynomial, u):
             polynomial[i, k] *= power
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _on_sigma(S, sign, line1, line2, raw, values, lengths, ends, polynomials, sets):
     """Look along the steps of (e, z) of a slide: make them steps of a state on Sigma, and keep e at their ends.
 
@@ -107,7 +107,7 @@ def _on_sigma(S, sign, line1, line2, raw, values, lengths, ends, polynomials, se
     return SAFE, len(lengths)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _keep_step(y, linear, square, row, states, polynomials):
     """Move the state over a step whose polynomial is `linear` u + `square` u^2, and keep it."""
     n, each = len(y), explicit.DENSE_DEGREE * len(y)
@@ -120,7 +120,7 @@ def _keep_step(y, linear, square, row, states, polynomials):
         polynomials[row * each + j * explicit.DENSE_DEGREE + 1] = square[j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _straight_on(motion, S, y, rates, linear, square):
     """Write the rest of the way to Sigma, which is straight; return its time, or infinity where it leads away."""
     rate(motion, y, S, rates)
@@ -134,7 +134,7 @@ def _straight_on(motion, S, y, rates, linear, square):
     return rho / inward
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _begun_slide(S, y, floor, control, ahead):
     """Put the set that a slide begins on in place, and its first step; say whether it is there, and the sign of det."""
     _in_place(S, y)
@@ -145,7 +145,7 @@ def _begun_slide(S, y, floor, control, ahead):
     return there, math.copysign(1.0, determinant(S, len(y)))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _roomier(n, times, lengths, states, polynomials, sets):
     """Return the arrays of all rows with room for more than twice as many."""
     room = 2 * len(times) + STEPS_PER_CALL
@@ -154,7 +154,7 @@ def _roomier(n, times, lengths, states, polynomials, sets):
     return times, lengths, longer(states, room * n), longer(polynomials, room * each), sets
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def follow_courses(addresses, numbers, coefficients, lines, first, most):
     """Follow one motion from each state outside Sigma, as far as it is decided.
 

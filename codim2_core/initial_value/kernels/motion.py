@@ -10,8 +10,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from ...jit import kernel, spliced_kernel
 from ...numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH
 from .. import problem
 from . import explicit, radau
@@ -35,16 +35,16 @@ SWITCH_SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other met
 MIN_IMPLICIT_STEPS = 20.0  # implicit steps that a slide takes at least, about: as many have to be saved
 
 
-arrived = njit(cache=True, nogil=True, error_model="numpy")(problem.arrival_radius)
+arrived = kernel(problem.arrival_radius)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def price(n):
     """Cost of an implicit step, in explicit ones, for a state of n numbers (measured for n = 2 ... 5)."""
     return 1.0 + 0.25 * n * n
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def _advance_time(clock, control, h, y):
     """Let the time go on, with what its rounding loses; say whether the state has blown up."""
     total = h + clock[1]
@@ -59,7 +59,7 @@ def _advance_time(clock, control, h, y):
     return extent > MAX_STATE or extent > GROWN * control[LARGEST_RHO]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def _length(wanted, bound, remaining):
     """Length of the next step: no longer than its bound, and with no sliver left at the end."""
     h = min(wanted, bound)
@@ -68,7 +68,7 @@ def _length(wanted, bound, remaining):
     return 0.5 * remaining if h > 0.5 * remaining else h
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _turned_implicit(motion, control, work, h, remaining):
     """After an explicit step: go on implicitly where the next ones would be short for stability alone, and many."""
     if remaining < control[WORTH] * h:
@@ -83,7 +83,7 @@ def _turned_implicit(motion, control, work, h, remaining):
     control[WORTH] *= 2.0  # what turns back soon is asked for more the next time
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def _turned_explicit(motion, control, bound, reach):
     """Go on explicitly where an implicit step would cost more than explicit ones over the same span."""
     if motion.n > explicit.MAX_COMPONENTS or min(control[NEXT], bound) * reach > price(motion.n) * STABLE:
@@ -97,7 +97,7 @@ def _turned_explicit(motion, control, bound, reach):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def integrate_motion(motion, table, work, y, clock, control, starts, lengths, ends, polynomials):
     """Step until the time is over, the steps are used up, or the arrays are full.
 
@@ -185,7 +185,7 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
     return FINISHED, filled
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def prepare_motion(motion, y, clock, control, t_start, t_end, most, work):
     """Set the clock and the control for a motion from its start; say whether the rate is finite there."""
     clock[0], clock[1], clock[2], clock[3] = t_start, 0.0, t_end, 1.0
@@ -205,7 +205,7 @@ def prepare_motion(motion, y, clock, control, t_start, t_end, most, work):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def longer(array, length):
     """Return an array of numbers that begins with another's: a plain loop, which compiles fast."""
     found = np.empty(length)
@@ -214,7 +214,7 @@ def longer(array, length):
     return found
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def follow_all(fields, numbers, coefficients, lines, first, most):
     """Follow one motion from each state, all the way.
 

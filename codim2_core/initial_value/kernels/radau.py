@@ -8,15 +8,15 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from ...jit import spliced_kernel
 from ...numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE, STAGES, STEP_SAFETY
 from ..problem import CONTACT
 from .rate import inward_bound, jacobian, rate, sizes
 from .stages import factor, guess, matrices, solve, solve_stages
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def _longest_step(motion, y, work, h):
     """Longest step: 0.9 of the way to Sigma, and one time of growth, which a longer step would damp; and the reach.
 
@@ -43,7 +43,7 @@ def _longest_step(motion, y, work, h):
     return bound, reach
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def linearise(motion, y, wanted, clock, work):
     """Write a state's rate, Jacobian and size; return the longest step allowed from it, and the reach."""
     rate(motion, y, work.S, work.rate)
@@ -53,7 +53,7 @@ def linearise(motion, y, wanted, clock, work):
     return _longest_step(motion, y, work, wanted)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def _error(motion, table, h, rates, work):
     """Write the estimated error in units of size, from a rate where the step begins; return its norm, 1 for rtol."""
     n, gamma, weights, rtol = motion.n, table.gamma, table.error, motion.rtol
@@ -71,7 +71,7 @@ def _error(motion, table, h, rates, work):
     return norm
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def _error_norm(motion, table, y, h, refine, clock, work):
     """Norm of the error of a step whose stages are known; a stiff component's is too large: filter it once more."""
     n, trial = motion.n, work.trial
@@ -88,7 +88,7 @@ def _error_norm(motion, table, y, h, refine, clock, work):
     return norm
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def attempt(motion, table, y, h, before_h, refine, clock, work):
     """Try one step: whether it is accepted, and the factor to the next step."""
     n = motion.n
@@ -106,7 +106,7 @@ def attempt(motion, table, y, h, before_h, refine, clock, work):
     return (True, change) if norm <= 1.0 else (False, min(change, 0.8))
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def keep(table, y, work, polynomial, end):
     """Move the state over a step that is accepted, and keep its polynomial, of degree 5."""
     fit, Z, first, before = table.fit, work.Z, work.first, work.before

@@ -9,9 +9,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from numba import njit
-
 from ...expressions.names import MOST_SLOW_VARIABLES
+from ...jit import inlined_kernel, kernel, spliced_kernel
 from ...stepping.layout import call_field
 from ..problem import MAX_INWARD_SHARE
 
@@ -49,13 +48,13 @@ class MotionConstants(NamedTuple):
     line2: float
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def rate(motion, y, S, out):
     """Write the rate (U, W) at a state; in an invariant line, kept in it."""
     rate_between(motion, y, 0, S, out, 0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+@inlined_kernel
 def rate_between(motion, y, source, S, out, target):
     """Write the rate at the state y[source:] to out[target:]."""
     n, line1, line2 = motion.n, motion.line1, motion.line2
@@ -78,7 +77,7 @@ def rate_between(motion, y, source, S, out, target):
         out[target], out[target + 1] = along * line1, along * line2
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def sizes(motion, y, size):
     """Write the size (n,) by which errors are measured at a state."""
     for i in range(2, motion.n):
@@ -86,7 +85,7 @@ def sizes(motion, y, size):
     size[0] = size[1] = math.sqrt(y[0] * y[0] + y[1] * y[1] + motion.eps * motion.eps)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def inward_bound(motion, y, rates):
     """Longest step: 0.9 of the way to Sigma."""
     inward = -(y[0] * rates[0] + y[1] * rates[1])
@@ -94,7 +93,7 @@ def inward_bound(motion, y, rates):
     return MAX_INWARD_SHARE * square / inward if inward > 0.0 else math.inf
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _modulus(motion, r, S):
     """|e_Psi| at distance r, odd in r."""
     S[RADIUS], S[RADIUS + 1] = r * r, motion.eps
@@ -102,7 +101,7 @@ def _modulus(motion, r, S):
     return r * S[GAIN]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def jacobian(motion, y, S, J):
     """Write the Jacobian of the rate at a state, right after its rate: S holds the arguments.
 

@@ -15,10 +15,10 @@ from typing import Any
 import numpy as np
 from numba import (
     carray,  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
-    njit,
 )
 
 from ...expressions.names import MOST_SLOW_VARIABLES
+from ...jit import kernel
 from ...stepping.compiling import compile_address
 from ...stepping.layout import bits_of_double, call_field
 from .explicit import ROOM
@@ -36,7 +36,7 @@ TABLE = RATES + 4 + MOST_SLOW_VARIABLES
 SLOW_EXTENT = TABLE + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def write_slopes(S, m):
     """Write the slopes at a place; where they are undefined those just beside, or 0."""
     slopes, count, whole = bits_of_double(S[SLOPES]), (2 + m) * (4 + m), True
@@ -55,7 +55,7 @@ def write_slopes(S, m):
         S[TABLE + i] = S[TABLE + i] if math.isfinite(S[TABLE + i]) else 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def found_set(S, m):
     """Find the critical set near the e in place, by Newton's method, and its rates; say whether there is one."""
     value, width = bits_of_double(S[VALUE]), 4 + m
@@ -77,7 +77,7 @@ def found_set(S, m):
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _critical_velocity(S, m, u, v):
     """Return how e moves where U moves by (u, v)."""
     width = 4 + m
@@ -131,7 +131,7 @@ def _slow_slopes(state, out, parameters):
         D[4 + j], D[width + 4 + j] = _critical_velocity(S, m, u, v)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sets(addresses, points):
     """Find the critical sets near points (k, 2 + m), (e, z): e (k, 2), NaN where there is none, and D_e U (k, 2, 2)."""
     k, n = points.shape

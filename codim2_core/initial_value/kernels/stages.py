@@ -6,8 +6,8 @@ import math
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 
+from ...jit import kernel, spliced_kernel
 from ...numerics.radau import ITERATIONS, STAGES, Tableau
 from ...stepping.numbers import PSI
 from .explicit import ROOM
@@ -37,7 +37,7 @@ class StepArrays(NamedTuple):
     first: Any
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def workspace(n, parameter):
     """Return the arrays for a state of n components, and a parameter of Psi."""
     S = np.zeros(ROOM)
@@ -45,7 +45,7 @@ def workspace(n, parameter):
     return work_on(S, n)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def work_on(S, n):
     """Return the arrays for a state of n components, with a workspace S that is there already."""
     N = STAGES * n
@@ -56,7 +56,7 @@ def work_on(S, n):
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def tableau_of(numbers):
     """Return the tableau whose numbers follow one another."""
     square = STAGES * STAGES
@@ -69,7 +69,7 @@ def tableau_of(numbers):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def factor(A, pivots, n):
     """LU of A in place, with row exchanges; False if it is singular."""
     for k in range(n):
@@ -93,7 +93,7 @@ def factor(A, pivots, n):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def solve(A, pivots, b, n):
     """Solve with the factors, in place."""
     for k in range(n):
@@ -111,7 +111,7 @@ def solve(A, pivots, b, n):
         b[i] = total / A[i, i]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def guess(table, before, first, ratio, y, Z):
     """Continue the last step's polynomial into a step `ratio` times as long, if that is not too far; say whether."""
     nodes, guessed = table.nodes, ratio <= MAX_EXTRAPOLATION
@@ -127,7 +127,7 @@ def guess(table, before, first, ratio, y, Z):
     return guessed
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def matrices(table, h, J, size, big, small):
     """Write I - h A x J in units of size, and the small matrix of the error estimate."""
     n, A, gamma = len(size), table.A, table.gamma
@@ -144,7 +144,7 @@ def matrices(table, h, J, size, big, small):
         small[i, i] += 1.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _newton_verdict(change, last, iteration, enough):
     """After one iteration of Newton's method: 1 if it is enough, -1 if it will not do, 0 if it goes on."""
     if iteration > 0:
@@ -159,7 +159,7 @@ def _newton_verdict(change, last, iteration, enough):
     return 1 if change <= 1e-3 * enough else 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@spliced_kernel
 def solve_stages(motion, table, y, h, clock, work):
     """Solve for the stages Z by simplified Newton iterations; say whether they have converged."""
     n, A, S, big, pivots = motion.n, table.A, work.S, work.big, work.big_pivots

@@ -1,0 +1,39 @@
+"""A kernel on disk is out of date when the text of anything that it is made of has changed."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from codim2_core import jit
+from codim2_core.stepping.lanes import integrate
+
+FILES = {
+    "__init__.py": "",
+    "kernels.py": "from .deep.middle import (\n    square,  # (spliced)\n)\nfrom . import constants\n",
+    "constants.py": "TWO = 2\n",
+    "aside.py": "from .kernels import square\n",
+    "deep/__init__.py": "",
+    "deep/middle.py": "def square(x):\n    from ..leaf import times\n\n    return times(x, x)\n",
+    "leaf.py": "def times(x, y):\n    return x * y\n",
+}
+PARTS = ("kernels.py", "constants.py", "deep/middle.py", "leaf.py")
+
+
+@pytest.mark.parametrize("changed", FILES)
+def test_a_stamp_changes_with_all_that_a_module_imports_and_with_nothing_else(tmp_path, changed):
+    for name, text in FILES.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    stamp = jit.source_stamp(tmp_path / "kernels.py", tmp_path)
+    (tmp_path / changed).write_text(FILES[changed] + "# changed\n")
+    jit._read_module.cache_clear()
+    jit.source_stamp.cache_clear()
+    assert (jit.source_stamp(tmp_path / "kernels.py", tmp_path) != stamp) == (changed in PARTS)
+
+
+def test_numba_keeps_the_packages_kernels_under_that_stamp():
+    kernel: Any = integrate
+    path = Path(kernel.py_func.__code__.co_filename)
+    assert kernel._cache._cache_file._source_stamp == jit.source_stamp(path)
+    assert jit.CORE_FOLDER / "stepping" / "dop853.py" in jit._read_module(path, jit.CORE_FOLDER)[1]
