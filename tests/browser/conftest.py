@@ -138,6 +138,37 @@ class Explorer:
         box.press("Enter")
         return self.settle()
 
+    def click(self, selector):
+        self.find(selector).click()
+        return self.settle()
+
+    def press(self, selector, key):
+        self.find(selector).press(key)
+        return self.settle()
+
+    def fill(self, selector, text):
+        self.find(selector).fill(text)
+        return self.settle()
+
+    def choose(self, selector, option):
+        self.find(selector).select_option(option)
+        return self.settle()
+
+    def reload(self):
+        self.page.reload()
+        self.page.wait_for_selector(".codim2[data-ready]")
+        return self.settle()
+
+    def drag(self, *places, steps=4):
+        """Press at the first place of the window, and let go at the last."""
+        mouse = self.page.mouse
+        mouse.move(*places[0])
+        mouse.down()
+        for place in places[1:]:
+            mouse.move(*place, steps=steps)
+        mouse.up()
+        return self.settle()
+
 
 class Tabs:
     """Tabs that one test uses after the other: a new one starts a process, which compiles all scripts again."""

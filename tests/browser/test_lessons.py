@@ -10,8 +10,7 @@ pytestmark = pytest.mark.browser
 
 def test_a_lesson_from_the_list_to_its_goal(open_page):
     explorer = open_page().open("?panel=lessons")
-    explorer.find("[data-open='03-limit-directions']").click()
-    explorer.settle()
+    explorer.click("[data-open='03-limit-directions']")
     assert explorer.find(".lesson-text math").count() > 5
     assert explorer.find("[data-fact=limit_directions]").first.text_content() == "4"
     predict, mark = (explorer.find(f"[data-question='{i}']") for i in (0, 1))
@@ -40,8 +39,7 @@ def test_a_lesson_from_the_list_to_its_goal(open_page):
     assert mark.locator(".verdict").text_content().startswith("Not quite. The right place is 1.00 radii")
     kept = json.loads(explorer.page.evaluate("localStorage.getItem('codim2-lessons')"))
     assert kept == {"03-limit-directions": {"0": ["answer", "goal"]}}
-    explorer.find("[data-open='']").click()
-    explorer.settle()
+    explorer.click("[data-open='']")
     assert explorer.find("[data-open='03-limit-directions'] .lesson-done").text_content() == "1/2"
     assert explorer.complaints == []
 

@@ -278,8 +278,3 @@ def test_every_colour_that_is_named_is_there_in_both_themes():
     assert {part.colour for layer in layers.LAYERS.values() for part in layer.parts} <= light.keys()
     for name in ("page", "rho", "basin-1"):
         assert f"--{name}: {light[name]};" in custom_properties()
-
-
-def test_layers_can_be_told_apart_without_colour():
-    stable, unstable = layers.LAYERS["separatrices"].parts
-    assert (stable.dash, unstable.dash) == ((7, 4), ())

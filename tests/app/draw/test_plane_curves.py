@@ -88,9 +88,3 @@ def test_thinned_pieces_are_those_of_each_alone():
         assert away.max() < 1e-15  # none is made up
     assert np.diff(offsets)[2:].tolist() == [3, 1, 3]
     assert plane_curves.size_of([]) == 1.0
-
-
-def test_four_points_of_a_short_line_are_its_two_ends():
-    line = np.column_stack([np.linspace(0.0, 0.03, 4), np.zeros(4)])
-    assert plane_curves.thin([line], 1.0)[1].tolist() == [[0.0, 0.0], [0.03, 0.0]]
-    assert len(plane_curves.thin([line[:3]], 1.0)[1]) == 3

@@ -5,10 +5,8 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.theme import themes
-from codim2_app.draw.vector.labels import LabelBox, clear_of, width_of
-from codim2_app.draw.vector.paper import DASHES, paper
+from codim2_app.draw.vector.labels import LabelBox, width_of
 from codim2_app.export.describe import system_words
 from codim2_app.export.figure import MM, Style, figure
 from codim2_app.export.view import WHOLE, view_of
@@ -96,14 +94,6 @@ def test_no_label_stands_over_another(key):
         assert not any(one.meets(other) for other in found[:i])
 
 
-def test_a_label_goes_where_there_is_room():
-    free = clear_of((), "C", 50.0, 50.0, "start", 10.0, 100.0, 100.0)
-    assert (free.x, free.y + free.height / 2) == (50.0, 50.0)
-    beside = clear_of((free,), "C", 50.0, 50.0, "start", 10.0, 100.0, 100.0)
-    assert not beside.meets(free)
-    assert clear_of((), "C", 99.0, 50.0, "start", 10.0, 100.0, 100.0).within(100.0, 100.0)
-
-
 def test_the_legend_lists_what_is_drawn_and_nothing_else():
     words = re.findall(r"<text[^>]*>([^<]*)</text>", figure(view_of("case1-cm4")).split("</g></g>")[1])
     assert {"ρ-nullclines", "θ-nullclines", "Orbits inside", "C: stable node"} <= set(words)
@@ -125,27 +115,13 @@ def test_launched_orbits_start_where_they_were_launched():
     assert np.allclose([list(map(float, pair)) for pair in found], expected, atol=0.01)
 
 
-def test_black_and_white_tells_apart_what_colours_do():
-    grey, looks = paper(), {}
-    assert set(grey) == set(themes()["light"])
-    for layer in LAYERS.values():
-        for part in layer.parts:
-            if part.scene and layer.name != "launched":
-                looks.setdefault((grey[part.colour], part.dash or DASHES.get(part.colour), part.width), set()).add(
-                    part.name.partition("_")[0]
-                )
-    assert all(len(names) == 1 for names in looks.values()), looks
-
-
 @pytest.mark.parametrize(
     ("text", "said"),
     [
-        ("case9", "no preset and no link"),
-        ("a=x", "not a number"),
-        ("https://example.org/explorer", "no preset and no link"),
-        ("nonsense=1", "does not have"),
+        ("case9", "no preset and no link"), ("a=x", "not a number"),
+        ("https://example.org/explorer", "no preset and no link"), ("nonsense=1", "does not have"),
     ],
-)
+)  # fmt: skip
 def test_what_cannot_be_drawn_is_told(text, said):
     with pytest.raises(ValueError, match=said):
         view_of(text)

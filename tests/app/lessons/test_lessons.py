@@ -8,7 +8,7 @@ import pytest
 from codim2_app.frame.scenes import make_scene
 from codim2_app.lessons.asking import goal_is_reached, judge, pose, right_option, stands
 from codim2_app.lessons.facts import facts_of
-from codim2_app.lessons.library import LESSON_FOLDER, built_in, from_folder
+from codim2_app.lessons.library import built_in, from_folder
 from codim2_app.lessons.marks import MARK_TOLERANCE, MARKS, gap
 from codim2_app.lessons.reading import LessonError, read_lesson
 from codim2_app.state.controls import ExplorerState, preset_values
@@ -200,7 +200,3 @@ def test_html_in_a_lesson_is_text(tmp_path):
     html = "".join(part.html for part in read_lesson(path).parts)
     assert "<script" not in html
     assert "<b>x" not in html
-
-
-def test_every_file_of_the_folder_is_in_the_course():
-    assert {path.stem for path in LESSON_FOLDER.iterdir()} == set(COURSE)

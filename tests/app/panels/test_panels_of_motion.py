@@ -99,17 +99,6 @@ def test_without_slow_variables_it_says_so():
         assert "no slow variable" in str(draft.header["unable"])
 
 
-def test_the_stack_carries_critical_sets_and_limit_directions_of_every_height():
-    stack = sent(solid, system="nonunique_sliding")["stack"]
-    low, high = stack["span"]
-    for height, theta, _, _ in stack["directions"][::40]:
-        z = low + height * (high - low)
-        limits = c2.equator_equilibria(c2.examples.nonunique_sliding(), (z,)).theta
-        assert np.abs(np.exp(1j * limits) - np.exp(1j * theta)).min() < 1e-3
-    assert len(stack["sets"]) == 3
-    assert sum(one["stable"] for one in stack["sets"]) == 2
-
-
 def test_the_motion_of_a_ball_slips_then_slides_and_its_limit_lies_over_it():
     header = sent(orbits, system="ball_in_pool", orbit_eps="show", log_eps=-4.0)
     motion, limit = header["orbit_motion"], header["orbit"]

@@ -15,7 +15,6 @@ from codim2_app.rooms.rooms import (
     RoomError,
     Rooms,
     code_of,
-    settings_of,
 )
 
 
@@ -99,16 +98,6 @@ def test_all_are_told_when_a_room_is_closed_and_nothing_of_it_is_left(two):
     assert not there.tick(3.0 + SHARING_SECONDS)
     here.tick(2.0 + CLOSED_SECONDS + 1.0)
     assert code not in here.hosts
-
-
-def test_a_room_that_is_not_there_any_more_is_closed_without_a_word(two):
-    here, _ = two
-    code = opened(here)[1]
-    here.close("NOWHERE", 1.0)
-    here.close(code, 1.0)
-    closed = here.hosts[code].closed
-    here.close(code, 2.0)
-    assert here.hosts[code].closed == closed
 
 
 def test_a_lecturer_who_loads_the_page_again_has_his_room_also_from_another_process(two):
@@ -242,10 +231,6 @@ def test_a_page_may_go_after_its_room_has_ended():
     rooms.leave_open(code, lecturer.heard_by, 200.0)
     rooms.close(code, 200.0)
     assert not rooms.tick(200.0)
-
-
-def test_settings_are_those_that_are_other_than_at_first():
-    assert settings_of({"a": 1, "b": 2, "c": 3}, {"a": 1, "b": 5, "c": 4}, ("a", "b")) == {"b": 2}
 
 
 @pytest.mark.parametrize("jump", [-86400.0, 86400.0])

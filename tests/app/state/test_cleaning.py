@@ -35,6 +35,7 @@ def test_a_text_of_no_kind_of_its_own_is_short():
 def test_ranges_are_so_many_pairs_by_name():
     many = {f"{OWN_AXIS}p{k}": [0.0, 1.0] for k in range(2 * MOST_ENTRIES)}
     assert clean("ranges", many) == many
+    assert clean("ranges", '{"f1": [0, 0.5], "own:mu": [-1, 1]}') == {"f1": [0.0, 0.5], "own:mu": [-1.0, 1.0]}
     for wrong in ({**many, "a": [0.0, 1.0]}, {1: [0.0, 1.0]}, {"psi": [0.0, 1.0]}, {"a": [1.0, 1.0]}, {"a": [0.0]}):
         with pytest.raises(InputError):
             clean("ranges", wrong)

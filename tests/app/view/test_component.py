@@ -4,8 +4,6 @@ import panel as pn
 import pytest
 from bokeh.document import Document
 from codim2_app import explorer
-from codim2_app.state.controls import ExplorerState
-from codim2_app.view.explorer import ExplorerView
 from codim2_app.view.shared import SHARED_CONTROLS
 
 
@@ -57,13 +55,6 @@ def test_bind_link_and_references():
     assert follower.scene.coefficients.a == 0.25
     slider.value = 1.0
     assert follower.scene.coefficients.a == 1.0
-
-
-def test_two_views_of_one_state_agree():
-    state = ExplorerState()
-    one, other = ExplorerView(state), ExplorerView(state)
-    one.a = -1.25
-    assert (other.a, other.scene.coefficients.a) == (-1.25, -1.25)
 
 
 def test_a_clone_has_the_values_of_its_own():
