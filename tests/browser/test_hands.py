@@ -154,21 +154,6 @@ def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
     assert explorer.complaints == []
 
 
-def test_objects_are_reached_by_the_keyboard(open_page):
-    explorer = open_page().open("?b=0.3")
-    names = "[...root.querySelectorAll('.objects button')].map((it) => it.dataset.object).join()"
-    explorer.until(f"{names} === 'C,Q1,Q2,U1,U2,R,T'")
-    explorer.find(".objects button").nth(1).focus()
-    hint = explorer.find(".card:not(.pinned)")
-    assert hint.text_content().startswith("Q₁ ")
-    explorer.page.keyboard.press("Enter")
-    explorer.kept()
-    assert explorer.find(".card.pinned").text_content().startswith("×Q₁ ")
-    assert "pinned=Q1" in explorer.page.url
-    again = open_page().open("?b=0.3&pinned=Q1")
-    assert again.find(".card.pinned").text_content().startswith("×Q₁ ")
-
-
 def test_a_tap_on_an_object_pins_it(open_page):
     explorer = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open(
         "?b=0.3&panel=orbits"

@@ -68,19 +68,6 @@ def test_a_tab_opens_its_panel_and_the_address_keeps_it(explorer):
         assert explorer.find(f"[role=tabpanel][data-panel={name}]").is_visible()
 
 
-def test_tabs_are_moved_by_the_keyboard(explorer):
-    explorer.find("[role=tab][aria-selected=true]").focus()
-    explorer.page.keyboard.press("ArrowRight")
-    explorer.settle()
-    assert explorer.find("[role=tab][aria-selected=true]").text_content() == "Numbers"
-    assert explorer.find("[role=tab]:focus").text_content() == "Numbers"
-    explorer.page.keyboard.press("ArrowLeft")
-    explorer.page.keyboard.press("ArrowLeft")
-    explorer.settle()
-    assert explorer.find("[role=tab][aria-selected=true]").get_attribute("tabindex") == "0"
-    assert explorer.find("[role=tab][tabindex='0']").count() == 1
-
-
 def test_only_keys_ring_a_chart(explorer):
     ring = "(e) => [e.matches(':focus'), getComputedStyle(e).outlineStyle]"
     pad = explorer.find("svg.pad")

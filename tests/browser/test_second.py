@@ -91,22 +91,3 @@ def test_before_and_after_and_the_papers_beside_ones_own(open_page):
     page.click(".reset").kept()
     assert own(page) == {}
     assert page.complaints == []
-
-
-def test_on_a_narrow_screen_there_is_one_and_a_sentence(open_page):
-    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
-    page.open("?v=1&beside=psi%3Drational")
-    assert page.find("iframe").count() == 0
-    assert "need a wider screen" in page.find(".second-narrow").text_content()
-    assert page.find(".two").is_hidden()
-    page.page.set_viewport_size(WIDE)
-    until(second(page), "values.psi === 'rational'")
-    assert page.find(".second-narrow").is_hidden()
-    page.open("?v=1")
-    assert page.find(".second").is_hidden()
-
-
-def test_what_a_link_gives_the_second_in_vain_is_told(open_page):
-    page = open_page(viewport=WIDE).open("?v=1&beside=panel%3Dsolid")
-    assert "Second portrait: 'panel' cannot be its own" in page.find(".banner").text_content()
-    assert page.find("iframe").count() == 0

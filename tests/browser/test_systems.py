@@ -119,19 +119,6 @@ def test_what_was_typed_is_in_a_list_that_this_browser_keeps(open_page):
     assert explorer.complaints == []
 
 
-def test_without_storage_what_was_typed_is_kept_in_the_page(open_page):
-    explorer = open_page()
-    explorer.page.add_init_script(
-        "Object.defineProperty(window, 'localStorage', {get() { throw new DOMException('no') }})"
-    )
-    explorer.open("?system=own")
-    explorer.fill("textarea[data-box=U1]", "-c*2").kept()
-    assert explorer.find(".yours summary").text_content() == "Yours (1)"
-    assert "until this page is closed" in explorer.find(".yours .note").text_content()
-    assert not explorer.find(".banner").is_visible()
-    assert explorer.complaints == []
-
-
 def ends(explorer, name):
     slider = explorer.find(f"[data-control={name}] input[type=range]")
     return float(slider.get_attribute("min")), float(slider.get_attribute("max"))

@@ -197,16 +197,6 @@ def test_settings_that_are_too_long_are_counted_but_not_sent():
     assert [row[1:] for row in rows(lecturer)[-1]] == [["CM4", None, None]]
 
 
-def test_without_anybody_nothing_goes_on():
-    begun = []
-    rooms = Rooms()
-    rooms.beat_with(lambda: begun.append(1))
-    assert not rooms.tick(0.0)
-    assert begun == []
-    opened(rooms)
-    assert begun == [1]
-
-
 def test_no_two_phones_have_one_number(two):
     _, code, _ = opened(two[0])
     phone = Page()
@@ -221,16 +211,6 @@ def test_a_lecturer_takes_up_his_room_though_all_are_taken():
     rooms = Rooms(most=1)
     _, code, key = opened(rooms)
     assert opened(rooms, 1.0, key)[1] == code
-
-
-def test_a_page_may_go_after_its_room_has_ended():
-    rooms = Rooms()
-    lecturer, code, _ = opened(rooms)
-    rooms.close(code, 1.0)
-    rooms.tick(1.0 + CLOSED_SECONDS + 1.0)
-    rooms.leave_open(code, lecturer.heard_by, 200.0)
-    rooms.close(code, 200.0)
-    assert not rooms.tick(200.0)
 
 
 @pytest.mark.parametrize("jump", [-86400.0, 86400.0])

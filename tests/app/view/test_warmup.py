@@ -71,12 +71,6 @@ def test_each_step_is_told_and_held_by_one_process(folder, monkeypatch):
     assert warmup.done == (2, 2)
 
 
-def test_the_first_scene_is_computed_as_soon_as_it_can_be():
-    names = [what for what, _ in warmup._steps()]
-    assert names[: warmup.FIRST_PRIORITY] == ["arrowheads", "trajectories for Ψ = 1", "limit cycles"]
-    assert len(names) == len(set(names)) > warmup.FIRST_PRIORITY
-
-
 @pytest.mark.parametrize(("done", "shown"), [((1, 8), [1, 8]), ((8, 8), None), (None, None)])
 def test_a_page_is_told_how_far_the_compiler_is(monkeypatch, done, shown):
     monkeypatch.setattr(warmup, "done", done)
@@ -172,20 +166,6 @@ def test_who_waits_for_pictures_does_not_wait_for_what_cannot_be_compiled(folder
     warmup.start()
     warmup.wait()
     assert warmup.outcome == "the first scene cannot be computed: no compiler"
-
-
-def test_who_waits_for_pictures_does_not_wait_for_motions(folder, monkeypatch):
-    going_on = threading.Event()
-    steps = [("pictures", lambda: None), ("motions", lambda: going_on.wait(60)), ("gallery", lambda: None)]
-    monkeypatch.setattr(warmup, "_steps", lambda: steps)
-    monkeypatch.setattr(warmup, "_threads", {})
-    monkeypatch.setattr(warmup, "_pictures", threading.Event())
-    warmup.start()
-    warmup.wait()
-    (thread,) = warmup._threads.values()
-    assert thread.is_alive()
-    going_on.set()
-    thread.join()
 
 
 def test_kernels_stand_back_for_the_first_page(monkeypatch):
