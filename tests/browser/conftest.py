@@ -12,6 +12,7 @@ from .asymmetric import SETTINGS
 #: else on a machine that is busy with tests, and end by themselves, which the page then says.
 PATIENCE = 1000 * SECONDS
 WINDOW = {"width": 1280, "height": 800}
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 #: What Chromium says of a script that is fetched first and used last, where other tests have the machine.
 SLOWLY = "was preloaded using link preload but not used within a few seconds"
 VISITED = "try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* forbidden */ }"

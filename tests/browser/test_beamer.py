@@ -8,10 +8,7 @@ SHOWN = "Number(getComputedStyle(root.querySelector('.controls')).opacity)"
 
 def test_the_picture_fills_the_screen_controls_fade_and_come_with_the_pointer(open_page):
     page = open_page(viewport=WIDE).open("?v=1&panel=numbers")
-    width, labels = (
-        page.find(".picture").bounding_box()["width"],
-        "picture.list.find((item) => item.kind === 'label').size",
-    )
+    width, labels = page.find(".picture").bounding_box()["width"], "picture.list.find((it) => it.kind === 'label').size"
     size = page.ask(labels)
     page.page.keyboard.press("b")
     page.until("root.classList.contains('beamer')")

@@ -44,10 +44,8 @@ def test_names_of_the_trace_plane_stand_in_their_regions(opened):
     for text, _, x, y in names:
         trace, determinant = plane.data([x, y - 4])[0]
         focus = trace**2 < 4 * determinant
-        kind = (
-            "saddle" if determinant < 0 else f"{'stable' if trace < 0 else 'unstable'} {'focus' if focus else 'node'}"
-        )
-        assert text == kind
+        kind = f"{'stable' if trace < 0 else 'unstable'} {'focus' if focus else 'node'}"
+        assert text == ("saddle" if determinant < 0 else kind)
 
 
 def test_table_of_the_planes(opened, setting):
@@ -119,12 +117,8 @@ def test_special_points_of_the_diagram(opened, setting):
     assert sum(len(mark["words"].splitlines()) for _, mark in drawn) == len(found) > 3
     near = plots(page, ".diagram")[-1].near[0]
     for one in found:
-        marks = [
-            place for place, mark in drawn if any(f"{one.kind} at " in line for line in mark["words"].splitlines())
-        ]
-        assert (
-            min(abs(place[0] - one.value) for place in marks) < 30 * near
-        )  # a group stands in the middle of its members
+        marks = [place for place, mark in drawn if f"{one.kind} at " in mark["words"]]
+        assert min(abs(place[0] - one.value) for place in marks) < 30 * near  # a group stands amid its members
 
 
 def test_along_z(opened, setting):

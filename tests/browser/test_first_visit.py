@@ -2,9 +2,9 @@
 
 import pytest
 
-pytestmark = pytest.mark.browser
+from .conftest import PHONE
 
-PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+pytestmark = pytest.mark.browser
 
 
 def middle(box):
@@ -81,11 +81,7 @@ def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
 def test_a_number_of_the_headline_is_dragged(explorer):
     number = explorer.find(".dragged[data-number=push]")
     x, y = middle(number.bounding_box())
-    explorer.page.mouse.move(x, y)
-    explorer.page.mouse.down()
-    explorer.page.mouse.move(x + 160, y, steps=4)
-    explorer.page.mouse.up()
-    explorer.settle()
+    explorer.drag((x, y), (x + 160, y))
     assert explorer.find("[data-control=f1] .number").input_value() == "-1"
     assert number.text_content() == "1.00"
 
@@ -137,14 +133,8 @@ def test_the_sheet_of_keys_and_marks_is_there_on_demand(open_page, options):
     sheet = explorer.find("dialog.helping")
     explorer.page.keyboard.press("?")
     assert sheet.is_visible()
-    for words in (
-        "Keyboard and mouse",
-        "Shift and drag",
-        "eigenvector, stable",
-        "Approach outcomes",
-        "Limit direction Q",
-    ):
-        assert words in sheet.text_content()
+    said = ("Keyboard and mouse", "Shift and drag", "eigenvector, stable", "Approach outcomes", "Limit direction Q")
+    assert [words for words in said if words not in sheet.text_content()] == []
     assert sheet.evaluate("(it) => it.scrollWidth <= it.clientWidth")
     explorer.page.keyboard.press("Escape")
     assert not sheet.is_visible()

@@ -4,14 +4,15 @@ import math
 
 import numpy as np
 import pytest
+from codim2_app.draw.theme import HALF_VIEW
+
+from .conftest import PHONE
 
 pytestmark = pytest.mark.browser
 
 
 def place(explorer, x, y):
     """The point of the window over a point of the picture, which shows [-VIEW, VIEW] across its shorter side."""
-    from codim2_app.draw.theme import HALF_VIEW
-
     box = explorer.find(".bokeh").bounding_box()
     unit = min(box["width"], box["height"]) / (2 * HALF_VIEW)
     return box["x"] + box["width"] / 2 + x * unit, box["y"] + box["height"] / 2 - y * unit
@@ -80,11 +81,7 @@ def test_a_drag_takes_the_orbit_along_and_its_start_can_be_moved_later(open_page
     assert explorer.frame() >= first + 3  # it followed
     assert explorer.find(".orbit-list li").count() == 1
     assert explorer.find(".orbit-goes").text_content() == "Comes down to Q₁ and leaves Σ along θ = 0."
-    page.mouse.move(*place(explorer, 0.4, 0.3))
-    page.mouse.down()
-    page.mouse.move(*place(explorer, 1.3, 0.5), steps=3)
-    page.mouse.up()
-    explorer.settle()
+    explorer.drag(place(explorer, 0.4, 0.3), place(explorer, 1.3, 0.5))
     assert explorer.find(".orbit-list li").count() == 1
     assert explorer.find(".orbit-goes").text_content() == "Leaves the picture."
 
@@ -155,9 +152,7 @@ def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
 
 
 def test_a_tap_on_an_object_pins_it(open_page):
-    explorer = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open(
-        "?b=0.3&panel=orbits"
-    )
+    explorer = open_page(**PHONE).open("?b=0.3&panel=orbits")
     explorer.page.touchscreen.tap(*place(explorer, *objects(explorer, "critical")[0]))
     explorer.settle()
     assert explorer.find(".card.pinned").text_content().startswith("×C stable node")
@@ -174,9 +169,8 @@ def test_a_typed_start_is_in_the_link_undone_and_let_move_from_a_launched_orbit(
     explorer.click(".orbit-time .here").kept()
     box = explorer.find("[data-control=launch] input")
     r = (1.2**2 + 0.8**2) ** 0.5
-    assert [float(word) for word in box.input_value().split(",")] == pytest.approx(
-        [1.2 * (r - 1) / r, 0.8 * (r - 1) / r, 0.25], abs=1e-5
-    )
+    start = [float(word) for word in box.input_value().split(",")]
+    assert start == pytest.approx([1.2 * (r - 1) / r, 0.8 * (r - 1) / r, 0.25], abs=1e-5)
     explorer.page.wait_for_selector(".phases li")
     explorer.press(".orbit-eps input", "Space").kept()
     assert explorer.find("[data-control=log_eps]").is_visible()

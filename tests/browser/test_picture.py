@@ -50,9 +50,7 @@ def test_a_mark_tells_its_numbers(explorer):
 
 
 def test_a_motion_lies_above_the_picture_and_leaves_it_alone(explorer):
-    explorer.open(
-        "?k1=0&k2=0&panel=orbits&orbit_eps=show"
-    )  # z follows the motion, and the portrait does not depend on z
+    explorer.open("?k1=0&k2=0&panel=orbits&orbit_eps=show")  # the portrait does not depend on z, which moves
     assert [item["kind"] for item in explorer.ask("picture.above.list")] == ["path", "path", "mark"]
     before = explorer.ask("[picture.drawn.paints, picture.above.paints]")
     explorer.find(".panel-orbits .series").press("ArrowRight")
@@ -85,12 +83,10 @@ def test_what_is_seen_is_sampled(explorer):
 
 def test_a_pan_is_a_step_and_in_the_address(explorer):
     explorer.type("a", "-1.5").kept()
-    box, mouse = explorer.find(".bokeh").bounding_box(), explorer.page.mouse
+    box = explorer.find(".bokeh").bounding_box()
     explorer.page.keyboard.down("Shift")
-    mouse.move(box["x"] + 0.8 * box["width"], box["y"] + 0.2 * box["height"])
-    mouse.down()
-    mouse.move(box["x"] + 0.3 * box["width"], box["y"] + 0.6 * box["height"], steps=8)
-    mouse.up()
+    spot = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])
+    explorer.drag(spot(0.8, 0.2), spot(0.3, 0.6), steps=8)
     explorer.page.keyboard.up("Shift")
     explorer.kept()
     assert "seen=" in explorer.page.url
@@ -117,12 +113,7 @@ def test_the_picture_is_lifted_onto_the_hemisphere_turned_and_laid_flat(explorer
     explorer.type("f1", "1").painted()
     assert explorer.ask(colour)[:4] == before
     box = explorer.find(".lifted").bounding_box()
-    mouse = explorer.page.mouse
-    mouse.move(box["x"] + 300, box["y"] + 300)
-    mouse.down()
-    mouse.move(box["x"] + 380, box["y"] + 320, steps=3)
-    mouse.up()
-    explorer.painted()
+    explorer.drag((box["x"] + 300, box["y"] + 300), (box["x"] + 380, box["y"] + 320)).painted()
     assert explorer.ask(colour)[:4] == before
     assert explorer.ask(f"{lift}.place(0.25, 0.5)") != place
     explorer.kept()

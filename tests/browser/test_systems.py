@@ -74,11 +74,7 @@ def test_the_solid_view_turns_without_asking_the_server(explorer):
     canvas = explorer.find("canvas.solid")
     before, frame = canvas.screenshot(), explorer.frame()
     box = canvas.bounding_box()
-    explorer.page.mouse.move(box["x"] + 60, box["y"] + 80)
-    explorer.page.mouse.down()
-    explorer.page.mouse.move(box["x"] + 160, box["y"] + 110, steps=6)
-    explorer.page.mouse.up()
-    explorer.painted()
+    explorer.drag((box["x"] + 60, box["y"] + 80), (box["x"] + 160, box["y"] + 110)).painted()
     assert canvas.screenshot() != before
     assert explorer.frame() == frame
     for words in ("Along z", "Filippov"):

@@ -19,12 +19,8 @@ def test_an_arrowhead_sits_in_the_middle_and_points_with_time():
 
 
 def test_short_empty_and_resting_curves_have_none():
-    short, rest, none, single = (
-        LINE * 0.9 * MIN_LINE_LENGTH * PACKING_PIXEL,
-        np.ones((4, 2)),
-        np.zeros((0, 2)),
-        np.ones((1, 2)),
-    )
+    short = LINE * 0.9 * MIN_LINE_LENGTH * PACKING_PIXEL
+    rest, none, single = np.ones((4, 2)), np.zeros((0, 2)), np.ones((1, 2))
     assert place(none, short, single, LINE, rest, none)[:, 0].tolist() == pytest.approx([0.5])
     assert place().shape == (0, 3)
 

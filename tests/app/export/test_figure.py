@@ -76,9 +76,8 @@ def boxes(svg):
         r'<text [^>]*?x="([\d.]+)" y="([\d.]+)" font-size="([\d.]+)"[^>]*?(text-anchor="middle")?>([^<]*)<', inside
     ):
         wide = width_of(text, float(size))
-        found.append(
-            LabelBox(float(x) - (wide / 2 if anchor else 0), float(y) - 0.8 * float(size), wide, 0.9 * float(size))
-        )
+        left = float(x) - (wide / 2 if anchor else 0)
+        found.append(LabelBox(left, float(y) - 0.8 * float(size), wide, 0.9 * float(size)))
     return found
 
 

@@ -203,14 +203,8 @@ HOPF = c2.System(U=("z*c - s", "c + z*s"), W=("1",))  # way in = way out: from z
 
 def delayed(panel, system, **changes):
     """The header that a panel adds for a system that loses its stability."""
-    values = {
-        **ExplorerState().values(),
-        "launch": "0, 0, -0.6",
-        "t_end": 2.0,
-        "z": -0.6,
-        "family": "constant",
-        **changes,
-    }
+    start = {"launch": "0, 0, -0.6", "t_end": 2.0, "z": -0.6, "family": "constant"}
+    values = {**ExplorerState().values(), **start, **changes}
     jobs = Jobs(Now())
     for _ in range(2):
         draft = FrameContext(make_scene(values, system), values, {}, {}, {}, jobs, True, True, ())

@@ -110,12 +110,6 @@ def test_a_script_that_is_not_there_is_not_found(server, name):
     assert refused(lambda: packed_of(f"{server}/{name}")) in (403, 404)
 
 
-def test_a_probe_is_answered_without_the_page(server):
-    with urlopen(Request(server, method="HEAD")) as answer:
-        assert (answer.status, answer.read()) == (200, b"")
-        assert answer.headers["Content-Type"].startswith("text/html")
-
-
 @pytest.mark.parametrize(
     ("given", "said"),
     [
@@ -152,16 +146,12 @@ def test_an_address_cannot_write_scripts(server):
     assert "<script>alert" not in page
 
 
-def test_health_is_of_the_process_and_ready_of_a_scene(server):
-    assert json.loads(opened(server + "/health")[0])["status"] == "ok"
-    assert json.loads(opened(server + "/ready")[0])["status"] == "ready"
-
-
 def test_a_page_its_line_and_the_health_of_its_server_are_of_one_edition(server):
     (edition,) = re.findall(r'data-edition="(\w+)"', opened(server)[0])
     wire, _ = talk(begun(server.port))
     assert wire.begun["config"]["edition"] == edition
-    assert json.loads(opened(server + "/health")[0])["edition"] == edition
+    health, ready = (json.loads(opened(server + name)[0]) for name in ("/health", "/ready"))
+    assert (health["status"], ready["status"], health["edition"]) == ("ok", "ready", edition)
 
 
 @pytest.fixture

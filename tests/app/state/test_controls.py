@@ -47,7 +47,7 @@ def test_an_object_is_pinned_by_its_name(name):
 
 @pytest.mark.parametrize(
     "bad",
-    ["Q", "Q0", "L", "C01", "Q1,Q2", "q1", "Q1234", " C", "C@0,0", "T@", "T@1", "T@a,b", "T@1e9,0", "T@0.1234,0", 3, None],
+    ["Q", "Q0", "L", "C01", "Q1,Q2", "q1", "Q1234", " C", "C@0,0", "T@", "T@1", "T@a,b", "T@1e9,0", "T@0.1234,0", None],
 )  # fmt: skip
 def test_what_names_no_object_is_not_pinned(bad):
     with pytest.raises(InputError, match="give an object such as Q2") as caught:

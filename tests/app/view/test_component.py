@@ -37,12 +37,6 @@ def test_what_is_refused_leaves_view_and_state_as_they_were():
     assert (view.preset, view.state.preset) == ("", "")
 
 
-def test_a_portrait_brings_its_values():
-    view = explorer()
-    view.preset = "case3-n3"
-    assert (view.psi, view.n) == (view.state.psi, view.state.n) == ("hill", 3.0)
-
-
 def test_bind_link_and_references():
     view, slider = explorer(a=-1.5), pn.widgets.FloatSlider(start=-4, end=4, value=0.5)
     assert pn.bind(lambda a: 2 * a, view.param.a)() == -3.0
@@ -85,9 +79,3 @@ def test_its_style_sheets_come_after_its_own():
 def test_a_template_s_dark_theme_is_its_first(monkeypatch):
     monkeypatch.setattr(type(pn.config), "theme", "dark")
     assert explorer().config["dark"] is True
-
-
-def test_the_orbits_are_the_launched_ones():
-    view = explorer(orbits="0.3,0.4;1.5,0.2")
-    assert len(view.orbits) == 2
-    assert view.orbits is view.scene["launched"]

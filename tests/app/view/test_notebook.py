@@ -17,7 +17,8 @@ def test_model_names_no_other_host():
 
 def test_shown_once_more_it_is_as_it_is_now():
     view = explorer(a=-2)
-    assert view.get_root(Document()).data.config["values"]["a"] == -2.0
+    config = view.get_root(Document()).data.config
+    assert config["values"]["a"] == config["defaults"]["a"] == -2.0
     view._handle_msg({"id": 1, "set": {"a": -1.5}})
     again = view.get_root(Document()).data
     assert again.config["values"]["a"] == -1.5
@@ -79,13 +80,9 @@ def test_a_system_of_any_form_brings_sliders_for_its_parameters():
     header, _ = unpack(view.first)
     assert header["system"]["parameters"][0]["name"] == "k"
     assert header["system"]["coefficients"] is False
+    assert unpack(explorer(c2.ELinear(-1, "z", -2, g=(0.5,))).first)[0]["system"]["coefficients"] is True
     view.state.parameters = {"k": 0.2}
     assert view.frames.scene.system.at((0.3,)).U((1.0, 0.0)) == pytest.approx([0.1, 0.0])
-
-
-def test_the_numbers_of_a_given_elinear_keep_their_sliders():
-    header, _ = unpack(explorer(c2.ELinear(-1, "z", -2, g=(0.5,))).first)
-    assert header["system"]["coefficients"] is True
 
 
 PSI = c2.psi.hill(3)
@@ -138,12 +135,6 @@ def test_values_may_be_spelled_as_in_the_core():
 def test_what_cannot_be_drawn_is_refused_in_one_sentence(arguments, values, says):
     with pytest.raises(ValueError, match=says):
         explorer(*arguments, **values)
-
-
-def test_reset_in_a_notebook_is_what_it_was_opened_with():
-    view = explorer(a=-1.5)
-    view._handle_msg({"id": 1, "set": {"a": -1.0}})
-    assert view.get_root(Document()).data.config["defaults"]["a"] == -1.5
 
 
 def test_portraits_of_the_paper_are_not_offered_in_place_of_a_given_system():
