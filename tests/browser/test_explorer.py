@@ -146,18 +146,3 @@ def test_regions_follow_once_the_matrix_rests(explorer):
     explorer.type("a", "-1.2").type("b", "0.4")
     assert explorer.find(".pad .chart-plot").inner_html() != before
     assert region_under_the_handle(explorer) == [explorer.name()]
-
-
-@pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
-def test_no_width_scrolls_sideways(open_page, width, height):
-    page = open_page(viewport={"width": width, "height": height}).open()
-    for theme in ("light", "dark"):
-        page.page.emulate_media(color_scheme=theme)
-        page.painted().settle()
-        assert page.find(".codim2.dark").count() == (theme == "dark")
-        assert page.page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-        box = page.find(".picture").bounding_box()
-        assert box["width"] == pytest.approx(box["height"], abs=1)
-        assert box["x"] >= 0
-        assert box["x"] + box["width"] <= width
-    assert page.complaints == []

@@ -88,6 +88,9 @@ def test_controls_and_tabs_fit(open_page, width, height):
     if (width, height) == (1440, 900):
         page.find("[data-fold=slow]").evaluate("(it) => { it.open = false }")
         assert page.find(".controls").evaluate("(e) => e.scrollHeight <= e.clientHeight")
+    box = page.find(".picture").bounding_box()
+    assert box["width"] == pytest.approx(box["height"], abs=1)
+    assert 0 <= box["x"] <= box["x"] + box["width"] <= width
     assert page.complaints == []
 
 

@@ -83,14 +83,6 @@ def test_the_solid_view_turns_without_asking_the_server(explorer):
         assert explorer.find(".solid-note").text_content() != "…"
 
 
-def test_another_slow_variable_can_run_along_the_panel(explorer):
-    choose(explorer, "ball_on_turntable")
-    open_panel(explorer, "Along z")
-    explorer.choose("select.drift", "z2")
-    assert "v₂′" in explorer.find("svg.along").text_content()
-    assert "v₁ and v₂" in explorer.find(".plane-box").text_content()
-
-
 def test_what_was_typed_is_in_a_list_that_this_browser_keeps(open_page):
     explorer = open_page().open("?system=own")
     box = explorer.find("textarea[data-box=U1]")

@@ -51,6 +51,10 @@ def opened(rooms, now=0.0, key=""):
     return lecturer, *rooms.open(key, lecturer.heard_by, now)
 
 
+def tick(*rooms, now):
+    return [each.tick(now) for each in rooms]
+
+
 def rows(lecturer):
     return [message["rows"] for message in lecturer.heard if "rows" in message]
 
@@ -66,19 +70,15 @@ def test_a_lecturer_is_told_of_the_phones_of_all_processes_when_they_are_others(
         for rooms, phone, typed in zip(two, phones, (code, f" {code.lower()} "), strict=True)
     ]
     assert guests[0].number != guests[1].number
-    assert there.tick(1.5)
-    assert here.tick(1.5)
+    assert all(tick(there, here, now=1.5))
     assert [row[1:] for row in rows(lecturer)[-1]] == [["CM4", {}, None], ["CM2", {"f1": 1.5}, None]]
-    there.tick(2.0)
-    here.tick(2.0)
+    tick(there, here, now=2.0)
     assert len(rows(lecturer)) == 1  # nothing has changed
     phones[1].row = ["CM0", {"f1": 2.0}, ["Ball", 0, True]]
-    there.tick(2.5)
-    here.tick(2.5)
+    tick(there, here, now=2.5)
     assert rows(lecturer)[-1][1][1:] == ["CM0", {"f1": 2.0}, ["Ball", 0, True]]
     there.leave(guests[1])
-    there.tick(3.0)
-    here.tick(3.0)
+    tick(there, here, now=3.0)
     assert [row[1] for row in rows(lecturer)[-1]] == ["CM4"]
     assert phones[0].heard == phones[1].heard == []
 
@@ -112,12 +112,10 @@ def test_a_lecturer_who_loads_the_page_again_has_his_room_also_from_another_proc
     there.tick(2.5)
     assert [row[0] for row in rows(again)[-1]] == [guest.number]
     there.close(code, 3.0)  # the first process still knows it as a room that waits
-    here.tick(3.5)
-    there.tick(3.5)
+    tick(here, there, now=3.5)
     assert phone.heard == [{"ended": code}]
     for now in (3.0 + CLOSED_SECONDS, 3.0 + CLOSED_SECONDS + 2.0):
-        here.tick(now)
-        there.tick(now)
+        tick(here, there, now=now)
     assert code not in here._states(3.0 + CLOSED_SECONDS + 2.0)
 
 
