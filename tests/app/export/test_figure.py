@@ -90,7 +90,7 @@ def test_no_label_stands_over_another(key):
     scene = view.scene()
     assert len(found) == len(scene["equator"].theta) + len(scene["critical"])
     for i, one in enumerate(found):
-        assert one.within(60.0 * MM, 60.0 * MM)
+        assert one.fits(60.0 * MM, 60.0 * MM)
         assert not any(one.meets(other) for other in found[:i])
 
 

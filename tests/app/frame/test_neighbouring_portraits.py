@@ -27,7 +27,7 @@ def test_the_control_that_was_moved_decides_which_sides():
 
 
 def test_a_portrait_is_looked_at_from_the_same_sides_whatever_was_moved_before():
-    frames = Frames(ExplorerState.of({"preset": "saddle-node-at"}))
+    frames = Frames(ExplorerState.from_values({"preset": "saddle-node-at"}))
     fresh, _ = unpack(frames.answer({"all": True}))
     frames.answer({"id": 1, "set": {"preset": "", "a": -1.25}})
     frames.answer({"id": 2, "set": {"a": -1.5}})
@@ -43,7 +43,7 @@ def test_a_portrait_that_is_not_degenerate_has_none(f1):
 @pytest.mark.parametrize("key", [key for key, preset in c2.presets.items() if preset.degeneracy])
 def test_a_portrait_names_a_control_that_the_page_has(key):
     # the ball's coefficient b is 0 and no control; below and above it nothing changes
-    frames = Frames(ExplorerState.of({"preset": key}))
+    frames = Frames(ExplorerState.from_values({"preset": key}))
     header, _ = unpack(frames.answer({"all": True}))
     beside, preset = header["portrait"]["sides"], c2.presets[key]
     if key == "spinning-disc":  # its directions are found and not proved; it lies at no border
