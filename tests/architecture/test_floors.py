@@ -16,14 +16,11 @@ LAYERS = [one for one in CONTRACTS if one["type"] == "layers"]
 FLOORS = {one["containers"][0]: [floor.split(" | ") for floor in one["layers"]] for one in LAYERS}  # from the top
 MOST_MODULES = 14  # of a package
 FORMS = (
-    "import {name}\n",
-    "from {package} import {room}\n",
-    "def late():\n    import {name}\n",
+    "import {name}\n", "from {package} import {room}\n", "def late():\n    import {name}\n",
     "from typing import TYPE_CHECKING\n\nif TYPE_CHECKING:\n    import {name}\n",
-    "try:\n    import {name}\nexcept ImportError:\n    pass\n",
-    "from {dots}{room} import anything\n",
+    "try:\n    import {name}\nexcept ImportError:\n    pass\n", "from {dots}{room} import anything\n",
     "class Local:\n    from {package} import {room}\n",
-)
+)  # fmt: skip
 
 
 @pytest.fixture
@@ -82,13 +79,6 @@ def test_an_upward_import_is_refused_in_every_room(copy):
         assert re.search(rf"{re.escape(importer)} -> {re.escape(target)}\S* \(.*l\.{line}\b", said), (importer, target)
 
 
-def test_rooms_on_one_floor_do_not_know_each_other(copy):
-    floor = next(floor for floor in FLOORS["codim2_core"] if len(floor) > 1)
-    path = modules(copy / "codim2_core", floor[0])[-1]
-    path.write_text(f"{path.read_text()}\nimport codim2_core.{floor[1]}\n")
-    assert f"{floor[0]} is not allowed to import codim2_core.{floor[1]}" in refused(copy)
-
-
 def test_a_room_on_no_floor_and_a_circle_in_a_room_are_refused(copy):
     (copy / "codim2_core" / "attic").mkdir()
     (copy / "codim2_core" / "attic" / "__init__.py").write_text('"""No floor."""\n')
@@ -100,13 +90,16 @@ def test_a_room_on_no_floor_and_a_circle_in_a_room_are_refused(copy):
     assert "circle_a" in said
 
 
-def test_the_core_may_not_import_the_app_nor_what_draws(copy):
-    for name, line in (("scene/scene.py", "import codim2_app"), ("psi/function.py", "import panel")):
-        path = copy / "codim2_core" / name
-        path.write_text(f"{path.read_text()}\n{line}\n")
+def test_rooms_on_one_floor_do_not_know_each_other_nor_the_core_the_app_or_what_draws(copy):
+    core = copy / "codim2_core"
+    one, other, *_ = next(floor for floor in FLOORS["codim2_core"] if len(floor) > 1)
+    planted = {core / "scene/scene.py": "codim2_app", core / "psi/function.py": "panel"}
+    planted[modules(core, one)[-1]] = f"codim2_core.{other}"
+    for path, name in planted.items():
+        path.write_text(f"{path.read_text()}\nimport {name}\n")
     said = refused(copy)
-    assert "codim2_core is not allowed to import codim2_app" in said
-    assert "codim2_core is not allowed to import panel" in said
+    for importer, name in (("codim2_core", "codim2_app"), ("codim2_core", "panel"), (one, f"codim2_core.{other}")):
+        assert f"{importer} is not allowed to import {name}" in said
 
 
 def test_no_package_is_large():

@@ -51,10 +51,6 @@ def test_type_checkers_find_every_name_where_python_does():
         _ = codim2_core.scene_table
 
 
-def test_importing_the_app_starts_no_plotting_library():
-    assert "holoviews" not in {name.split(".")[0] for name in imported_by("codim2_app")}
-
-
 def test_the_wheel_installs_every_package_and_none_called_app():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())
     found = {

@@ -15,11 +15,9 @@ CONTRIBUTING = (ROOT / ".github" / "CONTRIBUTING.md").read_text()
 TEXT = ROOT / "app" / "docs" / "text"
 # changelog, hosting, ... are of the site too, where lessons and gallery are made
 PAGES = (
-    "README.md",
-    ".readme/benchmarks.md",
-    ".github/CONTRIBUTING.md",
+    "README.md", ".readme/benchmarks.md", ".github/CONTRIBUTING.md",
     *(f"app/docs/text/{one.name}" for one in TEXT.glob("*.md")),
-)
+)  # fmt: skip
 
 
 def test_the_core_in_use_runs(capsys):

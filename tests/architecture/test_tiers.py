@@ -28,13 +28,11 @@ def test_many(n):
 @pytest.mark.parametrize(
     ("folder", "name", "found"),
     [
-        ("core", "core/a.py::test_a", ["fast"]),
-        ("app", "app/a.py::test_costly", []),
-        ("browser", "browser/a.py::test_a", ["browser"]),
-        ("faults", "faults/a.py::test_a", ["slow"]),
+        ("core", "core/a.py::test_a", ["fast"]), ("app", "app/a.py::test_costly", []),
+        ("browser", "browser/a.py::test_a", ["browser"]), ("faults", "faults/a.py::test_a", ["slow"]),
         ("words", "words/a.py::test_a", []),
     ],
-)
+)  # fmt: skip
 def test_marks_of_a_test(folder, name, found):
     assert tiers.marks(folder, name, frozenset({"app/a.py::test_costly"})) == found
 
@@ -100,100 +98,6 @@ def test_those_in_the_browser_come_first_and_all_else_keeps_its_order():
     items = [Item(*one) for one in (("app", "a"), ("browser", "z"), ("browser", "b"), ("core", "d"), ("core", "c"))]
     tiers.mark(items)
     assert [item.name for item in items] == ["z", "b", "a", "d", "c"]
-
-
-def test_a_test_named_runs_alone_and_folders_are_shared_among_the_processors(pytestconfig, monkeypatch):
-    class Asked:
-        invocation_params = type("Params", (), {"dir": ROOT})
-        option = type("Option", (), {"collectonly": False})
-
-        def __init__(self, *args, markexpr=""):
-            self.args, self.option.markexpr = args, markexpr
-
-        def getoption(self, name):
-            return {"usepdb": False, "capture": "fd"}[name]
-
-    monkeypatch.delenv("PYTEST_XDIST_WORKER", raising=False)
-    monkeypatch.setattr(tiers.os, "sched_getaffinity", lambda _: {0, 1, 2})
-    for asked in (("tests/core",), ("tests/core", "tests/app"), ("tests/browser",)):
-        assert tiers.processes(Asked(*asked)) == 3
-    assert tiers.processes(Asked("tests", markexpr="fast")) == 3
-    for asked in (("tests",), (".",)):  # some wait for the browser
-        assert tiers.processes(Asked(*asked)) == 5
-    for asked in (
-        ("tests/core/psi",),
-        ("tests/core/psi/test_psi.py::test_a",),
-        ("tests", "tests/core/psi/test_psi.py"),
-    ):
-        assert tiers.processes(Asked(*asked)) == 0
-    monkeypatch.setenv("PYTEST_XDIST_WORKER", "gw0")
-    assert tiers.processes(Asked("tests")) == 0
-
-
-def test_a_function_is_costly_by_one_of_its_tests_or_by_all_of_them():
-    measured = tiers.Measured()
-    measured.costs = {"quick": 0.01, "long": tiers.LIMIT + 0.01, "often": 0.1}
-    measured.sums = {"quick": tiers.ALTOGETHER - 0.1, "long": tiers.LIMIT + 0.01, "often": tiers.ALTOGETHER + 0.1}
-    assert measured.costly() == ["long", "often"]
-
-
-def test_a_profile_names_what_makes_most_of_the_time():
-    made = tiers.Profile()
-    report = type("Report", (), {})
-    for name, seconds in (
-        ("core/psi/t.py::a[1]", 6.0),
-        ("core/psi/t.py::a[2]", 1.0),
-        ("words/t.py::b", 2.0),
-        ("app/t.py::c", 1.0),
-    ):
-        report.nodeid, report.duration = f"tests/{name}", seconds
-        made.pytest_runtest_logreport(report)
-    rows = [row.split() for row in made.table().splitlines()]
-    assert [row[-1] for row in rows[:-1]] == ["core/psi/t.py::a", "words/t.py::b", "core/psi/", "words/", "app/"]
-    assert [row[2] for row in rows[:-1]] == ["70.0", "90.0", "70.0", "20.0", "10.0"]
-
-
-def test_what_a_fixture_costs_is_the_cost_of_all_who_use_it(tmp_path):
-    path = tmp_path / "test_it.py"
-    path.write_text("""
-import time
-
-import pytest
-
-
-@pytest.fixture(scope="module")
-def server():
-    until = time.process_time() + 0.1
-    while time.process_time() < until:
-        pass
-
-
-@pytest.fixture
-def page(server):
-    pass
-
-
-def test_first(page):
-    pass
-
-
-def test_second(page):
-    pass
-
-
-def test_alone():
-    pass
-""")
-    code = f"""
-import pytest
-from pathlib import Path
-from tests import tiers
-tiers.TESTS, measured = Path({str(tmp_path)!r}), tiers.Measured()
-pytest.main(["-q", "-n0", "-p", "no:cacheprovider", {str(path)!r}], plugins=[measured])
-print([measured.costs[f"test_it.py::test_{{name}}"] > 0.09 for name in ("first", "second", "alone")])
-"""
-    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1] == "[True, True, False]", done.stdout
 
 
 def test_each_process_begins_with_its_files_of_what_waits():

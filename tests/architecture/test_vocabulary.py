@@ -2,6 +2,7 @@
 
 import ast
 from collections import Counter
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
@@ -56,6 +57,7 @@ SHARED = {
 }
 
 
+@cache
 def tree(path):
     return ast.parse(path.read_text())
 

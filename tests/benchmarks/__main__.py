@@ -1,8 +1,7 @@
 """Run the benchmarks: ``python -m tests.benchmarks [--quick] [--keep] [name ...]``.
 
-Each is also a command of its own, ``python -m tests.benchmarks.bench_<name>``. A full run (without names and
-``--quick``) rewrites the tables and pictures of .readme/benchmarks.md, one with ``--keep`` the tables of those it
-names; every run prints all that it measured. Nothing here is asserted: these are measurements.
+A full run (without names and ``--quick``) rewrites the tables and pictures of .readme/benchmarks.md, one with
+``--keep`` the tables of those it names; every run prints all that it measured. Nothing here is asserted.
 """
 
 from __future__ import annotations

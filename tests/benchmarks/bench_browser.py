@@ -8,6 +8,8 @@ from __future__ import annotations
 import os
 import shutil
 import statistics
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
@@ -79,6 +81,18 @@ QUERIES = {"n": "?psi=hill&n=3", "k1": "?z=1", "k2": "?z=1"}
 SLOWER = 4
 
 
+@contextmanager
+def launched() -> Iterator[Browser]:
+    """Run Chromium without a window."""
+    path = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=path, args=["--headless=new", "--no-sandbox", "--disable-gpu"]
+        )
+        yield browser
+        browser.close()
+
+
 def _processor(browser: Browser) -> float:
     """Return the seconds that the renderer processes have taken so far."""
     session = browser.new_browser_cdp_session()
@@ -116,11 +130,7 @@ def report(quick: bool = False) -> str:
         "|---|---|---|---|---|---|---|",
     ]
     seconds, times = (2.0, 1) if quick else (3.0, 3)
-    chromium = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
-    with serving() as address, sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=chromium, args=["--headless=new", "--no-sandbox", "--disable-gpu"]
-        )
+    with serving() as address, launched() as browser:
         drag(browser, address, CASES[0], 2.0)  # what a server still loads after its first page is no part of a drag
         rows += [
             _row(case, [drag(browser, address, case, seconds) for _ in range(times)])
@@ -135,7 +145,6 @@ def report(quick: bool = False) -> str:
             cases = [Case(name, rate, QUERIES.get(name, ""), slider=name) for rate in (1, SLOWER)]
             fast, slow = (drag(browser, address, case, seconds) for case in cases)
             rows.append(f"| {name} | {fast['painted']:.1f} | {fast['cpu']:.1f} | {slow['painted']:.1f} |")
-        browser.close()
     return "\n".join(rows)
 
 
@@ -148,7 +157,3 @@ def _row(case: Case, runs: list[dict[str, Any]]) -> str:
     most = max(run["most"] for run in runs) or "–"
     counts = f"{middle('painted'):.1f} | {middle('frames'):.1f} | {middle('cpu'):.1f}"
     return f"| {case.name} | {counts} | {waits} | {sum(run['long'] for run in runs)} | {most} |"
-
-
-if __name__ == "__main__":
-    print(report())

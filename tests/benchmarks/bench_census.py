@@ -1,12 +1,11 @@
 """Naming many e-linear systems: the compiled filter beside `classify`, wrong names beside systems a second.
 
-Run ``python -m tests.benchmarks.bench_census [--quick]``. "Wrong" counts names that differ from those of `classify`
+Run ``python -m tests.benchmarks census [--quick]``. "Wrong" counts names that differ from those of `classify`
 among the systems that both have named; "by the exact path" is the share that the filter does not decide.
 """
 
 from __future__ import annotations
 
-import sys
 import time
 
 import numpy as np
@@ -61,7 +60,3 @@ def report(quick: bool = False) -> str:
         where = f"within 1e-{digits} of a saddle-node" if digits else "standard normal"
         rows.append(f"| {where} | {fast:.3g} | {slow:.3g} | {fast / slow:.0f} | {exact:.1e} | {wrong} of {few} |")
     return "\n".join(rows)
-
-
-if __name__ == "__main__":
-    print(report("--quick" in sys.argv))

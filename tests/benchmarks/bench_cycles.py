@@ -1,13 +1,12 @@
 """Case III: limit cycles, their branches and folds; error beside time.
 
-Run ``python -m tests.benchmarks.bench_cycles [--quick]``. Times are of the processor.
+Run ``python -m tests.benchmarks cycles [--quick]``. Times are of the processor.
 """
 
 from __future__ import annotations
 
 import os
 import statistics
-import sys
 import time
 from collections.abc import Callable
 from typing import Any
@@ -103,7 +102,3 @@ def report(quick: bool = False) -> str:
     lines += ["", "| branches of cycles | ms of the processor | error of the period |"]
     lines += ["|---|---|---|", *branch_rows(max(repeats // 3, 1), quick)]
     return "\n".join([*lines, "", f"Load of the machine then: {os.getloadavg()[0]:.1f}."])
-
-
-if __name__ == "__main__":
-    print(report("--quick" in sys.argv))

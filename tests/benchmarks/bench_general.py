@@ -1,6 +1,6 @@
 """What typed systems cost: redraws beside a built-in system of the same size, and their one compilation.
 
-Run with ``python -m tests.benchmarks.bench_general``.
+Run ``python -m tests.benchmarks general [--quick]``.
 """
 
 from __future__ import annotations
@@ -85,7 +85,3 @@ def report() -> str:
     for name, expression in COMPILED.items():
         lines.append(f"| {name} | {statistics.median(compile_seconds(expression) for _ in range(3)):.2f} |")
     return "\n".join(lines)
-
-
-if __name__ == "__main__":
-    print(report())

@@ -12,7 +12,6 @@ import asyncio
 import math
 import os
 import resource
-import sys
 import time
 from dataclasses import dataclass
 
@@ -228,7 +227,3 @@ def saturated(load: Load, processes: int) -> str:
     share = load.shares[what] / limits[what]
     bound = "are at their limit" if share > 0.9 else "work most"
     return f"with {len(load.chairs)}, the {what} {bound}: {share:.0%} of the processors that they can use."
-
-
-if __name__ == "__main__":
-    print(report("--quick" in sys.argv))

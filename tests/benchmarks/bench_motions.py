@@ -14,7 +14,6 @@ longest run). Last, ten thousand motions at once.
 from __future__ import annotations
 
 import math
-import sys
 import time
 import warnings
 from collections.abc import Callable, Sequence
@@ -114,19 +113,11 @@ OWN = Motion(_OWN, (0.6, -0.4, 0.2), 4.0, ("-2*c + 0.3*sin(z[0]) - q[0]/4", "-s*
 
 @dataclass(frozen=True)
 class Told:
-    """What is known of a motion by hand.
-
-    Attributes
-    ----------
-    motion : Motion
-    starts : tuple of states, each with its last time and its phases in order
-    e : tuple of str
-        e on Sigma, as Python text in z[0], z[1].
-    """
+    """What is known of a motion by hand."""
 
     motion: Motion
-    starts: tuple[tuple[tuple[float, ...], float, tuple[str, ...]], ...]
-    e: tuple[str, str]
+    starts: tuple[tuple[tuple[float, ...], float, tuple[str, ...]], ...]  # states, last times, phases in order
+    e: tuple[str, str]  # on Sigma, as Python text in z[0], z[1]
 
 
 _SLIDES, _G = ("slip", "slide"), 9.81
@@ -169,21 +160,19 @@ def compiled(told: Told) -> tuple[Callable[..., Array], ...]:
     """The slip and the slide, and where each ends: functions of (t, q, close), on Sigma of (t, z, close)."""
     names = {"sqrt": math.sqrt, "sin": math.sin, "cos": math.cos, "pack": np.array}
     slip = njit(error_model="numpy")(told.motion.field(**names))
-    source = "\n".join(
-        [
-            "def e_of(z):",
-            f"    return {told.e[0]}, {told.e[1]}",
-            "def slide(t, z, close):",
-            "    q = (0.0, 0.0)",
-            "    c, s = e_of(z)",
-            f"    return pack([{', '.join(told.motion.rows[2:])}])",
-            "def inside(t, z, close):",
-            "    c, s = e_of(z)",
-            "    return 1.0 - c*c - s*s",
-        ]
-    )
+    lines = [
+        "def e_of(z):",
+        f"    return {told.e[0]}, {told.e[1]}",
+        "def slide(t, z, close):",
+        "    q = (0.0, 0.0)",
+        "    c, s = e_of(z)",
+        f"    return pack([{', '.join(told.motion.rows[2:])}])",
+        "def inside(t, z, close):",
+        "    c, s = e_of(z)",
+        "    return 1.0 - c*c - s*s",
+    ]
     scope: dict[str, object] = {**names}
-    exec(source, scope)  # the formulas above
+    exec("\n".join(lines), scope)
     scope["e_of"] = njit(error_model="numpy")(scope["e_of"])
     slide, inside = (njit(error_model="numpy")(scope[name]) for name in ("slide", "inside"))
     limit = njit(error_model="numpy")(lambda t, q, close: slip(t, q, 0.0))
@@ -260,12 +249,9 @@ def summary(what: str, ratios: Sequence[Sequence[float]], methods: Sequence[str]
     """The median and the least of the ratios, those of each motion a row, at each error that is asked; as Markdown."""
     of = np.array(ratios)
     cells = [f"{np.nanmedian(column):.1f} (least {np.nanmin(column):.1f})" for column in (*of.T, of.ravel())]
+    head = f"| {what}, time / ours at true error | {' | '.join(f'{asked:.0e}' for asked in ERRORS)} | all |"
     return "\n".join(
-        [
-            f"| {what}, time / ours at true error | {' | '.join(f'{asked:.0e}' for asked in ERRORS)} | all |",
-            "|" + "---|" * (len(ERRORS) + 2),
-            f"| best of {', '.join(methods)} | {' | '.join(cells)} |",
-        ]
+        [head, "|" + "---|" * (len(ERRORS) + 2), f"| best of {', '.join(methods)} | {' | '.join(cells)} |"]
     )
 
 
@@ -318,7 +304,3 @@ def report(quick: bool = False) -> str:
         many(1000 if quick else 10_000),
     ]
     return "\n\n".join(parts)
-
-
-if __name__ == "__main__":
-    print(report("--quick" in sys.argv))

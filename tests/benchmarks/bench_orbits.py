@@ -1,13 +1,12 @@
 """Limit cycles and separatrices: error against time, ours beside SciPy with a Poincare section.
 
-Run ``python -m tests.benchmarks.bench_orbits [--quick]``. Periods are held against an extrapolation method (Gragg,
+Run ``python -m tests.benchmarks orbits [--quick]``. Periods are held against an extrapolation method (Gragg,
 Bulirsch, Stoer) at 22 digits; separatrices against DOP853 at 3e-14 from 1e-8 beside the saddle.
 """
 
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Callable
 
 import numpy as np
@@ -58,10 +57,8 @@ def cycle_curves(name: str, turns: int) -> dict[str, Curve]:
     preset, period = presets[name], PERIODS[name]
     tolerances = 10.0 ** -np.arange(3.0, 14.0, 2.0)
     runners = [Runner("ours (one call finds all)", lambda _: limit_cycles(preset.system, preset.psi)[0].period, (0.0,))]
-    runners += [
-        Runner(f"SciPy {method}, section", scipy_period(preset, method, period), tolerances)
-        for method in ("DOP853", "LSODA", "RK45")
-    ]
+    others = [(name, scipy_period(preset, name, period)) for name in ("DOP853", "LSODA", "RK45")]
+    runners += [Runner(f"SciPy {name}, section", run, tolerances) for name, run in others]
     return race(runners, lambda found: abs(float(found) / period - 1.0), turns, 1.0)  # type: ignore[arg-type]
 
 
@@ -175,12 +172,3 @@ def plots(found: dict[str, dict[str, Curve]]) -> list[Plot]:
              "distance from the true curve")
         for title, curves in found.items()
     ]  # fmt: skip
-
-
-def report(quick: bool = False) -> str:
-    """Return the table as Markdown."""
-    return text(measure(quick))
-
-
-if __name__ == "__main__":
-    print(report("--quick" in sys.argv))

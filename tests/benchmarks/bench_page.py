@@ -7,18 +7,17 @@ within one turn. A stroke is one on a canvas of the page: of the figure's axes t
 from __future__ import annotations
 
 import asyncio
-import os
-import shutil
 import time
 from contextlib import ExitStack
 from statistics import median
 from typing import Any
 from urllib.request import urlopen
 
-from playwright.sync_api import Browser, sync_playwright
+from playwright.sync_api import Browser
 
 from .app_load import at_rest, cpu, serving
 from .app_load import page as page_text
+from .bench_browser import launched
 from .wire import Wire
 
 KINDS = {"panel": "bare Panel page, empty Bokeh figure", "explorer": "explorer"}
@@ -71,14 +70,10 @@ async def arrivals(kind: str, port: int, pid: int, count: int) -> float:
 
 def run(turns: int) -> dict[str, list[dict[str, Any]]]:
     """Measure both servers in turns: rows by kind, one for each turn."""
-    chromium = os.environ.get("CODIM2_CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
     found: dict[str, list[dict[str, Any]]] = {kind: [] for kind in KINDS}
     with ExitStack() as stack:
         servers = {kind: stack.enter_context(serving(kind)) for kind in KINDS}
-        playwright = stack.enter_context(sync_playwright())
-        browser = playwright.chromium.launch(
-            executable_path=chromium, args=["--headless=new", "--no-sandbox", "--disable-gpu"]
-        )
+        browser = stack.enter_context(launched())
         for port, pid in servers.values():
             first_stroke(browser, port)
             _run(at_rest(pid))
@@ -89,7 +84,6 @@ def run(turns: int) -> dict[str, list[dict[str, Any]]]:
                 used = _run(arrivals(kind, port, pid, 10))
                 found[kind].append({"byte": byte, "stroke": stroke, "cpu": used})
                 _run(at_rest(pid))
-        browser.close()
     return found
 
 
@@ -104,10 +98,7 @@ def _run(what: Any) -> Any:
 def report(quick: bool = False) -> str:
     """Return the table as Markdown."""
     found = run(2 if quick else 7)
-    lines = [
-        "| page | first byte | first stroke in a browser | server's CPU a page |",
-        "|---|---|---|---|",
-    ]
+    lines = ["| page | first byte | first stroke in a browser | server's CPU a page |", "|---|---|---|---|"]
     for kind, title in KINDS.items():
         rows = found[kind]
         byte, stroke, used = (1e3 * median(row[key] for row in rows) for key in ("byte", "stroke", "cpu"))
@@ -121,7 +112,3 @@ def report(quick: bool = False) -> str:
         f"first stroke {ratios['stroke']:.2f}, CPU {ratios['cpu']:.2f}."
     )
     return "\n".join(lines)
-
-
-if __name__ == "__main__":
-    print(report())

@@ -2,7 +2,7 @@
 
 Times are of the processor: another program that runs beside it counts less.
 
-Run with ``python -m tests.benchmarks.bench_scene``.
+Run ``python -m tests.benchmarks scene [--quick]``.
 """
 
 from __future__ import annotations
@@ -81,7 +81,3 @@ def report() -> str:
     lines += ["", "| import, warm cache | s of the processor |", "|---|---|", f"| `import codim2_core` | {ours:.3f} |"]
     lines += [f"| `import numba, scipy, scipy.integrate` | {theirs:.2f} |", f"| ratio, paired | {ratio:.2f} |"]
     return "\n".join([*lines, "", f"Load of the machine then: {os.getloadavg()[0]:.1f}."])
-
-
-if __name__ == "__main__":
-    print(report())

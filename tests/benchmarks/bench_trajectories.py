@@ -1,6 +1,6 @@
 """64 trajectories: true error against run time, ours beside SciPy, Numba-LSODA, diffrax and heyoka.
 
-Run ``python -m tests.benchmarks.bench_trajectories [--quick] [problem ...]``. All run on one thread, on the same
+Run ``python -m tests.benchmarks trajectories [--quick]``. All run on one thread, on the same
 formulas and seeds, in turns; the error is the largest over the 64 ends, against 30 digits or an exact solution
 (`references`). Times of early ends (our `capture`) and of drawing are left out. numbalsoda needs a Fortran compiler to
 install, diffrax brings JAX; what is not installed is named and skipped.
@@ -38,18 +38,17 @@ def entered(problem: Problem, methods: tuple[Method, ...]) -> tuple[list[Runner]
     for method in methods:
         try:
             repeats = 5 if method is OURS else 1
-            runners.append(
-                Runner(method.name, method.prepare(problem), method.tolerances, method.share, repeats=repeats)
-            )
+            run = method.prepare(problem)
+            runners.append(Runner(method.name, run, method.tolerances, method.share, repeats))
         except (ImportError, OSError) as error:
             absent[method.name] = f"{type(error).__name__}: {error}"
     return runners, absent
 
 
-def measure(quick: bool = False, names: tuple[str, ...] = (), turns: int = 5) -> list[Race]:
+def measure(quick: bool = False) -> list[Race]:
     """Run the races: all problems and methods, or a few."""
     methods = (OURS, *(m for m in METHODS if not quick or m.name in QUICK))
-    chosen = [p for p in problems() if p.name in (names or QUICK_PROBLEMS if quick or names else [p.name])]
+    chosen = [p for p in problems() if not quick or p.name in QUICK_PROBLEMS]
     races = []
     for problem in chosen:
         runners, absent = entered(problem, methods)
@@ -59,7 +58,7 @@ def measure(quick: bool = False, names: tuple[str, ...] = (), turns: int = 5) ->
             worst = float(np.abs(np.asarray(result) - end).max())
             return worst if math.isfinite(worst) else math.inf
 
-        races.append(Race(problem, race(runners, error, 3 if quick else turns, 0.15), absent))
+        races.append(Race(problem, race(runners, error, 3 if quick else 5, 0.15), absent))
         print(f"raced: {problem.name}", file=sys.stderr, flush=True)
     return races
 
@@ -89,17 +88,6 @@ def best_table(races: list[Race]) -> str:
     return "\n".join(lines)
 
 
-def absolute_table(races: list[Race]) -> str:
-    """Our own milliseconds."""
-    errors = (1e-3, 1e-6, 1e-9, 1e-12)
-    lines = ["| ours, ms at the error | " + " | ".join(f"{e:.0e}" for e in errors) + " | |", "|---" * 6 + "|"]
-    for item in races:
-        costs = [1e3 * item.curves["ours"].cost(error) for error in errors]
-        cells = " | ".join("–" if math.isinf(cost) else f"{cost:.3f}" for cost in costs)
-        lines.append(f"| {item.problem.name} | {cells} | {item.problem.note} |")
-    return "\n".join(lines)
-
-
 def slower(races: list[Race]) -> str:
     """Where another one is faster, in words."""
     found = []
@@ -126,10 +114,7 @@ def readme(races: list[Race]) -> str:
     names = dict.fromkeys(name for item in races for name in item.curves if name != "ours")
     rows = {**groups, **{name: name for name in names if "SciPy" not in name}}
     head = " | ".join(f"{error:.0e}" for error in errors)
-    lines = [
-        f"| {len(races)} problems, time / ours at true error | {head} |",
-        "|---" * (len(errors) + 1) + "|",
-    ]
+    lines = [f"| {len(races)} problems, time / ours at true error | {head} |", "|---" * (len(errors) + 1) + "|"]
     for title, part in rows.items():
         cells = []
         for error in errors:
@@ -164,15 +149,4 @@ def missing(races: list[Race]) -> str:
 
 def text(races: list[Race]) -> str:
     """All tables, as Markdown."""
-    parts = [best_table(races), absolute_table(races), readme(races), missing(races)]
-    return "\n\n".join(part for part in parts if part)
-
-
-def report(quick: bool = False) -> str:
-    """Return all tables as Markdown."""
-    return text(measure(quick))
-
-
-if __name__ == "__main__":
-    names = tuple(name for name in sys.argv[1:] if not name.startswith("-"))
-    print(text(measure("--quick" in sys.argv, names)))
+    return "\n\n".join(filter(None, (best_table(races), readme(races), missing(races))))

@@ -28,22 +28,12 @@ ALONE = 4  # SciPy one trajectory at a time: so many are run, and the time multi
 
 @dataclass(frozen=True)
 class Method:
-    """One competitor.
-
-    Attributes
-    ----------
-    name : str
-    prepare : callable
-    tolerances : tuple of float
-        From loose to tight.
-    share : float
-        Part of the work that a run does; its time is divided by it.
-    """
+    """One competitor."""
 
     name: str
     prepare: Callable[[Problem], Run]
-    tolerances: tuple[float, ...]
-    share: float = 1.0
+    tolerances: tuple[float, ...]  # from loose to tight
+    share: float = 1.0  # part of the work that a run does; its time is divided by it
 
 
 def powers(*exponents: int) -> tuple[float, ...]:

@@ -31,38 +31,23 @@ Array = np.ndarray
 
 @dataclass(frozen=True)
 class Motion:
-    """One motion, Psi = 1.
-
-    Attributes
-    ----------
-    system : ELinear or System
-    start : tuple of float
-        (x, y, z1, ..., zm).
-    t_end : float
-    rows : tuple of str
-        U and W as Python text in c, s, z[0], z[1], sin, cos.
-    """
+    """One motion, Psi = 1."""
 
     system: AnySystem
-    start: tuple[float, ...]
+    start: tuple[float, ...]  # (x, y, z1, ..., zm)
     t_end: float
-    rows: tuple[str, ...]
-
-    def source(self) -> str:
-        """Python source of ``field(t, q, eps)``; sqrt, sin, cos and pack are left to the caller's names."""
-        return "\n".join(
-            [
-                "def field(t, q, eps):",
-                "    rho = sqrt(q[0]*q[0] + q[1]*q[1] + eps*eps)",
-                "    c, s, z = q[0]/rho, q[1]/rho, q[2:]",
-                f"    return pack([{', '.join(self.rows)}])",
-            ]
-        )
+    rows: tuple[str, ...]  # U and W as Python text in c, s, z[0], z[1], sin, cos
 
     def field(self, **names: object) -> Callable[..., Array]:
-        """Return ``field(t, q, eps)`` on the functions that are given."""
+        """Return ``field(t, q, eps)`` on sqrt, sin, cos and pack that are given."""
         scope = dict(names)
-        exec(self.source(), scope)  # the formulas above
+        lines = [
+            "def field(t, q, eps):",
+            "    rho = sqrt(q[0]*q[0] + q[1]*q[1] + eps*eps)",
+            "    c, s, z = q[0]/rho, q[1]/rho, q[2:]",
+            f"    return pack([{', '.join(self.rows)}])",
+        ]
+        exec("\n".join(lines), scope)
         return scope["field"]  # type: ignore[return-value]
 
 
@@ -118,11 +103,7 @@ def tableau() -> tuple[Array, Real, Array]:
         embedded = mpmath.lu_solve(powers.T, target)
         weights = (embedded - A[STAGES - 1, :].T).T * inverse
         real = lambda x: Real(mpmath.nstr(x, 30))
-        return (
-            np.array([[real(A[i, j]) for j in ks] for i in ks]),
-            real(gamma),
-            np.array([real(w) for w in weights]),
-        )
+        return (np.array([[real(A[i, j]) for j in ks] for i in ks]), real(gamma), np.array([real(w) for w in weights]))
 
 
 def solved(A: Array, b: Array) -> Array:

@@ -25,14 +25,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Plot:
-    """A log-log plot.
-
-    Attributes
-    ----------
-    title, x, y : str
-        Labels of the axes.
-    lines : tuple of Line
-    """
+    """A log-log plot, and the labels of its axes."""
 
     title: str
     lines: tuple[Line, ...]

@@ -35,35 +35,16 @@ ELINEAR = ("P[0]*c - P[1]*e + P[3]", "P[1]*c + P[2]*e + P[4]")
 
 @dataclass(frozen=True)
 class Problem:
-    """One race.
-
-    Attributes
-    ----------
-    name : str
-    system : ELinear or System
-    psi : Psi
-    seeds : ndarray (64, 2)
-    t_end : float
-        T, dT = dt/rho.
-    U : (str, str)
-        Text in c, e = e_Psi and P.
-    numbers : tuple of float
-        P, six of them.
-    polar : bool
-        Whether competitors follow (theta, ebar) and not p: where 1 - |p| is small, ebar cannot be had from p.
-    note : str
-        What the problem is there for.
-    """
+    """One race."""
 
     name: str
     system: ELinear | System
     psi: Psi
-    seeds: Array = field(repr=False)
-    t_end: float
-    U: tuple[str, str] = ELINEAR
-    numbers: tuple[float, ...] = ()
-    polar: bool = False
-    note: str = ""
+    seeds: Array = field(repr=False)  # (64, 2)
+    t_end: float  # T, dT = dt/rho
+    U: tuple[str, str] = ELINEAR  # text in c, e = e_Psi and P
+    numbers: tuple[float, ...] = ()  # P, six of them
+    polar: bool = False  # competitors follow (theta, ebar), not p: where 1 - |p| is small, p does not tell ebar
 
     @property
     def start(self) -> Array:
@@ -141,9 +122,7 @@ def near_equator() -> Problem:
     gap = np.logspace(-2, -12, COUNT)
     angle = np.resize(theta, COUNT) + 1e-3 * np.cos(np.arange(COUNT))
     seeds = (1.0 - gap)[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return _elinear(
-        "near the equator", system, psi.rational(), 16.0, seeds, polar=True, note="ebar = 0.14 … 1.4e-6 at the seeds"
-    )
+    return _elinear("near the equator", system, psi.rational(), 16.0, seeds, polar=True)
 
 
 def near_saddle() -> Problem:
@@ -156,7 +135,7 @@ def near_saddle() -> Problem:
     side = np.resize((1.0, -1.0), COUNT)
     beside = -side * np.logspace(-2, -7, COUNT)
     seeds = C.p + 0.05 * side[:, None] * stable + beside[:, None] * unstable
-    return _elinear("past a saddle", preset.system, psi.rational(), 12.0, seeds, note="errors grow 1e4 times")
+    return _elinear("past a saddle", preset.system, psi.rational(), 12.0, seeds)
 
 
 @lru_cache(maxsize=1)
@@ -164,27 +143,26 @@ def problems() -> tuple[Problem, ...]:
     """All of them."""
     rotation = ELinear(0.0, 1.0, 0.0, (0.3, 0.2))
     found = [
-        _elinear("so(2,1)", rotation, psi.constant(), 16.0, note="a = d = 0, Ψ = 1: exact, a matrix exponential"),
-        _elinear("f = 0", ELinear(-1.0, 0.5, -1.6), psi.constant(), 8.0, note="x₂' = A x₂: exact"),
+        _elinear("so(2,1)", rotation, psi.constant(), 16.0),
+        _elinear("f = 0", ELinear(-1.0, 0.5, -1.6), psi.constant(), 8.0),
     ]
     for name in ("cm0", "cm2", "cm4", "ncm2", "ncm4"):
         preset = presets[f"case1-{name}"]
-        found.append(_elinear(f"Case I {name.upper()}", preset.system, preset.psi, 8.0, note="Ψ = 1"))
+        found.append(_elinear(f"Case I {name.upper()}", preset.system, preset.psi, 8.0))
     mixed = ELinear(-2.0, 0.5, -1.0, (-0.5, 0.2))
     shapes = (psi.rational(), psi.exponential(), psi.tanh(), psi.custom("1/(1+s)**2"))
     found += [_elinear(f"Case I, Ψ = {shape.text}", mixed, shape, 8.0) for shape in shapes]
-    found.append(_elinear("Case I, hill n = 16", mixed, psi.hill(16), 8.0, note="a steep Ψ"))
+    found.append(_elinear("Case I, hill n = 16", mixed, psi.hill(16), 8.0))
     three = presets["case3-n2"].system
     found += [_elinear(f"Case III n = {n}", three, psi.hill(n), 0.1) for n in range(1, 9)]
     found += [
         Problem(
             "attracting, repelling", examples.attracting_repelling(), psi.tanh(), sunflower(), 8.0,
-            ("2*c*c - c - 0.5", "-e"), (0.0,) * 6, note="a general system",
+            ("2*c*c - c - 0.5", "-e"), (0.0,) * 6,
         ),
         Problem(
             "non-unique sliding", examples.nonunique_sliding(), psi.rational(), sunflower(), 16.0,
             ("-c*(c - P[0])*(c + P[0])", "-0.5*e"), ((1.0 + 2.0 * 0.09) / (1.0 + 0.09) / 2.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-            note="a general system, z = 0.3",
         ),
         near_equator(),
         near_saddle(),

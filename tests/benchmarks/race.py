@@ -14,19 +14,8 @@ DECADES = tuple(10.0**-k for k in range(3, 13))
 
 @dataclass
 class Curve:
-    """One method on one problem: at each setting an error and times.
+    """One method on one problem: at each setting, such as a tolerance, an error, and the seconds of every turn."""
 
-    Attributes
-    ----------
-    name : str
-    settings : list of float
-        Tolerances, or whatever is turned.
-    errors : list of float
-    times : list of list of float
-        Seconds, of every setting in every turn.
-    """
-
-    name: str
     settings: list[float] = field(default_factory=list)
     errors: list[float] = field(default_factory=list)
     times: list[list[float]] = field(default_factory=list)
@@ -56,26 +45,13 @@ class Curve:
 
 @dataclass
 class Runner:
-    """What is raced: a run for each setting, and its error.
-
-    Attributes
-    ----------
-    name : str
-    run : callable
-        setting -> result.
-    settings : sequence of float
-        From cheap to costly.
-    share : float
-        Part of the work that a run does; its time is divided by it.
-    repeats : int
-        Runs in one turn, of which the median counts.
-    """
+    """What is raced: a run of each setting."""
 
     name: str
     run: Callable[[float], object]
-    settings: Sequence[float]
-    share: float = 1.0
-    repeats: int = 1
+    settings: Sequence[float]  # from cheap to costly
+    share: float = 1.0  # part of the work that a run does; its time is divided by it
+    repeats: int = 1  # runs in one turn, of which the median counts
 
 
 def clock(run: Callable[[float], object], setting: float, repeats: int = 1) -> float:
@@ -98,7 +74,7 @@ def race(
     """
     curves: dict[str, Curve] = {}
     for runner in runners:
-        curve = curves[runner.name] = Curve(runner.name)
+        curve = curves[runner.name] = Curve()
         for setting in runner.settings:
             result = runner.run(setting)  # compiles
             first = clock(runner.run, setting)

@@ -1,17 +1,15 @@
 """The benchmarks' references and arithmetic; nothing timed is asserted."""
 
 import math
-import re
 from collections import Counter, defaultdict
 
 import numpy as np
 import pytest
 
 from . import __main__ as command
-from .bench_load import Load, carried, saturated, since
+from .bench_load import Load, carried, saturated
 from .bench_motions import summary
 from .methods import ours
-from .pictures import plot, svg
 from .problems import condition, problems
 from .race import Curve, ratio
 from .visits import TICKS, TYPISTS, Chair, asked
@@ -24,25 +22,13 @@ def test_trajectories_end_where_the_references_do(problem):
 
 
 def test_cost_at_an_error_interpolates_in_logarithms():
-    curve = Curve("a", [1.0, 2.0], [1e-2, 1e-4], [[1.0, 1.0], [4.0, 4.0]])
+    curve = Curve([1.0, 2.0], [1e-2, 1e-4], [[1.0, 1.0], [4.0, 4.0]])
     assert curve.cost(1e-3) == pytest.approx(2.0)
     assert curve.cost(1.0) == 1.0  # the cheapest that is good enough
     assert math.isinf(curve.cost(1e-5))
     assert ratio(curve, curve, 1e-3) == 1.0
     assert math.isnan(ratio(curve, curve, 1e-5))
-
-
-def test_a_costly_loose_setting_is_never_the_cost():
-    curve = Curve("a", [1.0, 2.0], [1e-2, 1e-4], [[9.0], [4.0]])
-    assert curve.cost(1e-1) == 4.0
-
-
-def test_pictures_place_decades_evenly():
-    drawn = plot("title", {"ours": [(1e-2, 1.0), (1e-4, 10.0), (math.inf, 1.0)], "b < c": [(1e-3, 3.0), (1e-4, 5.0)]})
-    text = svg([drawn])
-    points = re.search(r'points="([^"]+)"[^>]*stroke-width="2.6"', text).group(1).split()
-    assert len(points) == 2  # what is not finite is left out
-    assert "b &lt; c" in text
+    assert Curve([1.0, 2.0], [1e-2, 1e-4], [[9.0], [4.0]]).cost(1e-1) == 4.0  # not that of a costly loose setting
 
 
 def test_visitors_do_all_that_visitors_do_and_some_type_a_formula_of_their_own():
@@ -66,14 +52,7 @@ def test_a_crowd_is_carried_if_all_smaller_ones_are():
     assert quick.rates() == (5.0, 10.0)
     assert carried({1: quick, 8: quick, 16: slow, 24: quick}) == 8
     assert carried({1: slow}) == 0
-    assert (
-        saturated(slow, 1)
-        == "with 2, the server processes are at their limit: 95% of the processors that they can use."
-    )
-
-
-def test_a_worker_that_has_ended_has_used_nothing_rather_than_less():
-    assert since({"workers": 3.0, "servers": 1.0}, {"workers": 2.0, "servers": 4.0}) == {"workers": 0.0, "servers": 3.0}
+    assert saturated(slow, 1).startswith("with 2, the server processes are at their limit: 95%")
 
 
 def test_named_tables_take_the_place_of_what_was_on_the_page(tmp_path, monkeypatch):

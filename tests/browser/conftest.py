@@ -12,6 +12,7 @@ from .asymmetric import SETTINGS
 #: else on a machine that is busy with tests, and end by themselves, which the page then says.
 PATIENCE = 1000 * SECONDS
 WINDOW = {"width": 1280, "height": 800}
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 #: What Chromium says of a script that is fetched first and used last, where other tests have the machine.
 SLOWLY = "was preloaded using link preload but not used within a few seconds"
 VISITED = "try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* forbidden */ }"
@@ -136,6 +137,37 @@ class Explorer:
         box.evaluate(UNFOLD)
         box.fill(text)
         box.press("Enter")
+        return self.settle()
+
+    def click(self, selector):
+        self.find(selector).click()
+        return self.settle()
+
+    def press(self, selector, key):
+        self.find(selector).press(key)
+        return self.settle()
+
+    def fill(self, selector, text):
+        self.find(selector).fill(text)
+        return self.settle()
+
+    def choose(self, selector, option):
+        self.find(selector).select_option(option)
+        return self.settle()
+
+    def reload(self):
+        self.page.reload()
+        self.page.wait_for_selector(".codim2[data-ready]")
+        return self.settle()
+
+    def drag(self, *places, steps=4):
+        """Press at the first place of the window, and let go at the last."""
+        mouse = self.page.mouse
+        mouse.move(*places[0])
+        mouse.down()
+        for place in places[1:]:
+            mouse.move(*place, steps=steps)
+        mouse.up()
         return self.settle()
 
 

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import pytest
 
+from .conftest import PHONE
+
 AXE = Path(__file__).parents[1] / "app" / "static" / "node_modules" / "axe-core" / "axe.min.js"
 
 SERIOUS = """async (place, rules) => { const found = await axe.run(place, {resultTypes: ['violations'],
@@ -23,7 +25,7 @@ def axe():
 STATES = {
     "desktop": {"viewport": {"width": 1440, "height": 900}},
     "dark": {"viewport": {"width": 1440, "height": 900}, "color_scheme": "dark"},
-    "phone": {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True},
+    "phone": PHONE,
 }
 
 

@@ -8,10 +8,7 @@ SHOWN = "Number(getComputedStyle(root.querySelector('.controls')).opacity)"
 
 def test_the_picture_fills_the_screen_controls_fade_and_come_with_the_pointer(open_page):
     page = open_page(viewport=WIDE).open("?v=1&panel=numbers")
-    width, labels = (
-        page.find(".picture").bounding_box()["width"],
-        "picture.list.find((item) => item.kind === 'label').size",
-    )
+    width, labels = page.find(".picture").bounding_box()["width"], "picture.list.find((it) => it.kind === 'label').size"
     size = page.ask(labels)
     page.page.keyboard.press("b")
     page.until("root.classList.contains('beamer')")
@@ -39,16 +36,14 @@ def test_the_picture_fills_the_screen_controls_fade_and_come_with_the_pointer(op
     assert page.ask(labels) > 1.5 * size
     page.type("f1", "-1.5").kept()
     assert "beamer=1" in page.page.url
-    page.find(".undo").press("Enter")
-    page.kept()
+    page.press(".undo", "Enter").kept()
     assert page.find(".codim2.beamer").count() == 1  # how it is looked at is no step
     assert page.complaints == []
 
 
 def test_a_letter_that_is_typed_is_no_key(open_page):
     page = open_page(viewport=WIDE).open("?v=1&system=own&panel=numbers")
-    page.find("textarea[data-box=U1]").press("b")
-    page.settle()
+    page.press("textarea[data-box=U1]", "b")
     assert page.find(".codim2.beamer").count() == 0
 
 

@@ -215,21 +215,6 @@ def test_the_ring_of_outcomes_lies_where_the_trajectories_arrive(drawn):
         assert colour == ("#7c3aed" if outcome.depends_on_psi and kind != "misses" else OUTCOMES[kind])
 
 
-def test_what_is_exported_as_svg_is_the_same(drawn):
-    import re
-
-    svg = drawn.page.ask("view.export('svg').ctx.get_serialized_svg(true)")
-    left, top, side = drawn.page.ask("[view.frame.bbox.x, view.frame.bbox.y, view.frame.bbox.width]")
-    colour, width, _ = STROKES["outside"]
-    [path] = [
-        p for p in re.findall(r"<path [^>]*>", svg) if f'stroke="{colour}"' in p and f'stroke-width="{width}"' in p
-    ]
-    numbers = np.array([float(v) for v in re.findall(r"-?[\d.]+(?:e-?\d+)?", re.search(r' d="([^"]*)"', path)[1])])
-    pixels = numbers.reshape(-1, 2)
-    found = np.column_stack([(pixels[:, 0] - left) / side * 3.5 - 1.75, 1.75 - (pixels[:, 1] - top) / side * 3.5])
-    assert gaps(found, [np.clip(p, -4, 4) for p in drawn.scene["outside"].points]).max() < 0.01  # Bokeh's half pixel
-
-
 def colour_at(page, point):
     """The colour on the screen's canvas at a point of the picture."""
     return page.ask(f"""(() => {{

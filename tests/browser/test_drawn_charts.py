@@ -44,10 +44,8 @@ def test_names_of_the_trace_plane_stand_in_their_regions(opened):
     for text, _, x, y in names:
         trace, determinant = plane.data([x, y - 4])[0]
         focus = trace**2 < 4 * determinant
-        kind = (
-            "saddle" if determinant < 0 else f"{'stable' if trace < 0 else 'unstable'} {'focus' if focus else 'node'}"
-        )
-        assert text == kind
+        kind = f"{'stable' if trace < 0 else 'unstable'} {'focus' if focus else 'node'}"
+        assert text == ("saddle" if determinant < 0 else kind)
 
 
 def test_table_of_the_planes(opened, setting):
@@ -119,12 +117,8 @@ def test_special_points_of_the_diagram(opened, setting):
     assert sum(len(mark["words"].splitlines()) for _, mark in drawn) == len(found) > 3
     near = plots(page, ".diagram")[-1].near[0]
     for one in found:
-        marks = [
-            place for place, mark in drawn if any(f"{one.kind} at " in line for line in mark["words"].splitlines())
-        ]
-        assert (
-            min(abs(place[0] - one.value) for place in marks) < 30 * near
-        )  # a group stands in the middle of its members
+        marks = [place for place, mark in drawn if f"{one.kind} at " in mark["words"]]
+        assert min(abs(place[0] - one.value) for place in marks) < 30 * near  # a group stands amid its members
 
 
 def test_along_z(opened, setting):
@@ -243,38 +237,26 @@ def test_psi(opened):
         np.testing.assert_allclose(points[there, 1], np.sign(x[there]) * PSI.modulus(np.abs(x[there]) / eps), atol=0.03)
 
 
-def test_atlas(opened, setting):
-    page = opened("atlas")
-    page.page.wait_for_selector(".pad:not(.old)")
-    (plot,) = plots(page, ".pad")
-    assert (plot.title, plot.word) == ("f₂", "f₁")
-    pixels = [(x, y) for x in np.linspace(60, 300, 9) for y in np.linspace(50, 270, 8)]
-    agreeing = 0
-    for pixel, names in zip(pixels, page.find(".pad").evaluate(SCRIPTS["regions"], pixels), strict=True):
-        f1, f2 = plot.data(pixel)[0]
-        name = c2.classify(system(setting, f1=f1, f2=f2), PSI, (0.0,)).name
-        if names:
-            agreeing += names[0] == name
-    assert agreeing > 0.93 * len(pixels)
-    matrix = np.array([[setting["a"], -setting["b"]], [setting["b"], setting["d"]]])
-    curve = np.concatenate([points for points, _ in plot.lines("transcritical")])
-    np.testing.assert_allclose(np.hypot(*np.linalg.solve(matrix, curve.T)), 1.0, atol=0.03)
-    handle = page.find(".pad .handle").evaluate("(it) => [it.cx.baseVal.value, it.cy.baseVal.value]")
-    np.testing.assert_allclose(plot.data(handle)[0], [setting["f1"], setting["f2"]], rtol=0.0, atol=max(plot.near))
-
-
-def test_atlas_of_other_axes(opened, setting):
-    page = opened("atlas", across="a", up="f2")
+@pytest.mark.parametrize("across", ["f1", "a"])
+def test_atlas(opened, setting, across):
+    page = opened("atlas", across=across, up="f2")
     page.page.wait_for_selector(".pad:not(.old) .region")
     (plot,) = plots(page, ".pad")
-    assert (plot.title, plot.word) == ("f₂", "a")
+    assert (plot.title, plot.word) == ("f₂", {"f1": "f₁"}.get(across, across))
     pixels = [(x, y) for x in np.linspace(60, 300, 9) for y in np.linspace(50, 270, 8)]
     agreeing = 0
     for pixel, names in zip(pixels, page.find(".pad").evaluate(SCRIPTS["regions"], pixels), strict=True):
-        a, f2 = plot.data(pixel)[0]
-        name = c2.classify(system(setting, a=a, f2=f2), PSI, (0.0,)).name
+        at_x, f2 = plot.data(pixel)[0]
+        name = c2.classify(system(setting, **{across: at_x}, f2=f2), PSI, (0.0,)).name
         agreeing += bool(names) and names[0].split(",")[0] == name
     assert agreeing > 0.93 * len(pixels)
+    handle = page.find(".pad .handle").evaluate("(it) => [it.cx.baseVal.value, it.cy.baseVal.value]")
+    here = [setting[across], setting["f2"]]
+    np.testing.assert_allclose(plot.data(handle)[0], here, rtol=0.0, atol=max(plot.near))
+    if across == "f1":
+        matrix = np.array([[setting["a"], -setting["b"]], [setting["b"], setting["d"]]])
+        curve = np.concatenate([points for points, _ in plot.lines("transcritical")])
+        np.testing.assert_allclose(np.hypot(*np.linalg.solve(matrix, curve.T)), 1.0, atol=0.03)
 
 
 def test_numbers(opened, setting):

@@ -2,9 +2,9 @@
 
 import pytest
 
-pytestmark = pytest.mark.browser
+from .conftest import PHONE
 
-PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+pytestmark = pytest.mark.browser
 
 
 def middle(box):
@@ -31,8 +31,7 @@ def test_it_says_what_it_is_about_with_the_sliders_in_sight(open_page):
 def test_the_puck_slips_and_sticks_beside_the_sphere_and_a_dot_runs_on_it(open_page):
     explorer = open_page(viewport={"width": 1440, "height": 900}).open("?v=1&B1=0")
     dot = "picture.above.list.find((item) => item.kind === 'mark')"
-    explorer.find(".table input").fill("1.2")
-    explorer.settle()
+    explorer.fill(".table input", "1.2")
     assert explorer.find("[data-control=f1] .number").input_value() == "-1.2"
     explorer.find(".table .play").click()
     explorer.until(f"Boolean(root.explorer.{dot})")
@@ -72,8 +71,7 @@ def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
     assert (before["x"][0], before["y"][0]) == pytest.approx((-0.2582 + 0.5, 0.2), abs=0.01)
     explorer.find(".grab").press("Shift+ArrowLeft")  # and back, by keys
     for _ in range(12):
-        explorer.find(".grab").press("Shift+ArrowLeft")
-        explorer.settle()
+        explorer.press(".grab", "Shift+ArrowLeft")
     assert explorer.name().startswith("CM")
     explorer.open()
     assert not invitation.is_visible()  # who has done it is not asked again
@@ -83,11 +81,7 @@ def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
 def test_a_number_of_the_headline_is_dragged(explorer):
     number = explorer.find(".dragged[data-number=push]")
     x, y = middle(number.bounding_box())
-    explorer.page.mouse.move(x, y)
-    explorer.page.mouse.down()
-    explorer.page.mouse.move(x + 160, y, steps=4)
-    explorer.page.mouse.up()
-    explorer.settle()
+    explorer.drag((x, y), (x + 160, y))
     assert explorer.find("[data-control=f1] .number").input_value() == "-1"
     assert number.text_content() == "1.00"
 
@@ -111,8 +105,7 @@ def test_a_portrait_is_entered_by_the_gallery_also_on_a_phone(open_page):
         explorer = open_page(**options).open()
         if options:
             explorer.find("[data-sheet=gallery]").click()
-        explorer.find(".gallery [data-preset=case2-saddle]").click()
-        explorer.settle()
+        explorer.click(".gallery [data-preset=case2-saddle]")
         assert explorer.find(".gallery .here").get_attribute("data-preset") == "case2-saddle"
         assert explorer.find("select.preset").input_value() == "case2-saddle"
         assert explorer.complaints == []
@@ -140,14 +133,8 @@ def test_the_sheet_of_keys_and_marks_is_there_on_demand(open_page, options):
     sheet = explorer.find("dialog.helping")
     explorer.page.keyboard.press("?")
     assert sheet.is_visible()
-    for words in (
-        "Keyboard and mouse",
-        "Shift and drag",
-        "eigenvector, stable",
-        "Approach outcomes",
-        "Limit direction Q",
-    ):
-        assert words in sheet.text_content()
+    said = ("Keyboard and mouse", "Shift and drag", "eigenvector, stable", "Approach outcomes", "Limit direction Q")
+    assert [words for words in said if words not in sheet.text_content()] == []
     assert sheet.evaluate("(it) => it.scrollWidth <= it.clientWidth")
     explorer.page.keyboard.press("Escape")
     assert not sheet.is_visible()

@@ -4,14 +4,15 @@ import math
 
 import numpy as np
 import pytest
+from codim2_app.draw.theme import HALF_VIEW
+
+from .conftest import PHONE
 
 pytestmark = pytest.mark.browser
 
 
 def place(explorer, x, y):
     """The point of the window over a point of the picture, which shows [-VIEW, VIEW] across its shorter side."""
-    from codim2_app.draw.theme import HALF_VIEW
-
     box = explorer.find(".bokeh").bounding_box()
     unit = min(box["width"], box["height"]) / (2 * HALF_VIEW)
     return box["x"] + box["width"] / 2 + x * unit, box["y"] + box["height"] / 2 - y * unit
@@ -61,8 +62,7 @@ def test_a_limit_direction_is_turned_by_hand_and_by_keys(open_page):
     f = np.array([float(explorer.find(f"[data-control={name}] .number").input_value()) for name in ("f1", "f2")])
     assert (f - (-0.5, 0.0)) @ goal == pytest.approx(0.0, abs=0.02)
     assert starts(explorer) is None
-    explorer.find(".objects [data-object=Q2]").press("Shift+ArrowRight")
-    explorer.settle()
+    explorer.press(".objects [data-object=Q2]", "Shift+ArrowRight")
     assert min(np.linalg.norm(drawn() - (math.cos(1.6), math.sin(1.6)), axis=1)) < 0.02
     assert explorer.complaints == []
 
@@ -81,11 +81,7 @@ def test_a_drag_takes_the_orbit_along_and_its_start_can_be_moved_later(open_page
     assert explorer.frame() >= first + 3  # it followed
     assert explorer.find(".orbit-list li").count() == 1
     assert explorer.find(".orbit-goes").text_content() == "Comes down to Q₁ and leaves Σ along θ = 0."
-    page.mouse.move(*place(explorer, 0.4, 0.3))
-    page.mouse.down()
-    page.mouse.move(*place(explorer, 1.3, 0.5), steps=3)
-    page.mouse.up()
-    explorer.settle()
+    explorer.drag(place(explorer, 0.4, 0.3), place(explorer, 1.3, 0.5))
     assert explorer.find(".orbit-list li").count() == 1
     assert explorer.find(".orbit-goes").text_content() == "Leaves the picture."
 
@@ -102,8 +98,7 @@ def test_an_orbit_is_named_hidden_and_removed(open_page):
     explorer.find(".orbit-list .remove").first.click()
     explorer.settle()
     assert explorer.find(".orbit-list li").count() == 1
-    explorer.find(".clear").click()
-    explorer.settle()
+    explorer.click(".clear")
     assert explorer.find(".orbit-list li").count() == 0
 
 
@@ -113,14 +108,6 @@ def test_orbits_stay_through_every_slider_move(open_page):
     explorer.type("f1", "-1.5")
     assert explorer.find(".orbit-list li").count() == 1
     assert explorer.find(".orbit-goes").text_content() != before
-
-
-def test_a_finger_that_taps_launches_and_one_that_swipes_does_not(open_page):
-    explorer = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open("?panel=orbits")
-    explorer.page.touchscreen.tap(*place(explorer, -0.4, 0.3))
-    explorer.settle()
-    assert explorer.find(".orbit-list li").count() == 1
-    assert explorer.complaints == []
 
 
 def objects(explorer, kind):
@@ -155,8 +142,7 @@ def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
     assert (ring["x"], ring["y"]) == pytest.approx(objects(explorer, "critical")[0])
     explorer.kept()
     explorer.find(".undo").click()
-    explorer.find(".undo").click()
-    explorer.settle()
+    explorer.click(".undo")
     assert pinned.text_content() == before
     page.keyboard.press("Escape")
     explorer.kept()
@@ -165,25 +151,8 @@ def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
     assert explorer.complaints == []
 
 
-def test_objects_are_reached_by_the_keyboard(open_page):
-    explorer = open_page().open("?b=0.3")
-    names = "[...root.querySelectorAll('.objects button')].map((it) => it.dataset.object).join()"
-    explorer.until(f"{names} === 'C,Q1,Q2,U1,U2,R,T'")
-    explorer.find(".objects button").nth(1).focus()
-    hint = explorer.find(".card:not(.pinned)")
-    assert hint.text_content().startswith("Q₁ ")
-    explorer.page.keyboard.press("Enter")
-    explorer.kept()
-    assert explorer.find(".card.pinned").text_content().startswith("×Q₁ ")
-    assert "pinned=Q1" in explorer.page.url
-    again = open_page().open("?b=0.3&pinned=Q1")
-    assert again.find(".card.pinned").text_content().startswith("×Q₁ ")
-
-
 def test_a_tap_on_an_object_pins_it(open_page):
-    explorer = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open(
-        "?b=0.3&panel=orbits"
-    )
+    explorer = open_page(**PHONE).open("?b=0.3&panel=orbits")
     explorer.page.touchscreen.tap(*place(explorer, *objects(explorer, "critical")[0]))
     explorer.settle()
     assert explorer.find(".card.pinned").text_content().startswith("×C stable node")
@@ -197,16 +166,13 @@ def test_a_tap_on_an_object_pins_it(open_page):
 def test_a_typed_start_is_in_the_link_undone_and_let_move_from_a_launched_orbit(open_page):
     explorer = open_page().open("?panel=orbits&orbits=1.2,0.8&z=0.25")
     assert explorer.find("[data-control=t_end]").is_hidden()
-    explorer.find(".orbit-time .here").click()
-    explorer.kept()
+    explorer.click(".orbit-time .here").kept()
     box = explorer.find("[data-control=launch] input")
     r = (1.2**2 + 0.8**2) ** 0.5
-    assert [float(word) for word in box.input_value().split(",")] == pytest.approx(
-        [1.2 * (r - 1) / r, 0.8 * (r - 1) / r, 0.25], abs=1e-5
-    )
+    start = [float(word) for word in box.input_value().split(",")]
+    assert start == pytest.approx([1.2 * (r - 1) / r, 0.8 * (r - 1) / r, 0.25], abs=1e-5)
     explorer.page.wait_for_selector(".phases li")
-    explorer.find(".orbit-eps input").press("Space")
-    explorer.kept()
+    explorer.press(".orbit-eps input", "Space").kept()
     assert explorer.find("[data-control=log_eps]").is_visible()
     assert "broken line and bands: ε = 0.01" in explorer.find(".orbit-key").text_content()
     query = explorer.page.evaluate("location.search")

@@ -5,13 +5,14 @@ from itertools import pairwise
 
 import pytest
 
+from .conftest import PHONE
+
 pytestmark = pytest.mark.browser
 
 
 def test_a_lesson_from_the_list_to_its_goal(open_page):
     explorer = open_page().open("?panel=lessons")
-    explorer.find("[data-open='03-limit-directions']").click()
-    explorer.settle()
+    explorer.click("[data-open='03-limit-directions']")
     assert explorer.find(".lesson-text math").count() > 5
     assert explorer.find("[data-fact=limit_directions]").first.text_content() == "4"
     predict, mark = (explorer.find(f"[data-question='{i}']") for i in (0, 1))
@@ -40,8 +41,7 @@ def test_a_lesson_from_the_list_to_its_goal(open_page):
     assert mark.locator(".verdict").text_content().startswith("Not quite. The right place is 1.00 radii")
     kept = json.loads(explorer.page.evaluate("localStorage.getItem('codim2-lessons')"))
     assert kept == {"03-limit-directions": {"0": ["answer", "goal"]}}
-    explorer.find("[data-open='']").click()
-    explorer.settle()
+    explorer.click("[data-open='']")
     assert explorer.find("[data-open='03-limit-directions'] .lesson-done").text_content() == "1/2"
     assert explorer.complaints == []
 
@@ -51,11 +51,7 @@ def test_a_number_in_the_text_is_dragged_and_moves_the_slider(open_page):
     number = explorer.find("[data-drag=f1]").first
     number.scroll_into_view_if_needed()
     box = number.bounding_box()
-    explorer.page.mouse.move(box["x"] + 5, box["y"] + 5)
-    explorer.page.mouse.down()
-    explorer.page.mouse.move(box["x"] + 85, box["y"] + 5, steps=4)
-    explorer.page.mouse.up()
-    explorer.settle()
+    explorer.drag((box["x"] + 5, box["y"] + 5), (box["x"] + 85, box["y"] + 5))
     assert float(explorer.find("[data-control=f1] .number").input_value()) == pytest.approx(1.2, abs=0.02)
     assert explorer.find("[data-fact=limit_directions]").first.text_content() == "2"
     number.focus()
@@ -74,9 +70,7 @@ def test_a_question_is_in_the_link(open_page):
 
 
 def test_on_a_phone_a_question_its_sliders_the_picture_and_the_answers_are_in_one_view(open_page):
-    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open(
-        "?lesson=02-blowing-up"
-    )
+    page = open_page(**PHONE).open("?lesson=02-blowing-up")
     page.find(".question .begin").first.tap()
     page.settle()
     page.until("root.classList.contains('asked')")

@@ -20,9 +20,7 @@ WALK = ["ball-dynamic", "conics-4", "case3-n3", "attracting-repelling", "blowup"
     [
         ({"system": "own", "texts": json.dumps({"U1": "-2*c +"})}, "textarea[data-box=U1]", "-2*c +", "column 7"),
         (
-            {"system": "own", "texts": json.dumps({"U2": "1/c"})},
-            "textarea[data-box=U2]",
-            "1/c",
+            {"system": "own", "texts": json.dumps({"U2": "1/c"})}, "textarea[data-box=U2]", "1/c",
             "U2 is ∞ at e = (0, 0)",
         ),
         ({"psi": "custom", "psi_text": "1/s"}, "#c2-psi-text", "1/s", "s = 0"),
@@ -30,7 +28,7 @@ WALK = ["ball-dynamic", "conics-4", "case3-n3", "attracting-repelling", "blowup"
         ({"z": "1e300"}, "[data-control=z] .number", "1e+300", "1 · 10³⁰⁰"),
         ({"a": "two"}, "[data-control=a] .number", "two", "number"),
     ],
-)
+)  # fmt: skip
 def test_what_cannot_be_drawn_stays_in_its_box_with_a_sentence(open_page, values, box, kept, says):
     page = open_page().open("?" + urlencode(values))
     assert page.name()
@@ -80,8 +78,7 @@ def test_a_portrait_is_the_same_whatever_was_open_before(open_page):
     page.type("B2", "0.5").type("g0", "0.3")
     page.layer("inside").uncheck()
     for key in WALK:
-        page.find("select.preset").select_option(key)
-        page.settle()
+        page.choose("select.preset", key)
         walked = state(page, key)
         fresh.page.evaluate(EMPTIED)
         fresh.open(f"?preset={key}")
@@ -97,22 +94,17 @@ def test_a_portrait_is_the_same_whatever_was_open_before(open_page):
 
 
 def test_one_owner_of_z(explorer):
-    explorer.find("select.preset").select_option("ball-dynamic")
-    explorer.settle()
-    explorer.find("select.preset").select_option("conics-4")
-    explorer.settle()
+    explorer.choose("select.preset", "ball-dynamic")
+    explorer.choose("select.preset", "conics-4")
     assert explorer.find("[data-control=z] .number").input_value() == "0"
-    explorer.find("#c2-z").press("ArrowRight")
-    explorer.settle()
+    explorer.press("#c2-z", "ArrowRight")
     assert explorer.name() == "CM4"
     assert float(explorer.find("[data-control=z] .number").input_value()) < 0.1
 
 
 def test_reset_is_the_first_setting_whole(explorer):
-    explorer.find("select.preset").select_option("ball-dynamic")
-    explorer.settle()
-    explorer.find(".reset").click()
-    explorer.settle()
+    explorer.choose("select.preset", "ball-dynamic")
+    explorer.click(".reset")
     query, _, name, note = state(explorer)
     assert (query, name) == ({"v": ["1"]}, "CM4")
     assert "four limit directions" in note
@@ -125,11 +117,9 @@ def test_a_portrait_does_not_destroy_what_was_typed(explorer):
     explorer.settle().find("textarea[data-box=W]").fill("foo + ")
     explorer.settle().find("textarea[data-box=U1]").fill("-q*c")
     explorer.settle()
-    explorer.find("[data-control=slow-z] input[type=range]").press("ArrowRight")
-    explorer.settle()
+    explorer.press("[data-control=slow-z] input[type=range]", "ArrowRight")
     assert "column" in explorer.find("[data-box=W] .error").text_content()  # still wrong, and still said
-    explorer.find("select.preset").select_option("case1-cm0")
-    explorer.settle()
+    explorer.choose("select.preset", "case1-cm0")
     assert explorer.name() == "CM0"
     assert explorer.find(".error:visible").count() == 0
     explorer.kept().page.reload()
@@ -140,6 +130,5 @@ def test_a_portrait_does_not_destroy_what_was_typed(explorer):
     assert explorer.find("textarea[data-box=U1]").input_value() == "-q*c"
     assert explorer.find("textarea[data-box=W]").input_value() == "foo + "
     assert "column" in explorer.find("[data-box=W] .error").text_content()
-    explorer.find("textarea[data-box=W]").fill("foo")
-    explorer.settle()
+    explorer.fill("textarea[data-box=W]", "foo")
     assert explorer.find(".error:visible").count() == 0

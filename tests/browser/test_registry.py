@@ -112,15 +112,13 @@ def test_a_panel_from_a_folder_is_one_registration(page):
     button.click()
     page.settle()
     assert button.text_content() == "2a = 3 of A"
-    page.find("#c2-tab-atlas").click()
-    page.settle()
+    page.click("#c2-tab-atlas")
     assert not button.is_visible()
 
 
 def test_a_system_is_chosen_and_its_parameters_have_sliders(page):
     page.open()
-    page.find("[data-control=system] select").select_option("film_on_disc")
-    page.settle()
+    page.choose("[data-control=system] select", "film_on_disc")
     assert page.find("#c2-parameter-mu").is_visible()
     page.type("parameter-mu", "0.6")
     [C] = c2.critical_sets(c2.System(U=("-0.6*c - 0.3*s", "-0.6*s + 0.3*c + z/4"), W=("c - z/2",)), PSI, (0.4,))
@@ -129,8 +127,7 @@ def test_a_system_is_chosen_and_its_parameters_have_sliders(page):
 
 def test_a_preset_is_in_the_list_and_shows_its_portrait(page):
     page.open()
-    page.find("select.preset").select_option("added-cm0")
-    page.settle()
+    page.choose("select.preset", "added-cm0")
     assert page.name() == "CM0"
     assert page.find("select.preset option:checked").text_content() == "CM0, once more"
     assert "All orbits reach C." in page.find(".preset-note").text_content()
@@ -139,8 +136,7 @@ def test_a_preset_is_in_the_list_and_shows_its_portrait(page):
 
 def test_a_family_of_psi_is_chosen_and_moves_the_critical_set(page):
     page.open("?f2=0.3")
-    page.find("select.psi").select_option("power")
-    page.settle()
+    page.choose("select.psi", "power")
     power = c2.psi.custom("(1+s/2)**(-2)")
     [C] = c2.critical_sets(c2.ELinear(-2, 0, -1, (-0.5, 0.3)), power)
     words = page.find(".critical-table").text_content()

@@ -27,8 +27,7 @@ def own(page):
 
 def test_the_second_follows_all_but_what_is_its_own(open_page):
     page = open_page(viewport=WIDE).open("?v=1&a=-1.5")
-    page.find(".two").press("Enter")
-    page.kept()
+    page.press(".two", "Enter").kept()
     assert own(page)["psi"] == "rational"
     assert page.find(".second-own").text_content() == "differs in Ψ"
     until(second(page), "values.psi === 'rational' && values.a === -1.5")
@@ -63,26 +62,22 @@ def test_its_own_values_are_set_below_it_are_in_the_link_and_are_undone(open_pag
     page.settle().find(".undo").click()
     page.kept()
     until(second(page), "values.n === 2")
-    page.find(".redo").click()
-    page.kept()
+    page.click(".redo").kept()
     until(second(page), "values.n === 3.5")
-    page.find(".two").click()
-    page.kept()
+    page.click(".two").kept()
     assert (own(page), page.find("iframe").count(), page.find(".codim2.twofold").count()) == ({}, 0, 0)
     assert page.complaints == []
 
 
 def test_before_and_after_and_the_papers_beside_ones_own(open_page):
     page = open_page(viewport=WIDE).open("?v=1&beside=psi%3Drational")
-    page.find(".second-what").select_option("now")
-    page.kept()
+    page.choose(".second-what", "now").kept()
     page.type("f1", "-1.4")
     until(second(page), "values.f1 === -0.5 && values.psi === 'constant'")
     second(page).wait_for_selector(".portrait-name:text-is('CM4')")
     assert page.name() == "CM2"
     assert page.find(".first-words").text_content().startswith("Case I, CM2. ")
-    page.find(".second-what").select_option("case3-n3")
-    page.kept()
+    page.choose(".second-what", "case3-n3").kept()
     until(second(page), "values.a === 172 && values.n === 3")
     page.find(".second-bar summary").click()
     page.find(".second-bar").get_by_label("f₁", exact=True).check()
@@ -91,29 +86,8 @@ def test_before_and_after_and_the_papers_beside_ones_own(open_page):
     assert "f1" not in own(page)
     page.type("f1", "-2")
     until(second(page), "values.f1 === -2")
-    page.find("select.preset").select_option("case1-cm0")
-    page.kept()
+    page.choose("select.preset", "case1-cm0").kept()
     until(second(page), "values.a === 172")  # another portrait in the first leaves the second alone
-    page.find(".reset").click()
-    page.kept()
+    page.click(".reset").kept()
     assert own(page) == {}
     assert page.complaints == []
-
-
-def test_on_a_narrow_screen_there_is_one_and_a_sentence(open_page):
-    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
-    page.open("?v=1&beside=psi%3Drational")
-    assert page.find("iframe").count() == 0
-    assert "need a wider screen" in page.find(".second-narrow").text_content()
-    assert page.find(".two").is_hidden()
-    page.page.set_viewport_size(WIDE)
-    until(second(page), "values.psi === 'rational'")
-    assert page.find(".second-narrow").is_hidden()
-    page.open("?v=1")
-    assert page.find(".second").is_hidden()
-
-
-def test_what_a_link_gives_the_second_in_vain_is_told(open_page):
-    page = open_page(viewport=WIDE).open("?v=1&beside=panel%3Dsolid")
-    assert "Second portrait: 'panel' cannot be its own" in page.find(".banner").text_content()
-    assert page.find("iframe").count() == 0

@@ -72,9 +72,3 @@ def test_an_embedded_page_is_the_picture_and_the_controls_that_it_names(open_pag
     assert whole.locator(".tabs").is_visible()
     assert whole.locator("[data-control=f1] .number").input_value() == "0"
     assert page.complaints == []
-
-
-def test_an_embedded_system_of_ones_own_has_its_sliders(open_page):
-    page = open_page(viewport={"width": 640, "height": 620}).open("?system=own&embed=1&controls=k,z")
-    shown = controls(page)
-    assert sorted(shown) == ["parameter-k", "slow-z"]

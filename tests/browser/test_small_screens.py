@@ -2,6 +2,8 @@
 
 import pytest
 
+from .conftest import PHONE
+
 PHONES = [(360, 640), (390, 844), (740, 360)]
 
 #: What can be pressed and is lower or narrower than a finger needs.
@@ -82,7 +84,7 @@ RANGES = """() => { const plot = Bokeh.documents.flatMap((it) => it.all_models ?
 
 @pytest.fixture
 def touched(open_page):
-    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True).open()
+    page = open_page(**PHONE).open()
     page.until("root.querySelector('.first') === null")  # Bokeh has painted, and scrolls
     yield page
     assert page.complaints == []
@@ -141,7 +143,7 @@ def test_one_finger_leaves_the_picture_where_it_is_and_two_move_it(touched):
 
 
 def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_sheet(open_page):
-    page = open_page(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    page = open_page(**PHONE)
     page.open("?v=1&psi=hill&n=-3&panel=orbits&trajectories=-4").settle()
 
     def told(what):

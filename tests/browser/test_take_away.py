@@ -99,16 +99,6 @@ def test_a_live_file_of_the_page_moves_what_was_chosen(open_page):
     assert page.complaints == []
 
 
-def test_what_cannot_be_made_is_told_in_the_menu(open_page):
-    page = opened(open_page().open("?system=own"))
-    page.find(".take [data-kind=svg]").evaluate("(button) => { button.dataset.kind = 'exe' }")
-    page.find(".take [data-kind=exe]").click()
-    told = page.find(".take .making")
-    told.filter(has_text="no such file").wait_for()
-    assert "svg" in told.inner_text()
-    assert page.find(".take [data-kind=png]").is_enabled()
-
-
 def test_a_film_tells_how_far_it_is_and_can_be_stopped(open_page):
     page = opened(open_page().open("?preset=case1-cm4"))
     page.find(".take .first-slider").select_option("f1")

@@ -47,11 +47,8 @@ def buildah(tmp_path_factory):
         return done.stdout.strip()
 
     root = folder / "root"
-    subprocess.run(
-        ["debootstrap", "--variant=minbase", f"--include={PACKAGES}", SYSTEM, str(root)],
-        capture_output=True,
-        check=True,
-    )
+    bootstrap = ["debootstrap", "--variant=minbase", f"--include={PACKAGES}", SYSTEM, str(root)]
+    subprocess.run(bootstrap, capture_output=True, check=True)
     for mark in root.glob("usr/lib/python3*/EXTERNALLY-MANAGED"):
         mark.unlink()
     container = run("from", "scratch")
@@ -64,19 +61,8 @@ def buildah(tmp_path_factory):
 @pytest.fixture(scope="module")
 def image(buildah):
     """The name of the built image."""
-    given = ["--env", f"PIP_CERT={CERTIFICATES}/ca-certificates.crt"]
-    buildah(
-        "bud",
-        "--pull=never",
-        "--format",
-        "docker",
-        "-v",
-        f"{CERTIFICATES}:{CERTIFICATES}:ro",
-        *given,
-        "-t",
-        "codim2",
-        str(ROOT),
-    )
+    given = ["--env", f"PIP_CERT={CERTIFICATES}/ca-certificates.crt", "-v", f"{CERTIFICATES}:{CERTIFICATES}:ro"]
+    buildah("bud", "--pull=never", "--format", "docker", *given, "-t", "codim2", str(ROOT))
     return "localhost/codim2"
 
 

@@ -107,15 +107,8 @@ class Page:
 @contextmanager
 def firefox(folder):
     """Yield the page of a Firefox without a window, whose profile is a folder."""
-    command = [
-        path(),
-        "--headless",
-        "--no-remote",
-        "--profile",
-        str(folder),
-        "--remote-debugging-port=0",
-        "about:blank",
-    ]
+    options = ["--headless", "--no-remote", "--profile", str(folder), "--remote-debugging-port=0"]
+    command = [path(), *options, "about:blank"]
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     loop = asyncio.new_event_loop()
     try:

@@ -20,17 +20,8 @@ from .panels import DRAWN, columns
 #: Portraits that are kept in full, besides the small ones of all presets.
 WHOLE = ("case1-cm4", "case3-n1", "nonunique-sliding")
 LAYERS = [
-    "inside",
-    "outside",
-    "continuations",
-    "separatrices",
-    "cycles",
-    "rho",
-    "theta",
-    "lines",
-    "equator",
-    "critical",
-]
+    "inside", "outside", "continuations", "separatrices", "cycles", "rho", "theta", "lines", "equator", "critical",
+]  # fmt: skip
 
 
 def thumbnail(key: str) -> str:

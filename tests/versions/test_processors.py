@@ -37,10 +37,7 @@ def test_the_core_is_right_on(name, tmp_path):
         environment["NPY_DISABLE_CPU_FEATURES"] = " ".join(one for one in numpy_without.split() if one in here)
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *(f"tests/{one}" for one in FOLDERS)],
-        cwd=ROOT,
-        capture_output=True,
-        text=True,
-        check=False,
+        cwd=ROOT, capture_output=True, text=True, check=False,
         env={key: value for key, value in environment.items() if not key.startswith(("PYTEST_", "CODIM2_TEST"))},
-    )
+    )  # fmt: skip
     assert done.returncode == 0, done.stdout[-8000:] + done.stderr[-2000:]

@@ -53,12 +53,9 @@ def test_the_inner_loop_passes_with(which, tmp_path):
     python = pip(tmp_path / "env", "install", "--no-deps", str(source(tmp_path / "source")))
     done = subprocess.run(
         [str(python), "-m", "pytest", "-m", "fast", "-q", "-p", "no:cacheprovider", str(ROOT / "tests")],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
+        cwd=tmp_path, capture_output=True, text=True, check=False,
         env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / "numba")},
-    )
+    )  # fmt: skip
     assert done.returncode == 0, done.stdout[-5000:] + done.stderr[-2000:]
 
 

@@ -11,9 +11,7 @@ from codim2_app.draw.packing import unpack
 from codim2_app.frame import budget, work_queue
 from codim2_app.panels.parameters.atlas_columns import atlas_columns
 from codim2_app.server.live import link_of
-from codim2_app.state import links, request_reading
 from codim2_app.state.controls import ExplorerState
-from codim2_app.state.links import decompress_query, read_link
 from codim2_app.view.refresh import Frames
 
 from codim2_core import System, equator_equilibria, psi
@@ -164,47 +162,6 @@ def planes(psi_name):
     return check
 
 
-def request(given, **wanted):
-    def check(key):
-        _, values, said = request_reading.read_request(given)
-        told = fields(key, said)
-        assert wanted.items() <= told.items()
-        assert not values or key == "values left out"
-
-    return check
-
-
-def address(query, *, left=True):
-    def check(key):
-        link = read_link(query)
-        (said,) = [str(error) for error in link.errors]
-        told = fields(key, said)
-        if left:
-            assert link.state.values() == read_link("v=1").state.values() or "v" not in query
-        return told
-
-    return check
-
-
-def too_long(key):
-    with pytest.raises(ValueError, match="too long") as refused:
-        decompress_query("A" * (links.LONGEST_SQUEEZED + 1))
-    assert fields(key, str(refused.value)) == {"most": str(links.LONGEST_SQUEEZED)}
-
-
-def later_version(key):
-    told = address("v=99")(key)
-    assert int(told["newest"]) == links.VERSION
-    assert not read_link(f"v={told['newest']}&a=1").errors
-
-
-def no_parameter(key):
-    frames, header = frame({"system": "ball_in_pool", "parameters": {"mu": 0.3, "foo": 1.0}}, all=True)
-    told = fields(key, header["errors"][""])
-    assert told["names"] == "foo"
-    assert told["there"] == f"it has {', '.join(name for name, _ in frames.scene.system.parameters)}"
-
-
 def no_box(key):
     _, header = frame({"system": "own", "texts": {"U1": "-c", "U2": "-s", "U3": "c", "V": "s"}}, all=True)
     told = fields(key, header["errors"][""])
@@ -213,13 +170,6 @@ def no_box(key):
     _, header = frame({"system": "ball_in_pool", "texts": {"U1": "-c"}}, all=True)
     assert fields(key, header["errors"][""])["there"] == "it has none"
     _, header = frame({"system": "typed", "texts": {"a": "-1", "g": "z"}}, all=True)
-    assert not header["errors"]
-
-
-def no_lesson(key):
-    _, header = frame({"lesson": "nowhere"}, all=True)
-    some = fields(key, header["errors"][""])["some"].split(", ")
-    _, header = frame({"lesson": some[0]}, all=True)
     assert not header["errors"]
 
 
@@ -242,27 +192,26 @@ CHECKS = {
     "no such axis": axes,
     "over the parameter of Ψ": planes("hill"),
     "other Ψ": planes("constant"),
-    "request of a wrong kind": request([1], kind="list"),
-    "values of a wrong kind": request({"set": 3.0}, kind="float"),
-    "too many values": request(
-        {"set": dict.fromkeys(map(str, range(99)), 0)}, count="99", most=str(request_reading.MOST_CONTROLS)
-    ),
-    "values left out": request({"set": {"a": 1.0, "psi_text": "s" * 10**5}}),
-    "address names": address("v=1&foo=1&bar=2"),
-    "address too long": too_long,
-    "address of a later version": later_version,
-    "part of the picture": address("v=1&seen=3,1,0,0"),
-    "controls of a frame": address("v=1&controls=a b,f1"),
-    "views of a link": address("v=1&views=[3"),
-    "no such parameter": no_parameter,
     "no such box": no_box,
-    "no such lesson": no_lesson,
 }
 #: Of processes and of what a kernel of Jupyter does, held in `tests` where those are run.
 ELSEWHERE = {
     "app/frame/test_budget.py": ("too wild", "fault"),
     "app/panels/parameters/test_axes.py": ("no slow variable", "no parameter", "n of another Ψ", "axis given"),
-    "app/state/test_links.py": ("address changed",),
+    "app/state/test_asked.py": (
+        "request of a wrong kind",
+        "values of a wrong kind",
+        "too many values",
+        "values left out",
+    ),
+    "app/state/test_links.py": ("address changed", "address too long", "part of the picture", "views of a link"),
+    "app/view/test_refused.py": (
+        "address names",
+        "address of a later version",
+        "controls of a frame",
+        "no such parameter",
+        "no such lesson",
+    ),
     "app/state/test_chosen.py": ("name of a box", "name of the regularisation", "name of time"),
     "app/panels/test_panels_of_motion.py": ("no time passes",),
     "app/frame/test_turns.py": ("stopped", "lost"),

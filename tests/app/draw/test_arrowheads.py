@@ -3,10 +3,8 @@ import math
 import numpy as np
 import pytest
 from codim2_app.draw import glyphs
-from codim2_app.draw.lines.arrowheads import CLEARANCE, MIN_LINE_LENGTH, STRETCH, _place_arrowheads, arrowheads
+from codim2_app.draw.lines.arrowheads import MIN_LINE_LENGTH, STRETCH, _place_arrowheads, arrowheads
 from codim2_app.draw.packing import PACKING_PIXEL, WINDOW
-
-import codim2_core as c2
 
 LINE = np.column_stack([np.linspace(0, 1, 11), np.zeros(11)])
 
@@ -21,12 +19,8 @@ def test_an_arrowhead_sits_in_the_middle_and_points_with_time():
 
 
 def test_short_empty_and_resting_curves_have_none():
-    short, rest, none, single = (
-        LINE * 0.9 * MIN_LINE_LENGTH * PACKING_PIXEL,
-        np.ones((4, 2)),
-        np.zeros((0, 2)),
-        np.ones((1, 2)),
-    )
+    short = LINE * 0.9 * MIN_LINE_LENGTH * PACKING_PIXEL
+    rest, none, single = np.ones((4, 2)), np.zeros((0, 2)), np.ones((1, 2))
     assert place(none, short, single, LINE, rest, none)[:, 0].tolist() == pytest.approx([0.5])
     assert place().shape == (0, 3)
 
@@ -35,33 +29,6 @@ def test_a_long_curve_has_one_for_each_stretch():
     length = 3 * STRETCH * PACKING_PIXEL
     heads = place(np.column_stack([np.linspace(0, length, 50) - length / 2, np.zeros(50)]), window=(-9, 9, -9, 9))
     assert heads[:, 0].tolist() == pytest.approx([-length / 3, 0, length / 3])
-
-
-def test_curves_that_run_together_share_their_arrowheads():
-    bundle = [LINE + np.array([0, 0.002 * k]) for k in range(30)]
-    heads = place(*bundle)
-    assert 1 <= len(heads) <= 1 / (CLEARANCE * PACKING_PIXEL)
-    assert len(place(*[LINE + np.array([0, 0.3 * k]) for k in range(-5, 6)])) == 11
-
-
-@pytest.mark.parametrize("key", ["case1-cm4", "case3-n3", "case3-n2"])
-@pytest.mark.parametrize("layer", ["inside", "outside"])
-def test_no_two_are_nearer_than_the_clearance_and_all_lie_on_their_curves(key, layer):
-    preset = c2.presets[key]
-    orbits = c2.Scene(preset.system, preset.psi, preset.z)[layer]
-    heads = arrowheads(orbits.offsets, orbits.buffer, PACKING_PIXEL, WINDOW)
-    assert len(heads) > 5
-    apart = np.hypot(*(heads[:, None, :2] - heads[None, :, :2]).T)
-    np.fill_diagonal(apart, 9)
-    assert apart.min() >= CLEARANCE * PACKING_PIXEL * (1 - 1e-12)
-    begins, ends = orbits.buffer[:-1], orbits.buffer[1:]
-    steps = ends - begins
-    length = np.maximum(np.hypot(*steps.T), 1e-300)
-    for x, y, angle in heads:
-        along = np.clip(((np.array([x, y]) - begins) * steps).sum(axis=1) / length**2, 0, 1)
-        nearest = np.argmin(np.hypot(*(begins + along[:, None] * steps - [x, y]).T))
-        assert np.hypot(*(begins[nearest] + along[nearest] * steps[nearest] - [x, y])) < 1e-9
-        assert np.cos(angle - np.arctan2(*steps[nearest][::-1])) > 0.999
 
 
 def test_only_what_is_seen_carries_arrowheads():

@@ -16,14 +16,8 @@ def test_boxes_meet_where_they_have_points_in_common():
         x, y, width, height = rng.integers(0, 6, (4, 2)).astype(float)
         one, other = (LabelBox(x[i], y[i], width[i] + 1.0, height[i] + 1.0) for i in (0, 1))
         middles = np.arange(0.5, 13.0)
-        common = any(
-            one.x < u < one.x + one.width
-            and other.x < u < other.x + other.width
-            and one.y < v < one.y + one.height
-            and other.y < v < other.y + other.height
-            for u in middles
-            for v in middles
-        )
+        across = [u for u in middles if all(box.x < u < box.x + box.width for box in (one, other))]
+        common = bool(across) and any(all(box.y < v < box.y + box.height for box in (one, other)) for v in middles)
         assert one.meets(other) == other.meets(one) == common
         seen.add(common)
     assert len(seen) == 2

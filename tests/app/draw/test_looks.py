@@ -17,7 +17,6 @@ from codim2_app.draw.theme import (
     NEAREST,
     PICTURE_REACH,
     RING,
-    custom_properties,
     themes,
 )
 from codim2_app.draw.vector.paper import DASHES, paper
@@ -42,12 +41,6 @@ def test_what_is_told_of_a_point_is_drawn_thicker_than_what_only_fills_the_pictu
     assert widths == expected
     dashes = {part.name: part.dash for layer in layers_in_paint_order() for part in layer.parts if part.dash}
     assert dashes == {"separatrices_stable": (7, 4), "conics": (9, 3)}
-    assert {layer.name for layer in layers_in_paint_order() if layer.hidden} == {
-        "separatrices",
-        "conics",
-        "outcomes",
-        "basins",
-    }
     assert {layer.name for layer in layers_in_paint_order() if not layer.compiled} == {
         "lines", "rho", "theta", "conics", "equator", "critical", "outcomes", "basins",
     }  # fmt: skip
@@ -67,13 +60,8 @@ def test_parts_take_from_the_scene_what_is_theirs():
         offsets, points = parts[name](branches)
         assert (np.diff(offsets).tolist(), set(points.ravel())) == ([k + 2], {float(k)})
     lines = [one(k, kind=kind) for k, kind in enumerate(("rho", "theta", "U1", "U2"))]
-    for name, kinds in (
-        ("rho_inside", {0}),
-        ("theta_outside", {1}),
-        ("lines_inside", {2, 3}),
-        ("lines_outside", {2, 3}),
-    ):
-        assert set(parts[name](lines)[1].ravel()) == kinds
+    of = {"rho_inside": {0}, "theta_outside": {1}, "lines_inside": {2, 3}, "lines_outside": {2, 3}}
+    assert {name: set(parts[name](lines)[1].ravel()) for name in of} == of
     orbits = SimpleNamespace(orbits=SimpleNamespace(points=[np.full((2, 2), float(k)) for k in range(8)]))
     assert set(parts["launched_2"](orbits)[1].ravel()) == {1.0, 7.0}
 
@@ -89,56 +77,26 @@ def test_what_differs_in_meaning_differs_by_dashes_and_carries_its_arrows():
     assert (parts["lines_inside"].colour, parts["lines_outside"].colour) == ("lines-in", "lines-out")
 
 
-@pytest.mark.parametrize(
-    ("name", "light", "dark"),
-    [
-        ("page", "#ffffff", "#12161d"), ("ink", "#1c2430", "#e6eaf0"), ("attr", "#15803d", "#4ade80"),
-        ("rep", "#be185d", "#f472b6"), ("crit", "#c8102e", "#ff5468"), ("slide", "#0d9488", "#2dd4bf"),
-        ("cross", "#e8751a", "#fb923c"), ("depends", "#7c3aed", "#a78bfa"), ("rho", "#0072bd", "#4aa8e8"),
-        ("theta", "#d95319", "#ff8552"), ("lines-in", "#edb120", "#f2c14e"), ("lines-out", "#7e2f8e", "#c58ad6"),
-        ("cycle", "#e0121f", "#ff3b47"), ("separatrix", "#6d28d9", "#b794ff"), ("motion", "#c026d3", "#f0abfc"),
-    ],
-)  # fmt: skip
-def test_colours_of_light_and_dark(name, light, dark):
-    assert (themes()["light"][name], themes()["dark"][name]) == (light, dark)
-    first, second = custom_properties().splitlines()
-    assert first.startswith(".codim2 {")
-    assert f"--{name}: {light};" in first
-    assert second.startswith(".codim2.dark {")
-    assert f"--{name}: {dark};" in second
-
-
 def test_the_ring_is_told_apart_by_hatches_and_lies_just_outside_the_equator():
     assert HATCHES == {"slide": "", "cross": "/", "depends": "x", "undecided": ".", "misses": ""}
     assert RING == (1.03, 1.075)
     assert pytest.approx(HALF_VIEW * math.sqrt(2.0), rel=0.02) == PICTURE_REACH  # to the corners of the square picture
 
 
-def test_bokeh_has_no_warning_for_the_hosts_log():
-    plot = make_figure()
-    assert check_integrity(plot.references()).warning == []
-    assert check_integrity(plot.references()).error == []
-
-
 def test_the_figure_is_empty_and_sends_nothing_back():
     plot = make_figure()
-    assert plot.renderers == []
+    integrity = check_integrity(plot.references())  # no word for the host's log
+    assert integrity.warning == integrity.error == plot.renderers == []
+    assert (plot.min_border, plot.title, plot.toolbar_location, plot.lod_threshold) == (0, None, None, None)
+    assert (plot.outline_line_color, plot.background_fill_color, plot.border_fill_color) == (None, None, None)
     assert len(list(plot.references())) < 16
     assert not any(model.syncable for model in plot.references())
     for given in (plot.x_range, plot.y_range):
         assert (given.start, given.end, given.min_interval, given.max_interval) == (-HALF_VIEW, HALF_VIEW, 0.1, 24.0)
+    assert (2 * NEAREST, 2 * MAX_HALF_VIEW) == (0.1, 24.0)
     wheel = next(tool for tool in plot.tools if type(tool).__name__ == "WheelZoomTool")
     assert wheel.modifiers == {"ctrl": True}
     assert next(tool for tool in plot.tools if type(tool).__name__ == "BoxZoomTool").match_aspect
-
-
-def test_nothing_stands_around_the_picture():
-    plot = make_figure()
-    assert (plot.min_border, plot.title, plot.toolbar_location, plot.lod_threshold) == (0, None, None, None)
-    assert (plot.outline_line_color, plot.background_fill_color, plot.border_fill_color) == (None, None, None)
-    assert [axis.end for axis in (plot.x_range, plot.y_range)] == [HALF_VIEW, HALF_VIEW]
-    assert [axis.start for axis in (plot.x_range, plot.y_range)] == [-HALF_VIEW, -HALF_VIEW]
-    assert (plot.x_range.min_interval, plot.x_range.max_interval) == (2 * NEAREST, 2 * MAX_HALF_VIEW)
 
 
 def corners(name, size=12.0):

@@ -33,13 +33,6 @@ def test_it_holds_orbits_marks_and_colours():
     assert max(lines) > 3000  # its orbits are drawn
 
 
-def test_it_follows_the_state():
-    view = explorer("case1-cm4")
-    before = view.still()[0]
-    view.f1 = 0.5
-    assert view.still()[0] != before
-
-
 def test_an_explorer_is_saved_as_a_finished_picture(tmp_path):
     view = explorer("case1-cm0")
     view.save(tmp_path / "x.html", title="a < b")

@@ -38,11 +38,9 @@ def test_the_svg_of_one_frame():
     assert 'stroke="var(--attr)" stroke-width="3" fill="var(--attr)"' in svg
     assert 'transform="translate(400 300)"' in svg
     assert 'd="M-5 -5L5 5M5 -5L-5 5" stroke="var(--crit)" stroke-width="3" fill="none"' in svg
-    assert (
-        '<text x="642.4" y="149.9" font-size="22" font-weight="700" fill="var(--ink)" text-anchor="middle">Q₁</text>'
-        in svg
-    )
-    assert '<text x="418" y="290.1" font-size="22" font-weight="700" fill="var(--ink)">C ⊙</text>' in svg
+    letters = 'font-size="22" font-weight="700" fill="var(--ink)"'
+    assert f'<text x="642.4" y="149.9" {letters} text-anchor="middle">Q₁</text>' in svg
+    assert f'<text x="418" y="290.1" {letters}>C ⊙</text>' in svg
     [head] = re.findall(r'd="(M[^"]*)" fill="var\(--orbit\)"', svg)  # its tip to the right and down
     assert head == "M607 454L592 452L597 443Z"
     [sense] = re.findall(r'd="(M[^"]*)" fill="var\(--ink\)"', svg)
@@ -91,7 +89,6 @@ def test_thumbnails_are_the_portraits_at_their_places():
     assert [row[:3] for row in made] == [[4, "CM4", [0.6, -0.3]], [2, "CM2", [-1.5, 0.9]]]
     for (_, _, (f1, f2)), (*_, svg) in zip(places, made, strict=True):
         there = c2.ELinear(-2.0, 0.3, -1.0, (f1, f2))
-        assert svg == small(
-            c2.Scene(there, psi, (), count=THUMBNAIL_SEEDS, view=SMALL_VIEW * 1.4, pixel=THUMBNAIL_PIXEL), SMALL_VIEW
-        )
+        scene = c2.Scene(there, psi, (), count=THUMBNAIL_SEEDS, view=SMALL_VIEW * 1.4, pixel=THUMBNAIL_PIXEL)
+        assert svg == small(scene, SMALL_VIEW)
     assert len(thumbnails(system, psi, (), ("f1", "f2"), places * 20)) == MAX_KEPT == 24

@@ -85,13 +85,11 @@ def test_every_picture_is_told_and_the_present_value_is_among_them(monkeypatch):
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        ({"slider": "nothing"}, "no slider"),
-        ({"slider": "f1=1,-1"}, "range"),
-        ({"slider": "f1", "kind": ".mp4"}, r"\.gif, \.webp"),
-        ({"slider": "f1", "positions": 1}, "2 to 121"),
+        ({"slider": "nothing"}, "no slider"), ({"slider": "f1=1,-1"}, "range"),
+        ({"slider": "f1", "kind": ".mp4"}, r"\.gif, \.webp"), ({"slider": "f1", "positions": 1}, "2 to 121"),
         ({"slider": "f1", "positions": 10**6}, "2 to 121"),
     ],
-)
+)  # fmt: skip
 def test_what_cannot_be_had_is_said_in_one_sentence(given, says):
     with pytest.raises(ValueError, match=says):
         film(VIEW, **given)

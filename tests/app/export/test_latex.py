@@ -53,11 +53,7 @@ def test_its_numbers_are_those_of_the_core():
 
 def test_words_and_numbers_in_latex():
     assert in_latex("Σ along Q₁: λ_ρ = −2 50%") == r"$\Sigma$ along Q$_1$: $\lambda$\_$\rho$ = $-$2 50\%"
-    assert (latex_number(-0.25), latex_number(1.5e-7), latex_number(1e-15)) == (
-        "$-0.25$",
-        r"$1.5 \cdot 10^{-7}$",
-        "$0$",
-    )
+    assert list(map(latex_number, (-0.25, 1.5e-7, 1e-15))) == ["$-0.25$", r"$1.5 \cdot 10^{-7}$", "$0$"]
 
 
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no LaTeX here")

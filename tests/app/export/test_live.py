@@ -99,15 +99,11 @@ def test_a_place_where_nothing_can_be_drawn_says_why():
 @pytest.mark.parametrize(
     ("sliders", "said"),
     [
-        ([], "one or two"),
-        (["f1", "f1=0,1"], "one or two"),
-        (["a", "b", "d"], "one or two"),
-        (["q"], "no slider of this system"),
-        (["f1=1,0"], "give a range"),
-        (["f1=x"], "NAME=LOW,HIGH"),
+        ([], "one or two"), (["f1", "f1=0,1"], "one or two"), (["a", "b", "d"], "one or two"),
+        (["q"], "no slider of this system"), (["f1=1,0"], "give a range"), (["f1=x"], "NAME=LOW,HIGH"),
         (["f1=0,inf"], "give a range"),
     ],
-)
+)  # fmt: skip
 def test_sliders_that_there_are_not(sliders, said):
     with pytest.raises(ValueError, match=said):
         live(view_of("case1-cm0"), sliders)

@@ -3,7 +3,6 @@
 import asyncio
 import gc
 import logging
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from types import SimpleNamespace
 from weakref import ref
@@ -15,6 +14,8 @@ from bokeh.server.contexts import BokehSessionContext
 from bokeh.server.session import ServerSession
 from codim2_app.frame.document_callbacks import next_tick_scheduler
 from tornado.ioloop import IOLoop
+
+from tests.app.server.test_first_page import talk
 
 
 class Held:
@@ -31,12 +32,6 @@ def unsearched():
     finally:
         if searching:
             gc.enable()
-
-
-def alone(doing):
-    """Run in a thread of its own: a browser's loop may run in this one."""
-    with ThreadPoolExecutor(1) as pool:
-        return pool.submit(asyncio.run, doing).result()
 
 
 def opened():
@@ -74,7 +69,7 @@ def test_it_is_called_in_its_turn_with_the_documents_lock():
         await first
         return done
 
-    assert alone(asked()) == ["before", "still before", ("first", True, True), ("second", True, True)]
+    assert talk(asked()) == ["before", "still before", ("first", True, True), ("second", True, True)]
 
 
 @pytest.mark.parametrize("gone", ["destroyed", "forgotten"])
@@ -89,7 +84,7 @@ def test_it_is_not_called_once_the_session_is_over(gone):
         await turns()
         return done
 
-    assert alone(asked()) == []
+    assert talk(asked()) == []
 
 
 @pytest.mark.parametrize("how", ["here", "of a thread", "while it is locked", "it fails", "the session is over"])
@@ -125,7 +120,7 @@ def test_it_leaves_nothing_that_a_search_must_find(how, monkeypatch):
         return there, done
 
     with unsearched():
-        there, done = alone(asked())
+        there, done = talk(asked())
         assert there() is None
     assert done == ([] if how == "the session is over" else [True])
     assert said == (["a page could not be answered"] if how == "it fails" else [])

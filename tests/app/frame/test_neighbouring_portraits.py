@@ -35,14 +35,6 @@ def test_a_portrait_is_looked_at_from_the_same_sides_whatever_was_moved_before()
     assert again["portrait"]["sides"] == fresh["portrait"]["sides"]
 
 
-def test_the_ball_on_the_point_of_slipping():
-    state = ExplorerState.from_values({"system": "ball_in_pool", "z": 3.0})
-    frames = Frames(state)
-    frames.answer({"all": True})
-    header, _ = unpack(frames.answer({"id": 1, "set": {"z": 7.0 * 0.2 * 9.81 / 2.0}}))
-    assert header["portrait"]["sides"] == {"symbol": "z₁", "below": "CM2", "above": "NCM2"}
-
-
 @pytest.mark.parametrize("f1", [-0.4, -0.6])
 def test_a_portrait_that_is_not_degenerate_has_none(f1):
     assert "sides" not in told("f1", {"a": -1.0, "b": 0.0, "d": -1.5, "f1": -0.2}, f1)

@@ -10,22 +10,13 @@ FACTS = {"stable": 1, "name": "CM4", "radius": None, "fates": ("cross", "slide")
 @pytest.mark.parametrize(
     ("text", "holds"),
     [
-        ("stable == 1", True),
-        ("stable >= 2", False),
-        ("name == 'CM4' and stable < 2", True),
-        ("name == 'CM0' or not stable == 0", True),
-        ("0 < stable < 1", False),
-        ("0 < stable <= 1", True),
-        ("name in ('CM2', 'CM4')", True),
-        ("'cross' in fates and 'misses' not in fates", True),
-        ("stable - 2*stable + 1 == 0", True),
-        ("abs(-stable) == 1", True),
-        ("radius < 1", False),
-        ("not radius < 1", True),
-        ("-radius + 1 > 0", False),
-        ("radius == None", True),
+        ("stable == 1", True), ("stable >= 2", False), ("name == 'CM4' and stable < 2", True),
+        ("name == 'CM0' or not stable == 0", True), ("0 < stable < 1", False), ("0 < stable <= 1", True),
+        ("name in ('CM2', 'CM4')", True), ("'cross' in fates and 'misses' not in fates", True),
+        ("stable - 2*stable + 1 == 0", True), ("abs(-stable) == 1", True), ("radius < 1", False),
+        ("not radius < 1", True), ("-radius + 1 > 0", False), ("radius == None", True),
     ],
-)
+)  # fmt: skip
 def test_a_condition_says_what_it_says(text, holds):
     assert condition(text, KNOWN)(FACTS) is holds
 

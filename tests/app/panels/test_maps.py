@@ -17,12 +17,6 @@ def test_the_atlas_of_two_slow_variables_has_the_disc_in_which_the_ball_sticks()
     assert set(header["map"]["name"]) == {"CM2, stable node", "NCM2"}
 
 
-def test_an_axis_that_is_no_name_is_refused():
-    frames = Frames(ExplorerState())
-    for bad in ("own:", "own:1/0", "q", 3, None):
-        assert list(ask(frames, along=bad)["errors"]) == ["along"]
-
-
 def test_each_region_has_a_small_portrait_of_its_own():
     _, header = opened("atlas")
     tiles = header["thumbnails"]

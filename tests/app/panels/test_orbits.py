@@ -173,12 +173,6 @@ def test_nothing_is_followed_by_the_thread_that_answers_and_nothing_while_someth
     assert beside.made == 1
 
 
-def test_with_the_motion_hidden_nothing_is_computed_for_it():
-    frame = visitor(orbits=OUTSIDE, orbit_eps="hide")
-    frame()
-    assert frame() == {}
-
-
 def test_the_orbit_is_followed_once_for_its_motion_too(monkeypatch):
     followed = []
     real = orbits.in_time

@@ -1,7 +1,6 @@
 """The panels "Along z", "3-D", "Ψ", and "Orbits" from a typed start: what is sent, against core and closed forms."""
 
 import json
-from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
@@ -19,21 +18,13 @@ from codim2_app.state.opening import opening_values
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
-
-
-class Now(Executor):
-    """Computes when asked, so that a test need not wait."""
-
-    def submit(self, fn, /, *args, **kwargs):
-        future = Future()
-        future.set_result(fn(*args, **kwargs))
-        return future
+from tests.pictures.panels import AtOnce
 
 
 def sent(panel, *, rest=True, **changes):
     """The header that a panel adds, after the second frame at rest (the first one asks)."""
     values = {**ExplorerState().values(), **opening_values(changes.get("system", "normal")), **changes}
-    scene, jobs = make_scene(values), Jobs(Now())
+    scene, jobs = make_scene(values), Jobs(AtOnce())
     for _ in range(2):
         draft = FrameContext(scene, values, {}, {}, {}, jobs, rest, True, ())
         panel.add(draft)
@@ -65,7 +56,7 @@ def test_play_follows_the_attracting_set_that_it_was_on():
     def drifts(**changes):
         values = {**shown, **changes}
         header.clear()
-        panel_along.add(FrameContext(make_scene(values), values, header, {}, now, Jobs(Now()), False, True, ()))
+        panel_along.add(FrameContext(make_scene(values), values, header, {}, now, Jobs(AtOnce()), False, True, ()))
         return header.get("drift", "as before")
 
     first = drifts(z=0.3)
@@ -94,20 +85,9 @@ def test_without_slow_variables_it_says_so():
     values = ExplorerState().values()
     scene = make_scene(values, c2.ELinear(-1, 0, -1))
     for panel in (panel_along, solid):
-        draft = FrameContext(scene, values, {}, {}, {}, Jobs(Now()), True, True, ())
+        draft = FrameContext(scene, values, {}, {}, {}, Jobs(AtOnce()), True, True, ())
         panel.add(draft)
         assert "no slow variable" in str(draft.header["unable"])
-
-
-def test_the_stack_carries_critical_sets_and_limit_directions_of_every_height():
-    stack = sent(solid, system="nonunique_sliding")["stack"]
-    low, high = stack["span"]
-    for height, theta, _, _ in stack["directions"][::40]:
-        z = low + height * (high - low)
-        limits = c2.equator_equilibria(c2.examples.nonunique_sliding(), (z,)).theta
-        assert np.abs(np.exp(1j * limits) - np.exp(1j * theta)).min() < 1e-3
-    assert len(stack["sets"]) == 3
-    assert sum(one["stable"] for one in stack["sets"]) == 2
 
 
 def test_the_motion_of_a_ball_slips_then_slides_and_its_limit_lies_over_it():
@@ -186,12 +166,12 @@ def test_psi_is_sent_once_and_as_it_is(family):
     values = {**ExplorerState().values(), "psi": family}
     scene, now = make_scene(values), {}
     header = {}
-    psi.add(FrameContext(scene, values, header, {}, now, Jobs(Now()), False, True, ()))
+    psi.add(FrameContext(scene, values, header, {}, now, Jobs(AtOnce()), False, True, ()))
     curves = header["psi_curves"]
     np.testing.assert_allclose(curves["psi"], scene.psi(np.array(curves["s"])), rtol=1e-4)
     np.testing.assert_allclose(curves["modulus"], scene.psi.modulus(np.array(curves["zeta"])), rtol=1e-4)
     again = {}
-    psi.add(FrameContext(scene, values, again, {}, now, Jobs(Now()), False, True, ()))
+    psi.add(FrameContext(scene, values, again, {}, now, Jobs(AtOnce()), False, True, ()))
     assert again == {}
 
 
@@ -214,15 +194,9 @@ HOPF = c2.System(U=("z*c - s", "c + z*s"), W=("1",))  # way in = way out: from z
 
 def delayed(panel, system, **changes):
     """The header that a panel adds for a system that loses its stability."""
-    values = {
-        **ExplorerState().values(),
-        "launch": "0, 0, -0.6",
-        "t_end": 2.0,
-        "z": -0.6,
-        "family": "constant",
-        **changes,
-    }
-    jobs = Jobs(Now())
+    start = {"launch": "0, 0, -0.6", "t_end": 2.0, "z": -0.6, "family": "constant"}
+    values = {**ExplorerState().values(), **start, **changes}
+    jobs = Jobs(AtOnce())
     for _ in range(2):
         draft = FrameContext(make_scene(values, system), values, {}, {}, {}, jobs, True, True, ())
         panel.add(draft)

@@ -35,27 +35,6 @@ class Later:
         self.given = []
 
 
-def test_a_newer_wish_replaces_one_that_has_not_begun():
-    executor, ran = Later(), []
-    jobs = Jobs(executor)
-    key = object()
-    assert jobs.ask("map", (key, 1), lambda: ran.append(1) or "one") is None
-    assert jobs.ask("map", (key, 2), lambda: ran.append(2) or "two") is None
-    executor.run()
-    assert ran == [2]
-    assert jobs.ask("map", (key, 2), lambda: "never") == "two"
-
-
-def test_what_is_found_is_shared_between_browsers():
-    executor, ran = Later(), []
-    first, second, key = Jobs(executor), Jobs(executor), object()
-    assert first.ask("map", key, lambda: ran.append(1) or "found") is None
-    assert second.ask("map", key, lambda: ran.append(2) or "found again") is None
-    executor.run()
-    assert first.ask("map", key, lambda: None) == second.ask("map", key, lambda: None) == "found"
-    assert ran == [1]
-
-
 def test_a_refused_computation_is_a_sentence():
     executor = Later()
     jobs, key = Jobs(executor), object()

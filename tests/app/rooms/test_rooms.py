@@ -15,7 +15,6 @@ from codim2_app.rooms.rooms import (
     RoomError,
     Rooms,
     code_of,
-    settings_of,
 )
 
 
@@ -52,6 +51,10 @@ def opened(rooms, now=0.0, key=""):
     return lecturer, *rooms.open(key, lecturer.heard_by, now)
 
 
+def tick(*rooms, now):
+    return [each.tick(now) for each in rooms]
+
+
 def rows(lecturer):
     return [message["rows"] for message in lecturer.heard if "rows" in message]
 
@@ -67,19 +70,15 @@ def test_a_lecturer_is_told_of_the_phones_of_all_processes_when_they_are_others(
         for rooms, phone, typed in zip(two, phones, (code, f" {code.lower()} "), strict=True)
     ]
     assert guests[0].number != guests[1].number
-    assert there.tick(1.5)
-    assert here.tick(1.5)
+    assert all(tick(there, here, now=1.5))
     assert [row[1:] for row in rows(lecturer)[-1]] == [["CM4", {}, None], ["CM2", {"f1": 1.5}, None]]
-    there.tick(2.0)
-    here.tick(2.0)
+    tick(there, here, now=2.0)
     assert len(rows(lecturer)) == 1  # nothing has changed
     phones[1].row = ["CM0", {"f1": 2.0}, ["Ball", 0, True]]
-    there.tick(2.5)
-    here.tick(2.5)
+    tick(there, here, now=2.5)
     assert rows(lecturer)[-1][1][1:] == ["CM0", {"f1": 2.0}, ["Ball", 0, True]]
     there.leave(guests[1])
-    there.tick(3.0)
-    here.tick(3.0)
+    tick(there, here, now=3.0)
     assert [row[1] for row in rows(lecturer)[-1]] == ["CM4"]
     assert phones[0].heard == phones[1].heard == []
 
@@ -101,16 +100,6 @@ def test_all_are_told_when_a_room_is_closed_and_nothing_of_it_is_left(two):
     assert code not in here.hosts
 
 
-def test_a_room_that_is_not_there_any_more_is_closed_without_a_word(two):
-    here, _ = two
-    code = opened(here)[1]
-    here.close("NOWHERE", 1.0)
-    here.close(code, 1.0)
-    closed = here.hosts[code].closed
-    here.close(code, 2.0)
-    assert here.hosts[code].closed == closed
-
-
 def test_a_lecturer_who_loads_the_page_again_has_his_room_also_from_another_process(two):
     here, there = two
     lecturer, code, key = opened(here)
@@ -123,12 +112,10 @@ def test_a_lecturer_who_loads_the_page_again_has_his_room_also_from_another_proc
     there.tick(2.5)
     assert [row[0] for row in rows(again)[-1]] == [guest.number]
     there.close(code, 3.0)  # the first process still knows it as a room that waits
-    here.tick(3.5)
-    there.tick(3.5)
+    tick(here, there, now=3.5)
     assert phone.heard == [{"ended": code}]
     for now in (3.0 + CLOSED_SECONDS, 3.0 + CLOSED_SECONDS + 2.0):
-        here.tick(now)
-        there.tick(now)
+        tick(here, there, now=now)
     assert code not in here._states(3.0 + CLOSED_SECONDS + 2.0)
 
 
@@ -208,16 +195,6 @@ def test_settings_that_are_too_long_are_counted_but_not_sent():
     assert [row[1:] for row in rows(lecturer)[-1]] == [["CM4", None, None]]
 
 
-def test_without_anybody_nothing_goes_on():
-    begun = []
-    rooms = Rooms()
-    rooms.beat_with(lambda: begun.append(1))
-    assert not rooms.tick(0.0)
-    assert begun == []
-    opened(rooms)
-    assert begun == [1]
-
-
 def test_no_two_phones_have_one_number(two):
     _, code, _ = opened(two[0])
     phone = Page()
@@ -232,20 +209,6 @@ def test_a_lecturer_takes_up_his_room_though_all_are_taken():
     rooms = Rooms(most=1)
     _, code, key = opened(rooms)
     assert opened(rooms, 1.0, key)[1] == code
-
-
-def test_a_page_may_go_after_its_room_has_ended():
-    rooms = Rooms()
-    lecturer, code, _ = opened(rooms)
-    rooms.close(code, 1.0)
-    rooms.tick(1.0 + CLOSED_SECONDS + 1.0)
-    rooms.leave_open(code, lecturer.heard_by, 200.0)
-    rooms.close(code, 200.0)
-    assert not rooms.tick(200.0)
-
-
-def test_settings_are_those_that_are_other_than_at_first():
-    assert settings_of({"a": 1, "b": 2, "c": 3}, {"a": 1, "b": 5, "c": 4}, ("a", "b")) == {"b": 2}
 
 
 @pytest.mark.parametrize("jump", [-86400.0, 86400.0])

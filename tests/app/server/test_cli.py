@@ -24,11 +24,6 @@ def test_a_taken_port_is_said_with_the_remedy(capsys):
     assert "Give another --port" in capsys.readouterr().out
 
 
-def test_a_command_is_needed():
-    with pytest.raises(SystemExit):
-        main([])
-
-
 @pytest.fixture
 def only_the_course():
     """Take back what a test offers: the same process may draw the list of lessons afterwards."""

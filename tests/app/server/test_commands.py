@@ -21,27 +21,8 @@ def test_classify_in_words_and_as_json(capsys):
     system = c2.ELinear(-2, 0, -1, (-0.5, 0))
     assert said.startswith(c2.classify(system, c2.psi.constant()).sentence)
     assert said.count("λ_ρ") == 4
-    assert (
-        main(
-            [
-                "classify",
-                "-a",
-                "172",
-                "-b",
-                "186",
-                "-d",
-                "-200",
-                "--f1",
-                "-86",
-                "--f2",
-                "-93",
-                "--psi",
-                "hill:3",
-                "--json",
-            ]
-        )
-        == 0
-    )
+    of_paper = ["-a", "172", "-b", "186", "-d", "-200", "--f1", "-86", "--f2", "-93", "--psi", "hill:3"]
+    assert main(["classify", *of_paper, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert (found["case"], found["name"]) == ("III", "CM4")
     (C,) = found["critical_sets"]
@@ -54,13 +35,10 @@ def test_classify_in_words_and_as_json(capsys):
 @pytest.mark.parametrize(
     ("text", "psi"),
     [
-        ("constant", c2.psi.constant()),
-        ("tanh", c2.psi.tanh()),
-        ("hill:3", c2.psi.hill(3)),
-        ("hill", c2.psi.hill(2)),
+        ("constant", c2.psi.constant()), ("tanh", c2.psi.tanh()), ("hill:3", c2.psi.hill(3)), ("hill", c2.psi.hill(2)),
         ("1/(1+s)**2", c2.psi.custom("1/(1+s)**2")),
     ],
-)
+)  # fmt: skip
 def test_a_psi_by_its_text(text, psi):
     assert psi_of(text) == psi
 
@@ -75,15 +53,13 @@ def test_what_cannot_be_used_is_said_in_one_line(wrong, capsys):
 
 def test_prove_says_what_is_proved_and_writes_the_certificate(capsys, tmp_path):
     path = tmp_path / "certificate.json"
-    assert main(["prove", "-a", "1", "-b", "3", "-d", "-2", "--f1", "0.4", "--f2", "0.1", "-o", str(path)]) == 0
+    assert main(f"prove -a 1 -b 3 -d -2 --f1 0.4 --f2 0.1 -o {path}".split()) == 0
     said = capsys.readouterr().out
     assert said.startswith("Limit cycles: 0. It is proved that there are no other limit cycles")
     assert f"check.py < {path}" in said
     assert check(json.loads(path.read_text())) == (0, True)
-    assert (
-        main(["prove", "-a", "172", "-b", "186", "-d", "-200", "--f1", "-86", "--f2", "-93", "--psi", "1/(1+s)**2"])
-        == 1
-    )
+    of_paper = ["-a", "172", "-b", "186", "-d", "-200", "--f1", "-86", "--f2", "-93"]
+    assert main(["prove", *of_paper, "--psi", "1/(1+s)**2"]) == 1
     assert "The count is not proved" in capsys.readouterr().out
 
 
@@ -170,13 +146,6 @@ def test_a_census_on_a_cluster_that_is_not_there(capsys, monkeypatch):
     monkeypatch.setattr("codim2_app.server.commands.dask_executor", missing)
     assert main(["census", "--dask", "tcp://127.0.0.1:9"]) == 2
     assert "no Dask scheduler answers" in capsys.readouterr().err
-
-
-def test_the_version_is_told(capsys):
-    with pytest.raises(SystemExit) as ended:
-        main(["--version"])
-    assert ended.value.code == 0
-    assert capsys.readouterr().out.startswith("codim2 0.")
 
 
 def test_notebooks_are_copied_and_what_is_there_is_kept(capsys, tmp_path):

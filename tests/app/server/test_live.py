@@ -59,19 +59,6 @@ def test_requests_that_are_one_hold_no_more_than_one_may():
     assert len(merged["set"]) <= MOST_CONTROLS
 
 
-def test_a_file_has_what_was_set_before_it_was_asked_for(server):
-    async def take():
-        wire = await Wire.connect(server.port)
-        for i in range(20):
-            await wire.send({"id": i, "set": {"a": -1.0 - 0.01 * i}})
-        await wire.send({"take": {"kind": "json", "id": 1}})
-        link = (await wire.message())["file"].decode()
-        await wire.close()
-        return link
-
-    assert "a=-1.19" in talk(take())
-
-
 def test_who_reads_nothing_is_answered_no_further(server):
     """What is not read is held by the server: one frame, and not one for each request."""
 

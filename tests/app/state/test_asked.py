@@ -37,13 +37,6 @@ def test_it_is_refused_in_one_bounded_sentence(frames, request_, said):
     assert len(answer) < 20_000
 
 
-def test_ranges_of_sliders_are_a_value():
-    frames = Frames(ExplorerState(layers=[], panel="psi", trajectories=0), ready=lambda *_: False)
-    header, _ = unpack(frames.answer({"id": 1, "set": {"ranges": {"f1": [0.0, 0.5]}}}))
-    assert header["errors"] == {}
-    assert frames.values["ranges"] == {"f1": [0.0, 0.5]}
-
-
 @pytest.mark.parametrize("number", ["x" * 10**7, 10**400, None, [1], float("nan"), float("inf"), True])
 def test_an_odd_number_of_a_request_is_not_sent_back(frames, number):
     answer = frames.answer({"id": number})
@@ -76,11 +69,3 @@ def test_no_request_is_too_odd_to_be_read(given_):
 def test_no_value_is_too_odd_to_be_answered(frames, values):
     header, _ = unpack(frames.answer({"id": 3, "set": values}))
     assert header["id"] == 3
-
-
-@pytest.mark.parametrize(
-    "window", [[10**400] * 5, [float("nan")] * 5, [-2, 2, -2, 2, float("nan")], "x" * 9, [None] * 5]
-)
-def test_an_odd_window_is_the_whole_picture(frames, window):
-    frames.answer({"id": 1, "window": window})
-    assert frames.window is None

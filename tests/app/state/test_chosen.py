@@ -86,17 +86,13 @@ def test_text_that_cannot_be_used_names_its_box_and_column(choice, texts, box, c
 @pytest.mark.parametrize(
     ("choice", "box", "text", "said"),
     [
-        (OWN_SYSTEM, "U1", "U1", "is the name of a box"),
-        (OWN_SYSTEM, "U2", "-s + U1*c", "is the name of a box"),
-        (OWN_SYSTEM, "W", "W", "is the name of a box"),
-        (TYPED, "d", "-1 - a", "is the name of a box"),
-        (OWN_SYSTEM, "U1", "-c + Psi", "no regularisation"),
-        (OWN_SYSTEM, "U1", "-c*psi(s)", "no regularisation"),
-        (OWN_SYSTEM, "W", "eps*c", "no regularisation"),
-        (TYPED, "d", "-1 - t", "is the time"),
+        (OWN_SYSTEM, "U1", "U1", "is the name of a box"), (OWN_SYSTEM, "U2", "-s + U1*c", "is the name of a box"),
+        (OWN_SYSTEM, "W", "W", "is the name of a box"), (TYPED, "d", "-1 - a", "is the name of a box"),
+        (OWN_SYSTEM, "U1", "-c + Psi", "no regularisation"), (OWN_SYSTEM, "U1", "-c*psi(s)", "no regularisation"),
+        (OWN_SYSTEM, "W", "eps*c", "no regularisation"), (TYPED, "d", "-1 - t", "is the time"),
         (OWN_SYSTEM, "U2", "-T*s", "is the time"),
     ],
-)
+)  # fmt: skip
 def test_a_name_with_another_meaning_gets_no_slider(choice, box, text, said):
     with pytest.raises(TextError, match=said) as caught:
         build(choice, {box: text}, {})

@@ -69,15 +69,10 @@ def test_what_is_set_with_it_counts_in_its_order(order):
     assert one == other
 
 
-def test_what_is_no_number_beside_it_is_told():
+@pytest.mark.parametrize(("refused", "then"), [("a", {"a"}), ("f1", set())])
+def test_what_is_refused_is_told_unless_it_is_f_and_held_then(refused, then):
     frames = Frames(ExplorerState())
-    header, _ = unpack(frames.answer({"set": {"a": "x", "grab": [0.4, -0.2]}}))
-    assert header["errors"].keys() == {"a"}
-    assert header["set"].keys() - {"cut"} == {"f1", "f2"}
-
-
-def test_what_f_was_refused_before_is_forgotten_once_it_is_held():
-    frames = Frames(ExplorerState())
-    frames.answer({"set": {"f1": "x"}})
+    frames.answer({"set": {refused: "x"}})
     header, _ = unpack(frames.answer({"set": {"grab": [0.4, -0.2]}}))
-    assert header["errors"] == {}
+    assert header["errors"].keys() == then
+    assert header["set"].keys() - {"cut"} == {"f1", "f2"}

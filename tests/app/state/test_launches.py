@@ -47,26 +47,12 @@ def test_a_frame_brings_the_orbits_and_their_words_once():
     assert "launched_1.n" in blocks
 
 
-def test_without_orbits_a_slider_sends_nothing_of_them():
-    frames = Frames(ExplorerState())
-    frames.answer({"all": True})
-    header, blocks = unpack(frames.answer({"set": {"f1": -0.4}}))
-    assert "launched" not in header
-    assert not [name for name in blocks if name.startswith("launched")]
-
-
 @pytest.mark.parametrize(
     ("text", "number", "place"),
     [
-        ("", 1, TYPED),
-        ("0,0", 0, TYPED),
-        ("0,0", 1, 0),
-        ("0,0", 9, 0),
-        ("0,0,-", 1, None),
-        ("0,0,-;1,1;2,2", 3, 1),
-        ("0,0;1,1,-;2,2", 9, 1),
-        ("0,0;1,1,-", 2, None),
+        ("", 1, TYPED), ("0,0", 0, TYPED), ("0,0", 1, 0), ("0,0", 9, 0), ("0,0,-", 1, None), ("0,0,-;1,1;2,2", 3, 1),
+        ("0,0;1,1,-;2,2", 9, 1), ("0,0;1,1,-", 2, None),
     ],
-)
+)  # fmt: skip
 def test_the_chosen_orbit_has_its_place_among_those_that_are_shown(text, number, place):
     assert selected_place(read_launches(text), number) == place

@@ -45,14 +45,6 @@ def test_others_wait_for_a_kernel_and_for_no_other(folder):
     assert asked("one kernel") == "free"
 
 
-def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
-    monkeypatch.setattr(compile_lock.tempfile, "tempdir", str(folder / "none"))
-    done = []
-    with hold_name("one kernel"):
-        done.append(1)
-    assert done == [1]
-
-
 def test_what_is_kept_on_disk_is_looked_for_and_compiled_alone(folder, monkeypatch):
     names, alone_now = [], []
 

@@ -4,8 +4,6 @@ import panel as pn
 import pytest
 from bokeh.document import Document
 from codim2_app import explorer
-from codim2_app.state.controls import ExplorerState
-from codim2_app.view.explorer import ExplorerView
 from codim2_app.view.shared import SHARED_CONTROLS
 
 
@@ -39,12 +37,6 @@ def test_what_is_refused_leaves_view_and_state_as_they_were():
     assert (view.preset, view.state.preset) == ("", "")
 
 
-def test_a_portrait_brings_its_values():
-    view = explorer()
-    view.preset = "case3-n3"
-    assert (view.psi, view.n) == (view.state.psi, view.state.n) == ("hill", 3.0)
-
-
 def test_bind_link_and_references():
     view, slider = explorer(a=-1.5), pn.widgets.FloatSlider(start=-4, end=4, value=0.5)
     assert pn.bind(lambda a: 2 * a, view.param.a)() == -3.0
@@ -57,13 +49,6 @@ def test_bind_link_and_references():
     assert follower.scene.coefficients.a == 0.25
     slider.value = 1.0
     assert follower.scene.coefficients.a == 1.0
-
-
-def test_two_views_of_one_state_agree():
-    state = ExplorerState()
-    one, other = ExplorerView(state), ExplorerView(state)
-    one.a = -1.25
-    assert (other.a, other.scene.coefficients.a) == (-1.25, -1.25)
 
 
 def test_a_clone_has_the_values_of_its_own():
@@ -94,9 +79,3 @@ def test_its_style_sheets_come_after_its_own():
 def test_a_template_s_dark_theme_is_its_first(monkeypatch):
     monkeypatch.setattr(type(pn.config), "theme", "dark")
     assert explorer().config["dark"] is True
-
-
-def test_the_orbits_are_the_launched_ones():
-    view = explorer(orbits="0.3,0.4;1.5,0.2")
-    assert len(view.orbits) == 2
-    assert view.orbits is view.scene["launched"]

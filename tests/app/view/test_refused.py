@@ -10,13 +10,10 @@ from .asking import ask
 
 REFUSED = [
     ('system=own&texts={"U1":"-2*c %2B"}', "text:U1", "texts"),
-    ('system=own&texts={"U1":"-c %2B 1/z"}', "text:U1", "texts"),
     ('system=typed&texts={"a":"1/z"}', "text:a", "texts"),
     ('system=own&texts={"U1":"' + "%2B".join(f"k{i}*c" for i in range(13)) + '"}', "text:U1", "texts"),
     ("psi=custom&psi_text=1/s", "psi_text", "psi_text"),
-    ("psi=hill&n=-3", "n", "n"),
     ("z=1e300", "z", "z"),
-    ("a=1e200", "a", "a"),
     ("a=nan", "a", "a"),
     ("preset=ball-stick&z=1e300", "z", "z"),
     ('system=ball_in_pool&parameters={"mu":1e200}', "parameters", "parameters"),
@@ -49,24 +46,14 @@ def test_a_link_that_cannot_be_drawn_draws_the_rest_and_says_what_not(query, con
 @pytest.mark.parametrize(
     ("query", "says"),
     [
-        ("panel=nothing", "nothing"),
-        ("preset=case9", "case9"),
-        ("layers=rho,nothing", "nothing"),
-        ("unheard=3", "unheard"),
-        ("&".join(f"q{i}=1" for i in range(90)), "87 more"),
-        ('system=own&parameters={"gone":3}', "gone"),
-        ('parameters={"mu":3}', "it has none"),
-        ("launch=1,2", "Start"),
-        ("log_eps=100", "log₁₀ ε"),
-        ("lesson=nope", "nope"),
-        ("seen=1,1,1,1", "seen"),
-        ("controls=<b>", "controls"),
-        ("v=99", "version"),
-        ("s=notthewhole", "Copy the whole link"),
-        ("system=nothing", "nothing"),
+        ("panel=nothing", "nothing"), ("preset=case9", "case9"), ("layers=rho,nothing", "nothing"),
+        ("unheard=3", "unheard"), ("&".join(f"q{i}=1" for i in range(90)), "87 more"),
+        ('system=own&parameters={"gone":3}', "gone"), ('parameters={"mu":3}', "it has none"), ("launch=1,2", "Start"),
+        ("log_eps=100", "log₁₀ ε"), ("lesson=nope", "nope"), ("seen=1,1,1,1", "seen"), ("controls=<b>", "controls"),
+        ("v=99", "version"), ("s=notthewhole", "Copy the whole link"), ("system=nothing", "nothing"),
         ("solid=" + "x" * 5000, "xxx"),
     ],
-)
+)  # fmt: skip
 def test_what_a_link_asks_for_in_vain_is_said_until_something_is_set(query, says):
     link = read_link(query)
     frames = Frames(link.state, errors=link.errors)

@@ -16,7 +16,7 @@ from codim2_app.export import film as films
 from codim2_app.export.export_request import TYPES, ExportRequest, make_file, seen_by
 from codim2_app.export.figure import Style, figure
 from codim2_app.export.files import DATA
-from codim2_app.export.view import WHOLE, view_of
+from codim2_app.export.view import view_of
 from codim2_app.frame.background_results import Jobs
 from codim2_app.state.links import read_link
 from codim2_app.view import export_jobs as takings
@@ -122,17 +122,14 @@ def test_it_is_what_is_on_the_screen(executor):
         ({"kind": "html", "sliders": ["a" * 201]}, "NAME=LOW,HIGH"),
         ({"kind": "html", "sliders": [3]}, "NAME=LOW,HIGH"),
         ({"kind": "html", "sliders": ["q"]}, "no slider of this system"),
+        ({"kind": "gif", "sliders": ["nothing"]}, "no slider"),
+        ({"kind": "gif", "sliders": []}, "no slider"),
     ],
 )
 def test_a_wish_that_cannot_be_had_is_answered_with_a_sentence(executor, request_, said):
     answer = asked(executor, "v=1", request_)
     assert said in answer["error"]
     assert "file" not in answer
-
-
-@pytest.mark.parametrize("window", [None, "x", [0, 0, 0, 0, 1], [-1e9, 1e9, -1, 1, 1], [1, 2]])
-def test_a_window_that_is_none_is_the_whole_picture(window):
-    assert seen_by({"window": window}, view_of("v=1").values, None).seen == WHOLE
 
 
 def test_a_file_is_bounded(monkeypatch):
@@ -231,9 +228,3 @@ def test_a_film_that_is_stopped_draws_no_more(executor, monkeypatch):
     assert [set(one) for one in answers] == [{"taken", "done", "all"}] * 2 + [{"taken", "error"}]
     assert "stopped" in answers[-1]["error"]
     assert len(drawn) <= 3 * takings.FILE_MESSAGE
-
-
-@pytest.mark.parametrize("sliders", [[], ["nothing"]])
-def test_a_film_without_a_slider_is_refused(executor, sliders):
-    [answer] = conversation(executor, {**FILM, "sliders": sliders})
-    assert "no slider" in answer["error"]

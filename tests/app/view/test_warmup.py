@@ -8,11 +8,11 @@ import pytest
 from codim2_app.draw import packing
 from codim2_app.draw.lines import arrowheads
 from codim2_app.draw.packing import unpack
-from codim2_app.server import cli
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view import compile_lock as alone_module
 from codim2_app.view import warmup
 from codim2_app.view.compile_lock import alone, lock_path
+from codim2_app.view.compiled_once import hold_name
 from codim2_app.view.refresh import Frames
 from codim2_app.view.warmup import MIN_SETTINGS, MOST_COMPILED, FormulaQuota
 
@@ -30,9 +30,8 @@ except BlockingIOError:
 
 
 def asked():
-    return subprocess.run(
-        [sys.executable, "-c", ASK, str(lock_path())], check=True, capture_output=True, text=True
-    ).stdout.strip()
+    command = [sys.executable, "-S", "-c", ASK, str(lock_path())]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 
 
 @pytest.fixture
@@ -51,16 +50,10 @@ def test_one_process_at_a_time_compiles(folder):
     assert lock_path().parent == folder
 
 
-def test_other_folders_of_kernels_are_others_affair(folder, monkeypatch):
-    here = lock_path()
-    monkeypatch.setattr(alone_module.config, "CACHE_DIR", "/elsewhere")
-    assert lock_path() != here
-
-
 def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
     monkeypatch.setattr(alone_module.tempfile, "tempdir", str(folder / "none"))
     done = []
-    with alone():
+    with alone(), hold_name("one kernel"):
         done.append(1)
     assert done == [1]
 
@@ -68,26 +61,14 @@ def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
 def test_each_step_is_told_and_held_by_one_process(folder, monkeypatch):
     found, seen, told, after = [], [], [], []
     monkeypatch.setattr(warmup, "done", None)
-    monkeypatch.setattr(
-        warmup,
-        "_steps",
-        lambda: [
-            ("one", lambda: (found.append(asked()), seen.append(warmup.done))),
-            ("two", lambda: (found.append(asked()), seen.append(warmup.done))),
-        ],
-    )
+    step = lambda: (found.append(asked()), seen.append(warmup.done))
+    monkeypatch.setattr(warmup, "_steps", lambda: [("one", step), ("two", step)])
     warmup.warm_all(lambda what, seconds, done, of: told.append((what, seconds >= 0.0, done, of)), after.append)
     assert found == ["held", "held"]
     assert seen == [(0, 2), (1, 2)]
     assert told == [("one", True, 1, 2), ("two", True, 2, 2)]
     assert after == [1, 2]
     assert warmup.done == (2, 2)
-
-
-def test_the_first_scene_is_computed_as_soon_as_it_can_be():
-    names = [what for what, _ in warmup._steps()]
-    assert names[: warmup.FIRST_PRIORITY] == ["arrowheads", "trajectories for Ψ = 1", "limit cycles"]
-    assert len(names) == len(set(names)) > warmup.FIRST_PRIORITY
 
 
 @pytest.mark.parametrize(("done", "shown"), [((1, 8), [1, 8]), ((8, 8), None), (None, None)])
@@ -110,12 +91,6 @@ def test_no_frame_waits_for_the_compiler_of_arrowheads(monkeypatch, ready, warm,
     header, blocks = unpack(frame)
     assert header["ready"] is ready
     assert (len(blocks["inside.at"]) > 0) == heads
-
-
-def test_a_terminal_is_told_what_had_to_be_compiled(capsys):
-    cli._say_if_compiled("limit cycles", 0.1, 2, 8)
-    cli._say_if_compiled("limit cycles", 6.54, 2, 8)
-    assert capsys.readouterr().out == "codim2: 2 of 8: compiled limit cycles: 6.5 s\n"
 
 
 def test_a_server_starts_without_what_its_first_picture_does_not_need():
@@ -191,23 +166,6 @@ def test_who_waits_for_pictures_does_not_wait_for_what_cannot_be_compiled(folder
     warmup.start()
     warmup.wait()
     assert warmup.outcome == "the first scene cannot be computed: no compiler"
-
-
-def test_who_waits_for_pictures_does_not_wait_for_motions(folder, monkeypatch):
-    going_on = threading.Event()
-    monkeypatch.setattr(
-        warmup,
-        "_steps",
-        lambda: [("pictures", lambda: None), ("motions", lambda: going_on.wait(60)), ("gallery", lambda: None)],
-    )
-    monkeypatch.setattr(warmup, "_threads", {})
-    monkeypatch.setattr(warmup, "_pictures", threading.Event())
-    warmup.start()
-    warmup.wait()
-    (thread,) = warmup._threads.values()
-    assert thread.is_alive()
-    going_on.set()
-    thread.join()
 
 
 def test_kernels_stand_back_for_the_first_page(monkeypatch):

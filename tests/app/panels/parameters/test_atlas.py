@@ -4,7 +4,6 @@ import time
 
 import numpy as np
 import pytest
-from codim2_app.draw import plane_curves
 from codim2_app.draw.packing import INT16_STEP, unpack
 from codim2_app.panels.parameters import atlas_columns
 from codim2_app.state.controls import ExplorerState
@@ -124,16 +123,6 @@ def test_degenerate_matrices_are_drawn(frames, matrix):
     header, _, names = atlas_of(frames, rest=True, **dict(zip("abd", matrix, strict=True)))
     assert names == {"saddle_node", "transcritical", "regions"}
     assert header["regions"]["name"]
-
-
-def test_thinning_keeps_ends_and_corners():
-    leg = np.linspace(0.0, 1.0, 101)
-    corner = np.concatenate([np.stack([leg, 0 * leg], 1), np.stack([1 + 0 * leg, leg], 1)[1:]])
-    offsets, few = plane_curves.thin([corner, corner[:3], 2 * corner], 1.0)
-    assert offsets[2] - offsets[1] == 3
-    assert len(few) < 80
-    assert furthest(corner, few[: offsets[1]]) < 1e-15
-    assert furthest(2 * corner, few[offsets[2] :]) < 1e-15
 
 
 def furthest(points, line):

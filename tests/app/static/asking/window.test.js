@@ -4,14 +4,6 @@ import {test} from "node:test"
 
 import {Window} from "../../../../app/static/asking/requests.js"
 
-test("replies that take longer than the line does shrink the window", () => {
-  const window = new Window()
-  for (let t = 0; t < 2000; t += 17) window.measured(t, 80, 0.2)
-  assert.equal(window.size, 5)
-  for (let t = 2000; t < 3000; t += 17) window.measured(t, 140, 0.2)
-  assert.equal(window.size, 1)
-})
-
 test("a line that has become longer is not held against its shortest trip for ever", () => {
   const window = new Window()
   window.measured(100000, 20, 0.2)

@@ -32,14 +32,6 @@ test("the line at the present value is within the chart or nowhere", () => {
   near([one.plots()[0].x.of(one.px(".value"))], [3])
 })
 
-test("marks beyond the span of x are not drawn; bands end with it", () => {
-  const marks = [-1.2, -1, 1, 3, 3.2].map((x) => ({kind: "Hopf", x, y: 15, title: `${x}`}))
-  const one = made([{...PLOT, marks, bands: [{name: "b", from: -5, to: 0}, {name: "c", from: 2, to: 9}, {name: "d", from: 7, to: 9}]}])
-  const [plot] = one.plots()
-  near(plot.marks.map(({at}) => at[0]), [-1, 1, 3])
-  near(plot.bands.map(({from, to}) => [from, to]), [[-1, 0], [2, 3], [3, 3]])
-})
-
 test("marks that would cover each other are one, with their number and all words", () => {
   const one = made([{...PLOT, marks: [{kind: "Hopf", x: 1, y: 15, title: "one", go: 1}, {kind: "cusp", x: 1.1, y: 15.2, title: "two", go: 1.1}, {kind: "Hopf", x: 2, y: 15, title: "three", go: 2}]}])
   const [group, alone] = one.svg.querySelectorAll(".special")
@@ -90,15 +82,6 @@ test("a curve under the pointer is read off, the nearest one, unless it is silen
   assert.equal(one.svg.querySelector(".read").innerHTML, "")
 })
 
-test("what is read off stays within the chart, below the pointer where there is no room above", () => {
-  const one = made([{...PLOT, lines: [{name: "a", title: "A long title of a line", x: [-1, 3], y: [19.9, 10.1]}]}]), [plot] = one.plots()
-  const at = (x, y) => { one.hand("pointermove", plot.x.back(x), plot.y.back(y)); const text = one.svg.querySelector(".read text"); return ["x", "y"].map((name) => Number(text.getAttribute(name))) }
-  const half = (0.56 * 11 * "A long title of a line: x = −1.000, 19.90".length + 2) / 2
-  near(at(-1, 19.9), [2 + half, plot.y.back(19.9) + 18], 0.01)
-  const [x, y] = at(3, 10.1)
-  assert.ok(x < 360 - 100 && Math.abs(y - (plot.y.back(10.1) - 12)) < 0.01)
-})
-
 test("what moves lies over the chart, with its path and its name, and hides the words it covers", () => {
   const one = made([{...PLOT, labels: [{text: "word", near: [1, 15]}, {text: "far", near: [-0.5, 18]}]}])
   const covered = () => [...one.svg.querySelectorAll(".label")].map((word) => word.classList.contains("covered"))
@@ -125,17 +108,6 @@ test("a name that has no room is looked for no farther than it may be", () => {
   const asked = (within) => { let count = 0; made([{...PLOT, labels: [{text: "never", near: [1, 15], within, allowed: () => { count++; return false }}]}]); return count }
   const all = asked(undefined), some = asked([[0.9, 1.2], [14.5, 16]])
   assert.ok(some > 3 && some < all / 20, `${some} of ${all}`)
-})
-
-test("names stand within the chart, where they are allowed, and a band's within the band", () => {
-  const one = made([{...PLOT, bands: [{name: "b", from: -1, to: 0.5, word: "sliding"}, {name: "c", from: 0.5, to: 0.6, word: "too narrow"}], labels: [{text: "right", near: [-1, 12], allowed: (x, y) => x > 1.5 && y > 14}, {text: "never", near: [0, 15], allowed: () => false}, {text: "beside", at: [1, 17]}]}])
-  const [plot] = one.plots()
-  const words = Object.fromEntries([...one.svg.querySelectorAll("[data-word]")].map((it) => [it.textContent, [plot.x.of(Number(it.getAttribute("x"))), plot.y.of(Number(it.getAttribute("y")) - 0.35 * 11)]]))
-  assert.deepEqual(Object.keys(words).sort(), ["beside", "right", "sliding"])
-  const half = (text) => (0.56 * 11 * text.length + 2) / 2, wide = (text) => plot.x.of(100 + half(text)) - plot.x.of(100)
-  assert.ok(words.sliding[0] - wide("sliding") >= -1 && words.sliding[0] + wide("sliding") <= 0.5 && words.sliding[1] < 12)
-  assert.ok(words.right[0] - wide("right") > 1.5 && words.right[1] > 14)
-  assert.ok(Math.abs(words.beside[0] - 1) < 0.6 && Math.abs(words.beside[1] - 17) < 2)
 })
 
 test("plots stand above each other by their shares, a hidden axis has no words", () => {

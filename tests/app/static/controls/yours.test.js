@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {MOST, formulaOf, renameEntry, addEntry, readYours, restoreEntry, without} from "../../../../app/static/controls/yours.js"
+import {MOST, formulaOf, renameEntry, addEntry, readYours} from "../../../../app/static/controls/yours.js"
 import {FIRST, OWN, VALUES, click, memory, pull, type, wired} from "../played/wiring.js"
 
 const BOXES = {own: [{name: "U1", label: "ẋ = U₁", text: "-c"}, {name: "U2", label: "ẏ = U₂", text: "-s"}, {name: "W", label: "ż = W", text: "1"}], typed: [{name: "a", label: "a", text: "-2"}, {name: "b", label: "b", text: "0"}]}
@@ -47,13 +47,6 @@ test("the list is bounded: the oldest without a name goes, then the oldest", () 
   const all = many(MOST, "kept")
   assert.equal(addEntry(all, "", "own", own("new"), "n").list.at(-1)?.id, `i${MOST - 2}`)
   assert.deepEqual(addEntry([], "", "own", own("c".repeat(7000)), "n"), {list: [], current: ""})
-})
-
-test("what is removed can be put back where it was", () => {
-  const list = many(3), after = without(list, "i1")
-  assert.deepEqual(after.map(({id}) => id), ["i0", "i2"])
-  assert.deepEqual(restoreEntry(after, list[1], 1), list)
-  assert.equal(restoreEntry(list, list[1], 1), list)
 })
 
 test("a storage that holds something else is an empty list, and of a list what fits", () => {

@@ -25,15 +25,6 @@ function made(list = /** @type {any} */ (THREE), forbidden = []) {
   return {...there, box, yours, kept, asked, opened, rows, press, type, U1s, find: (name) => box.querySelector(name)}
 }
 
-test("a row says its name, else its formula, which stands in the place of a name", () => {
-  const one = made()
-  assert.deepEqual(one.rows(), ["Open U₁ = c<1, U₂ = -s", "Open mine & co", "Open third"])
-  assert.deepEqual([one.find("summary").textContent, one.find(".note").textContent, one.box.hidden], [`${SAYS.yours} (3)`, SAYS.keptHere, false])
-  const said = [...one.box.querySelectorAll("input")].map((it) => ["value", "placeholder", "title", "aria-label", "maxlength"].map((name) => it.getAttribute(name)))
-  assert.deepEqual(said.slice(0, 2), [["", "U₁ = c<1, U₂ = -s", "U₁ = c<1, U₂ = -s", "name of U₁ = c<1, U₂ = -s", "40"], ["mine & co", "U₁ = c, U₂ = -s", "U₁ = c, U₂ = -s", "name of mine & co", "40"]])
-  assert.deepEqual([...one.box.querySelectorAll(".remove")].map((it) => it.getAttribute("aria-label")), ["Remove U₁ = c<1, U₂ = -s", "Remove mine & co", "Remove third"])
-})
-
 test("what is removed says so in its own place, and is put back there", () => {
   const one = made()
   one.press(1, ".remove")

@@ -14,32 +14,6 @@ const DIAGRAM = {
 const CYCLES = {pieces: [{x: [2, 3, 4], y: [0.1, 0.2, 0.45], period: [7, 9, 14], stable: true}, {x: [4, 5], y: [0.45, 0.3], period: [14, 8], stable: false}], special: [{kind: "fold", value: 4, amplitude: 0.45, sentence: "They meet."}], sentence: "Two branches."}
 const AXES = {axes: [["f1", "f₁", -3, 3], ["n", "n", 0.5, 6]]}
 
-test("the panel diagram: branches, bands and special points are where the data say", () => {
-  const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0})
-  one.frame({diagram: DIAGRAM, ...AXES})
-  const all = plots(one.find(".diagram"))
-  assert.deepEqual(all.map(({title}) => title), ["limit directions θ", "critical set |p|"])
-  assert.equal(all[1].word, "f₁")
-  const turn = 2 * Math.PI
-  near(named(all[0].lines, "attracting", "turning-away").map((line) => line.points), [[[-2, 0.5], [1, 1.25], [6, 2]]], 0.03)
-  const repelling = named(all[0].lines, "repelling")
-  near(repelling.map((line) => line.points), [[[-1, 5.5 - turn], [3, 6.75 - turn]], [[-1, 5.5], [3, 6.75]]], 0.03)
-  assert.ok(repelling.every(({name}) => !name.includes("turning-away")))
-  near(all[0].bands.map(({from, to}) => [from, to]), [[4.5, 5.5]], 0.03)
-  near(all[0].marks.map(({at}) => at), [[1, Math.atan2(0.8, -0.6)]], 0.03)
-  near(named(all[1].lines, "critical", "stable").map((line) => line.points), [[[-2, 0.25], [2, 0.75]]], 0.03)
-  near(named(all[1].lines, "critical", "saddle").map((line) => line.points), [[[2, 0.5], [4, 1]]], 0.03)
-  near(all[1].marks.map(({at}) => at), [[3, 0.5]], 0.03)
-  assert.equal(all[1].marks[0].title, "Hopf at 3. A pair crosses.")
-  assert.equal(one.find(".diagram").style.height, "310px")
-  assert.deepEqual(one.texts(".frames span"), ["1", "3"])
-  const value = one.find(".diagram .value").getAttribute("d")
-  near([all[0].x.of(Number(value.match(/M([\d.]+)/)[1]))], [2.5], 0.03)
-  assert.equal(one.find(".diagram").getAttribute("aria-valuetext"), "f₁ = 2.5")
-  one.set({f1: 3})
-  assert.deepEqual(one.all(".frames button").map((item) => item.classList.contains("here")), [false, true])
-})
-
 test("the panel diagram: a film strip holds the portraits before, at and after, and a sentence for the nearest", () => {
   const one = opened("diagram", {along: "f1", f1: 2.5, n: 3, zoom: 0}, {film: true, settings: {slow: 0.25, near: 0.05}})
   const here = () => one.all(".frames button").findIndex((item) => item.classList.contains("here")), told = () => one.find(".happens").textContent

@@ -118,35 +118,6 @@ test("the panel solid: a hand turns it, and so do keys, never from below", () =>
 
 const STACK = {control: "z", span: [-1, 3], discs: [], directions: [], sets: []}
 
-test("the panel solid: discs stacked upward along z, directions on the cylinder, the present z in its place", () => {
-  const one = solid({stack: {control: "z", span: [-1, 3], discs: [{z: -1, lines: [[[0.1, 0.2], [0.3, 0.1]]]}, {z: 3, lines: []}], directions: [[0.25, 0.5, 1, 0], [0.75, 2, 0, 1], [0.5, -1.2, 0, 1]], sets: [{points: [[0.1, 0, 0], [0.2, 0.1, 0.25], [0.3, 0, 0.5], [0.4, 0, 0.75], [0.5, 0, 1]], stable: true, flow: 1}, {points: [[-0.5, 0.1, 0.2], [-0.4, 0.2, 0.6]], stable: false, flow: -1}]}, ...MARKS}, {solid: "stack"})
-  const all = paths(one.drawn()), e = 0.5, tall = 2.6
-  const scale = Math.min(WIDTH / 2.5, HEIGHT / (tall * Math.cos(e) + 2.3 * Math.sin(e) + 0.5)), cy = HEIGHT / 2 + scale * Math.cos(e) * tall / 2
-  const at = (x, y, share) => { const [right, up] = rotateView([x, y, tall * share], -0.6, e); return [WIDTH / 2 + scale * right, cy - scale * up] }
-  const discs = all.filter(({how, colour}) => how === "fill" && colour === "panel").map(({points}) => points[0].slice(1, 3))
-  near(discs.flat(), [...at(0, 0, 0), ...at(0, 0, 1)])
-  const orbit = all.find(({how, colour}) => how === "stroke" && colour === "orbit")
-  near(orbit.points.flat(), [...at(0.1, 0.2, 0), ...at(0.3, 0.1, 0)])
-  const dots = all.filter(({how}) => how === "fillRect")
-  const place = (theta, share) => at(Math.cos(theta), Math.sin(theta), share)
-  // behind the discs first, then in front of them; where they arrive in the colour of attracting
-  assert.deepEqual(dots.map(({colour, alpha}) => [colour, alpha]), [["rep", 0.4], ["attr", 1], ["rep", 1]])
-  near(dots.flatMap(({points: [[x, y]]}) => [x + 1.2, y + 1.2]), [...place(2, 0.75), ...place(0.5, 0.25), ...place(-1.2, 0.5)])
-  const sets = all.filter(({how, colour}) => how === "stroke" && colour === "crit" && how === "stroke").filter(({points}) => points.length === 5 || points.length === 2)
-  assert.deepEqual(sets.map(({width, alpha}) => [width, alpha]), [[2.6, 1], [1.6, 0.5]])
-  near(sets[0].points.flat(), [at(0.1, 0, 0), at(0.2, 0.1, 0.25), at(0.3, 0, 0.5), at(0.4, 0, 0.75), at(0.5, 0, 1)].flat())
-  const here = all.find(({how, colour, width}) => how === "stroke" && colour === "accent" && width === 2.4)
-  near(here.points[0], at(1, 0, 0.625)) // z = 1.5 of −1 to 3
-  const moved = one.canvas.recorder.drawn.filter(([name]) => name === "translate" || name === "rotate").map(([, ...v]) => v)
-  near(moved[0], at(0.4, 0, 0.75)) // the arrow of the first set, upward
-  const [p, q] = [at(0.3, 0, 0.5), at(0.4, 0, 0.75)]
-  near(moved[1], [Math.atan2(q[1] - p[1], q[0] - p[0])])
-  const words = Object.fromEntries(all.filter(({how}) => how === "text").map(({points: [[text, ...where]]}) => [text, where]))
-  assert.ok(words["z = −1"][1] > words["z = 3"][1]) // low is below
-  one.values.z = 5
-  assert.ok(!paths(one.drawn()).some(({colour, width}) => colour === "accent" && width === 2.4))
-})
-
 const FILIPPOV = {
   plane: [[2, 1, 1.5], [-2, 1, 0.5], [-2, -1, -0.5], [2, -1, 0.25]], cross: 0.75, curve: [[1, 0.5, 2], [-0.5, 1, 1], [-1, -0.75, -1], [1, 0.5, 2]],
   candidates: [-0.25, 1.25], combined: [[[1, 0.5, 2], [-1, -0.75, -1]], [[-0.5, 1, 1]]], selected: [[0.5, "stable node"], [1, "saddle"]], sentence: "Between.",

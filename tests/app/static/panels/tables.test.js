@@ -13,23 +13,6 @@ const cells = (one, selector) => one.all(`${selector} tr`).map((row) => [...row.
 const Q = {label: ["Q₁", "Q₂"], theta: [0.5, 2.25], lambda_rho: [-1.5, 0.75], lambda_theta: [0.25, -3], type: ["attracting", "repelling"], multiplicity: [1, 2]}
 const C = {label: ["C₁", "C₂"], kind: ["saddle", "stable node"], e: [[0.1, -0.2], [0.3, 0.4]], x2: [[0.11, -0.22], [0.33, 0.44]], trace: [1, -3], determinant: [-2, 2], discriminant: [9, 1], eigenvalues: [[[2, 0], [-1, 0]], [[-1, 0.5], [-1, -0.5]]], slow_flow: [[0.5], []]}
 
-test("the panel numbers: each number under its head", () => {
-  const one = opened("numbers", {z: 0.5})
-  one.frame({equator: Q, cycle: null, critical: C, all_directions: false})
-  assert.deepEqual(cells(one, ".equator-table"), [["", "θ", "λρ", "λθ"], ["Q₁", "0.500", "−1.500", "0.250"], ["", "attracting"], ["Q₂", "2.250", "0.750", "−3.000"], ["", "repelling, multiplicity 2"]])
-  assert.deepEqual(cells(one, ".critical-table"), [
-    ["C₁", "saddle"], ["(c, s)", "(0.100, −0.200)"], ["(x₂, y₂)", "(0.110, −0.220)"], ["tr J", "1.000"], ["det J", "−2.000"], ["Δ(J)", "9.000"], ["eigenvalues", "2.000, −1.000"], ["z′", "0.500"],
-    ["C₂", "stable node"], ["(c, s)", "(0.300, 0.400)"], ["(x₂, y₂)", "(0.330, 0.440)"], ["tr J", "−3.000"], ["det J", "2.000"], ["Δ(J)", "1.000"], ["eigenvalues", "−1.000 ± 0.500 i"],
-  ])
-  assert.equal(one.find(".critical-table h2").textContent, "Critical sets")
-  const alone = Object.fromEntries(Object.entries(C).map(([name, all]) => [name, all.slice(0, 1)]))
-  one.frame({critical: alone})
-  assert.equal(one.find(".critical-table h2").textContent, "Critical set")
-  assert.ok(!cells(one, ".critical-table").some(([name]) => name === "z′")) // it stands below
-  one.frame({critical: Object.fromEntries(Object.keys(C).map((name) => [name, []]))})
-  assert.equal(one.find(".critical-table .note").textContent, "There is no critical set on the hemisphere.")
-})
-
 test("the panel numbers: an equator without directions says how it is run through", () => {
   const one = opened("numbers", {z: 0.5}), none = {...Q, theta: [], label: []}
   const words = (header) => { one.frame({equator: none, all_directions: false, ...header}); return one.find(".equator-table .note").textContent }

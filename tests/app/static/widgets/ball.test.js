@@ -110,5 +110,3 @@ test("the three great circles are painted where the ball has turned them, each i
     assert.ok(circle.filter(([name]) => name === "moveTo").length <= 2 && circle.length > 20 && circle.length < 30)
   }
 })
-
-test("a quarter turn about z takes x to y", () => near(rotateVector([Math.SQRT1_2, 0, 0, Math.SQRT1_2], [1, 0, 0]), [0, 1, 0]))
