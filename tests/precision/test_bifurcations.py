@@ -78,8 +78,7 @@ def test_saddle_node_and_transcritical_points(abd):
 
 
 @pytest.mark.parametrize(
-    "plane",
-    [(172.0, 186.0, -200.0, -86.0, -93.0), (1.0, 1.5, -1.2, -0.45, -0.78), (-1.0, 0.8, -2.0, 0.82, 0.4)],
+    "plane", [(172.0, 186.0, -200.0, -86.0, -93.0), (1.0, 1.5, -1.2, -0.45, -0.78), (-1.0, 0.8, -2.0, 0.82, 0.4)]
 )
 def test_values_of_n_where_the_kind_changes(plane):
     """n of the Hill family in 50 digits, against what one rounding of the coefficients does to it."""

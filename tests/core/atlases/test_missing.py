@@ -74,10 +74,7 @@ def test_where_equations_have_no_value_is_a_region_of_its_own():
 def test_a_curve_along_an_edge_is_found_from_the_portraits_beside_it():
     """A saddle-node at p = -1.9931: two limit directions less than a cell of the net apart, in the first cell."""
     system = c2.System(
-        U=(
-            "0.639*c*s+0.084*c*c-0.06*tanh(2*s)+p*c*s*s",
-            "0.05*sin(2*c)+0.226*c**3-1.399*c*s*s+2.028*exp(c)+p*c**3",
-        ),
+        U=("0.639*c*s+0.084*c*c-0.06*tanh(2*s)+p*c*s*s", "0.05*sin(2*c)+0.226*c**3-1.399*c*s*s+2.028*exp(c)+p*c**3"),
         W=(),
         parameters={"p": 0.0},
     )

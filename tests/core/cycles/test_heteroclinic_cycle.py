@@ -9,11 +9,7 @@ import codim2_core as c2
 from codim2_core.cycles.heteroclinic_cycle import gap, loops
 
 # a, b, d, f1, f2 with one arc each, found at random
-PLANES = [
-    (1.45, -1.49, -1.38, 0.94, -0.85),
-    (-1.18, -0.95, 0.27, -0.81, -0.81),
-    (0.55, 0.67, -0.58, 0.67, 0.65),
-]
+PLANES = [(1.45, -1.49, -1.38, 0.94, -0.85), (-1.18, -0.95, 0.27, -0.81, -0.81), (0.55, 0.67, -0.58, 0.67, 0.65)]
 EVERY = pytest.mark.parametrize("plane", PLANES)
 PSI = c2.psi.rational()
 

@@ -52,12 +52,7 @@ def test_no_branch_is_missing(system):
         circle = r * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         U = at.U(circle)
         u = circle / r
-        parts = {
-            "rho": (U * u).sum(1),
-            "theta": U[:, 1] * u[:, 0] - U[:, 0] * u[:, 1],
-            "U1": U[:, 0],
-            "U2": U[:, 1],
-        }
+        parts = {"rho": (U * u).sum(1), "theta": U[:, 1] * u[:, 0] - U[:, 0] * u[:, 1], "U1": U[:, 0], "U2": U[:, 1]}
         size = max(map(abs, at.plane)) + 1e-300
         for kind, values in parts.items():
             safe = np.abs(values) > 1e-3 * size

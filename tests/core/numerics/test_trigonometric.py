@@ -9,13 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core.numerics.trigonometric import radial_zeros, real_zeros, tangential_zeros
-from tests.core.exact_trigonometric import (
-    count_equilibria,
-    count_zeros,
-    integers,
-    root_error,
-    theta_coefficients,
-)
+from tests.core.exact_trigonometric import count_equilibria, count_zeros, integers, root_error, theta_coefficients
 
 plain = st.floats(-2, 2)
 grid = st.integers(-40, 40).map(lambda k: k / 20)

@@ -37,18 +37,10 @@ EXACT = {
     "constant": (constructors.constant(), lambda s: mpf(1), lambda s: mpf(0)),
     "rational": (constructors.rational(), lambda s: 1 / (1 + s), lambda s: -1 / (1 + s) ** 2),
     "exponential": (constructors.exponential(), lambda s: mpmath.exp(-s), lambda s: -mpmath.exp(-s)),
-    "tanh": (
-        constructors.tanh(),
-        lambda s: s / mpmath.sinh(mpmath.sqrt(s)) ** 2 if s else mpf(1),
-        _tanh_slope,
-    ),
+    "tanh": (constructors.tanh(), lambda s: s / mpmath.sinh(mpmath.sqrt(s)) ** 2 if s else mpf(1), _tanh_slope),
     **{f"hill {n}": _hill(n) for n in (0.01, 0.3, 1, 1.5, 2, 3, 4, 17.25, 200, 1000)},
     "custom exp": (constructors.custom("exp(-s)"), lambda s: mpmath.exp(-s), lambda s: -mpmath.exp(-s)),
-    "custom square": (
-        constructors.custom("1/(1+s)**2"),
-        lambda s: 1 / (1 + s) ** 2,
-        lambda s: -2 / (1 + s) ** 3,
-    ),
+    "custom square": (constructors.custom("1/(1+s)**2"), lambda s: 1 / (1 + s) ** 2, lambda s: -2 / (1 + s) ** 3),
     "custom half": (
         constructors.custom("(1+s)/(1+2*s)"),
         lambda s: (1 + s) / (1 + 2 * s),

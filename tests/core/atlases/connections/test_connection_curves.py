@@ -49,10 +49,7 @@ def normal_form(sign):
     first, second = "s", f"(p + q*c + c**2 + {sign}*c*s)"
     inward, turning = f"(c*{first} + s*{second})", "(c**2 + s**2)**4/2"
     return c2.System(
-        U=(
-            f"(1-c**2-s**2)*{first} + c*{inward} - {turning}*s",
-            f"(1-c**2-s**2)*{second} + s*{inward} + {turning}*c",
-        ),
+        U=(f"(1-c**2-s**2)*{first} + c*{inward} - {turning}*s", f"(1-c**2-s**2)*{second} + s*{inward} + {turning}*c"),
         parameters={"p": 0.0, "q": 0.0},
     )
 
