@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.arguments import BY_ANNOTATION, BY_NAME
 from codim2_core.expressions.expression import ExpressionError
 
 SYSTEM = c2.ELinear("-2 + 0*z", 0.0, -1.0, (-0.5, 0.0), [[1, 0]], ("-z",))
@@ -206,10 +205,6 @@ def test_classes_tell_wrong_values_too(make):
         except (ValueError, TypeError) as error:
             said = str(error)
         assert len(said) < 600, (words, said)
-
-
-def test_each_kind_of_argument_has_one_check():
-    assert set(BY_NAME).isdisjoint(BY_ANNOTATION)
 
 
 PLAIN = c2.ELinear(-1.0, 0.0, -1.5, (-0.3, 0.0))

@@ -63,14 +63,6 @@ def test_case_III_cycles(n, period):
     assert gaps.max() < 0.02
 
 
-@pytest.mark.parametrize("n", [1, 2])
-def test_case_III_stable_focus_and_node_have_no_cycle(n):
-    found = limit_cycles(CASE_III, psi.hill(n))
-    assert len(found) == 0
-    assert found.notes == ()
-    assert found.reason.startswith("No limit cycle")
-
-
 def test_two_nested_cycles():
     p = psi.hill(3)
     inner, outer = limit_cycles(fold(1.04), p)
@@ -83,20 +75,6 @@ def test_two_nested_cycles():
     end = lines.points[0][-1]
     assert np.hypot(*(outer.points - end).T).min() < 5e-3
     assert np.hypot(*(lines.points[1][-1] - C.p)) < 1e-4
-
-
-def test_cycles_meet_in_a_fold():
-    p = psi.hill(3)
-    low, high = 0.96, 1.0
-    for _ in range(16):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if len(limit_cycles(fold(middle), p)) else (middle, high)
-    assert len(limit_cycles(fold(low), p)) == 0
-    near = limit_cycles(fold(high), p)
-    assert [cycle.kind for cycle in near] in (["unstable", "stable"], ["semistable"])
-    for cycle in near:
-        assert cycle.multiplier == pytest.approx(1.0, abs=0.02)
-        assert cycle.closure < 1e-12
 
 
 def test_cycles_leave_through_the_equator():

@@ -80,18 +80,8 @@ def test_a_pair_of_a_typed_system(gap, where, p):
     cycles = limit_cycles(System(U=(f"-s + c*{factor}", f"c + s*{factor}")), p)
     assert [cycle.kind for cycle in cycles] == ["stable", "unstable"]
     for cycle, square in zip(cycles, (where, where + gap), strict=True):
-        zeta = psi_radius(p, math.sqrt(square))
+        zeta = p.radius(math.sqrt(square))
         assert np.hypot(*cycle.points.T) == pytest.approx(zeta / math.hypot(1.0, zeta), abs=3e-6)
-
-
-def psi_radius(p, modulus):
-    low, high = 0.0, 1.0
-    while p.modulus(high) < modulus:
-        high *= 2.0
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if p.modulus(middle) < modulus else (low, middle)
-    return low
 
 
 def test_a_double_cycle_is_one_semistable_cycle():

@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.examples import catalogue
-from codim2_core.layer_problem.vary import names, usual_span, value_of, vary
+from codim2_core.layer_problem.vary import names, usual_span, vary
 
 CASE3 = c2.presets["case3-n3"]
 SYSTEMS = {
@@ -75,12 +75,3 @@ def test_it_is_taken_away_as_a_frame_and_as_csv(tmp_path):
     assert np.array_equal(cycle["amplitude"].astype(float), found.cycles[0].amplitude)
     assert set(frame["what"]) == {"limit direction", "critical set", "limit cycle", "special point"}
     assert [float(row["n"]) for row in rows] == frame["n"].tolist()
-
-
-def test_the_usual_span_holds_the_value():
-    for system, z in SYSTEMS.values():
-        for name in names(system, c2.psi.hill(3.0), z):
-            low, high = usual_span(system, c2.psi.hill(3.0), z, name)
-            value = value_of(system, c2.psi.hill(3.0), z, name)
-            assert low <= value <= high
-            assert low < high

@@ -36,10 +36,3 @@ def test_a_change_from_one_side_of_a_zone_to_the_other_is_told_once():
     found = c2.branches(pole, PSI, "k", (0.0, 2.0), with_cycles=False)
     assert [one.value for one in found.special if abs(one.value - 1.0) < 1e-3] != []
     assert all(math.isfinite(one.value) for one in found.special)
-
-
-def test_what_has_no_value_at_all_is_refused_as_ever():
-    with pytest.raises(ValueError, match="has no value"):
-        c2.branches(
-            c2.System(U=("c + sqrt(k)", "s**3"), parameters={"k": 0.5}), PSI, "k", (-1.0, 1.0), with_cycles=False
-        )

@@ -131,23 +131,6 @@ def test_fold():
     assert C.determinant == 0.0
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-def test_three_critical_sets_that_meet(sign):
-    found = zeros_of(f"{sign}*(c - 0.1)**3", "s + 0.2*c")
-    assert found.degenerate.tolist() == [True]
-    assert found.index.tolist() == [sign]
-    assert found.proven
-    (C,) = critical_sets(System(U=(f"{sign}*(c - 0.1)**3", "s + 0.2*c")), psi.constant())
-    assert C.kind == "degenerate"
-
-
-def test_a_fold_beside_others():
-    found = zeros_of("(c - 0.3)**2*(c + 0.4)", "s")
-    np.testing.assert_allclose(found.e, [[-0.4, 0.0], [0.3, 0.0]], atol=1e-7)
-    assert found.degenerate.tolist() == [False, True]
-    assert found.index.tolist() == [1, 0]
-
-
 @pytest.mark.parametrize("shift", [-1e-9, 0.0, 1e-9])
 def test_a_zero_on_the_equator(shift):
     found = zeros_of("(c - 0.6 - p*0.6)*(c + 2)", "s - 0.8 - p*0.8", p=shift)
@@ -169,18 +152,6 @@ def test_a_curve_and_an_isolated_zero():
     found = zeros_of("c*(c**2 + s**2 - 1/4)", "s*(c**2 + s**2 - 1/4)")
     assert found.curve
     np.testing.assert_allclose(found.e, [[0.0, 0.0]], rtol=0.0, atol=1e-17)
-
-
-def test_everything_stands_still():
-    assert zeros_of("0*c", "0").everything
-    assert zeros_of("c - c", "0").everything
-    assert not zeros_of("c**2 + s**2 - 1", "c**2 + s**2 - 1").everything
-
-
-def test_a_hole_is_not_decided():
-    """A pole inside: no zero there, but no proof either."""
-    found = zeros_of("c/(1/3 + s) - 1", "exp(c) - 1.2 + s")
-    assert not found.proven
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,6 @@ from codim2_core import (
     examples,
     hemisphere,
     limit_cycles,
-    presets,
     psi,
     separatrices,
 )
@@ -25,13 +24,6 @@ RINGS = System(  # cycles where |e| = a, b, whatever Psi is
     W=("c**2", "s"),
     parameters={"w": 1.3, "k": 2.0, "a": 0.4, "b": 0.7},
 )
-
-
-def as_text(system, **options):
-    """The same e-linear system as typed formulas."""
-    a, b, d, f1, f2 = system.at(()).plane
-    values = {"a": a, "b": b, "d": d, "f1": f1, "f2": f2}
-    return System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values, **options)
 
 
 # ---- outcomes -----------------------------------------------------------------------------------------------------
@@ -107,33 +99,11 @@ def test_two_exact_cycles(p):
     assert "not proved" in found.reason
 
 
-@pytest.mark.parametrize("p", FAMILIES[:4], ids=lambda p: p.text)
-def test_cycles_that_meet(p):
-    near = limit_cycles(RINGS.evolve(a=0.5, b=0.501), p, (0.0, 0.0))
-    assert [cycle.kind for cycle in near] == ["unstable", "stable"]
-    met = limit_cycles(RINGS.evolve(a=0.5, b=0.5), p, (0.0, 0.0))
-    assert [cycle.kind for cycle in met] == ["semistable"]
-    assert any("fold" in note for note in met.notes)
-
-
 def test_clockwise_cycles_and_time_units():
     found = limit_cycles(RINGS.evolve(w=-1.3e6, k=2e6), psi.tanh(), (0.0, 0.0))
     assert [cycle.direction for cycle in found] == [-1, -1]
     ahead = limit_cycles(RINGS, psi.tanh(), (0.0, 0.0))
     assert [1e6 * c.period for c in found] == pytest.approx([c.period for c in ahead], rel=1e-9)
-
-
-@pytest.mark.parametrize("name", ["case3-n3", "case3-n4"])
-def test_cycles_of_an_e_linear_system_as_text(name):
-    preset = presets[name]
-    (one,) = limit_cycles(preset.system, preset.psi)
-    (other,) = limit_cycles(as_text(preset.system, W=("2*c - s + 1/3",)), preset.psi, 0.0)
-    assert other.kind == one.kind
-    assert (other.period, other.period_T) == pytest.approx((one.period, one.period_T), rel=1e-10)
-    assert other.multiplier == pytest.approx(one.multiplier, rel=1e-6)
-    assert other.mean_e == pytest.approx(one.mean_e, abs=1e-10)
-    (C,) = critical_sets(preset.system, preset.psi)
-    assert other.slow_flow == pytest.approx([2 * C.e[0] - C.e[1] + 1 / 3], abs=1e-9)  # prop:LC
 
 
 DUFFING = System(U=("s", "c - 6*c**3 + k*s*(m - c**2)"), parameters={"k": 1.0, "m": 0.13})

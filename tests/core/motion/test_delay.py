@@ -39,21 +39,6 @@ def test_way_in_is_way_out_where_the_set_stays(z0, w, size, sign):
     assert "way in = way out" in run.phases[1].reason
 
 
-def test_its_phase_knows_where_the_motion_came_where_the_hopf_is_and_where_it_left():
-    """z' = 1 from z = -0.7: Hopf at 0, way out at 0.7; on the way z' = 1 and e = 0."""
-    phase = (run := followed(turning(0.5), -0.7)).phases[1]
-    delay = phase.delay
-    assert [other.delay for other in run.phases if other is not phase] == [None] * (len(run.phases) - 1)
-    assert (delay.onto, delay.buffer) == ("C", None)
-    assert (delay.t_in, delay.t_hopf, delay.t_out) == (0.0, phase.t_start, phase.t_end)
-    np.testing.assert_allclose([*delay.z_in, *delay.z_hopf, *delay.z_out], [-0.7, 0.0, 0.7], atol=1e-9)
-    np.testing.assert_allclose(delay.z[:, 0], np.linspace(0.0, 0.7, len(delay.z)), atol=1e-9)
-    np.testing.assert_allclose(delay.flow, 1.0)
-    np.testing.assert_allclose(delay.e, 0.0, atol=1e-15)
-    assert delay.reason == phase.reason
-    assert not delay.z.flags.writeable
-
-
 def test_its_phase_names_the_buffer_point_and_what_ends_before_is_not_left():
     run = followed(turning(0.5, "0.3*z"), -1.3, 4.0)
     assert run.phases[1].delay.buffer.imag == pytest.approx(0.5, rel=1e-3)  # det J = 0 at z = ± i w; t = z + 1.3
@@ -144,15 +129,6 @@ def test_it_stays_to_the_end_where_it_is_attracted_more_than_repelled():
     assert run.phases[1].t_end == pytest.approx(left, abs=1e-8)
 
 
-def test_it_goes_on_to_the_cycle_that_took_over():
-    """Past a supercritical Hopf point of a system that is not e-linear: the stop that this was, now goes on."""
-    system = System(U=("(z - 2*(c^2 + s^2))*c - s", "c + (z - 2*(c^2 + s^2))*s"), W=("1",))
-    run = followed(system, -0.3, 0.8)
-    assert run.status is SimulationStatus.T_END
-    assert [phase.onto for phase in run.phases] == ["C", "C", "cycle 1"]
-    assert run.phases[1].t_end == pytest.approx(0.6, abs=1e-8)
-
-
 def test_without_psi_and_with_a_kink_it_stops_and_says_so():
     bare = simulate_nonsmooth(turning(0.5), (0.0, 0.0, -1.0), (0.0, 2.0))
     assert bare.status is SimulationStatus.NOT_UNIQUE
@@ -203,8 +179,3 @@ def test_of_each_of_two_sets_that_attract_the_delay_is_told_by_its_name():
     assert [delay.onto for delay in found] == stable
     assert len(stable) == 2
     np.testing.assert_allclose([delay.z_hopf[0] for delay in found], 0.1 * 0.75 / 1.75, atol=1e-9)
-
-
-def test_a_range_that_does_not_hold_z_is_refused():
-    with pytest.raises(ValueError, match="give \\(low, high\\) with low <= z <= high"):
-        delays(turning(0.5), PSI, (2.0,), [(-1.0, 1.0)])

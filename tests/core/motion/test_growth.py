@@ -40,13 +40,6 @@ def test_a_blow_up_is_told_with_its_time(which, U, W, state0, when, kind):
 
 
 @pytest.mark.parametrize("which", ALL)
-def test_growth_that_only_takes_long_is_no_blow_up(which):
-    run = motion(which, System(U=("-c", "-s"), W=("z",)), (0.0, 0.0, 1.0), 300.0)
-    assert run.status is SimulationStatus.T_END
-    assert run.states[-1, 2] == pytest.approx(math.exp(300.0), rel=1e-5)
-
-
-@pytest.mark.parametrize("which", ALL)
 def test_where_formulas_end_the_motion_does(which):
     run = motion(which, System(U=("-c", "-s"), W=("-1/2 + log(z) - log(z)",)), (1.0, 0.0, 1.0), 3.0)
     assert run.status is SimulationStatus.STEP_LIMIT

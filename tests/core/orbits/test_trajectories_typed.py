@@ -99,10 +99,3 @@ def test_continuation_leads_to_the_critical_set_of_its_side():
     assert result.status == (Status.EQUILIBRIUM,) * 2
     assert result.ends[0, 0] > 0.1
     assert result.ends[1, 0] == pytest.approx(-result.ends[0, 0], abs=1e-5)
-
-
-def test_what_is_no_limit_direction_is_refused():
-    with pytest.raises(ValueError, match="no limit direction"):
-        continuation(NU, psi.rational(), [0.2], 0.3)
-    with pytest.raises(ValueError, match="lambda_rho"):
-        continuation(AR, psi.rational(), [0.0], 0.3)

@@ -67,15 +67,6 @@ def test_case_III_depends_on_psi(n, verdict):
 # ---- degenerate ---------------------------------------------------------------------------------------------------
 
 
-def test_every_direction():
-    found = approach_outcomes(ELinear(-1, 0, -1), psi.tanh())
-    assert found.whole is not None
-    assert found.outcome(2.0).verdict == "slide"
-    assert found.arcs == ((0.0, 2 * math.pi, found.whole),)
-    assert approach_outcomes(ELinear(1, 0, 1), psi.tanh()).outcome(0.0).verdict == "misses"
-    assert approach_outcomes(ELinear(0, 0, 0), psi.tanh()).outcome(0.0).verdict == "undecided"
-
-
 def test_closed_equator():
     assert approach_outcomes(ELinear(1, 2, 1), psi.tanh()).outcome(1.0).verdict == "misses"
     assert approach_outcomes(ELinear(0, 2, 0), psi.tanh()).outcome(1.0).verdict == "undecided"
@@ -129,11 +120,6 @@ def test_along_every_direction_it_is_the_sign_of_U_along_it_that_counts(mean, tu
     assert found.whole.reason.startswith(
         say("all lead away" if mean > 1.0 else "all directions" if mean < -1.0 else "some lead")
     )
-
-
-def test_angle_must_be_finite():
-    with pytest.raises(ValueError, match="finite angle"):
-        of("case1-cm2").outcome(math.nan)
 
 
 # ---- random systems -----------------------------------------------------------------------------------------------
@@ -199,14 +185,3 @@ def test_the_regularised_system_does_as_foretold():
             assert math.hypot(*x) > 10.0 * far
             # The angle closes in on the direction like a power of the distance.
             assert abs(math.remainder(math.atan2(x[1], x[0]) - outcome.leaving, 2 * math.pi)) < 0.5
-
-
-@pytest.mark.parametrize("system", [ELinear(-1.0, 0.0, -1.5, (2.0, 0.3)), ELinear(1.0, 0.2, 1.5, (0.1, 0.2))])
-def test_where_nothing_slides_no_psi_is_asked(system):
-    """No critical set: all that arrives crosses; and a repelling Sigma, at which nothing arrives."""
-    found = approach_outcomes(system, psi.constant())
-    for outcome in (*found, *found.directions):
-        assert outcome.verdict in ("cross", "misses")
-        assert (outcome.depends_on_psi, outcome.families, outcome.slides_alike, outcome.why) == (False, (), False, "")
-        assert outcome.slow_flow is None
-    assert any(outcome.verdict == "cross" for outcome in found) == (system.at().a < 0.0)

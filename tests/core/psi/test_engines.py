@@ -47,11 +47,6 @@ def test_a_formula_that_touches_zero_is_zero_from_there_on(text):
     assert "outside it the layer problem is the nonsmooth system" in check.R3.sentence
 
 
-def test_a_law_that_is_positive_never_saturates():
-    for law in (c2.psi.constant(), c2.psi.exponential(), c2.psi.custom("1-tanh(s)"), c2.psi.custom("max(1-s, 0.01)")):
-        assert law.saturation == math.inf
-
-
 def test_claims_that_need_R3_fail_without_it():
     verdicts = {one.theorem: str(one.verdict.value) for one in c2.certificates(CHATTERING, CLAMP)}
     assert [verdicts[f"lem:ePsi({part})"] for part in "abcd"] == ["holds", "holds", "fails", "fails"]

@@ -1,6 +1,5 @@
 """A family of Psi is one file and one line: one from a temporary folder is used through the public API."""
 
-import ast
 import math
 import pickle
 from pathlib import Path
@@ -116,22 +115,3 @@ def test_what_cannot_be_registered():
         unregister("hill")
     with pytest.raises(AttributeError, match="no attribute 'power'"):
         c2.psi.power  # noqa: B018
-
-
-def test_no_other_room_names_a_family():
-    """Nothing lists the families by hand: presets name the one they show, and the page the one it opens with.
-
-    The program that checks certificates shares no code with the core: it has formulas of its own, of some families.
-    """
-    named = set(FAMILIES) - {"tanh"}  # a function of formulas too
-    for folder in ("codim2_core", "app"):
-        for path in (ROOT / folder).rglob("*.py"):
-            where = path.relative_to(ROOT).as_posix()
-            if where.startswith(("codim2_core/psi/", "codim2_core/figures/", "codim2_core/cycles/proof/")):
-                continue
-            texts = [n.value for n in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(n, ast.Constant)]
-            found = sorted(named.intersection(text for text in texts if isinstance(text, str)))
-            assert found == (["constant"] if where in ("app/state/controls.py", "app/state/links.py") else []), where
-    for path in (path for kind in ("js", "css", "html") for path in (ROOT / "app" / "static").rglob(f"*.{kind}")):
-        text = path.read_text("utf-8")
-        assert not [name for name in named if f'"{name}"' in text], path.name

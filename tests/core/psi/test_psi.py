@@ -163,27 +163,6 @@ def test_radius_inverts_modulus(name, log_zeta):
 
 
 @ALL
-def test_arrays_and_floats_agree(name):
-    psi, *_ = EXACT[name]
-    m = np.linspace(0.0, 0.999, 97)
-    zeta = psi.radius(m)
-    assert np.all(np.diff(zeta) > 0.0)
-    assert zeta[0] == 0.0
-    for x, z in zip(m, zeta, strict=True):
-        single = psi.radius(float(x))
-        assert isinstance(single, float)
-        assert single == pytest.approx(z, rel=1e-14)
-    assert isinstance(psi(0.3), float)
-    assert isinstance(psi(np.float64(0.3)), float)
-    assert isinstance(psi.derivative(1), float)
-    assert isinstance(psi.modulus(0.3), float)
-    assert all(isinstance(f, float) for f in psi.jacobian_factors(0.3))
-    grid = m.reshape(-1, 1)
-    assert psi.radius(grid).shape == psi.modulus(grid).shape == psi(grid).shape == psi.derivative(grid).shape == (97, 1)
-    assert psi.radius(np.zeros(0)).shape == psi(np.zeros(0)).shape == (0,)
-
-
-@ALL
 def test_refused_arguments(name):
     psi, *_ = EXACT[name]
     for call in (psi, psi.derivative, psi.modulus, psi.radius, psi.complement, psi.jacobian_factors):
@@ -230,24 +209,3 @@ def test_contract_of_the_family(name):
     assert check.R4.holds == (name != "custom rising")
     assert check.R5.holds == smooth
     assert check.holds == all(check)
-
-
-def test_tanh_is_tanh():
-    """fig:component."""
-    zeta = np.array([1e-160, 1e-8, 0.3, 1.0, 5.0, 18.0])
-    psi = constructors.tanh()
-    assert psi.modulus(zeta) == pytest.approx(np.tanh(zeta), rel=4 * ULP)
-    radial, tangential = psi.jacobian_factors(zeta)
-    assert radial == pytest.approx(1 / np.cosh(zeta) ** 2, rel=50 * ULP)
-    assert tangential == pytest.approx(np.tanh(zeta) / zeta, rel=4 * ULP)
-
-
-@pytest.mark.parametrize("n", [0, -1, 1001, math.nan, math.inf, "three", None])
-def test_unusable_n(n):
-    with pytest.raises(ValueError, match="n is"):
-        constructors.hill(n)
-
-
-def test_unknown_family():
-    with pytest.raises(ValueError, match="choose one of constant"):
-        constructors.make("sigmoid")

@@ -25,20 +25,6 @@ def test_nonunique_sliding_has_the_flows_of_c1_and_c3_as_its_extremes(z):
     assert sorted(found.vertices.ravel()) == pytest.approx([0.25 - chi, 0.25 + chi], abs=1e-12)
 
 
-def test_what_has_no_weight_is_not_combined():
-    """The ends of fig:generic_nonuniqueness_of_sliding combine two limit vectors each, at c = 1/2 and at c = -1/2."""
-    found = filippov_sliding(c2.presets["sliding-nonuniqueness"].system, (0.0,))
-    for vertex, directions, weights in zip(found.vertices, found.directions, found.weights, strict=True):
-        np.testing.assert_allclose(weights, [0.5, 0.5], rtol=0.0, atol=1e-9)
-        np.testing.assert_allclose(np.cos(directions), [(0.25 - vertex[0]) / 2.0] * 2, rtol=0.0, atol=1e-9)
-
-
-def test_a_slow_flow_that_does_not_read_e_is_unique():
-    found = filippov_sliding(c2.examples.attracting_repelling(), 0.5)
-    assert found.unique
-    assert found.vertices.tolist() == [[-0.5]]
-
-
 @settings(max_examples=20)
 @given(numbers, numbers, numbers, numbers, numbers)
 def test_e_linear_systems_have_a_candidate_iff_they_have_a_critical_set(a, b, d, f1, f2):
@@ -227,21 +213,6 @@ def test_a_small_set_of_candidates_is_no_point():
     found = filippov_sliding(c2.System(U=("c", "s"), W=("c + 1e-7*(c**2 - s**2)",)), 0.0)
     assert not found.unique
     assert sorted(found.vertices.ravel()) == pytest.approx([-1e-7, 1e-7], abs=1e-9)
-
-
-@pytest.mark.parametrize("factor", [1e-6, 3.0, 1e5])
-def test_the_unit_of_time_changes_the_flow_and_neither_directions_nor_weights(factor):
-    """(U, W) times a factor: the same combinations, and none where there was none."""
-    plain, _ = typed(TRIANGLE)
-    scaled = c2.System(U=tuple(f"{factor!r}*({row.text})" for row in plain.U), W=(f"{factor!r}*({plain.W[0].text})",))
-    one, other = filippov_sliding(plain, 0.0), filippov_sliding(scaled, 0.0)
-    np.testing.assert_allclose(other.vertices, factor * one.vertices, rtol=1e-12)
-    for a, b in zip((*one.directions, *one.weights), (*other.directions, *other.weights), strict=True):
-        np.testing.assert_allclose(np.sort(np.cos(b)), np.sort(np.cos(a)), rtol=0.0, atol=1e-9)
-    for U in (("c - 6/5", "s/100"), ("c - 1001/1000", "s"), ("c/2", "s - 1.01 + c/9")):
-        none = filippov_sliding(c2.System(U=tuple(f"{factor!r}*({u})" for u in U), W=(f"{factor!r}*c",)), 0.0)
-        assert (len(none), none.sentence) == (0, filippov_sliding(c2.System(U=U, W=("c",)), 0.0).sentence)
-        assert "crossing" in none.sentence
 
 
 @pytest.mark.parametrize("gap", [1e-3, 1e-6])

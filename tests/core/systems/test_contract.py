@@ -135,17 +135,6 @@ def test_the_jacobian_is_the_derivative_and_U_is_zero_there(key, p):
 
 
 @WITH_PSI
-def test_indices_add_up_to_the_degree_on_the_equator(key, p):
-    at = frozen(key)
-    U = at.U(circle(20_000))
-    assert np.hypot(*U.T).min() > 1e-3 * at.speed
-    angle = np.unwrap(np.arctan2(U[:, 1], U[:, 0]))
-    last = np.angle(np.exp(1j * (np.arctan2(U[0, 1], U[0, 0]) - angle[-1])))
-    degree = round((angle[-1] + last - angle[0]) / (2 * math.pi))
-    assert sum(-1 if C.kind == "saddle" else 1 for C in c2.critical_sets(at, p)) == degree
-
-
-@WITH_PSI
 def test_going_back_returns(key, p):
     at, seeds = frozen(key), np.concatenate([disc(12, 0.9), 1.3 * circle(6)])
     options = {"rtol": 1e-12, "atol": 1e-13, "capture": 1e-15, "samples": "ends", "view": 1e9, "t_max": 0.8 / at.speed}

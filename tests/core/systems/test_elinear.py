@@ -26,19 +26,6 @@ def test_parameters_change_without_new_text():
     assert system.m == 1
 
 
-@pytest.mark.parametrize(
-    ("m", "system"),
-    [
-        (0, ELinear(1, 2, 3)),
-        (1, ELinear(1, 2, 3, g=[1.0])),
-        (2, ELinear(1, 2, 3, B=[[1, 2], [3, 4]])),
-        (3, ELinear("z3", 2, 3)),
-    ],
-)
-def test_number_of_slow_variables(m, system):
-    assert system.m == m
-
-
 def test_a_b_d_of_a_matrix_are_those_of_its_normal_form():
     given = ELinear.from_matrix([[1, -2], [3, -4]], f=(0.1, 0.2), B=[[1.0, -2.0]], g=[0.5])
     turned = given.rotated()

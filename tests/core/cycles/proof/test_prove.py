@@ -40,10 +40,6 @@ def key(found):
     return key
 
 
-def test_nothing_is_proved_unless_it_is_asked_for():
-    assert c2.limit_cycles(CASE3, psi.hill(1)).proved is None
-
-
 def test_a_theorem_needs_no_certificate(tmp_path):
     found = c2.limit_cycles(ELinear(-1, 3, -1.5, (0.3, 0.1)), psi.custom("1/(1+s)**2"), prove=True)
     assert found.proved
