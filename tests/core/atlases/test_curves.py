@@ -177,9 +177,6 @@ def test_the_curve_of_a_neutral_equator():
             assert min(np.hypot(*(one.points - f).T).min() for one in curves) < 0.2
 
 
-# By functions evaluated otherwise ----------------------------------------------------------------------------------
-
-
 def test_pitchforks_of_the_spinning_disc():
     """The radii of gyration 1/2 and sqrt(2/3) of the literature, whatever mu."""
     found = c2.atlas(c2.examples.spinning_disc(), c2.psi.constant(), "k", "mu", ((0.3, 1), (0.05, 1)))

@@ -149,9 +149,6 @@ def test_what_cannot_be_used_is_said(given_, words):
         c2.census(**{"count": 10, **given_})
 
 
-# Resuming ----------------------------------------------------------------------------------------------------------
-
-
 class Interrupted(Exception):
     pass
 
@@ -214,9 +211,6 @@ def test_a_file_that_keeps_no_census_is_refused(tmp_path, text):
     with pytest.raises(ValueError, match="keeps no census"):
         c2.census(count=10, resume=kept)
     assert kept.read_text() == text
-
-
-# Outcomes, the index, margins ---------------------------------------------------------------------------------------
 
 
 def test_names_with_outcomes_tell_what_approach_tells():

@@ -51,12 +51,6 @@ def test_every_family_of_psi_has_branches_with_cycles(family):
         assert whole(c2.branches(CASE3.system, psi, psi.record.parameter.name, with_cycles=False)).critical
 
 
-def test_cycles_can_come_later():
-    standing = c2.branches(CASE3.system, CASE3.psi, "n", (2.0, 3.0), with_cycles=False)
-    assert len(standing.with_cycles().cycles) == 1
-    assert len(standing.cycles) == 0
-
-
 def test_special_points_of_cycles_stand_among_the_others():
     found = c2.branches(CASE3.system, CASE3.psi, "a", (171.8, 172.4))
     assert "fold of cycles" in [one.kind for one in whole(found).special]

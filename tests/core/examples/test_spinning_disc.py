@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core import examples, psi
+from codim2_core import examples
 
 angles = st.floats(-math.pi, math.pi)
 
@@ -117,9 +117,3 @@ def test_both_stop_at_once(v, w):
     end = run.phases[0].t_end
     x, y = run.dense(end * (1.0 - 1e-7))[:2]
     assert x / y == pytest.approx(0.653, abs=0.02)
-
-
-def test_no_critical_set_but_rest():
-    (one,) = c2.critical_sets(examples.spinning_disc(), psi.rational())
-    assert one.e.tolist() == [0.0, 0.0]
-    assert c2.classify(examples.spinning_disc(), psi.rational()).name == "1 critical set, 8 limit directions found"

@@ -12,14 +12,9 @@ from codim2_core.motion import regularised
 from codim2_core.motion.result import SimulationStatus
 
 PSI = (
-    families.constant(),
-    families.rational(),
-    families.exponential(),
-    families.tanh(),
-    families.hill(3),
-    families.hill(2.5),
-    families.custom("1/(1+s)**2"),
-)
+    families.constant(), families.rational(), families.exponential(), families.tanh(), families.hill(3),
+    families.hill(2.5), families.custom("1/(1+s)**2"),
+)  # fmt: skip
 BALL = examples.ball_in_pool(K=2.0)
 
 

@@ -111,16 +111,12 @@ def test_no_direction_is_missing_and_every_one_is_one(system):
 @pytest.mark.parametrize(
     ("function", "multiplicity"),
     [
-        (lambda t: 1 - np.cos(t - 1), [2]),
-        (lambda t: (1 - np.cos(t - 1)) ** 2, [4]),
-        (lambda t: np.sin(t - 1) ** 3, [3, 3]),
-        (lambda t: (1 - np.cos(t - 1)) * np.sin(t - 1.001), [2, 1, 1]),
-        (lambda t: (1 - np.cos(t - 1)) ** 2 * np.sin(t - 1), [5, 1]),
-        (lambda t: 1 - np.cos(t - 1) + 1e-11, []),
-        (lambda t: 1 - np.cos(t - 1) - 1e-11, [1, 1]),
-        (lambda t: (1 - np.cos(t - 1)) * (1 - np.cos(t - 2)), [2, 2]),
+        (lambda t: 1 - np.cos(t - 1), [2]), (lambda t: (1 - np.cos(t - 1)) ** 2, [4]),
+        (lambda t: np.sin(t - 1) ** 3, [3, 3]), (lambda t: (1 - np.cos(t - 1)) * np.sin(t - 1.001), [2, 1, 1]),
+        (lambda t: (1 - np.cos(t - 1)) ** 2 * np.sin(t - 1), [5, 1]), (lambda t: 1 - np.cos(t - 1) + 1e-11, []),
+        (lambda t: 1 - np.cos(t - 1) - 1e-11, [1, 1]), (lambda t: (1 - np.cos(t - 1)) * (1 - np.cos(t - 2)), [2, 2]),
     ],
-)
+)  # fmt: skip
 def test_multiple_zeros(function, multiplicity):
     values = function(circle(64)[0])
     found = zeros(series(values, float(np.abs(values).max())))

@@ -26,9 +26,6 @@ RINGS = System(  # cycles where |e| = a, b, whatever Psi is
 )
 
 
-# ---- outcomes -----------------------------------------------------------------------------------------------------
-
-
 @ANY_PSI
 def test_attracting_repelling_crosses_exactly_within_a_third_of_pi(p):
     """sec:mateslidecross: |theta| < pi/3 crosses, all other angles slide on the stable node."""
@@ -60,9 +57,6 @@ def test_nonunique_sliding_depends_on_the_side(z):
             assert outcome.slow_flow == pytest.approx([-math.copysign(chi, math.cos(theta)) + 0.25], abs=1e-13)
 
 
-# ---- separatrices -------------------------------------------------------------------------------------------------
-
-
 @ANY_PSI
 def test_skeleton_of_attracting_repelling(p):
     found = separatrices(AR, p, 0.5)
@@ -75,9 +69,6 @@ def test_skeleton_of_attracting_repelling(p):
     for branch in found:
         if branch.origin == saddle and branch.direction == "unstable":
             assert np.abs(branch.points[:, 1]).max() < 1e-9
-
-
-# ---- limit cycles -------------------------------------------------------------------------------------------------
 
 
 @ANY_PSI
@@ -97,13 +88,6 @@ def test_two_exact_cycles(p):
         assert cycle.mean_e == pytest.approx([0.0, 0.0], abs=1e-10)
         assert cycle.slow_flow == pytest.approx([r * r / 2, 0.0], abs=1e-10)  # the mean of W, not W of the mean
     assert "not proved" in found.reason
-
-
-def test_clockwise_cycles_and_time_units():
-    found = limit_cycles(RINGS.evolve(w=-1.3e6, k=2e6), psi.tanh(), (0.0, 0.0))
-    assert [cycle.direction for cycle in found] == [-1, -1]
-    ahead = limit_cycles(RINGS, psi.tanh(), (0.0, 0.0))
-    assert [1e6 * c.period for c in found] == pytest.approx([c.period for c in ahead], rel=1e-9)
 
 
 DUFFING = System(U=("s", "c - 6*c**3 + k*s*(m - c**2)"), parameters={"k": 1.0, "m": 0.13})

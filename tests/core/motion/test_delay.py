@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from codim2_core import Event, SimulationStatus, System, critical_sets, delays, simulate, simulate_nonsmooth
+from codim2_core import Event, SimulationStatus, System, delays, simulate, simulate_nonsmooth
 from codim2_core.psi import constructors as families
 
 PSI = families.constant()  # D e_Psi = 1 in the middle; at |e| = r, sqrt(1 - r^2) across and (1 - r^2)^1.5 along e
@@ -37,6 +37,21 @@ def test_way_in_is_way_out_where_the_set_stays(z0, w, size, sign):
     assert run.dense(run.phases[0].t_end)[2] == pytest.approx(0.0, abs=1e-9)
     assert run.dense(run.phases[1].t_end)[2] == pytest.approx(slow, abs=1e-8)
     assert "way in = way out" in run.phases[1].reason
+
+
+def test_its_phase_knows_where_the_motion_came_where_the_hopf_is_and_where_it_left():
+    """z' = 1 from z = -0.7: Hopf at 0, way out at 0.7; on the way z' = 1 and e = 0."""
+    phase = (run := followed(turning(0.5), -0.7)).phases[1]
+    delay = phase.delay
+    assert [other.delay for other in run.phases if other is not phase] == [None] * (len(run.phases) - 1)
+    assert (delay.onto, delay.buffer) == ("C", None)
+    assert (delay.t_in, delay.t_hopf, delay.t_out) == (0.0, phase.t_start, phase.t_end)
+    np.testing.assert_allclose([*delay.z_in, *delay.z_hopf, *delay.z_out], [-0.7, 0.0, 0.7], atol=1e-9)
+    np.testing.assert_allclose(delay.z[:, 0], np.linspace(0.0, 0.7, len(delay.z)), atol=1e-9)
+    np.testing.assert_allclose(delay.flow, 1.0)
+    np.testing.assert_allclose(delay.e, 0.0, atol=1e-15)
+    assert delay.reason == phase.reason
+    assert not delay.z.flags.writeable
 
 
 def test_its_phase_names_the_buffer_point_and_what_ends_before_is_not_left():
@@ -168,14 +183,3 @@ def test_ahead_it_is_looked_as_far_as_the_ranges(start, spans, left):
         assert "to the end of the range" in delay.reason
     else:
         assert delay.z_out[0] == pytest.approx(left, abs=1e-9)
-
-
-def test_of_each_of_two_sets_that_attract_the_delay_is_told_by_its_name():
-    """At e = (∓ 1/2, 0): along e, J has r^3 (z - 1/10), and across r z, with r = sqrt(3/4)."""
-    system = System(U=("2*c*(c^2 - 0.25)*(z - 0.1) - s*c", "(c^2 - 0.25) + z*s"), W=("1",))
-    found = delays(system, PSI, (-0.5,), [(-1.0, 1.5)])
-    sets = critical_sets(system, PSI, (-0.5,))
-    stable = [f"C{i + 1}" for i, C in enumerate(sets) if C.kind.startswith("stable")]
-    assert [delay.onto for delay in found] == stable
-    assert len(stable) == 2
-    np.testing.assert_allclose([delay.z_hopf[0] for delay in found], 0.1 * 0.75 / 1.75, atol=1e-9)

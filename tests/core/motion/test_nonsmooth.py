@@ -124,21 +124,6 @@ def test_what_follows_a_fold_is_what_is_there_then_and_not_a_hundredth_of_the_ti
         assert run.phases[1].t_start == pytest.approx(0.09, abs=1e-9)
 
 
-def test_the_side_of_approach_decides_how_it_slides():
-    # e = -+chi/2 on C1 and C3, with z' = +-chi + 1/4 there.
-    ends = {}
-    for label, theta in (("C3", 0.5), ("C1", math.pi - 0.5)):
-        state0 = (0.02 * math.cos(theta), 0.02 * math.sin(theta), 0.1)
-        run = simulate_nonsmooth(examples.nonunique_sliding(), state0, (0.0, 0.1), families.constant())
-        assert kinds(run) == ["slip", "slide"]
-        assert run.phases[1].onto == label
-        z, before = run.states[-1, 2], run.dense(run.times[-1] - 1e-4)[2]
-        chi = (1 + 2 * z * z) / (1 + z * z)
-        ends[label] = (z - before) / 1e-4
-        assert ends[label] == pytest.approx((chi if label == "C1" else -chi) + 0.25, abs=1e-3)
-    assert ends["C3"] < 0.0 < ends["C1"]
-
-
 def test_through_two_hopf_bifurcations_and_off_the_equator():
     run = simulate_nonsmooth(CASE_3, (*ARRIVING, 0.3), (0.0, 2.6), families.hill(3))
     assert [(phase.kind, phase.onto) for phase in run.phases] == [

@@ -88,9 +88,6 @@ def test_a_span_of_no_time_is_refused():
         c2.simulate(TURNING, PSI, 0.3, (1.0, 0.0, 0.0), (1.0, 1.0))
 
 
-# The limit ----------------------------------------------------------------------------------------------------------
-
-
 def test_the_past_of_a_slip_is_the_slip():
     there = c2.simulate_nonsmooth(CROSSING, (-0.6, 0.1, 0.0), (0.0, 1.2))
     past = c2.simulate_nonsmooth(CROSSING, there.states[-1], (1.2, 0.0), events=(lambda t, y: y[0],))

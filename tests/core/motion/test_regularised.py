@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.initial_value.events import Event
 from codim2_core.motion.picture_curve import MAX_POINTS, MIN_TIMES
 from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus
@@ -93,24 +92,6 @@ def test_an_unstable_critical_set_is_left_and_not_damped():
     # It grows as exp(t/eps) up to x = eps, which takes some 14 eps, and then moves at speed 1.
     assert 1.0 - 20 * eps < run.states[-1, 0] < 1.0 - 10 * eps
     assert run.phases[-1].kind == "slip"
-
-
-def test_events_are_found_and_stop():
-    def fell_to_half(t, state):
-        return state[2] - 0.9
-
-    ball = examples.ball_in_pool(K=0.0, mu=0.2)
-    exact = 0.1 / (0.2 * G)
-    run = simulate(ball, families.constant(), 1e-6, (1.0, 0.0, 1.0, 0.0), (0.0, 1.0), events=(fell_to_half,))
-    assert run.status is SimulationStatus.T_END
-    np.testing.assert_allclose(run.events[0], [exact], rtol=0.0, atol=1e-9)
-    stop = Event(fell_to_half, terminal=True, direction=-1)
-    rises = Event(lambda t, state: -fell_to_half(t, state), direction=-1)
-    run = simulate(ball, families.constant(), 1e-6, (1.0, 0.0, 1.0, 0.0), (0.0, 1.0), events=(rises, stop))
-    assert run.status is SimulationStatus.EVENT
-    assert run.times[-1] == pytest.approx(exact, abs=1e-9)
-    assert len(run.events[0]) == 0
-    assert run.states[-1, 2] == pytest.approx(0.9, abs=1e-9)
 
 
 def test_a_limit_cycle_ends_at_the_step_limit():

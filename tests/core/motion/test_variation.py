@@ -111,6 +111,17 @@ def test_derivatives_of_the_limit_are_the_limit_of_derivatives():
     np.testing.assert_allclose(np.array(off[1:]) / off[:-1], 1e-2, rtol=0.01)  # O(eps)
 
 
+def test_exponents_of_a_linear_motion_are_its_eigenvalues():
+    # Far inside e is (x, y)/eps: x' = -2 x/eps and so on, with Psi = 1 and |x| << eps.
+    system = ELinear(-2.0, 0.0, -1.0, (0.0, 0.0))
+    run = simulate(system, psi.constant(), 1.0, (1e-9, 1e-9), (0.0, 2.0), rtol=1e-12, atol=1e-13)
+    np.testing.assert_allclose(run.variation().exponents, [-1.0, -2.0], rtol=1e-9)
+    limit_run = simulate_nonsmooth(POOL, SLIDING[1], (0.0, 2.0))
+    exponents = limit_run.variation().exponents
+    assert np.isneginf(exponents[2:]).all()
+    assert np.isfinite(exponents[:2]).all()
+
+
 def test_a_section_is_passed_sooner_or_later():
     system, state0, _, _ = SLIDING
     start = np.array(state0)

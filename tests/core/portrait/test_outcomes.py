@@ -19,9 +19,6 @@ def of(name):
     return approach_outcomes(presets[name].system, presets[name].psi)
 
 
-# ---- the paper's portraits ----------------------------------------------------------------------------------------
-
-
 def test_case_I_with_a_critical_set_slides():
     for name in ("case1-cm0", "case1-cm2", "case1-cm4"):
         found = of(name)
@@ -62,9 +59,6 @@ def test_case_III_depends_on_psi(n, verdict):
     assert approach_outcomes(system, p, compare=())[0].depends_on_psi is None
     # "Whether trajectories slide or cross depends upon their initial conditions."
     assert {outcome.verdict for _, _, outcome in found.arcs} == {verdict, "misses"}
-
-
-# ---- degenerate ---------------------------------------------------------------------------------------------------
 
 
 def test_closed_equator():
@@ -120,9 +114,6 @@ def test_along_every_direction_it_is_the_sign_of_U_along_it_that_counts(mean, tu
     assert found.whole.reason.startswith(
         say("all lead away" if mean > 1.0 else "all directions" if mean < -1.0 else "some lead")
     )
-
-
-# ---- random systems -----------------------------------------------------------------------------------------------
 
 
 def robust(system):
@@ -185,3 +176,14 @@ def test_the_regularised_system_does_as_foretold():
             assert math.hypot(*x) > 10.0 * far
             # The angle closes in on the direction like a power of the distance.
             assert abs(math.remainder(math.atan2(x[1], x[0]) - outcome.leaving, 2 * math.pi)) < 0.5
+
+
+@pytest.mark.parametrize("system", [ELinear(-1.0, 0.0, -1.5, (2.0, 0.3)), ELinear(1.0, 0.2, 1.5, (0.1, 0.2))])
+def test_where_nothing_slides_no_psi_is_asked(system):
+    """No critical set: all that arrives crosses; and a repelling Sigma, at which nothing arrives."""
+    found = approach_outcomes(system, psi.constant())
+    for outcome in (*found, *found.directions):
+        assert outcome.verdict in ("cross", "misses")
+        assert (outcome.depends_on_psi, outcome.families, outcome.slides_alike, outcome.why) == (False, (), False, "")
+        assert outcome.slow_flow is None
+    assert any(outcome.verdict == "cross" for outcome in found) == (system.at().a < 0.0)

@@ -40,9 +40,6 @@ def test_separatrices_are_rays_for_f_0(p):
         assert miss.max() < 1e-8
 
 
-# ---- theorems -----------------------------------------------------------------------------------------------------
-
-
 coefficient = st.floats(0.1, 3.0)
 
 
@@ -85,9 +82,6 @@ def test_case_III_winds_onto_the_cycle():
     found = separatrices(presets["case3-n3"].system, psi.hill(3))
     assert ("Q1", "cycle 1") in found.graph
     assert ("Q2", "Q4") in found.graph
-
-
-# ---- saddle connections -------------------------------------------------------------------------------------------
 
 
 def test_saddle_connection_is_found_and_named():

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.orbits.trajectories import is_warm, warm
 from codim2_core.scene import ELINEAR_ONLY, layers
 
 from .test_scene import ran
@@ -56,15 +55,6 @@ def test_layers_of_the_e_linear_theory_are_named():
         assert here.has(name) == (name not in ELINEAR_ONLY)
         assert (here[name] is None) == (name in ELINEAR_ONLY | {"equator_cycle", "location"})
     assert not here.has("sky")
-
-
-def test_one_compilation_draws_every_setting():
-    system = c2.System(U=("2*c**2 - q*c - 1/2", "-s + q*c*s"), parameters={"q": 1.0})
-    warm()
-    first = c2.Scene(system, c2.psi.tanh(), count=8)
-    first["outside"]
-    for p in (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3)):
-        assert is_warm(p, first.evolve(q=0.7).coefficients)
 
 
 def test_a_lineage_may_pass_from_one_kind_of_system_to_the_other():

@@ -208,13 +208,6 @@ def test_an_extreme_of_three_directions_has_all_its_digits(turn):
     assert found.weights[i].sum() == pytest.approx(1.0, abs=1e-14)
 
 
-def test_a_small_set_of_candidates_is_no_point():
-    """U = e and W = c + 1e-7 cos 2 theta: the candidates are all of [-1e-7, 1e-7]."""
-    found = filippov_sliding(c2.System(U=("c", "s"), W=("c + 1e-7*(c**2 - s**2)",)), 0.0)
-    assert not found.unique
-    assert sorted(found.vertices.ravel()) == pytest.approx([-1e-7, 1e-7], abs=1e-9)
-
-
 @pytest.mark.parametrize("gap", [1e-3, 1e-6])
 def test_a_hull_that_holds_zero_by_little_is_found_between_the_first_directions(gap):
     """U = e - (1 - gap) e(phi): only the directions within sqrt(2 gap) of phi reach beyond 0, on either side."""

@@ -15,14 +15,9 @@ from codim2_core.systems.typed_at_z import Frozen
 from ..exact_elliptic import NAMES, exact
 
 PSIS = [
-    psi.constant(),
-    psi.rational(),
-    psi.exponential(),
-    psi.tanh(),
-    psi.hill(3),
-    psi.hill(2.5),
+    psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3), psi.hill(2.5),
     psi.custom("1/(1+s)**2"),
-]
+]  # fmt: skip
 SYSTEMS = {
     "Case I": (c2.ELinear(-2.0, 0.5, -1.0, (-0.5, 0.2)), ()),
     "Case II": (c2.ELinear(1.4, 0.3, -0.8, (0.2, 0.1)), ()),

@@ -1,7 +1,5 @@
 """Every kind of system answers the same questions once it is frozen at a z (`systems.frozen.FrozenSystem`)."""
 
-import math
-
 import numpy as np
 import pytest
 
@@ -22,20 +20,6 @@ def test_the_same_system_given_twice_answers_alike():
     e = np.array([[0.3, -0.4], [1.0, 0.0]])
     for one, other in ((ours.U(e), typed.U(e)), (ours.W(e), typed.W(e)), (ours.DU(e), typed.DU(e))):
         np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-15)
-
-
-def test_size_and_speed():
-    ours = SYSTEMS["numbers"]
-    assert ours.size == 2.0
-    assert ours.speed == pytest.approx(math.hypot(2.0, 0.25, 1.5, 0.5, 0.125), rel=1e-15)
-    nothing = ELinear(0.0, 0.0, 0.0).at()
-    assert (nothing.size, nothing.speed) == (0.0, 1.0)
-    assert SYSTEMS["not e-linear"].speed == SYSTEMS["not e-linear"].size == pytest.approx(1.0, rel=1e-12)
-
-
-def test_only_formulas_can_read_x_and_y():
-    assert [at.reads_position for at in SYSTEMS.values()] == [False, False, True]
-    assert BENT.reads_position
 
 
 @pytest.mark.parametrize("system", [GIVEN, BENT, *SYSTEMS.values(), ELinear.from_matrix([[0, 1], [1, 0]], (1, 2))])

@@ -179,26 +179,15 @@ def test_variables_cannot_be_redefined(name):
 @pytest.mark.parametrize(
     "arguments",
     [
-        {"U": ("c",)},
-        {"U": ("c", "s", "c")},
-        {"U": "c"},
-        {"U": None},
-        {"U": 5},
-        {"U": object()},
-        {"U": (None, "s")},
-        {"U": (np.nan, "s")},
-        {"U": (10**400, "s")},
-        {"U": ("c", "s"), "W": ("0",) * 17},
-        {"U": ("c", "s"), "parameters": {"p": np.nan}},
-        {"U": ("c", "s"), "parameters": {"p": 10**400}},
-        {"U": ("c", "s"), "parameters": {"p": "x" * 1_000_000}},
-        {"U": ("c", "s"), "parameters": 7},
-        {"U": ("c", "s"), "definitions": "chi"},
-        {"U": ("c", "s"), "definitions": {"g": ["c"]}},
+        {"U": ("c",)}, {"U": ("c", "s", "c")}, {"U": "c"}, {"U": None}, {"U": 5}, {"U": object()},
+        {"U": (None, "s")}, {"U": (np.nan, "s")}, {"U": (10**400, "s")}, {"U": ("c", "s"), "W": ("0",) * 17},
+        {"U": ("c", "s"), "parameters": {"p": np.nan}}, {"U": ("c", "s"), "parameters": {"p": 10**400}},
+        {"U": ("c", "s"), "parameters": {"p": "x" * 1_000_000}}, {"U": ("c", "s"), "parameters": 7},
+        {"U": ("c", "s"), "definitions": "chi"}, {"U": ("c", "s"), "definitions": {"g": ["c"]}},
         {"U": ("c", "s"), "parameters": {f"p{i}": 1.0 for i in range(MOST_NAMES + 1)}},
         {"U": ("c", "s"), "parameters": {f"p{i}": 1.0 for i in range(200_000)}},
     ],
-)
+)  # fmt: skip
 def test_wrong_shapes_and_values_are_refused(arguments):
     refused_at_once(**arguments)
 
