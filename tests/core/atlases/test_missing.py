@@ -56,7 +56,6 @@ def test_what_happens_at_a_corner_of_u_is_seen_to_be_missing():
     for place in found.looked.unlike:
         (own,) = [one for one in found.regions if inside_polygons(np.array([place]), one.boundary)[0]]
         assert classes.name(int(classes.decided(np.array([place]))[0])) != own.name
-    assert not c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).looked.unlike
 
 
 def test_where_equations_have_no_value_is_a_region_of_its_own():

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 
 from codim2_core import ELinear, hemisphere, nullclines, psi
+from tests.core.polylines import away
 from tests.core.strategies import regularisations, systems
 
 
@@ -61,17 +62,10 @@ def test_no_branch_is_missing(system):
                     continue  # nearly tangent: a crossing there is no sharp statement
                 here = 0.5 * (circle[i] + circle[i + 1])
                 nearest = min(
-                    (distance_to_polyline(here, b.points) for b in branches if b.kind == kind and b.inside),
+                    (away(here[None], b.points)[0] for b in branches if b.kind == kind and b.inside),
                     default=math.inf,
                 )
                 assert nearest < 5e-3, (kind, here)
-
-
-def distance_to_polyline(point, line):
-    start, step = line[:-1], np.diff(line, axis=0)
-    length = np.maximum((step**2).sum(1), 1e-300)
-    t = np.clip(((point - start) * step).sum(1) / length, 0, 1)
-    return np.hypot(*(start + t[:, None] * step - point).T).min()
 
 
 @pytest.mark.parametrize(

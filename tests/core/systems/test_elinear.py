@@ -60,7 +60,6 @@ def test_from_matrix_takes_entries_that_depend_on_z():
 @pytest.mark.parametrize(
     ("make", "says"),
     [
-        (lambda: ELinear(math.nan, 0, 1), "a is nan"),
         (lambda: ELinear(1, math.inf, 1), "b is inf"),
         (lambda: ELinear(1, 0, 1e200), "rescales time"),
         (lambda: ELinear(1, 0, 1, (1e-200, 0)).evolve(a=0, d=0).at(), "rescales time"),
@@ -70,13 +69,9 @@ def test_from_matrix_takes_entries_that_depend_on_z():
         (lambda: ELinear(1, 0, 1, B=[[1, 2]], g=[1, 2]), "both need m"),
         (lambda: ELinear("q + 1", 0, 1), "q"),
         (lambda: ELinear("__import__('os')", 0, 1), "a: "),
-        (lambda: ELinear([1], 0, 1), "give a number"),
         (lambda: ELinear("z", 0, 1).at(), "m = 1"),
-        (lambda: ELinear("z", 0, 1).at((1, 2)), "m = 1"),
         (lambda: ELinear("z", 0, 1).at(math.nan), "finite"),
         (lambda: ELinear("1/z", 0, 1).at(0.0), "a"),
-        (lambda: ELinear("log(z)", 0, 1).at(-1.0), "a"),
-        (lambda: ELinear("exp(1000*z)", 0, 1).at(1.0), "a"),
         (lambda: ELinear(1, 0, 1).at(3.0), "no slow variable"),
         (lambda: ELinear(1, 0, 1).evolve(q=3), "'q' is no coefficient"),
         (lambda: ELinear("z2", 0, 1, g=[1.0]).m, "a names z2, but g has 1 row: use z, or give B and g 2 rows"),

@@ -121,20 +121,20 @@ def test_messages_point_at_the_column():
         System(U=("chi( z ) + $", "s"), definitions=CHI)
 
 
+# more of each kind: tests/core/expressions/test_reading.py
 CODE = [
-    "().__class__.__bases__[0].__subclasses__()", "c.__class__", "__import__('os').system('true')", "eval('1')",
-    "exec", "open('x')", "getattr(c, 'real')", "lambda: 1", "[c for c in (1,)]", "c if s else 1", "c := 2", "f'{c}'",
-    "globals()", "breakpoint()", "c; s", "c\ns", "c == s", "c and s", "'c'", "math.sin(c)", "np.sin(c)", "{c: s}",
-    "c[0]", "1_000", "0x10", "1j", "c % s", "c // s", "c @ s", "~c", "c << 9",
-]  # fmt: skip
+    "().__class__.__bases__[0].__subclasses__()",
+    "__import__('os').system('true')",
+    "lambda: 1",
+    "c; s",
+    "c == s",
+    "c[0]",
+]
 BIG = [
-    "9**9**9**9", "c**1000**1000", "c**1e9", "(" * 100_000 + "c" + ")" * 100_000, "-" * 100_000 + "c",
-    "c+" * 500_000 + "c", "c" * 1_000_000, "sin(" * 200 + "c" + ")" * 200, "chi" + " " * 1_000_000, "chi(" * 250_000,
-    "1" * 1_000_000, " " * 1_000_000, "\x00" * 1_000_000,
+    "9**9**9**9", "c**1e9", "(" * 100_000 + "c" + ")" * 100_000, "c+" * 500_000 + "c", "c" * 1_000_000,
+    "chi" + " " * 1_000_000, "chi(" * 250_000, "1" * 1_000_000, "\x00" * 1_000_000,
 ]  # fmt: skip
-STRANGE = [
-    "ｃ", "с", "c\u200b", "c\u202es", "𝐜", "ſ", "２*c", "π", "c\x00", "\ufeffc", "s\u0301", "ﬁ", "∞",
-]  # fmt: skip
+STRANGE = ["ｃ", "с", "c\u200b", "c\u202es", "𝐜", "２*c", "π", "\ufeffc"]
 
 
 def refused_at_once(**arguments):
@@ -158,7 +158,7 @@ def test_hostile_text_is_refused_at_once(text, where):
 
 
 HOSTILE_KEYS = [
-    *STRANGE[:8], "__class__", "a.b", "1a", "", "lambda", "sin", "a" * 1_000_000, "a(" + " " * 1_000_000, 3, None,
+    *STRANGE, "__class__", "a.b", "1a", "", "lambda", "sin", "a" * 1_000_000, "a(" + " " * 1_000_000, 3, None,
 ]  # fmt: skip
 
 
