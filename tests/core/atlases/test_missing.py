@@ -8,8 +8,6 @@ from codim2_core.atlases.faces import inside_polygons
 from codim2_core.diagrams.classes import classes_over
 
 ONE = c2.psi.constant()
-FOLDING = c2.System(U=("2*c**2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})
-SQUARE = (-1, 1), (-1, 1)
 
 
 @pytest.mark.parametrize("low", [0, -1.3])

@@ -16,10 +16,6 @@ from codim2_core.layer_problem.lyapunov import first_lyapunov
 from tests.core.strategies import coefficient
 
 matrices = st.tuples(coefficient, coefficient, coefficient)
-families = st.one_of(
-    st.sampled_from([psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.custom("1/(1+s)**2")]),
-    st.integers(1, 6).map(psi.hill),
-)
 CASE3 = (172.0, 186.0, -200.0)
 
 

@@ -16,7 +16,6 @@ from codim2_core.diagrams.result import Branches
 from codim2_core.layer_problem import vary
 from tests.core.general_systems import NONUNIQUE
 
-BAD = c2.ELinear(172, 186, -200, f=(-86, -93))
 PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.rational(), c2.psi.exponential())
 
 
@@ -57,17 +56,6 @@ def test_pitchforks_and_transcriticals_of_the_symmetric_case() -> None:
     assert_allclose(places, [(1, 0), (-1, 0)], rtol=0.0, atol=1e-12)
     assert {b.kind for b in D.critical} == {"stable node"}
     assert_allclose(D.critical[0].radius[[0, -1]], 1, rtol=0.0, atol=1e-12)
-
-
-def test_the_paper_s_case_iii_along_n() -> None:
-    D = equilibrium_branches(BAD, c2.psi.hill(1), "n", (1, 4))
-    changes = {c.n: c.type for c in c2.bifurcations.hill_changes(BAD) if 1 <= c.n <= 4}
-    assert [s.kind for s in D.special] == list(changes.values())
-    assert_allclose([s.value for s in D.special], list(changes), rtol=1e-13)
-    assert found(D, "Hopf")[0] == pytest.approx(284 / 129, abs=1e-12)
-    assert next(s for s in D.special if s.kind == "Hopf").number < 0
-    assert [b.kind for b in D.critical] == ["stable node", "stable focus", "unstable focus", "unstable node"]
-    assert len(D.limit_directions) == 4
 
 
 def test_all_directions_exchange_cusp_and_neutral_equator() -> None:

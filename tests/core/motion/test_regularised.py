@@ -15,8 +15,6 @@ from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus
 from tests.core.strategies import coefficient, regularisations
 
-G = 9.81
-
 
 def reference(system, psi, eps, state0, t_end):
     """The same motion by an explicit method of another kind, straight from the definitions."""

@@ -8,8 +8,6 @@ from codim2_core import psi
 from codim2_core.orbits.duration import MAX_DURATION, MIN_DURATION, drawn_duration
 from codim2_core.orbits.trajectories import Status
 
-CASE_III = c2.ELinear(172, 186, -200, f=(-86, -93))
-
 
 def ends(scene):
     return np.array([points[-1] for points in scene["inside"].forward.points])

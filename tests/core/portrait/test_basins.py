@@ -24,14 +24,6 @@ def test_the_two_basins_of_nonunique_sliding_are_the_halves_of_the_disc():
     np.testing.assert_allclose([flow[0] for flow in found.slow_flow], [chi + 0.25, -chi + 0.25])
 
 
-@pytest.mark.parametrize("name", ["case1-cm0", "case1-cm2", "case1-cm4"])
-def test_in_case_one_all_of_the_disc_belongs_to_the_stable_critical_set(name):
-    preset = c2.presets[name]  # thm:case1: no cycles, so nothing else attracts
-    found = basins(preset.system, c2.psi.rational(), n=32)
-    assert found.destinations == ("C",)
-    assert set(np.unique(found.cells)) == {OUTSIDE, 0}
-
-
 def test_case_three_has_the_cycle_as_a_destination_with_the_mean_slow_flow():
     system = c2.presets["case3-n4"].system
     slow = c2.ELinear(system.a, system.b, system.d, system.f, B=((1.0, 2.0),), g=(0.5,))

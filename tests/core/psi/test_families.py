@@ -2,7 +2,6 @@
 
 import math
 import pickle
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,10 +13,9 @@ from codim2_core.layer_problem.vary import limits, names, value_of, vary
 from codim2_core.psi import FAMILIES, Family, make, register, unregister
 from codim2_core.psi.constructors import comparison_families
 
-from ..additions import FROM_FORMULA, WRITTEN_OUT, added_family
+from ..additions import added_family
 
 CASE3 = c2.ELinear(172, 186, -200, f=(-86, -93))
-ROOT = Path(__file__).parents[3]
 
 
 def at_hopf(psi):
@@ -26,9 +24,9 @@ def at_hopf(psi):
     return c2.ELinear(CASE3.a, CASE3.b, CASE3.d, f=tuple(curve[len(curve) // 3]))
 
 
-@pytest.fixture(params=[WRITTEN_OUT, FROM_FORMULA], ids=["written out", "from its formula"])
-def family(request, tmp_path):
-    with added_family(tmp_path, request.param) as added:
+@pytest.fixture
+def family(tmp_path):
+    with added_family(tmp_path) as added:
         yield added
 
 

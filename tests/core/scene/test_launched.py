@@ -30,21 +30,6 @@ def test_without_force_the_time_to_sigma_is_known(a, b, theta, rho):
     assert "spiral" in fate.sentence
 
 
-def test_words_of_an_orbit_from_outside_that_slides():
-    (fate,) = launch(c2.ELinear(-2, 0, -1, (-0.5, 0)), PSI, [[1.5, 0.3]]).goes
-    assert fate.sentence == f"Reaches Σ along Q₂, θ = 2.094, after t = {fate.after:.3g}. It slides on C."
-    moved = c2.simulate_nonsmooth(c2.ELinear(-2, 0, -1, (-0.5, 0)), _outside(1.5, 0.3), (0, 2), psi=PSI)
-    slip = moved.phases[0]
-    assert slip.kind == "slip"
-    assert fate.after == pytest.approx(slip.t_end, rel=2e-3)
-
-
-def _outside(x, y):
-    """The state of a picture point outside the equator."""
-    r = math.hypot(x, y)
-    return ((r - 1) * x / r, (r - 1) * y / r)
-
-
 coefficient = st.floats(-2, 2).map(lambda v: round(v, 3))
 
 

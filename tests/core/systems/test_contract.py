@@ -127,15 +127,3 @@ def test_the_jacobian_is_the_derivative_and_U_is_zero_there(key, p):
                     assert abs(exact - C.jacobian[row, k]) < 1e-11 * size
             assert C.determinant == pytest.approx(np.linalg.det(C.jacobian), abs=1e-12 * size**2)
             np.testing.assert_allclose(C.slow_flow, at.W(C.e), rtol=0.0, atol=1e-14)
-
-
-@WITH_PSI
-def test_going_back_returns(key, p):
-    at, seeds = frozen(key), np.concatenate([disc(12, 0.9), 1.3 * circle(6)])
-    options = {"rtol": 1e-12, "atol": 1e-13, "capture": 1e-15, "samples": "ends", "view": 1e9, "t_max": 0.8 / at.speed}
-    there = trajectories(at, p, seeds, **options)
-    w = there.ends[:, 2]
-    places = np.where(np.arange(18) < 12, 1.0, 1.0 + w)[:, None] * there.ends[:, :2]
-    back = trajectories(at, p, places, backward=True, **options)
-    r = np.where(np.arange(18) < 12, 1.0, 1.0 + back.ends[:, 2])[:, None]
-    assert np.abs(r * back.ends[:, :2] - seeds).max() < 1e-9
