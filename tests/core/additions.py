@@ -39,9 +39,9 @@ def module(folder: Path, name: str, source: str) -> ModuleType:
 
 
 @contextmanager
-def added_family(folder: Path, source: str = FROM_FORMULA) -> Iterator[psi.Family]:
-    """Register the family of a source, and take it off again."""
-    family = psi.register(module(folder, "codim2_added_family", source).FAMILY)
+def added_family(folder: Path) -> Iterator[psi.Family]:
+    """Register the family, and take it off again."""
+    family = psi.register(module(folder, "codim2_added_family", FROM_FORMULA).FAMILY)
     try:
         yield family
     finally:

@@ -28,7 +28,7 @@ def measured(system, start, times, noise=0.0, seed=0):
 
 
 def test_without_noise_all_is_found():
-    t = np.linspace(0.0, 0.8, 60)
+    t = np.linspace(0.0, 0.8, 30)
     found = fit(block(0.1), t, measured(block(0.3), (1.2, 0.9), t))
     assert found.values["mu"] == pytest.approx(0.3, rel=1e-7)
     assert found.stop == pytest.approx(1.5 / (0.3 * 9.81), rel=1e-6)
@@ -50,7 +50,7 @@ def test_a_disc_tells_its_friction_and_radius_of_gyration():
 
 
 def test_slow_variables_move_along():
-    t = np.linspace(0.0, 0.3, 40)
+    t = np.linspace(0.0, 0.3, 16)
     ball = examples.ball_in_pool(mu=0.3, K=0.8)
     run = c2.simulate_nonsmooth(ball, (3.0, 1.0, 4.0, 0.5), (0.0, 0.3))
     v = np.array([run.dense(float(s))[:2] for s in t])

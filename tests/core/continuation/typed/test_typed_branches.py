@@ -169,9 +169,9 @@ def test_branches_pass_as_many_cycles_as_there_are(what):
 
 #: a, b, d, f2, Psi; of which the general path told something else along f1 once.
 TWINS = {
-    "a loop that is come to slowly": (0.254, -0.554, -0.424, 0.59, c2.psi.rational()),
     "a saddle-node behind a loop": (1.184, 0.972, -0.714, -0.405, c2.psi.rational()),
     "a loop within rounding": (1.665, 1.485, -1.25, 0.955, c2.psi.tanh()),
+    "a loop that is come to slowly": (0.254, -0.554, -0.424, 0.59, c2.psi.rational()),
     "a loop reached on a second ray": (0.827, 0.636, -0.408, 0.668, c2.psi.hill(3)),
     "a loop beyond which no ray leads": (1.518, 1.302, -1.114, 0.609, c2.psi.tanh()),
     "two folds within a step": (1.368, -1.154, -0.861, -0.562, c2.psi.rational()),
