@@ -91,7 +91,7 @@ def picture(view: View, slider: str, value: float, style: Style = STYLE) -> byte
     chosen = Slider.from_text(view, slider)
     heading = f"{chosen.symbol} = {value:.2f}".replace("-", "−")
     try:
-        drawn = figure(view.changed({chosen.name: value}), style, heading)
+        drawn = figure(view.with_values({chosen.name: value}), style, heading)
     except (ValueError, ArithmeticError) as error:
         raise ValueError(f"There is no picture at {heading}: {error}") from error
     return png(drawn, DENSITY)

@@ -150,7 +150,7 @@ def _pack_frames(
     for one in places[0]:
         for other in places[1] if len(chosen) > 1 else (None,):
             changes = {chosen[0].name: one} | ({chosen[1].name: other} if other is not None else {})
-            frame = _frame(view.changed(changes))
+            frame = _frame(view.with_values(changes))
             frames.append(frame + b"\0" * (-len(frame) % 4))
             sizes.append(len(frame))
         done = len(frames)

@@ -28,12 +28,12 @@ class SharedView(Protocol):
     scene: Scene
 
     @property
-    def named(self) -> str:
+    def portrait_name(self) -> str:
         """Name of the portrait; "" while it has none."""
         ...
 
     @property
-    def answered(self) -> tuple[Any, ...]:
+    def last_answer(self) -> tuple[Any, ...]:
         """The lesson and the number of its question that was answered last, and whether rightly; () if none was."""
         ...
 
@@ -114,11 +114,11 @@ class Visitor:
         frames = self.frames
         values = self._values()
         open_one = lessons().get(values["lesson"])
-        key, question, right = frames.answered or ("", -1, False)
+        key, question, right = frames.last_answer or ("", -1, False)
         if open_one is None or key != open_one.key:
             question, right = -1, False
         lesson = None if open_one is None else [open_one.title, question, right]
-        return [frames.named, settings_of(values, _default_values(), SETTING), lesson]
+        return [frames.portrait_name, settings_of(values, _default_values(), SETTING), lesson]
 
     def _values(self) -> dict[str, Any]:
         frames = self.frames

@@ -90,7 +90,7 @@ class Frames:
         self._unpublished: dict[str, Any] = {}
         self._begin(state.values())
         if budget is not None:
-            self.scene.ask_before(budget.before)
+            self.scene.ask_before(budget.check_cost)
         self._notices += left_out(self.scene, self.values, self.given is not None)
         self.locked = locked_controls(self.scene, self.given is not None)
         axes = opening_axes(self.scene, self.values, self.locked)
@@ -246,7 +246,7 @@ class Frames:
 
     def _add_sides(self, header: dict[str, Any], scene: Scene, values: Mapping[str, Any]) -> None:
         """Add what lies on both sides of a degenerate setting; of typed formulas it is computed beside the frames."""
-        if self.budget is None or self.budget.bounded(scene):
+        if self.budget is None or self.budget.is_bounded(scene):
             header["portrait"]["sides"] = neighbouring_portraits(scene, values, self._moved)
             return
         key = (scene.key("plane", "slow", "psi", "place"), self._moved)

@@ -257,7 +257,7 @@ def _operation(op: str, pieces: list[_Piece], nodes: list[tapes.Node], python: b
         text, _, depth = pieces[0]
         if not python:
             return f"{op}({text})", _ATOM, depth + 1
-        return known[op].source(text), _ATOM, depth + max(1, known[op].source.count("("))
+        return known[op].python_source(text), _ATOM, depth + max(1, known[op].source.count("("))
     if op in tapes.FUNCTIONS_OF_TWO:
         return f"{op}({pieces[0][0]}, {pieces[1][0]})", _ATOM, max(pieces[0][2], pieces[1][2]) + 1
     if op == "**":

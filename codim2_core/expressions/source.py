@@ -97,7 +97,7 @@ def _operation(op: str, args: list[str], exponent: int | None) -> str:
     if op == BESIDE_ZERO:
         return BESIDE_ZERO_SOURCE.format(*args)
     if len(args) == 1:
-        return known[op].source(args[0])
+        return known[op].python_source(args[0])
     if op != "**":
         return f"{args[0]}{op}{args[1]}"
     if exponent is None:

@@ -100,9 +100,8 @@ class Mechanism(Parts):
         )
         found = algebra.solve(tuple(tuple(row[j] for j in columns) for row in rows), rest)
         if found is None:
-            raise ValueError(
-                f"the slip does not determine {' and '.join(self.dependent_velocities)}; let slow name other velocities."
-            )
+            unknown = " and ".join(self.dependent_velocities)
+            raise ValueError(f"the slip does not determine {unknown}; let slow name other velocities.")
         return known | dict(zip(self.dependent_velocities, found, strict=True))
 
     def _enter_row(self, row: Sequence[Expression]) -> MatrixRow:

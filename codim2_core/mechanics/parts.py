@@ -51,8 +51,9 @@ class Parts:
             raise ValueError("M is not symmetric; give the mass matrix of the kinetic energy, v·Mv/2.")
         gone, rows = len(self.dependent_velocities), len(self.rows)
         if gone != rows:
+            dependent = ", ".join(self.dependent_velocities) or "none"
             raise ValueError(
-                f"{gone} of the {n} velocities are no slow variables ({', '.join(self.dependent_velocities) or 'none'}); the "
+                f"{gone} of the {n} velocities are no slow variables ({dependent}); the "
                 f"slip{' and the constraint of normal determine' if held else ' determines'} {rows}: "
                 + (f"let slow name {n - rows}." if n >= rows else "give the normal force, or more velocities.")
             )

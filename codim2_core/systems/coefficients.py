@@ -128,7 +128,7 @@ class Coefficients:
         rotation = self.rotation + math.pi * half_turns
         return replace(self, f1=sign * self.f1, f2=sign * self.f2, B=sign * self.B, rotation=rotation)
 
-    def with_value(self, name: str, value: float) -> Coefficients:
+    def varied(self, name: str, value: float) -> Coefficients:
         """Return the same system with one of `variable` changed (not checked)."""
         return replace(self, rotation=0.0, given=None, **{name: value})
 

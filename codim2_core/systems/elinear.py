@@ -265,7 +265,7 @@ class ELinear:
         numbers = (name for name in Coefficients.variable if isinstance(held.get(name), float))
         return (*numbers, *dict(self.parameters))
 
-    def with_value(self, name: str, value: float) -> ELinear:
+    def varied(self, name: str, value: float) -> ELinear:
         """Return the same system with one of `variable` changed."""
         return self.evolve(**{name: value})
 

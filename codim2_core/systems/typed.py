@@ -93,7 +93,7 @@ class System(Formulas):
         """Names of what `varied` changes: the parameters."""
         return tuple(dict(self.parameters))
 
-    def with_value(self, name: str, value: float) -> System:
+    def varied(self, name: str, value: float) -> System:
         """Return the same system with one of `variable` changed."""
         return self.evolve(**{name: value})
 

@@ -38,7 +38,7 @@ def test_it_is_dragged_offline_and_draws_the_core(chromium, tmp_path):
         page.mouse.move(box["x"] + box["width"] * part, box["y"] + box["height"] / 2)
         value, points, name = page.evaluate(READ)
         seen.add(value)
-        scene = view_of("case1-cm4").changed({"f1": value}).scene().evolve(pixel=3.5 / 700)
+        scene = view_of("case1-cm4").with_values({"f1": value}).scene().evolve(pixel=3.5 / 700)
         assert name == scene["classification"].name
         drawn = np.array(points).reshape(-1, 2) * INT16_STEP
         assert gaps(drawn, scene["inside"].points).max() <= INT16_STEP

@@ -24,7 +24,7 @@ class Figure:
     """What the page of one preset has been sent, and the same from the core."""
 
     def __init__(self, key):
-        frames = Frames(ExplorerState.of({"preset": key}))
+        frames = Frames(ExplorerState.from_values({"preset": key}))
         whole, self.blocks = unpack(frames.answer({"all": True}))
         self.sent = whole | settled(frames, all=True)
         self.layers = frames.values["layers"]

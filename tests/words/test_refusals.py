@@ -97,7 +97,7 @@ def faults(sentence):
 
 @pytest.mark.parametrize(("asked", "control", "part"), REFUSED, ids=lambda value: str(value)[:40])
 def test_it_is_told_beside_its_control(asked, control, part):
-    frames = Frames(ExplorerState.of(BARE))
+    frames = Frames(ExplorerState.from_values(BARE))
     header, _ = unpack(frames.answer({"id": 1, "set": asked, "rest": True}))
     assert list(header["errors"]) == [control]
     said = header["errors"][control]
@@ -124,7 +124,7 @@ def _templates():
 def test_every_refusal_of_a_control_is_among_them():
     said = []
     for asked, _, _ in REFUSED:
-        header, _ = unpack(Frames(ExplorerState.of(BARE)).answer({"id": 1, "set": asked, "rest": True}))
+        header, _ = unpack(Frames(ExplorerState.from_values(BARE)).answer({"id": 1, "set": asked, "rest": True}))
         said += header["errors"].values()
     known = {"too large; give one below", "is too long; give at most", "slow variables have a slider", "names z"}
     missed = [

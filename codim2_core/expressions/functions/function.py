@@ -54,7 +54,7 @@ class Function:
     blur: float = 0.0
     until: float = float("inf")
 
-    def source(self, argument: str) -> str:
+    def python_source(self, argument: str) -> str:
         """Return Python source of f(argument)."""
         return self.source.format(argument) if self.source else f"{self.name}({argument})"
 

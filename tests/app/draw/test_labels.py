@@ -30,10 +30,10 @@ def test_boxes_meet_where_they_have_points_in_common():
 
 
 def test_a_box_is_within_a_drawing_up_to_its_edges():
-    assert LabelBox(0.0, 0.0, 30.0, 20.0).within(30.0, 20.0)
-    assert LabelBox(0.5, 0.5, 1.0, 1.0).within(30.0, 20.0)
+    assert LabelBox(0.0, 0.0, 30.0, 20.0).fits(30.0, 20.0)
+    assert LabelBox(0.5, 0.5, 1.0, 1.0).fits(30.0, 20.0)
     for x, y in ((-0.1, 0.0), (0.0, -0.1), (10.1, 0.0), (0.0, 10.1)):
-        assert not LabelBox(x, y, 20.0, 10.0).within(30.0, 20.0)
+        assert not LabelBox(x, y, 20.0, 10.0).fits(30.0, 20.0)
 
 
 def test_widths_of_texts():
@@ -82,9 +82,7 @@ def test_labels_avoid_what_is_taken_and_stay_in_the_drawing():
         free = [
             (across, up)
             for across, up in LABEL_OFFSETS
-            if (one := LabelBox(x - wide / 2 + across * SIZE, y - high / 2 + up * SIZE, wide, high)).within(
-                200.0, 150.0
-            )
+            if (one := LabelBox(x - wide / 2 + across * SIZE, y - high / 2 + up * SIZE, wide, high)).fits(200.0, 150.0)
             and not any(one.meets(other) for other in taken)
         ]
         assert free

@@ -92,7 +92,7 @@ def test_no_label_stands_over_another(key):
     scene = view.scene()
     assert len(found) == len(scene["equator"].theta) + len(scene["critical"])
     for i, one in enumerate(found):
-        assert one.within(60.0 * MM, 60.0 * MM)
+        assert one.fits(60.0 * MM, 60.0 * MM)
         assert not any(one.meets(other) for other in found[:i])
 
 
@@ -101,7 +101,7 @@ def test_a_label_goes_where_there_is_room():
     assert (free.x, free.y + free.height / 2) == (50.0, 50.0)
     beside = clear_of((free,), "C", 50.0, 50.0, "start", 10.0, 100.0, 100.0)
     assert not beside.meets(free)
-    assert clear_of((), "C", 99.0, 50.0, "start", 10.0, 100.0, 100.0).within(100.0, 100.0)
+    assert clear_of((), "C", 99.0, 50.0, "start", 10.0, 100.0, 100.0).fits(100.0, 100.0)
 
 
 def test_the_legend_lists_what_is_drawn_and_nothing_else():

@@ -48,11 +48,11 @@ def test_each_picture_is_the_figure_there():
     assert shown[0].shape == shown[1].shape  # however long a portrait's name is
     assert np.abs(shown[0] - shown[1]).mean() > 1
     assert picture(VIEW, "f1=-1,1", -0.5) == made[0]
-    assert picture(VIEW.changed({"f1": 0.75}), "f1=-1,1", 0.75) == made[1]
+    assert picture(VIEW.with_values({"f1": 0.75}), "f1=-1,1", 0.75) == made[1]
 
 
 def test_it_goes_slowly_where_something_happens_and_shows_it():
-    chosen = Slider.of(VIEW, "f1=-2,6;1,3,9")
+    chosen = Slider.from_text(VIEW, "f1=-2,6;1,3,9")
     assert chosen.events == (1.0, 3.0)  # the other is not passed
     values = np.array(chosen.values(81, -0.5))
     steps = np.diff(values)
@@ -62,7 +62,7 @@ def test_it_goes_slowly_where_something_happens_and_shows_it():
     assert near == pytest.approx([MIN_PACE * steps[0]] * 2, rel=0.5)
     assert steps.min() > 0.0
     with pytest.raises(ValueError, match="give NAME=LOW,HIGH"):
-        Slider.of(VIEW, "f1=-2,6;x")
+        Slider.from_text(VIEW, "f1=-2,6;x")
 
 
 @pytest.mark.parametrize("value", [-1.5, -0.5])
@@ -127,11 +127,11 @@ PLAYED = view_of("preset=case1-cm4&orbits=0.3,0.4;1.4,0.5")
 
 @pytest.mark.parametrize(("number", "fast"), [(1, True), (2, False)])
 def test_a_film_of_play_has_its_dots_on_the_orbit_and_on_both_lines(number, fast):
-    still = scenery(PLAYED.changed({"orbit": number}), STYLE)
+    still = scenery(PLAYED.with_values({"orbit": number}), STYLE)
     assert still.orbit.fast is fast
     time, bare = still.orbit.time, np.asarray(still.drawn, int)
     for share in (0.35, 0.8):
-        shown = np.asarray(Image.open(io.BytesIO(still.at(share))), int)
+        shown = np.asarray(Image.open(io.BytesIO(still.picture_at(share))), int)
         v, u = np.nonzero(np.abs(shown - bare).sum(axis=2))
         now = time[0] + share * (time[-1] - time[0])
         [k] = np.nonzero(np.diff(np.sign(time - now)))
@@ -146,9 +146,11 @@ def test_a_film_of_play_has_its_dots_on_the_orbit_and_on_both_lines(number, fast
 
 
 def test_a_dot_beyond_the_picture_is_not_drawn_on_the_chart():
-    still = scenery(PLAYED.changed({"orbit": 2}), STYLE)
+    still = scenery(PLAYED.with_values({"orbit": 2}), STYLE)
     assert np.hypot(*still.orbit.points[0]) > 1.75
-    apart = np.abs(np.asarray(Image.open(io.BytesIO(still.at(0.0))), int) - np.asarray(still.drawn, int)).sum(axis=2)
+    apart = np.abs(np.asarray(Image.open(io.BytesIO(still.picture_at(0.0))), int) - np.asarray(still.drawn, int)).sum(
+        axis=2
+    )
     assert np.nonzero(apart)[1].min() > still.corner[0] + CHART * LEFT_MARGIN / 2
 
 

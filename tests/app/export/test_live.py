@@ -52,7 +52,7 @@ def test_its_frames_are_those_of_the_core(text, sliders):
     assert len(frames) == len(places)
     for k in (0, len(frames) // 2, len(frames) - 1):
         names = [slider["name"] for slider in settings["sliders"]]
-        there = view.changed(dict(zip(names, places[k], strict=True)))
+        there = view.with_values(dict(zip(names, places[k], strict=True)))
         scene = there.scene().evolve(pixel=view.width / 700)
         header, blocks = frames[k]
         assert header["portrait"]["name"] == scene["classification"].name

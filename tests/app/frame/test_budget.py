@@ -29,7 +29,7 @@ WILD = {"U1": "sin(k*c) - c", "U2": "s"}
 
 
 def typed(texts=MILD, **more):
-    return {**ExplorerState.of({"system": "own"}).values(), "texts": {**texts, "W": "0", "where": ""}, **more}
+    return {**ExplorerState.from_values({"system": "own"}).values(), "texts": {**texts, "W": "0", "where": ""}, **more}
 
 
 def budgeted(values):
@@ -66,15 +66,15 @@ def test_the_first_picture_of_a_formula_is_computed_beside_the_frames():
 def test_what_was_quick_is_computed_with_the_frame_until_the_formula_is_wilder():
     values = typed(WILD, parameters={"k": 1.0}, layers=["critical", "equator"], panel="psi")
     scene, budget = make_scene(values), Budget()
-    scene.ask_before(budget.before)
+    scene.ask_before(budget.check_cost)
     quick = dict.fromkeys(("equator", "equator_cycle", "critical", "location", "classification", "slow_flow"), 0.001)
     found = layers_of(pickle.loads(pickle.dumps(scene)), quick, {})
-    budget.told(scene, type(found)(found.results, quick, {}))
+    budget.record_costs(scene, type(found)(found.results, quick, {}))
     assert len(scene.evolve(k=1.1)["equator"]) > 0  # computed here
     assert scene.runs["equator"] == 1
     with pytest.raises(PendingLayer):
         scene.evolve(k=1000.0)["equator"]
-    budget.told(scene, type(found)({}, dict.fromkeys(quick, 2 * LAYER_BUDGET), {}))
+    budget.record_costs(scene, type(found)({}, dict.fromkeys(quick, 2 * LAYER_BUDGET), {}))
     with pytest.raises(PendingLayer):
         scene.evolve(k=1.2)["equator"]
 
@@ -82,21 +82,21 @@ def test_what_was_quick_is_computed_with_the_frame_until_the_formula_is_wilder()
 def test_that_a_layer_has_become_quick_is_believed_by_halves():
     """A worker that has searched for one frame finds the same at once for the next, and this thread would search."""
     scene, budget = make_scene(typed()), Budget()
-    scene.ask_before(budget.before)
+    scene.ask_before(budget.check_cost)
     for took in (8.0 * LAYER_BUDGET, 0.0, 0.0):
-        budget.told(scene, BackgroundLayers({}, {"location": 0.0, "equator": took}, {}))
+        budget.record_costs(scene, BackgroundLayers({}, {"location": 0.0, "equator": took}, {}))
         with pytest.raises(PendingLayer):
             scene["equator"]
-    budget.told(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
+    budget.record_costs(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
     assert len(scene["equator"]) > 0
 
 
 def test_what_is_compiled_elsewhere_is_not_computed_here_however_quick_it_is():
     scene, full = make_scene(typed(layers=["critical", "equator"])), []
     budget = Budget(lambda _scene: bool(full))
-    scene.ask_before(budget.before)
+    scene.ask_before(budget.check_cost)
     quick = dict.fromkeys(("equator", "location", "critical"), 0.001)
-    budget.told(scene, BackgroundLayers({}, quick, {}))
+    budget.record_costs(scene, BackgroundLayers({}, quick, {}))
     full.append(True)
     with pytest.raises(PendingLayer):
         scene["equator"]
@@ -146,7 +146,7 @@ def test_outcomes_of_a_slow_spiral_are_computed_beside_the_frames_until_they_are
     frames.budget._timed[None][1]["outcomes"] = 0.001
     assert "picture" not in header(frames, set={"a": 2.1}).get("late", [])  # as quick as it was
     assert "picture" in header(frames, set=SPIRAL)["late"]  # winds for longer than any that was timed
-    frames.budget.told(frames.scene, BackgroundLayers({}, {"outcomes": 5 * LAYER_BUDGET}, {}))
+    frames.budget.record_costs(frames.scene, BackgroundLayers({}, {"outcomes": 5 * LAYER_BUDGET}, {}))
     assert "picture" in header(frames, set={"a": -0.05})["late"]
     assert not frames.scene.runs["outcomes"] - 1
 
@@ -157,7 +157,7 @@ def test_orbits_that_are_launched_are_timed_before_they_are_computed_here():
     assert "picture" in header(frames, set={"orbits": "0.3,0.2"})["late"]
     executor.run()
     frames.budget._timed.clear()
-    frames.budget.told(frames.scene, BackgroundLayers({}, {"launched": 0.001}, {}))
+    frames.budget.record_costs(frames.scene, BackgroundLayers({}, {"launched": 0.001}, {}))
     assert "picture" not in header(frames, set={"orbits": "0.31,0.2"}).get("late", [])
 
 
@@ -166,7 +166,7 @@ def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_fo
     clock = iter(range(1000))
     monkeypatch.setattr("codim2_app.frame.budget.time.perf_counter", lambda: 0.01 * LAYER_BUDGET * next(clock))
     scene, budget = make_scene(preset_values("case1-cm4")), Budget()
-    scene.ask_before(budget.before)
+    scene.ask_before(budget.check_cost)
     budget.begin()
     scene["classification"]
     _, took = budget._timed[None]
@@ -175,14 +175,14 @@ def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_fo
     took["equator"] = 2 * LAYER_BUDGET
     with pytest.raises(PendingLayer):
         scene.evolve(f1=-0.6)["equator"]
-    budget.told(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
+    budget.record_costs(scene, BackgroundLayers({}, {"equator": 0.0}, {}))
     assert len(scene.evolve(f1=-0.7)["equator"]) > 0
 
 
 def test_a_layer_is_slow_that_is_slow_twice_by_the_processors_time(monkeypatch):
     clocks = {"perf_counter": time.perf_counter, "thread_time": time.thread_time}
     scene, budget = make_scene(preset_values("case1-cm4")), Budget()
-    scene.ask_before(budget.before)
+    scene.ask_before(budget.check_cost)
 
     def late(*names):
         for name, clock in clocks.items():
@@ -226,7 +226,7 @@ def test_all_that_panels_ask_of_other_processes_can_travel():
         {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "trajectories": 4},
         {"system": "own"},
     ):
-        values = {**ExplorerState.of(start).values(), "layers": ["critical", "equator", "outcomes"]}
+        values = {**ExplorerState.from_values(start).values(), "layers": ["critical", "equator", "outcomes"]}
         frames, _ = budgeted(values)
         executor = Travels()
         frames.jobs._given = WorkQueue(executor)

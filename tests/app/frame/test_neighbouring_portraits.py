@@ -27,7 +27,7 @@ def test_the_control_that_was_moved_decides_which_sides():
 
 
 def test_a_portrait_is_looked_at_from_the_same_sides_whatever_was_moved_before():
-    frames = Frames(ExplorerState.of({"preset": "saddle-node-at"}))
+    frames = Frames(ExplorerState.from_values({"preset": "saddle-node-at"}))
     fresh, _ = unpack(frames.answer({"all": True}))
     frames.answer({"id": 1, "set": {"preset": "", "a": -1.25}})
     frames.answer({"id": 2, "set": {"a": -1.5}})
@@ -36,7 +36,7 @@ def test_a_portrait_is_looked_at_from_the_same_sides_whatever_was_moved_before()
 
 
 def test_the_ball_on_the_point_of_slipping():
-    state = ExplorerState.of({"system": "ball_in_pool", "z": 3.0})
+    state = ExplorerState.from_values({"system": "ball_in_pool", "z": 3.0})
     frames = Frames(state)
     frames.answer({"all": True})
     header, _ = unpack(frames.answer({"id": 1, "set": {"z": 7.0 * 0.2 * 9.81 / 2.0}}))
@@ -51,7 +51,7 @@ def test_a_portrait_that_is_not_degenerate_has_none(f1):
 @pytest.mark.parametrize("key", [key for key, preset in c2.presets.items() if preset.degeneracy])
 def test_a_portrait_names_a_control_that_the_page_has(key):
     # the ball's coefficient b is 0 and no control; below and above it nothing changes
-    frames = Frames(ExplorerState.of({"preset": key}))
+    frames = Frames(ExplorerState.from_values({"preset": key}))
     header, _ = unpack(frames.answer({"all": True}))
     beside, preset = header["portrait"]["sides"], c2.presets[key]
     if key == "spinning-disc":  # its directions are found and not proved; it lies at no border

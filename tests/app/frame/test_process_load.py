@@ -9,12 +9,12 @@ def test_the_load_is_the_share_of_time_at_work(monkeypatch, worked, share):
     monkeypatch.setattr(module, "processor_seconds", lambda: clocks["taken"])
     load = module.Load()
     clocks["perf_counter"] += 0.1
-    assert load.measured() == 0.0  # too early to tell
+    assert load.measure() == 0.0  # too early to tell
     clocks["perf_counter"] += 0.4
     clocks["taken"] += worked
-    assert load.measured() == share
+    assert load.measure() == share
     clocks["perf_counter"] += 1.0
-    assert load.measured() == 0.0
+    assert load.measure() == 0.0
 
 
 def test_work_counts_where_the_system_does_not_tell_the_waiting(monkeypatch, tmp_path):

@@ -43,7 +43,7 @@ def test_a_cut_keeps_all_that_is_seen_and_joins_nothing(sizes, seed):
     random = np.random.default_rng(seed)
     pieces = [random.uniform(-1, 1, (size, 2)) for size in sizes]
     window = Window.read([-0.2, 0.3, 0.1, 0.6, 0.001])
-    offsets, points, of = window.cut(*join(pieces))
+    offsets, points, of = window.clip_curves(*join(pieces))
 
     def steps(found):
         joined = [np.column_stack([piece[:-1], piece[1:]]).tolist() for piece in found]

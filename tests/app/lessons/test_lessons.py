@@ -18,7 +18,7 @@ QUESTIONS = [(key, i) for key, lesson in COURSE.items() for i in range(len(lesso
 
 
 def values_of(lesson, drawn):
-    start = ExplorerState.of(lesson.values).values()
+    start = ExplorerState.from_values(lesson.values).values()
     return {**start, **preset_values(drawn.get("preset")), **drawn}
 
 

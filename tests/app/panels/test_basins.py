@@ -40,7 +40,9 @@ def at_rest(frames, window, **more):
 
 
 def test_what_the_browser_has_stays_until_finer_cells_are_there():
-    state = ExplorerState.of({"preset": "nonunique-sliding", "layers": ["basins"], "trajectories": 0, "panel": "psi"})
+    state = ExplorerState.from_values(
+        {"preset": "nonunique-sliding", "layers": ["basins"], "trajectories": 0, "panel": "psi"}
+    )
     frames = Frames(state)
     _, (whole, _) = at_rest(frames, [-2, 2, -2, 2, 0.006], all=True)
     assert whole["basins"]["box"] == list(DISC)

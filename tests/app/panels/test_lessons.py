@@ -15,7 +15,7 @@ OWN = "---\ntitle: Mine\nsummary: My own.\nportrait: case1-cm0\n---\nHere [](fac
 
 
 def opened(key):
-    frames = Frames(ExplorerState.of(opening_values(lessons()[key])))
+    frames = Frames(ExplorerState.from_values(opening_values(lessons()[key])))
     return frames, settled(frames, all=True)
 
 

@@ -11,7 +11,7 @@ from .opening import CASE3, ask, opened, settled
 
 
 def test_the_atlas_of_two_slow_variables_has_the_disc_in_which_the_ball_sticks():
-    frames = Frames(ExplorerState.of({"system": "ball_in_pool", "panel": "atlas"}))
+    frames = Frames(ExplorerState.from_values({"system": "ball_in_pool", "panel": "atlas"}))
     header = settled(frames, all=True, rest=True)
     assert header["atlas_of"] == ["z", "z2", False]
     assert set(header["map"]["name"]) == {"CM2, stable node", "NCM2"}

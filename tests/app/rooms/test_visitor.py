@@ -80,7 +80,8 @@ def test_a_phone_that_follows_is_told_what_the_lecturer_shows_whenever_that_chan
 
 def row_of(fresh, answered=(), scene=None, **values):
     """What a lecturer is told of a page that shows this."""
-    frames = SimpleNamespace(values={**first_values(), **values}, scene=scene, named="CM4", answered=answered)
+    shown = {"portrait_name": "CM4", "last_answer": answered}
+    frames = SimpleNamespace(values={**first_values(), **values}, scene=scene, **shown)
     heard = []
     code, _ = fresh.open("", heard.append)
     visitor = Visitor(frames)
@@ -117,7 +118,7 @@ def test_only_who_says_so_leaves_or_closes(fresh):
     assert phone.ask({"leave": 1}) == {}
     fresh.tick()
     assert len(fresh.guests) == 1
-    assert fresh.hosts[code].there(fresh.hosts[code].opened)
+    assert fresh.hosts[code].is_open(fresh.hosts[code].opened)
     phone.ask({"leave": True})
     assert fresh.guests == {}
     Page().visitor.leave()  # who is in no room

@@ -94,7 +94,7 @@ def test_regularised_motions_are_differentiated(eps):
     by = difference(lambda h: end(start + h * aside), 0.0, 1e-5)
     np.testing.assert_allclose(found.last[:, :4] @ aside, by, rtol=0.0, atol=1e-8)
     for name in names:
-        by = difference(lambda v, name=name: end(start, system.with_value(name, v)), system.value_of(name), 1e-5)
+        by = difference(lambda v, name=name: end(start, system.varied(name, v)), system.value_of(name), 1e-5)
         np.testing.assert_allclose(found.by(name)[-1], by, rtol=0.0, atol=1e-8)
 
 
@@ -174,7 +174,7 @@ def test_what_leads_out_of_a_line_that_repels_is_left_out():
     assert not found.last[:, [1, 3, 6]].any()
     assert found.within is not None
     np.testing.assert_array_equal(found.within, np.eye(5)[:, [0, 2, 4]])
-    by = difference(lambda v: limit(system.with_value("along", v), start, 8.0).states[-1], 1.0, 1e-6)
+    by = difference(lambda v: limit(system.varied("along", v), start, 8.0).states[-1], 1.0, 1e-6)
     np.testing.assert_allclose(found.by("along")[-1], by, rtol=0.0, atol=1e-7)
 
 

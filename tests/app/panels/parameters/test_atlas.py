@@ -151,7 +151,7 @@ EQUATIONS = {"U1": "2*c^2 - c - mu", "U2": "-s + k*c*s", "W": "", "where": "mu =
 
 
 def test_equations_typed_whole_have_their_curves_first_and_then_their_regions():
-    frames = Frames(ExplorerState.of({"system": "own", "texts": EQUATIONS, "panel": "atlas"}))
+    frames = Frames(ExplorerState.from_values({"system": "own", "texts": EQUATIONS, "panel": "atlas"}))
     maps, late, tiles = [], ["map"], []
     request = {"all": True}
     while late:
@@ -181,7 +181,7 @@ def test_equations_typed_whole_have_their_curves_first_and_then_their_regions():
 
 
 def test_an_atlas_of_values_that_have_moved_is_not_waited_for():
-    frames = Frames(ExplorerState.of({"system": "own", "texts": EQUATIONS, "panel": "atlas"}))
+    frames = Frames(ExplorerState.from_values({"system": "own", "texts": EQUATIONS, "panel": "atlas"}))
     unpack(frames.answer({"all": True, "rest": True}))
     before = frames.jobs.future("map")
     unpack(frames.answer({"rest": True, "set": {"texts": {**EQUATIONS, "U2": "-s - k*c*s"}}}))
@@ -194,7 +194,7 @@ def test_an_atlas_of_values_that_have_moved_is_not_waited_for():
     [({**EQUATIONS, "U2": "-s", "where": "mu = 0.5 in [-1, 1]"}, "own:mu"), ({"U1": "c^2 - z", "U2": "-s"}, "z")],
 )
 def test_one_parameter_has_a_strip_and_none_says_what_to_do(texts, axis):
-    frames = Frames(ExplorerState.of({"system": "own", "texts": texts, "panel": "atlas"}))
+    frames = Frames(ExplorerState.from_values({"system": "own", "texts": texts, "panel": "atlas"}))
     header = settled(frames, all=True)
     assert header["atlas_of"] == [axis, "", False]
     assert header["map"]["spans"][1] == [0.0, 1.0]

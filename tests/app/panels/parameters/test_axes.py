@@ -49,7 +49,7 @@ def hold(frames):
 
 @pytest.mark.parametrize("values", TYPED.values(), ids=TYPED.keys())
 def test_typed_systems(values):
-    hold(Frames(ExplorerState.of({**values, "layers": [], "trajectories": 0})))
+    hold(Frames(ExplorerState.from_values({**values, "layers": [], "trajectories": 0})))
 
 
 @pytest.mark.parametrize("system", GIVEN.values(), ids=GIVEN.keys())
@@ -62,7 +62,7 @@ def test_systems_from_python(system):
 
 
 def test_the_axes_follow_what_is_typed():
-    frames = Frames(ExplorerState.of({"system": "typed", "panel": "atlas"}))
+    frames = Frames(ExplorerState.from_values({"system": "typed", "panel": "atlas"}))
     header, _ = unpack(frames.answer({"id": 1, "set": {"texts": {"d": "-1 + q"}}, "rest": True}))
     assert header["set"]["up"] == "own:q"
     assert why_not(header, "map") is None
@@ -71,14 +71,14 @@ def test_the_axes_follow_what_is_typed():
 
 
 def test_an_axis_that_was_chosen_stays_and_a_sentence_says_that_it_is_not_there():
-    frames = Frames(ExplorerState.of({"up": "n"}))
+    frames = Frames(ExplorerState.from_values({"up": "n"}))
     assert why_not(shown(frames, "atlas"), "map") == say("n of another Ψ")
     view = explorer(c2.ELinear(-1, "0.1*z1", -2, (0.2, 0.3)), across="b")
     assert why_not(shown(view.frames, "atlas"), "map") == say("axis given", symbol="b")
 
 
 def test_numbers_alone_have_no_diagram_and_open_on_what_they_have():
-    frames = Frames(ExplorerState.of({"system": "own", "texts": TYPED["no name"]["texts"]}))
+    frames = Frames(ExplorerState.from_values({"system": "own", "texts": TYPED["no name"]["texts"]}))
     assert why_not(shown(frames, "diagram"), "diagram") == say("no parameter")
     assert explorer(c2.ELinear.from_matrix([[-1, 2], [0, -3]], (0.1, 0.2))).state.panel == "numbers"
 
@@ -121,7 +121,9 @@ def test_the_diagram_and_the_slow_flow_follow_the_ranges_of_the_sliders():
 )
 def test_a_range_that_is_typed_with_a_parameter_is_that_of_the_diagram(ranges, span):
     texts = {"d": "-1 - q", "where": "q = 0.5 in [0.25, 0.75]"}
-    frames = Frames(ExplorerState.of({"system": "typed", "texts": texts, "panel": "diagram", "along": "own:q"}))
+    frames = Frames(
+        ExplorerState.from_values({"system": "typed", "texts": texts, "panel": "diagram", "along": "own:q"})
+    )
     assert settled(frames, all=True, set={"ranges": ranges})["diagram"]["span"] == span
 
 
