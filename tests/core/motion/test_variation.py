@@ -60,7 +60,7 @@ def test_the_limit_is_differentiated_through_all_phases(name):
     def end(h):
         given = system
         for k, one in enumerate(names):
-            given = given.with_value(one, system.value_of(one) + (k + 1) * h)
+            given = given.varied(one, system.value_of(one) + (k + 1) * h)
         return limit(given, start + h * aside, t_end).states[-1]
 
     expected = found.last[:, : len(start)] @ aside + sum((k + 1) * found.by(one)[-1] for k, one in enumerate(names))

@@ -25,7 +25,7 @@ def test_the_same_system_given_twice_answers_alike():
 @pytest.mark.parametrize("system", [GIVEN, BENT, *SYSTEMS.values(), ELinear.from_matrix([[0, 1], [1, 0]], (1, 2))])
 def test_what_can_be_varied_can_be_varied(system):
     for name in system.variable:
-        changed = system.with_value(name, 3.25)
+        changed = system.varied(name, 3.25)
         assert changed.value_of(name) == 3.25
         assert [changed.value_of(n) for n in system.variable if n != name] == [
             system.value_of(n) for n in system.variable if n != name
