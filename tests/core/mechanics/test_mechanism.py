@@ -89,15 +89,9 @@ def test_a_ball_on_a_turntable_is_the_example(mu, Omega, r, z):
     )  # fmt: skip
     assert isinstance(ball, ELinear)
     at, known = ball.at(z), examples.ball_on_turntable(mu, Omega).at(z)
-    for mine, paper in (
-        (at.a, known.a),
-        (at.b, known.b),
-        (at.d, known.d),
-        (at.f, known.f),
-        (at.B, known.B),
-        (at.g, known.g),
-    ):
-        assert np.asarray(mine) == pytest.approx(np.asarray(paper), rel=1e-14, abs=1e-14)
+    for name in ("a", "b", "d", "f", "B", "g"):
+        mine, paper = np.asarray(getattr(at, name)), np.asarray(getattr(known, name))
+        assert mine == pytest.approx(paper, rel=1e-14, abs=1e-14)
 
 
 def block(force, law: Any = "mu", normal="m*g", **parameters):
