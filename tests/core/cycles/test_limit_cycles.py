@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, psi, sliding_flow, trajectories
+from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, psi, sliding_flow
 from codim2_core.cycles.limit_cycles import limit_cycles, reason_for_none
 from codim2_core.layer_problem.hemisphere import e_psi
 
@@ -61,20 +61,6 @@ def test_case_III_cycles(n, period):
     assert not cycle.points.flags.writeable
     gaps = np.hypot(*np.diff(cycle.points, axis=0).T)
     assert gaps.max() < 0.02
-
-
-def test_two_nested_cycles():
-    p = psi.hill(3)
-    inner, outer = limit_cycles(fold(1.04), p)
-    assert (inner.kind, outer.kind) == ("unstable", "stable")
-    C = critical_sets(fold(1.04), p)[0]
-    assert C.kind == "stable focus"
-    between = 0.5 * (inner.points[0] + outer.points[0])
-    inside = C.p + 0.9 * (inner.points[0] - C.p)
-    lines = trajectories(fold(1.04), p, [between, inside], t_max=600.0, rtol=1e-9, atol=1e-10)
-    end = lines.points[0][-1]
-    assert np.hypot(*(outer.points - end).T).min() < 5e-3
-    assert np.hypot(*(lines.points[1][-1] - C.p)) < 1e-4
 
 
 def test_cycles_leave_through_the_equator():
