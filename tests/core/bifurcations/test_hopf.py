@@ -13,10 +13,12 @@ from hypothesis import strategies as st
 from codim2_core import ELinear, bifurcations, critical_sets, psi
 from codim2_core.layer_problem.linearisation import determinant_sign
 from codim2_core.layer_problem.lyapunov import first_lyapunov
+from tests.core.exact_psi import regularisation
 from tests.core.strategies import coefficient
 
 matrices = st.tuples(coefficient, coefficient, coefficient)
 CASE3 = (172.0, 186.0, -200.0)
+PLAIN = psi.constant, psi.rational, psi.exponential, psi.tanh
 
 
 def normal_form_coefficient(A, f, regularisation_mp, x0):
@@ -55,26 +57,16 @@ def normal_form_coefficient(A, f, regularisation_mp, x0):
         return float(sixteen / 16 * scale * 2 / abs(w)), float(abs(w))
 
 
-@pytest.mark.parametrize(
-    ("regularisation", "formula"),
-    [
-        (psi.constant(), lambda s: mpmath.mpf(1)),
-        (psi.rational(), lambda s: 1 / (1 + s)),
-        (psi.exponential(), lambda s: mpmath.exp(-s)),
-        (psi.tanh(), lambda s: s / mpmath.sinh(mpmath.sqrt(s)) ** 2),
-        (psi.hill(3), lambda s: 3 / (3 + (4 * s) ** 3)),
-        (psi.custom("1/(1+s)**2"), lambda s: 1 / (1 + s) ** 2),
-    ],
-)
-def test_first_lyapunov_coefficient_is_that_of_the_planar_normal_form(regularisation, formula):
+@pytest.mark.parametrize("family", [*(make() for make in PLAIN), psi.hill(3), psi.custom("1/(1+s)**2")])
+def test_first_lyapunov_coefficient_is_that_of_the_planar_normal_form(family):
     a, b, d = 1.0, 1.5, -1.2
     A = np.array([[a, -b], [b, d]])
-    curve = bifurcations.hopf(a, b, d, regularisation)
+    curve = bifurcations.hopf(a, b, d, family)
     for branch, values in zip(curve.branches, curve.values, strict=True):
         for i in (60, 150):
             f = branch[i]
-            (C,) = critical_sets(ELinear(a, b, d, tuple(f)), regularisation)
-            expected, _ = normal_form_coefficient(A, f, formula, C.x2)
+            (C,) = critical_sets(ELinear(a, b, d, tuple(f)), family)
+            expected, _ = normal_form_coefficient(A, f, regularisation(family)[0], C.x2)
             assert values[i] == pytest.approx(expected, rel=1e-8)
 
 

@@ -12,47 +12,24 @@ from mpmath import mpf
 
 from codim2_core import psi as constructors
 from codim2_core.psi import FAMILIES
+from tests.core.exact_psi import hill, regularisation
 
 ULP = 2.0**-52
 
 
-def _hill(n):
-    n = mpf(n)
-    return (
-        constructors.hill(float(n)),
-        lambda s: 3 / (3 + (4 * s) ** n),
-        lambda s: -12 * n * (4 * s) ** (n - 1) / (3 + (4 * s) ** n) ** 2,
-    )
-
-
-def _tanh_slope(s):
-    if s < mpf(10) ** -15:  # where the closed form cancels
-        return mpf(-1) / 3 + 2 * s / 15
-    z = mpmath.sqrt(s)
-    return -(s / mpmath.sinh(z) ** 2) * (z * mpmath.coth(z) - 1) / s
-
-
 # Each Psi with itself and its derivative in mpmath.
-EXACT = {
-    "constant": (constructors.constant(), lambda s: mpf(1), lambda s: mpf(0)),
-    "rational": (constructors.rational(), lambda s: 1 / (1 + s), lambda s: -1 / (1 + s) ** 2),
-    "exponential": (constructors.exponential(), lambda s: mpmath.exp(-s), lambda s: -mpmath.exp(-s)),
-    "tanh": (constructors.tanh(), lambda s: s / mpmath.sinh(mpmath.sqrt(s)) ** 2 if s else mpf(1), _tanh_slope),
-    **{f"hill {n}": _hill(n) for n in (0.01, 0.3, 1, 1.5, 2, 3, 4, 17.25, 200, 1000)},
-    "custom exp": (constructors.custom("exp(-s)"), lambda s: mpmath.exp(-s), lambda s: -mpmath.exp(-s)),
-    "custom square": (constructors.custom("1/(1+s)**2"), lambda s: 1 / (1 + s) ** 2, lambda s: -2 / (1 + s) ** 3),
-    "custom half": (
-        constructors.custom("(1+s)/(1+2*s)"),
-        lambda s: (1 + s) / (1 + 2 * s),
-        lambda s: -1 / (1 + 2 * s) ** 2,
-    ),
-    "custom hill": (constructors.custom("3/(3+(4*s)**40)"), *_hill(40)[1:]),
-    "custom rising": (
-        constructors.custom("1+0.1*sin(s)*exp(-s)"),
-        lambda s: 1 + mpf(0.1) * mpmath.sin(s) * mpmath.exp(-s),
-        lambda s: mpf(0.1) * (mpmath.cos(s) - mpmath.sin(s)) * mpmath.exp(-s),
-    ),
+PLAIN = ("constant", "rational", "exponential", "tanh")
+TYPED = {
+    "custom exp": "exp(-s)", "custom square": "1/(1+s)**2", "custom half": "(1+s)/(1+2*s)",
+    "custom rising": "1+0.1*sin(s)*exp(-s)",
+}  # fmt: skip
+MADE = {
+    **{name: getattr(constructors, name)() for name in PLAIN},
+    **{f"hill {n}": constructors.hill(n) for n in (0.01, 0.3, 1, 1.5, 2, 3, 4, 17.25, 200, 1000)},
+    **{name: constructors.custom(text) for name, text in TYPED.items()},
 }
+EXACT = {name: (psi, *regularisation(psi)) for name, psi in MADE.items()}
+EXACT["custom hill"] = constructors.custom("3/(3+(4*s)**40)"), *hill(40)
 ALL = pytest.mark.parametrize("name", EXACT)
 BUILT_IN = pytest.mark.parametrize("name", [name for name in EXACT if not name.startswith("custom")])
 LOG_ZETA = st.floats(-160.0, 8.0)

@@ -13,6 +13,7 @@ from codim2_core.orbits.trajectories import trajectories
 from codim2_core.systems.typed_at_z import Frozen
 
 from ..exact_elliptic import NAMES, exact
+from ..exact_psi import regularisation
 
 PSIS = [
     psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3), psi.hill(2.5),
@@ -91,23 +92,10 @@ def exact_U(at):
     return lambda c, s: tuple(eval(code, {**names, **values, "c": c, "s": s, "x": zero, "y": zero}) for code in codes)
 
 
-def exact_psi(p):
-    """Psi(s) as a function of mpmath numbers, from the formulas of the paper."""
-    n = mpmath.mpf(p.parameter)
-    return {
-        "constant": lambda s: mpmath.mpf(1),
-        "rational": lambda s: 1 / (1 + s),
-        "exponential": lambda s: mpmath.exp(-s),
-        "tanh": lambda s: s / mpmath.sinh(mpmath.sqrt(s)) ** 2 if s else mpmath.mpf(1),
-        "hill": lambda s: 3 / (3 + (4 * s) ** n),
-        "custom": lambda s: 1 / (1 + s) ** 2,
-    }[p.family]
-
-
 @WITH_PSI
 def test_the_jacobian_is_the_derivative_and_U_is_zero_there(key, p):
     at = frozen(key)
-    U, shape = exact_U(at), exact_psi(p)
+    U, (shape, _) = exact_U(at), regularisation(p)
     with mpmath.workdps(40):
 
         def field(row, x, y):
