@@ -181,3 +181,9 @@ def test_wild_fields_end_in_bounded_work(U):
     curves = inside_curves(at)
     assert sum(len(curve.points) for _, curve in curves) <= 4 * (ALL_POINTS + 2 * MOST_POINTS)
     assert calls(lambda: inside_curves(at)) < 800_000
+
+
+def test_a_component_that_vanishes_has_no_nullcline():
+    at = System(U=("-3*c*(1 + s)", "-3*s*(1 + s)")).at()
+    assert branches(at, "theta") == []
+    assert nullclines(System(U=("0", "0")), psi.constant()) == ()

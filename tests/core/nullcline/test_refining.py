@@ -79,3 +79,17 @@ def test_what_is_not_seen_costs_nothing_and_what_is_seen_is_bounded():
     close = scene.evolve(window=window(scene["nullclines_inside"][0].points[30], 1e6))["nullclines_inside"]
     assert all(len(branch.points) <= MAX_BRANCH_POINTS for branch in close)
     assert sum(len(branch.points) for branch in close) < 2 * before
+
+
+@pytest.mark.parametrize("times", [1, 35, 400])
+def test_the_hyperbola_is_as_fine_as_it_is_seen(times):
+    system = ELinear(-2, 0.5, -1, (-0.5, 0.7))
+    scene = Scene(system)
+    pixel = 2.0 * HALF / times / 720
+    for piece in scene.evolve(window=window((0.4, 0.3), times))["conics"].pieces:
+        middle = 0.5 * (piece[1:] + piece[:-1])
+        x, y = middle.T
+        value = (system.d - system.a) * x * y + 0.7 * x + 0.5 * y + 0.5
+        slope = np.hypot((system.d - system.a) * y + 0.7, (system.d - system.a) * x + 0.5)
+        assert (np.abs(value) / slope).max() < pixel
+        assert len(piece) <= MAX_BRANCH_POINTS

@@ -87,3 +87,9 @@ def test_shares_are_parts_of_the_cells_of_the_disc():
     assert module.Basins(cells, ("C1", "C2"), (None, None), 0).shares == (0.5, 0.25)
     nothing = np.full((4, 4), OUTSIDE, np.int8)
     assert module.Basins(nothing, ("C1",), (None,), 0).shares == (0.0,)
+
+
+def test_a_notebook_shows_the_picture_and_the_shares():
+    told = basins(c2.examples.nonunique_sliding(), c2.psi.tanh(), (0.4,), n=32)._repr_html_()
+    assert told.index("<svg") < told.index("<table")
+    assert told.count("<td>0.5</td>") == 2

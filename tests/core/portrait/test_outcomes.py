@@ -171,3 +171,28 @@ def test_where_nothing_slides_no_psi_is_asked(system):
         assert (outcome.depends_on_psi, outcome.families, outcome.slides_alike, outcome.why) == (False, (), False, "")
         assert outcome.slow_flow is None
     assert any(outcome.verdict == "cross" for outcome in found) == (system.at().a < 0.0)
+
+
+def test_case_I_with_a_critical_set_slides():
+    for name in ("case1-cm0", "case1-cm2", "case1-cm4"):
+        found = of(name)
+        assert len(found) > 0
+        for outcome in found:
+            assert (outcome.verdict, outcome.onto, outcome.depends_on_psi) == ("slide", "C", False)
+    assert of("case1-cm0").whole is of("case1-cm0").outcome(1.0) or of("case1-cm0").outcome(1.0).label == "equator"
+    assert [outcome.arrives for outcome in of("case1-cm4")] == ["open set"] * 2 + ["single direction"] * 2
+
+
+def test_case_II_saddle_leaves_it_to_chance():
+    found = of("case2-saddle")
+    assert [outcome.verdict for outcome in found] == ["undecided", "undecided"]
+    assert all("different places: " in outcome.reason for outcome in found)
+
+
+def test_every_direction():
+    found = approach_outcomes(ELinear(-1, 0, -1), psi.tanh())
+    assert found.whole is not None
+    assert found.outcome(2.0).verdict == "slide"
+    assert found.arcs == ((0.0, 2 * math.pi, found.whole),)
+    assert approach_outcomes(ELinear(1, 0, 1), psi.tanh()).outcome(0.0).verdict == "misses"
+    assert approach_outcomes(ELinear(0, 0, 0), psi.tanh()).outcome(0.0).verdict == "undecided"

@@ -97,3 +97,14 @@ def test_saddle_connection_is_found_and_named():
     assert (leaving.end, entering.end) == (entering.origin, leaving.origin)
     assert leaving.gap <= 1e-6
     assert any("connection" in note for note in found.notes)
+
+
+def test_branches_outside_are_drawn_to_the_edge_of_a_picture_of_half_width_two():
+    for system in (ELinear(-2, 0, -1, (-0.5, 0)), ELinear(-2, 0, -1, (-0.5, "z/8"), g=(1.0,)).at((0.3,))):
+        for view, options in ((2.0, {}), (3.0, {"view": 3.0})):
+            outside = [one for one in separatrices(system, psi.constant(), **options) if not one.inside]
+            assert outside
+            for one in outside:
+                reach = np.abs(one.points).max(axis=1)
+                assert reach.max() == pytest.approx(view, abs=1e-9)
+                assert np.hypot(*one.points.T).min() == pytest.approx(1.0, abs=1e-12)

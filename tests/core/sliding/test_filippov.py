@@ -220,3 +220,18 @@ def test_a_hull_that_holds_zero_by_little_is_found_between_the_first_directions(
     none = filippov_sliding(c2.System(U=(f"c - {outside[0]!r}", f"s - {outside[1]!r}"), W=("2*c - s",)), 0.0)
     assert len(none) == 0
     assert "crossing" in none.sentence
+
+
+@pytest.mark.parametrize("factor", [1e-6, 3.0, 1e5])
+def test_the_unit_of_time_changes_the_flow_and_neither_directions_nor_weights(factor):
+    """(U, W) times a factor: the same combinations, and none where there was none."""
+    plain, _ = typed(TRIANGLE)
+    scaled = c2.System(U=tuple(f"{factor!r}*({row.text})" for row in plain.U), W=(f"{factor!r}*({plain.W[0].text})",))
+    one, other = filippov_sliding(plain, 0.0), filippov_sliding(scaled, 0.0)
+    np.testing.assert_allclose(other.vertices, factor * one.vertices, rtol=1e-12)
+    for a, b in zip((*one.directions, *one.weights), (*other.directions, *other.weights), strict=True):
+        np.testing.assert_allclose(np.sort(np.cos(b)), np.sort(np.cos(a)), rtol=0.0, atol=1e-9)
+    for U in (("c - 6/5", "s/100"), ("c - 1001/1000", "s"), ("c/2", "s - 1.01 + c/9")):
+        none = filippov_sliding(c2.System(U=tuple(f"{factor!r}*({u})" for u in U), W=(f"{factor!r}*c",)), 0.0)
+        assert (len(none), none.sentence) == (0, filippov_sliding(c2.System(U=U, W=("c",)), 0.0).sentence)
+        assert "crossing" in none.sentence
