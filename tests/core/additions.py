@@ -17,61 +17,7 @@ from codim2_core.figures.preset import Preset
 from codim2_core.figures.presets import register as register_preset
 from codim2_core.figures.presets import unregister as unregister_preset
 
-#: Everything written out, as the built-in families have it: Psi = (1 + s/k)^-k, which tends to exp(-s).
-WRITTEN_OUT = """
-import math
-from dataclasses import dataclass
-from typing import Any
-
-from codim2_core.psi import Family, Parameter
-from codim2_core.psi.kernel import Kernel
-
-
-@dataclass(frozen=True)
-class Power(Kernel):
-    k: float = 2.0
-
-    def value(self, lib: Any, s: Any) -> Any:
-        return lib.power(1.0 + s / self.k, -self.k)
-
-    def slope(self, lib: Any, s: Any) -> Any:
-        return -lib.power(1.0 + s / self.k, -self.k - 1.0)
-
-    def root(self, lib: Any, zeta: Any) -> Any:
-        return lib.power(lib.hypot(1.0, zeta / self.k**0.5), -self.k)
-
-    def kappa(self, lib: Any, zeta: Any) -> Any:
-        u = zeta / lib.hypot(self.k**0.5, zeta)
-        return self.k * u * u
-
-    def inverse(self, lib: Any, w: Any) -> Any:
-        # x (1 + x/k)^k = w^2 for x = s: Newton for ln x, whose slope is between 1 and 1 + k
-        q = 2.0 * lib.log(lib.maximum(w, 1e-300))
-        y = lib.minimum(q, (q + self.k * lib.log(self.k + 0.0 * q)) / (1.0 + self.k))
-        for _ in range(60):
-            x = lib.exp(y)
-            y = y - (y + self.k * lib.log1p(x / self.k) - q) / (1.0 + self.k * x / (self.k + x))
-        return self.polish(lib, lib.exp(0.5 * y), w)
-
-
-def derivatives(s, k):
-    u = 1.0 + s / k
-    return -(u ** (-k - 1)), (k + 1) / k * u ** (-k - 2), -(k + 1) * (k + 2) / k**2 * u ** (-k - 3)
-
-
-def gain(r2, w, k):
-    w2 = w * w
-    s = min(r2 / max(w2, 1e-300), 1e300)
-    return 1.0 / math.sqrt(max(r2 + w2 * (1.0 + s / k) ** -k, 1e-300))
-
-
-FAMILY = Family(
-    name="power", title="(1 + s/k)⁻ᵏ", formula="(1+s/k)**(-k)", kernel=Power, gain=gain, derivatives=derivatives,
-    parameter=Parameter("k", 0.5, 50.0, shown=(1.0, 8.0), default=2.0), compared=(2.0,),
-)
-"""
-
-#: The least that a family needs: the formula.
+#: What a family needs: the formula, here Psi = (1 + s/k)^-k, which tends to exp(-s).
 FROM_FORMULA = """
 from codim2_core.psi import Family, Parameter
 
@@ -93,9 +39,9 @@ def module(folder: Path, name: str, source: str) -> ModuleType:
 
 
 @contextmanager
-def added_family(folder: Path, source: str = WRITTEN_OUT) -> Iterator[psi.Family]:
-    """Register the family of a source, and take it off again."""
-    family = psi.register(module(folder, "codim2_added_family", source).FAMILY)
+def added_family(folder: Path) -> Iterator[psi.Family]:
+    """Register the family, and take it off again."""
+    family = psi.register(module(folder, "codim2_added_family", FROM_FORMULA).FAMILY)
     try:
         yield family
     finally:

@@ -7,12 +7,7 @@ from codim2_core import psi as families
 
 coefficient = st.floats(-5.0, 5.0, allow_subnormal=False).map(lambda v: round(v, 6) + 0.0)
 systems = st.builds(
-    lambda a, b, d, f1, f2: ELinear(a, b, d, (f1, f2)),
-    coefficient,
-    coefficient,
-    coefficient,
-    coefficient,
-    coefficient,
+    lambda a, b, d, f1, f2: ELinear(a, b, d, (f1, f2)), coefficient, coefficient, coefficient, coefficient, coefficient
 )
 regularisations = st.one_of(
     st.sampled_from([families.constant(), families.rational(), families.exponential(), families.tanh()]),

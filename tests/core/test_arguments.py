@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.arguments import BY_ANNOTATION, BY_NAME
 from codim2_core.expressions.expression import ExpressionError
 
 SYSTEM = c2.ELinear("-2 + 0*z", 0.0, -1.0, (-0.5, 0.0), [[1, 0]], ("-z",))
@@ -70,12 +69,7 @@ GOOD = {
     c2.examples.unregister: {"key": "nothing"},
     **{example.make: {} for example in c2.examples.catalogue.values()},
     c2.mechanics.contact: {
-        "M": np.eye(2),
-        "J": np.eye(2),
-        "force": (0.3, 0),
-        "mu": 0.2,
-        "normal": 1.0,
-        "velocities": ("u", "v"),
+        "M": np.eye(2), "J": np.eye(2), "force": (0.3, 0), "mu": 0.2, "normal": 1.0, "velocities": ("u", "v"),
     },
     c2.mechanics.fit: {
         "system": c2.ELinear("-mu", 0.0, "-mu", parameters={"mu": 3.0}),
@@ -90,7 +84,7 @@ GOOD = {
     c2.hemisphere.height: {"p": (0.1, 0.2)},
     c2.hemisphere.outside_flow: {"coefficients": AT, "theta": 0.1},
     c2.hemisphere.scaling_from_disc: {"p": (0.1, 0.2)},
-}
+}  # fmt: skip
 SLOW = {c2.bifurcations.cycle_folds, c2.bifurcations.heteroclinic}  # what is valid there takes seconds
 LONG = {c2.census: ("10**9",), c2.periodic_motion: ("10**9", "10**30")}  # right: minutes, and eight seconds each
 LONGEST = 240.0  # seconds: where nothing is compiled yet, kernels are, in turn with other processes
@@ -206,10 +200,6 @@ def test_classes_tell_wrong_values_too(make):
         except (ValueError, TypeError) as error:
             said = str(error)
         assert len(said) < 600, (words, said)
-
-
-def test_each_kind_of_argument_has_one_check():
-    assert set(BY_NAME).isdisjoint(BY_ANNOTATION)
 
 
 PLAIN = c2.ELinear(-1.0, 0.0, -1.5, (-0.3, 0.0))

@@ -32,13 +32,6 @@ def test_a_critical_set_shows_where_it_is_and_its_slow_flow():
     assert row == ["(−0.25, 0)", C.kind, table_number(C.trace), table_number(C.determinant), "(0)"]
 
 
-def test_a_portrait_shows_its_name_and_what_is_degenerate():
-    assert "<strong>CM4</strong> Case I" in c2.classify(FOUR, PSI)._repr_html_()
-    degenerate = c2.classify(c2.ELinear(-1, 0, -1, (0, 0)), PSI)
-    assert [row[0] for row in cells(degenerate._repr_html_())[1:]] == [item.name for item in degenerate.degeneracies]
-    assert degenerate.degeneracies
-
-
 @pytest.mark.parametrize("key", ["case1-cm0", "case3-n3", "nonunique-sliding"])
 def test_a_scene_shows_all_of_them_in_little(key):
     preset = c2.presets[key]
@@ -50,14 +43,6 @@ def test_a_scene_shows_all_of_them_in_little(key):
     assert sum(bool(re.fullmatch(r"C\d*", row[0])) for row in rows) == len(scene["critical"])
 
 
-def test_a_motion_shows_its_phases():
-    run = c2.simulate_nonsmooth(c2.examples.ball_in_pool(K=0.0, mu=0.25, g=8.0), (1.0, 0.0, 1.0, 0.0), (0.0, 1.0))
-    _, *rows = cells(run._repr_html_())
-    assert [row[0] for row in rows] == [phase.kind for phase in run.phases]
-    assert run.reason in run._repr_html_()
-    assert "<svg" in run._repr_html_()
-
-
 def test_text_is_escaped_and_long_tables_are_cut():
     shown = html_table(("a<b",), [(f"{i} & more",) for i in range(MAX_ROWS + 3)])
     assert "a&lt;b" in shown
@@ -65,24 +50,6 @@ def test_text_is_escaped_and_long_tables_are_cut():
     assert len(cells(shown)) == 1 + MAX_ROWS
     assert html_table(("a",), []) == ""
     assert table_number(-0.5) == "−0.5"
-
-
-def test_limit_cycles_are_drawn_listed_and_explained():
-    found = c2.limit_cycles(c2.presets["case3-n3"].system, c2.presets["case3-n3"].psi)
-    shown = found._repr_html_()
-    _, row = cells(shown)
-    assert row[0] == found[0].kind
-    assert "<svg" in shown
-    assert found.reason in shown
-    assert all(note in shown for note in found.notes)
-    none = c2.limit_cycles(FOUR, PSI)
-    assert none.reason in none._repr_html_()
-
-
-def test_several_critical_sets_are_numbered_from_one():
-    sets = c2.critical_sets(c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s")), PSI)
-    assert [row[0] for row in cells(sets._repr_html_())[1:]] == ["C1", "C2", "C3"]
-    assert [row[0] for row in cells(type(sets)(sets[:1])._repr_html_())[1:]] == ["C"]
 
 
 def test_separatrices_are_drawn_and_listed():

@@ -120,10 +120,9 @@ def try_javascript(task: tuple[str, Choice]) -> list[Count]:
     for mutant, outcome in zip(kept, outcomes, strict=True):
         count.killed += outcome == "failed"
         count.unreached += outcome == "unreached"
-        if outcome != "failed":
-            count.alive.append(mutant.text)
-            if outcome == "passed":
-                os.write(TERMINAL, f"  lives  app/{name}:{mutant.text}\n".encode())
+        count.alive += outcome == "passed"
+        if outcome == "passed":
+            os.write(TERMINAL, f"  lives  app/{name}:{mutant.text}\n".encode())
     os.write(TERMINAL, f"{count}\n".encode())
     return [count]
 

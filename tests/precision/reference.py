@@ -11,43 +11,11 @@ from collections.abc import Callable, Sequence
 import mpmath as mp
 
 from codim2_core import Psi
+from tests.core.exact_psi import regularisation
 
 DIGITS = 50
 UNIT = mp.mpf(2) ** -53
 Values = Sequence[mp.mpf]
-
-
-def regularisation(psi: Psi) -> tuple[Callable[[mp.mpf], mp.mpf], Callable[[mp.mpf], mp.mpf]]:
-    """(Psi, Psi') of s > 0 as functions of 50-digit numbers, as def:Psi writes them."""
-    n = mp.mpf(psi.parameter)
-    match psi.family:
-        case "constant":
-            return lambda s: mp.mpf(1), lambda s: mp.mpf(0)
-        case "rational":
-            return lambda s: 1 / (1 + s), lambda s: -1 / (1 + s) ** 2
-        case "exponential":
-            return lambda s: mp.exp(-s), lambda s: -mp.exp(-s)
-        case "tanh":
-
-            def slope(s: mp.mpf) -> mp.mpf:
-                if s == 0:
-                    return -mp.mpf(1) / 3
-                r = mp.sqrt(s)
-                return (1 - r * mp.coth(r)) / mp.sinh(r) ** 2
-
-            return lambda s: s / mp.sinh(mp.sqrt(s)) ** 2 if s else mp.mpf(1), slope
-        case "hill":
-            return (
-                lambda s: 3 / (3 + (4 * s) ** n),
-                lambda s: -12 * n * (4 * s) ** (n - 1) / (3 + (4 * s) ** n) ** 2 if s else mp.mpf(0),
-            )
-    return CUSTOM[psi.text]
-
-
-CUSTOM: dict[str, tuple[Callable[[mp.mpf], mp.mpf], Callable[[mp.mpf], mp.mpf]]] = {
-    "1/(1 + s)**2": (lambda s: 1 / (1 + s) ** 2, lambda s: -2 / (1 + s) ** 3),
-    "1/(1 + s/3)": (lambda s: 3 / (3 + s), lambda s: -3 / (3 + s) ** 2),
-}
 
 
 def radius(psi: Psi, modulus: mp.mpf, start: float) -> mp.mpf:

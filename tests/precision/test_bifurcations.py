@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, bifurcations, critical_sets, psi
-from codim2_core.layer_problem.lyapunov import first_lyapunov, psi_derivatives
-from tests.core.bifurcations.test_hopf import normal_form_coefficient
+from codim2_core.layer_problem.lyapunov import psi_derivatives
 
-from .reference import CRITICAL, DIGITS, critical, measure, radius, regularisation
+from .reference import CRITICAL, DIGITS, critical, measure, regularisation
 
 MATRICES = [(172.0, 186.0, -200.0), (1.0, 1.5, -1.2), (2.0, -1.4, -0.7), (0.3, 1.0, -2.0)]
 FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3), psi.hill(0.7)]
@@ -78,8 +77,7 @@ def test_saddle_node_and_transcritical_points(abd):
 
 
 @pytest.mark.parametrize(
-    "plane",
-    [(172.0, 186.0, -200.0, -86.0, -93.0), (1.0, 1.5, -1.2, -0.45, -0.78), (-1.0, 0.8, -2.0, 0.82, 0.4)],
+    "plane", [(172.0, 186.0, -200.0, -86.0, -93.0), (1.0, 1.5, -1.2, -0.45, -0.78), (-1.0, 0.8, -2.0, 0.82, 0.4)]
 )
 def test_values_of_n_where_the_kind_changes(plane):
     """n of the Hill family in 50 digits, against what one rounding of the coefficients does to it."""
@@ -101,28 +99,6 @@ def test_values_of_n_where_the_kind_changes(plane):
         assert min(abs(change.n - 284 / 129) for change in changes) < 1e-14
 
 
-@pytest.mark.parametrize("family", [p for p in FAMILIES if p.parameter != 0.7], ids=lambda p: p.text)
-def test_first_lyapunov_coefficient(family):
-    """Against the planar normal form in 40 digits, at points of several Hopf curves: 12 digits of its larger terms."""
-    value, _ = regularisation(family)
-    count = 0
-    for abd in MATRICES[1:3]:
-        curve = bifurcations.hopf(*abd, family)
-        A = np.array([[abd[0], -abd[1]], [abd[1], abd[2]]])
-        for branch, values in zip(curve.branches, curve.values, strict=True):
-            k = len(branch) // 3
-            f = branch[k]
-            found = critical_sets(ELinear(*abd, tuple(f)), family)
-            if not found or np.hypot(*found[0].e) > 0.98 or count == 2:
-                continue
-            count += 1
-            exact, _ = normal_form_coefficient(A, f, value, found[0].x2)
-            assert values[k] == pytest.approx(exact, rel=1e-11, abs=1e-12 * abs(values).max())
-            again = first_lyapunov(A, family, found[0].x2[None, :])[0]
-            assert again == pytest.approx(values[k], rel=1e-11, abs=1e-12 * abs(values).max())
-    assert count or family.family == "constant"
-
-
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda p: p.text)
 def test_three_derivatives_of_psi(family):
     value, _ = regularisation(family)
@@ -134,9 +110,3 @@ def test_three_derivatives_of_psi(family):
                 exact = mp.diff(value, mp.mpf(at), k + 1)
                 scale = abs(exact) + abs(value(mp.mpf(at))) * (1 if family.family == "tanh" else 0)
                 assert abs(found[k][i] - exact) <= 3e-14 * scale + 1e-300, (k, at)
-
-
-def test_radius_is_checked():
-    with mp.workdps(DIGITS):
-        zeta = radius(psi.rational(), mp.mpf("0.6"), 1.0)
-        assert abs(zeta / mp.sqrt(zeta**2 + 1 / (1 + zeta**2)) - mp.mpf("0.6")) < mp.mpf(10) ** -45

@@ -71,8 +71,3 @@ def test_index_of_the_critical_sets_is_the_degree_on_the_equator(name):
     degree = round(np.diff(np.unwrap(np.arctan2(U[:, 1], U[:, 0]))).sum() / (2 * np.pi))
     index = sum(-1 if C.kind == "saddle" else 1 for C in c2.critical_sets(preset.system, preset.psi, preset.z))
     assert index == degree
-
-
-def test_the_balls_portraits_open_the_solid_of_their_figure():
-    for name in ("ball-stick", "ball-critical", "ball-slip"):
-        assert (c2.presets[name].label, c2.presets[name].view) == ("sec:ballpool, fig:ballpool3d", "stack")

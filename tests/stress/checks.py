@@ -29,7 +29,6 @@ MOST_FOR_A_LAYER = 5_000_000
 MOST_FOR_OUTCOMES = 20_000_000
 # A band of orbits that close to 1e-8 is found as hundreds of "semistable" cycles, which outcomes then try one by one.
 MOST_CYCLES = 4
-BORDERS = {"transcritical", "det A = 0", "line of equilibria", "everything stands still"}
 
 
 def numbers(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:

@@ -65,10 +65,7 @@ def test_any_direction_off_a_stratum(stratum, direction, power):
 
 
 @settings(max_examples=50)
-@given(
-    st.lists(st.tuples(st.floats(-1, 1), st.integers(-149, 149)), min_size=5, max_size=5),
-    st.sampled_from(FAMILIES),
-)
+@given(st.lists(st.tuples(st.floats(-1, 1), st.integers(-149, 149)), min_size=5, max_size=5), st.sampled_from(FAMILIES))
 def test_coefficients_of_any_size(parts, regularisation):
     plane = tuple(m * 10.0**e for m, e in parts)
     if max(map(abs, plane)) >= 1e-150:

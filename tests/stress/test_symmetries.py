@@ -135,28 +135,6 @@ def test_reversing_time(plane, family):
 
 @settings(max_examples=60)
 @given(planes, families)
-def test_minus_the_plane(plane, family):
-    """(x, y) -> (-x, -y) is f -> -f and B -> -B: all places turn by pi, all rates stay."""
-    assume(robust(plane))
-    a, b, d, f1, f2 = plane
-    one, other = system(plane), system((a, b, d, -f1 + 0.0, -f2 + 0.0), -B)
-    Q, P = equator_equilibria(one), equator_equilibria(other)
-    np.testing.assert_allclose(circular(Q.theta + math.pi), circular(P.theta), rtol=0.0, atol=rounding(Q, plane))
-    np.testing.assert_allclose(np.sort(Q.lambda_rho), np.sort(P.lambda_rho), rtol=0.0, atol=rounding(Q, plane))
-    for C, D in zip(critical_sets(one, family), critical_sets(other, family), strict=True):
-        assert (C.e == -D.e).all()
-        assert (C.jacobian == D.jacobian).all()
-        assert C.kind == D.kind
-        np.testing.assert_array_equal(C.slow_flow, D.slow_flow)
-    a_, b_ = equator_cycle(one), equator_cycle(other)
-    assert (a_ is None) == (b_ is None)
-    if a_ is not None and b_ is not None:
-        assert b_.exponent == pytest.approx(a_.exponent, rel=1e-11, abs=1e-12)
-        assert b_.period == pytest.approx(a_.period, rel=1e-11)
-
-
-@settings(max_examples=60)
-@given(planes, families)
 def test_reflecting(plane, family):
     """(x, y) -> (x, -y) is b -> -b, f2 -> -f2 and B -> B diag(1, -1)."""
     assume(robust(plane))

@@ -16,6 +16,7 @@ import codim2_core as c2
 from codim2_core import psi
 from codim2_core.atlases.faces import inside_polygons
 from codim2_core.motion.compare_with_limit import agreement
+from tests.core.polylines import away
 
 FAMILIES = (psi.constant(), psi.rational(), psi.tanh(), psi.hill(3.0))
 #: Of the ranges: nearer to a curve, or of the span to a special value, nothing is compared.
@@ -102,7 +103,7 @@ def atlas_and_portraits(rng: random.Random) -> tuple[str, list[str]]:
         places += [(side, rng.uniform(-2, 2)) for _ in range(5)] + [(rng.uniform(-2, 2), side) for _ in range(5)]
     for p, z in places:
         at = np.array([[p, z]])
-        if any(_off(curve.points, at[0]) < 4.0 * ASIDE for curve in found.curves):
+        if any(away(at, curve.points)[0] < 4.0 * ASIDE for curve in found.curves):
             continue
         names = [region.name for region in found.regions if inside_polygons(at, region.boundary)[0]]
         there = system.evolve(p=p)
@@ -113,13 +114,6 @@ def atlas_and_portraits(rng: random.Random) -> tuple[str, list[str]]:
         if not good:
             said.append(f"at ({p!r}, {z!r}) the region is {names}: {count}{len(equator)}, {[C.kind for C in sets]}")
     return f"atlas of {system.U}, {family.text}", said
-
-
-def _off(line: np.ndarray, point: np.ndarray) -> float:
-    """Distance of a point from a polyline."""
-    side = np.diff(line, axis=0)
-    share = ((point - line[:-1]) * side).sum(axis=1) / np.maximum((side**2).sum(axis=1), 1e-300)
-    return float(np.hypot(*(line[:-1] + np.clip(share, 0.0, 1.0)[:, None] * side - point).T).min())
 
 
 def limit_and_eps(rng: random.Random) -> tuple[str, list[str]]:

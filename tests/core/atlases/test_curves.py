@@ -177,13 +177,6 @@ def test_the_curve_of_a_neutral_equator():
             assert min(np.hypot(*(one.points - f).T).min() for one in curves) < 0.2
 
 
-# By functions evaluated otherwise ----------------------------------------------------------------------------------
-
-
-def turning(system, theta, z=()):
-    return float(system.at(z).U((math.cos(theta), math.sin(theta))) @ (-math.sin(theta), math.cos(theta)))
-
-
 def test_pitchforks_of_the_spinning_disc():
     """The radii of gyration 1/2 and sqrt(2/3) of the literature, whatever mu."""
     found = c2.atlas(c2.examples.spinning_disc(), c2.psi.constant(), "k", "mu", ((0.3, 1), (0.05, 1)))
@@ -191,30 +184,6 @@ def test_pitchforks_of_the_spinning_disc():
     values = sorted(float(one.points[0, 0]) for one in found.curves)
     assert values == pytest.approx([0.5, math.sqrt(2.0 / 3.0)], abs=1e-9)
     assert all(np.ptp(one.points[:, 0]) < 1e-9 for one in found.curves)
-
-
-def test_the_tilting_block_sticks_in_the_friction_ellipse():
-    system = c2.examples.tilting_block()
-    found = c2.atlas(system, c2.psi.constant(), "z", "phi", ((0.05, 1.2), (-3, 3)), z=(0.15,))
-    (curve,) = of_kind(found, "transcritical")
-    for z, phi in curve.points[::5]:
-        # where the force along the incline is as large as friction can be
-        def excess(v, phi=phi):
-            at = system.evolve(phi=float(phi)).at(v)
-            return float(np.hypot(*np.linalg.solve(at.A, at.f))) - 1.0
-
-        assert z == pytest.approx(brentq(excess, 0.01, 1.5, xtol=1e-14), abs=1e-9)
-
-
-def test_sliding_that_is_not_unique_loses_a_limit_direction_by_a_fork():
-    system = c2.examples.nonunique_sliding()
-    found = c2.atlas(system, c2.psi.hill(2), "z", "n", ((0.2, 1.5), (1, 4)), z=(0.5,))
-
-    def slope(z):
-        return (turning(system, 1e-5, z) - turning(system, -1e-5, z)) / 2e-5
-
-    (curve,) = of_kind(found, "pitchfork")
-    assert np.abs(curve.points[:, 0] - brentq(slope, 0.5, 1.2, xtol=1e-13)).max() < 1e-7
 
 
 def test_a_system_quadratic_in_e():
@@ -259,11 +228,3 @@ def test_where_a_symmetry_splits_a_critical_set_into_three():
     assert found.unfinished == ()
     assert not found.looked.unlike
     assert np.abs(curve.numbers + 1.0).max() == 0.0  # tr DU = -1 there: T = -1 + bend s^2, by Psi = tanh above -1
-
-
-def test_the_ball_in_the_pool_sticks_up_to_a_speed():
-    """|z| = 7 mu m g/(2 K), with K = m = 1."""
-    found = c2.atlas(c2.examples.ball_in_pool(), c2.psi.constant(), "z1", "mu", ((0.1, 30), (0.05, 1)), z=(0.5, 0.3))
-    (curve,) = of_kind(found, "transcritical")
-    speed = np.hypot(curve.points[:, 0], 0.3)
-    assert np.abs(speed - 3.5 * c2.examples.ball_in_pool().value_of("g") * curve.points[:, 1]).max() < 1e-9

@@ -8,8 +8,6 @@ from codim2_core.atlases.faces import inside_polygons
 from codim2_core.diagrams.classes import classes_over
 
 ONE = c2.psi.constant()
-FOLDING = c2.System(U=("2*c**2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})
-SQUARE = (-1, 1), (-1, 1)
 
 
 @pytest.mark.parametrize("low", [0, -1.3])
@@ -56,7 +54,6 @@ def test_what_happens_at_a_corner_of_u_is_seen_to_be_missing():
     for place in found.looked.unlike:
         (own,) = [one for one in found.regions if inside_polygons(np.array([place]), one.boundary)[0]]
         assert classes.name(int(classes.decided(np.array([place]))[0])) != own.name
-    assert not c2.atlas(FOLDING, ONE, "mu", "k", SQUARE).looked.unlike
 
 
 def test_where_equations_have_no_value_is_a_region_of_its_own():
@@ -74,10 +71,7 @@ def test_where_equations_have_no_value_is_a_region_of_its_own():
 def test_a_curve_along_an_edge_is_found_from_the_portraits_beside_it():
     """A saddle-node at p = -1.9931: two limit directions less than a cell of the net apart, in the first cell."""
     system = c2.System(
-        U=(
-            "0.639*c*s+0.084*c*c-0.06*tanh(2*s)+p*c*s*s",
-            "0.05*sin(2*c)+0.226*c**3-1.399*c*s*s+2.028*exp(c)+p*c**3",
-        ),
+        U=("0.639*c*s+0.084*c*c-0.06*tanh(2*s)+p*c*s*s", "0.05*sin(2*c)+0.226*c**3-1.399*c*s*s+2.028*exp(c)+p*c**3"),
         W=(),
         parameters={"p": 0.0},
     )

@@ -75,10 +75,7 @@ def test_circles_cut_the_square():
 def test_a_lobe_that_is_pinched_at_a_tip_is_a_region_of_its_own():
     """A transcritical curve turns back at a saddle-node on the equator, where a fold of critical sets begins."""
     system = c2.System(
-        U=(
-            "-0.573*c*c-1.443*c+0.352*exp(c)-0.926*s**3+p*sin(2*c)",
-            "1.165*sin(2*c)-2.475*s**3+0.25+z*c**3+p*cos(3*s)",
-        ),
+        U=("-0.573*c*c-1.443*c+0.352*exp(c)-0.926*s**3+p*sin(2*c)", "1.165*sin(2*c)-2.475*s**3+0.25+z*c**3+p*cos(3*s)"),
         W=("1",),
         parameters={"p": 0.0},
     )

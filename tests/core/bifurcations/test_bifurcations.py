@@ -60,17 +60,12 @@ def test_pitchforks_of_the_astroid_are_where_d2_says():
 @pytest.mark.parametrize(
     ("abd", "types"),
     [
-        ((-1, 0.3, -2), ["cusp"] * 4),
-        ((-1, 0.5, -2), ["cusp"] * 4 + ["double saddle-node"]),
+        ((-1, 0.3, -2), ["cusp"] * 4), ((-1, 0.5, -2), ["cusp"] * 4 + ["double saddle-node"]),
         ((-1, 0.8, -2), ["cusp"] * 4 + ["double saddle-node"] * 2),
-        ((-1, -1.4, -2), ["cusp"] * 4 + ["double saddle-node"] * 2),
-        ((-1, 1.5, -2), ["quadruple zero"] * 2),
-        ((-1, 1.6, -2), []),
-        ((-1, 1, -1), []),
-        ((-1, 0, -1), ["all directions"]),
-        ((0, 0, 0), ["all directions"]),
+        ((-1, -1.4, -2), ["cusp"] * 4 + ["double saddle-node"] * 2), ((-1, 1.5, -2), ["quadruple zero"] * 2),
+        ((-1, 1.6, -2), []), ((-1, 1, -1), []), ((-1, 0, -1), ["all directions"]), ((0, 0, 0), ["all directions"]),
     ],
-)
+)  # fmt: skip
 def test_special_points_by_b_over_k(abd, types):
     curve = bifurcations.saddle_node(*abd)
     assert sorted(p.type for p in curve.special) == sorted(types)

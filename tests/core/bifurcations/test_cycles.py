@@ -140,12 +140,6 @@ def test_on_the_curve_a_branch_of_cycles_turns_round(folds):
         assert min(abs(value - f[1]) for value in values) < 1e-7
 
 
-def test_no_folds_where_there_are_none():
-    curve = bifurcations.cycle_folds(1.0, 3.0, -2.0, psi.constant())
-    assert len(curve) == 0
-    assert "lines" in curve.sentence or "Hopf" in curve.sentence
-
-
 def test_cusps_of_cycles_are_named_where_the_folds_turn_back():
     """Inside the tongue beside a cusp there are three cycles, and one outside it."""
     abd, p = (0.12726841122583082, -1.18719452785014, -0.5793015965026732), psi.hill(3)

@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import bifurcations, psi
+from tests.core.polylines import away
 
 
 def jacobian_numbers(A, p, e):
@@ -18,15 +19,6 @@ def jacobian_numbers(A, p, e):
     J = A @ (tangential * np.eye(2) + (radial - tangential) * np.outer(u, u))
     size = np.abs(J).max()
     return np.trace(J) / size, (np.trace(J) ** 2 - 4.0 * np.linalg.det(J)) / size**2
-
-
-def distance(lines, e):
-    best = math.inf
-    for line in lines:
-        start, along = line[:-1], np.diff(line, axis=0)
-        part = ((e - start) * along).sum(axis=1) / np.maximum((along**2).sum(axis=1), 1e-300)
-        best = min(best, np.hypot(*(start + np.clip(part, 0.0, 1.0)[:, None] * along - e).T).min())
-    return best
 
 
 def farthest(a, b, d, p, curve, which, moduli):
@@ -46,7 +38,8 @@ def farthest(a, b, d, p, curve, which, moduli):
             for _ in range(40):
                 middle = 0.5 * (low + high)
                 low, high = (middle, high) if (value(m, middle) < 0.0) == (values[i] < 0.0) else (low, middle)
-            worst = max(worst, distance(lines, m * np.array([math.cos(low), math.sin(low)])))
+            e = m * np.array([[math.cos(low), math.sin(low)]])
+            worst = max(worst, min(away(e, line)[0] for line in lines))
     return worst
 
 

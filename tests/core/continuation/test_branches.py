@@ -13,7 +13,6 @@ from codim2_core import ELinear, System, critical_sets, equator_cycle, equator_e
 from codim2_core.continuation.branches import continue_cycles
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.layer_problem.vary import vary
-from codim2_core.words import recognise
 
 CASE_III = ELinear(172, 186, -200, (-86, -93))
 HOPF = 284 / 129
@@ -73,23 +72,6 @@ def test_case_III_from_its_hopf_point():
     for array in (branch.value, branch.period, branch.amplitude, branch.multiplier, branch.stable, branch.section):
         assert len(array) == len(branch)
         assert not array.flags.writeable
-
-
-def test_what_is_told_of_branches():
-    found = continue_cycles(CASE_III, psi.hill(3), "n", (2.0, 4.0))
-    assert [key for key, _ in recognise(found.reason)] == ["one branch"]
-    shown = found._repr_html_()
-    places = [shown.index(text) for text in ("<svg", "Hopf", found.reason)]
-    assert places == sorted(places)
-
-
-def test_sign_of_the_lyapunov_coefficient_is_the_side_of_the_branch():
-    (branch,) = continue_cycles(CASE_III, psi.hill(3), "a", (171.8, 172.4))
-    assert kinds(branch) == ["Hopf", "fold of cycles", "Hopf"]
-    assert "subcritical" in branch.start.sentence
-    assert "supercritical" in branch.end.sentence
-    assert not branch.stable[1:4].any()
-    assert branch.stable[-4:-1].all()
 
 
 @pytest.mark.parametrize(("system", "name", "span"), [(FOLD, "f1", (1.25, 1.4)), (FOLD, "b", (-2.55, -2.2))])
@@ -212,14 +194,6 @@ def test_no_cycle_is_missing(family):
     for branch in found:
         for one, two in pairwise(branch.value.tolist()):
             assert span[0] - 1e-9 <= min(one, two) <= max(one, two) <= span[1] + 1e-9
-
-
-def test_the_span_may_end_where_the_parameter_does():
-    found = continue_cycles(FOLD, psi.hill(3), "n", (0.01, 3.0))
-    ends = sorted((branch.start.kind, branch.end.kind) for branch in found)
-    assert ends == [("Hopf", "span"), ("span", "span")]
-    assert found.notes == ()
-    assert min(branch.value.min() for branch in found) == 0.01
 
 
 @pytest.mark.parametrize(("name", "middle"), [("f1", -86.0), ("f2", -93.0)])

@@ -1,10 +1,6 @@
 """Sections made up so that every answer is known, and orbits that are circles."""
 
-import math
-
 import numpy as np
-
-from codim2_core.cycles.periodic_orbit import Orbit
 
 UNEVEN = np.array([0.0, 0.3, 0.5, 1.1, 1.2, 2.0, 2.3, 3.1])
 
@@ -22,9 +18,3 @@ class Line:
         self.asked.append((len(xi), rtol, backward))
         with np.errstate(all="ignore"):
             return self.given(np.asarray(xi, float)) * (-1.0 if backward else 1.0)
-
-
-def circle(radius=1.0, sense=1, period=2.0, divergence=-1.0, n=50):
-    angle = sense * 2.0 * math.pi * np.arange(n + 1) / n
-    points = radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return Orbit(points, period, period, 0.5, divergence, np.zeros(2), 0.0, points[:1], np.ones(1))

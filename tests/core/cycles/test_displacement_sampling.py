@@ -5,11 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core.cycles.displacement_sampling import (
-    Samples,
-    near_fold,
-    zeros,
-)
+from codim2_core.cycles.displacement_sampling import Samples, near_fold, zeros
 from codim2_core.cycles.global_section import COARSE_RTOL, FINE_RTOL
 
 from .sections import UNEVEN, Line

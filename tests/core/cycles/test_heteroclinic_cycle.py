@@ -9,11 +9,7 @@ import codim2_core as c2
 from codim2_core.cycles.heteroclinic_cycle import gap, loops
 
 # a, b, d, f1, f2 with one arc each, found at random
-PLANES = [
-    (1.45, -1.49, -1.38, 0.94, -0.85),
-    (-1.18, -0.95, 0.27, -0.81, -0.81),
-    (0.55, 0.67, -0.58, 0.67, 0.65),
-]
+PLANES = [(1.45, -1.49, -1.38, 0.94, -0.85), (-1.18, -0.95, 0.27, -0.81, -0.81), (0.55, 0.67, -0.58, 0.67, 0.65)]
 EVERY = pytest.mark.parametrize("plane", PLANES)
 PSI = c2.psi.rational()
 
@@ -82,23 +78,3 @@ def test_the_gap_tells_where_the_separatrix_goes(plane, time):
         if s.inside and s.direction == "unstable" and math.cos(s.departure_angle - loop.sink) > 1 - 1e-9
     )
     assert (gap(at, PSI, loop) < 0.0) == (not up.end.startswith("Q"))
-
-
-def test_a_turned_and_slowed_system_has_the_turned_cycle():
-    angle, slower = 0.7, 1e-3
-    R = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
-    A, f = np.array([[172.0, -186.0], [186.0, -200.0]]), np.array([-86.0, -93.0])
-    p = c2.psi.hill(3)
-    (one,) = c2.limit_cycles(c2.ELinear(172.0, 186.0, -200.0, tuple(f)), p)
-    (a11, a12), (a21, a22) = (slower * R @ A @ R.T).tolist()
-    f1, f2 = (slower * R @ f).tolist()
-    typed = c2.System(U=(f"({a11!r})*c + ({a12!r})*s + ({f1!r})", f"({a21!r})*c + ({a22!r})*s + ({f2!r})"))
-    (other,) = c2.limit_cycles(typed, p)
-    assert (one.direction, other.direction) == (1, 1)
-    assert other.mean_e == pytest.approx(R @ one.mean_e, abs=1e-9)
-    assert other.period == pytest.approx(one.period / slower, rel=1e-9)
-    assert other.period_T == pytest.approx(one.period_T / slower, rel=1e-7)
-    gaps = np.abs(other.points[::40, None] - one.points @ R.T).max(axis=2).min(axis=1)
-    assert gaps.max() < 0.01
-    (mirror,) = c2.limit_cycles(c2.ELinear(172.0, -186.0, -200.0, (-86.0, 93.0)), p)
-    assert mirror.direction == -1

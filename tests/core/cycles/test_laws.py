@@ -27,10 +27,3 @@ def test_the_other_verdicts():
     assert verdict(c2.ELinear(200.0, 190.0, -172.0, (-100.0, -95.0))) == "slides"
     assert verdict(c2.ELinear(1.0, 1.5, -1.0, (-0.4, -0.1))) == "undecided"
     assert verdict(c2.ELinear(-1.0, 0.0, -1.0, (2.0, 0.0))) == "slides"  # pulled more than friction carries
-
-
-def test_what_laws_are():
-    with pytest.raises(ValueError, match="give pairs by name"):
-        c2.compare_laws(c2.ELinear(-1.0, 0.0, -1.0), [c2.psi.tanh()])
-    with pytest.raises(ValueError, match="eps"):
-        c2.compare_laws(c2.ELinear(-1.0, 0.0, -1.0), {"a": (c2.psi.tanh(), "x")})

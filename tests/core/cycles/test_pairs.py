@@ -54,15 +54,11 @@ def test_both_sides_of_a_fold(which, distance):
 
 # (a, b, d), f, n and how many cycles `tests.stress.oracle` finds: its long search is `tests/stress/test_cycle_pairs.py`
 COUNTED = [
-    ((1.906, -4.057, -2.251), (2.966, -1.255), 2, 0),
-    ((1.982, 2.386, -2.713), (2.55, 2.98), 1, 0),
-    ((0.707, -1.76, -0.725), (-0.078, 0.455), 6, 2),
-    ((1.8, -3.195, -1.828), (0.678, -0.103), 4, 2),
-    ((2.114, 3.882, -2.026), (-1.276, 0.077), 4, 1),
-    ((2.604, -5.814, -2.654), (-3.433, 0.511), 6, 1),
-    ((2.409, -5.534, -2.66), (-1.731, 0.119), 6, 2),
-    ((2.412, -2.458, -2.412), (0.079, -0.085), 2, 2),
-]
+    ((1.906, -4.057, -2.251), (2.966, -1.255), 2, 0), ((1.982, 2.386, -2.713), (2.55, 2.98), 1, 0),
+    ((0.707, -1.76, -0.725), (-0.078, 0.455), 6, 2), ((1.8, -3.195, -1.828), (0.678, -0.103), 4, 2),
+    ((2.114, 3.882, -2.026), (-1.276, 0.077), 4, 1), ((2.604, -5.814, -2.654), (-3.433, 0.511), 6, 1),
+    ((2.409, -5.534, -2.66), (-1.731, 0.119), 6, 2), ((2.412, -2.458, -2.412), (0.079, -0.085), 2, 2),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("abd", "f", "n", "count"), COUNTED)
@@ -80,18 +76,8 @@ def test_a_pair_of_a_typed_system(gap, where, p):
     cycles = limit_cycles(System(U=(f"-s + c*{factor}", f"c + s*{factor}")), p)
     assert [cycle.kind for cycle in cycles] == ["stable", "unstable"]
     for cycle, square in zip(cycles, (where, where + gap), strict=True):
-        zeta = psi_radius(p, math.sqrt(square))
+        zeta = p.radius(math.sqrt(square))
         assert np.hypot(*cycle.points.T) == pytest.approx(zeta / math.hypot(1.0, zeta), abs=3e-6)
-
-
-def psi_radius(p, modulus):
-    low, high = 0.0, 1.0
-    while p.modulus(high) < modulus:
-        high *= 2.0
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if p.modulus(middle) < modulus else (low, middle)
-    return low
 
 
 def test_a_double_cycle_is_one_semistable_cycle():

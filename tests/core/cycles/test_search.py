@@ -36,9 +36,6 @@ def test_a_cycle_just_born_is_where_its_expansion_vanishes(sign):
     assert made(square, linear * 1e-9) is None  # smaller than the trace of J can tell
 
 
-# ---- all that a section shows ----------------------------------------------------------------------------------------
-
-
 def sought(displacement, trace=1.0, discriminant=1.0, backward=None):
     """Fixed points (place, repelling, touching), and the names of what is said."""
 

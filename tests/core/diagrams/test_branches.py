@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.examples import catalogue
-from codim2_core.layer_problem.vary import names, usual_span, value_of, vary
+from codim2_core.layer_problem.vary import names, usual_span, vary
 
 CASE3 = c2.presets["case3-n3"]
 SYSTEMS = {
@@ -51,12 +51,6 @@ def test_every_family_of_psi_has_branches_with_cycles(family):
         assert whole(c2.branches(CASE3.system, psi, psi.record.parameter.name, with_cycles=False)).critical
 
 
-def test_cycles_can_come_later():
-    standing = c2.branches(CASE3.system, CASE3.psi, "n", (2.0, 3.0), with_cycles=False)
-    assert len(standing.with_cycles().cycles) == 1
-    assert len(standing.cycles) == 0
-
-
 def test_special_points_of_cycles_stand_among_the_others():
     found = c2.branches(CASE3.system, CASE3.psi, "a", (171.8, 172.4))
     assert "fold of cycles" in [one.kind for one in whole(found).special]
@@ -75,12 +69,3 @@ def test_it_is_taken_away_as_a_frame_and_as_csv(tmp_path):
     assert np.array_equal(cycle["amplitude"].astype(float), found.cycles[0].amplitude)
     assert set(frame["what"]) == {"limit direction", "critical set", "limit cycle", "special point"}
     assert [float(row["n"]) for row in rows] == frame["n"].tolist()
-
-
-def test_the_usual_span_holds_the_value():
-    for system, z in SYSTEMS.values():
-        for name in names(system, c2.psi.hill(3.0), z):
-            low, high = usual_span(system, c2.psi.hill(3.0), z, name)
-            value = value_of(system, c2.psi.hill(3.0), z, name)
-            assert low <= value <= high
-            assert low < high

@@ -16,7 +16,6 @@ from codim2_core.diagrams.result import Branches
 from codim2_core.layer_problem import vary
 from tests.core.general_systems import NONUNIQUE
 
-BAD = c2.ELinear(172, 186, -200, f=(-86, -93))
 PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.rational(), c2.psi.exponential())
 
 
@@ -57,58 +56,6 @@ def test_pitchforks_and_transcriticals_of_the_symmetric_case() -> None:
     assert_allclose(places, [(1, 0), (-1, 0)], rtol=0.0, atol=1e-12)
     assert {b.kind for b in D.critical} == {"stable node"}
     assert_allclose(D.critical[0].radius[[0, -1]], 1, rtol=0.0, atol=1e-12)
-
-
-def test_saddle_nodes_lie_on_the_paper_s_curve() -> None:
-    a, b, d, f2 = -1.0, 0.2, -1.5, 0.05
-    D = equilibrium_branches(c2.ELinear(a, b, d, f=(0, f2)), c2.psi.tanh(), "f1", (-2, 2))
-    nodes = [s for s in D.special if s.kind == "saddle-node"]
-    assert len(nodes) == 2
-    for s in nodes:
-        cos, sin = s.place
-        assert s.value == pytest.approx(b * sin - (a - d) * cos**3, abs=1e-12)
-        assert f2 == pytest.approx((a - d) * sin**3 - b * cos, abs=1e-12)
-
-
-def test_two_saddle_nodes_at_one_value_and_a_closed_equator() -> None:
-    D = equilibrium_branches(c2.ELinear(-1, 0, -1.5), c2.psi.constant(), "b", (-2, 2))
-    assert_allclose(found(D, "saddle-node"), [-0.25, -0.25, 0.25, 0.25], rtol=0.0, atol=1e-12)
-    assert_allclose(found(D, "node-focus"), [-0.25, 0.25], rtol=0.0, atol=1e-12)
-    assert [b.kind for b in D.closed] == ["attracting from outside"] * 2
-    assert [b.kind for b in D.critical] == ["stable focus", "stable node", "stable focus"]
-
-
-def test_the_paper_s_case_iii_along_n() -> None:
-    D = equilibrium_branches(BAD, c2.psi.hill(1), "n", (1, 4))
-    changes = {c.n: c.type for c in c2.bifurcations.hill_changes(BAD) if 1 <= c.n <= 4}
-    assert [s.kind for s in D.special] == list(changes.values())
-    assert_allclose([s.value for s in D.special], list(changes), rtol=1e-13)
-    assert found(D, "Hopf")[0] == pytest.approx(284 / 129, abs=1e-12)
-    assert next(s for s in D.special if s.kind == "Hopf").number < 0
-    assert [b.kind for b in D.critical] == ["stable node", "stable focus", "unstable focus", "unstable node"]
-    assert len(D.limit_directions) == 4
-
-
-def test_hopf_values_lie_on_the_hopf_curve_with_its_coefficient() -> None:
-    psi = c2.psi.hill(2)
-    D = equilibrium_branches(BAD, psi, "f1", (-400, 400))
-    hopf = [s for s in D.special if s.kind == "Hopf"]
-    assert len(hopf) == 1
-    curve = c2.bifurcations.hopf(172, 186, -200, psi)
-    points, values = np.concatenate(curve.branches), np.concatenate(curve.values)
-    near = np.hypot(points[:, 0] - hopf[0].value, points[:, 1] + 93).argmin()
-    assert hopf[0].number == pytest.approx(values[near], rel=0.1)
-    C = c2.critical_sets(BAD.evolve(f1=hopf[0].value), psi)[0]
-    assert abs(C.trace) < 1e-11 * abs(C.jacobian).max()
-    assert_allclose(hopf[0].place, C.p, rtol=0.0, atol=1e-12)
-
-
-def test_det_a_zero_and_a_line_of_critical_points() -> None:
-    D = equilibrium_branches(c2.ELinear(-1, 0.2, -1.5), c2.psi.constant(), "a", (-2, 2))
-    assert_allclose(found(D, "line of equilibria"), [0.04 / 1.5], rtol=1e-13)
-    assert [b.kind for b in D.critical][-1] == "saddle"
-    D = equilibrium_branches(c2.ELinear(-1, 0.2, -1.5, f=(1, 0)), c2.psi.constant(), "a", (-2, 2))
-    assert_allclose(found(D, "det A = 0"), [0.04 / 1.5], rtol=1e-13)
 
 
 def test_all_directions_exchange_cusp_and_neutral_equator() -> None:
@@ -218,17 +165,6 @@ def test_values_are_located_to_the_last_digits() -> None:
                 )
                 assert abs(mp.findroot(both, (t0, s.value))[1] - s.value) < 1e-13
     assert len(found(D, "transcritical")) + len(found(D, "saddle-node")) >= 4
-
-
-@pytest.mark.parametrize(
-    ("name", "span", "message"),
-    [("q", (0, 1), "cannot be varied"), ("a", (1, 1), "smaller one first"), ("n", (0, 1), "cannot be varied")],
-)
-def test_wrong_input_is_explained(name: str, span: tuple[float, float], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        equilibrium_branches(c2.ELinear(1, 2, 3), c2.psi.tanh(), name, span)
-    with pytest.raises(ValueError, match="beyond"):
-        equilibrium_branches(c2.ELinear(1, 2, 3), c2.psi.hill(1), "n", (-1, 2))
 
 
 _PLANE = ("a", "b", "d", "f1", "f2")

@@ -50,28 +50,3 @@ def test_no_critical_set_is_masked_and_nothing_is_nan() -> None:
         assert (array[~path.exists] == 0).all()
         with pytest.raises(ValueError, match="read-only"):
             array[0] = 1
-
-
-def test_slow_variables_and_parameters_in_text() -> None:
-    system = c2.ELinear("k - z1", 1, -2, f=("z1**2/4", 0.1), parameters={"k": 0.5})
-    for name, other in (("z1", "k"), ("k", "z1")):
-        path = linearisation_path(system, c2.psi.exponential(), name, [0.1, 0.4, 0.7], z=(0.3,))
-        for i, value in enumerate([0.1, 0.4, 0.7]):
-            z, k = (value, 0.5) if name == "z1" else (0.3, value)
-            C = c2.critical_sets(system.evolve(k=k), c2.psi.exponential(), z=(z,))[0]
-            assert path.trace[i] == pytest.approx(C.trace, rel=1e-13), other
-    turned = c2.ELinear.from_matrix([["1 + z", 0.3], [-0.7, -2]], f=("z/9", 0.1))
-    path = linearisation_path(turned, c2.psi.tanh(), "z1", [0.2, 0.9], z=(0,))
-    for i, z in enumerate([0.2, 0.9]):
-        assert path.trace[i] == pytest.approx(c2.critical_sets(turned, c2.psi.tanh(), z=z)[0].trace, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("name", "values", "message"),
-    [("n", [1], "cannot be varied"), ("a", [np.nan], "finite"), ("q", [0], "choose one of a, b, d, f1, f2")],
-)
-def test_wrong_input_is_explained(name: str, values: list[float], message: str) -> None:
-    with pytest.raises(ValueError, match=message):
-        linearisation_path(c2.ELinear(1, 2, 3), c2.psi.tanh(), name, values)
-    with pytest.raises(ValueError, match=r"beyond 0\.01 to 1000"):
-        linearisation_path(BAD, c2.psi.hill(1), "n", [0.0])

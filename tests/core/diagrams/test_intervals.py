@@ -94,13 +94,23 @@ def test_two_saddle_nodes_that_undo_each_other_within_a_step():
     assert nodes[:2] == pytest.approx([-1.4280734, -1.4087529], abs=1e-6)
 
 
-def test_two_saddle_nodes_where_what_turns_back_before_zero_is_no_more_at_the_next_value():
-    system = c2.ELinear(1.492, -0.54, 0.774, (0.0, -0.536))
-    text = c2.System(U=("1.492*c+0.54*s+f1+k*c*s", "0.774*s-0.54*c-0.536"), parameters={"f1": 0.0, "k": 0.0})
-    special = [equilibrium_branches(one, c2.psi.constant(), "f1", (-1.5, 1.5)).special for one in (system, text)]
-    exact, nodes = ([one.value for one in some if one.kind == "saddle-node"] for some in special)
-    assert len(exact) == 4
-    assert nodes == pytest.approx(exact, abs=1e-9)
+def saddle_nodes(system, span):
+    found = equilibrium_branches(system, c2.psi.constant(), "f1", span).special
+    return [one.value for one in found if one.kind == "saddle-node"]
+
+
+FIRST, SECOND = (1.492, -0.54, 0.774, -0.536), (0.536, 0.214, -0.026, -0.505)
+
+
+@pytest.mark.parametrize(
+    ("plane", "span"), [(FIRST, (-1.5, 1.5)), *((SECOND, span) for span in ((-1.5, 1.5), (-1.0, 1.0), (-2.0, 0.7)))]
+)
+def test_saddle_nodes_that_come_and_go_within_a_step_are_told_as_of_coefficients(plane, span):
+    a, b, d, f2 = plane
+    text = c2.System(U=(f"{a}*c-({b})*s+f1+k*c*s", f"({b})*c+({d})*s+({f2})"), parameters={"f1": 0.0, "k": 0.0})
+    exact = saddle_nodes(c2.ELinear(a, b, d, (0.0, f2)), span)
+    assert len(exact) == (4 if plane is FIRST else 2)
+    assert saddle_nodes(text, span) == pytest.approx(exact, abs=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -161,20 +171,3 @@ def test_two_folds_that_undo_each_other_beside_a_special_value():
     for low, high in pairwise([0.6986, *(s.value for s in special if 0.6986 < s.value < 1.6), 1.6]):
         x = low + (high - low) * PARTS[1:-1]
         assert len({still(system, c2.psi.hill(6), "p", float(v)) for v in x}) == 1
-
-
-def test_a_pair_that_is_born_and_another_that_vanishes_within_a_step_are_told():
-    """Two limit directions are born at -0.238; one of them meets an older one at -0.209: a fold and its other side."""
-    plane = c2.ELinear(0.536, 0.214, -0.026, (0.192, -0.505))
-    text = c2.System(
-        U=("a*c - b*s + f1", "b*c + d*s + f2"),
-        W=(),
-        parameters={"a": 0.536, "b": 0.214, "d": -0.026, "f1": 0.192, "f2": -0.505},
-    )
-    for span in ((-1.5, 1.5), (-1.0, 1.0), (-2.0, 0.7)):
-        values = [
-            [one.value for one in c2.branches(system, c2.psi.constant(), "f1", span, with_cycles=False).special]
-            for system in (plane, text)
-        ]
-        assert len(values[0]) == 2
-        np.testing.assert_allclose(values[1], values[0], atol=1e-9)

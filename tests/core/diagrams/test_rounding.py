@@ -28,18 +28,3 @@ def test_a_pole_that_is_none_is_passed_and_nothing_beside_it_is_special(span):
     )  # as near as a triple zero is told
     for branch in found.limit_directions:  # nothing breaks off at k = 1
         assert min(abs(branch.value[[0, -1]] - 1.0)) > 0.4
-
-
-def test_a_change_from_one_side_of_a_zone_to_the_other_is_told_once():
-    """Through a real pole of U1 = c/(k - 1) its sign changes: what was left out is where that is told."""
-    pole = c2.System(U=("c/(k - 1) + 0.3*s**2", "-s"), parameters={"k": 0.5})
-    found = c2.branches(pole, PSI, "k", (0.0, 2.0), with_cycles=False)
-    assert [one.value for one in found.special if abs(one.value - 1.0) < 1e-3] != []
-    assert all(math.isfinite(one.value) for one in found.special)
-
-
-def test_what_has_no_value_at_all_is_refused_as_ever():
-    with pytest.raises(ValueError, match="has no value"):
-        c2.branches(
-            c2.System(U=("c + sqrt(k)", "s**3"), parameters={"k": 0.5}), PSI, "k", (-1.0, 1.0), with_cycles=False
-        )

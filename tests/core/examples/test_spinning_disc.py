@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core import examples, psi
+from codim2_core import examples
 
 angles = st.floats(-math.pi, math.pi)
 
@@ -92,11 +92,6 @@ def test_an_annulus(eta, published):
     assert ratio == pytest.approx(published, abs=6e-6)
 
 
-def test_a_ring_stops_where_v_is_r_omega():
-    found = [stops(examples.spinning_annulus(1.0 - h))[0] for h in (1e-2, 1e-3)]
-    assert found[1] + (found[1] - found[0]) / 9.0 == pytest.approx(1.0, abs=1e-5)
-
-
 @pytest.mark.parametrize(("at", "pure"), [(0.5, 0.0), (math.sqrt(2.0 / 3.0), math.pi / 2)])
 def test_a_pitchfork_of_limit_directions(at, pure):
     """At k = 1/2 out of pure sliding, at sqrt(2/3) into pure spinning: two directions meet it, and it turns."""
@@ -122,9 +117,3 @@ def test_both_stop_at_once(v, w):
     end = run.phases[0].t_end
     x, y = run.dense(end * (1.0 - 1e-7))[:2]
     assert x / y == pytest.approx(0.653, abs=0.02)
-
-
-def test_no_critical_set_but_rest():
-    (one,) = c2.critical_sets(examples.spinning_disc(), psi.rational())
-    assert one.e.tolist() == [0.0, 0.0]
-    assert c2.classify(examples.spinning_disc(), psi.rational()).name == "1 critical set, 8 limit directions found"

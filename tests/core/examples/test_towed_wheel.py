@@ -74,12 +74,6 @@ def test_rolling_straight_has_the_roots_of_a_cubic(V, b):
     assert (roots.real.max() < 0.0) == stable
 
 
-def test_without_damping_it_is_stable_at_any_speed_where_its_mass_is_near_the_middle():
-    for V in (0.5, 5.0, 50.0):
-        assert np.roots(cubic(**{**PARTS, "V": V, "b": 0.0, "r": 0.099})).real.max() < 0.0  # a (l - a) = 0.01 > r^2
-        assert np.roots(cubic(**{**PARTS, "V": V, "b": 0.0, "r": 0.101})).real.max() > 0.0
-
-
 @pytest.mark.parametrize("share", [0.98, 1.02])
 def test_with_the_caster_straight_it_slips_where_the_spring_pulls_too_much(share):
     """It holds while |k q (a^2 + r^2 - a l)| < f ((l - a)^2 + r^2)."""

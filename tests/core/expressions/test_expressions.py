@@ -83,35 +83,13 @@ def test_text_reads_back_equal(text):
 @pytest.mark.parametrize(
     ("text", "value"),
     [
-        ("-x**2", -9.0),
-        ("2**-x", 0.125),
-        ("2^3^2", 512.0),
-        ("2*-x", -6.0),
-        ("--x", 3.0),
-        ("6/2/x", 1.0),
-        ("1-x-x", -5.0),
-        (" 1 +\t2 * x\n", 7.0),
-        (".5*x", 1.5),
-        ("e**x", math.e**3),
-        ("abs(-x)+atan(0)", 3.0),
+        ("-x**2", -9.0), ("2**-x", 0.125), ("2^3^2", 512.0), ("2*-x", -6.0), ("--x", 3.0), ("6/2/x", 1.0),
+        ("1-x-x", -5.0), (" 1 +\t2 * x\n", 7.0), (".5*x", 1.5), ("e**x", math.e**3), ("abs(-x)+atan(0)", 3.0),
         ("x**0", 1.0),
     ],
-)
+)  # fmt: skip
 def test_precedence(text, value):
     assert parse(text, ("x",)).evaluate({"x": 3.0}) == pytest.approx(value, rel=1e-15)
-
-
-def test_names_win_over_constants():
-    assert parse("e+pi", ("e",)).evaluate({"e": 1.0}) == pytest.approx(1.0 + math.pi)
-
-
-def test_structure_not_spelling_decides_equality():
-    assert parse("x ^ 2", NAMES) == parse("(x)**2.0", NAMES)
-    assert parse("x-y", NAMES) != parse("y-x", NAMES)
-    assert parse("1+x", NAMES) is parse("1+x", NAMES)
-    assert parse("0*x", NAMES).names == ("x",)  # typed text is not simplified away
-    with pytest.raises(AttributeError, match="immutable"):
-        parse("x", NAMES).text = "y"  # type: ignore[misc]
 
 
 def test_poles_are_ieee_and_silent():
@@ -121,14 +99,3 @@ def test_poles_are_ieee_and_silent():
     assert math.isnan(parse("x**0.5", NAMES).evaluate({"x": -1.0}))  # never complex
     values = parse("1/x+log(x)+exp(1e3*x)", NAMES).evaluate({"x": np.array([0.0, -1.0, 5.0])})
     assert not np.isfinite(values).any()
-
-
-def test_arrays_broadcast_and_are_fresh():
-    x = np.arange(3.0)
-    assert parse("x*y", NAMES).evaluate({"x": x[:, None], "y": x}).shape == (3, 3)
-    assert parse("2", NAMES).evaluate({"x": x}).tolist() == [2.0, 2.0, 2.0]
-    out = parse("x", NAMES).evaluate({"x": x})
-    out[0] = 7.0
-    assert x[0] == 0.0
-    with pytest.raises(ValueError, match="needs a value of y"):
-        parse("x*y", NAMES).evaluate({"x": 1.0})

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from codim2_core import ELinear, Event, System, examples, simulate
+from codim2_core import System, examples, simulate
 from codim2_core import psi as families
 from codim2_core.initial_value.compiled_motion import is_compiled
 from codim2_core.initial_value.field import field
@@ -12,16 +12,10 @@ from codim2_core.motion import regularised
 from codim2_core.motion.result import SimulationStatus
 
 PSI = (
-    families.constant(),
-    families.rational(),
-    families.exponential(),
-    families.tanh(),
-    families.hill(3),
-    families.hill(2.5),
-    families.custom("1/(1+s)**2"),
-)
+    families.constant(), families.rational(), families.exponential(), families.tanh(), families.hill(3),
+    families.hill(2.5), families.custom("1/(1+s)**2"),
+)  # fmt: skip
 BALL = examples.ball_in_pool(K=2.0)
-FORCED = System(U=("1.5*cos(z) - c", "-s"), W=("1",))
 
 
 @pytest.mark.parametrize(("psi", "eps"), [*zip(PSI, [1e-1, 1e-5, 1e-11] * 3, strict=False), (PSI[1], 1e-11)])
@@ -85,25 +79,6 @@ def test_a_long_motion_goes_on_compiled(monkeypatch):
     np.testing.assert_allclose(again.states[-1], run.states[-1], atol=1e-6)
 
 
-def test_compiled_motions_end_as_others_do(monkeypatch):
-    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: True)
-    grows = System(U=("x**2 - c", "-s"))
-    run = simulate(grows, families.constant(), 1e-4, (2.0, 0.0), (0.0, 20.0))
-    assert run.status is SimulationStatus.BLOW_UP
-    assert run.times[-1] == pytest.approx(0.5 * np.log(3.0), rel=1e-6)
-    undefined = System(U=("-c", "-s"), W=("-1/2 + log(z) - log(z)",))
-    run = simulate(undefined, families.constant(), 1e-3, (1.0, 0.0, 1.0), (0.0, 3.0))
-    assert run.status is SimulationStatus.STEP_LIMIT
-    assert run.times[-1] == pytest.approx(2.0, abs=1e-6)
-    run = simulate(FORCED, families.constant(), 1e-4, (0.5, 0.0, 0.0), (0.0, 200.0), max_steps=300)
-    assert run.status is SimulationStatus.STEP_LIMIT
-    assert 1.0 < run.times[-1] < 200.0
-    stop = Event(lambda t, q: t - 2.5, terminal=True)
-    run = simulate(FORCED, families.constant(), 1e-4, (0.5, 0.0, 0.0), (0.0, 200.0), events=stop)
-    assert run.status is SimulationStatus.EVENT
-    assert run.times[-1] == pytest.approx(2.5, abs=1e-12)
-
-
 @pytest.mark.parametrize("count", [1, 3, 20])
 def test_as_many_motions_as_states(count):
     states = np.random.default_rng(0).uniform(-1.0, 1.0, (count, 4))
@@ -114,13 +89,3 @@ def test_as_many_motions_as_states(count):
         np.testing.assert_array_equal(run.states[0], state)
         alone = simulate(BALL, families.constant(), 1e-4, state, (0.0, 1.0))
         np.testing.assert_allclose(run.states[-1], alone.states[-1], rtol=0.0, atol=1e-8)
-
-
-def test_states_that_are_none_say_so():
-    with pytest.raises(ValueError, match="shape"):
-        simulate(BALL, families.constant(), 1e-4, np.zeros((3, 5)), (0.0, 1.0))
-    with pytest.raises(ValueError, match="finite"):
-        simulate(BALL, families.constant(), 1e-4, [[0.0] * 4, [np.nan] * 4], (0.0, 1.0))
-    with pytest.raises(ValueError, match="numbers"):
-        simulate(BALL, families.constant(), 1e-4, [[0.0] * 4, ["a"] * 4], (0.0, 1.0))
-    assert simulate(ELinear(-1.0, 0.0, -1.0), families.constant(), 1e-4, [[1.0, 0.0]], (0.0, 1.0))[0].times[-1] == 1.0

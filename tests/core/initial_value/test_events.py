@@ -1,6 +1,5 @@
 """Events: all zeros in a step, directions, terminal ones, in both kinds of motion, and functions that are none."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -16,10 +15,6 @@ def motion(which, system, state0, t, **options):
     if which == "limit":
         return simulate_nonsmooth(system, state0, (0.0, t), families.constant(), **options)
     return simulate(system, families.constant(), 1e-6, state0, (0.0, t), **options)
-
-
-def test_the_fields_come_in_the_order_of_the_documentation():
-    assert [field.name for field in dataclasses.fields(Event)] == ["function", "direction", "terminal"]
 
 
 @pytest.mark.parametrize("which", ["smooth", "limit"])

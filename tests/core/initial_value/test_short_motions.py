@@ -155,18 +155,6 @@ def test_a_stiff_slow_flow_takes_few_steps():
     assert z2 == pytest.approx(math.cos(z1) + (c + math.sin(z1)) / 200.0, abs=1e-4)
 
 
-def test_steps_are_counted_over_all_phases():
-    (whole,) = _course(PUSHED, (0.3, 0.2, 0.0), 4.5)
-    steps, phases = len(whole.motion.lengths), len(whole.legs)
-    (enough,) = _course(PUSHED, (0.3, 0.2, 0.0), 4.5, most=2 * steps + phases)
-    assert enough.onward == WHOLE
-    (short,) = _course(PUSHED, (0.3, 0.2, 0.0), 4.5, most=steps // 2)
-    assert short.onward != WHOLE
-    assert 0 < len(short.legs) < phases
-    assert repr(short.legs) == repr(whole.legs[: len(short.legs)])
-    assert len(short.motion.lengths) == short.legs[-1].last
-
-
 @pytest.mark.parametrize("rtol", [1e-2, 1e-6])
 def test_a_straight_fall_arrives_when_and_where_it_does(rtol):
     """U = -e, W = (2, -3): by a last step that is as long as the rest of the way, whatever the tolerance."""

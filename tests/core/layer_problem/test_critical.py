@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 
-from codim2_core import ELinear, System, critical_sets, equator_cycle, hemisphere, psi, sliding_flow
+from codim2_core import ELinear, System, critical_sets, equator_cycle, hemisphere, psi
 from codim2_core.layer_problem.location import Existence, locate
 from codim2_core.numerics.trigonometric import INPUT_ROUNDING
 from tests.core.strategies import regularisations, systems
@@ -138,18 +138,6 @@ def test_singular_matrices_are_named(plane, existence):
     for e in found.line or ():
         assert np.hypot(*e) == pytest.approx(1.0, abs=1e-15)
         np.testing.assert_allclose(ELinear(a, b, d, (f1, f2)).at().U(e), 0.0, atol=1e-15)
-
-
-@given(systems)
-def test_sliding_is_the_filippov_flow_and_does_not_know_psi(system):
-    typed = ELinear(system.a, system.b, system.d, system.f, B=[[1.0, -2.0], [0.5, 3.0]], g=[0.25, -1.0])
-    flow, found = sliding_flow(typed), critical_sets(typed, psi.rational())
-    assert (flow is None) == (not found)
-    if found and abs(np.linalg.det(typed.at().A)) > 1e-6:
-        at = typed.at()
-        expected = -at.B @ np.linalg.solve(at.A, at.f) + at.g
-        np.testing.assert_allclose(flow, expected, rtol=1e-9, atol=1e-9)
-        np.testing.assert_allclose(flow, found[0].slow_flow, rtol=1e-12, atol=1e-12)
 
 
 def test_a_trace_that_vanishes_by_its_formula_is_neutral_whatever_is_rounded():

@@ -72,18 +72,3 @@ def test_each_keeps_its_name_while_a_system_turns(seed):
             now = on
         before = now
     assert moved < 0.1
-
-
-def test_those_that_stay_when_two_meet():
-    def on(f2):
-        return equator_equilibria(ELinear(-2.0, 0.0, -1.0, (-0.5, f2)))
-
-    four, cut = on(0.0), 0.0
-    for f2 in np.linspace(0.0, 0.4, 81):
-        now = on(f2)
-        cut = cut_that_keeps_names(four, now, cut)
-        four = now.counted_from(cut)
-    assert len(four) == 2
-    assert four.theta[0] == pytest.approx(6.017, abs=1e-3)  # Q1, that began at 0
-    nothing = equator_equilibria(ELinear(0.0, 1.0, 0.0))
-    assert cut_that_keeps_names(four, nothing, cut) == cut == cut_that_keeps_names(nothing, four, cut)

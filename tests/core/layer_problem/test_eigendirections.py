@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 
 from codim2_core import ELinear, System, critical_sets, hemisphere, psi
-from codim2_core.layer_problem.eigendirections import find_eigendirections, of_critical_set, of_limit_directions
+from codim2_core.layer_problem.eigendirections import of_critical_set, of_limit_directions
 from codim2_core.layer_problem.problem import LayerProblem
 from tests.core.strategies import regularisations, systems
 
@@ -133,9 +133,3 @@ def test_where_psi_has_no_finite_limit_only_what_does_not_lean_is_shown(growing)
     at = [int(np.argmin(np.abs(np.sin(0.5 * problem.equator.theta)))) for problem in (upright, leaning)]
     assert [d.where for d in of_limit_directions(upright)[at[0]].directions] == ["equator", "up", "outside"]
     assert [d.where for d in of_limit_directions(leaning)[at[1]].directions] == ["equator", "outside"]
-
-
-def test_there_are_none_without_limit_directions():
-    turning = LayerProblem(ELinear(-1, 5, -1, (0, 0)).at(), psi.constant())
-    at_equator, at_sets = find_eigendirections(turning)
-    assert (at_equator, len(at_sets)) == ((), 1)

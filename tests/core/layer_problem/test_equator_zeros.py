@@ -2,7 +2,6 @@
 
 import math
 
-import mpmath
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
@@ -112,16 +111,12 @@ def test_no_direction_is_missing_and_every_one_is_one(system):
 @pytest.mark.parametrize(
     ("function", "multiplicity"),
     [
-        (lambda t: 1 - np.cos(t - 1), [2]),
-        (lambda t: (1 - np.cos(t - 1)) ** 2, [4]),
-        (lambda t: np.sin(t - 1) ** 3, [3, 3]),
-        (lambda t: (1 - np.cos(t - 1)) * np.sin(t - 1.001), [2, 1, 1]),
-        (lambda t: (1 - np.cos(t - 1)) ** 2 * np.sin(t - 1), [5, 1]),
-        (lambda t: 1 - np.cos(t - 1) + 1e-11, []),
-        (lambda t: 1 - np.cos(t - 1) - 1e-11, [1, 1]),
-        (lambda t: (1 - np.cos(t - 1)) * (1 - np.cos(t - 2)), [2, 2]),
+        (lambda t: 1 - np.cos(t - 1), [2]), (lambda t: (1 - np.cos(t - 1)) ** 2, [4]),
+        (lambda t: np.sin(t - 1) ** 3, [3, 3]), (lambda t: (1 - np.cos(t - 1)) * np.sin(t - 1.001), [2, 1, 1]),
+        (lambda t: (1 - np.cos(t - 1)) ** 2 * np.sin(t - 1), [5, 1]), (lambda t: 1 - np.cos(t - 1) + 1e-11, []),
+        (lambda t: 1 - np.cos(t - 1) - 1e-11, [1, 1]), (lambda t: (1 - np.cos(t - 1)) * (1 - np.cos(t - 2)), [2, 2]),
     ],
-)
+)  # fmt: skip
 def test_multiple_zeros(function, multiplicity):
     values = function(circle(64)[0])
     found = zeros(series(values, float(np.abs(values).max())))
@@ -130,59 +125,6 @@ def test_multiple_zeros(function, multiplicity):
     assert (found.distance == 0.0) == any(m > 1 for m in multiplicity)
     if len(multiplicity) == 1:
         np.testing.assert_allclose(found.theta, 1.0, rtol=0.0, atol=1e-8)
-
-
-def test_zero_of_the_whole_field_on_the_equator():
-    found = equator_equilibria(System(U=("2*c**2 - c - 1", "-s")))
-    assert found.radially_degenerate.tolist() == [True] + [False] * 5
-    assert found.lambda_rho[0] == 0.0
-    assert equator_zeros(System(U=("2*c**2 - c - 1", "-s")).at().key).degree is None
-
-
-@pytest.mark.parametrize("U", [("-3*c", "-3*s"), ("c*(1 + c*s)", "s*(1 + c*s)"), ("c**3 + c*s**2", "s*(c**2 + s**2)")])
-def test_all_directions(U):
-    found = equator_equilibria(System(U=U))
-    assert found.all_directions
-    assert len(found) == 0
-    assert found.exact_count == -1
-    assert equator_cycle(System(U=U)) is None
-
-
-def test_closed_equator_against_quadrature():
-    system = System(U=("-c - 3*s + c*s*exp(c)", "3*c - s/2 + tanh(s)/4"))
-    assert len(equator_equilibria(system)) == 0
-    orbit = equator_cycle(system)
-    mp = mpmath
-
-    def parts(t):
-        c, s = mp.cos(t), mp.sin(t)
-        u, v = -c - 3 * s + c * s * mp.exp(c), 3 * c - s / 2 + mp.tanh(s) / 4
-        return c * u + s * v, c * v - s * u
-
-    with mp.workdps(30):
-        knots = [2 * mp.pi * k / 8 for k in range(9)]
-        period = mp.quad(lambda t: 1 / abs(parts(t)[1]), knots)
-        exponent = mp.quad(lambda t: parts(t)[0] / abs(parts(t)[1]), knots)
-    assert orbit.direction == 1
-    assert orbit.period == pytest.approx(float(period), rel=1e-14)
-    assert orbit.exponent == pytest.approx(float(exponent), rel=1e-13)
-    assert orbit.stable_outside
-
-
-def test_neutral_closed_equator():
-    assert equator_cycle(System(U=("-s + c**3*s", "c + c**2*s**2"))).neutral  # lambda_rho = c^2 s, Theta = 1
-
-
-def test_a_field_with_a_kink_is_not_proven_but_found():
-    system = System(U=("-c/(1 + abs(s)) + 0.1", "-abs(s)*s - c/2"))
-    found = equator_equilibria(system)
-    theta, e = circle(100_000)
-    U = system.at().U(e)
-    Theta = e[:, 0] * U[:, 1] - e[:, 1] * U[:, 0]
-    changes = theta[np.flatnonzero((Theta > 0) != (np.roll(Theta, -1) > 0))]
-    np.testing.assert_allclose(found.theta, changes, atol=1e-4)
-    assert not found.proven
-    assert "not smooth" in found.certificate
 
 
 def test_high_degrees_are_resolved_or_said_not_to_be():

@@ -10,9 +10,7 @@ from codim2_core import (
     approach_outcomes,
     critical_sets,
     examples,
-    hemisphere,
     limit_cycles,
-    presets,
     psi,
     separatrices,
 )
@@ -20,21 +18,6 @@ from codim2_core import (
 FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3), psi.custom("1/(1+s)**2")]
 ANY_PSI = pytest.mark.parametrize("p", FAMILIES, ids=lambda p: p.text)
 AR, NU = examples.attracting_repelling(), examples.nonunique_sliding()
-RINGS = System(  # cycles where |e| = a, b, whatever Psi is
-    U=("-w*s - k*c*(c**2 + s**2 - a**2)*(c**2 + s**2 - b**2)", "w*c - k*s*(c**2 + s**2 - a**2)*(c**2 + s**2 - b**2)"),
-    W=("c**2", "s"),
-    parameters={"w": 1.3, "k": 2.0, "a": 0.4, "b": 0.7},
-)
-
-
-def as_text(system, **options):
-    """The same e-linear system as typed formulas."""
-    a, b, d, f1, f2 = system.at(()).plane
-    values = {"a": a, "b": b, "d": d, "f1": f1, "f2": f2}
-    return System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values, **options)
-
-
-# ---- outcomes -----------------------------------------------------------------------------------------------------
 
 
 @ANY_PSI
@@ -68,9 +51,6 @@ def test_nonunique_sliding_depends_on_the_side(z):
             assert outcome.slow_flow == pytest.approx([-math.copysign(chi, math.cos(theta)) + 0.25], abs=1e-13)
 
 
-# ---- separatrices -------------------------------------------------------------------------------------------------
-
-
 @ANY_PSI
 def test_skeleton_of_attracting_repelling(p):
     found = separatrices(AR, p, 0.5)
@@ -83,57 +63,6 @@ def test_skeleton_of_attracting_repelling(p):
     for branch in found:
         if branch.origin == saddle and branch.direction == "unstable":
             assert np.abs(branch.points[:, 1]).max() < 1e-9
-
-
-# ---- limit cycles -------------------------------------------------------------------------------------------------
-
-
-@ANY_PSI
-def test_two_exact_cycles(p):
-    found = limit_cycles(RINGS, p, (0.0, 0.0))
-    assert [cycle.kind for cycle in found] == ["unstable", "stable"]
-    for cycle, r, other in zip(found, (0.4, 0.7), (0.7, 0.4), strict=True):
-        zeta = float(p.radius(r))
-        radial = float(p.jacobian_factors(zeta)[0])
-        period = 2 * math.pi * zeta / (1.3 * r)
-        assert cycle.period == pytest.approx(period, rel=1e-10)
-        assert cycle.direction == 1
-        slope = -2.0 * r * (2 * r) * (r * r - other * other) * radial
-        assert cycle.multiplier == pytest.approx(math.exp(slope * period), rel=1e-8)
-        assert cycle.divergence_multiplier == pytest.approx(cycle.multiplier, rel=1e-8)
-        assert np.abs(np.hypot(*hemisphere.e_psi(p, cycle.points).T) - r).max() < 1e-10
-        assert cycle.mean_e == pytest.approx([0.0, 0.0], abs=1e-10)
-        assert cycle.slow_flow == pytest.approx([r * r / 2, 0.0], abs=1e-10)  # the mean of W, not W of the mean
-    assert "not proved" in found.reason
-
-
-@pytest.mark.parametrize("p", FAMILIES[:4], ids=lambda p: p.text)
-def test_cycles_that_meet(p):
-    near = limit_cycles(RINGS.evolve(a=0.5, b=0.501), p, (0.0, 0.0))
-    assert [cycle.kind for cycle in near] == ["unstable", "stable"]
-    met = limit_cycles(RINGS.evolve(a=0.5, b=0.5), p, (0.0, 0.0))
-    assert [cycle.kind for cycle in met] == ["semistable"]
-    assert any("fold" in note for note in met.notes)
-
-
-def test_clockwise_cycles_and_time_units():
-    found = limit_cycles(RINGS.evolve(w=-1.3e6, k=2e6), psi.tanh(), (0.0, 0.0))
-    assert [cycle.direction for cycle in found] == [-1, -1]
-    ahead = limit_cycles(RINGS, psi.tanh(), (0.0, 0.0))
-    assert [1e6 * c.period for c in found] == pytest.approx([c.period for c in ahead], rel=1e-9)
-
-
-@pytest.mark.parametrize("name", ["case3-n3", "case3-n4"])
-def test_cycles_of_an_e_linear_system_as_text(name):
-    preset = presets[name]
-    (one,) = limit_cycles(preset.system, preset.psi)
-    (other,) = limit_cycles(as_text(preset.system, W=("2*c - s + 1/3",)), preset.psi, 0.0)
-    assert other.kind == one.kind
-    assert (other.period, other.period_T) == pytest.approx((one.period, one.period_T), rel=1e-10)
-    assert other.multiplier == pytest.approx(one.multiplier, rel=1e-6)
-    assert other.mean_e == pytest.approx(one.mean_e, abs=1e-10)
-    (C,) = critical_sets(preset.system, preset.psi)
-    assert other.slow_flow == pytest.approx([2 * C.e[0] - C.e[1] + 1 / 3], abs=1e-9)  # prop:LC
 
 
 DUFFING = System(U=("s", "c - 6*c**3 + k*s*(m - c**2)"), parameters={"k": 1.0, "m": 0.13})

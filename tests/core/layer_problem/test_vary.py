@@ -46,24 +46,13 @@ def test_a_frozen_system_and_short_names() -> None:
 @pytest.mark.parametrize(
     ("system", "name", "value", "message"),
     [
-        (TEXT, "b", 1, "choose one of a, d, f1, k, z1, z2, n"),
-        (TEXT, "z3", 1, "cannot be varied"),
-        (TEXT, "zeta", 1, "cannot be varied"),
-        (TEXT, "a", "x", "give a number"),
-        (TEXT, "z1", float("nan"), "finite"),
-        (TEXT, "z1", 2e150, "of size up to"),
-        (TEXT, "a", -2e150, "of size up to"),
-        (TEXT.at((1, 1)), "a", float("inf"), "finite"),
-        (TEXT.at((1, 1)), "z1", 1, "cannot be varied"),
-        (TEXT, "n", 0, "allowed is"),
+        (TEXT, "b", 1, "choose one of a, d, f1, k, z1, z2, n"), (TEXT, "z3", 1, "cannot be varied"),
+        (TEXT, "zeta", 1, "cannot be varied"), (TEXT, "a", "x", "give a number"),
+        (TEXT, "z1", float("nan"), "finite"), (TEXT, "z1", 2e150, "of size up to"),
+        (TEXT, "a", -2e150, "of size up to"), (TEXT.at((1, 1)), "a", float("inf"), "finite"),
+        (TEXT.at((1, 1)), "z1", 1, "cannot be varied"), (TEXT, "n", 0, "allowed is"),
     ],
-)
+)  # fmt: skip
 def test_what_cannot_be_is_explained(system: object, name: str, value: float, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         vary(system, HILL, (0.3, 0.4), name, value)
-
-
-def test_a_z_that_does_not_fit_is_told_by_what_varies_something():
-    system = c2.System(U=("p*c - s + z", "c + p*s"), W=("1",), parameters={"p": 0.0})
-    with pytest.raises(ValueError, match=r"z has 0 value\(s\), but this system has m = 1"):
-        c2.branches(system, c2.psi.constant(), "p", (-1.0, 1.0))

@@ -28,7 +28,7 @@ def measured(system, start, times, noise=0.0, seed=0):
 
 
 def test_without_noise_all_is_found():
-    t = np.linspace(0.0, 0.8, 60)
+    t = np.linspace(0.0, 0.8, 30)
     found = fit(block(0.1), t, measured(block(0.3), (1.2, 0.9), t))
     assert found.values["mu"] == pytest.approx(0.3, rel=1e-7)
     assert found.stop == pytest.approx(1.5 / (0.3 * 9.81), rel=1e-6)
@@ -42,14 +42,6 @@ def test_without_noise_all_is_found():
         assert (np.diff(points @ [0.8, 0.6]) < 0.0).all()
 
 
-def test_two_parameters_on_a_slope_that_does_not_stop():
-    t = np.linspace(0.0, 0.5, 40)
-    found = fit(block(0.2, tilt=0.4), t, measured(block(0.3, tilt=0.5), (1.0, 0.9), t), names=("mu", "tilt"))
-    assert found.values == pytest.approx({"mu": 0.3, "tilt": 0.5}, abs=1e-6)
-    assert found.stop is None
-    assert [key for key, _ in recognise(found.sentence)] == ["fitted"]
-
-
 def test_a_disc_tells_its_friction_and_radius_of_gyration():
     t = np.linspace(0.0, 0.35, 40)
     true = examples.spinning_disc(k=0.65, mu=0.25)
@@ -58,7 +50,7 @@ def test_a_disc_tells_its_friction_and_radius_of_gyration():
 
 
 def test_slow_variables_move_along():
-    t = np.linspace(0.0, 0.3, 40)
+    t = np.linspace(0.0, 0.3, 16)
     ball = examples.ball_in_pool(mu=0.3, K=0.8)
     run = c2.simulate_nonsmooth(ball, (3.0, 1.0, 4.0, 0.5), (0.0, 0.3))
     v = np.array([run.dense(float(s))[:2] for s in t])
@@ -145,10 +137,3 @@ def test_a_file_that_is_none_is_told(text, said, tmp_path):
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(ValueError, match=re.escape(said)):
         fit(block(0.2), path)
-
-
-def test_a_file_and_arrays_are_not_both_given(tmp_path):
-    with pytest.raises(ValueError, match="times is a file and velocities are given too"):
-        fit(block(0.2), tmp_path / "measured.csv", np.ones((3, 2)))
-    with pytest.raises(ValueError, match="velocities is None"):
-        fit(block(0.2), [0.0, 0.1, 0.2])

@@ -28,19 +28,6 @@ def test_a_free_oscillation_loses_two_f_each_half_turn_and_stops_within_f():
     assert run.phases[-1].t_start == pytest.approx(4.0 * math.pi, abs=1e-6)
 
 
-@pytest.mark.parametrize("om", [1.6])
-def test_a_forced_oscillation_that_never_sticks_has_den_hartogs_amplitude(om):
-    """J. P. Den Hartog, Trans. ASME 53 (1931) 107-115, along a line: sqrt(V^2 - (f/F)^2 U^2) F."""
-    block = oscillator(f=0.1, F=0.5, om=om)
-    V, U = 1.0 / (1.0 - om**2), math.sin(math.pi / om) / (om * (1.0 + math.cos(math.pi / om)))
-    amplitude = 0.5 * math.sqrt(V**2 - (0.2 * U) ** 2)
-    turn = 2.0 * math.pi / om
-    run = c2.simulate_nonsmooth(block.system, (0.1, 0.0, amplitude, 0.0, 0.0), (0.0, 80.0 * turn))
-    late = np.array([run.dense(t) for t in np.linspace(78.0 * turn, 80.0 * turn, 4001)])
-    assert np.abs(block.named(late)["q1"]).max() == pytest.approx(amplitude, abs=2e-5)
-    assert not [phase for phase in run.phases if phase.kind == "slide" and phase.t_start > 60.0 * turn]
-
-
 def shaken(eta):
     """A block on a table that is shaken: velocity sin(t), friction eta of what would carry it along."""
     return Mechanism(

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from codim2_core import Event, SimulationStatus, System, critical_sets, delays, simulate, simulate_nonsmooth
+from codim2_core import Event, SimulationStatus, System, delays, simulate, simulate_nonsmooth
 from codim2_core.psi import constructors as families
 
 PSI = families.constant()  # D e_Psi = 1 in the middle; at |e| = r, sqrt(1 - r^2) across and (1 - r^2)^1.5 along e
@@ -144,15 +144,6 @@ def test_it_stays_to_the_end_where_it_is_attracted_more_than_repelled():
     assert run.phases[1].t_end == pytest.approx(left, abs=1e-8)
 
 
-def test_it_goes_on_to_the_cycle_that_took_over():
-    """Past a supercritical Hopf point of a system that is not e-linear: the stop that this was, now goes on."""
-    system = System(U=("(z - 2*(c^2 + s^2))*c - s", "c + (z - 2*(c^2 + s^2))*s"), W=("1",))
-    run = followed(system, -0.3, 0.8)
-    assert run.status is SimulationStatus.T_END
-    assert [phase.onto for phase in run.phases] == ["C", "C", "cycle 1"]
-    assert run.phases[1].t_end == pytest.approx(0.6, abs=1e-8)
-
-
 def test_without_psi_and_with_a_kink_it_stops_and_says_so():
     bare = simulate_nonsmooth(turning(0.5), (0.0, 0.0, -1.0), (0.0, 2.0))
     assert bare.status is SimulationStatus.NOT_UNIQUE
@@ -192,19 +183,3 @@ def test_ahead_it_is_looked_as_far_as_the_ranges(start, spans, left):
         assert "to the end of the range" in delay.reason
     else:
         assert delay.z_out[0] == pytest.approx(left, abs=1e-9)
-
-
-def test_of_each_of_two_sets_that_attract_the_delay_is_told_by_its_name():
-    """At e = (∓ 1/2, 0): along e, J has r^3 (z - 1/10), and across r z, with r = sqrt(3/4)."""
-    system = System(U=("2*c*(c^2 - 0.25)*(z - 0.1) - s*c", "(c^2 - 0.25) + z*s"), W=("1",))
-    found = delays(system, PSI, (-0.5,), [(-1.0, 1.5)])
-    sets = critical_sets(system, PSI, (-0.5,))
-    stable = [f"C{i + 1}" for i, C in enumerate(sets) if C.kind.startswith("stable")]
-    assert [delay.onto for delay in found] == stable
-    assert len(stable) == 2
-    np.testing.assert_allclose([delay.z_hopf[0] for delay in found], 0.1 * 0.75 / 1.75, atol=1e-9)
-
-
-def test_a_range_that_does_not_hold_z_is_refused():
-    with pytest.raises(ValueError, match="give \\(low, high\\) with low <= z <= high"):
-        delays(turning(0.5), PSI, (2.0,), [(-1.0, 1.0)])

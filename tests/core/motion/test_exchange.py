@@ -83,12 +83,6 @@ def test_on_a_set_that_moves_terms_of_order_eps_decide():
     assert not c2.delays(moving, CONSTANT, (0.0,))
 
 
-def test_without_psi_it_is_not_known():
-    motion = c2.simulate_nonsmooth(IN_THE_PLANE, (0.02, 0.01, 0.0), (0.0, 1.2))
-    assert motion.status is c2.SimulationStatus.NOT_UNIQUE
-    assert "depends on Ψ" in motion.reason
-
-
 HOPF = c2.System(U=("z*c - s", "c + z*s"), W=("1",))
 
 
@@ -101,7 +95,7 @@ HOPF = c2.System(U=("z*c - s", "c + z*s"), W=("1",))
         (HOPF, (0.01, 0.0, -0.5), 0.5),
     ],
 )
-@pytest.mark.parametrize("eps", [1e-3, 1e-4, 1e-6])
+@pytest.mark.parametrize("eps", [1e-3, 1e-6])
 def test_for_positive_eps_it_is_said_that_errors_decide_and_since_when(system, start, turns, eps):
     """By then the distance is e^(-125) and less of what it was."""
     run = c2.simulate(system, CONSTANT, eps, start, (0.0, 0.95))
@@ -112,7 +106,7 @@ def test_for_positive_eps_it_is_said_that_errors_decide_and_since_when(system, s
     assert "decided" not in before.reason
 
 
-@pytest.mark.parametrize("rtol", [1e-8, 1e-10, 1e-12])
+@pytest.mark.parametrize("rtol", [1e-8, 1e-12])
 @pytest.mark.parametrize(("system", "sign"), [(TRANSCRITICAL, 1), (PITCHFORK, 1), (PITCHFORK, -1)])
 def test_where_they_do_not_the_side_is_kept(system, sign, rtol):
     """At eps = 1/50 the distance falls to e^(-6) of what it was: x = 0 is invariant, and x keeps its sign."""

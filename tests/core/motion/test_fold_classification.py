@@ -23,16 +23,6 @@ def canard(more=""):
     return System(U=(f"z + c^2{more}", "-s"), W=("-c",))
 
 
-@pytest.mark.parametrize("across", ["-s", "-s + 0.1*c"])
-def test_a_folded_node_is_named_and_left_at(across):
-    """With b^2 > 8 a > 0 the eigenvalues l, l^2 - b l + 2 a = 0, are real and negative; from c = -0.3, z2 = -0.6."""
-    run = simulate_nonsmooth(parabola(0.25, -2.0, across), (0.0, 0.0, -0.09, -0.6), (0.0, 1.0), PSI)
-    assert [phase.kind for phase in run.phases] == ["slide", "slip"]
-    assert run.phases[0].t_end == pytest.approx(0.6, abs=1e-5)  # z2' = 1, and z2 = 0 at the node
-    np.testing.assert_allclose(run.states[run.times == run.phases[0].t_end][0], 0.0, atol=1e-5)
-    assert "folded node" in run.phases[1].reason
-
-
 def test_motions_for_eps_come_to_leave_at_the_folded_node():
     """In a distance of order eps^((1 - mu)/2), mu = 0.17 the ratio of the eigenvalues: 0.38 for a tenth of eps."""
     system = parabola(0.25, -2.0)
@@ -42,13 +32,6 @@ def test_motions_for_eps_come_to_leave_at_the_folded_node():
         late.append(next(phase.t_start for phase in run.phases if phase.kind == "slip") - 0.6)
     assert all(after < 0.5 * before for before, after in pairwise(late))
     assert 0.0 < late[-1] < 0.03
-
-
-def test_from_beside_a_folded_focus_motions_come_to_jump_points():
-    """With b^2 < 8 a; its canards are complex."""
-    run = simulate_nonsmooth(parabola(1.0, -1.0), (0.0, 0.0, -0.09, -0.3), (0.0, 1.0), PSI)
-    assert "folded" not in run.phases[1].reason
-    assert run.phases[1].kind == "slip"
 
 
 def test_at_a_canard_point_what_follows_is_left_to_terms_of_order_eps():

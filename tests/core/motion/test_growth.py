@@ -40,13 +40,6 @@ def test_a_blow_up_is_told_with_its_time(which, U, W, state0, when, kind):
 
 
 @pytest.mark.parametrize("which", ALL)
-def test_growth_that_only_takes_long_is_no_blow_up(which):
-    run = motion(which, System(U=("-c", "-s"), W=("z",)), (0.0, 0.0, 1.0), 300.0)
-    assert run.status is SimulationStatus.T_END
-    assert run.states[-1, 2] == pytest.approx(math.exp(300.0), rel=1e-5)
-
-
-@pytest.mark.parametrize("which", ALL)
 def test_where_formulas_end_the_motion_does(which):
     run = motion(which, System(U=("-c", "-s"), W=("-1/2 + log(z) - log(z)",)), (1.0, 0.0, 1.0), 3.0)
     assert run.status is SimulationStatus.STEP_LIMIT
@@ -66,11 +59,11 @@ def test_at_the_step_limit_what_was_followed_is_kept(which):
 
 def test_phases_are_bounded_by_the_steps_alone():
     system = System(U=("1.5*cos(z) - c", "-s"), W=("1",))
-    t = 150.0 * math.pi
+    t = 60.0 * math.pi
     run = simulate_nonsmooth(system, (0.0, 0.0, 0.0), (0.0, t), families.constant(), rtol=1e-4, max_steps=10**6)
     assert run.status is SimulationStatus.T_END
     # In each half period it slips once (where |1.5 cos z| has exceeded 1) and sticks once.
-    assert len(run.phases) == pytest.approx(300, abs=2)
+    assert len(run.phases) == pytest.approx(120, abs=2)
 
 
 def test_a_motion_in_an_invariant_line_stays_in_it():

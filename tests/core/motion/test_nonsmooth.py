@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.integrate import quad
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
@@ -34,24 +33,6 @@ def test_textbook_ball(mu, v0, direction):
     np.testing.assert_allclose(run.states[-1], (0.0, 0.0, 5 / 7 * v0 * c, 5 / 7 * v0 * s), rtol=0.0, atol=1e-9 * v0)
     half = 0.5 * slips
     np.testing.assert_allclose(run.dense(half)[2:], (v0 - mu * G * half) * np.array([c, s]), rtol=0.0, atol=1e-9 * v0)
-
-
-def test_ball_in_a_pool_along_a_line():
-    # Slipping: z' = -mu g - k z, x' = -7/2 mu g - k z with k = K/m; rolling: z' = -(5/7) k z.
-    mu, K, m, v0 = 0.2, 1.5, 1.2, 3.0
-    k, friction = K / m, mu * G
-    run = simulate_nonsmooth(examples.ball_in_pool(mu=mu, K=K, m=m), (v0, 0.0, v0, 0.0), (0.0, 2.0))
-    z = lambda t: (v0 + friction / k) * np.exp(-k * t) - friction / k
-    x = lambda t: v0 - 2.5 * friction * t + (z(t) - v0)
-    arrives = run.phases[0].t_end
-    assert kinds(run) == ["slip", "slide"]
-    assert x(arrives) == pytest.approx(0.0, abs=1e-9)
-    t = np.linspace(0.0, arrives, 11)
-    np.testing.assert_allclose(run.dense(t)[:, 0], x(t), rtol=0.0, atol=1e-9)
-    np.testing.assert_allclose(run.dense(t)[:, 2], z(t), rtol=0.0, atol=1e-9)
-    t = np.linspace(arrives, 2.0, 11)
-    np.testing.assert_allclose(run.dense(t)[:, 2], z(arrives) * np.exp(-5 / 7 * k * (t - arrives)), rtol=0.0, atol=1e-9)
-    assert not run.dense(t)[:, :2].any()
 
 
 def test_ball_sticks_below_the_critical_speed_and_slips_above():
@@ -83,42 +64,6 @@ def test_crossing_at_once_and_coming_back():
     np.testing.assert_allclose(
         run.dense(cross.t_end + t)[[0, 2]], [2.5 * friction * t + z - z0, z], rtol=0.0, atol=1e-9
     )
-
-
-def arrival_by_quadrature(system, rho, theta, target):
-    """Time to Sigma from drho/dtheta = rho lambda_rho/Theta and dt/dtheta = rho/Theta, u = ln|theta - target|."""
-    at = system.at()
-
-    def rates(angle):
-        c, s = math.cos(angle), math.sin(angle)
-        u, v = at.U((c, s))
-        return u * c + v * s, v * c - u * s
-
-    side = math.copysign(1.0, theta - target)
-    start = math.log(abs(theta - target))
-
-    def log_rho(u):
-        def slope(w):
-            angle = target + side * math.exp(w)
-            radial, turning = rates(angle)
-            return radial / turning * side * math.exp(w)
-
-        return quad(slope, start, u, epsabs=1e-13, epsrel=1e-13)[0]
-
-    def dt(u):
-        angle = target + side * math.exp(u)
-        return rho * math.exp(log_rho(u)) / rates(angle)[1] * side * math.exp(u)
-
-    return quad(dt, start, start - 30.0, epsabs=1e-13, epsrel=1e-12, limit=200)[0]
-
-
-def test_arrival_time_where_the_direction_turns():
-    system = ELinear(-1.0, 0.0, -1.3, (0.4, 0.0))  # Q at theta = 0: lambda_rho = -0.6, lambda_theta = -0.7
-    rho, theta = 0.8, 1.2
-    run = simulate_nonsmooth(system, (rho * math.cos(theta), rho * math.sin(theta)), (0.0, 5.0), rtol=1e-12)
-    assert run.phases[0].t_end == pytest.approx(arrival_by_quadrature(system, rho, theta, 0.0), abs=1e-10)
-    assert "Q₁" in run.phases[1].reason
-    assert not run.states[-1].any()
 
 
 @pytest.mark.parametrize("in_python", [True, False])
@@ -179,37 +124,6 @@ def test_what_follows_a_fold_is_what_is_there_then_and_not_a_hundredth_of_the_ti
         assert run.phases[1].t_start == pytest.approx(0.09, abs=1e-9)
 
 
-def test_the_side_of_approach_decides_how_it_slides():
-    # e = -+chi/2 on C1 and C3, with z' = +-chi + 1/4 there.
-    ends = {}
-    for label, theta in (("C3", 0.5), ("C1", math.pi - 0.5)):
-        state0 = (0.02 * math.cos(theta), 0.02 * math.sin(theta), 0.1)
-        run = simulate_nonsmooth(examples.nonunique_sliding(), state0, (0.0, 0.1), families.constant())
-        assert kinds(run) == ["slip", "slide"]
-        assert run.phases[1].onto == label
-        z, before = run.states[-1, 2], run.dense(run.times[-1] - 1e-4)[2]
-        chi = (1 + 2 * z * z) / (1 + z * z)
-        ends[label] = (z - before) / 1e-4
-        assert ends[label] == pytest.approx((chi if label == "C1" else -chi) + 0.25, abs=1e-3)
-    assert ends["C3"] < 0.0 < ends["C1"]
-
-
-@pytest.mark.parametrize("general", [False, True])
-def test_sliding_on_a_limit_cycle_has_the_averaged_slow_flow(general):
-    system = System(U=("172*c - 186*s - 172*z", "186*c - 200*s - 186*z"), W=("c/2",)) if general else CASE_3
-    run = simulate_nonsmooth(system, (*ARRIVING, 0.45), (0.0, 0.2), families.hill(3))
-    assert kinds(run) == ["slip", "slide"]
-    slide = run.phases[1]
-    assert slide.onto == "cycle 1"
-    t = 0.2 - slide.t_start
-    z = run.dense(slide.t_start)[2]
-    assert run.states[-1, 2] == pytest.approx(z * math.exp(0.5 * t), abs=1e-5 if general else 1e-9)
-    # e is the mean over the cycle (prop:LC), and p lies inside it.
-    times = np.linspace(slide.t_start, 0.2, 5)
-    np.testing.assert_allclose(slide.e(times), np.stack([run.dense(times)[:, 2], 0 * times], axis=-1), atol=0.02)
-    assert (np.hypot(*slide.p(times).T) < 1.0).all()
-
-
 def test_through_two_hopf_bifurcations_and_off_the_equator():
     run = simulate_nonsmooth(CASE_3, (*ARRIVING, 0.3), (0.0, 2.6), families.hill(3))
     assert [(phase.kind, phase.onto) for phase in run.phases] == [
@@ -264,21 +178,6 @@ def test_a_turn_close_to_sigma_is_no_arrival(side):
     np.testing.assert_allclose(run.states[-1], (0.0, side * 2.0), rtol=0.0, atol=1e-9)
     near = simulate_nonsmooth(ELinear(-1.0, 0.0, 1.0), (1.0, side * 1e-4), (0.0, 3.0), rtol=1e-12)
     np.testing.assert_allclose(near.states[:, 0] * near.states[:, 1], side * 1e-4, rtol=1e-6)
-
-
-def test_no_slow_variables():
-    run = simulate_nonsmooth(ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), (1.0, 0.2), (0.0, 3.0))
-    assert kinds(run) == ["slip", "slide"]
-    np.testing.assert_array_equal(run.dense(3.0), (0.0, 0.0))
-    stays = simulate_nonsmooth(ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), (0.0, 0.0), (0.0, 3.0))
-    assert len(stays.times) == 2  # one step, drawn at even times all the same
-    assert len(stays.drawn().times) >= 200
-
-
-@pytest.mark.parametrize(("state0", "t_span", "message"), [((1.0,), (0, 1), "state0"), ((1.0, 0.0), (1, 1), "t_span")])
-def test_wrong_arguments_say_so(state0, t_span, message):
-    with pytest.raises(ValueError, match=message):
-        simulate_nonsmooth(ELinear(-1.0, 0.0, -1.0), state0, t_span)
 
 
 def test_a_motion_in_a_line_that_comes_back_is_known_from_its_first_moment():

@@ -83,35 +83,9 @@ def test_events_of_a_past_are_those_of_the_motion():
     assert stopped.events[0].tolist() == pytest.approx([stopped.times[0]])
 
 
-def test_many_that_slide_know_as_little_as_one():
-    there = c2.simulate(BALL, PSI, 1e-3, (1.0, 0.3, 1.0, 0.2), (0.0, 1.0))
-    together = c2.simulate(BALL, PSI, 1e-3, [there.states[-1]] * 9, (1.0, 0.0))
-    alone = c2.simulate(BALL, PSI, 1e-3, there.states[-1], (1.0, 0.0))
-    for one in (alone, *together):
-        assert one.status is c2.SimulationStatus.FORGOTTEN
-        assert one.phases[0].kind == "slide"
-        assert 1.0 - one.times[0] == pytest.approx(1.0 - alone.times[0], rel=0.2)
-
-
-def test_the_derivative_of_a_past_is_that_of_the_motion():
-    there, past = to_and_fro(TURNING, (1.0, 0.5, 0.2), 0.6, 0.5, rtol=1e-11)
-    assert past.variation("a").last == pytest.approx(there.variation("a").last, abs=1e-5)
-
-
-def test_a_past_that_comes_from_infinity_ends_there():
-    """x' = -x^2 backwards from x = 1 is infinite one unit before."""
-    system = c2.System(U=("-x^2", "-y"), W=("1",))
-    past = c2.simulate(system, PSI, 1e-3, (1.0, 0.0, 0.0), (0.0, -2.0))
-    assert past.status is c2.SimulationStatus.BLOW_UP
-    assert past.times[0] == pytest.approx(-1.0, abs=1e-3)
-
-
 def test_a_span_of_no_time_is_refused():
     with pytest.raises(ValueError, match="give two different finite times"):
         c2.simulate(TURNING, PSI, 0.3, (1.0, 0.0, 0.0), (1.0, 1.0))
-
-
-# The limit ----------------------------------------------------------------------------------------------------------
 
 
 def test_the_past_of_a_slip_is_the_slip():
@@ -139,19 +113,6 @@ def test_a_past_is_told_back_to_where_it_left_sigma():
     assert past.states[0] == pytest.approx([0.0, 0.0, 0.9], abs=1e-9)
     assert past.states[-1].tolist() == [0.3, 0.4, 1.0]
     assert past.dense(-0.25) == pytest.approx([0.15, 0.2, 0.95], abs=1e-9)
-    turning = c2.ELinear(1.0, 0.2, 0.7, (0.1, -0.2), [[1.0, 0.0]], [0.2])
-    (one, two) = c2.simulate_nonsmooth(turning, [(0.5, 0.3, 1.0), (0.1, -0.3, 0.0)], (0.0, -9.0))
-    for past in (one, two):
-        assert past.status is c2.SimulationStatus.FORGOTTEN
-        assert np.hypot(*past.states[0, :2]) < 1e-9
-
-
-def test_a_terminal_event_ends_a_past_too():
-    away = c2.ELinear(1.0, 0.0, 1.0, (0.0, 0.0), [[0.0, 0.0]], [0.2])
-    near = c2.Event(lambda t, y: np.hypot(y[0], y[1]) - 0.2, 0, terminal=True)
-    past = c2.simulate_nonsmooth(away, (0.3, 0.4, 1.0), (0.0, -9.0), events=near)
-    assert past.status is c2.SimulationStatus.EVENT
-    assert past.times[0] == pytest.approx(-0.3, abs=1e-9)
 
 
 def test_on_sigma_there_is_no_one_past():

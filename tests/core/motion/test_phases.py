@@ -8,7 +8,6 @@ from codim2_core import psi as families
 from codim2_core.motion.result import SimulationStatus
 
 PSI = (families.constant(), families.rational(), families.hill(2), families.tanh())
-SLOW_SLIP = ELinear(172, 186, -200, f=("-86+0.5*z", -93), B=[[1, 0]])
 
 
 def named(run):
@@ -64,48 +63,11 @@ def test_random_systems_have_the_phases_of_the_limit(block):
     assert circling <= 1
 
 
-@pytest.mark.parametrize("eps", [1e-3, 1e-5])
-@pytest.mark.parametrize(
-    ("system", "state0", "t"),
-    [
-        (examples.ball_in_pool(K=2.0), (-1.0, 0.3, 10.0, 0.0), 3.0),
-        (examples.nonunique_sliding(), (0.25, 0.3, 0.0), 2.0),
-        (examples.tilting_block(), (0.3, 0.1, 0.1), 5.0),
-    ],
-)
-def test_a_slide_lies_within_order_eps_of_the_set_it_names(system, state0, t, eps):
-    psi = families.rational()
-    run = simulate(system, psi, eps, state0, (0.0, t), rtol=1e-10)
-    slide = next(phase for phase in run.phases if phase.kind == "slide")
-    times = np.linspace(slide.t_start + 400.0 * eps, slide.t_end, 9)[:-1]
-    for time, e, p in zip(times, slide.e(times), slide.p(times), strict=True):
-        sets = critical_sets(system, psi, run.dense(time)[2:])
-        own = sets[0] if len(sets) == 1 else sets[int(slide.onto[1:]) - 1]
-        assert np.hypot(*(p - own.p)) < 40.0 * eps
-        assert np.hypot(*(e - own.e)) < 40.0 * eps
-
-
-def test_slow_slip_is_no_slide():
-    run = simulate(SLOW_SLIP, families.hill(2), 1e-4, (1.0, 0.5, 0.0), (0.0, 3.0))
-    assert named(run) == [("slip", None)]
-    assert np.hypot(*run.states[:, :2].T).min() > 1000e-4
-
-
-def test_an_orbit_at_constant_distance_slips():
-    run = simulate(ELinear(0.0, 1.0, 0.0), families.hill(2), 0.1, (1.5, 0.0), (0.0, 20.0))
-    assert named(run) == [("slip", None)]
-
-
 @pytest.mark.parametrize(("a", "b"), [(-0.2, 1.0), (-0.05, 2.0), (-0.5, -3.0)])
 def test_a_spiral_arrives_once(a, b):
     run = simulate(ELinear(a, b, a), families.constant(), 1e-4, (0.3, 0.0), (0.0, 0.3 / abs(a) + 1.0))
     assert named(run) == [("slip", None), ("slide", "C")]
     assert run.phases[1].t_start == pytest.approx(0.3 / abs(a), rel=0.05)
-
-
-def test_where_no_set_is_followed_a_start_on_sigma_slips():
-    run = simulate(ELinear(-1.0, 0.0, -1.0, (1.5, 0.0)), families.constant(), 1e-6, (0.0, 0.0), (0.0, 1.0))
-    assert named(run) == [("slip", None)]
 
 
 def test_a_cycle_that_is_followed_is_named():

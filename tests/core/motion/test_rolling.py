@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from codim2_core import examples
-from codim2_core.examples import Ball, catalogue
+from codim2_core.examples import Ball
 from codim2_core.motion.rolling import rolling
 
 ROLLS, PLACED = Ball(), Ball(placed=True)
@@ -23,13 +22,6 @@ def test_without_slip_it_turns_by_its_way_over_its_radius_about_the_axis_across(
     assert found.radius == pytest.approx(0.07 * 8)
     for when, quaternion in zip(t, found.turns, strict=True):
         np.testing.assert_allclose(quaternion, turn([-4, 3, 0], 5 * when / found.radius), rtol=0.0, atol=1e-12)
-
-
-def test_slip_that_is_all_of_the_velocity_turns_nothing():
-    v = np.array([[2.0, 1.0], [1.0, 3.0], [0.0, 5.0]])
-    found = rolling(ROLLS, [0, 1, 3], np.hstack([v, v]), radius=0.5)
-    np.testing.assert_allclose(found.turns, np.tile([1, 0, 0, 0], (3, 1)), rtol=0.0, atol=1e-15)
-    np.testing.assert_allclose(found.centre, [[0, 0], [1.5, 2.0], [2.5, 10.0]])
 
 
 def test_slip_on_the_spot_spins_backwards():
@@ -59,17 +51,3 @@ def test_turns_follow_one_another_about_changing_axes():
     np.testing.assert_allclose(np.linalg.norm(found.turns, axis=1), 1.0, rtol=0.0, atol=1e-14)
     assert not found.turns.flags.writeable
     assert not found.centre.flags.writeable
-
-
-def test_a_ball_that_does_not_move_has_a_size():
-    still = np.zeros((2, 4))
-    assert rolling(ROLLS, [0, 1], still).radius == pytest.approx(0.07e-6)
-    np.testing.assert_allclose(rolling(ROLLS, [0, 1], still).turns[1], [1, 0, 0, 0])
-
-
-def test_the_examples_say_which_of_their_states_are_a_balls():
-    assert {key for key, example in catalogue.items() if example.ball} == {"ball_in_pool", "ball_on_turntable"}
-    turntable = catalogue["ball_on_turntable"].ball
-    assert turntable == Ball(placed=True, turning="Omega")
-    assert "Omega" in dict(examples.ball_on_turntable().parameters)
-    assert not catalogue["ball_in_pool"].ball.placed

@@ -1,14 +1,11 @@
 """Derivatives of motions: the flow carries its own rate along, differences of motions, closed forms, and eps to 0."""
 
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, Event, System, examples, psi, simulate, simulate_nonsmooth
-from codim2_core.systems.coefficients import Coefficients
 
 POOL = examples.ball_in_pool(mu=0.2, K=1.5, m=1.2)
 CROSSING = (
@@ -114,24 +111,6 @@ def test_derivatives_of_the_limit_are_the_limit_of_derivatives():
     np.testing.assert_allclose(np.array(off[1:]) / off[:-1], 1e-2, rtol=0.01)  # O(eps)
 
 
-@settings(max_examples=10, deadline=None)
-@given(st.floats(0.05, 1.0), st.floats(0.1, 10.0), st.floats(-3.0, 3.0))
-def test_textbook_ball(mu, v0, direction):
-    # It slips for 2 v0/(7 mu g), and rolls with 5/7 v0: z' = -mu g e before, 0 after; e turns with the direction.
-    c, s = math.cos(direction), math.sin(direction)
-    slips = 2.0 * v0 / (7.0 * mu * 9.81)
-    run = simulate_nonsmooth(examples.ball_in_pool(K=0.0, mu=mu), (v0 * c, v0 * s, v0 * c, v0 * s), (0.0, 2.0 * slips))
-    found = run.variation("mu")
-    expected = np.zeros((4, 5))
-    expected[2:, :2], expected[2:, 2:4] = -2.0 / 7.0 * np.eye(2), np.eye(2)
-    # All directions are alike: that of the arrival is known to the rounding of (x, y), and its error says so.
-    assert found.error.max() < 1e-5
-    assert (np.abs(found.last - expected) <= 3.0 * found.error + 1e-12).all()
-    t = 0.5 * slips  # while it slips, mu brakes it
-    half = simulate_nonsmooth(examples.ball_in_pool(K=0.0, mu=mu), run.states[0], (0.0, t)).variation("mu")
-    np.testing.assert_allclose(half.by("mu")[-1, 2:], -9.81 * t * np.array([c, s]), rtol=1e-9, atol=1e-9)
-
-
 def test_exponents_of_a_linear_motion_are_its_eigenvalues():
     # Far inside e is (x, y)/eps: x' = -2 x/eps and so on, with Psi = 1 and |x| << eps.
     system = ELinear(-2.0, 0.0, -1.0, (0.0, 0.0))
@@ -180,11 +159,6 @@ def test_a_motion_that_comes_back_is_differentiated_by_its_start_in_a_slide(t_en
         axis = np.eye(4)[i]
         by = difference(lambda h, axis=axis: limit(BELT, start + h * axis, t_end).states[-1], 0.0, 1e-5)
         np.testing.assert_allclose(found.last[:, i], by, rtol=0.0, atol=1e-7)
-
-
-def test_a_start_that_slides_all_the_time_has_no_xy_to_be_differentiated_by():
-    found = limit(BELT, (0.0, 0.0, 0.5, 0.1), 0.2).variation()
-    np.testing.assert_allclose(found.last, np.diag([0.0, 0.0, 1.0, 1.0]), rtol=0.0, atol=1e-12)
 
 
 def test_what_leads_out_of_a_line_that_repels_is_left_out():
@@ -236,16 +210,3 @@ def test_a_name_that_is_none_of_the_system_is_refused(name):
         run.variation(name)
     with pytest.raises(ValueError, match="ask for variation"):
         run.variation("mu").by(name)
-
-
-def test_coefficients_and_frozen_systems_are_differentiated_too():
-    frozen = ELinear(-1.0, 0.5, -1.5, ("z", 0.3), g=(1.0,)).at(0.2)
-    assert isinstance(frozen, Coefficients)
-    whole = ELinear(-1.0, 0.5, -1.5, (0.2, 0.3), g=(1.0,))
-    start, span = (0.3, 0.2, 0.0), (0.0, 1.0)
-    one = simulate(frozen, psi.hill(2), 0.1, start, span).variation("a", "f1")
-    other = simulate(whole, psi.hill(2), 0.1, start, span).variation("a", "f1")
-    np.testing.assert_allclose(one.last, other.last, rtol=0.0, atol=1e-12)
-    typed = System(U=("k*c - z*s", "-s + z"), W=("1",), parameters={"k": -2.0})
-    at = simulate(typed.at(0.2), psi.hill(2), 0.1, start, span).variation()
-    assert not at.last[:2, 2].any()  # U is that of z = 0.2, whatever z does

@@ -82,8 +82,3 @@ def test_a_typed_system_has_the_conic_of_its_normal_form_turned_back():
     assert (np.abs(value) <= 1e-9 * np.hypot(*gradient.T)).all()
     assert found.kind == plain.kind
     assert len(found.meeting) == 4
-
-
-def test_a_nonlinear_system_has_none():
-    found = conic(c2.examples.nonunique_sliding(), (0.0,))
-    assert (found.kind, found.pieces) == ("", ())

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from codim2_core import ELinear, critical_sets, equator_equilibria, hemisphere, nullclines, psi
+from codim2_core import ELinear, hemisphere, nullclines, psi
+from tests.core.polylines import away
 from tests.core.strategies import regularisations, systems
 
 
@@ -52,12 +53,7 @@ def test_no_branch_is_missing(system):
         circle = r * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
         U = at.U(circle)
         u = circle / r
-        parts = {
-            "rho": (U * u).sum(1),
-            "theta": U[:, 1] * u[:, 0] - U[:, 0] * u[:, 1],
-            "U1": U[:, 0],
-            "U2": U[:, 1],
-        }
+        parts = {"rho": (U * u).sum(1), "theta": U[:, 1] * u[:, 0] - U[:, 0] * u[:, 1], "U1": U[:, 0], "U2": U[:, 1]}
         size = max(map(abs, at.plane)) + 1e-300
         for kind, values in parts.items():
             safe = np.abs(values) > 1e-3 * size
@@ -66,28 +62,10 @@ def test_no_branch_is_missing(system):
                     continue  # nearly tangent: a crossing there is no sharp statement
                 here = 0.5 * (circle[i] + circle[i + 1])
                 nearest = min(
-                    (distance_to_polyline(here, b.points) for b in branches if b.kind == kind and b.inside),
+                    (away(here[None], b.points)[0] for b in branches if b.kind == kind and b.inside),
                     default=math.inf,
                 )
                 assert nearest < 5e-3, (kind, here)
-
-
-def distance_to_polyline(point, line):
-    start, step = line[:-1], np.diff(line, axis=0)
-    length = np.maximum((step**2).sum(1), 1e-300)
-    t = np.clip(((point - start) * step).sum(1) / length, 0, 1)
-    return np.hypot(*(start + t[:, None] * step - point).T).min()
-
-
-def test_nullclines_meet_at_the_critical_set_and_end_at_the_limit_directions():
-    system, one = ELinear(-2, 0.3, -1, (-0.5, 0.2)), psi.rational()
-    (C,) = critical_sets(system, one)
-    for kind in ("rho", "theta", "U1", "U2"):
-        inside = [b for b in nullclines(system, one) if b.kind == kind and b.inside]
-        assert min(distance_to_polyline(C.p, b.points) for b in inside) < 1e-3
-    ends = [b.points[0] for b in nullclines(system, one) if b.kind == "theta" and not b.inside]
-    angles = np.sort(np.arctan2(*np.array(ends).T[::-1]) % (2 * math.pi))
-    np.testing.assert_allclose(angles, equator_equilibria(system).theta, rtol=0.0, atol=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -103,8 +81,3 @@ def test_nullclines_meet_at_the_critical_set_and_end_at_the_limit_directions():
 def test_degenerate_conics_fall_into_lines(system, count):
     inside = [b for b in nullclines(system, psi.constant()) if b.inside]
     assert {k: sum(b.kind == k for b in inside) for k in count} == count
-
-
-def test_view_must_show_the_outside():
-    with pytest.raises(ValueError, match="greater than 1"):
-        nullclines(ELinear(-1, 0, -1), psi.constant(), view=0.5)

@@ -81,13 +81,6 @@ def test_what_is_not_seen_costs_nothing_and_what_is_seen_is_bounded():
     assert sum(len(branch.points) for branch in close) < 2 * before
 
 
-def test_the_whole_picture_shares_the_layer_and_a_motion_keeps_it():
-    scene = Scene(SYSTEMS["conics"], psi.hill(3))
-    assert scene.evolve(window=(-2.0, 2.0, -2.0, 2.0))["nullclines_inside"] is scene["nullclines_inside"]
-    seen = scene.evolve(window=(0.1, 0.2, 0.1, 0.2))
-    assert seen.evolve(pixel=1e-3)["nullclines_inside"] is seen["nullclines_inside"]
-
-
 @pytest.mark.parametrize("times", [1, 35, 400])
 def test_the_hyperbola_is_as_fine_as_it_is_seen(times):
     system = ELinear(-2, 0.5, -1, (-0.5, 0.7))

@@ -9,13 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core.numerics.trigonometric import radial_zeros, real_zeros, tangential_zeros
-from tests.core.exact_trigonometric import (
-    count_equilibria,
-    count_zeros,
-    integers,
-    root_error,
-    theta_coefficients,
-)
+from tests.core.exact_trigonometric import count_equilibria, count_zeros, integers, root_error, theta_coefficients
 
 plain = st.floats(-2, 2)
 grid = st.integers(-40, 40).map(lambda k: k / 20)
@@ -170,9 +164,3 @@ def test_all_directions():
     assert real_zeros(0.0, 0.0, 0.0, 0.0, 0.0).identically_zero
     assert radial_zeros(0.0, 0.0, 0.0, 0.0).identically_zero
     assert real_zeros(1.0, 0.0, 0.0, 0.0, 0.0).theta == ()
-
-
-@pytest.mark.parametrize("bad", [math.nan, math.inf])
-def test_refuses_what_is_not_finite(bad):
-    with pytest.raises(ValueError, match="f1"):
-        tangential_zeros(0.0, 0.0, 0.0, bad, 0.0)

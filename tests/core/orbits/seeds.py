@@ -7,15 +7,9 @@ from codim2_core.orbits.trajectories import trajectories
 from codim2_core.systems.elinear import ELinear
 
 FAMILIES = [
-    psi.constant(),
-    psi.rational(),
-    psi.exponential(),
-    psi.tanh(),
-    psi.hill(4.0),
-    psi.hill(3.7),
-    psi.hill(200.0),
+    psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(4.0), psi.hill(3.7), psi.hill(200.0),
     psi.custom("1/(1+s)**2"),
-]
+]  # fmt: skip
 NAMES = [p.text for p in FAMILIES]
 PIXEL = 1.0 / 180.0
 CASE_I = ELinear(-2.0, 0.5, -1.0, (-0.5, 0.2))

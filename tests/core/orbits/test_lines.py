@@ -8,20 +8,11 @@ import pytest
 from codim2_core import psi
 from codim2_core.orbits.trajectories import Status, trajectories
 from codim2_core.systems.elinear import ELinear
+from tests.core.polylines import away
 
 from .seeds import CASE_I, PIXEL, ring, sunflower
 
 SEEDS = np.concatenate([sunflower(8), ring(4, 1.6)])
-
-
-def distance(points, line):
-    """Greatest distance of points from a polyline whose parts they follow in order."""
-    a, ab = line[:-1], np.diff(line, axis=0)
-    best = np.full(len(points), np.inf)
-    for p, v in zip(a, ab, strict=True):
-        t = np.clip((points - p) @ v / max(v @ v, 1e-300), 0.0, 1.0)
-        best = np.minimum(best, np.hypot(*(points - p - t[:, None] * v).T))
-    return best.max()
 
 
 def fewest(fine, tolerance):
@@ -31,7 +22,7 @@ def fewest(fine, tolerance):
         low, high = i + 1, len(fine) - 1
         while low < high:
             j = (low + high + 1) // 2
-            low, high = (j, high) if distance(fine[i : j + 1], fine[[i, j]]) <= tolerance else (low, j - 1)
+            low, high = (j, high) if away(fine[i : j + 1], fine[[i, j]]).max() <= tolerance else (low, j - 1)
         i, kept = low, kept + 1
     return kept
 
@@ -55,7 +46,7 @@ def test_lines_are_within_a_quarter_pixel_with_few_points(system, p, rtol, exact
     drawn = trajectories(system, p, SEEDS, rtol=rtol, atol=rtol, capture=1e-6, t_max=5.0)
     curves, needed = exact(system, p)
     for line, curve in zip(drawn.points, curves, strict=True):
-        assert distance(curve, line) <= 0.25 * PIXEL
+        assert away(curve, line).max() <= 0.25 * PIXEL
     assert len(drawn.buffer) <= 1.5 * needed
 
 

@@ -1,11 +1,9 @@
-import re
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from codim2_core.orbits.seeds import checked_seeds, structured_seeds, window_seeds
+from codim2_core.orbits.seeds import structured_seeds, window_seeds
 
 
 @given(st.integers(0, 400), st.floats(1.1, 5.0))
@@ -24,35 +22,10 @@ def test_structured_seeds_are_symmetric_about_both_axes_and_lie_on_neither(count
     assert min(min(abs(x), abs(y)) for x, y in seeds) > 0.01
 
 
-@pytest.mark.parametrize(
-    ("seeds", "says"),
-    [
-        ([1.0, 2.0], "shape (2,)"),
-        ([[1, 2, 3]], "shape (1, 3)"),
-        ([[0.1, np.nan]], "seed 0"),
-        ([[0.1, 0.2], [np.inf, 0]], "seed 1"),
-        ("here", "shape (k, 2)"),
-        ([[1], [2, 3]], "shape (k, 2)"),
-    ],
-)
-def test_bad_seeds_are_refused_with_a_remedy(seeds, says):
-    with pytest.raises(ValueError, match=re.escape(says)):
-        checked_seeds(seeds)
-
-
 @pytest.mark.parametrize("count", [-1, 2001])
 def test_the_number_of_seeds_is_bounded(count):
     with pytest.raises(ValueError, match="0 to 2000"):
         structured_seeds(count)
-
-
-def test_checked_seeds_are_a_copy_that_cannot_be_changed():
-    given_ = np.array([[0.1, 0.2]])
-    seeds = checked_seeds(given_)
-    given_[0, 0] = 5.0
-    assert seeds[0, 0] == 0.1
-    assert not seeds.flags.writeable
-    assert checked_seeds([]).shape == (0, 2)
 
 
 @given(st.integers(1, 200), st.floats(-2, 2), st.floats(0.05, 3))

@@ -7,21 +7,16 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from codim2_core import examples, hemisphere, psi
-from codim2_core.orbits.trajectories import Status, continuation, trajectories
+from codim2_core.orbits.trajectories import Status, trajectories
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
 from .seeds import ring, sunflower
 
 FAMILIES = [
-    psi.constant(),
-    psi.rational(),
-    psi.exponential(),
-    psi.tanh(),
-    psi.hill(4.0),
-    psi.hill(3.7),
+    psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(4.0), psi.hill(3.7),
     psi.custom("1/(1+s)**2"),
-]
+]  # fmt: skip
 NAMES = [p.text for p in FAMILIES]
 AR, NU = examples.attracting_repelling(), examples.nonunique_sliding()
 ODD = System(
@@ -34,9 +29,6 @@ def as_text(system):
     a, b, d, f1, f2 = system.at(()).plane
     values = {"a": a, "b": b, "d": d, "f1": f1, "f2": f2}
     return System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values)
-
-
-# ---- the field ----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("p", FAMILIES, ids=NAMES)
@@ -83,26 +75,3 @@ def test_a_formula_that_ends_at_the_sphere_is_never_left():
         result = trajectories(system, p, np.concatenate([sunflower(30), ring(10, 1.0)]), rtol=1e-3, atol=1e-3)
         assert np.isfinite(result.buffer).all()
         assert Status.STEP_LIMIT not in result.status
-
-
-# ---- compiled once ------------------------------------------------------------------------------------------------
-
-
-# ---- up the hemisphere from a limit direction ---------------------------------------------------------------------
-
-
-def test_continuation_leads_to_the_critical_set_of_its_side():
-    z = 0.3
-    chi = (1 + 2 * z * z) / (1 + z * z)
-    theta = math.acos(math.sqrt(chi**2 + 2) / 2)
-    result = continuation(NU, psi.rational(), [theta, math.pi - theta], z, t_max=200.0)
-    assert result.status == (Status.EQUILIBRIUM,) * 2
-    assert result.ends[0, 0] > 0.1
-    assert result.ends[1, 0] == pytest.approx(-result.ends[0, 0], abs=1e-5)
-
-
-def test_what_is_no_limit_direction_is_refused():
-    with pytest.raises(ValueError, match="no limit direction"):
-        continuation(NU, psi.rational(), [0.2], 0.3)
-    with pytest.raises(ValueError, match="lambda_rho"):
-        continuation(AR, psi.rational(), [0.0], 0.3)

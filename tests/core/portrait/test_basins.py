@@ -24,29 +24,6 @@ def test_the_two_basins_of_nonunique_sliding_are_the_halves_of_the_disc():
     np.testing.assert_allclose([flow[0] for flow in found.slow_flow], [chi + 0.25, -chi + 0.25])
 
 
-def test_cells_cover_the_open_disc_and_nothing_else():
-    found = basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=64)
-    np.testing.assert_array_equal(found.cells == OUTSIDE, np.hypot(*np.moveaxis(centres(64), -1, 0)) >= 1.0)
-
-
-@pytest.mark.parametrize("name", ["case1-cm0", "case1-cm2", "case1-cm4"])
-def test_in_case_one_all_of_the_disc_belongs_to_the_stable_critical_set(name):
-    preset = c2.presets[name]  # thm:case1: no cycles, so nothing else attracts
-    found = basins(preset.system, c2.psi.rational(), n=32)
-    assert found.destinations == ("C",)
-    assert set(np.unique(found.cells)) == {OUTSIDE, 0}
-
-
-def test_refined_cells_agree_with_those_computed_everywhere():
-    preset = c2.presets["attracting-repelling"]
-    coarse_first = basins(preset.system, preset.psi, preset.z, n=64)
-    inside = coarse_first.cells != OUTSIDE
-    lines = c2.trajectories(preset.system, preset.psi, centres(64)[inside], preset.z, t_max=200.0, samples="ends")
-    (C, *_) = c2.critical_sets(preset.system, preset.psi, preset.z)
-    at_C = np.hypot(*(lines.ends[:, :2] - C.p).T) < 1e-2
-    np.testing.assert_array_equal(coarse_first.cells[inside] == coarse_first.destinations.index("C1"), at_C)
-
-
 def test_case_three_has_the_cycle_as_a_destination_with_the_mean_slow_flow():
     system = c2.presets["case3-n4"].system
     slow = c2.ELinear(system.a, system.b, system.d, system.f, B=((1.0, 2.0),), g=(0.5,))
@@ -54,12 +31,6 @@ def test_case_three_has_the_cycle_as_a_destination_with_the_mean_slow_flow():
     assert "cycle 1" in found.destinations
     flow = found.slow_flow[found.destinations.index("cycle 1")]
     np.testing.assert_allclose(flow, c2.sliding_flow(slow, (0.0,)), rtol=0.0, atol=1e-6)  # prop:LC
-
-
-@pytest.mark.parametrize("n", [100, 96, 33, 16, 0, -32])
-def test_a_size_that_cannot_be_refined_to_is_refused(n):
-    with pytest.raises(ValueError, match="32 times a power of two"):
-        basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=n)
 
 
 def test_cells_that_lead_nowhere_are_told_by_negative_numbers():
@@ -105,14 +76,6 @@ def test_a_part_seen_nearer_has_the_cells_of_the_whole_as_finely():
     x = 0.9 + (np.arange(32) + 0.5) * (0.2 / 32)
     y = x - 1.0
     np.testing.assert_array_equal(near.cells == OUTSIDE, np.hypot(*np.meshgrid(x, y)) >= 1.0)
-
-
-@pytest.mark.parametrize(
-    "box", [(1, -1, -1, 1), (0, 0, 0, 1), (0, float("inf"), 0, 1), (0, 1, float("nan"), 1), 3.0, (0, 1), "abcd"]
-)
-def test_a_box_that_is_none_is_refused(box):
-    with pytest.raises(ValueError, match="left < right"):
-        basins(c2.presets["case1-cm4"].system, c2.psi.constant(), n=32, box=box)
 
 
 def test_shares_are_parts_of_the_cells_of_the_disc():

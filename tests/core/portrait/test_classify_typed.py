@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given, settings
 
 import codim2_core as c2
-from codim2_core import ELinear, classify, psi
+from codim2_core import classify, psi
 from codim2_core.layer_problem.disc_zeros import disc_zeros
 from codim2_core.layer_problem.problem import LayerProblem
 from codim2_core.systems.typed import System
@@ -45,17 +45,6 @@ def test_affine_systems_have_the_name_of_the_normal_form(system, regularisation)
     assert (found.case, found.name, found.sentence) == (expected.case, expected.name, expected.sentence)
 
 
-def test_affine_form():
-    system = System(U=("p*c - s + z", "c - 2*s"), W=("-z",), parameters={"p": -1.0})
-    form = system.at(0.25).normal_form
-    assert (form.plane, form.rotation) == ((-1.0, 1.0, -2.0, 0.25, 0.0), 0.0)  # as it stands
-    system = System(U=("p*c - s + z", "2*c - 2*s"), W=("-z",), parameters={"p": -1.0})
-    expected = ELinear.from_matrix([[-1.0, -1.0], [2.0, -2.0]], (0.25, 0.0)).at()
-    assert system.at(0.25).normal_form.plane == pytest.approx(expected.plane)
-    assert System(U=("c**2", "s")).at().normal_form is None
-    assert System(U=("c + x", "s")).at().normal_form is None
-
-
 @given(polynomials, regularisations)
 @settings(max_examples=10)
 def test_psi_never_changes_the_name(system, regularisation):
@@ -81,12 +70,6 @@ def test_neutral_equator_and_hopf():
     assert "tr J = 0" in neutral
     assert "tr J = 0" not in names("p*c - s + c**2", "c + p*s", p=1e-9)
     assert "tr J = 0" in names("p*c - s + c**2", "c - p*s", p=0.5)
-
-
-def test_cusp_of_limit_directions():
-    """Theta = (theta - t0)^3 (...) without symmetry: sin^3 times something uneven."""
-    found = classify(System(U=("-c - s*s**3*(2 + c + s)", "-s + c*s**3*(2 + c + s)")), RATIONAL)
-    assert "cusp" in [d.name for d in found.degeneracies]
 
 
 @pytest.mark.parametrize("k", ["1e-140", "1", "1e140"])

@@ -8,7 +8,6 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core.continuation.branches import continue_cycles
 from tests.core.general_systems import polynomials
 from tests.core.strategies import regularisations
 
@@ -113,22 +112,3 @@ def test_nullclines_end_on_the_equator_or_where_they_meet(system, p):
 @example(c2.System(U=("0", "s**2 - c*s")), c2.psi.tanh())
 def test_nullclines_of_general_systems_end_on_the_equator_or_where_they_meet(system, p):
     check_nullclines(system, p)
-
-
-@pytest.mark.parametrize("name", ["f1", "b", "n"])
-@pytest.mark.parametrize("n", [3, 6])
-def test_branches_of_cycles_end_at_their_ends_and_cycles_close(name, n):
-    system, p = c2.ELinear(1.0, 1.3, -1.2, (0.3, 0.35)), c2.psi.hill(n)
-    center = {"f1": 0.3, "b": 1.3, "n": float(n)}[name]
-    span = (center - 0.25, center + 0.6)
-    for branch in continue_cycles(system, p, name, span):
-        for special, i in ((branch.start, 0), (branch.end, -1)):
-            assert branch.value[i] == pytest.approx(special.value, abs=1e-9)
-            assert branch.amplitude[i] == pytest.approx(special.amplitude, abs=1e-6)
-            if special.kind == "span":
-                assert min(abs(special.value - v) for v in span) < 1e-12
-            if special.kind == "Hopf":
-                assert branch.amplitude[i] == 0.0
-    for cycle in c2.limit_cycles(system, p):
-        assert math.dist(cycle.points[0], cycle.points[-1]) < 1e-12
-        assert cycle.closure < 1e-9

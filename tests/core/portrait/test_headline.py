@@ -52,19 +52,6 @@ def inside(p, points):
         return np.count_nonzero(crossed & (p[0] < x0 + (p[1] - y0) * (x1 - x0) / (y1 - y0))) % 2 == 1
 
 
-@pytest.mark.parametrize("name", c2.presets)
-def test_of_every_portrait(name):
-    preset = c2.presets[name]
-    held(preset.system, preset.psi, preset.z)
-
-
-@pytest.mark.parametrize("name", ["case3-n3", "case3-n4"])
-def test_the_cycle_about_an_unstable_set(name):
-    preset = c2.presets[name]
-    text = c2.classify(preset.system, preset.psi, preset.z).sentence
-    assert text.endswith("A stable limit cycle surrounds C: trajectories wind onto it and slide along Σ.")
-
-
 @pytest.mark.parametrize("seed", range(10))
 def test_of_random_elinear_systems(seed):
     random = np.random.default_rng(seed)

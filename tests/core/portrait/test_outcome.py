@@ -55,14 +55,3 @@ def test_on_a_whole_arc_of_limit_directions_none_is_tended_to(turn, sign):
     assert cuts[-1, 1] - cuts[0, 0] == pytest.approx(2.0 * math.pi)
     on = sum(end - begin for begin, end, outcome in found.arcs if outcome is not Q)
     assert on == pytest.approx(math.pi if sign > 0 else 2.0 * math.pi, abs=1e-5)
-
-
-def test_where_nothing_arrives_the_table_tells_what_the_directions_do_instead():
-    """U = e + (0.2, -0.1): all of the equator repels."""
-    found = c2.approach_outcomes(c2.ELinear(1.0, 0.0, 1.0, (0.2, -0.1)), c2.psi.constant())
-    assert len(found) == 0
-    shown = found._repr_html_()
-    assert shown.count("<tr>") == 1 + len(found.directions) == 3
-    for one in found.directions:
-        assert f"<td>{one.label}</td>" in shown
-        assert one.reason in shown

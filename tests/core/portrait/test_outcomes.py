@@ -8,15 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from codim2_core import (
-    ELinear,
-    System,
-    critical_sets,
-    equator_equilibria,
-    presets,
-    psi,
-    trajectories,
-)
+from codim2_core import ELinear, System, critical_sets, equator_equilibria, presets, psi, trajectories
 from codim2_core.portrait.outcomes import approach_outcomes
 from codim2_core.portrait.separatrices import separatrices
 from codim2_core.words import say
@@ -27,19 +19,6 @@ def of(name):
     return approach_outcomes(presets[name].system, presets[name].psi)
 
 
-# ---- the paper's portraits ----------------------------------------------------------------------------------------
-
-
-def test_case_I_with_a_critical_set_slides():
-    for name in ("case1-cm0", "case1-cm2", "case1-cm4"):
-        found = of(name)
-        assert len(found) > 0
-        for outcome in found:
-            assert (outcome.verdict, outcome.onto, outcome.depends_on_psi) == ("slide", "C", False)
-    assert of("case1-cm0").whole is of("case1-cm0").outcome(1.0) or of("case1-cm0").outcome(1.0).label == "equator"
-    assert [outcome.arrives for outcome in of("case1-cm4")] == ["open set"] * 2 + ["single direction"] * 2
-
-
 def test_case_I_without_one_crosses():
     (outcome,) = of("case1-ncm2")
     assert (outcome.verdict, outcome.onto, outcome.leaving) == ("cross", "Q1", 0.0)
@@ -48,12 +27,6 @@ def test_case_I_without_one_crosses():
     assert {outcome.leaving for outcome in found} == {0.0}
     assert found.outcome(math.pi - 0.1).verdict == "cross"
     assert found.outcome(0.1).verdict == "misses"
-
-
-def test_case_II_saddle_leaves_it_to_chance():
-    found = of("case2-saddle")
-    assert [outcome.verdict for outcome in found] == ["undecided", "undecided"]
-    assert all("different places: " in outcome.reason for outcome in found)
 
 
 @pytest.mark.parametrize(("n", "verdict"), [(1, "slide"), (2, "slide"), (3, "cycle"), (4, "cycle")])
@@ -70,18 +43,6 @@ def test_case_III_depends_on_psi(n, verdict):
     assert approach_outcomes(system, p, compare=())[0].depends_on_psi is None
     # "Whether trajectories slide or cross depends upon their initial conditions."
     assert {outcome.verdict for _, _, outcome in found.arcs} == {verdict, "misses"}
-
-
-# ---- degenerate ---------------------------------------------------------------------------------------------------
-
-
-def test_every_direction():
-    found = approach_outcomes(ELinear(-1, 0, -1), psi.tanh())
-    assert found.whole is not None
-    assert found.outcome(2.0).verdict == "slide"
-    assert found.arcs == ((0.0, 2 * math.pi, found.whole),)
-    assert approach_outcomes(ELinear(1, 0, 1), psi.tanh()).outcome(0.0).verdict == "misses"
-    assert approach_outcomes(ELinear(0, 0, 0), psi.tanh()).outcome(0.0).verdict == "undecided"
 
 
 def test_closed_equator():
@@ -137,14 +98,6 @@ def test_along_every_direction_it_is_the_sign_of_U_along_it_that_counts(mean, tu
     assert found.whole.reason.startswith(
         say("all lead away" if mean > 1.0 else "all directions" if mean < -1.0 else "some lead")
     )
-
-
-def test_angle_must_be_finite():
-    with pytest.raises(ValueError, match="finite angle"):
-        of("case1-cm2").outcome(math.nan)
-
-
-# ---- random systems -----------------------------------------------------------------------------------------------
 
 
 def robust(system):
@@ -218,3 +171,28 @@ def test_where_nothing_slides_no_psi_is_asked(system):
         assert (outcome.depends_on_psi, outcome.families, outcome.slides_alike, outcome.why) == (False, (), False, "")
         assert outcome.slow_flow is None
     assert any(outcome.verdict == "cross" for outcome in found) == (system.at().a < 0.0)
+
+
+def test_case_I_with_a_critical_set_slides():
+    for name in ("case1-cm0", "case1-cm2", "case1-cm4"):
+        found = of(name)
+        assert len(found) > 0
+        for outcome in found:
+            assert (outcome.verdict, outcome.onto, outcome.depends_on_psi) == ("slide", "C", False)
+    assert of("case1-cm0").whole is of("case1-cm0").outcome(1.0) or of("case1-cm0").outcome(1.0).label == "equator"
+    assert [outcome.arrives for outcome in of("case1-cm4")] == ["open set"] * 2 + ["single direction"] * 2
+
+
+def test_case_II_saddle_leaves_it_to_chance():
+    found = of("case2-saddle")
+    assert [outcome.verdict for outcome in found] == ["undecided", "undecided"]
+    assert all("different places: " in outcome.reason for outcome in found)
+
+
+def test_every_direction():
+    found = approach_outcomes(ELinear(-1, 0, -1), psi.tanh())
+    assert found.whole is not None
+    assert found.outcome(2.0).verdict == "slide"
+    assert found.arcs == ((0.0, 2 * math.pi, found.whole),)
+    assert approach_outcomes(ELinear(1, 0, 1), psi.tanh()).outcome(0.0).verdict == "misses"
+    assert approach_outcomes(ELinear(0, 0, 0), psi.tanh()).outcome(0.0).verdict == "undecided"

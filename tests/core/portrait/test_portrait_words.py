@@ -70,22 +70,3 @@ def test_a_zero_of_theta_is_named_by_its_multiplicity(power, name):
     for change, named in ((0.5 * found.within, True), (100.0 * found.within, False), (1e-4, False)):
         near = System(U=(f"-c - s*(s**{power} + {change!r})", f"-s + c*(s**{power} + {change!r})"))
         assert (name in [d.name for d in classify(near, psi.constant()).degeneracies]) == named, change
-
-
-@pytest.mark.parametrize(
-    ("U", "words"),
-    [
-        (("(c - 1)*(2 + s)", "s"), "There is no isolated critical set on the hemisphere."),  # one on the equator
-        (("(c - s)*(2 + c)", "(c - s)*(3 + s)"), "There is no isolated critical set on the hemisphere."),  # a curve
-        (("c*s - s*c", "0*c*s"), "There is no isolated critical set on the hemisphere."),
-        (("c*s + 2", "s"), "There is no critical set."),
-        (
-            ("c**2 - 1/4", "-s"),
-            "The critical sets are 1 saddle, 1 stable node. Exactly one of the ways to slide along Σ is stable.",
-        ),
-        (("c**2 - 1/4", "s"), "The critical sets are 1 saddle, 1 unstable node. None is stable"),
-        (("-c*(c**2 - 1/4)", "-s"), "1 saddle, 2 stable nodes. There are 2 ways to slide stably along Σ"),
-    ],
-)
-def test_what_is_said_of_several_critical_sets(U, words):
-    assert words in classify(System(U=U), psi.constant()).sentence

@@ -40,9 +40,6 @@ def test_separatrices_are_rays_for_f_0(p):
         assert miss.max() < 1e-8
 
 
-# ---- theorems -----------------------------------------------------------------------------------------------------
-
-
 coefficient = st.floats(0.1, 3.0)
 
 
@@ -66,28 +63,10 @@ def test_case_II_saddle_joins_all_four(a, d, b, r, t, p):
     assert len(found) == 8  # and every Q is a half-saddle outside
 
 
-@settings(max_examples=20)
-@given(coefficient, coefficient, st.floats(-3, 3), st.floats(0, 0.95), st.floats(0, 6.28), regularisations)
-def test_case_I_all_branches_meet_C(a, d, b, r, t, p):
-    """thm:case1(a), and the same backward in time for a, d > 0."""
-    f = np.array([[a, b], [-b, d]]) @ [r * math.cos(t), r * math.sin(t)]
-    for sign in (1.0, -1.0):
-        system = ELinear(-sign * a, sign * b, -sign * d, (float(sign * f[0]), float(sign * f[1])))
-        equator, critical = robust(system, p)
-        assert len(critical) == 1
-        inside = [branch for branch in separatrices(system, p) if branch.inside]
-        assert all(branch.end == "C" for branch in inside)
-        assert {branch.direction for branch in inside} <= {"unstable" if sign > 0 else "stable"}
-        assert len(inside) == len(equator) // 2
-
-
 def test_case_III_winds_onto_the_cycle():
     found = separatrices(presets["case3-n3"].system, psi.hill(3))
     assert ("Q1", "cycle 1") in found.graph
     assert ("Q2", "Q4") in found.graph
-
-
-# ---- saddle connections -------------------------------------------------------------------------------------------
 
 
 def test_saddle_connection_is_found_and_named():

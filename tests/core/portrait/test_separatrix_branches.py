@@ -12,9 +12,6 @@ from codim2_core.words import say
 PSI = c2.psi.constant()
 
 
-# ---- outside, where U depends on x or y -----------------------------------------------------------------------------
-
-
 def parabola(bend, tangential, speed, turn):
     """U = speed (c, 2 bend x c + tangential (s - bend x c)), turned: tangent to y = bend x^2, where s = bend x c."""
     k, m = math.cos(turn), math.sin(turn)

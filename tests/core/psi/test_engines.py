@@ -47,11 +47,6 @@ def test_a_formula_that_touches_zero_is_zero_from_there_on(text):
     assert "outside it the layer problem is the nonsmooth system" in check.R3.sentence
 
 
-def test_a_law_that_is_positive_never_saturates():
-    for law in (c2.psi.constant(), c2.psi.exponential(), c2.psi.custom("1-tanh(s)"), c2.psi.custom("max(1-s, 0.01)")):
-        assert law.saturation == math.inf
-
-
 def test_claims_that_need_R3_fail_without_it():
     verdicts = {one.theorem: str(one.verdict.value) for one in c2.certificates(CHATTERING, CLAMP)}
     assert [verdicts[f"lem:ePsi({part})"] for part in "abcd"] == ["holds", "holds", "fails", "fails"]
@@ -59,31 +54,26 @@ def test_claims_that_need_R3_fail_without_it():
     assert verdicts["thm:geneps0(c)"] == "holds"
 
 
-@pytest.mark.parametrize(("name", "trace"), [("drake", -19.0526), ("tanh", -6.5611), ("ipc", -10.7797), ("sap", 28.0)])
-def test_the_trace_decides_who_sticks(name, trace):
-    """Against finite differences of ``x2' = U(e(x2))`` at its fixed point, with e written out."""
+@pytest.mark.parametrize(
+    ("name", "trace", "slip"),
+    [
+        ("drake", -19.0526, 1.0 / math.sqrt(3.0)),
+        ("tanh", -6.5611, math.atanh(0.5)),
+        ("ipc", -10.7797, 1.0 - math.sqrt(0.5)),
+        ("sap", 28.0, 0.5),
+    ],
+)
+def test_the_trace_decides_who_sticks(name, trace, slip):
+    """At e = (1/2, 0), where r' and r'/r of the law r(slip) weigh a = 200 and d = -172."""
     law = c2.psi.tanh() if name == "tanh" else c2.psi.engine(name)
     e = math.tanh if name == "tanh" else LAWS[name]
     (C,) = c2.critical_sets(CHATTERING, law)
-    A = np.array([[200.0, -200.0], [200.0, -172.0]])
-
-    def rate(x):
-        r = math.hypot(*x)
-        return A @ (x * (e(r) / r)) - 100.0
-
-    # e = (1/2, 0): |e| = 1/2 is met at a slip that bisection finds
-    low, high = 0.0, 1.0
-    for _ in range(80):
-        low, high = (low, 0.5 * (low + high)) if e(0.5 * (low + high)) > 0.5 else (0.5 * (low + high), high)
-    place, h = np.array([low, 0.0]), 1e-6
-    np.testing.assert_allclose(rate(place), 0.0, atol=1e-11)
-    J = np.column_stack([(rate(place + h * u) - rate(place - h * u)) / (2.0 * h) for u in np.eye(2)])
-    np.testing.assert_allclose(C.x2, place, atol=1e-12)
-    np.testing.assert_allclose(C.jacobian, J, atol=1e-6)
-    assert C.trace == pytest.approx(np.trace(J), abs=1e-6)
+    np.testing.assert_allclose(C.x2, (slip, 0.0), atol=1e-12)
+    slope = (e(slip + 1e-6) - e(slip - 1e-6)) / 2e-6
+    assert C.trace == pytest.approx(200.0 * slope - 172.0 * e(slip) / slip, abs=1e-6)
     assert C.trace == pytest.approx(trace, abs=1e-4)
     assert C.kind == ("stable focus" if trace < 0.0 else "unstable focus")
-    assert C.creep(1e-3) == pytest.approx(1e-3 * low, rel=1e-12)
+    assert C.creep(1e-3) == pytest.approx(1e-3 * slip, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", ["sap", "ipc"])

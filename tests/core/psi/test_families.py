@@ -1,9 +1,7 @@
 """A family of Psi is one file and one line: one from a temporary folder is used through the public API."""
 
-import ast
 import math
 import pickle
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,10 +13,9 @@ from codim2_core.layer_problem.vary import limits, names, value_of, vary
 from codim2_core.psi import FAMILIES, Family, make, register, unregister
 from codim2_core.psi.constructors import comparison_families
 
-from ..additions import FROM_FORMULA, WRITTEN_OUT, added_family
+from ..additions import added_family
 
 CASE3 = c2.ELinear(172, 186, -200, f=(-86, -93))
-ROOT = Path(__file__).parents[3]
 
 
 def at_hopf(psi):
@@ -27,9 +24,9 @@ def at_hopf(psi):
     return c2.ELinear(CASE3.a, CASE3.b, CASE3.d, f=tuple(curve[len(curve) // 3]))
 
 
-@pytest.fixture(params=[WRITTEN_OUT, FROM_FORMULA], ids=["written out", "from its formula"])
-def family(request, tmp_path):
-    with added_family(tmp_path, request.param) as added:
+@pytest.fixture
+def family(tmp_path):
+    with added_family(tmp_path) as added:
         yield added
 
 
@@ -116,22 +113,3 @@ def test_what_cannot_be_registered():
         unregister("hill")
     with pytest.raises(AttributeError, match="no attribute 'power'"):
         c2.psi.power  # noqa: B018
-
-
-def test_no_other_room_names_a_family():
-    """Nothing lists the families by hand: presets name the one they show, and the page the one it opens with.
-
-    The program that checks certificates shares no code with the core: it has formulas of its own, of some families.
-    """
-    named = set(FAMILIES) - {"tanh"}  # a function of formulas too
-    for folder in ("codim2_core", "app"):
-        for path in (ROOT / folder).rglob("*.py"):
-            where = path.relative_to(ROOT).as_posix()
-            if where.startswith(("codim2_core/psi/", "codim2_core/figures/", "codim2_core/cycles/proof/")):
-                continue
-            texts = [n.value for n in ast.walk(ast.parse(path.read_text("utf-8"))) if isinstance(n, ast.Constant)]
-            found = sorted(named.intersection(text for text in texts if isinstance(text, str)))
-            assert found == (["constant"] if where in ("app/state/controls.py", "app/state/links.py") else []), where
-    for path in (path for kind in ("js", "css", "html") for path in (ROOT / "app" / "static").rglob(f"*.{kind}")):
-        text = path.read_text("utf-8")
-        assert not [name for name in named if f'"{name}"' in text], path.name

@@ -30,29 +30,6 @@ def test_without_force_the_time_to_sigma_is_known(a, b, theta, rho):
     assert "spiral" in fate.sentence
 
 
-def test_the_ball_without_viscosity_stops_slipping_when_it_must():
-    """2 v/(7 mu g) for a slip velocity v: here rho = 0.8, in the direction of the slip."""
-    ball = c2.examples.ball_in_pool(mu=0.2, m=1.0, K=1.0, g=9.81)
-    (fate,) = launch(ball, PSI, [[-1.8, 0.0]], z=(1e-9, 0.0)).goes
-    assert fate.after == pytest.approx(2 * 0.8 / (7 * 0.2 * 9.81), rel=1e-3)
-    assert fate.onto == "C"
-
-
-def test_words_of_an_orbit_from_outside_that_slides():
-    (fate,) = launch(c2.ELinear(-2, 0, -1, (-0.5, 0)), PSI, [[1.5, 0.3]]).goes
-    assert fate.sentence == f"Reaches Σ along Q₂, θ = 2.094, after t = {fate.after:.3g}. It slides on C."
-    moved = c2.simulate_nonsmooth(c2.ELinear(-2, 0, -1, (-0.5, 0)), _outside(1.5, 0.3), (0, 2), psi=PSI)
-    slip = moved.phases[0]
-    assert slip.kind == "slip"
-    assert fate.after == pytest.approx(slip.t_end, rel=2e-3)
-
-
-def _outside(x, y):
-    """The state of a picture point outside the equator."""
-    r = math.hypot(x, y)
-    return ((r - 1) * x / r, (r - 1) * y / r)
-
-
 coefficient = st.floats(-2, 2).map(lambda v: round(v, 3))
 
 
@@ -76,15 +53,6 @@ def test_where_an_orbit_goes_agrees_with_the_approach_outcomes(a, d, others, rad
     k = int(fate.label[1:]) - 1
     assert c2.equator_equilibria(system).lambda_rho[k] < 0
     assert fate.onto == outcomes.directions[k].onto
-
-
-def test_lines_run_through_their_seeds():
-    seeds = np.array([[0.3, 0.2], [1.3, -0.4]])
-    found = launch(c2.ELinear(-2, 0, -1, (-0.5, 0)), PSI, seeds)
-    for line, times, seed in zip(found.orbits.points, found.orbits.times, seeds, strict=True):
-        assert np.hypot(*(line[times == 0][0] - seed)) < 1e-12
-        assert (np.diff(times) > 0).all()
-    assert len(found) == 2
 
 
 @pytest.mark.parametrize("beside", [1e-3, 1e-9, 1e-20, 1e-40, 3e-63, 1e-200, 0.0])

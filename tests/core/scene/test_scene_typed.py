@@ -1,17 +1,14 @@
 """The scene of a typed system: the same layers, each recomputed exactly when a change reaches it."""
 
 import dataclasses
-import math
 
 import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core import examples
-from codim2_core.orbits.trajectories import is_warm, warm
 from codim2_core.scene import ELINEAR_ONLY, layers
 
-from .test_scene import fingerprint, ran
+from .test_scene import ran
 
 
 def typed(**parameters):
@@ -51,12 +48,6 @@ def test_a_change_recomputes_what_it_reaches_and_nothing_else(change):
     assert changed <= computed
 
 
-def test_z_reaches_the_picture_once_U_depends_on_it():
-    first = scene().evolve(U=("2*c**2 - c - 1/2 + z1/9", "q*c*s - s"))
-    assert ran(first, z=(0.6, 0.2))[0] == PLANE
-    assert ran(first, z=(0.5, 0.3))[0] == {"certificates"}  # which looks along z
-
-
 def test_layers_of_the_e_linear_theory_are_named():
     here, there = scene(), c2.Scene(c2.ELinear(-2.0, 0.3, -1.0, (-0.5, 0.1)))
     for name in layers:
@@ -64,44 +55,6 @@ def test_layers_of_the_e_linear_theory_are_named():
         assert here.has(name) == (name not in ELINEAR_ONLY)
         assert (here[name] is None) == (name in ELINEAR_ONLY | {"equator_cycle", "location"})
     assert not here.has("sky")
-
-
-def test_the_scene_shows_what_the_functions_say():
-    system, p, z = examples.nonunique_sliding(), c2.psi.hill(2), 0.4
-    shown = c2.Scene(system, p, z)
-    np.testing.assert_array_equal(shown["equator"].theta, c2.equator_equilibria(system, z).theta)
-    expected = c2.critical_sets(system, p, z)
-    assert [C.kind for C in shown["critical"]] == [C.kind for C in expected]
-    np.testing.assert_array_equal([C.p for C in shown["critical"]], [C.p for C in expected])
-    np.testing.assert_array_equal(shown["slow_flow"], c2.sliding_flow(system, z))
-    assert fingerprint(shown["classification"]) == fingerprint(c2.classify(system, p, z))
-    drawn = shown["nullclines_inside"] + shown["nullclines_outside"]
-    assert fingerprint(drawn) == fingerprint(c2.nullclines(system, p, z, view=shown.view))
-    assert shown["separatrices"].graph == c2.separatrices(system, p, z).graph
-
-
-def test_what_the_system_does_not_have_is_refused_and_nothing_changes():
-    shown = scene()
-    first = shown["classification"]
-    for bad in ({"a": 1.0}, {"q": math.nan}, {"z": 1.0}, {"U": ("c",)}, {"U": ("__import__('os')", "s")}, {"b": "c"}):
-        with pytest.raises(ValueError, match=r"give|has|allowed|cannot|expected|write|is not"):
-            shown.evolve(**bad)["inside"]
-    assert shown["classification"] is first
-    frozen = c2.Scene(typed().at((0.5, 0.2)))
-    assert frozen["classification"].sentence == first.sentence
-    with pytest.raises(ValueError, match="give it a system"):
-        frozen.evolve(q=1.0)
-    with pytest.raises(ValueError, match="give an ELinear or a System"):
-        c2.Scene("c")
-
-
-def test_one_compilation_draws_every_setting():
-    system = c2.System(U=("2*c**2 - q*c - 1/2", "-s + q*c*s"), parameters={"q": 1.0})
-    warm()
-    first = c2.Scene(system, c2.psi.tanh(), count=8)
-    first["outside"]
-    for p in (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3)):
-        assert is_warm(p, first.evolve(q=0.7).coefficients)
 
 
 def test_a_lineage_may_pass_from_one_kind_of_system_to_the_other():

@@ -50,7 +50,3 @@ def test_where_it_touches_the_circle_and_where_det_a_vanishes():
     assert none.point is None
     assert not none.convex
     assert none.sentence.startswith("det A = 0")
-
-
-def test_a_typed_system_has_no_plane():
-    assert affine_plane(c2.examples.nonunique_sliding(), (0.0,)) is None

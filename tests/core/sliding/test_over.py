@@ -48,14 +48,3 @@ def test_the_other_slow_variables_keep_their_values():
         c2.ELinear(1.0, 0.0, -1.0, g=("z2", "z1")), c2.psi.constant(), ((0.0, 1.0), (0.0, 1.0)), count=2
     )
     assert saddle.stable.tolist() == [False] * 4
-
-
-def test_limit_directions_along_the_second_slow_variable():
-    system = c2.ELinear("z1", "z2", -1.0, (0.5, 0.2), g=(0.0, 0.0))
-    found = directions_along(system, (-1.0, 1.0), (0.3, 99.0), axis=1, count=3)
-    for z2 in (-1.0, 0.0, 1.0):
-        np.testing.assert_array_equal(found.theta[found.z == z2], c2.equator_equilibria(system, (0.3, z2)).theta)
-    (first,) = {tuple(directions_along(system, (-1.0, 1.0), axis=0, count=2).theta[:2])}
-    assert first == tuple(c2.equator_equilibria(system, (-1.0, 0.0)).theta[:2])
-    alone = directions_along(c2.ELinear("z", 0.2, -1.0, g=(0.0,)), (0.0, 1.0))
-    assert len(set(alone.z)) > 50

@@ -19,26 +19,6 @@ def test_numbers_and_text_give_the_same_coefficients():
     np.testing.assert_array_equal(typed.g, plain.g)
 
 
-def test_parameters_change_without_new_text():
-    system = ELinear(-1, 0, -1, ("f + k*z", 0), parameters={"f": 0.1, "k": 2.0})
-    assert system.at(0.5).f1 == 1.1
-    assert system.evolve(k=4.0).at(0.5).f1 == 2.1
-    assert system.m == 1
-
-
-@pytest.mark.parametrize(
-    ("m", "system"),
-    [
-        (0, ELinear(1, 2, 3)),
-        (1, ELinear(1, 2, 3, g=[1.0])),
-        (2, ELinear(1, 2, 3, B=[[1, 2], [3, 4]])),
-        (3, ELinear("z3", 2, 3)),
-    ],
-)
-def test_number_of_slow_variables(m, system):
-    assert system.m == m
-
-
 def test_a_b_d_of_a_matrix_are_those_of_its_normal_form():
     given = ELinear.from_matrix([[1, -2], [3, -4]], f=(0.1, 0.2), B=[[1.0, -2.0]], g=[0.5])
     turned = given.rotated()
@@ -70,12 +50,6 @@ def test_from_matrix_is_the_same_system_seen_in_rotated_axes(entries, f1, f2, th
     assert abs(at.a * at.d + at.b**2 - np.linalg.det(A)) <= 1e-13 * scale**2
 
 
-def test_from_matrix_uses_the_two_argument_arctangent():
-    at = ELinear.from_matrix([[2.0, 1.0], [1.0, -1.0]]).at()
-    assert at.rotation == pytest.approx(0.5 * math.atan2(2.0, -3.0), rel=1e-15)
-    assert at.a < at.d
-
-
 def test_from_matrix_takes_entries_that_depend_on_z():
     system = ELinear.from_matrix([["z", 1.0], [0.0, "-z"]])
     fixed = ELinear.from_matrix([[0.7, 1.0], [0.0, -0.7]])
@@ -86,7 +60,6 @@ def test_from_matrix_takes_entries_that_depend_on_z():
 @pytest.mark.parametrize(
     ("make", "says"),
     [
-        (lambda: ELinear(math.nan, 0, 1), "a is nan"),
         (lambda: ELinear(1, math.inf, 1), "b is inf"),
         (lambda: ELinear(1, 0, 1e200), "rescales time"),
         (lambda: ELinear(1, 0, 1, (1e-200, 0)).evolve(a=0, d=0).at(), "rescales time"),
@@ -96,13 +69,9 @@ def test_from_matrix_takes_entries_that_depend_on_z():
         (lambda: ELinear(1, 0, 1, B=[[1, 2]], g=[1, 2]), "both need m"),
         (lambda: ELinear("q + 1", 0, 1), "q"),
         (lambda: ELinear("__import__('os')", 0, 1), "a: "),
-        (lambda: ELinear([1], 0, 1), "give a number"),
         (lambda: ELinear("z", 0, 1).at(), "m = 1"),
-        (lambda: ELinear("z", 0, 1).at((1, 2)), "m = 1"),
         (lambda: ELinear("z", 0, 1).at(math.nan), "finite"),
         (lambda: ELinear("1/z", 0, 1).at(0.0), "a"),
-        (lambda: ELinear("log(z)", 0, 1).at(-1.0), "a"),
-        (lambda: ELinear("exp(1000*z)", 0, 1).at(1.0), "a"),
         (lambda: ELinear(1, 0, 1).at(3.0), "no slow variable"),
         (lambda: ELinear(1, 0, 1).evolve(q=3), "'q' is no coefficient"),
         (lambda: ELinear("z2", 0, 1, g=[1.0]).m, "a names z2, but g has 1 row: use z, or give B and g 2 rows"),

@@ -8,8 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core.expressions.arrays import program
-from codim2_core.expressions.expression import parse
 from codim2_core.layer_problem.disc_zeros import disc_zeros
 
 HILL = c2.psi.hill(2)
@@ -51,18 +49,6 @@ def test_a_kinked_law_goes_through_every_public_function(system):
         assert finite(points)
 
 
-def test_limit_directions_on_a_kink():
-    on = c2.equator_equilibria(CORNERS)  # Theta = 0.3 s|s|: changes its sign with no slope
-    np.testing.assert_allclose(on.theta, [0.0, math.pi], rtol=0.0, atol=1e-12)
-    assert on.multiplicity.tolist() == [3, 3]
-    on = c2.equator_equilibria(c2.System(U=("-c-0.3*min(s, 0.2)", "-s")))  # 0.3 s min(s, 0.2): only touches zero
-    np.testing.assert_allclose(on.theta, [0.0, math.pi], atol=1e-6)
-    assert on.multiplicity.tolist() == [2, 2]
-    on = c2.equator_equilibria(c2.System(U=("-c", "-s - |s|")))  # Theta = -c|s|: touches at its kinks, crosses beside
-    np.testing.assert_allclose(on.theta, [0.0, 0.5 * math.pi, math.pi, 1.5 * math.pi], rtol=0.0, atol=1e-9)
-    assert on.multiplicity.tolist() == [2, 1, 2, 1]
-
-
 @given(st.floats(0.05, 3.1), st.floats(0.05, 3.1))
 @settings(max_examples=20, deadline=None)
 def test_directions_of_a_piecewise_linear_law_are_those_of_its_pieces(k, f):
@@ -95,21 +81,6 @@ def test_derivatives_at_the_centre_are_no_nan(U, J):
     assert not [d.name for d in found.degeneracies if d.name in ("index mismatch", "degenerate critical set")]
     np.testing.assert_allclose(system.at().DU((0.0, 0.0)), J, rtol=0.0, atol=1e-9)
     c2.separatrices(system, c2.psi.constant())
-
-
-@given(
-    st.sampled_from(
-        ["abs(c)", "min(c, s)", "max(c, 0.2, s)", "sqrt(c**2 + s**2)", "abs(c)**1.5", "c**0*s", "sign(k)*c"]
-    ),
-    st.floats(-1, 1),
-    st.floats(-1, 1),
-)
-@settings(max_examples=20, deadline=None)
-def test_compiled_derivatives_are_those_of_the_formulas(text, c, s):
-    expression = parse(text, ("c", "s", "k"))
-    got = program(((expression,), (2.0,) if "k" in expression.names else ())).evaluate(np.array([[c, s]]))[0, 0]
-    assert np.isfinite(got).all()
-    assert got[0] == pytest.approx(expression.evaluate({"c": c, "s": s, "k": 2.0}), rel=1e-12, abs=1e-15)
 
 
 def test_what_jumps_in_e_is_refused_and_what_jumps_in_z_is_not():

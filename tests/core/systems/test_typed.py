@@ -121,21 +121,20 @@ def test_messages_point_at_the_column():
         System(U=("chi( z ) + $", "s"), definitions=CHI)
 
 
+# more of each kind: tests/core/expressions/test_reading.py
 CODE = [
-    "().__class__.__bases__[0].__subclasses__()", "c.__class__", "__import__('os').system('true')", "eval('1')",
-    "exec", "open('x')", "getattr(c, 'real')", "lambda: 1", "[c for c in (1,)]", "c if s else 1", "c := 2", "f'{c}'",
-    "globals()", "breakpoint()", "c; s", "c\ns", "c == s", "c and s", "'c'", "math.sin(c)", "np.sin(c)", "{c: s}",
-    "c[0]", "1_000", "0x10", "1j", "c % s", "c // s", "c @ s", "~c", "c << 9",
-]  # fmt: skip
+    "().__class__.__bases__[0].__subclasses__()",
+    "__import__('os').system('true')",
+    "lambda: 1",
+    "c; s",
+    "c == s",
+    "c[0]",
+]
 BIG = [
-    "9**9**9**9", "c**1000**1000", "c**1e9", "(" * 100_000 + "c" + ")" * 100_000, "-" * 100_000 + "c",
-    "c+" * 500_000 + "c", "c" * 1_000_000, "sin(" * 200 + "c" + ")" * 200, "chi" + " " * 1_000_000, "chi(" * 250_000,
-    "1" * 1_000_000, " " * 1_000_000, "\x00" * 1_000_000,
+    "9**9**9**9", "c**1e9", "(" * 100_000 + "c" + ")" * 100_000, "c+" * 500_000 + "c", "c" * 1_000_000,
+    "chi" + " " * 1_000_000, "chi(" * 250_000, "1" * 1_000_000, "\x00" * 1_000_000,
 ]  # fmt: skip
-STRANGE = [
-    "ｃ", "с", "c\u200b", "c\u202es", "𝐜", "ſ", "２*c", "π", "c\x00", "\ufeffc", "s\u0301", "ﬁ", "∞",
-]  # fmt: skip
-NAMES = ["__builtins__", "__import__", "print", "globals", "import", "lambda", "None", "True", "self", "os", "numpy"]
+STRANGE = ["ｃ", "с", "c\u200b", "c\u202es", "𝐜", "２*c", "π", "\ufeffc"]
 
 
 def refused_at_once(**arguments):
@@ -158,14 +157,8 @@ def test_hostile_text_is_refused_at_once(text, where):
     refused_at_once(**arguments)
 
 
-@pytest.mark.parametrize("text", NAMES)
-def test_names_of_builtins_are_unknown_names(text):
-    with pytest.raises(ValueError, match=rf"the name '{text}' is not known|cannot read"):
-        System(U=(text, "s"))
-
-
 HOSTILE_KEYS = [
-    *STRANGE[:8], "__class__", "a.b", "1a", "", "lambda", "sin", "a" * 1_000_000, "a(" + " " * 1_000_000, 3, None,
+    *STRANGE, "__class__", "a.b", "1a", "", "lambda", "sin", "a" * 1_000_000, "a(" + " " * 1_000_000, 3, None,
 ]  # fmt: skip
 
 
@@ -186,26 +179,15 @@ def test_variables_cannot_be_redefined(name):
 @pytest.mark.parametrize(
     "arguments",
     [
-        {"U": ("c",)},
-        {"U": ("c", "s", "c")},
-        {"U": "c"},
-        {"U": None},
-        {"U": 5},
-        {"U": object()},
-        {"U": (None, "s")},
-        {"U": (np.nan, "s")},
-        {"U": (10**400, "s")},
-        {"U": ("c", "s"), "W": ("0",) * 17},
-        {"U": ("c", "s"), "parameters": {"p": np.nan}},
-        {"U": ("c", "s"), "parameters": {"p": 10**400}},
-        {"U": ("c", "s"), "parameters": {"p": "x" * 1_000_000}},
-        {"U": ("c", "s"), "parameters": 7},
-        {"U": ("c", "s"), "definitions": "chi"},
-        {"U": ("c", "s"), "definitions": {"g": ["c"]}},
+        {"U": ("c",)}, {"U": ("c", "s", "c")}, {"U": "c"}, {"U": None}, {"U": 5}, {"U": object()},
+        {"U": (None, "s")}, {"U": (np.nan, "s")}, {"U": (10**400, "s")}, {"U": ("c", "s"), "W": ("0",) * 17},
+        {"U": ("c", "s"), "parameters": {"p": np.nan}}, {"U": ("c", "s"), "parameters": {"p": 10**400}},
+        {"U": ("c", "s"), "parameters": {"p": "x" * 1_000_000}}, {"U": ("c", "s"), "parameters": 7},
+        {"U": ("c", "s"), "definitions": "chi"}, {"U": ("c", "s"), "definitions": {"g": ["c"]}},
         {"U": ("c", "s"), "parameters": {f"p{i}": 1.0 for i in range(MOST_NAMES + 1)}},
         {"U": ("c", "s"), "parameters": {f"p{i}": 1.0 for i in range(200_000)}},
     ],
-)
+)  # fmt: skip
 def test_wrong_shapes_and_values_are_refused(arguments):
     refused_at_once(**arguments)
 

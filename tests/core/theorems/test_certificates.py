@@ -74,11 +74,6 @@ def test_a_wrong_cycle_fails_and_a_right_one_holds():
     assert verdicts(system, psi.hill(3), cycles=[right, wrong])["prop:LC"] is Verdict.FAILS
 
 
-def test_psi_is_checked():
-    with pytest.raises(ValueError, match="psi is 1"):
-        certificates(ELinear(1, 0, 1), 1)
-
-
 def turned(system, angle):
     """The same system in axes turned by an angle, typed as text."""
     at = system.at()
@@ -151,18 +146,6 @@ def test_what_is_beside_an_example_is_none():
 def test_degenerate_equators_have_the_closed_form(system, theorem):
     assert theorem in applies(system, psi.constant())
     assert theorem in applies(turned(system, 0.5 * np.pi), psi.constant()) or theorem.endswith("D2")
-
-
-def test_a_psi_outside_the_class_is_said_to_be_so():
-    found = {c.theorem: c for c in certificates(ELinear(-1, 0, -2, (0.1, 0.2)), psi.rational())}
-    assert found["rem:jaco_properties"].verdict is Verdict.HOLDS
-
-
-def test_a_frozen_system_has_no_slow_manifold_to_speak_of():
-    at = examples.nonunique_sliding().at(0.2)
-    (found,) = (c for c in certificates(at, psi.tanh()) if c.theorem == "thm:geneps1(d)")
-    assert found.verdict is Verdict.DOES_NOT_APPLY
-    assert "frozen" in found.sentence
 
 
 def shorter(p):

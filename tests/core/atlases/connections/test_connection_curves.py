@@ -5,6 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.atlases.atlas import curves_over, with_connections
+from tests.core.polylines import away
 
 # e' is a positive multiple of J grad H + m (H - k) grad H in the disc: the level H = k is made of orbits, and between
 # levels H rises or falls along every other one. So a saddle has a loop where its own level is k, and nowhere else.
@@ -49,10 +50,7 @@ def normal_form(sign):
     first, second = "s", f"(p + q*c + c**2 + {sign}*c*s)"
     inward, turning = f"(c*{first} + s*{second})", "(c**2 + s**2)**4/2"
     return c2.System(
-        U=(
-            f"(1-c**2-s**2)*{first} + c*{inward} - {turning}*s",
-            f"(1-c**2-s**2)*{second} + s*{inward} + {turning}*c",
-        ),
+        U=(f"(1-c**2-s**2)*{first} + c*{inward} - {turning}*s", f"(1-c**2-s**2)*{second} + s*{inward} + {turning}*c"),
         parameters={"p": 0.0, "q": 0.0},
     )
 
@@ -82,10 +80,7 @@ def test_heteroclinic_cycles_of_an_e_linear_system_are_those_of_its_own_method()
     assert [curve.kind for curve in curves] == ["heteroclinic cycle"] * 2
     for curve in curves:
         (branch,) = [line for line in known.branches if line[0][1] * curve.points[0, 1] > 0.0]
-        start, along = branch[:-1], np.diff(branch, axis=0)
-        away = curve.points[:, None] - start
-        part = np.clip((away * along).sum(axis=2) / (along**2).sum(axis=1), 0.0, 1.0)
-        gap = np.sqrt(((away - part[..., None] * along) ** 2).sum(axis=2)).min(axis=1)
+        gap = away(curve.points, branch)
         assert gap[np.abs(curve.points[:, 0]) > 0.95].max() < 2e-4  # of its chords
         assert np.abs(curve.points).max() == pytest.approx(1.5, abs=1e-9)  # it leaves the plane
     neutral = [point.place for point in found.points if point.kind == "neutral loop"]

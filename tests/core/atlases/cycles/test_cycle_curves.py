@@ -8,6 +8,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.atlases.atlas import curves_over, with_folds_of_cycles
 from codim2_core.atlases.cycles import cycle_curves, fold_seeds
+from tests.core.polylines import away
 
 RADIAL = c2.System(
     U=(
@@ -52,10 +53,7 @@ def test_folds_of_an_e_linear_system_are_those_of_its_own_method():
     # beside two of the four generalised Hopf points
     (curve,) = folds(typed, psi, "f1", "f2", ((0.05, 0.9), (1.3, 2.0)))
     (branch,) = [line for line in known if line[0][1] > 0.0]
-    start, along = branch[:-1], np.diff(branch, axis=0)
-    away = curve.points[:, None] - start
-    part = np.clip((away * along).sum(axis=2) / (along**2).sum(axis=1), 0.0, 1.0)
-    gap = np.sqrt(((away - part[..., None] * along) ** 2).sum(axis=2)).min(axis=1)
+    gap = away(curve.points, branch)
     assert gap.max() < 1e-4  # of its chords
 
 

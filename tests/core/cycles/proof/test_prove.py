@@ -40,10 +40,6 @@ def key(found):
     return key
 
 
-def test_nothing_is_proved_unless_it_is_asked_for():
-    assert c2.limit_cycles(CASE3, psi.hill(1)).proved is None
-
-
 def test_a_theorem_needs_no_certificate(tmp_path):
     found = c2.limit_cycles(ELinear(-1, 3, -1.5, (0.3, 0.1)), psi.custom("1/(1+s)**2"), prove=True)
     assert found.proved
@@ -70,13 +66,12 @@ def test_the_paper_has_one_cycle_behind_it():
     assert found[0].stable
 
 
-@pytest.mark.parametrize("sense", [1.0, -1.0])
-@pytest.mark.parametrize("back", [1.0, -1.0])
+@pytest.mark.parametrize(("sense", "back"), [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0)])
 def test_one_cycle_and_no_other_whatever_the_sense_and_stability(sense, back, tmp_path):
     """Reflected, cycles go round the other way; in backward time they change their stability."""
     a, b, d, (f1, f2) = CASE3.a, CASE3.b, CASE3.d, CASE3.f
     system = ELinear(back * a, back * sense * b, back * d, (back * f1, back * sense * f2))
-    found = c2.limit_cycles(system, psi.hill(4), prove=True)
+    found = c2.limit_cycles(system, psi.hill(3), prove=True)
     assert found.proved
     assert found.proved.cycles == (True,)
     assert found[0].stable == (back > 0.0)

@@ -9,9 +9,7 @@ from codim2_core import System
 from codim2_core.initial_value.compiled_motion import functions_of
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels import slow
-from codim2_core.initial_value.kernels.arrival import (
-    slides,
-)
+from codim2_core.initial_value.kernels.arrival import slides
 from codim2_core.stepping.layout import PARAMETERS
 from codim2_core.stepping.numbers import PSI
 

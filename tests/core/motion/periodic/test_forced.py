@@ -112,8 +112,7 @@ def test_a_multiple_of_the_period_is_told():
 
 
 @pytest.mark.parametrize(
-    ("w", "where", "status"),
-    [(2.0, "−1", "FOUND"), (3.0, "on the unit circle", "FOUND"), (0.5, "+1", "NOT_ISOLATED")],
+    ("w", "where", "status"), [(2.0, "−1", "FOUND"), (3.0, "on the unit circle", "FOUND"), (0.5, "+1", "NOT_ISOLATED")]
 )
 def test_without_friction_nothing_is_decided(w, where, status):
     # q'' + q = cos(wt): multipliers exp(+-2 pi i/w), and for w = 1/2 every motion is periodic
