@@ -29,8 +29,8 @@ _REFINEMENTS, _REFINED_SPACING = (
 _MAX_CHANGES = 10  # between two neighbouring values of the grid, nested
 _MIN_WIDTH = 1e-12  # of the span
 _NEARER_STEPS = (3e-11, 3e-10, 3e-9)  # of the span: nearer still, where nothing is degenerate there
-_MAX_MOVE = 0.3  # in e, from one value to the next
-_BIRTH_SAMPLES = 0.1, 0.4  # of the way from where a pair may be born to the next value
+_MAX_STEEPNESS = 16.0  # of the slope of a minimum that comes to zero, in units of that of the whole step
+_MAX_MOVE, _PLACE_STEP = 0.3, 0.05  # in e: from one value to the next, and two steps of the angles that are sampled
 _NEIGHBOUR_SAMPLES = 0.01, 0.1, 0.4  # of the way from a special value to its neighbour on the grid
 
 
@@ -50,6 +50,9 @@ def pieces_between(
     within: list[Change] = []
     for i, piece in enumerate(pieces):
         known = _fill_piece(state, piece)
+        if rounds:
+            brief = _brief_states(state, known, _REFINED_SPACING * width)
+            known = sorted([*known, *brief], key=lambda s: s.value)
         for _ in range(rounds):
             more = [state(v) for v in _suspect_values(known, _REFINED_SPACING * width)]
             known = sorted([*known, *more], key=lambda s: s.value)
@@ -84,7 +87,6 @@ def _suspect_values(run: Sequence[State], least: float) -> list[float]:
     found: set[float] = set()
     for turns in ([s.near_directions for s in alike], [s.near_sets for s in alike]):
         lines += [(x[i : i + 3], y) for i in range(len(x) - 2) for y in _lined_up(turns[i : i + 3])]
-        found.update([*_extrapolated_zeros(x, turns), *_extrapolated_zeros(x[::-1], turns[::-1])])
     for x, y in lines:
         for i in lowest(x, y):
             # the extremum of the parabola, and where the lines from either side come to zero
@@ -97,29 +99,43 @@ def _suspect_values(run: Sequence[State], least: float) -> list[float]:
     return [v for v in sorted(found) if abs(known - v).min() > least]
 
 
-def _extrapolated_zeros(x: Array, turns: Sequence[WindingTest]) -> Iterator[float]:
-    """Values just past where what turns back before zero comes to it, by its size at two values before.
+def _brief_states(state: States, run: Sequence[State], least: float) -> Iterator[State]:
+    """Yield states with a pair of equilibria that is born between two states of a run, where one of a pair dies too.
 
-    A pair may be born there, and another one vanish before the next value. Where it does not seem to come to zero and
-    is there no more at the next value, the middle between the two.
+    Before its birth the pair is a positive minimum of |Theta| or |U|, which is gone at the next state, or has passed
+    zero. Bisection for where it goes ends beside the birth, where the pair is there; or nowhere, if a minimum and a
+    maximum have met.
     """
-    for i in range(1, len(x) - 1):
-        (before, one), (here, two), (after, _) = turns[i - 1 : i + 2]
-        for place, size in zip(here, two, strict=True):
-            if not len(before) or np.hypot(*(after - place).T).min(initial=math.inf) < _MAX_MOVE:
-                continue  # it is still there: `_lined_up` tells
-            away = np.hypot(*(before - place).T)
-            if away.min() < _MAX_MOVE and 0.0 < size < one[away.argmin()]:
-                zero = x[i] + size * (x[i] - x[i - 1]) / (one[away.argmin()] - size)
-                if (zero - x[i]) * (zero - x[i + 1]) < 0.0:
-                    yield from (float(zero + part * (x[i + 1] - zero)) for part in _BIRTH_SAMPLES)
+    for one, two in [*pairwise(run), *pairwise(run[::-1])]:
+        for minima in (lambda s: s.near_directions, lambda s: s.near_sets):
+            for place, first, value in zip(*minima(one), strict=True):
+                low, high, here, size, share = one, two, (place, value), first, 1.0
+                if _next_minimum(minima(high), *here, _MAX_MOVE) is not None:
                     continue
-            yield float(0.5 * (x[i] + x[i + 1]))
+                while abs(high.value - low.value) > least and size <= _MAX_STEEPNESS * first * share:
+                    middle = state(0.5 * (low.value + high.value))
+                    if middle.difference(one) is not None:
+                        yield middle
+                        break
+                    share *= 0.5
+                    there = _next_minimum(minima(middle), *here, _PLACE_STEP + share * _MAX_MOVE)
+                    if there is None:
+                        high = middle
+                    else:
+                        low, here, size = middle, there[:2], there[2]
+
+
+def _next_minimum(minima: WindingTest, place: Array, value: Array, move: float) -> tuple[Array, Array, float] | None:
+    """Return place, value and size of the nearest minimum on the same side of zero, if it may be the same."""
+    places, sizes, values = minima
+    away = np.where(values @ value > 0.0, np.hypot(*(places - place).T), math.inf)
+    nearest = away.argmin() if len(away) else 0
+    return (places[nearest], values[nearest], sizes[nearest]) if away.min(initial=math.inf) < move else None
 
 
 def _lined_up(turns: Sequence[WindingTest]) -> Iterator[Array]:
     """Sizes of what turns back before zero at three neighbouring values, in the same place."""
-    (first, one), (middle, two), (last, three) = turns
+    (first, one, _), (middle, two, _), (last, three, _) = turns
     if not (len(first) and len(last)):
         return
     for place, size in zip(middle, two, strict=True):

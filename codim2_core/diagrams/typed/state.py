@@ -21,7 +21,7 @@ from ...psi.function import Psi
 
 __all__ = ["State", "WindingTest"]
 
-WindingTest = tuple[Array, Array]  # places (k, 2) in the closed disc, and sizes (k,)
+WindingTest = tuple[Array, Array, Array]  # places (k, 2) in the disc, sizes (k,), Theta or U there
 
 _EQUATOR_ANGLES = 2.0 * np.pi * np.arange(256) / 256
 _CIRCLE = np.stack([np.cos(_EQUATOR_ANGLES), np.sin(_EQUATOR_ANGLES)], axis=-1)
@@ -60,7 +60,8 @@ class State:
         # by the parabola through three samples
         before, size, after = (np.abs(v)[turns] for v in (before, value, after))
         rise, bend = after - before, before - 2.0 * size + after
-        return _CIRCLE[turns], size - np.where(bend > 0.0, rise, 0.0) ** 2 / (8.0 * np.where(bend > 0.0, bend, 1.0))
+        size = size - np.where(bend > 0.0, rise, 0.0) ** 2 / (8.0 * np.where(bend > 0.0, bend, 1.0))
+        return _CIRCLE[turns], size, value[turns, None]
 
     @cached_property
     def near_sets(self) -> WindingTest:
@@ -75,13 +76,14 @@ class State:
             slope = np.einsum("knji,knj->kni", DU, U)
             bend = (slope[:, 1:3] - slope[:, 3:]) / (2.0 * _DIFFERENCE_STEP)
             if not np.isfinite(bend).all():
-                return e[:0], np.zeros(0)
+                return e[:0], np.zeros(0), e[:0]
             rate, way = np.linalg.eigh(bend + np.swapaxes(bend, 1, 2))
             along = np.einsum("kji,kj->ki", way, slope[:, 0]) / np.maximum(0.5 * abs(rate), 1e-300)
             e = e - np.einsum("kij,kj->ki", way, np.clip(along, -_MAX_CORRECTION, _MAX_CORRECTION))
-        left = np.hypot(*self._field(e)[0].T)
+        U = self._field(e)[0]
+        left = np.hypot(*U.T)
         turns = (np.hypot(*e.T) < 1.0) & (left > _ZERO_TOLERANCE * size.max())
-        return e[turns], left[turns]
+        return e[turns], left[turns], U[turns]
 
     @property
     def critical(self) -> tuple[CriticalSet, ...]:

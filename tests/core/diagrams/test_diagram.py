@@ -193,6 +193,23 @@ def test_typed_systems_have_the_special_values_of_their_e_linear_twins(hundredth
         assert_allclose(found(D, kind), exact, rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("name", "span", "values"),
+    [
+        ("f1", (-1.0, 1.0), (1.492, -0.54, 0.774, 0.0, -0.536)),
+        ("f1", (0.04423, 2.04423), (1.95737, 0.05311, 0.26559, 1.04423, 1.68843)),  # 1.8e-4 apart
+        ("b", (-1.62589, 0.37411), (0.82437, -0.62589, -0.54541, -1.35077, -0.14357)),
+    ],
+)
+def test_directions_that_are_there_between_two_values_only_are_found(name, span, values) -> None:
+    """A pair is born and one of it meets a third, between two values at which the counts are the same."""
+    D = equilibrium_branches(_TYPED.evolve(**dict(zip(_PLANE, values, strict=True))), c2.psi.tanh(), name, span)
+    a, b, d, *f = values
+    exact = found(equilibrium_branches(c2.ELinear(a, b, d, f), c2.psi.tanh(), name, span), "saddle-node")
+    assert np.diff(exact).min() < 0.005
+    assert_allclose(found(D, "saddle-node"), exact, rtol=0.0, atol=1e-9)
+
+
 def test_events_closer_than_a_bracket_are_both_told_with_their_values() -> None:
     """A saddle-node and a transcritical bifurcation 1.4e-8 apart, held against the e-linear system's."""
     values = dict(zip(_PLANE, (0.0037, 0.3911, 1.4859, -0.6877, 1.4543), strict=True))

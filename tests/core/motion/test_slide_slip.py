@@ -74,13 +74,13 @@ def test_a_slide_on_a_cycle_ends_where_the_cycle_does():
     r2 = "(c**2 + s**2)"
     folds = [f"({n}*({r2}*4/5 - 2*{r2}**2 + z))" for n in "cs"]
     system = c2.System(U=(f"{folds[0]} - s", f"{folds[1]} + c"), W=("-1",))
-    run = c2.simulate_nonsmooth(system, (0.1, 0.0, 0.0), (0.0, 0.3), CONSTANT)
+    run = c2.simulate_nonsmooth(system, (0.1, 0.0, 0.05), (0.0, 0.5), CONSTANT)
     assert [phase.onto for phase in run.phases] == [None, "cycle 2", "C"]
-    assert run.phases[1].t_end == pytest.approx(0.08, abs=1e-6)
+    assert run.phases[1].t_end == pytest.approx(0.13, abs=1e-6)
     assert [key for key, _ in recognise(run.phases[2].reason)] == ["cycle ends", "slides"]
     leaves = c2.System(U=(f"c*(z - {r2}) - s", f"s*(z - {r2}) + c"), W=("1",))
-    run = c2.simulate_nonsmooth(leaves, (0.1, 0.0, 0.7), (0.0, 1.5), CONSTANT)
-    assert run.times[-1] == pytest.approx(0.3, abs=1e-5)
+    run = c2.simulate_nonsmooth(leaves, (0.1, 0.0, 0.2), (0.0, 1.5), CONSTANT)
+    assert run.times[-1] == pytest.approx(0.8, abs=1e-5)
     assert "cycle ends" in [key for key, _ in recognise(run.reason)]
 
 

@@ -111,6 +111,13 @@ def test_where_no_derivative_exists():
     assert "ends away from the equator" in found.reason
 
 
+def test_unstable_is_told():
+    backwards = System(U=("y - 0.1*x*(1 - x**2 - y**2)", "-x - 0.1*y*(1 - x**2 - y**2)"))
+    found = periodic_motion(backwards, (0.95, 0.1), 6.0)
+    assert keys(found) == ["repeats", "periodic unstable"]
+    assert found.multipliers[0].real == pytest.approx(math.exp(0.2 * math.tau), rel=1e-6)
+
+
 @pytest.mark.parametrize(
     ("change", "told"),
     [
