@@ -256,6 +256,7 @@ print(pull, len(view.scene["critical"]), len(view.orbits), view.scene.system == 
 GIVE = "view.state.parameters = {'mu': 0.5, 'pull': 0.7}\nview.state.orbits = '1.4,0.5;-0.3,0.4'"
 
 
+@pytest.mark.slow
 def test_a_system_of_ones_own_goes_both_ways_and_is_live_after_reopening(show_notebook):
     notebook = show_notebook("own.ipynb", [OWN, GIVE, ASK])
     pull = "[data-control='parameter-pull'] input[type=range]"
