@@ -8,6 +8,7 @@ branch, nobody runs yesterday's formulas.
 
 from __future__ import annotations
 
+import logging
 import re
 from functools import cache
 from hashlib import blake2b
@@ -15,11 +16,16 @@ from pathlib import Path
 from typing import Any
 
 from numba import njit
-from numba.core import caching
+from numba.core import caching, event
 
 CORE_FOLDER = Path(__file__).parent
 IMPORT = re.compile(r"^ *from (\.+)([\w.]*) import (?:\(([^)]*)\)|(.*))$", re.MULTILINE)  # a relative one
 ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep their meaning
+
+COMPILING = (
+    "compiling kernels, once on this machine: about 10 s for trajectories, 45 s for motions; "
+    "the command `codim2 warm` compiles all of them beforehand."
+)
 
 #: Decorators. `fast_kernel` may reorder sums. LLVM inlines `inlined_kernel`; Numba splices `spliced_kernel` into the
 #: caller before it types it, so that functions can be arguments.
@@ -82,3 +88,21 @@ def _stamp(locator: Any) -> Any:
 
 
 _locator.get_source_stamp = _stamp
+
+
+class _Notice(event.Listener):
+    """Says once in a process that kernels are being compiled, which takes seconds and is silent else."""
+
+    said = False
+
+    def on_start(self, event: Any) -> None:
+        """Say it, if the kernel is one that is kept on disk: what is typed is compiled in a moment."""
+        if not self.said and isinstance(event.data["dispatcher"]._cache, caching.FunctionCache):  # noqa: SLF001
+            self.said = True
+            logging.getLogger(__name__).warning(COMPILING)
+
+    def on_end(self, event: Any) -> None:
+        """Nothing is said."""
+
+
+event.register("numba:compile", _Notice())

@@ -14,6 +14,8 @@ from .layers import layers_in_paint_order
 from .theme import HALF_VIEW, themes
 
 AXIS_LABELS = ["x̄", "ȳ"]
+#: What Bokeh's names of styles are called there.
+MATPLOTLIB = {"color": "color", "line_width": "linewidth", "line_color": "edgecolors", "fill_color": "color"}
 
 
 def elements(scene: Scene) -> dict[str, Any]:
@@ -53,7 +55,7 @@ def holoviews(scene: Scene) -> Any:
     Returns
     -------
     hv.Overlay
-        Of the elements that `elements` lists; axes are equal. Load a backend first: ``hv.extension("bokeh")``.
+        Of the elements that `elements` lists; axes are equal. Bokeh is loaded if no backend is.
 
     Examples
     --------
@@ -62,6 +64,8 @@ def holoviews(scene: Scene) -> Any:
     >>> len(picture)
     11
     """
+    if not hv.Store.renderers:
+        hv.extension("bokeh")
     overlay: Any = hv.Overlay(list(elements(scene).values()))
     x, y = (str(hv.Dimension(axis).label) for axis in AXIS_LABELS)
     common = {
@@ -123,7 +127,10 @@ def _mark_colours(columns: Any) -> tuple[list[str], list[str]]:
 
 
 def _apply_style(element: Any, **bokeh: Any) -> Any:
-    """Style for the Bokeh backend, if it has been loaded."""
-    if "bokeh" not in hv.Store.renderers:
-        return element
-    return element.opts(**bokeh, backend="bokeh")
+    """Style an element for each backend that is loaded; Matplotlib has one marker for all points of an element."""
+    if "bokeh" in hv.Store.renderers:
+        element = element.opts(**bokeh, backend="bokeh")
+    if "matplotlib" in hv.Store.renderers:
+        given = {MATPLOTLIB[name]: value for name, value in bokeh.items() if name in MATPLOTLIB}
+        element = element.opts(**given, **({"s": bokeh["size"] ** 2} if "size" in bokeh else {}), backend="matplotlib")
+    return element

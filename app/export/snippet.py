@@ -42,7 +42,7 @@ def snippet(view: View) -> str:
         f"scene = c2.Scene({arguments})\n\n"
         'print(scene["classification"].sentence)\n'
         f"drawn = {{name: scene[name] for name in {list(drawn)!r}}}\n"
-        '# scene.plot() is the picture (HoloViews; hv.extension("bokeh") first)\n'
+        "# scene.plot() is the picture (HoloViews)\n"
     )
 
 

@@ -189,7 +189,7 @@ class Scene:
     def plot(self) -> Any:
         """Return the picture as a HoloViews overlay, to add to, restyle and lay out.
 
-        Load a backend first: ``hv.extension("bokeh")``. It is drawn by ``codim2_app.holoviews``, imported here.
+        It is drawn by ``codim2_app.holoviews``, which loads HoloViews' Bokeh backend if none is loaded.
 
         Returns
         -------

@@ -1,5 +1,8 @@
 """A kernel on disk is out of date when the text of anything that it is made of has changed."""
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -37,3 +40,22 @@ def test_numba_keeps_the_packages_kernels_under_that_stamp():
     path = Path(kernel.py_func.__code__.co_filename)
     assert kernel._cache._cache_file._source_stamp == jit.source_stamp(path)
     assert jit.CORE_FOLDER / "stepping" / "dop853.py" in jit._read_module(path, jit.CORE_FOLDER)[1]
+
+
+def test_that_kernels_are_compiled_is_said_once_and_only_then(tmp_path):
+    """On a fresh machine; not the next time, and not of what is compiled in a moment and not kept."""
+    script = (
+        "import numpy as np\nfrom numba import njit\n"
+        "from codim2_core.numerics.fourier_arcs import _evaluate_series, _only_zero\n"
+        "njit(lambda x: x)(1.0)\n"
+        "_evaluate_series(np.ones(2, complex), 0.5)\n"
+        "_only_zero(np.ones(2, complex), 0.5, 0.6, True, 0.0)\n"
+    )
+    told = [
+        subprocess.run(
+            [sys.executable, "-c", script], env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)},
+            capture_output=True, text=True, check=True,
+        ).stderr
+        for _ in range(2)
+    ]  # fmt: skip
+    assert told == [f"{jit.COMPILING}\n", ""]
