@@ -13,9 +13,9 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .atlases.atlas import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, atlas
     from .counting.census import census
     from .counting.table import Census
-    from .cycles.laws import LawVerdict, LawVerdicts, compare_laws
+    from .cycles.friction_law_comparison import LawVerdict, LawVerdicts, compare_laws
     from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
-    from .diagrams.branches import branches
+    from .diagrams.bifurcation_diagram import branches
     from .diagrams.result import Branches
     from .figures.preset import Preset
     from .figures.presets import presets
@@ -33,9 +33,9 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.variation.result import Variation
     from .nullcline.nullclines import NullclineBranch, nullclines
     from .orbits.trajectories import Trajectories, trajectories
+    from .portrait.approach_outcomes import approach_outcomes
     from .portrait.basins import Basins, basins
     from .portrait.classify import Classification, Degeneracy, classify
-    from .portrait.outcomes import approach_outcomes
     from .portrait.separatrices import Separatrices, Separatrix, separatrices
     from .psi.function import Psi
     from .scene import Scene
@@ -130,9 +130,9 @@ _HOMES = {
     "atlases.atlas": "Atlas AtlasCurve AtlasPoint AtlasRegion atlas",
     "counting.census": "census",
     "counting.table": "Census",
-    "cycles.laws": "LawVerdict LawVerdicts compare_laws",
+    "cycles.friction_law_comparison": "LawVerdict LawVerdicts compare_laws",
     "cycles.limit_cycles": "LimitCycle LimitCycles limit_cycles",
-    "diagrams.branches": "branches",
+    "diagrams.bifurcation_diagram": "branches",
     "diagrams.result": "Branches",
     "figures.preset": "Preset",
     "figures.presets": "presets",
@@ -151,7 +151,7 @@ _HOMES = {
     "orbits.trajectories": "Trajectories trajectories",
     "portrait.basins": "Basins basins",
     "portrait.classify": "Classification Degeneracy classify",
-    "portrait.outcomes": "approach_outcomes",
+    "portrait.approach_outcomes": "approach_outcomes",
     "portrait.separatrices": "Separatrices Separatrix separatrices",
     "psi.function": "Psi",
     "scene": "Scene",

@@ -21,9 +21,9 @@ from ..draw.layers import layer_table
 from ..draw.mathml import plain_symbol
 from ..draw.packing import pack, unpack
 from ..draw.theme import MEASURES, themes
+from ..state.animation_pacing import paced_values
 from ..state.chosen_system import parameters_of
 from ..state.controls import NUMBERS, ExplorerState
-from ..state.pace import paced_values
 from .describe import place_words, psi_words, system_words
 from .view import OWN, View
 

@@ -19,7 +19,7 @@ from ..frame.window import Window, resample_for_window
 from ..slow_layers import basins, outcomes
 from ..state.choices import OWN_AXIS as OWN
 from ..state.chosen_system import System_, parameters_of
-from ..state.links import Link, Look, compress_query, read_link, write_link
+from ..state.links import Link, PageView, compress_query, read_link, write_link
 
 #: Of the whole picture's width: curves of a figure are sampled within a quarter of it.
 FINE_PIXEL = 1 / 1600
@@ -61,7 +61,7 @@ class View:
         """The query of the address that shows it; empty for a system from Python, which no address can carry."""
         if self.system is not None:
             return ""
-        return compress_query(write_link(self.values, Look(() if self.seen == WHOLE else self.seen)))
+        return compress_query(write_link(self.values, PageView(() if self.seen == WHOLE else self.seen)))
 
     @property
     def width(self) -> float:

@@ -16,7 +16,7 @@ from ..state.chosen_psi import build_psi
 from ..state.chosen_system import NORMAL, System_, TextError, build, parameters_of
 from ..state.cleaning import InputError
 from ..state.launches import read_launches
-from ..state.opening import opening_values
+from ..state.system_opening_values import opening_values
 from .budget import OmittedLayer, PendingLayer
 
 #: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:

@@ -25,8 +25,8 @@ from ..state.chosen_system import NORMAL
 from ..state.cleaning import InputError
 from ..state.controls import ExplorerState
 from ..state.links import Link, read_link
-from ..state.opening import opening_values
 from ..state.request_reading import MOST_CONTROLS
+from ..state.system_opening_values import opening_values
 from ..view.answers import AnswerQueue
 from ..view.markup import offered_text, settings
 from ..view.refresh import Frames

@@ -25,7 +25,7 @@ from ..frame.frame_context import FrameContext
 from ..state.chosen_system import System_, slow_symbols
 from ..state.cleaning import InputError
 from ..state.launches import TYPED
-from ..state.opening import opening_launch
+from ..state.system_opening_values import opening_launch
 from .short import short
 
 RTOL = 1e-7

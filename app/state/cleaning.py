@@ -23,7 +23,7 @@ from .portraits import portrait_keys
 
 MOST_ENTRIES = 16  # of a mapping that a browser sends
 LONGEST_TEXT = 2000
-MOST_OWN = 10_000  # characters of all that a second portrait has of its own
+MAX_PORTRAIT_TEXT = 10_000  # characters of all that a second portrait has of its own
 _PLACE = r"-?\d{1,2}(\.\d{1,3})?"  # of the picture
 PINNED = re.compile(rf"([QLO][1-9]\d{{0,2}}|C([1-9]\d{{0,2}})?|(S[1-9]\d{{0,2}}|U[12]|R|T|H)(@{_PLACE},{_PLACE})?)?")
 
@@ -172,8 +172,8 @@ def _has_slider(name: str) -> bool:
 
 def _own_values(name: str, label: str | None, value: Any) -> str:
     """Return the own values of a second portrait as they came, if each can be used."""
-    if not isinstance(value, str) or len(value) > MOST_OWN:
-        raise InputError(name, f"{label}: give its own values as text of at most {MOST_OWN} characters.")
+    if not isinstance(value, str) or len(value) > MAX_PORTRAIT_TEXT:
+        raise InputError(name, f"{label}: give its own values as text of at most {MAX_PORTRAIT_TEXT} characters.")
     for own, text in parse_qsl(value, keep_blank_values=True):
         if own not in SETTING:
             raise InputError(name, f"{label}: {own[:20]!r} cannot be its own; it may have {', '.join(SETTING)}.")

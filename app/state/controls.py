@@ -19,8 +19,8 @@ from ..draw.layers import LAYERS, default_layers
 from .choices import CENSUSES, MAX_TRAJECTORIES, MOST_CENSUS, PANEL_NAMES, SLOW_CONTROLS, SOLIDS
 from .chosen_system import NORMAL, titles
 from .launches import MAX_LAUNCHES
-from .opening import opening_values
 from .portraits import portrait_keys, portrait_values
+from .system_opening_values import opening_values
 
 
 def _number_parameter(default: float, low: float, high: float, symbol: str, doc: str) -> Any:

@@ -21,7 +21,7 @@ from ..phrases import say
 from .chosen_system import BOXES, NORMAL
 from .cleaning import LONGEST_TEXT, InputError, clean
 from .controls import CONTROL_NAMES, ExplorerState, preset_values
-from .opening import opening_values
+from .system_opening_values import opening_values
 
 VERSION = 1
 #: What a link of each version leaves out. A release that opens otherwise gets a new version beside these.
@@ -43,20 +43,20 @@ DEFAULTS_BY_VERSION: Mapping[int, Mapping[str, Any]] = MappingProxyType(
     }
 )  # fmt: skip
 #: What another choice of system brings: always written where the system is not that of the portrait.
-BROUGHT = tuple(opening_values(NORMAL))
+SYSTEM_DEFAULTS = tuple(opening_values(NORMAL))
 
 #: What a link of an earlier release says otherwise, by name and value: the panel Time is now a part of Orbits.
-SAID_BEFORE: Mapping[tuple[str, str], Mapping[str, str]] = MappingProxyType(
+RENAMED_VALUES: Mapping[tuple[str, str], Mapping[str, str]] = MappingProxyType(
     {("panel", "time"): {"panel": "orbits", "orbit": "0", "orbit_eps": "show"}}
 )
 
-LONGEST_SQUEEZED, LONGEST_QUERY = 20_000, 60_000  # characters
+MAX_COMPRESSED, MAX_QUERY = 20_000, 60_000  # characters
 MOST_CONTROLS, MAX_VIEWS, MAX_NAME_CHARACTERS = 12, 24, 200
 _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,39}")
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class PageView:
     """The view of a page: the part of the picture that is seen, and the parts that an embedded page shows.
 
     Attributes
@@ -90,7 +90,7 @@ class Link:
 
     state: ExplorerState
     errors: tuple[InputError, ...] = ()
-    look: Look = field(default_factory=Look)
+    look: PageView = field(default_factory=PageView)
 
 
 def read_link(query: str | Mapping[str, str]) -> Link:
@@ -121,7 +121,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
         given.setdefault("panel", "lessons")
     first = _defaults_of(given.pop("v", ""), errors)
     look = _look(given, errors)
-    for (name, text), now in SAID_BEFORE.items():
+    for (name, text), now in RENAMED_VALUES.items():
         if given.get(name) == text:
             given |= now
     good: dict[str, Any] = {}
@@ -138,10 +138,10 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     return Link(ExplorerState.from_values(good, first), tuple(errors), look)
 
 
-def write_link(values: Mapping[str, Any], look: Look | None = None) -> str:
+def write_link(values: Mapping[str, Any], look: PageView | None = None) -> str:
     """Return the query of an address that shows these values (all of them, as `ExplorerState.values`)."""
     base = {**DEFAULTS_BY_VERSION[VERSION], **preset_values(values["preset"]), "preset": ""}
-    brought = BROUGHT if values["system"] != base["system"] else ()
+    brought = SYSTEM_DEFAULTS if values["system"] != base["system"] else ()
     wanted = {name: value for name, value in values.items() if value != base[name] or name in brought}
     if values["system"] in BOXES:  # texts that one sees are part of a link, whatever a later release begins with
         wanted["texts"] = {**{box.name: box.text for box in BOXES[values["system"]]}, **values["texts"]}
@@ -179,12 +179,12 @@ def decompress_query(text: str) -> str:
         It is cut short, changed, or too long.
     """
     sentence = say("address changed")
-    if len(text) > LONGEST_SQUEEZED:
-        raise ValueError(say("address too long", most=LONGEST_SQUEEZED))
+    if len(text) > MAX_COMPRESSED:
+        raise ValueError(say("address too long", most=MAX_COMPRESSED))
     try:
         packed = urlsafe_b64decode(text + "=" * (-len(text) % 4))
         reader = zlib.decompressobj(-15)
-        query = reader.decompress(packed, LONGEST_QUERY)
+        query = reader.decompress(packed, MAX_QUERY)
         if not reader.eof:
             raise ValueError(sentence)
         return query.decode()
@@ -202,7 +202,7 @@ def _defaults_of(version: str, errors: list[InputError]) -> Mapping[str, Any]:
     return DEFAULTS_BY_VERSION[VERSION]
 
 
-def _look(given: dict[str, str], errors: list[InputError]) -> Look:
+def _look(given: dict[str, str], errors: list[InputError]) -> PageView:
     """Take what is of the page out of the given texts."""
     seen, embed, controls, beamer, lift, views = (
         given.pop(name, "") for name in ("seen", "embed", "controls", "beamer", "lift", "views")
@@ -214,7 +214,7 @@ def _look(given: dict[str, str], errors: list[InputError]) -> Look:
     embedded = embed not in ("", "0")
     beamed = 0 if embedded or beamer in ("", "0") else 2 if beamer == "2" else 1
     kept = () if embedded else _views(views, errors)
-    return Look(_rectangle(seen, errors), embedded, tuple(good), beamed, lift not in ("", "0"), kept)
+    return PageView(_rectangle(seen, errors), embedded, tuple(good), beamed, lift not in ("", "0"), kept)
 
 
 def _views(text: str, errors: list[InputError]) -> tuple[Mapping[str, Any], ...]:

@@ -26,7 +26,7 @@ from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
 from ..state.chosen_system import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values
-from ..state.links import BROUGHT, VERSION, Look
+from ..state.links import SYSTEM_DEFAULTS, VERSION, PageView
 from ..state.portraits import portrait_keys, portraits
 from ..state.slider_range import edited_range, slider_range
 from .glossary import EQUATION, GLOSSARY, MARKS, OPENING, PAPER
@@ -53,7 +53,7 @@ def stylesheet() -> str:
     return "\n".join((custom_properties(), own, sharing, second, swatches(), charts, *panels, room, beamer, narrow))
 
 
-def _embedded_rules(look: Look) -> str:
+def _embedded_rules(look: PageView) -> str:
     """Return the rules of a page in a frame, which shows the controls that its link names."""
     rules = (SCRIPT_FOLDER / "embed.css").read_text(encoding="utf-8")
     for name in look.controls:
@@ -111,7 +111,7 @@ def front_end_constants() -> dict[str, Any]:
         "presets": {item["key"]: {**item, "values": _differences(first, item["key"])} for item in portraits()},
         "themes": themes(),
         "measures": MEASURES,
-        "link": {"version": VERSION, "brought": list(BROUGHT)},
+        "link": {"version": VERSION, "brought": list(SYSTEM_DEFAULTS)},
     }
 
 
@@ -125,7 +125,7 @@ def offered_text() -> str:
     return _front_end_json(tuple(PANELS_BY_NAME), tuple(portrait_keys()), tuple(FAMILIES), tuple(LAYERS), tuple(BOXES))
 
 
-def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
+def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: PageView | None = None) -> dict[str, Any]:
     """Return what the front end must know of one view."""
     return {
         "ranges": {name: list(state.param[name].softbounds) for name in NUMBERS},
@@ -134,12 +134,12 @@ def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | No
         "values": state.values(),
         "locked": list(locked),
         "film": has_typst(),
-        "look": asdict(look or Look()),
+        "look": asdict(look or PageView()),
         "edition": edition(),
     }
 
 
-def page_config(state: ExplorerState, locked: tuple[str, ...] = (), look: Look | None = None) -> dict[str, Any]:
+def page_config(state: ExplorerState, locked: tuple[str, ...] = (), look: PageView | None = None) -> dict[str, Any]:
     """Return all that the front end must know."""
     return {**front_end_constants(), **settings(state, locked, look)}
 
@@ -152,7 +152,7 @@ def explorer_html(
     state: ExplorerState,
     first: Mapping[str, Any] | None = None,
     locked: tuple[str, ...] = (),
-    look: Look | None = None,
+    look: PageView | None = None,
     docs: bool = False,
 ) -> str:
     """Return the explorer's markup: controls with their values, legend, and the first picture as SVG.
@@ -200,7 +200,7 @@ def explorer_html(
         marks=MARKS,
         most=MAX_TRAJECTORIES,
         first=first or {},
-        look=look or Look(),
+        look=look or PageView(),
         edition=edition(),
     )
 

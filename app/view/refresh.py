@@ -37,10 +37,10 @@ from ..panels.parameters.axes import opening_axes
 from ..state.choices import SLIDER_AXES
 from ..state.chosen_system import GIVEN, System_, describe
 from ..state.cleaning import InputError, clean
+from ..state.compatible_changes import compatible_changes, culprit
 from ..state.controls import TYPED_IN, ExplorerState, first_values, preset_values
-from ..state.grabbed import GRAB, PUSH, push_for
+from ..state.drag_critical_set import GRAB, PUSH, push_for
 from ..state.request_reading import read_request
-from ..state.setting_changes import compatible_changes, culprit
 from . import warmup
 from .notices import left_out
 

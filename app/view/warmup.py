@@ -14,7 +14,7 @@ import numpy as np
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import is_warm, warm
-from codim2_core.portrait.outcomes import approach_outcomes
+from codim2_core.portrait.approach_outcomes import approach_outcomes
 from codim2_core.psi import FAMILIES, constant, hill, make
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..continuation.branches import folds_along
 from ..continuation.parameter_family import AffineCoefficients
-from ..continuation.quadrature_columns import AMPLITUDE, HEIGHT
+from ..continuation.turn_columns import AMPLITUDE, HEIGHT
 from ..cycles.global_section import Section
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi

@@ -18,7 +18,7 @@ import numpy as np
 from ..curves.arclength import StepBounds, trace_curve, zero_between
 from ..curves.newton import finite_differences, newton
 from ..curves.polyline import distance
-from ..cycles.heteroclinic_cycle import gap, loops
+from ..cycles.heteroclinic_cycle import heteroclinic_cycles, splitting
 from ..layer_problem.equator import equator_cycle
 from ..layer_problem.linearisation import determinant_sign
 from ..numerics.root_between import root_between
@@ -143,8 +143,8 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     def gap_function(rtol: float) -> Callable[[Array], float]:
         def miss(e: Array) -> float:
             coefficients = coefficients_at(a, b, d, -A @ e)
-            arcs = loops(coefficients)
-            return math.atan(gap(coefficients, psi, arcs[0], rtol)) if arcs else math.nan
+            arcs = heteroclinic_cycles(coefficients)
+            return math.atan(splitting(coefficients, psi, arcs[0], rtol)) if arcs else math.nan
 
         return miss
 
@@ -189,8 +189,8 @@ def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | No
 
     def misses(e: Array) -> Array:
         coefficients = coefficients_at(a, b, d, -A @ e)
-        arcs = loops(coefficients) if float(e @ e) < 1.0 else ()
-        return np.array([gap(coefficients, psi, arcs[0], FINE_RTOL), math.log(arcs[0].ratio)]) if arcs else FAILED
+        arcs = heteroclinic_cycles(coefficients) if float(e @ e) < 1.0 else ()
+        return np.array([splitting(coefficients, psi, arcs[0], FINE_RTOL), math.log(arcs[0].ratio)]) if arcs else FAILED
 
     def both(e: Array) -> tuple[Array, Array]:
         here = misses(e)
@@ -201,7 +201,7 @@ def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | No
 
 
 def _ratio(a: float, b: float, d: float, f: Array) -> float:
-    arcs = loops(coefficients_at(a, b, d, f))
+    arcs = heteroclinic_cycles(coefficients_at(a, b, d, f))
     return arcs[0].ratio if arcs else math.nan
 
 

@@ -12,12 +12,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..continuation.quadrature_columns import BY_XI, EXPONENT, PARAMETERS, SHIFT
+from ..continuation.turn_columns import BY_XI, EXPONENT, PARAMETERS, SHIFT
 from ..continuation.turns import integrate_turns
 from ..curves.arclength import CurveEdge, StepBounds, TracedLine, point_across, trace_curve, zero_between
 from ..curves.newton import newton
-from ..cycles.batch.sections import Sections
 from ..cycles.global_section import Section
+from ..cycles.section_batch.sections import Sections
 from .curve import Array
 
 LOG_SIZE_SCALE = 20.0  # d xi/d x within: what is seen of a fold is not wider in x than in e
@@ -54,7 +54,7 @@ class FoldEquations:
         return 2.0 * xi / (LOG_SIZE_SCALE * (1.0 + math.sqrt(1.0 + w)))
 
     def turns(self, places: Array) -> Array:
-        """Measure turns from places (k, 3), in `continuation.quadrature_columns`; NaN where one does not return."""
+        """Measure turns from places (k, 3), in `continuation.turn_columns`; NaN where one does not return."""
         out = np.full((len(places), PARAMETERS + 4), math.nan)
         xi = (LOG_SIZE_SCALE + self.widening * np.maximum(places[:, 0], 0.0)) * places[:, 0]
         complement = 1.0 - (places[:, 1:] ** 2).sum(axis=1)

@@ -15,7 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..arrays import Array
-from ..cycles.heteroclinic_cycle import Loop, gaps, loops
+from ..cycles.heteroclinic_cycle import HeteroclinicCycle, gaps, heteroclinic_cycles
 from ..layer_problem.closed_equator import exponents as closed_exponents
 from ..layer_problem.closed_equator import slowest_turn
 from ..layer_problem.equator import equator_cycle, number_of_directions
@@ -118,7 +118,7 @@ def _exponent(family: ParameterFamily) -> Callable[[float], float | None]:
     return exponent
 
 
-def _exchange_near(
+def _zero_exponent_near(
     family: ParameterFamily, value: float, direction: float, width: float, ahead: float | None
 ) -> BranchEnd | None:
     """Find the zero of the closed equator's exponent nearest to a value, ahead of it or just behind."""
@@ -167,7 +167,7 @@ def loop_ends(family: ParameterFamily, low: float, high: float) -> list[BranchEn
     return ends
 
 
-def loop_end(family: ParameterFamily, low: float, high: float, loop: Loop) -> BranchEnd | None:
+def loop_end(family: ParameterFamily, low: float, high: float, loop: HeteroclinicCycle) -> BranchEnd | None:
     """Find the value between two at which a loop closes, or None if the gap is not seen to change sign.
 
     Parameters
@@ -179,9 +179,9 @@ def loop_end(family: ParameterFamily, low: float, high: float, loop: Loop) -> Br
     """
 
     def miss(value: float) -> float:
-        return _misses(family, [(value, loop)])[0]
+        return _splittings(family, [(value, loop)])[0]
 
-    at_low, at_high = _misses(family, [(low, loop), (high, loop)])
+    at_low, at_high = _splittings(family, [(low, loop), (high, loop)])
     if not at_low * at_high < 0.0:
         return None
     value = root_between(miss, low, high)
@@ -191,7 +191,7 @@ def loop_end(family: ParameterFamily, low: float, high: float, loop: Loop) -> Br
     return _equator_end(family, "heteroclinic cycle through the equator", value, _nearest_loop(arcs, loop).ratio)
 
 
-def _misses(family: ParameterFamily, asked: Sequence[tuple[float, Loop]]) -> list[float]:
+def _splittings(family: ParameterFamily, asked: Sequence[tuple[float, HeteroclinicCycle]]) -> list[float]:
     """Find the arc tangents of gaps of the loops nearest to given ones, on their rays; NaN where there is none."""
     found = [_arcs(family, value) for value, _ in asked]
     there = [i for i, arcs in enumerate(found) if arcs]
@@ -200,24 +200,26 @@ def _misses(family: ParameterFamily, asked: Sequence[tuple[float, Loop]]) -> lis
     return [out.get(i, math.nan) for i in range(len(asked))]
 
 
-def _arcs(family: ParameterFamily, value: float) -> tuple[Loop, ...]:
+def _arcs(family: ParameterFamily, value: float) -> tuple[HeteroclinicCycle, ...]:
     return _loops_of(family.problem(value)) if family.allows(value) else ()
 
 
 @found_once()
-def _loops_of(problem: LayerProblem) -> tuple[Loop, ...]:
+def _loops_of(problem: LayerProblem) -> tuple[HeteroclinicCycle, ...]:
     coefficients = problem.at.normal_form
-    return () if coefficients is None else loops(coefficients)
+    return () if coefficients is None else heteroclinic_cycles(coefficients)
 
 
-def _nearest_loop(arcs: tuple[Loop, ...], loop: Loop, ray: int | None = None) -> Loop:
-    def distance(other: Loop) -> float:
+def _nearest_loop(
+    arcs: tuple[HeteroclinicCycle, ...], loop: HeteroclinicCycle, ray: int | None = None
+) -> HeteroclinicCycle:
+    def distance(other: HeteroclinicCycle) -> float:
         return abs(math.remainder(other.sink - loop.sink, 2.0 * math.pi)) + abs(
             math.remainder(other.source - loop.source, 2.0 * math.pi)
         )
 
     found = min(arcs, key=distance)
-    return found if ray is None else Loop(found.source, found.sink, found.ratio, ray)
+    return found if ray is None else HeteroclinicCycle(found.source, found.sink, found.ratio, ray)
 
 
 def at_equator(
@@ -257,7 +259,7 @@ def _equator_near(
     """Find what becomes of cycles at the equator near a value: its exponent's zero, a loop, a saddle-node."""
     ahead = _saddle_node_ahead(family, value, direction, width)
     if equator_cycle(family.at(value)[0]) is not None:
-        end = _exchange_near(family, value, direction, width, ahead)
+        end = _zero_exponent_near(family, value, direction, width, ahead)
         if end is not None:
             return min((e for e in known if abs(e.value - end.value) < 1e-9 * width), key=id, default=end)
     arcs = _arcs(family, value)
@@ -267,7 +269,7 @@ def _equator_near(
         steps = [(1.0 - 1e-9) * (ahead - value) if abs(step) > abs(ahead - value) else step for step in steps]
     # on the other side there may be no loop at all
     tries = [(value + sign * step, loop) for step in steps for loop in arcs for sign in (1.0, -1.0)]
-    sides = _misses(family, [*((value, loop) for loop in arcs), *tries])
+    sides = _splittings(family, [*((value, loop) for loop in arcs), *tries])
     here = dict(zip(arcs, sides, strict=False))
     for (there, loop), miss in zip(tries, sides[len(arcs) :], strict=True):
         if here[loop] * miss < 0.0:

@@ -26,13 +26,13 @@ from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..words import say
-from .admissible_interval import admissible_interval
-from .batching import run_batched
 from .branch_arrays import PointRow, build_branch, point_row
 from .branch_ends import BranchEnd, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
-from .branch_points import BranchPoints, TurnGuess, points_at_value, reversed_trace
+from .continuation_points import ContinuationPoints, TurnGuess, points_at_value, reversed_trace
 from .corrector import BranchTracer
-from .parameter_family import AffineCoefficients, Asking, ParameterFamily, reversible, run_batch, side_by_side
+from .existence_interval import admissible_interval
+from .lockstep_searches import run_batched
+from .parameter_family import AffineCoefficients, ParameterFamily, TurnRoutine, reversible, run_batch, side_by_side
 from .predictor_corrector import BAND_HEIGHT, all_traced, trace_branch
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .turns import ReturnMapPoint
@@ -46,7 +46,7 @@ PLANE = ("a", "b", "d", "f1", "f2")
 CENSUS_VALUES = 9  # values at which all cycles are looked for
 
 #: A branch: its points, its start and end, and what these are if they are no cycles.
-Entry = tuple[BranchPoints, CyclePoint, CyclePoint, BranchEnd | None, BranchEnd | None]
+Entry = tuple[ContinuationPoints, CyclePoint, CyclePoint, BranchEnd | None, BranchEnd | None]
 
 AVOIDED_DISTANCE, SAME_CHI = (
     0.1,
@@ -187,7 +187,7 @@ class _BranchSearch:
         self.hopf = [end for end in self.hopf if end.value not in centres]
         self.closed = [end for end in self.closed if not reversible(family.at(end.value)[0])]
 
-    def run(self) -> Asking[CycleBranches]:
+    def run(self) -> TurnRoutine[CycleBranches]:
         yield from self._from_ends()
         yield from self._columns()
         branches = tuple(self._branch(*entry) for entry in self.found)
@@ -201,7 +201,7 @@ class _BranchSearch:
     def _nu(self, value: float) -> float:
         return (value - self.low) / (self.high - self.low)
 
-    def _from_ends(self) -> Asking[None]:
+    def _from_ends(self) -> TurnRoutine[None]:
         """Begin where cycles are smallest or largest, at all such ends side by side."""
         ends = [*self.hopf, *self.closed]
         towards = [1.0 if end.kind == "Hopf" else -1.0 for end in ends]
@@ -227,7 +227,7 @@ class _BranchSearch:
             elif firsts[i] is None:
                 self.notes.append(say("birth not caught", kind=end.kind, name=self.name, value=end.value))
 
-    def _first(self, end: BranchEnd, towards: float) -> Asking[tuple[ReturnMapPoint, float] | None]:
+    def _first(self, end: BranchEnd, towards: float) -> TurnRoutine[tuple[ReturnMapPoint, float] | None]:
         """Find the first cycle of a branch: the parameter is what is solved for."""
         xi, first = math.log(START_SHARE), None
         if end.kind != "Hopf":
@@ -240,7 +240,7 @@ class _BranchSearch:
             )
         return first
 
-    def _columns(self) -> Asking[None]:
+    def _columns(self) -> TurnRoutine[None]:
         """Begin at each cycle that no branch has passed."""
         guesses = [guess for value in values(self.low, self.high, CENSUS_VALUES) for guess in self._unexplained(value)]
         corrected = yield from side_by_side([self.tracer.corrected(guess) for guess in guesses])
@@ -261,7 +261,7 @@ class _BranchSearch:
             other = yield from trace_branch(self.tracer, self.tracer.point(*first, turned))
             start, end = self._end(other)
             back = reversed_trace(other)
-            joined = BranchPoints(
+            joined = ContinuationPoints(
                 back.points[:-1] + trace.points,
                 back.folds + tuple(i + len(back.points) - 1 for i in trace.folds),
                 trace.reason,
@@ -286,7 +286,7 @@ class _BranchSearch:
         crossings = find_fixed_points(samples, samples.certain) if explained else search(samples)[0]
         return [TurnGuess(crossing.xi, nu, (0.0, 1.0), crossing.repelling) for crossing in crossings]
 
-    def _known(self, first: tuple[ReturnMapPoint, float], entries: Sequence[Entry]) -> Asking[bool]:
+    def _known(self, first: tuple[ReturnMapPoint, float], entries: Sequence[Entry]) -> TurnRoutine[bool]:
         """Whether a branch passes a cycle: its own at this value is computed where that is not plain."""
         turn, nu = first
         for chi, guess in chain.from_iterable(points_at_value(trace, nu, self.tracer.width) for trace, *_ in entries):
@@ -297,11 +297,11 @@ class _BranchSearch:
                 return True
         return False
 
-    def _keep(self, trace: BranchPoints, start: CyclePoint, first: BranchEnd | None) -> None:
+    def _keep(self, trace: ContinuationPoints, start: CyclePoint, first: BranchEnd | None) -> None:
         special, last = self._end(trace)
         self.found.append((trace, start, special, first, last))
 
-    def _end(self, trace: BranchPoints) -> tuple[CyclePoint, BranchEnd | None]:
+    def _end(self, trace: ContinuationPoints) -> tuple[CyclePoint, BranchEnd | None]:
         """Name the end of a trace."""
         last = trace.points[-1]
         turn, end = last.turn, None
@@ -341,7 +341,12 @@ class _BranchSearch:
         return CyclePoint(end.kind, end.value, end.period, end.amplitude, text)
 
     def _branch(
-        self, trace: BranchPoints, start: CyclePoint, end: CyclePoint, first: BranchEnd | None, last: BranchEnd | None
+        self,
+        trace: ContinuationPoints,
+        start: CyclePoint,
+        end: CyclePoint,
+        first: BranchEnd | None,
+        last: BranchEnd | None,
     ) -> CycleBranch:
         """Put in the limits at ends that are no cycles."""
         rows = [point_row(point.turn) for point in trace.points]

@@ -14,8 +14,8 @@ from itertools import accumulate, pairwise
 from typing import Any
 
 from ..numerics.root_between import root_through
-from .branch_points import BranchPoint, TurnGuess
-from .parameter_family import Asking, TurnQuestion
+from .continuation_points import ContinuationPoint, TurnGuess
+from .parameter_family import TurnRequest, TurnRoutine
 from .predictor import CurvePoint, interpolate, predict
 from .turns import ReturnMapPoint
 
@@ -41,13 +41,13 @@ class BranchTracer:
     def __init__(self, family: Any, low: float, high: float) -> None:
         self.family, self.low, self.width = family, low, high - low
 
-    def question(self, guesses: Sequence[TurnGuess], limit: int | None = None) -> TurnQuestion:
+    def question(self, guesses: Sequence[TurnGuess], limit: int | None = None) -> TurnRequest:
         """Ask for one turn from each, within so many steps."""
         values = [self.low + g.nu * self.width if -700.0 < g.xi < 690.0 else math.nan for g in guesses]
         limits = None if limit is None else [limit] * len(guesses)
-        return TurnQuestion(self.family, [g.xi for g in guesses], values, [g.backward for g in guesses], limits)
+        return TurnRequest(self.family, [g.xi for g in guesses], values, [g.backward for g in guesses], limits)
 
-    def corrected(self, guess: TurnGuess) -> Asking[tuple[ReturnMapPoint, float] | None]:
+    def corrected(self, guess: TurnGuess) -> TurnRoutine[tuple[ReturnMapPoint, float] | None]:
         """Find the closed turn by one guess, and its nu."""
         search = TurnSearch(self, guess)
         while not search.over:
@@ -76,26 +76,26 @@ class BranchTracer:
         """In which direction of time errors fade; unchanged near a fold."""
         return turn.exponent > 0.0 if abs(turn.exponent) > 1.0 else before
 
-    def point(self, turn: ReturnMapPoint, nu: float, towards: tuple[float, float]) -> BranchPoint:
+    def point(self, turn: ReturnMapPoint, nu: float, towards: tuple[float, float]) -> ContinuationPoint:
         """Give a closed turn the tangent that makes an acute angle with `towards` (chi, nu)."""
         tc, tn = turn.by_value * self.width - turn.by_xi * turn.drift / turn.rate * self.width, -turn.by_xi / turn.rate
         length = math.hypot(tc, tn)
         sign = math.copysign(1.0 / length, tc * towards[0] + tn * towards[1])
-        return BranchPoint(turn, nu, (sign * tc, sign * tn))
+        return ContinuationPoint(turn, nu, (sign * tc, sign * tn))
 
-    def along(self, point: BranchPoint) -> CurvePoint:
+    def along(self, point: ContinuationPoint) -> CurvePoint:
         """Tangent of a point as the derivative of its place."""
         tc, tn = point.tangent
         return CurvePoint((tc - point.turn.drift * self.width * tn) / point.turn.rate, tc, tn)
 
-    def across(self, point: BranchPoint) -> tuple[float, float]:
+    def across(self, point: ContinuationPoint) -> tuple[float, float]:
         """Covector by (xi, nu) of the lengths along the tangent of a point."""
         tc, tn = point.tangent
         return point.turn.rate * tc, tn + point.turn.drift * self.width * tc
 
     def fold(
-        self, xi: float, nu: float, near: BranchPoint, nearby: float = DIFFERENCE_STEP
-    ) -> Asking[BranchPoint | None]:
+        self, xi: float, nu: float, near: ContinuationPoint, nearby: float = DIFFERENCE_STEP
+    ) -> TurnRoutine[ContinuationPoint | None]:
         """Find the point about (xi, nu) where the exponent is zero: Newton's method for a closed turn of exponent 0.
 
         Its derivatives are taken by differences of `nearby` in xi rate and nu.
@@ -181,7 +181,7 @@ class TurnSearch:
         return (replace(turn, xi=xi, value=value, chi=chi), nu) if 0.0 < chi < 1.0 else None
 
 
-def distance(one: BranchPoint, other: BranchPoint) -> float:
+def distance(one: ContinuationPoint, other: ContinuationPoint) -> float:
     """Return how far two points are apart in (chi, nu)."""
     return math.hypot(other.turn.chi - one.turn.chi, other.nu - one.nu)
 
@@ -195,7 +195,7 @@ class ArclengthCurve:
         Up to each of them.
     """
 
-    def __init__(self, tracer: BranchTracer, points: list[BranchPoint]) -> None:
+    def __init__(self, tracer: BranchTracer, points: list[ContinuationPoint]) -> None:
         self.points = points
         self.lengths = [*accumulate((distance(one, two) for one, two in pairwise(points)), initial=0.0)]
         self.places = [CurvePoint(point.turn.xi, point.turn.chi, point.nu) for point in points]
@@ -205,7 +205,7 @@ class ArclengthCurve:
         """Predict points after the last one, so many steps from one another."""
         return predict(self.lengths, self.places, self.tangents, self.points[-1].turn.rate, steps, PREDICTION_POINTS)
 
-    def between(self, length: float) -> tuple[CurvePoint, BranchPoint]:
+    def between(self, length: float) -> tuple[CurvePoint, ContinuationPoint]:
         """Interpolate; also return the nearest point."""
         rows = sorted(range(len(self.points)), key=lambda i: abs(self.lengths[i] - length))
         lengths, near = [self.lengths[i] for i in rows], self.points[rows[0]]

@@ -11,15 +11,15 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from ..arrays import Array
-from ..cycles.batch.sections import Indices, Sections, critical_points
 from ..cycles.global_section import Section
 from ..cycles.periodic_orbit import MOST_STEPS
+from ..cycles.section_batch.sections import Indices, Sections, critical_points
 from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
 from ..psi.constructors import many
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from .batching import rounds
+from .lockstep_searches import rounds
 from .turns import ReturnMapPoint, Swelling, integrate_turns
 
 DIFFERENCE_STEP = 1e-5  # of the differences for derivatives of coefficients: they are smooth, mostly linear
@@ -28,7 +28,7 @@ CACHE_SIZE = 1024  # values whose coefficients are kept: more than those at whic
 At = Callable[[float], tuple[Coefficients, Psi]]
 
 
-class TurnQuestion(NamedTuple):
+class TurnRequest(NamedTuple):
     """Turns that are asked for, from each place at each value of a family.
 
     Attributes
@@ -72,17 +72,17 @@ class PlacedSets(NamedTuple):
         return Sections(self.planes, self.e, self.complement, self.psi, own, ray)
 
 
-class AskedTurns(NamedTuple):
+class PreparedTurns(NamedTuple):
     """The turns of a question that have a section, and what `turns.integrate_turns` needs for them."""
 
-    question: TurnQuestion
+    question: TurnRequest
     placed: PlacedSets
     ray: Indices
     changes: Array
     swelling: Swelling | None
 
 
-def run_batch(questions: list[TurnQuestion]) -> list[list[ReturnMapPoint | None]]:
+def run_batch(questions: list[TurnRequest]) -> list[list[ReturnMapPoint | None]]:
     """Follow the turns of several questions, None for those that do not return, or where there is no section.
 
     Those of families with one Psi are followed side by side.
@@ -117,19 +117,19 @@ def _join_sections(places: list[PlacedSets], rays: list[Indices]) -> Sections:
     return PlacedSets([], planes, e, complement, psi[0], np.concatenate(parameters)).sections(np.concatenate(rays))
 
 
-#: A search that asks for turns; see `batching`.
+#: A search that asks for turns; see `lockstep_searches`.
 ResultT = TypeVar("ResultT")
-Asking = Generator[TurnQuestion, "list[ReturnMapPoint | None]", ResultT]
+TurnRoutine = Generator[TurnRequest, "list[ReturnMapPoint | None]", ResultT]
 
 
-def side_by_side(searches: Sequence[Asking[ResultT]]) -> Asking[list[ResultT]]:
+def side_by_side(searches: Sequence[TurnRoutine[ResultT]]) -> TurnRoutine[list[ResultT]]:
     """Run searches in one family side by side, as one that asks for all their turns together."""
     return rounds(searches, _together_asked)
 
 
-def _together_asked(questions: list[TurnQuestion]) -> Asking[list[list[ReturnMapPoint | None]]]:
+def _together_asked(questions: list[TurnRequest]) -> TurnRoutine[list[list[ReturnMapPoint | None]]]:
     family, *parts = zip(*(q._replace(limits=[q.limit] * len(q.xi)) for q in questions), strict=True)
-    found = iter((yield TurnQuestion(family[0], *([*chain.from_iterable(part)] for part in parts))))
+    found = iter((yield TurnRequest(family[0], *([*chain.from_iterable(part)] for part in parts))))
     return [[*islice(found, len(question.xi))] for question in questions]
 
 
@@ -221,7 +221,7 @@ class ParameterFamily:
         parameters = np.array([member.parameter for member in members])
         return PlacedSets(rows, planes[inside], e[inside], complement[inside], members[0], parameters)
 
-    def asked(self, question: TurnQuestion) -> AskedTurns | None:
+    def asked(self, question: TurnRequest) -> PreparedTurns | None:
         """Prepare turns; None if none of them has a section."""
         values = [v if math.isfinite(xi) else math.nan for xi, v in zip(question.xi, question.values, strict=True)]
         placed = self.placed(values)
@@ -230,7 +230,7 @@ class ParameterFamily:
         if self.ray is None:
             self.ray = self.section(values[placed.rows[0]]).ray
         changes, swelling = self._changes([values[i] for i in placed.rows])
-        return AskedTurns(question, placed, np.full(len(placed.rows), self.ray), changes, swelling)
+        return PreparedTurns(question, placed, np.full(len(placed.rows), self.ray), changes, swelling)
 
     def _changes(self, values: list[float]) -> tuple[Array, Swelling | None]:
         """Differentiate what depends on the parameter, by differences: (a, b, d, f1, f2) (1, n, 5), and |e_Psi|."""

@@ -13,9 +13,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, pairwise, takewhile
 
-from .branch_points import BranchPoint, BranchPoints, TurnGuess
+from .continuation_points import ContinuationPoint, ContinuationPoints, TurnGuess
 from .corrector import DIFFERENCE_STEP, MAX_LOG_Y, ArclengthCurve, BranchTracer, TurnSearch, distance
-from .parameter_family import Asking, side_by_side
+from .parameter_family import TurnRoutine, side_by_side
 from .predictor import CurvePoint
 
 MAX_STEP = 0.03  # the longest step
@@ -61,7 +61,7 @@ LEAST_EXPONENT_RATIO = (
 )
 
 
-def trace_branch(tracer: BranchTracer, start: BranchPoint) -> Asking[BranchPoints]:
+def trace_branch(tracer: BranchTracer, start: ContinuationPoint) -> TurnRoutine[ContinuationPoints]:
     """Follow a branch from a point along its tangent until it ends.
 
     Parameters
@@ -76,8 +76,8 @@ def trace_branch(tracer: BranchTracer, start: BranchPoint) -> Asking[BranchPoint
 
 
 def all_traced(
-    tracer: BranchTracer, starts: Sequence[BranchPoint]
-) -> Asking[list[tuple[BranchPoints, int | None] | None]]:
+    tracer: BranchTracer, starts: Sequence[ContinuationPoint]
+) -> TurnRoutine[list[tuple[ContinuationPoints, int | None] | None]]:
     """Follow branches from several points side by side; two that meet are one, from the first of them to the other.
 
     Parameters
@@ -106,7 +106,9 @@ def all_traced(
     return [found.get(i) for i in range(len(paths))]
 
 
-def _join_ways(tracer: BranchTracer, first: list[BranchPoint], other: list[BranchPoint]) -> list[BranchPoint] | None:
+def _join_ways(
+    tracer: BranchTracer, first: list[ContinuationPoint], other: list[ContinuationPoint]
+) -> list[ContinuationPoint] | None:
     """Join two ways along one branch whose ends have passed one another; None where they have not."""
     last = _reverse_point(other[-1])
     for i, (here, there) in enumerate(pairwise(first)):
@@ -127,12 +129,12 @@ def _join_ways(tracer: BranchTracer, first: list[BranchPoint], other: list[Branc
     return None
 
 
-def _reverse_point(point: BranchPoint) -> BranchPoint:
+def _reverse_point(point: ContinuationPoint) -> ContinuationPoint:
     """Return the same point on the way back."""
     return replace(point, tangent=(-point.tangent[0], -point.tangent[1]))
 
 
-def _part(here: BranchPoint, there: BranchPoint, place: BranchPoint) -> float:
+def _part(here: ContinuationPoint, there: ContinuationPoint, place: ContinuationPoint) -> float:
     """Return the share of the way from one point to another: 0 beside the first of them, 1 beside the second."""
     x, y = there.turn.chi - here.turn.chi, there.nu - here.nu
     square = x * x + y * y
@@ -166,10 +168,10 @@ class _BranchPath:
     has not.
     """
 
-    def __init__(self, tracer: BranchTracer, start: BranchPoint) -> None:
+    def __init__(self, tracer: BranchTracer, start: ContinuationPoint) -> None:
         self.tracer, self.points = tracer, [start]
         self.window: list[_PendingPoint] = []
-        self.near: list[BranchPoint] = []
+        self.near: list[ContinuationPoint] = []
         self.step, self.width = 0.25 * MAX_STEP, 2
         self.backward = start.turn.exponent > 0.0
         self.reason = self._at_once(start)
@@ -179,7 +181,7 @@ class _BranchPath:
         """Whether the branch has not ended."""
         return self.reason is None and len(self.points) < MAX_POINTS
 
-    def go_on(self) -> Asking[None]:
+    def go_on(self) -> TurnRoutine[None]:
         """Let all that is in the window take one step of Newton's method, and keep what is found in front."""
         if not (self.window and (self.window[-1].edge or not self.near)):
             self._predict()
@@ -190,7 +192,7 @@ class _BranchPath:
             search.told(turn)
         self._settle()
 
-    def finished(self) -> Asking[BranchPoints]:
+    def finished(self) -> TurnRoutine[ContinuationPoints]:
         """Put in the folds, where the exponent changes its sign."""
         yield from self._look_within()
         yield from self._look_between()
@@ -198,7 +200,7 @@ class _BranchPath:
         turned = [i for i in range(1, len(signs)) if signs[i] != signs[i - 1]]
         found = yield from side_by_side([self._fold(i) for i in turned])
         folds = dict(zip(turned, found, strict=True))
-        points: list[BranchPoint] = []
+        points: list[ContinuationPoint] = []
         rows: list[int] = []
         for i, point in enumerate(self.points):
             fold = folds.get(i)
@@ -206,9 +208,9 @@ class _BranchPath:
                 rows.append(len(points))
                 points.append(fold)
             points.append(point)
-        return BranchPoints(tuple(points), tuple(rows), self.reason or "stuck")
+        return ContinuationPoints(tuple(points), tuple(rows), self.reason or "stuck")
 
-    def _look_within(self) -> Asking[None]:
+    def _look_within(self) -> TurnRoutine[None]:
         """Put in points within a step by whose tangents and ends the value turns back twice."""
         tried, i = 0, 1
         while i < len(self.points):
@@ -224,14 +226,14 @@ class _BranchPath:
             self.points.insert(i, point)
             tried += 1
 
-    def _placed(self, first: int, end: int, length: float) -> Asking[BranchPoint | None]:
+    def _placed(self, first: int, end: int, length: float) -> TurnRoutine[ContinuationPoint | None]:
         """Find the point of the branch at a length of the course of some of its points."""
         place, near = ArclengthCurve(self.tracer, self.points[first:end]).between(length)
         guess = TurnGuess(place.xi, place.nu, self.tracer.across(near), near.turn.exponent > 0.0)
         closed = yield from self.tracer.corrected(guess)
         return None if closed is None else self.tracer.point(*closed, near.tangent)
 
-    def _look_between(self) -> Asking[None]:
+    def _look_between(self) -> TurnRoutine[None]:
         """Put in points where the exponent may change its sign twice within a step: where it is least in size."""
         tried, i = 0, 1
         while i < len(self.points) - 1:
@@ -256,7 +258,7 @@ class _BranchPath:
             tried += 1
             i += int(after) if abs(point.turn.exponent) < abs(exponents[1]) else int(not after)
 
-    def _longest(self, point: BranchPoint, beyond: float) -> float:
+    def _longest(self, point: ContinuationPoint, beyond: float) -> float:
         """Return the longest step so far beyond a point."""
         rise = abs(point.tangent[0])
         chi = point.turn.chi + beyond * point.tangent[0]
@@ -307,9 +309,9 @@ class _BranchPath:
         while self.reason is None and self.window and self.window[0].search.found is not None:
             self._take(self.window.pop(0), self.near.pop(0))
 
-    def _nearby(self) -> list[BranchPoint]:
+    def _nearby(self) -> list[ContinuationPoint]:
         """Return the points in front of the window that are found, or nearly, each a good step after the one before."""
-        found: list[BranchPoint] = []
+        found: list[ContinuationPoint] = []
         for sought in self.window:
             here, nearly = (
                 found[-1] if found else self.points[-1],
@@ -323,7 +325,7 @@ class _BranchPath:
             found.append(point)
         return found
 
-    def _take(self, sought: _PendingPoint, point: BranchPoint) -> None:
+    def _take(self, sought: _PendingPoint, point: ContinuationPoint) -> None:
         """Add a point of the window to the branch."""
         here = self.points[-1]
         self.step = sought.step * _growth(here, point, sought)
@@ -331,7 +333,7 @@ class _BranchPath:
         self.backward = self.tracer.backward(point.turn, self.backward)
         self.reason = "span" if sought.edge else self._over(here, point)
 
-    def _over(self, here: BranchPoint, there: BranchPoint) -> str | None:
+    def _over(self, here: ContinuationPoint, there: ContinuationPoint) -> str | None:
         """Return the reason why the branch ends with the step between two points, or None."""
         lowest = LOW_HEIGHT if there.turn.chi > MAX_CHI else MIN_HEIGHT
         if there.turn.amplitude < MIN_AMPLITUDE and there.tangent[0] < 0.0:
@@ -344,14 +346,14 @@ class _BranchPath:
         return self._at_once(there)
 
     @staticmethod
-    def _at_once(point: BranchPoint) -> str | None:
+    def _at_once(point: ContinuationPoint) -> str | None:
         """Return the reason why a branch ends at a point, whatever was before it, or None."""
         if point.turn.height < BAND_HEIGHT and point.tangent[0] > 0.0 and abs(point.turn.exponent) < BAND_EXPONENT:
             return "equator"
         beyond = point.nu <= 0.0 if point.tangent[1] < 0.0 else point.nu >= 1.0
         return "span" if beyond else None
 
-    def _fold(self, i: int) -> Asking[BranchPoint | None]:
+    def _fold(self, i: int) -> TurnRoutine[ContinuationPoint | None]:
         """Find the point between the i-th one and the one before at which the exponent is zero.
 
         By bisection alone where the exponent has a kink, as that of a cycle does which grazes a circle where Psi has.
@@ -379,7 +381,7 @@ class _BranchPath:
         return middle if sides[0] * sides[1] > 0.0 and min(map(abs, sides)) > KINKED_FOLD_CHANGE else None
 
 
-def _fits(here: BranchPoint, there: BranchPoint, sought: _PendingPoint) -> bool:
+def _fits(here: ContinuationPoint, there: ContinuationPoint, sought: _PendingPoint) -> bool:
     """Whether a point is the one that was looked for, a step after another."""
     (tc, tn), step, expected = here.tangent, sought.step, sought.expected
     onward = tc * (there.turn.chi - here.turn.chi) + tn * (there.nu - here.nu)
@@ -393,7 +395,7 @@ def _fits(here: BranchPoint, there: BranchPoint, sought: _PendingPoint) -> bool:
     )
 
 
-def _growth(here: BranchPoint, there: BranchPoint, sought: _PendingPoint) -> float:
+def _growth(here: ContinuationPoint, there: ContinuationPoint, sought: _PendingPoint) -> float:
     """By what the next step may be longer, judged by the turn of the tangent and the last prediction."""
     cosine = here.tangent[0] * there.tangent[0] + here.tangent[1] * there.tangent[1]
     turn = math.acos(min(cosine, 1.0))
@@ -401,7 +403,7 @@ def _growth(here: BranchPoint, there: BranchPoint, sought: _PendingPoint) -> flo
     return max(min(GROWTH, TARGET_TURN / max(turn, 1e-9), (TARGET_CORRECTION / max(off, 1e-9)) ** 0.25), SHRINKAGE)
 
 
-def _may_be_rounding(*points: BranchPoint) -> bool:
+def _may_be_rounding(*points: ContinuationPoint) -> bool:
     """Whether the sign of an exponent may be rounding's."""
     return all(point.turn.height < BAND_HEIGHT and abs(point.turn.exponent) < MIN_EXPONENT for point in points)
 
@@ -421,7 +423,7 @@ def _least(lengths: Sequence[float], exponents: Sequence[float]) -> float | None
     return x if least < LEAST_EXPONENT_RATIO * e1 and abs(x - x1) > 1e-3 * min(x1 - x0, x2 - x1) else None
 
 
-def _bends(fold: BranchPoint, before: Sequence[BranchPoint], after: Sequence[BranchPoint]) -> bool:
+def _bends(fold: ContinuationPoint, before: Sequence[ContinuationPoint], after: Sequence[ContinuationPoint]) -> bool:
     """Whether the branch turns back at a fold between points: by more than rounding, near the equator on both sides.
 
     Of two points on a side the nearer one may be all but the fold.
@@ -430,7 +432,7 @@ def _bends(fold: BranchPoint, before: Sequence[BranchPoint], after: Sequence[Bra
     return bent[0] > EQUATOR_FOLD_CHANGE if fold.turn.height < BAND_HEIGHT else bent[1] > FOLD_CHANGE
 
 
-def _turns_twice(one: BranchPoint, two: BranchPoint) -> bool:
+def _turns_twice(one: ContinuationPoint, two: ContinuationPoint) -> bool:
     """Whether the value turns back and again between two points: by the cubic through them with their tangents."""
     step, (_, first), (_, last) = distance(one, two), one.tangent, two.tangent
     if (one.turn.exponent > 0.0) != (two.turn.exponent > 0.0) or first * last <= 0.0:
@@ -440,7 +442,7 @@ def _turns_twice(one: BranchPoint, two: BranchPoint) -> bool:
     return expected > EQUATOR_FOLD_CHANGE and rise < expected / 6.0
 
 
-def _has_come_round(start: BranchPoint, here: BranchPoint, there: BranchPoint) -> bool:
+def _has_come_round(start: ContinuationPoint, here: ContinuationPoint, there: ContinuationPoint) -> bool:
     """Whether a step has passed the start in the start's direction."""
     ux, un = here.turn.chi - start.turn.chi, here.nu - start.nu
     vx, vn = there.turn.chi - start.turn.chi, there.nu - start.nu

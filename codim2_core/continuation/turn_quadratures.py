@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ..jit import kernel
-from .quadrature_columns import AMPLITUDE, BY_XI, CHI, EXPONENT, HEIGHT, PARAMETERS, PERIOD, RATE, SHIFT
+from .turn_columns import AMPLITUDE, BY_XI, CHI, EXPONENT, HEIGHT, PARAMETERS, PERIOD, RATE, SHIFT
 
 MAX_EXPONENT = 600.0
 MIN_EIGENVALUE = 1e-280  # eigenvalue of D e_Psi

@@ -20,9 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Array
-from ..cycles.batch.sections import STEP_NODES, Indices, Sections
 from ..cycles.periodic_orbit import MOST_STEPS, gauss
-from .quadrature_columns import PARAMETERS, SHIFT
+from ..cycles.section_batch.sections import STEP_NODES, Indices, Sections
+from .turn_columns import PARAMETERS, SHIFT
 
 RTOL = 1e-12  # of one turn
 
@@ -83,7 +83,7 @@ class ReturnMapPoints:
         Which these are.
     xi : ndarray (k,)
     numbers : ndarray (k, PARAMETERS + 2 q)
-        Those of `quadrature_columns`.
+        Those of `turn_columns`.
     p : ndarray (k, 2)
     steps : ndarray of int (k,)
     """
@@ -135,18 +135,18 @@ def integrate_turns(
     limit : int
         Steps after which a turn is given up.
     """
-    from ..cycles.batch import kernels
+    from ..cycles.section_batch import geometry
     from .turn_quadratures import turn_quadratures
 
     start, x2 = sections.starts(xi)
-    states = kernels.hemisphere(x2)
+    states = geometry.hemisphere(x2)
     rows, ways = sections.integrate_turns(states, RTOL, backward, limit)
     if ways is None:
         return ReturnMapPoints(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)), rows)
     if len(rows) < len(sections):
         sections, start, x2, changes = sections.select(rows), start[rows], x2[rows], changes[:, rows]
     every = np.arange(len(rows))
-    places = kernels.distances(ways.inner, states[rows], ways.ends, sections.zeta)
+    places = geometry.distances(ways.inner, states[rows], ways.ends, sections.zeta)
     whose = np.concatenate([ways.whose, every, every, every])
     radial, tangential = sections.psi_at(whose).jacobian_factors(places)
     swell = np.zeros((len(changes), 0))

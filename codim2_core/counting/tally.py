@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..layer_problem.problem import LayerProblem
+from ..portrait.approach_outcomes import compared_outcomes
 from ..portrait.classify import portrait_name
-from ..portrait.outcomes import compared_outcomes
 from ..psi.function import Psi
 from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem

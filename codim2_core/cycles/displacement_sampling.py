@@ -28,7 +28,7 @@ INTERVAL_PARTS = 16  # of an interval, where its cubic is evaluated
 BATCH, FEWEST = 32, 3  # samples in a round, at least in one interval: lanes step side by side
 NARROWEST, NARROWEST_STEEP = 2e-6, 1e-12  # widths in xi below which an interval is left as it is: flat, and steep
 UNRESOLVED = say("too steep")
-BAND = 0.05  # width in q of an interval of fixed points that is no fold
+PERIOD_ANNULUS_WIDTH = 0.05  # width in q of an interval of fixed points that is no fold
 STEEP = 1e-3  # change of the displacement
 MAX_SAMPLES, MAX_ROUNDS = 900, 24  # samples in all; rounds
 MAX_UNDECIDED_SHARE = 0.25  # share of undecided samples at which looking closer is in vain
@@ -158,7 +158,7 @@ def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], 
     told = (inward[1:] != inward[:-1]) | (np.diff(decided) > 1)  # else there is nothing between the two
     for k in np.flatnonzero(told).tolist():
         i, j = decided[k : k + 2].tolist()
-        if q[j - 1] - q[i + 1] > BAND:
+        if q[j - 1] - q[i + 1] > PERIOD_ANNULUS_WIDTH:
             band = True
         elif (shift[i] < 0.0) != (shift[j] < 0.0):
             changes.append((i, j))

@@ -16,7 +16,7 @@ from ..systems.frozen import FrozenSystem
 
 #: Fractions of the first ebar. Below the first an orbit is so close that the equator decides what becomes of it: it is
 #: gone, or it comes back however near it passes (cycles of ordinary systems do at ebar = exp(-33)), down to the second.
-SUNK, LOST = 1e-9, 1e-250
+EQUATOR_CAPTURE_HEIGHT, UNDERFLOW_HEIGHT = 1e-9, 1e-250
 MIN_HEIGHT = 1e-290  # ebar: its reciprocal, |x2|, is finite
 
 

@@ -112,7 +112,7 @@ def _polish_fixed_point(section: Section, xi: Array, shift: Array, i: int, j: in
     return _bracket_fixed_point(section, low, high, backward) if found is None else found
 
 
-def _newborn(section: Section) -> FixedPoint | None:
+def _cycle_near_hopf(section: Section) -> FixedPoint | None:
     """Place a cycle below the innermost sample: ``displacement = 2 pi mu/omega + c r^2``, its first term exact.
 
     c is measured well outside the cycle, where rounding (1e-16/r) does not matter yet; what is left is of order r^2.
@@ -237,7 +237,7 @@ def search(samples: ReturnMapSamples) -> tuple[tuple[FixedPoint, ...], tuple[str
     found = find_fixed_points(samples)
     found += [FixedPoint(float(xi[i]), touching=True) for i in samples.touching]
     if samples.newborn:
-        newborn = _newborn(section)
+        newborn = _cycle_near_hopf(section)
         if newborn is not None:
             found.append(newborn)
         else:

@@ -15,7 +15,7 @@ from ..layer_problem.critical import CriticalSet
 from ..layer_problem.location import Location, locate
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from .equator_pull import LOST, MIN_HEIGHT, SUNK, EquatorPull, equator_pull
+from .equator_pull import EQUATOR_CAPTURE_HEIGHT, MIN_HEIGHT, UNDERFLOW_HEIGHT, EquatorPull, equator_pull
 
 FIRST_SAMPLES = 64  # so many that lanes are full to the last
 INNER_RADIUS, OUTER_ZETA = 1e-4, 1e5  # of the reach R, and in zeta: how near C and the equator the section is sampled
@@ -23,7 +23,7 @@ LAST_XI = math.log(9.0)  # xi from which samples are even in ln |x2|
 COARSE_RTOL, FINE_RTOL = 1e-9, 1e-13  # tolerances
 MAX_FIRST_ZETA = 1e6  # zeta from which the outer samples begin, at most
 MAX_STEPS, MAX_TURN_TIME = 2000, 1e6  # steps tried, and T in units of 1/|(a, b, d, f1, f2)|
-SUNK_INWARD = 1e-3  # of the innermost sample: gone, within one turn
+INNER_CAPTURE_RATIO = 1e-3  # of the innermost sample: gone, within one turn
 
 
 @dataclass(frozen=True)
@@ -131,10 +131,13 @@ def integrate_turn(
     section: AnySection, follow: Callable[..., Any], states: Array, backward: bool, recorded: bool
 ) -> tuple[Array, Array, Any, Any]:
     """Follow one turn; those that the equator may not draw in are followed on, however close they come to it."""
-    lost = min(SUNK, max(LOST, MIN_HEIGHT / max(MIN_HEIGHT, float(states[:, 2].min(initial=1.0)))))
+    lost = min(
+        EQUATOR_CAPTURE_HEIGHT,
+        max(UNDERFLOW_HEIGHT, MIN_HEIGHT / max(MIN_HEIGHT, float(states[:, 2].min(initial=1.0)))),
+    )
     if recorded:
         return follow(states, lost)
-    ends, times, codes, record = follow(states, SUNK)
+    ends, times, codes, record = follow(states, EQUATOR_CAPTURE_HEIGHT)
     close = np.flatnonzero(codes == section.kernel[0].OUTWARD)
     if len(close):
         again = close[section.pull.may_return(ends[close], section.field, backward)]
@@ -211,9 +214,9 @@ class Section:
     def kernel(self) -> Any:
         """The compiled return map: its module, and the function for this Psi."""
         from ..stepping import fields
-        from . import return_map_kernel
+        from . import global_section_kernel
 
-        return return_map_kernel, fields.field(self.psi)
+        return global_section_kernel, fields.field(self.psi)
 
     @cached_property
     def last(self) -> tuple[float, float]:
@@ -277,7 +280,7 @@ class Section:
         limit: int = MAX_STEPS,
         elsewhere: bool = False,
     ) -> tuple[Array, Array, Any, Any]:
-        """Follow one turn: states on return (n, 3), times, codes and recorded steps of `return_map_kernel.returns`."""
+        """Integrate one turn: states on return (n, 3), times, codes and recorded steps; `global_section_kernel`."""
         module, function = self.kernel
         away = states[:, :2] / states[:, 2:] - self.critical.x2
         nearest = min(self.inner, float(np.hypot(away[:, 0], away[:, 1]).min()))
@@ -291,7 +294,7 @@ class Section:
                 self.u[None],
                 centre,
                 np.array([sense]),
-                np.array([SUNK_INWARD * nearest]),
+                np.array([INNER_CAPTURE_RATIO * nearest]),
                 np.array([sunk]),
                 MAX_TURN_TIME,
                 np.array([rtol]),

@@ -25,14 +25,14 @@ from ..layer_problem.location import locate
 from ..orbits.departures import departures
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
-from .equator_pull import SUNK
-from .global_section import MAX_STEPS, MAX_TURN_TIME, SUNK_INWARD, Array, Section, rays
+from .equator_pull import EQUATOR_CAPTURE_HEIGHT
+from .global_section import INNER_CAPTURE_RATIO, MAX_STEPS, MAX_TURN_TIME, Array, Section, rays
 
 RTOL = 1e-12
 
 
 @dataclass(frozen=True)
-class Loop:
+class HeteroclinicCycle:
     """The arc of the equator of a possible loop.
 
     Attributes
@@ -51,7 +51,7 @@ class Loop:
     ray: int
 
 
-def loops(coefficients: Coefficients) -> tuple[Loop, ...]:
+def heteroclinic_cycles(coefficients: Coefficients) -> tuple[HeteroclinicCycle, ...]:
     """Arcs of the equator from a half-saddle that orbits enter to one that they leave, in the sense of b.
 
     Parameters
@@ -77,11 +77,11 @@ def loops(coefficients: Coefficients) -> tuple[Loop, ...]:
         outside = [k for k in range(4) if (sense * (ends[k] - P)) % math.tau > width]
         if outside:
             ratio = float(rho[j] / theta[j] * theta[i] / rho[i])
-            arcs.append(Loop(P, Q, ratio, max(outside, key=lambda k: found[k][0])))
+            arcs.append(HeteroclinicCycle(P, Q, ratio, max(outside, key=lambda k: found[k][0])))
     return tuple(arcs)
 
 
-def gap(coefficients: Coefficients, psi: Psi, loop: Loop, rtol: float = RTOL) -> float:
+def splitting(coefficients: Coefficients, psi: Psi, loop: HeteroclinicCycle, rtol: float = RTOL) -> float:
     """By how much the branches of Q and P miss each other on the loop's ray, in ``ln u.(x2 - C)``.
 
     Parameters
@@ -101,8 +101,8 @@ def gap(coefficients: Coefficients, psi: Psi, loop: Loop, rtol: float = RTOL) ->
     return gaps([(coefficients, psi, loop)], rtol)[0]
 
 
-def gaps(asked: Sequence[tuple[Coefficients, Psi, Loop]], rtol: float = RTOL) -> list[float]:
-    """Find the gaps of several systems side by side; see `gap`.
+def gaps(asked: Sequence[tuple[Coefficients, Psi, HeteroclinicCycle]], rtol: float = RTOL) -> list[float]:
+    """Find the gaps of several systems side by side; see `splitting`.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def gaps(asked: Sequence[tuple[Coefficients, Psi, Loop]], rtol: float = RTOL) ->
 
 def _section_crossings(
     sections: Sequence[Section],
-    asked: Sequence[tuple[Coefficients, Psi, Loop]],
+    asked: Sequence[tuple[Coefficients, Psi, HeteroclinicCycle]],
     angles: Sequence[float],
     rtol: float,
     backward: bool,
@@ -146,7 +146,7 @@ def _section_crossings(
 def _follow_to_sections(
     sections: Sequence[Section], starts: Sequence[Array], rtol: float, backward: bool
 ) -> tuple[Array, list[int]]:
-    """Follow an orbit to each section: where it ends, and the code of `return_map_kernel.returns`."""
+    """Follow an orbit to each section: where it ends, and the code of `global_section_kernel.returns`."""
     from ..stepping.fields import field_of_each
 
     psi = sections[0].psi
@@ -154,11 +154,11 @@ def _follow_to_sections(
     field = field_of_each(psi, all(section.psi.parameter == psi.parameter for section in sections))
     centres = np.array([section.critical.x2 for section in sections])
     away = np.hypot(*(states[:, :2] / states[:, 2:] - centres).T)
-    near = SUNK_INWARD * np.minimum([section.inner for section in sections], away)
+    near = INNER_CAPTURE_RATIO * np.minimum([section.inner for section in sections], away)
     sense = np.array([-section.plane[1] if backward else section.plane[1] for section in sections])
     ends, _, codes, _ = sections[0].kernel[0].returns(
         states, np.array([section.field_parameters(backward) for section in sections]), field.address,
-        np.array([section.u for section in sections]), centres, sense, near, np.full(count, SUNK),
+        np.array([section.u for section in sections]), centres, sense, near, np.full(count, EQUATOR_CAPTURE_HEIGHT),
         MAX_TURN_TIME, np.array([rtol]), MAX_STEPS, 0, True,
     )  # fmt: skip
     return ends, codes.tolist()

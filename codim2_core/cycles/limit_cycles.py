@@ -264,7 +264,7 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
         return _general(problem)
     if at.as_given is None:  # found in the axes of the normal form, and turned back
         return _rotate_cycles(closed_orbits(LayerProblem(coefficients, psi)), -coefficients.rotation)
-    samples = shown_of(problem)
+    samples = return_map_samples_of(problem)
     if isinstance(samples, str):
         return ClosedOrbits((), (), samples)
     section = samples.section
@@ -281,7 +281,7 @@ def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
 
 
 @found_once()
-def shown_of(problem: LayerProblem) -> ReturnMapSamples | str:
+def return_map_samples_of(problem: LayerProblem) -> ReturnMapSamples | str:
     """Sample the return map of an e-linear layer problem in its own axes, or say why a theorem forbids cycles."""
     coefficients, critical, location = problem.at.normal_form, problem.critical, problem.location
     assert coefficients is not None

@@ -89,7 +89,7 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Turn
     rtol : float
     backward : bool
     """
-    from .return_map_kernel import RETURNED, single_step
+    from .global_section_kernel import RETURNED, single_step
 
     ends, times, codes, steps = section.turn(start[None, :], rtol, backward, MOST_STEPS, MOST_STEPS)
     if codes[0] != RETURNED:

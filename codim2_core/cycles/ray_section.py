@@ -21,7 +21,7 @@ INNER_RADIUS, OUTER_HEIGHT, SAMPLE_SPACING = (
     0.2,
 )  # of the reach; ebar of the last sample; of samples in ln(r/(reach - r))
 MAX_STEPS, MAX_TURN_TIME = 2000, 1e6  # steps tried, and T in units of 1/max |U|
-SUNK_INWARD = 1e-3  # of the innermost sample: gone
+INNER_CAPTURE_RATIO = 1e-3  # of the innermost sample: gone
 AT_REST = 1e-4  # distance from a critical set, or ebar, at which an orbit that never turned has settled
 NOISE = 10.0  # times the tolerance: error in p of a turn
 RAY_DIRECTIONS = 16
@@ -65,9 +65,9 @@ class TurnSection:
     def kernel(self) -> Any:
         """The compiled first turn: its module, and what its compiled field keeps alive."""
         from ..stepping import right_hand_side
-        from . import winding_return_kernel
+        from . import ray_section_kernel
 
-        return winding_return_kernel, right_hand_side.problem(self.at, self.psi)
+        return ray_section_kernel, right_hand_side.problem(self.at, self.psi)
 
     @cached_property
     def pull(self) -> EquatorPull:
@@ -101,7 +101,7 @@ class TurnSection:
     def turn(
         self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = MAX_STEPS
     ) -> tuple[Array, Array, Any, Any]:
-        """Follow one turn: ends (n, 3), times, codes and recorded steps of `winding_return_kernel.first_turns`."""
+        """Follow one turn: ends (n, 3), times, codes and recorded steps of `ray_section_kernel.first_turns`."""
         module, function = self.kernel
 
         def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:
@@ -110,7 +110,7 @@ class TurnSection:
                 self.field_parameters(backward),
                 function.address,
                 np.array(self.critical.p),
-                SUNK_INWARD * INNER_RADIUS * self.reach,
+                INNER_CAPTURE_RATIO * INNER_RADIUS * self.reach,
                 sunk,
                 MAX_TURN_TIME,
                 rtol,

@@ -24,7 +24,7 @@ from .global_section import FINE_RTOL, FixedPoint
 from .periodic_orbit import Orbit, orbit
 from .ray_section import Array, TurnSection
 
-BAND = 1e-9  # |ln multiplier| at which a closed orbit is one of a band
+PERIOD_ANNULUS_EXPONENT = 1e-9  # |ln multiplier| at which a closed orbit is one of a band
 CLOSURE_DISTANCE = 1e-7  # distance on the sphere between start and end at which an orbit is closed
 SAME_CYCLE_DISTANCE = 1e-5  # distance in the disc between cycles found twice
 ON_CYCLE_DISTANCE = 1e-7  # distance in the disc from a cycle of a fixed point that belongs to it
@@ -33,7 +33,7 @@ MOST_ROUNDS = 40  # of narrowing one place
 SMOOTH = 1e-6  # displacement left at a fixed point that is none but a jump
 MOST_FEET = 12
 
-BAND_NOTE = say("band counted")
+PERIOD_ANNULUS_NOTE = say("band counted")
 NO_CRITICAL_SET = say("no set to surround")
 ONLY_SADDLES = say("only saddles")
 
@@ -78,8 +78,8 @@ def find(
             closed = orbit(section, crossing)
             if closed is None or closed.closure > CLOSURE_DISTANCE:
                 notes.append(say("turn not closed"))
-            elif abs(closed.divergence) < BAND and not crossing.touching:
-                notes.append(BAND_NOTE)
+            elif abs(closed.divergence) < PERIOD_ANNULUS_EXPONENT and not crossing.touching:
+                notes.append(PERIOD_ANNULUS_NOTE)
             elif not any(_is_same_orbit(closed, other) for _, other, _ in found):
                 found.append((crossing, closed, _sense(closed.points)))
     names = "the critical set" if len(critical) == 1 else "the critical sets that are no saddles"
@@ -94,7 +94,7 @@ def _search_ray(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
         samples = Samples(section, section.grid(), backward)
         finite = np.isfinite(samples.shift)
         if not backward and finite.sum() >= 8 and not samples.shift[finite].any():
-            return [], [BAND_NOTE]
+            return [], [PERIOD_ANNULUS_NOTE]
         if not samples.resolve(_displacement_ends, MIN_JUMP_WIDTH):
             notes.append(UNRESOLVED)
         xi, shift = samples.xi, samples.shift
@@ -106,7 +106,7 @@ def _search_ray(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
                 notes.append(say("too small, about a set"))
         changes, touching, band = zeros(samples.q, shift, samples.noise)
         if band:
-            notes.append(BAND_NOTE)
+            notes.append(PERIOD_ANNULUS_NOTE)
         if not backward:
             gap = near_fold(samples.q, shift, samples.noise)
             if gap < NEAR_FOLD:

@@ -31,8 +31,8 @@ class ClassInterval(Tabled):
         As `AtlasRegion.name`.
     low, high : float
     happening : tuple of str
-        Kinds of the special values where it ends above, as `branches` tells them, or "undefined" where U has no value
-        on one side; empty at the end of the span.
+        Kinds of the special values where it ends above, as `branches` names them, or "undefined" where U has no
+        value on one side; empty at the end of the span.
     """
 
     _head_ = ("portrait", "from", "to", "what happens there")

@@ -1,6 +1,6 @@
 """The class of a portrait, all that stays as it is between bifurcations of what stands still, over any parameters.
 
-A class is a number, `sweep.UNDEFINED` where U has no value.
+A class is a number, `test_functions.UNDEFINED` where U has no value.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ..layer_problem.vary import check_varying, vary
 from ..psi.function import Psi
 from ..systems.affine import as_elinear
 from .family import FamilySweep, family
-from .sweep import UNDEFINED, class_name, classes
+from .test_functions import UNDEFINED, class_name, classes
 from .typed.state import State
 
 __all__ = ["AffineClasses", "Classes", "GeneralClasses", "classes_over"]

@@ -15,7 +15,7 @@ from ..numerics.sign_changes import roots
 from ..psi.constructors import with_parameter
 from ..words import say
 from .result import CriticalBranch, SpecialValue
-from .sweep import KINDS, Linearisation, Plane, SystemPath, border_functions, linearise
+from .test_functions import KINDS, Linearisation, Plane, SystemPath, border_functions, linearise
 
 __all__ = ["ExistenceBorders", "critical_part", "existence_borders"]
 

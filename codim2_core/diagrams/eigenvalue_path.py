@@ -14,7 +14,7 @@ from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import vary
 from ..psi.function import Psi
 from ..tables import html_table, table_number
-from .sweep import KINDS, family, linearise
+from .test_functions import KINDS, family, linearise
 
 __all__ = ["LinearisationPath", "linearisation_path"]
 

@@ -15,7 +15,7 @@ from ..numerics.trigonometric import real_zeros, tangential_zeros
 from ..words import say
 from .critical import CHEBYSHEV_SAMPLES, OFF_CENTRE, ExistenceBorders
 from .result import ClosedEquator, DirectionBranch, SpecialValue
-from .sweep import Plane, SystemPath, discriminant, equator_counts
+from .test_functions import Plane, SystemPath, discriminant, equator_counts
 from .theta_zeros import MultipleZero, lambda_rho, multiple_zeros, theta_slope, theta_value, theta_zeros
 
 __all__ = ["equator_part", "link_zeros"]

@@ -23,14 +23,14 @@ from .equator import equator_part
 from .family import linear_path, values_over
 from .recheck_intervals import samples_beside
 from .result import Branches, ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
-from .sweep import Plane, SystemPath, scale
-from .typed.general_parts import general_parts
+from .test_functions import Plane, SystemPath, scale
+from .typed.general_diagram import general_parts
 
 _MAX_AUDITS = 5  # times that special values are looked for
 
 
 def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float], z: ArrayLike = ()) -> Branches:
-    """Find everything that stands still along one parameter; see `branches`, which takes the same.
+    """Find everything that stands still along one parameter; see `bifurcation_diagram`, which takes the same.
 
     Special values are found on a grid of 512 steps and then to the last digits. Two of one kind between neighbouring
     grid points are found too, if the function behind them is smooth on that scale and exceeds 1e-13 of its largest

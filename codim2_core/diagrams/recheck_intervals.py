@@ -13,7 +13,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..arrays import Array
-from .sweep import SystemPath, classes
+from .test_functions import SystemPath, classes
 
 BORDER_TOLERANCE = (
     2e-8  # of the span: nearer to a marked value where two borders touch, rounding decides for either side

@@ -1,4 +1,4 @@
-"""The result of `branches`: equilibria along one parameter, limit cycles, and special points."""
+"""The result of `bifurcation_diagram`: equilibria along one parameter, limit cycles, and special points."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..numerics.trigonometric import real_zeros, tangential_zeros
-from .sweep import Plane, SystemPath
+from .test_functions import Plane, SystemPath
 
 __all__ = ["MultipleZero", "lambda_rho", "multiple_zeros", "theta_slope", "theta_value", "theta_zeros"]
 

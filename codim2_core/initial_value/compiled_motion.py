@@ -31,8 +31,8 @@ from ..numerics.growth import BlowUpError, too_short
 from ..numerics.radau import Problem, TooManyStepsError, tableau
 from ..psi.function import Psi
 from ..stepping.compiling import CompiledCache
-from ..stepping.gains import one_gain
 from ..stepping.layout import FIELD
+from ..stepping.psi_gain import one_gain
 from ..words import say
 from .field import Field
 from .kernels.explicit import DENSE_DEGREE, MAX_COMPONENTS

@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import Array
 from ..curves.polyline import distance
 from ..cycles.limit_cycles import LimitCycles
-from ..cycles.predicted_limit_sets import ON_C
+from ..cycles.limit_sets_from_return_map import ON_C
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.eigendirections import to_disc
 from ..layer_problem.equator import EquatorEquilibria
@@ -20,8 +20,8 @@ from ..psi.function import Psi
 from ..systems.frozen import FrozenSystem
 from ..words import say
 
-SPEEDS = 600.0  # length drawn of a branch that ends nowhere: T in units of 1/|(a, b, d, f1, f2)|, or 1/max |U|
-RISE_TIMES = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends
+BRANCH_DURATION = 600.0  # length drawn of a branch that ends nowhere: T in units of 1/|(a, b, d, f1, f2)|, or 1/max |U|
+RISE_DURATION = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends
 EXTENSION_FACTOR = 30.0  # and how many times longer it is followed to see where it ends
 CAPTURE = 1e-6  # distance from an attractor at which a branch has reached it
 ON_CYCLE = 1e-4  # distance to a limit cycle at which a branch has reached it
@@ -29,7 +29,7 @@ AT_CRITICAL = 1e-2  # distance beyond which an equilibrium that captures is none
 AT_SADDLE = 1e-4  # distance at which a branch that stopped nowhere else is at a saddle
 NEUTRAL_SHARE = 1e-13  # of the largest eigenvalue on the equator
 AT_NEUTRAL = 1e-2  # distance to a radially neutral Q, which is come to like 1/T, at which a branch is at it
-TOLD = 1e-7  # ebar of which a point of the disc says something: below it an orbit is not followed on
+MIN_RESOLVED_HEIGHT = 1e-7  # ebar of which a point of the disc says something: below it an orbit is not followed on
 CONNECTION = say("into a saddle")
 AT_NEUTRAL_Q = say("to a neutral direction")
 
@@ -122,7 +122,7 @@ def omega_limits(
     backward : bool
         Whether `lines` run against time.
     predict : callable, optional
-        Says of states where their orbits go, as `cycles.predicted_limit_sets` does.
+        Says of states where their orbits go, as `cycles.limit_sets_from_return_map` does.
 
     Returns
     -------
@@ -133,7 +133,7 @@ def omega_limits(
     length = drawn_time(at, equator)
     for more in (0.0, 1.0, EXTENSION_FACTOR):
         open_ = [i for i, s in enumerate(statuses) if s in (Status.T_MAX, Status.STEP_LIMIT) and found[i] is None]
-        follow = [i for i in open_ if states[i, 2] > TOLD] if more else []
+        follow = [i for i in open_ if states[i, 2] > MIN_RESOLVED_HEIGHT] if more else []
         if follow:
             time, places = more * length, states[follow, :2]
             on = _integrate_to_time(at, psi, places, time, rtol, backward)
@@ -183,7 +183,7 @@ def drawn_time(at: FrozenSystem, equator: EquatorEquilibria) -> float:
     """T in which a branch shows where it goes: long for |U|, and for the slowest way up from the equator."""
     unit = at.speed
     slow = np.abs(equator.lambda_rho[~equator.radially_degenerate])
-    return SPEEDS / unit + (RISE_TIMES / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
+    return BRANCH_DURATION / unit + (RISE_DURATION / max(float(slow.min()), 1e-4 * unit) if len(slow) else 0.0)
 
 
 def _integrate_to_time(

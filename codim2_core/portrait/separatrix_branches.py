@@ -23,10 +23,10 @@ from ..psi.function import Psi
 from ..systems.frozen import FrozenSystem
 from ..words import say
 from .omega_limits import (
+    BRANCH_DURATION,
     CAPTURE,
     CONNECTION,
-    RISE_TIMES,
-    SPEEDS,
+    RISE_DURATION,
     critical_label,
     half_saddle,
     omega_limits,
@@ -55,7 +55,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
     unit = at.speed
     parts = []
     for i in owners:
-        own = min(t_max, SPEEDS / unit + RISE_TIMES / abs(float(equator.lambda_rho[i])))
+        own = min(t_max, BRANCH_DURATION / unit + RISE_DURATION / abs(float(equator.lambda_rho[i])))
         parts.append(continuation(at, psi, equator.theta[i : i + 1], t_max=own, **fine))
     for k, C in enumerate(critical):
         if C.kind == "saddle":

@@ -16,9 +16,9 @@ from ..layer_problem.problem import LayerProblem
 from ..orbits.both_directions import Orbits
 from ..orbits.result import Status, Trajectories
 from ..orbits.trajectories import concatenate, trajectories
+from ..portrait.approach_outcomes import outcomes_of
 from ..portrait.omega_limits import AT_SADDLE, CAPTURE, OmegaLimit, critical_label, drawn_time, nearest, omega_limits
 from ..portrait.outcome import Outcome
-from ..portrait.outcomes import outcomes_of
 from ..systems.frozen import FrozenSystem
 from ..tables import html_table, point
 from ..words import say

@@ -14,8 +14,8 @@ from ..layer_problem.problem import find_critical, find_equator, find_equator_cy
 from ..nullcline.direction_hyperbola import Conics, conics_of
 from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
 from ..nullcline.view_refinement import Seen
+from ..portrait.approach_outcomes import outcomes_of
 from ..portrait.classify import portrait, portrait_name
-from ..portrait.outcomes import outcomes_of
 from ..portrait.separatrices import Separatrices, separatrices_of
 from ..sliding.flow import flow_on
 from ..systems.bounds import MIN_NUMBER

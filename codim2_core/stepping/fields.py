@@ -18,9 +18,9 @@ from numba import (
 from ..jit import inlined_fast_kernel
 from ..psi.function import Psi
 from .compiling import compile_address
-from .gains import GainVariants, arguments, gain, kind, variant
+from .field_parameters import GAIN, PSI
 from .layout import EACH, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, WITH_EACH, call_at
-from .numbers import GAIN, PSI
+from .psi_gain import GainVariants, arguments, gain, kind, variant
 
 
 @inlined_fast_kernel

@@ -17,8 +17,8 @@ from ..expressions.names import FAST_NAMES
 from ..expressions.source import program
 from ..systems.typed import System
 from .compiling import CompiledCache, compile_address
+from .field_parameters import FACTOR, GAIN, OWN_NUMBERS
 from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, call_at
-from .numbers import FACTOR, GAIN, OWN_NUMBERS
 
 MOST_SYSTEMS = 64  # compiled systems kept
 _fields = CompiledCache(MOST_SYSTEMS)

@@ -19,7 +19,7 @@ from numba import types
 from numba.extending import intrinsic
 
 from ..jit import kernel
-from .numbers import PSI, SHARED_SIZE
+from .field_parameters import PSI, SHARED_SIZE
 
 # 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
 # 65 ns a step and lane with 8 lanes, 30 with 16, 20 with 32).

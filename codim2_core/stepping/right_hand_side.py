@@ -13,8 +13,8 @@ from ..psi.function import Psi
 from ..systems.frozen import FrozenSystem
 from ..systems.typed import System
 from . import fields, fields_typed
-from .gains import gains, gains_of_block, gains_of_blocks, has_gains
-from .numbers import FACTOR, field_numbers
+from .field_parameters import FACTOR, field_numbers
+from .psi_gain import gains, gains_of_block, gains_of_blocks, has_gains
 
 ALONE = np.zeros((1, 2))
 ALONE.flags.writeable = False

@@ -42,8 +42,8 @@ from .layout import (
     WORKSPACE,
     call_field,
 )
-from .lines import end_line, keep_line, length_of, longer
 from .polyline import CURSOR, X, Y, append_step, start
+from .polyline_buffers import end_line, keep_line, length_of, longer
 
 # As in `lanes`
 T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, STEP_LIMIT, LENGTH, RUNNING = 0, 1, 2, 3, 6, 7, -1

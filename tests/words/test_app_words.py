@@ -198,7 +198,7 @@ CHECKS = {
 ELSEWHERE = {
     "app/frame/test_budget.py": ("too wild", "fault"),
     "app/panels/parameters/test_axes.py": ("no slow variable", "no parameter", "n of another Ψ", "axis given"),
-    "app/state/test_asked.py": (
+    "app/state/test_compatible_changes.py": (
         "request of a wrong kind",
         "values of a wrong kind",
         "too many values",

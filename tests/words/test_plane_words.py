@@ -97,7 +97,7 @@ ELSEWHERE = {
                                     "fold reaches the equator"),
     "cycles/test_near_folds.py": ("cusp of cycles",),
     "psi/test_engines.py": ("folds need R3",),
-    "diagrams/test_branches.py": ("gap",),
+    "diagrams/test_bifurcation_diagram.py": ("gap",),
     "diagrams/test_diagram.py": ("one comes or goes",),
     "atlases/connections/test_connection_curves.py": ("neutral connection",),
     "nowhere": ("fold not caught", "fold followed no further", "connection followed no further",

@@ -18,8 +18,8 @@ from ...phrases import say
 from ...state.choices import COEFFICIENTS, OWN_AXIS, SLIDER_AXES, SLOW_CONTROLS
 from ...state.chosen_system import NORMAL, OWN_SYSTEM, PARAMETER_RANGE, parameter_ranges, slow_ranges
 from ...state.controls import ExplorerState
-from ...state.opening import axes_of
 from ...state.slider_range import edited_range, slider_range
+from ...state.system_opening_values import axes_of
 
 #: Coefficients of the slow flow: nothing in a diagram or a map depends on them.
 SLOW_FLOW_PARAMETERS = ("B1", "B2", "g0")

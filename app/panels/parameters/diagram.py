@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from codim2_core.continuation.result import CycleBranches
-from codim2_core.diagrams.branches import Branches, branches
+from codim2_core.diagrams.bifurcation_diagram import Branches, branches
 
 from ...draw.thumbnails import MAX_KEPT as MAX_FRAMES
 from ...draw.thumbnails import thumbnails
 from ...frame.frame_context import FrameContext
 from ...phrases import say
-from ...state.pace import MIN_PACE, SLOW_DISTANCE
+from ...state.animation_pacing import MIN_PACE, SLOW_DISTANCE
 from ..panel import Panel
 from .atlas_columns import short
 from .axes import available, missing_axes, spans_of, without_parameters

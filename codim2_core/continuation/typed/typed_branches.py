@@ -21,16 +21,16 @@ from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem
 from ...words import say
-from ..batching import run_batched
 from ..branch_arrays import PointRow, build_branch, point_row
 from ..branch_ends import values
-from ..branch_points import BranchPoint, BranchPoints, TurnGuess, points_at_value, reversed_trace
+from ..continuation_points import ContinuationPoint, ContinuationPoints, TurnGuess, points_at_value, reversed_trace
 from ..corrector import BranchTracer
+from ..lockstep_searches import run_batched
 from ..parameter_family import CACHE_SIZE
 from ..predictor_corrector import BAND_HEIGHT, trace_branch
 from ..result import CycleBranch, CycleBranches, CyclePoint
 from ..turns import ReturnMapPoint
-from .homoclinic_split import line_of, split_at_homoclinic
+from .homoclinic_detection import line_of, split_at_homoclinic
 from .known_cycles import KnownCycle, distance_along_ray, is_same_cycle
 from .ray import best_crossing, room
 from .section_base import Array, At, HemispherePoint, SectionBase, e_at
@@ -67,7 +67,7 @@ class RayPiece:
     """A part of a branch that was followed on one ray."""
 
     tracer: BranchTracer
-    trace: BranchPoints
+    trace: ContinuationPoints
 
 
 def continue_typed(
@@ -237,7 +237,7 @@ class TypedSearch:
                 return tracer, first
         return None
 
-    def _followed(self, tracer: BranchTracer, point: BranchPoint) -> list[RayPiece]:
+    def _followed(self, tracer: BranchTracer, point: ContinuationPoint) -> list[RayPiece]:
         """Follow a branch to its end, on as many rays as it takes."""
         pieces: list[RayPiece] = []
         for _ in range(MAX_RAYS):
@@ -253,7 +253,7 @@ class TypedSearch:
             tracer, point = again
         return pieces
 
-    def _at_loop(self, trace: BranchPoints) -> bool:
+    def _at_loop(self, trace: ContinuationPoints) -> bool:
         """Whether the last cycles differ in their periods, but no longer in their values: another ray shows no more."""
         last = [point.turn for point in trace.points[-CANDIDATE_POINTS:]]
         slow, quick = (choose(last, key=lambda turn: turn.period) for choose in (max, min))
@@ -261,7 +261,7 @@ class TypedSearch:
             slow.period > PERIOD_GROWTH * quick.period and abs(slow.value - quick.value) < SAME_VALUE_SHARE * self.width
         )
 
-    def _again(self, tracer: BranchTracer, trace: BranchPoints) -> tuple[BranchTracer, BranchPoint] | None:
+    def _again(self, tracer: BranchTracer, trace: ContinuationPoints) -> tuple[BranchTracer, ContinuationPoint] | None:
         """Find the last cycle on another ray that it crosses better; None if there is none."""
         last, before = trace.points[-1], trace.points[-2]
         line, earlier = line_of(tracer, last.turn), line_of(tracer, before.turn)

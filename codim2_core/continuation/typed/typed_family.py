@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..parameter_family import TurnQuestion
+from ..parameter_family import TurnRequest
 from ..turns import ReturnMapPoint
 from .ray import Ray, room
 from .section_base import Array, At, SectionBase
@@ -57,7 +57,7 @@ class VariedRay:
         except ValueError:  # beyond the span, where the system ends
             return None
 
-    def answer(self, question: TurnQuestion) -> list[ReturnMapPoint | None]:
+    def answer(self, question: TurnRequest) -> list[ReturnMapPoint | None]:
         """Follow the turns that are asked for."""
         asked = zip(question.xi, question.values, question.backward, strict=True)
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -65,6 +65,6 @@ class VariedRay:
         return [None if one is None else one.turn for one in found]
 
 
-def run_typed_batch(questions: Sequence[TurnQuestion]) -> list[list[ReturnMapPoint | None]]:
+def run_typed_batch(questions: Sequence[TurnRequest]) -> list[list[ReturnMapPoint | None]]:
     """Follow the turns of several questions."""
     return [question.family.answer(question) for question in questions]

@@ -119,7 +119,7 @@ def proved_count(certificate):
         return None
     if not (C[2] > 0 and max(abs(C[0]), abs(C[1])) * 2**44 < C[2]):
         return None
-    # the polynomials Phi w^2 of degree 0 and 1 in beta, and Psi: __init__, 2
+    # the polynomials Phi w^2 of degree 0 and 1 in beta, and P: __init__, 2
     degree = len(given) - 1
     T = [np.array([1], object), np.array([0, 1], object)]
     while len(T) <= degree:
@@ -148,7 +148,7 @@ def proved_count(certificate):
     lines = chords(family, power)
     if not positive(np.array([(t / top).astype(float) for t in tensors]), chart, lines):
         return None
-    if not abs(P[0, 0]) > abs(P).sum() / 2**42:  # Psi has one sign on the way from C to 0
+    if not abs(P[0, 0]) > abs(P).sum() / 2**42:  # P has one sign on the way from C to 0
         return None
     lift, numbers = ((m / abs(m).max()).astype(float) for m in (L, np.array([[a, b, f], [c, d, g]], object)))
     center = np.array([float(Fraction(b * g - d * f, area)), float(Fraction(c * f - a * g, area))])
@@ -238,7 +238,7 @@ def squares(chart, centers, half):
 
 
 def ovals(P, way, chart, lift, numbers, crossed):
-    """Return how many closed curves Psi = 0 has, if that is the number of cycles."""
+    """Return how many closed curves P = 0 has, if that is the number of cycles."""
     n = len(P) - 1
     left = np.array([[comb(j, i) * 2 ** (n - j) for i in range(n + 1)] for j in range(n + 1)], object)
     whole = lcm(*(comb(n, i) for i in range(n + 1)))
@@ -267,7 +267,7 @@ def ovals(P, way, chart, lift, numbers, crossed):
     middle, reached, sign, count = 2 ** (GRID - 1), np.zeros(signs.shape, bool), 1 if P[0, 0] > 0 else -1, 0
     reached[middle - 1 : middle + 1, middle - 1 : middle + 1] = True
     inner = reached
-    while count <= most:  # all places where Psi may have the sign that it has within the last closed curve
+    while count <= most:  # all places where P may have the sign that it has within the last closed curve
         before, free, inner = -1, (signs != -sign) | reached, reached.copy()
         while before != (before := reached.sum()):
             rows = reached | np.pad(reached[1:], ((0, 1), (0, 0))) | np.pad(reached[:-1], ((1, 0), (0, 0)))

@@ -55,7 +55,7 @@ def net() -> Array:
 
 
 class ProbePoints:
-    """Phi at places (2, n) of the disc, as a linear function of the coefficients of Psi: `__init__`, 2."""
+    """Phi at places (2, n) of the disc, as a linear function of the coefficients of P: `__init__`, 2."""
 
     def __init__(self, system: ScaledLayerProblem, place: Array, k: float, mu: float) -> None:
         self.place = place
@@ -97,7 +97,7 @@ class ScaledLayerProblem:
 
 
 def best_function(system: ScaledLayerProblem, degree: int, k: float, mu: float) -> tuple[float, Array]:
-    """Find Psi, coefficients up to 1, with about the largest margin: by some places, and those where it falls short."""
+    """Find P, coefficients up to 1, with about the largest margin: by some places, and those where it falls short."""
     every = ProbePoints(system, net().reshape(2, -1), k, mu)
     step = max(1, every.place.shape[1] // (5 * math.comb(degree + 2, 2)))
     first = ProbePoints(
@@ -208,14 +208,14 @@ def loops(system: ScaledLayerProblem, cycle: Array, stable: bool) -> Iterator[Ar
         inner = float(turned.real[1:][crosses].max())
         for share, angle in ((0.3, 0.03), (0.1, 0.03), (0.6, 0.03), (0.03, 0.01), (0.3, 0.1)):
             start = (inner + share * (1.0 / CHART_SHRINKAGE - inner)) * way
-            found = round_C(system, start, way, forward, sense, -sense * angle)
+            found = follow_rotated_field(system, start, way, forward, sense, -sense * angle)
             if found and abs(found[-1]) < abs(start):
                 found = found if sense > 0.0 else found[::-1]
                 X, Y, W = system.chart @ [[z.real for z in found], [z.imag for z in found], np.ones(len(found))]
                 yield np.array([X / W, Y / W]).T
 
 
-def round_C(
+def follow_rotated_field(
     system: ScaledLayerProblem, start: complex, way: complex, forward: float, sense: float, angle: float
 ) -> list[complex]:
     """Follow the turned field once round C, in the chart, in steps that turn less than the angle."""

@@ -12,8 +12,8 @@ from ...arrays import Array
 from ...layer_problem.critical import CriticalSet
 from ...numerics.sign_changes import lowest, vertex
 from ..equator import link_zeros
+from .cancellation_zones import States
 from .narrow_changes import narrow_change
-from .rounding import States
 from .state import State, WindingTest
 
 __all__ = ["SIDE_STEP", "Change", "match_sets", "pieces_between"]

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from ...critical_changes import CriticalChange, change_between
-from .rounding import States
+from .cancellation_zones import States
 from .state import State
 
 Measure = Callable[[State], float]

@@ -12,8 +12,8 @@ import math
 import numpy as np
 
 from ...jit import kernel
+from ...stepping.field_parameters import PSI
 from ...stepping.layout import PARAMETERS, double_of_bits
-from ...stepping.numbers import PSI
 from ..safe_steps import SAFE_DEGREE
 from . import explicit
 from .arrival import slides

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...jit import kernel, spliced_kernel
 from ...numerics.radau import ITERATIONS, STAGES, Tableau
-from ...stepping.numbers import PSI
+from ...stepping.field_parameters import PSI
 from .explicit import ROOM
 from .rate import rate
 

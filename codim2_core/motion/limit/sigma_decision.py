@@ -12,8 +12,8 @@ from ...cycles.limit_cycles import limit_cycles
 from ...layer_problem.critical import CriticalSet, critical_sets
 from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
 from ...layer_problem.problem import LayerProblem
-from ...portrait.outcome_classification import judge, omega_limits_of, orbits_to_end
-from ...portrait.outcomes import outcome_towards
+from ...portrait.approach_outcomes import outcome_towards
+from ...portrait.outcome_verdicts import judge, omega_limits_of, orbits_to_end
 from ...psi.constructors import comparison_families, constant
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem

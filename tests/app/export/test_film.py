@@ -12,7 +12,7 @@ from codim2_app.export.play import CHART, PLAY, SCALE, scenery
 from codim2_app.export.small.chart import LEFT_MARGIN
 from codim2_app.export.view import view_of
 from codim2_app.server.cli import main
-from codim2_app.state.pace import MIN_PACE
+from codim2_app.state.animation_pacing import MIN_PACE
 from PIL import Image, ImageSequence
 
 VIEW = view_of("case1-cm4")

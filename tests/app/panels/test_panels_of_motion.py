@@ -14,7 +14,7 @@ from codim2_app.slow_layers.typed_start import launch_of
 from codim2_app.state.chosen_system import build
 from codim2_app.state.cleaning import InputError
 from codim2_app.state.controls import ExplorerState
-from codim2_app.state.opening import opening_values
+from codim2_app.state.system_opening_values import opening_values
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2

@@ -3,7 +3,7 @@
 import pytest
 from codim2_app.state import cleaning
 from codim2_app.state.choices import OWN_AXIS
-from codim2_app.state.cleaning import MOST_ENTRIES, MOST_OWN, InputError, clean
+from codim2_app.state.cleaning import MAX_PORTRAIT_TEXT, MOST_ENTRIES, InputError, clean
 from codim2_app.state.controls import ExplorerState
 
 LOW, HIGH = ExplorerState.param["trajectories"].bounds
@@ -24,7 +24,8 @@ KINDS = {
     ),
     "parameters": ([(NUMBERS, NUMBERS)], ({**NUMBERS, "q": 1.0}, {1: 2.0}, [1.0], {"p": "c"}), "."),
     "beside": (
-        [("f1=0.3&b=2", "f1=0.3&b=2"), ("", "")], ("f1=", "layers=inside", "f1=x", 3, "f1=" + "1" * MOST_OWN), ".",
+        [("f1=0.3&b=2", "f1=0.3&b=2"), ("", "")],
+        ("f1=", "layers=inside", "f1=x", 3, "f1=" + "1" * MAX_PORTRAIT_TEXT), ".",
     ),
     "orbits": (
         [(START, START)], (START * (1 + cleaning.LONGEST_TEXT // len(START)), 3, ["1.4,0.5"]),

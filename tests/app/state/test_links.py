@@ -18,7 +18,7 @@ from codim2_app.state.links import (
     DEFAULTS_BY_VERSION,
     MAX_VIEWS,
     VERSION,
-    Look,
+    PageView,
     compress_query,
     decompress_query,
     read_link,
@@ -129,7 +129,7 @@ def test_a_link_carries_what_is_seen(edges, embed, controls):
     left, right = sorted(edges[:2])
     bottom, top = sorted(edges[2:])
     assume(min(right - left, top - bottom) >= 2 * NEAREST)
-    look = Look((left, right, bottom, top), embed, tuple(controls), beamer=0 if embed else 2)
+    look = PageView((left, right, bottom, top), embed, tuple(controls), beamer=0 if embed else 2)
     link = read_link(write_link(first_values(), look))
     assert link.errors == ()
     assert (link.look.embed, link.look.controls, link.look.beamer) == (embed, tuple(controls), 0 if embed else 2)
@@ -142,7 +142,7 @@ def test_a_link_carries_kept_views_cleaned_and_that_the_picture_is_lifted():
         "set": {"f1": 1.25, "layers": ["inside"], "parameters": {"k": 2.0}},
         "seen": [-1.0, 1.0, -0.5, 1.5],
     }
-    link = read_link(write_link(first_values(), Look(lift=True, views=(view, {**view, "seen": None}))))
+    link = read_link(write_link(first_values(), PageView(lift=True, views=(view, {**view, "seen": None}))))
     assert link.errors == ()
     assert link.look.lift
     assert link.look.views == (view, {**view, "seen": None})
@@ -216,7 +216,7 @@ def test_the_browser_writes_the_same_links():
         input=json.dumps({"settings": settings, "cases": cases, "seen": seen}),
     )  # fmt: skip
     for values, query in zip(cases, json.loads(run.stdout), strict=True):
-        written = write_link(values, Look(tuple(seen)))
+        written = write_link(values, PageView(tuple(seen)))
         assert parse_qs(query).keys() == parse_qs(written).keys()
         there, here = read_link(query), read_link(written)
         assert (there.errors, there.look) == ((), here.look)

@@ -18,7 +18,7 @@ from codim2_app.view.warmup import MIN_SETTINGS, MOST_COMPILED, FormulaQuota
 
 import codim2_core as c2
 from codim2_core.stepping import fields_typed as typed_fields
-from codim2_core.stepping import gains as stepping
+from codim2_core.stepping import psi_gain as stepping
 
 ASK = """import fcntl, sys
 try:

@@ -9,7 +9,7 @@ from scipy.integrate import quad
 from codim2_core import ELinear, bifurcations, equator_cycle, psi
 from codim2_core.bifurcations.geometry import Geometry
 from codim2_core.continuation.branches import continue_cycles
-from codim2_core.cycles.heteroclinic_cycle import gap, loops
+from codim2_core.cycles.heteroclinic_cycle import heteroclinic_cycles, splitting
 from codim2_core.cycles.limit_cycles import limit_cycles
 
 ABD = (1.0, 1.3, -1.2)
@@ -100,12 +100,12 @@ def test_loops_close_on_their_curve(loop_curve):
     assert len(line) == len(ratio)
     p = psi.hill(3)
     for i in range(2, len(line) - 2, 6):
-        (arc,) = loops(system(line[i]).at(()))
-        assert abs(gap(system(line[i]).at(()), p, arc)) < 1e-8
+        (arc,) = heteroclinic_cycles(system(line[i]).at(()))
+        assert abs(splitting(system(line[i]).at(()), p, arc)) < 1e-8
         assert arc.ratio == pytest.approx(ratio[i], rel=1e-9)
     assert min(from_nearest(end, corners()) for end in (line[0], line[-1])) < 1e-9
     place = {s.type: s.place for s in loop_curve.special}["resonant loop"]
-    (arc,) = loops(system(place).at(()))
+    (arc,) = heteroclinic_cycles(system(place).at(()))
     assert arc.ratio == pytest.approx(1.0, abs=1e-6)
 
 

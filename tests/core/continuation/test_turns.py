@@ -3,7 +3,7 @@
 import pytest
 
 from codim2_core import ELinear, psi
-from codim2_core.continuation.parameter_family import ParameterFamily, TurnQuestion, run_batch
+from codim2_core.continuation.parameter_family import ParameterFamily, TurnRequest, run_batch
 from codim2_core.layer_problem.vary import vary
 
 SYSTEM = ELinear(1.0, 1.3, -1.2, (0.33, 0.07))
@@ -29,7 +29,7 @@ def test_derivatives_are_those_of_turns_nearby(p, name, backward):
     h = 1e-5
 
     def turns(dx, dv):
-        return run_batch([TurnQuestion(own, [x + dx for x in XI], [value + dv] * len(XI), [backward] * len(XI))])[0]
+        return run_batch([TurnRequest(own, [x + dx for x in XI], [value + dv] * len(XI), [backward] * len(XI))])[0]
 
     asked = [turns(*moved) for moved in ((0.0, 0.0), (h, 0.0), (-h, 0.0), (0.0, h), (0.0, -h))]
     seen = 0

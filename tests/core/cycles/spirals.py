@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from codim2_core import psi
-from codim2_core.cycles.return_map_kernel import returns
-from codim2_core.cycles.winding_return_kernel import first_turns
+from codim2_core.cycles.global_section_kernel import returns
+from codim2_core.cycles.ray_section_kernel import first_turns
+from codim2_core.stepping.field_parameters import SHARED_SIZE
 from codim2_core.stepping.fields import field
 from codim2_core.stepping.layout import LANES
-from codim2_core.stepping.numbers import SHARED_SIZE
 
 SEVERAL = 2 * LANES + 1
 FIELD = field(psi.constant())

@@ -8,8 +8,8 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.cycles.global_section import COARSE_RTOL, FINE_RTOL, INNER_RADIUS, Section, rays
+from codim2_core.cycles.global_section_kernel import OUTWARD, RETURNED, TO_CRITICAL_SET
 from codim2_core.cycles.ray_section import TurnSection
-from codim2_core.cycles.return_map_kernel import OUTWARD, RETURNED, TO_CRITICAL_SET
 from codim2_core.stepping.layout import LANES
 
 PSIS = [c2.psi.constant(), c2.psi.rational(), c2.psi.tanh(), c2.psi.hill(3)]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles.heteroclinic_cycle import gap, loops
+from codim2_core.cycles.heteroclinic_cycle import heteroclinic_cycles, splitting
 
 # a, b, d, f1, f2 with one arc each, found at random
 PLANES = [(1.45, -1.49, -1.38, 0.94, -0.85), (-1.18, -0.95, 0.27, -0.81, -0.81), (0.55, 0.67, -0.58, 0.67, 0.65)]
@@ -29,7 +29,7 @@ def mirrored(plane):
 @pytest.mark.parametrize("time", [1.0, -1.0])
 def test_the_arc_leads_from_where_orbits_come_down_to_where_they_go_up(plane, time):
     for at in (made(plane, time), made(mirrored(plane), time)):
-        (loop,) = loops(at)
+        (loop,) = heteroclinic_cycles(at)
         limits = c2.equator_equilibria(at)
         i, j = (int(np.argmin(np.abs(limits.theta - angle))) for angle in (loop.source, loop.sink))
         assert (limits.theta[i], limits.theta[j]) == (loop.source, loop.sink)
@@ -49,32 +49,34 @@ def test_the_arc_leads_from_where_orbits_come_down_to_where_they_go_up(plane, ti
 @EVERY
 @pytest.mark.parametrize("time", [1e-4, 1e4])
 def test_loops_do_not_know_the_unit_of_time(plane, time):
-    (one,), (other,) = loops(made(plane)), loops(made(plane, time))
+    (one,), (other,) = heteroclinic_cycles(made(plane)), heteroclinic_cycles(made(plane, time))
     assert (other.source, other.sink, other.ratio) == pytest.approx((one.source, one.sink, one.ratio), rel=1e-12)
     assert other.ray == one.ray
-    assert gap(made(plane, time), PSI, other) == pytest.approx(gap(made(plane), PSI, one), rel=1e-7)
+    assert splitting(made(plane, time), PSI, other) == pytest.approx(splitting(made(plane), PSI, one), rel=1e-7)
 
 
 @EVERY
 def test_against_time_ends_change_places_and_the_gap_its_sign(plane):
     for one in (plane, mirrored(plane)):
         forward, backward = made(one), made(one, -1.0)
-        (there,), (back,) = loops(forward), loops(backward)
+        (there,), (back,) = heteroclinic_cycles(forward), heteroclinic_cycles(backward)
         assert (there.source, there.sink) == pytest.approx((back.sink, back.source), abs=1e-12)
         assert there.ratio * back.ratio == pytest.approx(1.0, rel=1e-9)
         assert there.ray == back.ray
-        assert gap(forward, PSI, there) == pytest.approx(-gap(backward, PSI, back), rel=1e-8)
-    assert gap(made(plane), PSI, loops(made(plane))[0]) == pytest.approx(gap(forward, PSI, there), rel=1e-8)
+        assert splitting(forward, PSI, there) == pytest.approx(-splitting(backward, PSI, back), rel=1e-8)
+    assert splitting(made(plane), PSI, heteroclinic_cycles(made(plane))[0]) == pytest.approx(
+        splitting(forward, PSI, there), rel=1e-8
+    )
 
 
 @EVERY
 @pytest.mark.parametrize("time", [1.0, -1.0])
 def test_the_gap_tells_where_the_separatrix_goes(plane, time):
     at = made(plane, time)
-    (loop,) = loops(at)
+    (loop,) = heteroclinic_cycles(at)
     up = next(
         s
         for s in c2.separatrices(at, PSI)
         if s.inside and s.direction == "unstable" and math.cos(s.departure_angle - loop.sink) > 1 - 1e-9
     )
-    assert (gap(at, PSI, loop) < 0.0) == (not up.end.startswith("Q"))
+    assert (splitting(at, PSI, loop) < 0.0) == (not up.end.startswith("Q"))

@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.diagrams.family import linear_path, values_over
-from codim2_core.diagrams.typed.general_parts import general_parts
+from codim2_core.diagrams.typed.general_diagram import general_parts
 
 PSI = c2.psi.hill(3)
 #: A matrix and f whose cycles are born, fold and become the equator, in axes that turn by p*k + 0.4.

@@ -10,8 +10,8 @@ from codim2_core.initial_value.compiled_motion import functions_of
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels import slow
 from codim2_core.initial_value.kernels.arrival import slides
+from codim2_core.stepping.field_parameters import PSI
 from codim2_core.stepping.layout import PARAMETERS
-from codim2_core.stepping.numbers import PSI
 
 from .placing import HILL, TANH, directions, placed
 

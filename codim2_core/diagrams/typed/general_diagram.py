@@ -11,9 +11,9 @@ from ...arrays import Array
 from ...psi.function import Psi
 from ..equator import link_zeros
 from ..result import ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
+from .cancellation_zones import RoughError, States
 from .changes import SIDE_STEP, match_sets, pieces_between
 from .name_changes import name_changes
-from .rounding import RoughError, States
 from .state import State
 
 __all__ = ["general_parts"]

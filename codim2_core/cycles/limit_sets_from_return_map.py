@@ -14,7 +14,7 @@ from ..arrays import Array
 from ..layer_problem.problem import LayerProblem, found_once
 from .fixed_point_search import ReturnMapSamples
 from .global_section import COARSE_RTOL
-from .limit_cycles import shown_of
+from .limit_cycles import return_map_samples_of
 
 ON_C = -1
 
@@ -42,7 +42,7 @@ def _predictions(_: LayerProblem) -> dict[bytes, list[int | None]]:
 
 def _answer(problem: LayerProblem, states: Array) -> list[int | None]:
     at = problem.at
-    samples = "" if at.normal_form is None or at.as_given is None else shown_of(problem)
+    samples = "" if at.normal_form is None or at.as_given is None else return_map_samples_of(problem)
     certain = -1 if isinstance(samples, str) else samples.certain
     if isinstance(samples, str) or certain < 0:
         return [None] * len(states)

@@ -8,9 +8,9 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.cycles import periodic_orbit
-from codim2_core.cycles.batch.sections import STEP_NODES, Sections, critical_points
 from codim2_core.cycles.global_section import FINE_RTOL, Section
 from codim2_core.cycles.periodic_orbit import path
+from codim2_core.cycles.section_batch.sections import STEP_NODES, Sections, critical_points
 
 # (a, b, d, f1, f2): foci of all senses, in the middle and out of it.
 PLANES = np.array(

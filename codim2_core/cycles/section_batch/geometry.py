@@ -9,10 +9,10 @@ import numpy as np
 from ...jit import kernel
 from ...layer_problem.border import CANCELS
 from ...numerics import double_double
-from ...stepping.numbers import PSI, SHARED_SIZE
-from ..equator_pull import LOST, MIN_HEIGHT, SUNK
-from ..global_section import INNER_RADIUS, SUNK_INWARD
-from ..return_map_kernel import RETURNED, single_step
+from ...stepping.field_parameters import PSI, SHARED_SIZE
+from ..equator_pull import EQUATOR_CAPTURE_HEIGHT, MIN_HEIGHT, UNDERFLOW_HEIGHT
+from ..global_section import INNER_CAPTURE_RATIO, INNER_RADIUS
+from ..global_section_kernel import RETURNED, single_step
 
 _add = kernel(double_double.add_pairs)
 _product = kernel(double_double.product)
@@ -121,8 +121,8 @@ def lanes(plane, parameters, backward, states, x2, inner):
         sense[i] = -plane[i, 1] if backward[i] else plane[i, 1]
         w = states[i, 2]
         away = math.hypot(states[i, 0] / w - x2[i, 0], states[i, 1] / w - x2[i, 1])
-        floor[i] = SUNK_INWARD * min(inner[i], away)
-        sunk[i] = min(SUNK, max(LOST, MIN_HEIGHT / max(MIN_HEIGHT, min(w, 1.0))))
+        floor[i] = INNER_CAPTURE_RATIO * min(inner[i], away)
+        sunk[i] = min(EQUATOR_CAPTURE_HEIGHT, max(UNDERFLOW_HEIGHT, MIN_HEIGHT / max(MIN_HEIGHT, min(w, 1.0))))
     return shared, sense, floor, sunk
 
 

@@ -7,7 +7,7 @@ import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.frame.scenes import make_scene
 from codim2_app.state.controls import ExplorerState, first_values
-from codim2_app.state.grabbed import MAX_GRAB_RADIUS, push_for
+from codim2_app.state.drag_critical_set import MAX_GRAB_RADIUS, push_for
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2

@@ -10,7 +10,7 @@ from .turns import ReturnMapPoint
 
 
 @dataclass(frozen=True)
-class BranchPoint:
+class ContinuationPoint:
     """A point of a branch: a turn that closes, its nu, and the unit tangent (chi, nu)."""
 
     turn: ReturnMapPoint
@@ -36,22 +36,22 @@ class TurnGuess:
 
 
 @dataclass(frozen=True)
-class BranchPoints:
+class ContinuationPoints:
     """Points in order, folds among them by index, and why it stopped: "C", "equator", "span", "closed" or "stuck"."""
 
-    points: tuple[BranchPoint, ...]
+    points: tuple[ContinuationPoint, ...]
     folds: tuple[int, ...]
     reason: str
 
 
-def reversed_trace(trace: BranchPoints) -> BranchPoints:
+def reversed_trace(trace: ContinuationPoints) -> ContinuationPoints:
     """Return the same points in the opposite order, tangents turned; `reason` is dropped."""
     points = tuple(replace(p, tangent=(-p.tangent[0], -p.tangent[1])) for p in reversed(trace.points))
     last = len(points) - 1
-    return BranchPoints(points, tuple(sorted(last - i for i in trace.folds)), "")
+    return ContinuationPoints(points, tuple(sorted(last - i for i in trace.folds)), "")
 
 
-def points_at_value(trace: BranchPoints, nu: float, width: float) -> list[tuple[float, TurnGuess]]:
+def points_at_value(trace: ContinuationPoints, nu: float, width: float) -> list[tuple[float, TurnGuess]]:
     """Return the chi at which a branch passes nu, between its points, and guesses of its cycles there.
 
     Parameters

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core.cycles.return_map_kernel import OUTWARD, RETURNED, TO_CRITICAL_SET
+from codim2_core.cycles.global_section_kernel import OUTWARD, RETURNED, TO_CRITICAL_SET
 
 from .spirals import SEVERAL, SPIRALS, Spiral, plane, sphere
 

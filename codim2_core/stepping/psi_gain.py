@@ -27,6 +27,7 @@ from ..jit import ARITHMETIC, inlined_fast_kernel
 from ..psi.function import Psi
 from ..psi.kernel import UNDERFLOW_BOUND
 from .compiling import CompiledCache, compile_address
+from .field_parameters import PSI
 from .layout import (
     BLOCK,
     BLOCKS,
@@ -41,7 +42,6 @@ from .layout import (
     call_at,
     double_of_bits,
 )
-from .numbers import PSI
 
 LOG2_E, LN2_HIGH, LN2_LOW = 1.4426950408889634, 0.6931471803691238, 1.9082149292705877e-10
 # Beyond s = LARGE, w^2 Psi(s) <= Psi(s) |p|^2/LARGE is lost beside |p|^2.
@@ -240,7 +240,7 @@ def gains(psi: Psi, smooth: bool) -> Any:
 
 
 def has_gains(psi: Psi) -> bool:
-    """Whether `gains` answers without compiling (a built-in family may still be loaded from the disk cache)."""
+    """Whether `psi_gain` answers without compiling (a built-in family may still be loaded from the disk cache)."""
     return variant(psi, False) in _compiled
 
 
@@ -261,7 +261,7 @@ _compiled_of_block = GainVariants(_gains_of_block)
 
 
 def gains_of_block(psi: Psi, smooth: bool) -> Any:
-    """Return the compiled gain of one block of lanes, for `gains_of_blocks`; as `gains`."""
+    """Return the compiled gain of one block of lanes, for `gains_of_blocks`; as `psi_gain`."""
     return _compiled_of_block.get(variant(psi, smooth))
 
 

@@ -25,10 +25,10 @@ RAY_SIGNS = np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)])  # of
 
 
 def critical_points(planes: Array) -> tuple[Array, Array]:
-    """Find ``e_C = -A^-1 f`` (n, 2) and ``1 - |e_C|^2`` (n,) of planes (n, 5): see `kernels.critical_points`."""
-    from . import kernels
+    """Find ``e_C = -A^-1 f`` (n, 2) and ``1 - |e_C|^2`` (n,) of planes (n, 5): see `geometry.critical_points`."""
+    from . import geometry
 
-    return kernels.critical_points(np.ascontiguousarray(planes, float))
+    return geometry.critical_points(np.ascontiguousarray(planes, float))
 
 
 @dataclass(frozen=True)
@@ -74,17 +74,17 @@ class Sections:
     def __init__(
         self, planes: Array, e: Array, complement: Array, psi: Psi, own: Array | None, ray: int | Indices
     ) -> None:
-        from . import kernels
+        from . import geometry
 
         self.psi, self.own, self.e = psi, own, e
         signs = RAY_SIGNS[np.broadcast_to(ray, len(planes))]
         planes = np.ascontiguousarray(planes)
-        self.rate, self.plane, self.u, self.room, sides = kernels.rays(planes, e, complement, signs)
+        self.rate, self.plane, self.u, self.room, sides = geometry.rays(planes, e, complement, signs)
         self.zeta = self.psi_at().radius(sides[:, 0], np.clip(complement, 1e-300, 1.0))
         factors = self.psi_at().jacobian_factors(self.zeta)
         #: x2 of C; eigenvalues of D e_Psi there, radial and tangential; and the distance from it in x2 of the innermost
         #: sample, to first order.
-        self.x2, self.factors, self.inner = kernels.linearise_at_critical(e, sides, self.room, self.zeta, *factors)
+        self.x2, self.factors, self.inner = geometry.linearise_at_critical(e, sides, self.room, self.zeta, *factors)
 
     def __len__(self) -> int:
         return len(self.plane)
@@ -112,9 +112,9 @@ class Sections:
 
     def starts(self, xi: Array) -> tuple[Array, Array]:
         """Find r, reach - r and ``1 - |e|^2`` (n, 3), and x2 (n, 2), at parameters (n,) of the sections."""
-        from . import kernels
+        from . import geometry
 
-        parts, e, modulus = kernels.section_points(self.e, self.u, self.room, xi)
+        parts, e, modulus = geometry.section_points(self.e, self.u, self.room, xi)
         zeta = self.psi_at().radius(modulus, np.clip(parts[:, 2], 1e-300, 1.0))
         return parts, (zeta / np.maximum(modulus, 1e-300))[:, None] * e
 
@@ -139,15 +139,15 @@ class Sections:
         ways : TurnQuadratures
             Their turns.
         """
-        from ..return_map_kernel import returns
-        from . import kernels
+        from ..global_section_kernel import returns
+        from . import geometry
 
         field = self.field
         parameters = np.full(len(self), self.psi.parameter) if self.own is None else self.own
-        shared, sense, floor, sunk = kernels.lanes(self.plane, parameters, backward, states, self.x2, self.inner)
+        shared, sense, floor, sunk = geometry.lanes(self.plane, parameters, backward, states, self.x2, self.inner)
         ends, _, codes, steps = returns(
             states, shared, field.address, self.u, self.x2, sense, floor, sunk, MAX_TURN_TIME, np.atleast_1d(rtol),
             limit, len(self) * limit, False,
         )  # fmt: skip
-        rows, first, h, whose, inner = kernels.collect_nodes(steps, codes, shared, gauss(STEP_NODES)[0], field.address)
+        rows, first, h, whose, inner = geometry.collect_nodes(steps, codes, shared, gauss(STEP_NODES)[0], field.address)
         return rows, TurnQuadratures(first, whose, h, inner, ends[rows]) if len(rows) else None

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..cycles.limit_cycles import cycles_of, reason_for_none
-from ..cycles.predicted_limit_sets import predicted_limit_sets
+from ..cycles.limit_sets_from_return_map import predicted_limit_sets
 from ..layer_problem.problem import LayerProblem
 from ..orbits.batch_by_psi import batch_by_psi, states_at
 from ..orbits.departures import departures_under
@@ -22,7 +22,7 @@ from ..words import say, written_label, written_number
 from .omega_limits import (
     CAPTURE,
     CONNECTION,
-    TOLD,
+    MIN_RESOLVED_HEIGHT,
     OmegaLimit,
     critical_label,
     drawn_time,
@@ -47,8 +47,8 @@ class OutcomeVerdict(NamedTuple):
 RTOL = 1e-8
 # Steps after which samples of the return map are asked where orbits go: about a critical set that repels they are not
 # bound for it, and what comes to the equator had done so within 119 steps (5300 orbits of 150 random systems).
-EARLY, SOON = 700, 128
-FAN = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
+EARLY_STEP_LIMIT, UNSTABLE_STEP_LIMIT = 700, 128
+START_FAN_RADIUS = 0.02  # radius, in (theta, ebar), of the half circle of starts around a Q that many orbits leave
 ARRIVAL_ANGLES = np.radians([15.0, 45.0, 75.0, 105.0, 135.0, 165.0])
 OUTER_ANGLES = ARRIVAL_ANGLES[
     [0, -1]
@@ -109,7 +109,11 @@ def _options(problem: LayerProblem, early: bool) -> Stepping:
     """Say how orbits are followed: as long as it takes, or `early` to where samples may tell where they will end."""
     limit = DEFAULT_MAX_STEPS
     if early and _may_predict(problem):
-        limit = SOON if problem.critical and all(C.kind.startswith("unstable") for C in problem.critical) else EARLY
+        limit = (
+            UNSTABLE_STEP_LIMIT
+            if problem.critical and all(C.kind.startswith("unstable") for C in problem.critical)
+            else EARLY_STEP_LIMIT
+        )
     time = drawn_time(problem.at, problem.equator)
     return stepping(time, RTOL, 0.1 * RTOL, capture=CAPTURE, samples="ends", step_limit=limit)
 
@@ -135,7 +139,9 @@ def _orbits_to_end(problem: LayerProblem, states: Callable[[], Array], lines: Tr
         i
         for i, status in enumerate(lines.status)
         if status is Status.STEP_LIMIT
-        and not (lines.ends[i, 2] > TOLD and nears_end(problem.critical, lines.ends[i, :2], backward=False))
+        and not (
+            lines.ends[i, 2] > MIN_RESOLVED_HEIGHT and nears_end(problem.critical, lines.ends[i, :2], backward=False)
+        )
     ]
     if not cut or None not in predicted_limit_sets(problem, lines.ends[cut]):
         return lines
@@ -207,7 +213,10 @@ def _wide(problem: LayerProblem, which: Sequence[int]) -> list[int]:
 
 def _points_around(problem: LayerProblem, wide: Sequence[int], angles: Array = ARRIVAL_ANGLES) -> Array:
     """Points around limit directions, at some angles from the equator."""
-    theta, height = problem.equator.theta[list(wide)][:, None] + FAN * np.cos(angles), FAN * np.sin(angles)
+    theta, height = (
+        problem.equator.theta[list(wide)][:, None] + START_FAN_RADIUS * np.cos(angles),
+        START_FAN_RADIUS * np.sin(angles),
+    )
     around = np.sqrt(1.0 - height**2)[:, None] * np.stack([np.cos(theta), np.sin(theta)], axis=-1)
     return around.reshape(-1, 2)
 

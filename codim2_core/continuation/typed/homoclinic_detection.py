@@ -13,9 +13,9 @@ import numpy as np
 
 from ...cycles.limit_cycles import surrounds
 from ...layer_problem.problem import LayerProblem
-from ..batching import run_batched
-from ..branch_points import BranchPoint, BranchPoints, TurnGuess
+from ..continuation_points import ContinuationPoint, ContinuationPoints, TurnGuess
 from ..corrector import BranchTracer
+from ..lockstep_searches import run_batched
 from ..turns import ReturnMapPoint
 from .section_base import Array
 from .typed_family import run_typed_batch
@@ -31,8 +31,8 @@ def line_of(tracer: BranchTracer, turn: ReturnMapPoint) -> Array | None:
 
 
 def split_at_homoclinic(
-    tracer: BranchTracer, trace: BranchPoints, problem: Callable[[float], LayerProblem]
-) -> tuple[BranchPoints, BranchPoints] | None:
+    tracer: BranchTracer, trace: ContinuationPoints, problem: Callable[[float], LayerProblem]
+) -> tuple[ContinuationPoints, ContinuationPoints] | None:
     """Part a trace at the first loop that it has passed; None if it has passed none.
 
     Parameters
@@ -67,7 +67,7 @@ def split_at_homoclinic(
                 after.insert(0, found)
         added = len(after) - (len(trace.points) - i) - i  # to the index of each fold
         ahead = replace(trace, points=tuple(after), folds=tuple(k + added for k in trace.folds if k >= i))
-        return BranchPoints(tuple(before), tuple(k for k in trace.folds if k < i), "stuck"), ahead
+        return ContinuationPoints(tuple(before), tuple(k for k in trace.folds if k < i), "stuck"), ahead
     return None
 
 
@@ -80,7 +80,7 @@ def _count_surrounded(
     return None if line is None else (sum(surrounds(line, C.p) for C in critical), len(critical))
 
 
-def _middle_point(tracer: BranchTracer, here: BranchPoint, there: BranchPoint) -> BranchPoint | None:
+def _middle_point(tracer: BranchTracer, here: ContinuationPoint, there: ContinuationPoint) -> ContinuationPoint | None:
     """Find the point of the branch half way between two."""
     dx, dn = there.turn.xi - here.turn.xi, there.nu - here.nu
     guess = TurnGuess(

@@ -26,7 +26,7 @@ from ..systems.kinds import AnySystem
 from ..words import say, written_label
 from .omega_limits import angular_sign, radially_neutral
 from .outcome import Outcome, Outcomes, on_arcs
-from .outcome_classification import (
+from .outcome_verdicts import (
     ARRIVAL_ANGLES,
     OUTER_ANGLES,
     Array,
@@ -97,7 +97,7 @@ def outcomes_of(problem: LayerProblem) -> Outcomes:
 
 
 def compared_outcomes(own: LayerProblem, compare: Sequence[Psi] | None) -> Outcomes:
-    """Say the same, with the regularisations that are asked as in `outcomes`."""
+    """Say the same, with the regularisations that are asked as in `approach_outcomes`."""
     equator, asked = own.equator, _comparison(own, compare)
     if not len(equator):
         whole = _outcome_of_equator(asked)

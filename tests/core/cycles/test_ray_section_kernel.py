@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core.cycles.return_map_kernel import NO_RETURN_YET, RETURNED
+from codim2_core.cycles.global_section_kernel import NO_RETURN_YET, RETURNED
 
 from .spirals import SEVERAL, SPIRALS, Spiral, followed, parameters, plane, sphere, turned
 

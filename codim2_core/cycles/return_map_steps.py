@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ..jit import fast_kernel
+from ..stepping.field_parameters import PSI
 from ..stepping.layout import (
     EACH,
     ERROR_3,
@@ -20,7 +21,6 @@ from ..stepping.layout import (
     WITH_EACH,
     WORKSPACE,
 )
-from ..stepping.numbers import PSI
 
 LANE_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step
 TRIALS = 40

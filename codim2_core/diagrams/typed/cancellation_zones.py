@@ -42,7 +42,7 @@ class States:
     Parameters
     ----------
     system, psi, name, z
-        As of `diagrams.branches`.
+        As of `diagrams.bifurcation_diagram`.
     span : (low, high)
     """
 

@@ -1,7 +1,7 @@
 """Compiled first turn of the layer problem about a point of the disc; see `typed_cycles`.
 
 The angle of p about the point is followed along the orbit, and the turn is complete when it has first changed by 2 pi,
-in either sense. Lanes step as in `return_map_kernel`: a lane that has turned goes back to the start of its step and
+in either sense. Lanes step as in `global_section_kernel`: a lane that has turned goes back to the start of its step and
 finds the length that ends on the ray, so that the end is as accurate as a step.
 """
 
@@ -14,7 +14,8 @@ import numpy as np
 from ..jit import fast_kernel, inlined_fast_kernel
 from ..stepping.dop853 import advance
 from ..stepping.layout import K0, K12, LANES, NEW, STATE, call_field
-from .lane_steps import (
+from .global_section_kernel import NO_RETURN_YET, OUTWARD, RETURNED, TO_CRITICAL_SET
+from .return_map_steps import (
     LANE_TOLERANCE_SHARE,
     TRIALS,
     growth,
@@ -27,7 +28,6 @@ from .lane_steps import (
     to_sphere,
     workspace,
 )
-from .return_map_kernel import NO_RETURN_YET, OUTWARD, RETURNED, TO_CRITICAL_SET
 
 DONE, STEPPING, REFINING = range(3)
 MAX_STEP_ANGLE = 2.0  # radians about the point in one step: more could be a turn unseen
@@ -70,7 +70,7 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
 
     Returns
     -------
-    ends (n, 3), times (n,), codes (n,) of `return_map_kernel`, steps (k, 4): as `return_map_kernel.returns`
+    ends (n, 3), times (n,), codes (n,) of `global_section_kernel`, steps (k, 4): as `global_section_kernel.returns`
     """
     n = states.shape[0]
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, NO_RETURN_YET)
