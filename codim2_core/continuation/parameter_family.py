@@ -1,4 +1,4 @@
-"""A system in which one parameter varies: what stands still in it, and turns at several values side by side."""
+"""A system in which one parameter varies: its equilibria, and turns at several values side by side."""
 
 from __future__ import annotations
 
@@ -168,7 +168,7 @@ class ParameterFamily:
         self.ray: int | None = None
 
     def _problem(self, value: float) -> LayerProblem:
-        """Make the layer problem at one value: what stands still in it is found once."""
+        """Make the layer problem at one value: its equilibria are found once."""
         return LayerProblem(*self.at(value))
 
     def allows(self, value: float) -> bool:

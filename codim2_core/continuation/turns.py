@@ -1,6 +1,6 @@
 """Turns of the return map of the layer problem with their exact derivatives, many at once, for continuation of cycles.
 
-The section is the ray ``e = e_C + r u`` of `cycles.fixed_point_search`, ``r = R/(1 + exp(-xi))``; all of it depends
+The section is the ray ``e = e_C + r u`` of `cycles.global_section`, ``r = R/(1 + exp(-xi))``; all of it depends
 on the value mu of the parameter that varies. With ``F = x2'``, ``D = D e_Psi`` and ``F x v = F1 v2 - F2 v1``, a
 deviation obeys
 

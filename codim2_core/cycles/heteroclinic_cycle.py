@@ -7,7 +7,7 @@ between them, and back to P over the hemisphere:
     P:  lambda_rho > 0, lambda_theta > 0 (orbits come down to it);    Q:  lambda_rho < 0, lambda_theta < 0.
 
 The arc of the equator is always there; the orbit from Q to P is a connection of codimension one. On a ray of
-`fixed_point_search` that ends on the equator outside the arc, the first crossing of Q's branch and the last one of P's
+`global_section` that ends on the equator outside the arc, the first crossing of Q's branch and the last one of P's
 branch tell how far they miss each other.
 """
 

@@ -1,7 +1,7 @@
 """A limit cycle as an orbit: period, multiplier and means, by Gauss quadrature on the steps of one return.
 
 The states at the Gauss nodes of each step are computed by steps of their own from its start, so they are as accurate
-as the integration; the quadrature has order 2 NODES in each step. The multiplier comes from the collocation
+as the integration; the quadrature has order 2 STEP_NODES in each step. The multiplier comes from the collocation
 method of the same order for ``Y' = J(tau) Y``.
 """
 
@@ -53,7 +53,7 @@ def gauss(count: int = STEP_NODES) -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class TurnQuadrature:
-    """One return as nodes of a quadrature; k steps with NODES nodes each, scaled coefficients, time as integrated.
+    """One return as nodes of a quadrature; k steps with STEP_NODES nodes each, scaled coefficients, time as integrated.
 
     Attributes
     ----------

@@ -49,7 +49,7 @@ class ClassInterval(Tabled):
 def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: ArrayLike = ()) -> tuple[ClassInterval, ...]:
     """Stretches of equal class along one parameter (sec:bifurcations).
 
-    They end at the special values of `diagram`; in between, the class is computed once.
+    They end at the special values of `bifurcation_diagram`; in between, the class is computed once.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The class of a portrait, all that stays as it is between bifurcations of what stands still, over any parameters.
+"""The class of a portrait, all that stays as it is between bifurcations of the equilibria, over any parameters.
 
 A class is a number, `test_functions.UNDEFINED` where U has no value.
 """

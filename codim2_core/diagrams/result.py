@@ -26,7 +26,7 @@ _COLUMNS = (
     "theta", "lambda_rho", "lambda_theta", "c", "s", "p_x", "p_y", "trace", "determinant", "period", "amplitude",
     "exponent",
 )  # fmt: skip
-#: Special points of branches of cycles that what stands still has already, or that are none of the system's.
+#: Special points of branches of cycles that the equilibria have already, or that are none of the system's.
 UNREPORTED_KINDS = ("Hopf", "span", "closed")
 
 
@@ -153,7 +153,7 @@ class Branches:
         Where there are no limit directions.
     critical : tuple of CriticalBranch
     standing : tuple of SpecialValue
-        Special points of what stands still, by increasing value.
+        Special points of the equilibria, by increasing value.
     gaps : tuple of (float, float)
         Where the coefficients are not finite.
     cycles : CycleBranches
@@ -174,7 +174,7 @@ class Branches:
 
     @property
     def special(self) -> tuple[SpecialValue | CyclePoint, ...]:
-        """All special points, of what stands still and of limit cycles, by increasing value; Hopf points once."""
+        """All special points, of the equilibria and of limit cycles, by increasing value; Hopf points once."""
         of_cycles = [one for branch in self.cycles for one in branch.special if one.kind not in UNREPORTED_KINDS]
         return tuple(sorted([*self.standing, *of_cycles], key=lambda one: one.value))
 

@@ -1,4 +1,4 @@
-"""Along which directions of the picture orbits come to what stands still, and leave it: eigenvectors, projected.
+"""Along which directions of the picture orbits come to equilibria, and leave them: eigenvectors, projected.
 
 At a critical set they are those of J (eq:scjaco) in kappa_2, carried to the disc by the differential of
 ``p = x2/sqrt(1 + |x2|^2)``. At a limit direction Q (thm:geneps0) there are three: along the equator (lambda_theta), up

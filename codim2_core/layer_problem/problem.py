@@ -1,4 +1,4 @@
-"""The layer problem at one z under one Psi: what stands still in it, each found once, when it is asked for."""
+"""The layer problem at one z under one Psi: its equilibria, each found once, when it is asked for."""
 
 from __future__ import annotations
 

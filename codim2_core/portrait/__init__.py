@@ -1,1 +1,1 @@
-"""One phase portrait: its name, nullclines, separatrices, where orbits end."""
+"""One phase portrait: its name, separatrices, where orbits end."""

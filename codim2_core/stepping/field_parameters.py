@@ -2,7 +2,7 @@
 
 An e-linear field reads ``[a, b, d, f1, f2, parameter of Psi]``. A general one reads a factor (one over the unit of
 speed, negative backward in time), at GAIN the address of the gain of Psi (so does an e-linear one whose lanes have a
-Psi of their own), and its own numbers from OWN on.
+Psi of their own), and its own numbers from OWN_NUMBERS on.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ SHARED_SIZE = OWN_NUMBERS + MOST_NUMBERS + 1  # a multiple of 8
 
 
 def field_numbers(at: FrozenSystem, psi: Psi, backward: bool, gain: int = 0) -> NDArray[np.float64]:
-    """Return the parameters (SHARED,) of a compiled field, scaled so that |U| is about 1.
+    """Return the parameters (SHARED_SIZE,) of a compiled field, scaled so that |U| is about 1.
 
     Parameters
     ----------

@@ -204,7 +204,7 @@ def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit
         (px, py, w).
     signs : (n,)
         -1 on the hemisphere, +1 outside.
-    shared : (SHARED,)
+    shared : (SHARED_SIZE,)
         Parameters of the field.
     field : int
         Address of the field.

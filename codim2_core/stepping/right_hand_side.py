@@ -28,7 +28,7 @@ class CompiledProblem:
     ----------
     address : int
         Of the field.
-    shared : ndarray (SHARED,)
+    shared : ndarray (SHARED_SIZE,)
         Its parameters.
     functions : tuple
         The compiled functions behind the addresses: they must outlive their use.

@@ -22,7 +22,7 @@ BOGDANOV_TAKENS_DISTANCE, MAX_LOOP_SIZE = (
     0.05,
     0.3,
 )  # of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size
-CODIM_TWO_DISTANCE = 5e-3  # of the square: an end beside a curve of what stands still
+CODIM_TWO_DISTANCE = 5e-3  # of the square: an end beside a curve of the equilibria
 MAX_CURVES = 24  # curves
 
 
@@ -37,7 +37,7 @@ def connection_curves(
     ----------
     family : Family
     curves, points : sequence of AtlasCurve, of AtlasPoint
-        Of what stands still.
+        Of the equilibria.
     """
     takens = [family.units(np.array(point.place)) for point in points if point.kind == BOGDANOV_TAKENS]
     found: list[ConnectionCurve] = []

@@ -34,7 +34,7 @@ def cycle_curves(
     ----------
     family : Family
     curves, points : sequence of AtlasCurve, of AtlasPoint
-        Of what stands still.
+        Of the equilibria.
     """
     born = [family.units(np.array(point.place)) for point in points if point.kind == GENERALISED_HOPF]
     found: list[FoldCurve] = []

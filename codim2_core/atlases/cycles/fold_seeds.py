@@ -29,7 +29,7 @@ RAY_STARTS = 0.03, 0.01, 0.08  # of the reach: places on the ray beside a genera
 
 @dataclass(frozen=True)
 class EquilibriumMark:
-    """A special value of what stands still along a line, see `continuation.typed.typed_ends.MarkedValue`."""
+    """A special value of the equilibria along a line, see `continuation.typed.typed_ends.MarkedValue`."""
 
     kind: str
     value: float

@@ -1,6 +1,6 @@
 """Branches of limit cycles of any system along one parameter, from where they are born or seen to where they end.
 
-They are begun at the Hopf points of what stands still, and at every cycle that is seen at one of several values and
+They are begun at the Hopf points of the equilibria, and at every cycle that is seen at one of several values and
 that no branch has passed. Each is followed on a ray of `typed_family` as long as cycles cross it well; then on another.
 """
 
@@ -83,7 +83,7 @@ def continue_typed(
     span : (low, high)
     z : (m,) floats
     marked : sequence of MarkedValue
-        The special values of what stands still on the span.
+        The special values of the equilibria on the span.
 
     Returns
     -------

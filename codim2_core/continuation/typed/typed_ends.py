@@ -34,7 +34,7 @@ BAND_EXPONENT = 1e-10  # of the smallest cycle followed: it is one of a band
 
 
 class MarkedValue(Protocol):
-    """A special value of what stands still, as `diagrams` finds them."""
+    """A special value of the equilibria, as `diagrams` finds them."""
 
     @property
     def kind(self) -> str:

@@ -27,7 +27,7 @@ class VariedRay:
         Size of changes of the value.
     bounds : (float, float)
         What the parameter may be.
-    foot, centre : Foot
+    foot, centre : SectionBase
         From where the ray starts; from where amplitudes are measured.
     u : ndarray (2,)
         Its direction.

@@ -111,7 +111,7 @@ def hemisphere(x2):
 
 @kernel
 def lanes(plane, parameters, backward, states, x2, inner):
-    """Return what `return_map.returns` is given of each: parameters of the field, sense, floor and sunk."""
+    """Return what `global_section_kernel.returns` is given of each: parameters of the field, sense, floor and sunk."""
     n = len(plane)
     shared, sense, floor, sunk = np.zeros((n, SHARED_SIZE)), np.empty(n), np.empty(n), np.empty(n)
     for i in range(n):
@@ -130,7 +130,7 @@ def lanes(plane, parameters, backward, states, x2, inner):
 def collect_nodes(steps, codes, shared, nodes, field):
     """Return, of the turns that return: rows (k,), first node of each, h, and whose nodes are which and where.
 
-    Steps (m, 5) as `return_map.returns` writes them, with its codes (n,); nodes (q,) of a step's length.
+    Steps (m, 5) as `global_section_kernel.returns` writes them, with its codes (n,); nodes (q,) of a step's length.
     """
     n, q = len(codes), len(nodes)
     count = np.zeros(n + 1, np.int64)

@@ -1,4 +1,4 @@
-"""The global sections of many e-linear systems at once, and a turn from each side by side in the lanes; see `section`.
+"""The global sections of many e-linear systems at once, and a turn from each in the lanes; see `global_section`.
 
 Row i of every array is system i: what `Section` is for one of them.
 """
@@ -33,7 +33,7 @@ def critical_points(planes: Array) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class TurnQuadratures:
-    """The turns of n systems as nodes of a quadrature, system by system; `orbit.TurnQuadrature` is that of one.
+    """The turns of n systems as nodes of a quadrature, by system; `periodic_orbit.TurnQuadrature` is that of one.
 
     Attributes
     ----------

@@ -52,7 +52,7 @@ class States:
         self._known: dict[float, State] = {}
 
     def __call__(self, value: float) -> State:
-        """Find what stands still at a value, or at the nearest beside a zone; RoughError where it is undefined."""
+        """Find the equilibria at a value, or at the nearest beside a zone; RoughError where it is undefined."""
         system, psi, z, name = self._given
         for low, high in self._zones:
             if low < value < high:

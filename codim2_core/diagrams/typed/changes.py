@@ -18,7 +18,7 @@ from .state import State, WindingTest
 
 __all__ = ["SIDE_STEP", "Change", "match_sets", "pieces_between"]
 
-Change = tuple[float, State, State]  # where, and what stands still on either side
+Change = tuple[float, State, State]  # where, and the equilibria on either side
 
 _MIN_VALUES = 7  # values at least on each piece
 SIDE_STEP = 1e-7  # of the span: where the two sides of a special value are looked at

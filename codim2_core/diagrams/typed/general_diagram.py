@@ -24,7 +24,7 @@ _GRID_CELLS = 48
 
 
 def general_parts(system: Any, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike) -> GeneralParts:
-    """Branches and special values of any system; see `diagram`."""
+    """Branches and special values of any system; see `bifurcation_diagram`."""
     state = States(system, psi, name, span, z)
     low, high = span
     width = high - low

@@ -1,4 +1,4 @@
-"""The value at which what stands still changes: by what goes smoothly through zero there, and by bisection."""
+"""The value at which equilibria change: by what goes smoothly through zero there, and by bisection."""
 
 from __future__ import annotations
 
