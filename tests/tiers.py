@@ -32,8 +32,8 @@ COSTLY = TESTS / "costly.txt"
 SAMPLED = TESTS / "sampled.txt"
 #: Files of the browser whose tests take longest: they are begun with.
 LONGEST = ("notebook", "notebooks", "docs", "connection", "accessible", "take_away")
-LIMIT = 0.25  # seconds of processor time, of a test that is fast
-ALTOGETHER = 2.0  # the same, of a function for all its parameters
+LIMIT = 0.1  # seconds of processor time, of a test that is fast
+ALTOGETHER = 0.3  # the same, of a function for all its parameters
 
 
 def named(item: pytest.Item) -> str:
