@@ -1,6 +1,6 @@
-"""The one door to the just-in-time compiler: the kinds of kernels, and when a kernel on disk is out of date.
+"""The kinds of kernels that are kept on disk, and when one there is out of date.
 
-Numba keeps a compiled kernel beside its module, under the time of change of that one file; but what a kernel calls, and
+Numba keeps a compiled kernel beside its module, under a digest of that one file; but what a kernel calls, and
 the constants that it reads, are compiled into it from other modules. Here a kernel is out of date when the text of any
 module of this package changes that its own imports, itself or through others: after an upgrade in place, or in another
 branch, nobody runs yesterday's formulas.
@@ -27,12 +27,13 @@ COMPILING = (
     "the command `codim2 warm` compiles all of them beforehand."
 )
 
-#: Decorators. `fast_kernel` may reorder sums. LLVM inlines `inlined_kernel`; Numba splices `spliced_kernel` into the
-#: caller before it types it, so that functions can be arguments.
+#: Decorators. `fast_kernel` may reorder sums, `contracted_kernel` only fuse. LLVM inlines `inlined_kernel`; Numba
+#: splices `spliced_kernel` into the caller before it types it, so that functions can be arguments.
 kernel = njit(cache=True, nogil=True, error_model="numpy")
 fast_kernel = njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
 inlined_kernel = njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
 inlined_fast_kernel = njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
+contracted_kernel = njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
 spliced_kernel = njit(cache=True, nogil=True, error_model="numpy", inline="always")
 
 

@@ -50,7 +50,7 @@ def returns(states, shared, field, u, centre, sense, floor, sunk, t_max, rtol, l
     ----------
     states : (n, 3)
         (px, py, w) on the section; w > 0.
-    shared : (n, SHARED) or (1, SHARED)
+    shared : (n, SHARED_SIZE) or (1, SHARED_SIZE)
         Parameters of the field, of size about 1: of each state's own system, or of the one of all.
     field : int
         Address of the field: `fields.field`, or `fields.field_of_each` where systems differ.

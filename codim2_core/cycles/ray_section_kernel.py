@@ -52,7 +52,7 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
     ----------
     states : (n, 3)
         (px, py, w), w > 0.
-    shared : (SHARED,)
+    shared : (SHARED_SIZE,)
         Parameters of the field, of size about 1.
     field : int
         Address of the field.

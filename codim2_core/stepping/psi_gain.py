@@ -23,7 +23,7 @@ from numba import (
 )
 
 from ..expressions.functions import kernels
-from ..jit import ARITHMETIC, inlined_fast_kernel
+from ..jit import ARITHMETIC, contracted_kernel, inlined_fast_kernel
 from ..psi.function import Psi
 from ..psi.kernel import UNDERFLOW_BOUND
 from .compiling import CompiledCache, compile_address
@@ -49,7 +49,7 @@ LARGE_ZETA = 1e20
 MOST_EXPRESSIONS = 64  # compiled typed formulas kept
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
+@contracted_kernel
 def expm1(x):
     """exp(x) - 1 to an ulp or two, |x| <= 700: Cody and Waite's reduction, a Taylor polynomial on |r| <= ln(2)/2."""
     k = math.floor(x * LOG2_E + 0.5)
@@ -70,7 +70,7 @@ def expm1(x):
     return scale * (q * r * r + r) + (scale - 1.0)
 
 
-@njit(cache=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
+@contracted_kernel
 def log(x):
     """Natural logarithm of a normal positive double, to an ulp or two: 2 artanh((m - 1)/(m + 1)) and the exponent."""
     # Shifting by the bits of 1/sqrt(2) makes the mantissa m fall in [1/sqrt(2), sqrt(2)).

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
+from operator import attrgetter
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from .state import State, WindingTest
 
 __all__ = ["SIDE_STEP", "Change", "match_sets", "pieces_between"]
 
+Minimum = tuple[Array, float, Array]  # of `WindingTest`: its place, size and value
 Change = tuple[float, State, State]  # where, and the equilibria on either side
 
 _MIN_VALUES = 7  # values at least on each piece
@@ -103,34 +105,37 @@ def _brief_states(state: States, run: Sequence[State], least: float) -> Iterator
     """Yield states with a pair of equilibria that is born between two states of a run, where one of a pair dies too.
 
     Before its birth the pair is a positive minimum of |Theta| or |U|, which is gone at the next state, or has passed
-    zero. Bisection for where it goes ends beside the birth, where the pair is there; or nowhere, if a minimum and a
-    maximum have met.
+    zero.
     """
     for one, two in [*pairwise(run), *pairwise(run[::-1])]:
-        for minima in (lambda s: s.near_directions, lambda s: s.near_sets):
-            for place, first, value in zip(*minima(one), strict=True):
-                low, high, here, size, share = one, two, (place, value), first, 1.0
-                if _next_minimum(minima(high), *here, _MAX_MOVE) is not None:
-                    continue
-                while abs(high.value - low.value) > least and size <= _MAX_STEEPNESS * first * share:
-                    middle = state(0.5 * (low.value + high.value))
-                    if middle.difference(one) is not None:
-                        yield middle
-                        break
-                    share *= 0.5
-                    there = _next_minimum(minima(middle), *here, _PLACE_STEP + share * _MAX_MOVE)
-                    if there is None:
-                        high = middle
-                    else:
-                        low, here, size = middle, there[:2], there[2]
+        for minima in (attrgetter("near_directions"), attrgetter("near_sets")):
+            for minimum in zip(*minima(one), strict=True):
+                if _next_minimum(minima(two), minimum, _MAX_MOVE) is None:
+                    born = _state_after_birth(state, one, two, minima, minimum, least)
+                    yield from () if born is None else (born,)
 
 
-def _next_minimum(minima: WindingTest, place: Array, value: Array, move: float) -> tuple[Array, Array, float] | None:
-    """Return place, value and size of the nearest minimum on the same side of zero, if it may be the same."""
-    places, sizes, values = minima
+def _state_after_birth(
+    state: States, one: State, two: State, minima: Callable[[State], WindingTest], minimum: Minimum, least: float
+) -> State | None:
+    """Bisect for where a minimum goes between two states: beside a birth, or None if it has met a maximum."""
+    low, high, here, share = one, two, minimum, 1.0
+    while abs(high.value - low.value) > least and here[1] <= _MAX_STEEPNESS * minimum[1] * share:
+        middle = state(0.5 * (low.value + high.value))
+        if middle.difference(one) is not None:
+            return middle
+        share *= 0.5
+        there = _next_minimum(minima(middle), here, _PLACE_STEP + share * _MAX_MOVE)
+        low, high, here = (low, middle, here) if there is None else (middle, high, there)
+    return None
+
+
+def _next_minimum(minima: WindingTest, minimum: Minimum, move: float) -> Minimum | None:
+    """Return the nearest minimum on the same side of zero, if it may be the same."""
+    (places, sizes, values), (place, _, value) = minima, minimum
     away = np.where(values @ value > 0.0, np.hypot(*(places - place).T), math.inf)
     nearest = away.argmin() if len(away) else 0
-    return (places[nearest], values[nearest], sizes[nearest]) if away.min(initial=math.inf) < move else None
+    return (places[nearest], sizes[nearest], values[nearest]) if away.min(initial=math.inf) < move else None
 
 
 def _lined_up(turns: Sequence[WindingTest]) -> Iterator[Array]:
