@@ -8,7 +8,7 @@ import {SAYS, digits, eigen, escape, pair, plain, slowWords} from "../words.js"
 
 const QUIET = 60 // ms: longer than three frames of a drag
 
-class Numbers {
+export class Numbers {
   constructor(box, tools) {
     box.innerHTML = '<div class="equator-table"></div><div class="critical-table"></div><div class="outcome-table"></div><div class="cycle-table"></div><div class="proof-box"><div class="proof" hidden></div></div><div class="slow"></div>'
     this.find = (name) => box.querySelector(name)

@@ -2,14 +2,10 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {register} from "../../../app/static/widgets/panels.js"
-import {asked, busy, click, CONFIG, FIRST, hand, memory, OWN, pull, query, setBox, settled, shows, SYSTEM, type, wired} from "./played/wiring.js"
-
-let tools = /** @type {any} */ (null)
-register("numbers", (_box, given) => { tools = given; return {} }) // a panel that lets us do what panels do
+import {asked, busy, click, CONFIG, FIRST, hand, memory, OWN, pull, query, setBox, settled, shows, SYSTEM, type, wired, answered} from "./played/wiring.js"
 
 test("a panel moves sliders and the system's own parameters, but nothing that is locked", () => {
-  const one = wired({locked: ["a"]})
+  const one = wired({locked: ["a"]}), {tools} = one
   one.answer({system: OWN})
   assert.equal(tools.valueOf("own:mu"), 0.3)
   assert.equal(tools.valueOf("f1"), 0.5)
@@ -42,7 +38,7 @@ test("what is set to what it is asks nothing, unless the server has refused some
 })
 
 test("a question hides layers, whose boxes stay as they are, and all words that would tell its answer", () => {
-  const one = wired(), places = []
+  const one = wired(), {tools} = one, places = []
   tools.ask({hide: ["equator", "basins"], mark: (place) => places.push(place)})
   assert.deepEqual(shows(one), ["inside", "critical"])
   assert.equal(one.root.explorer.picture.state.sense, false) // arrows would tell where limit directions are
@@ -173,13 +169,14 @@ test("a server that does not answer is waited for, and that is said", () => {
 
 test("what is under way is told, until nothing is", () => {
   const one = wired()
+  one.tick(60)
   assert.equal(settled(one), "true")
   pull(one, "#c2-f1", "1")
   assert.equal(settled(one), "false")
   one.tick(20)
   one.answer({late: ["outcomes"]})
   assert.equal(settled(one), "false")
-  one.tick(160); one.answer({late: []})
+  one.tick(160); answered(one, {late: []})
   assert.equal(settled(one), "true")
   assert.equal(one.sent.length, 2)
   one.tick(1000)
@@ -196,7 +193,7 @@ test("what is under way is told, until nothing is", () => {
   assert.deepEqual(asked(one), [])
   one.tick(20)
   assert.deepEqual(asked(one), [{}])
-  one.answer({ready: true})
+  answered(one, {ready: true})
   assert.deepEqual([busy(one), settled(one)], ["", "true"])
 })
 
@@ -288,7 +285,7 @@ test("a slider's range widens for what is typed, on both sides only if it had bo
 })
 
 test("slow variables have the system's symbols, those that it has not the usual ones, four in all", () => {
-  const one = wired(), of = () => Object.entries(tools.symbols).filter(([name]) => name.startsWith("z")).sort()
+  const one = wired(), {tools} = one, of = () => Object.entries(tools.symbols).filter(([name]) => name.startsWith("z")).sort()
   one.answer({system: OWN})
   assert.deepEqual(of(), [["z", "v"], ["z2", "w"], ["z3", "z₃"], ["z4", "z₄"]])
   assert.deepEqual(tools.slowSymbols(), ["v", "w"])
@@ -312,7 +309,7 @@ test("a text that is as it should be is not written again: the caret would jump"
 })
 
 test("before the server has told of the system nothing is known of its texts and parameters", () => {
-  const one = wired({values: {...CONFIG.values, system: "own"}}, {...FIRST, system: undefined})
+  const one = wired({values: {...CONFIG.values, system: "own"}}, {...FIRST, system: undefined}), {tools} = one
   assert.equal(one.find("textarea"), null)
   assert.equal(tools.valueOf("own:mu"), 0)
   one.answer({set: {texts: {U1: "s"}}})

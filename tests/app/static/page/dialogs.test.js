@@ -2,11 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {register} from "../../../../app/static/widgets/panels.js"
 import {asked, click, FIRST, memory, OWN, SYSTEM, type, wired} from "../played/wiring.js"
-
-let tools = /** @type {any} */ (null)
-register("numbers", (_box, given) => { tools = given; return {} }) // a panel that lets us do what panels do
 
 test("the dialog writes a frame with the controls that are named, and copies", async () => {
   const copied = []
@@ -121,7 +117,7 @@ test("a wheel rolls the strip where it does not fit, and the page otherwise", ()
 
 test("a system of one's own: its texts, parameters and slow variables, kept while another one is chosen", () => {
   const kept = {"codim2-typed": '{"own": {"texts": {"U1": "c*c"}}}'}
-  const one = wired({values: {...wired().root.explorer.values, z3: 0, z4: 0}}, FIRST, {sessionStorage: memory(kept)}), {symbols} = tools
+  const one = wired({values: {...wired().root.explorer.values, z3: 0, z4: 0}}, FIRST, {sessionStorage: memory(kept)}), {symbols} = one.tools
   assert.equal(one.find(".slow-controls").hidden, true)
   assert.equal(one.root.classList.contains("not-normal"), false)
   assert.equal(one.find(".system-note").textContent, "Friction of a disc. Normal form.")

@@ -3,10 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 import {inflateRawSync} from "node:zlib"
 
-import {register} from "../../../../app/static/widgets/panels.js"
-import {click, FIRST, press, pull, query, settled, wired} from "../played/wiring.js"
-
-register("numbers", () => ({})) // the panel that is open: until it is there, something is under way
+import {click, FIRST, press, pull, query, settled, wired, answered} from "../played/wiring.js"
 
 test("the address carries every value once it has settled, and what is seen unless that is all", () => {
   const one = wired()
@@ -94,7 +91,7 @@ test("a step waits for the pointer that is held, and the browser's history is wa
   for (const call of one.first.pointerup) call({}) // at the end of a pan Bokeh lets nobody else hear
   one.tick(400)
   assert.equal(one.root.dataset.kept, "true")
-  one.answer()
+  answered(one)
   assert.equal(settled(one), "true")
   click(one, ".undo")
   assert.equal(settled(one), "false")

@@ -2,10 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {register} from "../../../../app/static/widgets/panels.js"
-import {packed, pull, settled, wired} from "../played/wiring.js"
-
-register("numbers", () => ({})) // the panel that is open: until it is there, something is under way
+import {packed, pull, settled, wired, answered} from "../played/wiring.js"
 
 test("a frame may come as any view of bytes", () => {
   const one = wired(), bytes = packed({id: 1, errors: {}, portrait: {case: "II", name: "CM2", sentence: "Case II, CM2. Two.", degeneracies: []}})
@@ -90,7 +87,7 @@ test("the picture is asked for anew once it rests somewhere else, and is under w
   assert.deepEqual(rests(), [])
   one.tick(20)
   assert.deepEqual(rests(), [[true, [-1, 1, -1.75, 1.75, 2 / 350]]])
-  one.answer()
+  answered(one)
   assert.equal(settled(one), "true")
   one.plot.x_range.setv({start: -1, end: 1}) // where it was
   one.tick(200)

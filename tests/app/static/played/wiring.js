@@ -3,8 +3,13 @@
 
 import {page, recorder} from "./page.js"
 import explorer, {begin} from "../../../../app/static/explorer.js"
-import "../../../../app/static/panels/numbers.js"
+import {Numbers} from "../../../../app/static/panels/numbers.js"
 import "../../../../app/static/panels/orbits.js"
+import {register} from "../../../../app/static/widgets/panels.js"
+
+/** What the newest explorer's panels can do. */
+let tools = /** @type {any} */ (null)
+register("numbers", (box, given) => { tools = given; return new Numbers(box, given) })
 
 const slider = (name) => `<div class="control" data-control="${name}"><label for="c2-${name}">${name}</label><input type="range" id="c2-${name}" min="-4" max="4" step="0.01" value="0"><input type="text" class="number"><p class="error" hidden></p></div>`
 
@@ -130,7 +135,7 @@ export function wired(more = {}, first = FIRST, scope = {}) {
   const root = /** @type {any} */ (el.querySelector(".codim2"))
   there.tick(16) // the panel is drawn after the picture
   return {
-    ...there, root, plot, painted, sent, connections, model,
+    ...there, root, plot, painted, sent, connections, model, tools,
     /** The server's answer to the newest request. */
     answer(header = {}, lines = {}, arrays = {}, exact = false) {
       const {requests} = root.explorer
@@ -245,6 +250,9 @@ export const asked = (one) => one.sent.splice(0).map(({set}) => set)
 
 export const shows = (one) => one.root.explorer.picture.state.layers
 export const settled = (one) => one.root.dataset.settled
+
+/** The server's answer, and what a closed panel writes once nothing has moved for 60 ms. */
+export const answered = (one, header = {}) => { one.answer(header); one.tick(60) }
 
 /** A browser's storage that begins with these values. */
 export const memory = (kept) => ({getItem: (name) => kept[name] ?? null, setItem: (name, value) => { kept[name] = value }})
