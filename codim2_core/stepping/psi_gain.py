@@ -14,7 +14,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import blake2b
-from types import FunctionType
 from typing import Any
 
 from numba import (
@@ -26,6 +25,7 @@ from ..expressions.functions import kernels
 from ..jit import ARITHMETIC, contracted_kernel, inlined_fast_kernel
 from ..psi.function import Psi
 from ..psi.kernel import UNDERFLOW_BOUND
+from ..rebind import rebind
 from .compiling import CompiledCache, compile_address
 from .field_parameters import PSI
 from .layout import (
@@ -156,14 +156,11 @@ class GainVariant:
         """Compile a function of all lanes, which calls ``gain(r2, w, kind(P[PSI]))``, with this gain in its place."""
         own = _typed_gain(self.key, self.parameter, self.saturation) if isinstance(self.key, str) else self.key
         versions = {"expm1": expm1, "log": log}  # beside math's, these run in vector registers
-        bound = FunctionType(own.__code__, {**own.__globals__, **versions}, own.__name__, None, own.__closure__)
+        bound = rebind(own, **versions)
         gain = njit(fastmath=ARITHMETIC, error_model="numpy", forceinline=not isinstance(self.key, str))(bound)
-        kind = int if self.whole else float
-        function = FunctionType(lanes.__code__, {**lanes.__globals__, "gain": gain, "kind": kind}, lanes.__name__)
-        # The disk cache knows a function by its file and its qualified name: a changed gain is another one.
         written = repr((own.__code__.co_code, own.__code__.co_consts, own.__code__.co_names, self.whole))
-        function.__module__ = lanes.__module__
-        function.__qualname__ = f"{lanes.__name__}_{blake2b(written.encode(), digest_size=8).hexdigest()}"
+        digest = blake2b(written.encode(), digest_size=8).hexdigest()  # a changed gain is another one
+        function = rebind(lanes, digest, gain=gain, kind=int if self.whole else float)
         return compile_address(function, cache=self.cached)
 
 

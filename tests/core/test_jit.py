@@ -1,13 +1,20 @@
 """A kernel on disk is out of date when the text of anything that it is made of has changed."""
 
+import gc
+import importlib
 import os
+import pkgutil
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
 import pytest
+from numba.core import caching
+from numba.core.dispatcher import Dispatcher
 
+import codim2_core
 from codim2_core import jit
 from codim2_core.stepping.lanes import integrate
 
@@ -59,3 +66,19 @@ def test_that_kernels_are_compiled_is_said_once_and_only_then(tmp_path):
         for _ in range(2)
     ]  # fmt: skip
     assert told == [f"{jit.COMPILING}\n", ""]
+
+
+def test_no_kernel_that_is_kept_closes_over_another():
+    """Numba finds such a kernel again by what it closes over, and another kernel there is a new one in each process."""
+    for module in pkgutil.walk_packages(codim2_core.__path__, "codim2_core."):
+        importlib.import_module(module.name)
+    kept = [
+        one for one in gc.get_objects() if isinstance(one, Dispatcher) and isinstance(one._cache, caching.FunctionCache)
+    ]
+    assert len(kept) > 150
+    closed = [
+        one for one in kept if any(isinstance(cell.cell_contents, Dispatcher) for cell in one.py_func.__closure__ or ())
+    ]
+    assert closed == []
+    places = Counter((one.py_func.__module__, one.py_func.__qualname__) for one in kept)
+    assert [place for place, count in places.items() if count > 1] == []  # one file of the disk for each

@@ -17,10 +17,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
 
+from ...rebind import rebind
 from .function import Function, Kernels
 
 MEANS = 60  # more than any m needs
@@ -70,25 +72,29 @@ def _slopes(m, K, E, B, B2, C2):
     return 0.5 * B / (1.0 - m), 0.5 * (B - K), 0.5 * (K - B - B2), 1.5 * C2, last
 
 
-def _single_integral(integrals: Any, i: int) -> Callable[[float], float]:
-    def value(m):
-        return integrals(m)[i]
-
-    return value
+# What the two functions below read; `_kernels` puts the compiled ones in their place.
+number, slopes = 0, None
 
 
-def _its_slope(integrals: Any, slopes: Any, i: int) -> Callable[[float, float], float]:
-    def slope(m, v):
-        K, E, B, B2, C2 = integrals(m)
-        return slopes(m, K, E, B, B2, C2)[i]
+def _integral(m):
+    return integrals(m)[number]
 
-    return slope
+
+def _slope(m, v):
+    K, E, B, B2, C2 = integrals(m)
+    return slopes(m, K, E, B, B2, C2)[number]
+
+
+@cache
+def _all_five(jit: Any) -> tuple[Any, Any]:
+    return jit(integrals), jit(_slopes)
 
 
 def _kernels(i: int) -> Callable[[Any], Kernels]:
     def make_kernels(jit: Any) -> Kernels:
-        all_five = jit(integrals)
-        return jit(_single_integral(all_five, i)), jit(_its_slope(all_five, jit(_slopes), i))
+        values, slopes = _all_five(jit)
+        of_these = {"number": i, "integrals": values}
+        return jit(rebind(_integral, i, **of_these)), jit(rebind(_slope, i, slopes=slopes, **of_these))
 
     return make_kernels
 
@@ -122,7 +128,7 @@ def _rate_c2(build: Any, k: int, u: int) -> int:
 
 
 def _elliptic_function(i: int, name: str, rate: Callable[[Any, int, int], int]) -> Function:
-    scalar = _single_integral(integrals, i)
+    scalar = rebind(_integral, i, number=i)
     return Function(
         name, scalar, np.vectorize(scalar, otypes=[float]), _kernels(i), rate, sign="positive", blur=BLUR, until=1.0
     )

@@ -7,11 +7,11 @@ another width, with this motion's rate in the place of the field of all lanes.
 from __future__ import annotations
 
 import math
-from types import FunctionType
 from typing import Any
 
 from ...jit import fast_kernel, inlined_kernel, kernel, spliced_kernel
 from ...numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE, STEP_SAFETY
+from ...rebind import rebind
 from ...stepping import dop853, layout
 from .rate import RATE_PLACES, jacobian, rate_between
 
@@ -42,12 +42,8 @@ def _evaluate_field(motion, S, source, target, P):  # noqa: ARG001 (called as `l
 
 def _compile_component(function: Any) -> Any:
     """Compile a function of all lanes for the components of one state."""
-    own = function.py_func
-    scope = {**own.__globals__, **_row_kernels, "ROW_WIDTH": MAX_COMPONENTS, "call_field": _evaluate_field}
-    made = FunctionType(own.__code__, scope, own.__name__)
-    # The disk cache knows a function by its file and its qualified name.
-    made.__module__, made.__qualname__ = own.__module__, f"{own.__name__}_of_one"
-    return fast_kernel(made)
+    names = {**_row_kernels, "ROW_WIDTH": MAX_COMPONENTS, "call_field": _evaluate_field}
+    return fast_kernel(rebind(function.py_func, "of_one", **names))
 
 
 _advance, _interpolate = _compile_component(dop853.advance), _compile_component(dop853.interpolate)
