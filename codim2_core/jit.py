@@ -10,12 +10,13 @@ from __future__ import annotations
 
 import logging
 import re
+from collections.abc import Callable
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any
 
-from numba import njit
+from numba import njit, types
 from numba.core import caching, event
 
 CORE_FOLDER = Path(__file__).parent
@@ -27,14 +28,30 @@ COMPILING = (
     "the command `codim2 warm` compiles all of them beforehand."
 )
 
+
+def _kind_of_kernel(**options: Any) -> Callable[[Callable[..., Any]], Any]:
+    """Return a decorator whose kernels are compiled once for a type, whatever constants they are called with."""
+    compiled = njit(cache=True, nogil=True, error_model="numpy", **options)
+
+    def declare(function: Callable[..., Any]) -> Any:
+        made: Any = compiled(function)
+        typed = made.get_call_template
+        made.get_call_template = lambda given, named: typed(
+            tuple(map(types.unliteral, given)), {name: types.unliteral(one) for name, one in named.items()}
+        )
+        return made
+
+    return declare
+
+
 #: Decorators. `fast_kernel` may reorder sums, `contracted_kernel` only fuse. LLVM inlines `inlined_kernel`; Numba
 #: splices `spliced_kernel` into the caller before it types it, so that functions can be arguments.
-kernel = njit(cache=True, nogil=True, error_model="numpy")
-fast_kernel = njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy")
-inlined_kernel = njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
-inlined_fast_kernel = njit(cache=True, nogil=True, fastmath=ARITHMETIC, error_model="numpy", forceinline=True)
-contracted_kernel = njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy", forceinline=True)
-spliced_kernel = njit(cache=True, nogil=True, error_model="numpy", inline="always")
+kernel = _kind_of_kernel()
+fast_kernel = _kind_of_kernel(fastmath=ARITHMETIC)
+inlined_kernel = _kind_of_kernel(forceinline=True)
+inlined_fast_kernel = _kind_of_kernel(fastmath=ARITHMETIC, forceinline=True)
+contracted_kernel = _kind_of_kernel(fastmath={"contract"}, forceinline=True)
+spliced_kernel = _kind_of_kernel(inline="always")
 
 
 @cache

@@ -153,8 +153,9 @@ def integrate_turns(
     if swelling is not None:
         swell = swelling(places, rows[whose])[None]
     _, weights, matrix = gauss(STEP_NODES)
+    rates = np.ascontiguousarray(changes / sections.rate[:, None])
     numbers = turn_quadratures(
-        sections.plane, changes / sections.rate[:, None], sections.rate, sections.e, sections.u, sections.room,
+        sections.plane, rates, sections.rate, sections.e, sections.u, sections.room,
         sections.x2, x2, start, ways.ends, ways.first, ways.h, ways.inner, radial, tangential, swell,
         np.where(backward[rows], -1.0, 1.0), weights, matrix,
     )  # fmt: skip

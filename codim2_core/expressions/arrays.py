@@ -73,7 +73,7 @@ class Program:
         out = np.empty((len(points), len(self.roots), 3))
         from . import interpreter  # on first use: it loads the compiler
 
-        interpreter.batch(*self.arrays, np.ascontiguousarray(points), out)
+        interpreter.batch(*self.arrays, np.array(points, order="C"), out)  # one compilation, read-only or not
         if not np.isfinite(out).all():
             self._limits(points, out)
         return out

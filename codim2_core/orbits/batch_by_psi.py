@@ -54,7 +54,7 @@ def states_at(points: Array) -> Array:
     """States (k, 3) of points (k, 2) of the hemisphere."""
     from ..stepping.layout import states_of
 
-    return states_of(np.ascontiguousarray(points))[0]
+    return states_of(np.array(points, order="C"))[0]
 
 
 def _is_inside_disc(states: Array) -> Array:

@@ -128,7 +128,7 @@ def trajectories(
     points = seeds if isinstance(seeds, np.ndarray) and seeds.dtype == np.float64 else checked_seeds(seeds)
     if points.ndim != 2 or points.shape[1] != 2:
         points = checked_seeds(seeds)
-    states, signs, largest = _kernels().states_of(np.ascontiguousarray(points))
+    states, signs, largest = _kernels().states_of(np.array(points, order="C"))  # one compilation, read-only or not
     if math.isnan(largest):
         checked_seeds(seeds)  # says which
     if largest > FARTHEST_PLACES and options.samples is None:
@@ -191,7 +191,7 @@ def in_lanes(
         signs,
         problem.shared,
         problem.address,
-        problem.own,
+        np.array(problem.own),  # may be read-only, which would be compiled once more
         np.array(until),
         min(float(options.t_max) * unit, 1e300),
         float(options.rtol),
@@ -312,5 +312,5 @@ def continuation(
     at = system.at(z)
     states = departures(at, psi, theta, rtol, backward)
     if beside is not None:
-        states = np.concatenate([states, _kernels().states_of(np.ascontiguousarray(beside))[0]])
+        states = np.concatenate([states, _kernels().states_of(np.array(beside, order="C"))[0]])
     return _integrate(at, psi, states, np.full(len(states), -1.0), options)

@@ -72,13 +72,11 @@ def test_no_kernel_that_is_kept_closes_over_another():
     """Numba finds such a kernel again by what it closes over, and another kernel there is a new one in each process."""
     for module in pkgutil.walk_packages(codim2_core.__path__, "codim2_core."):
         importlib.import_module(module.name)
-    kept = [
-        one for one in gc.get_objects() if isinstance(one, Dispatcher) and isinstance(one._cache, caching.FunctionCache)
-    ]
+    compiled: list[Any] = [one for one in gc.get_objects() if isinstance(one, Dispatcher)]
+    kept = [one for one in compiled if isinstance(one._cache, caching.FunctionCache)]
     assert len(kept) > 150
-    closed = [
-        one for one in kept if any(isinstance(cell.cell_contents, Dispatcher) for cell in one.py_func.__closure__ or ())
-    ]
+    cells = [(one, cell.cell_contents) for one in kept for cell in one.py_func.__closure__ or ()]
+    closed = [one for one, content in cells if isinstance(content, Dispatcher)]
     assert closed == []
     places = Counter((one.py_func.__module__, one.py_func.__qualname__) for one in kept)
     assert [place for place, count in places.items() if count > 1] == []  # one file of the disk for each

@@ -73,16 +73,17 @@ def _slopes(m, K, E, B, B2, C2):
 
 
 # What the two functions below read; `_kernels` puts the compiled ones in their place.
-number, slopes = 0, None
+column: int = 0
+slopes: Any = None
 
 
-def _integral(m):
-    return integrals(m)[number]
+def _one_integral(m):
+    return integrals(m)[column]
 
 
-def _slope(m, v):
+def _slope_of_one(m, v):
     K, E, B, B2, C2 = integrals(m)
-    return slopes(m, K, E, B, B2, C2)[number]
+    return slopes(m, K, E, B, B2, C2)[column]
 
 
 @cache
@@ -93,8 +94,8 @@ def _all_five(jit: Any) -> tuple[Any, Any]:
 def _kernels(i: int) -> Callable[[Any], Kernels]:
     def make_kernels(jit: Any) -> Kernels:
         values, slopes = _all_five(jit)
-        of_these = {"number": i, "integrals": values}
-        return jit(rebind(_integral, i, **of_these)), jit(rebind(_slope, i, slopes=slopes, **of_these))
+        of_these = {"column": i, "integrals": values}
+        return jit(rebind(_one_integral, i, **of_these)), jit(rebind(_slope_of_one, i, slopes=slopes, **of_these))
 
     return make_kernels
 
@@ -128,7 +129,7 @@ def _rate_c2(build: Any, k: int, u: int) -> int:
 
 
 def _elliptic_function(i: int, name: str, rate: Callable[[Any, int, int], int]) -> Function:
-    scalar = rebind(_integral, i, number=i)
+    scalar = rebind(_one_integral, i, column=i)
     return Function(
         name, scalar, np.vectorize(scalar, otypes=[float]), _kernels(i), rate, sign="positive", blur=BLUR, until=1.0
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
@@ -12,15 +11,17 @@ from ...rebind import rebind
 from . import FUNCTIONS, code
 
 # What the links of the chains below read: one function, its code, and the rest of the chain.
-first, number, rest = math.sin, 0, math.sin
+first: Any = None
+link_code: int = 0
+rest: Any = None
 
 
-def _value(k, a):
-    return first(a) if k == number else rest(k, a)
+def _value_link(k, a):
+    return first(a) if k == link_code else rest(k, a)
 
 
-def _slope(k, a, v):
-    return first(a, v) if k == number else rest(k, a, v)
+def _slope_link(k, a, v):
+    return first(a, v) if k == link_code else rest(k, a, v)
 
 
 @kernel
@@ -38,12 +39,12 @@ _both = {one.name: one.kernels(kernel) for one in FUNCTIONS}
 
 def _chain(link: Any, which: int, end: Any) -> Any:
     for name, pair in reversed(_both.items()):
-        end = kernel(rebind(link, name, first=pair[which], number=code[name], rest=end))
+        end = kernel(rebind(link, name, first=pair[which], link_code=code[name], rest=end))
     return end
 
 
 #: f(a) of the function with a code, and f'(a) from a and f(a).
-value, slope = _chain(_value, 0, _none), _chain(_slope, 1, _no_slope)
+value, slope = _chain(_value_link, 0, _none), _chain(_slope_link, 1, _no_slope)
 
 #: What compiled source calls by its name.
 called: Mapping[str, Any] = MappingProxyType({one.name: _both[one.name][0] for one in FUNCTIONS if not one.source})
