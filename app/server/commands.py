@@ -100,6 +100,26 @@ def add_docs(commands: Any) -> None:
     command.set_defaults(run=docs)
 
 
+def add_kernels(commands: Any) -> None:
+    """Add `codim2 kernels`."""
+    command = commands.add_parser("kernels", help="compile the core for pages without a server (WebAssembly): minutes")
+    command.add_argument("folder", nargs="?", type=Path, metavar="DIR", help="default the package's own")
+    command.set_defaults(run=kernels)
+
+
+def kernels(chosen: argparse.Namespace) -> int:
+    """Run `codim2 kernels`."""
+    from ..wasm_kernels.build import FOLDER, build, extract_all, missing
+
+    if missing():
+        print("codim2: give this Python ziglang, which is clang and a linker: pip install ziglang", file=sys.stderr)
+        return 1
+    folder = chosen.folder or FOLDER
+    build(folder, extract_all())
+    print(f"codim2: {folder / 'kernels.so'}: {(folder / 'kernels.so').stat().st_size / 1000:.0f} kB")
+    return 0
+
+
 def number(text: str) -> float:
     """Read a number as the page does: -.5, 1e-3, −7,5; and a fraction, -2/3."""
     top, _, bottom = text.strip().replace("−", "-").replace(",", ".").partition("/")

@@ -8,7 +8,6 @@ costs less (`kernels.motion`).
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -16,22 +15,18 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numba import (
-    carray,  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
-    cfunc,
-)
 from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..expressions.functions import kernels
 from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.source import program
+from ..jit import carray, compile_source
 from ..numerics.dense import Dense, StepArray
 from ..numerics.growth import BlowUpError, too_short
 from ..numerics.radau import Problem, TooManyStepsError, tableau
 from ..psi.function import Psi
 from ..stepping.compiling import CompiledCache
-from ..stepping.layout import FIELD
 from ..stepping.psi_gain import one_gain
 from ..words import say
 from .field import Field
@@ -80,10 +75,9 @@ def _compile_rows(rows: Any, names: tuple[str, ...]) -> Any:
         *written.inside,
         *(f"D[{k}] = {result}" for k, result in enumerate(written.results)),
     ]
-    scope: dict[str, Any] = {"math": math, "carray": carray, **kernels.called}
-    exec("def function(state, out, parameters):\n" + "\n".join(f"    {line}" for line in lines), scope)
-    # Written by `program`: its own names, numbers and math.* only. Strict arithmetic: a formula ends where it ends.
-    return cfunc(FIELD, nogil=True, error_model="numpy")(scope["function"])
+    source = "def function(state, out, parameters):\n" + "\n".join(f"    {line}" for line in lines)
+    # Written by `program`: its own names, numbers and math.* only.
+    return compile_source(source, {"carray": carray, **kernels.called}, strict=True)
 
 
 @lru_cache(maxsize=1)
