@@ -154,4 +154,6 @@ def _returned(kind: Any) -> list[Any]:
 
 
 if __name__ == "__main__":
-    Path(sys.argv[1]).write_bytes(pickle.dumps(extract()))
+    from codim2_app.wasm_kernels import extraction  # under its name: what it writes is read elsewhere
+
+    Path(sys.argv[1]).write_bytes(pickle.dumps(extraction.extract()))

@@ -262,8 +262,10 @@ def integrate_compiled(
     numbers, along = np.array([eps, rtol, floor, *span, psi.parameter]), line_directions(lines)
 
     def part(cut: slice) -> list[CompletedMotion]:
-        found = follow_all(made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))
-        return _split_motions(*found, first.shape[1])
+        times, lengths, states, polynomials, told = follow_all(
+            made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most)
+        )
+        return _split_motions(times, lengths, states, polynomials, told, first.shape[1])
 
     return shared_out(part, count)
 

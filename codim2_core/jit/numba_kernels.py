@@ -14,6 +14,7 @@ from typing import Any
 
 from numba import cfunc, njit, types
 from numba.core import caching, event
+from numba.core.dispatcher import Dispatcher
 
 from ..rebind import rebind
 from .intrinsics import POINTER
@@ -28,11 +29,16 @@ COMPILING = (
 )
 
 
-def _kind_of_kernel(**options: Any) -> Callable[[Callable[..., Any]], Any]:
-    """Return a decorator whose kernels are compiled once for a type, whatever constants they are called with."""
+def _kind_of_kernel(**options: Any) -> Callable[[Callable[..., Any]], Dispatcher]:
+    """Return a decorator whose kernels are compiled once for a type, whatever constants they are called with.
+
+    A function that closes over a kernel is refused: it would never be found on disk again (see `rebind`).
+    """
     compiled = njit(cache=True, nogil=True, error_model="numpy", **options)
 
-    def declare(function: Callable[..., Any]) -> Any:
+    def declare(function: Callable[..., Any]) -> Dispatcher:
+        if any(isinstance(cell.cell_contents, Dispatcher) for cell in function.__closure__ or ()):
+            raise TypeError(f"{function.__qualname__} closes over a kernel: give it by rebind.")
         made: Any = compiled(function)
         typed = made.get_call_template
         made.get_call_template = lambda given, named: typed(
