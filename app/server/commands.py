@@ -109,13 +109,13 @@ def add_kernels(commands: Any) -> None:
 
 def kernels(chosen: argparse.Namespace) -> int:
     """Run `codim2 kernels`."""
-    from ..wasm_kernels.build import FOLDER, build, extract_all, missing
+    from ..wasm_kernels.build import FOLDER, build_kernels, extract_all, missing
 
     if missing():
         print("codim2: give this Python ziglang, which is clang and a linker: pip install ziglang", file=sys.stderr)
         return 1
     folder = chosen.folder or FOLDER
-    build(folder, extract_all())
+    build_kernels(folder, extract_all())
     print(f"codim2: {folder / 'kernels.so'}: {(folder / 'kernels.so').stat().st_size / 1000:.0f} kB")
     return 0
 

@@ -42,7 +42,7 @@ def extract_all() -> list[Extract]:
         return pickle.loads(path.read_bytes())  # written by that process
 
 
-def build(folder: Path, extracts: list[Extract], strict: bool = False) -> None:
+def build_kernels(folder: Path, extracts: list[Extract], strict: bool = False) -> None:
     """Write ``kernels.so`` and ``kernels.json``.
 
     Parameters

@@ -1,4 +1,4 @@
-"""What Numba makes of the core's kernels before it is optimised for this processor: run as a process of its own.
+"""The core's kernels as Numba types them, before they are optimised for this processor: a process of its own.
 
 ``python -m codim2_app.wasm_kernels.extraction FILE`` compiles all that `warm_all` does, and writes a list of `Extract`.
 Two steps of Numba are switched off in that process, and nothing is read from the disk or kept there.
@@ -57,7 +57,8 @@ def extract() -> list[Extract]:
     import codim2_core.jit as door
 
     asked: list[tuple[Any, Any]] = []
-    compile_for: Any = dispatcher._DispatcherBase._compile_for_args  # noqa: SLF001
+    base: Any = dispatcher._DispatcherBase  # noqa: SLF001
+    compile_for = base._compile_for_args  # noqa: SLF001
 
     def noted(self: Any, *given: Any, **named: Any) -> Any:
         before = set(self.overloads)
@@ -65,7 +66,7 @@ def extract() -> list[Extract]:
         asked.extend((self, signature) for signature in self.overloads if signature not in before)
         return made
 
-    dispatcher._DispatcherBase._compile_for_args = noted  # type: ignore[assignment]  # noqa: SLF001
+    base._compile_for_args = noted
     addresses: dict[tuple[str, ...], Any] = {}
     plain, with_gain = door.compile_address, door.compile_with_gain
 
@@ -149,7 +150,7 @@ def _returned(kind: Any) -> list[Any]:
     if isinstance(kind, types.NoneType):
         return ["none", []]
     if isinstance(kind, types.BaseTuple):
-        return ["tuple", [_kind(one) for one in kind]]
+        return ["tuple", [_kind(one) for one in kind.types]]
     return ["one", [_kind(kind)]]
 
 

@@ -54,7 +54,7 @@ def make_object(extracts: Sequence[Extract], strict: bool = False) -> bytes:
         if one.symbol in seen:
             continue
         seen.add(one.symbol)
-        module: Any = llvm.parse_assembly(_moved(one.ir, machine, strict))
+        module: Any = llvm.parse_assembly(_retarget(one.ir, machine, strict))
         module.verify()
         if whole is None:
             whole = module
@@ -74,7 +74,7 @@ def make_object(extracts: Sequence[Extract], strict: bool = False) -> bytes:
     return machine.emit_object(whole)
 
 
-def _moved(ir: str, machine: Any, strict: bool) -> str:
+def _retarget(ir: str, machine: Any, strict: bool) -> str:
     ir = re.sub(r'target triple = ".*"', f'target triple = "{TRIPLE}"', ir)
     ir = re.sub(r'target datalayout = ".*"', f'target datalayout = "{machine.target_data}"', ir)
     # A call of sqrt is no instruction, and ends vectors.

@@ -1,4 +1,4 @@
-"""What calls the kernels: a function in C for each, that takes a row of numbers of eight bytes, and a table of them."""
+"""Calls of the kernels: a function in C for each, that takes a row of numbers of eight bytes, and a table of them."""
 
 from __future__ import annotations
 

@@ -277,11 +277,11 @@ def line_directions(lines: Sequence[InvariantLine | None]) -> Array:
 
 def shared_out(part: Callable[[slice], list[Any]], count: int) -> list[Any]:
     """Return what `part` returns for `count` motions, slice by slice: few at once, many on all cores."""
-    if count < SHARED_OUT:
+    cores = os.cpu_count() or 1
+    if count < SHARED_OUT or cores == 1:
         return part(slice(0, count))
     from concurrent.futures import ThreadPoolExecutor  # imported late: one motion does without
 
-    cores = os.cpu_count() or 1
     size = max(1, min(LARGEST_PART, -(-count // (PARTS_PER_CORE * cores))))
     cuts = [slice(i, i + size) for i in range(0, count, size)]
     with ThreadPoolExecutor(cores) as pool:

@@ -8,7 +8,8 @@ of this package, `compile_with_gain` one for each gain of Psi, `compile_source` 
 import sys
 
 if sys.platform == "emscripten":
-    from .kernel_table import (
+    # By its full name: what Numba keeps on disk does not depend on it (see `stamps`).
+    from codim2_core.jit.kernel_table import (
         ahead,
         bits_of_double,
         call_at,

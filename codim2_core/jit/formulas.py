@@ -154,7 +154,7 @@ class Body:
                 kept.append((target, self.variable(target.id, kind)))
             elif isinstance(target, ast.Subscript):
                 place = self.compiler.local("f")
-                code += number((value, kind)) + SET + place
+                code += as_number((value, kind)) + SET + place
                 kept.append((target, place))
             else:
                 raise FormulaError(f"{ast.unparse(target)} is not assigned to here.")
@@ -219,7 +219,7 @@ class Body:
                     part + (b"\x71" if isinstance(op, ast.And) else b"\x72") for part in parts[1:]
                 ), "i"
             case ast.IfExp(test=test, body=body, orelse=other):
-                chosen = number(self.value(body)) + number(self.value(other))
+                chosen = as_number(self.value(body)) + as_number(self.value(other))
                 return chosen + self.value(test)[0] + SELECT, "f"
             case ast.Call(func=function, args=given):
                 return self.call(node, function, given)
@@ -228,7 +228,7 @@ class Body:
     def power(self, base: Typed, exponent: int) -> Typed:
         """Return a natural power, as products."""
         place = self.compiler.local("f")
-        return number(base) + TEE + place + (GET + place + b"\xa2") * (exponent - 1), "f"
+        return as_number(base) + TEE + place + (GET + place + b"\xa2") * (exponent - 1), "f"
 
     def arithmetic(self, op: type[ast.operator], left: Typed, right: Typed) -> Typed:
         """Return a sum, difference, product or quotient."""
@@ -237,7 +237,7 @@ class Body:
         of_numbers, of_whole = ARITHMETIC[op]
         if left[1] == right[1] == "i" and of_whole:
             return left[0] + right[0] + of_whole, "i"
-        return number(left) + number(right) + of_numbers, "f"
+        return as_number(left) + as_number(right) + of_numbers, "f"
 
     def comparison(self, left: ast.expr, ops: list[ast.cmpop], others: list[ast.expr]) -> Typed:
         """Return whether all comparisons of a chain hold."""
@@ -246,7 +246,7 @@ class Body:
         for k, op in enumerate(ops):
             a, b = terms[k], terms[k + 1]
             of_numbers, of_whole = COMPARISONS[type(op)]
-            code += a[0] + b[0] + of_whole if a[1] == b[1] == "i" else number(a) + number(b) + of_numbers
+            code += a[0] + b[0] + of_whole if a[1] == b[1] == "i" else as_number(a) + as_number(b) + of_numbers
             code += b"\x71" if k else b""
         return code, "i"
 
@@ -263,7 +263,7 @@ class Body:
         if name in ("int", "float", "kind"):
             value, kind = self.value(given[0])
             whole = self.names.get(name, int if name == "int" else float) is int
-            return (value + TO_WHOLE if kind == "f" else value, "i") if whole else (number((value, kind)), "f")
+            return (value + TO_WHOLE if kind == "f" else value, "i") if whole else (as_number((value, kind)), "f")
         if name == "carray":
             return self.value(given[0])
         if name == "ahead":
@@ -275,16 +275,16 @@ class Body:
             (value,) = self.inline(self.names[name], node)
             return value
         address = b"\x41" + integer(self.compiler.addresses("function", name))
-        return number(self.value(given[0])) + address + CALL_AT + natural(OF_ONE) + b"\x00", "f"
+        return as_number(self.value(given[0])) + address + CALL_AT + natural(OF_ONE) + b"\x00", "f"
 
     def kept(self, value: Typed) -> tuple[Code, Code]:
         """Return the code that keeps a value in a variable, and the code that reads it."""
         place = self.compiler.local("f")
-        return number(value) + SET + place, GET + place
+        return as_number(value) + SET + place, GET + place
 
     def library(self, name: str, given: list[ast.expr]) -> Typed:
         """Return a function of ``math``."""
-        arguments = b"".join(number(self.value(one)) for one in given)
+        arguments = b"".join(as_number(self.value(one)) for one in given)
         if name in INSTRUCTIONS:
             return arguments + INSTRUCTIONS[name], "f"
         if name == "isinf":
@@ -342,7 +342,7 @@ def syntax_of(function: Any) -> ast.FunctionDef:
     return found
 
 
-def number(value: Typed) -> Code:
+def as_number(value: Typed) -> Code:
     """Return the code that pushes a value as a number."""
     return value[0] if value[1] == "f" else value[0] + TO_NUMBER
 

@@ -1,12 +1,13 @@
-"""What kernels do that Python cannot say: call a right-hand side at its address, point into an array, read bits."""
+"""Operations of kernels that are none of Python: calls at an address, pointers into arrays, the bits of a double."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from llvmlite import ir
-from numba import carray, types  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
+from numba import types
 from numba.extending import intrinsic
+from numba.np.numpy_support import carray
 
 __all__ = ["POINTER", "ahead", "bits_of_double", "call_at", "call_field", "carray", "double_of_bits"]
 

@@ -30,7 +30,7 @@ _memory = memoryview((ctypes.c_char * (2**31 - 1)).from_address(0)).cast("B")
 
 
 class Table:
-    """What `codim2 kernels` has written.
+    """The kernels and right-hand sides that `codim2 kernels` has written.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ def table() -> Table:
 
 
 class TabledKernel:
-    """What a decorator returns: called from Python it runs what was compiled beforehand.
+    """A kernel: called from Python it runs what was compiled beforehand.
 
     Attributes
     ----------
@@ -168,32 +168,32 @@ class Address:
 
 def compile_address(function: Callable[..., None], cache: bool = True) -> Address:  # noqa: ARG001 (Numba's other half)
     """Return what was compiled of a right-hand side of this package."""
-    return _compiled(function.__module__, function.__name__)
+    return _find_address(function.__module__, function.__name__)
 
 
 def compile_with_gain(lanes: Callable[..., None], own: Any, whole: bool, cache: bool, **names: Any) -> Address:  # noqa: ARG001
     """Return what was compiled of a function of lanes with the gain of a family, or compile it with a typed one."""
     if isinstance(own, str):
-        return _load(module_of_lanes(lanes, own, names, _address))
-    return _compiled(lanes.__module__, lanes.__name__, own.__module__, own.__name__, "int" if whole else "float")
+        return _load_module(module_of_lanes(lanes, own, names, _address_of))
+    return _find_address(lanes.__module__, lanes.__name__, own.__module__, own.__name__, "int" if whole else "float")
 
 
 def compile_source(source: str, names: Mapping[str, Any], strict: bool = False) -> Address:  # noqa: ARG001
     """Compile a right-hand side whose text was written from typed formulas."""
-    return _load(module_of_text(source, names, _address))
+    return _load_module(module_of_text(source, names, _address_of))
 
 
-def _compiled(*key: str) -> Address:
-    return Address(_address(*key))
+def _find_address(*key: str) -> Address:
+    return Address(_address_of(*key))
 
 
-def _address(*key: str) -> int:
+def _address_of(*key: str) -> int:
     if key not in table().addresses:
         raise NotImplementedError(f"{' of '.join(key)} was not compiled; run `codim2 kernels`.")
     return table().addresses[key]
 
 
-def _load(module: bytes) -> Address:
+def _load_module(module: bytes) -> Address:
     """Load a module beside the kernels: its function then has a place in their table."""
     with NamedTemporaryFile(suffix=".so", delete=False) as file:
         file.write(module)

@@ -1,6 +1,6 @@
 """The kinds of kernels that Numba compiles, and the right-hand sides that are called by their addresses.
 
-Kernels are kept on disk, under the stamp of all that they are made of (`source_stamp`).
+Kernels are kept on disk, under the stamp of all that they are made of (`stamps`).
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from numba.core.dispatcher import Dispatcher
 
 from ..rebind import rebind
 from .intrinsics import POINTER
-from .source_stamp import CORE_FOLDER, source_stamp
+from .stamps import CORE_FOLDER, source_stamp
 
 ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep their meaning
 FIELD = types.void(POINTER, POINTER, POINTER)

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from codim2_core import jit
 from codim2_core.expressions.functions import known
+from codim2_core.jit import kernel, numba_kernels, stamps
 from codim2_core.stepping.lanes import integrate
 
 FILES = {
@@ -30,18 +30,18 @@ def test_a_stamp_changes_with_all_that_a_module_imports_and_with_nothing_else(tm
     for name, text in FILES.items():
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(text)
-    stamp = jit.source_stamp(tmp_path / "kernels.py", tmp_path)
+    stamp = stamps.source_stamp(tmp_path / "kernels.py", tmp_path)
     (tmp_path / changed).write_text(FILES[changed] + "# changed\n")
-    jit._read_module.cache_clear()
-    jit.source_stamp.cache_clear()
-    assert (jit.source_stamp(tmp_path / "kernels.py", tmp_path) != stamp) == (changed in PARTS)
+    stamps._read_module.cache_clear()
+    stamps.source_stamp.cache_clear()
+    assert (stamps.source_stamp(tmp_path / "kernels.py", tmp_path) != stamp) == (changed in PARTS)
 
 
 def test_numba_keeps_the_packages_kernels_under_that_stamp():
-    kernel: Any = integrate
-    path = Path(kernel.py_func.__code__.co_filename)
-    assert kernel._cache._cache_file._source_stamp == jit.source_stamp(path)
-    assert jit.CORE_FOLDER / "stepping" / "dop853.py" in jit._read_module(path, jit.CORE_FOLDER)[1]
+    compiled: Any = integrate
+    path = Path(compiled.py_func.__code__.co_filename)
+    assert compiled._cache._cache_file._source_stamp == stamps.source_stamp(path)
+    assert stamps.CORE_FOLDER / "stepping" / "dop853.py" in stamps._read_module(path, stamps.CORE_FOLDER)[1]
 
 
 def test_that_kernels_are_compiled_is_said_once_and_only_then(tmp_path):
@@ -60,19 +60,19 @@ def test_that_kernels_are_compiled_is_said_once_and_only_then(tmp_path):
         ).stderr
         for _ in range(2)
     ]  # fmt: skip
-    assert told == [f"{jit.COMPILING}\n", ""]
+    assert told == [f"{numba_kernels.COMPILING}\n", ""]
 
 
 def test_a_kernel_that_closes_over_another_is_refused():
     """Numba finds such a kernel again by what it closes over, and another kernel there is a new one in each process."""
 
-    @jit.kernel
+    @kernel
     def square(x):
         return x * x
 
     with pytest.raises(TypeError, match="closes over a kernel"):
 
-        @jit.kernel
+        @kernel
         def power(x):
             return square(square(x))
 

@@ -1,4 +1,4 @@
-"""What a kernel on disk was compiled from.
+"""Stamps of what a kernel on disk was compiled from.
 
 Numba keeps a compiled kernel beside its module, under a digest of that one file; but what a kernel calls, and
 the constants that it reads, are compiled into it from other modules. Here a kernel is out of date when the text of any
