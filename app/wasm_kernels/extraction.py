@@ -66,7 +66,7 @@ def extract() -> list[Extract]:
         asked.extend((self, signature) for signature in self.overloads if signature not in before)
         return made
 
-    base._compile_for_args = noted
+    base._compile_for_args = noted  # noqa: SLF001
     addresses: dict[tuple[str, ...], Any] = {}
     plain, with_gain = door.compile_address, door.compile_with_gain
 
@@ -149,8 +149,9 @@ def _returned(kind: Any) -> list[Any]:
 
     if isinstance(kind, types.NoneType):
         return ["none", []]
-    if isinstance(kind, types.BaseTuple):
-        return ["tuple", [_kind(one) for one in kind.types]]
+    members = getattr(kind, "types", None)
+    if members is not None:
+        return ["tuple", [_kind(one) for one in members]]
     return ["one", [_kind(kind)]]
 
 
