@@ -16,7 +16,16 @@ from typing import Any
 
 from ..docs import docs_folder
 from ..frame.dask_executor import ClusterError, dask_executor
-from .commands import add_census, add_classify, add_docs, add_notebooks, add_presets, add_prove, join_negative_numbers
+from .commands import (
+    add_census,
+    add_classify,
+    add_docs,
+    add_notebooks,
+    add_presets,
+    add_prove,
+    add_static,
+    join_negative_numbers,
+)
 from .downloads import add_data, add_figure, add_film, add_live
 from .process.files import many_files
 from .process.logs import log_to_stderr
@@ -47,6 +56,7 @@ def parser() -> argparse.ArgumentParser:
         add_census,
         add_notebooks,
         add_docs,
+        add_static,
     ):
         add(commands)
     return top

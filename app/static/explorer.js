@@ -2,6 +2,7 @@
 
 import {Connection} from "./asking/connection.js"
 import {openLine} from "./asking/line.js"
+import {openWorkerLine} from "./asking/worker_line.js"
 import {Requests} from "./asking/requests.js"
 import {Rest} from "./asking/rest.js"
 import {Waiting} from "./asking/waiting.js"
@@ -24,6 +25,7 @@ import {Theme} from "./page/theme.js"
 import {undoable} from "./page/undo.js"
 import {readFrame} from "./picture/frames.js"
 import {Picture} from "./picture/picture.js"
+import {say} from "./dom.js"
 import {SAYS} from "./words.js"
 import {addDialogs, besideOf, grabOf, handsOf, liftOf, panelsOf, pointingOf, roomOf, tableOf} from "./parts.js"
 
@@ -79,7 +81,7 @@ export class Explorer {
     keepFolds(root, (name) => JSON.stringify(values[name]) !== JSON.stringify(config.defaults[name]))
     this.theme = new Theme(root, config, (name) => { picture.paint(name); this.beside?.look?.() })
     if (config.look.seen.length) picture.seen = config.look.seen
-    this.room = this.alone ? roomOf(this) : null
+    this.room = this.alone && !config.worker ? roomOf(this) : null
     if (config.page) addDialogs(this)
     this.beside = besideOf(this)
     this.showRefused()
@@ -120,10 +122,13 @@ export class Explorer {
   connect() {
     const {line} = this
     new Connection(line, {
-      page: this.config.page, edition: this.config.edition, say: (sentence, reload) => this.sentences.notice(sentence, reload), leave: () => this.steps.settle(), lost: () => { this.requests.held = true },
+      page: this.config.page && !this.config.worker, edition: this.config.edition, say: (sentence, reload) => this.sentences.notice(sentence, reload), leave: () => this.steps.settle(), lost: () => { this.requests.held = true },
     })
     line.hear((message) => { if (!this.takes.hear(message) && !this.room?.hear(message)) this.apply(message.frame) })
     if (line.first) this.apply(line.first)
+    if (!line.ready) return
+    this.requests.held = true
+    line.ready.then(() => { this.requests.held = false; this.requests.schedule() })
   }
 
   // What the address has and the server could not use stays to be mended, in the address too.
@@ -342,22 +347,50 @@ export function render({model, view, el}) {
   }, root, view.model.data.picture, el)
 }
 
-/** In the page of its server. */
-export async function live() {
-  const first = document.getElementById("codim2-first"), root = /** @type {HTMLElement} */ (first.querySelector(".codim2"))
+/**
+ * Put an explorer in the place of the markup that stands in the page.
+ * @param {HTMLElement} first what holds the markup @param {Promise<import("./asking/line.js").Line>} opening
+ */
+async function openIn(first, opening) {
+  const root = /** @type {HTMLElement} */ (first.querySelector(".codim2"))
   const figure = JSON.parse(document.getElementById("codim2-figure").textContent)
-  const address = new URL(`live${location.search}`, location.href)
-  address.protocol = address.protocol.replace("http", "ws")
   const drawn = document.createElement("div")
   root.querySelector(".bokeh").append(drawn)
-  try {
-    const [line, views] = await Promise.all([openLine(address), globalThis.Bokeh.embed.embed_item(figure, drawn)])
-    begin(line, root, views.get_by_id(figure.root_id).model, first.parentElement)
-  } catch (why) {
+  const [line, views] = await Promise.all([opening, globalThis.Bokeh.embed.embed_item(figure, drawn)])
+  begin(line, root, views.get_by_id(figure.root_id).model, first.parentElement)
+}
+
+/** In the page of its server. */
+export async function live() {
+  const first = document.getElementById("codim2-first")
+  const address = new URL(`live${location.search}`, location.href)
+  address.protocol = address.protocol.replace("http", "ws")
+  try { await openIn(first, openLine(address)) } catch (why) {
     if (typeof why !== "number") throw why
     const known = first.querySelector(":scope > [role=alert]") // it is said why already
-    if (!known) setTimeout(() => notice(root.querySelector(".banner"), why === FULL ? first.dataset.full : first.dataset.other, () => location.reload()), 300) // a page that is left needs no words
+    if (!known) setTimeout(() => notice(first.querySelector(".banner"), why === FULL ? first.dataset.full : first.dataset.other, () => location.reload()), 300) // a page that is left needs no words
   }
+}
+
+/** In a page without a server: a worker of its own answers. A link is read there, and drawn when it has been read. */
+export async function openHere() {
+  const first = document.getElementById("codim2-first"), {search} = location
+  const text = document.getElementById("codim2-saved").textContent, version = /"version":(\d+)/.exec(text)[1]
+  const saved = ["", `?v=${version}`].includes(search) ? JSON.parse(text) : null
+  if (saved) saved.first = Uint8Array.from(atob(saved.first), (letter) => letter.charCodeAt(0)).buffer
+  else { first.inert = true; first.querySelector(".first").replaceChildren() }
+  const tell = (sentence) => { const box = document.querySelector(".codim2 .busy"); box.toggleAttribute("hidden", !sentence); say(box, sentence) }
+  tell(SAYS.starting)
+  const opening = openWorkerLine(new Worker("worker.js", {type: "module", name: saved ? "" : search}), saved, tell)
+  try {
+    if (!saved) {
+      first.innerHTML = (await opening).markup
+      first.inert = false
+    }
+    await openIn(first, opening)
+    await (await opening).ready
+    await navigator.serviceWorker?.register("offline.js")
+  } catch { notice(document.querySelector(".codim2 .banner"), SAYS.lost, () => location.reload()) }
 }
 
 export default {render}
