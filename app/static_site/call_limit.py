@@ -4,27 +4,32 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from typing import Any
 
 
 class _OutOfTime(BaseException):
     """Passes those who handle errors."""
 
 
-@contextmanager
-def at_most(seconds: float) -> Iterator[None]:
-    """Raise TimeoutError at the first call or return of a function, or of a kernel, after so many seconds."""
+def call_within(seconds: float, function: Callable[[], Any]) -> Any:
+    """Return what a function returns.
+
+    Raises
+    ------
+    TimeoutError
+        After so many seconds another function was called, or returned.
+    """
     end = time.perf_counter() + seconds
 
-    def check(*_: object) -> None:
-        if time.perf_counter() > end:
+    def check(_frame: object, event: str, _argument: object) -> None:
+        if event in ("call", "return") and time.perf_counter() > end:
             sys.setprofile(None)
             raise _OutOfTime
 
     sys.setprofile(check)
     try:
-        yield
+        return function()
     except _OutOfTime:
         raise TimeoutError from None
     finally:

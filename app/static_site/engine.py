@@ -21,7 +21,7 @@ from ..view.answers import AnswerQueue
 from ..view.markup import markup_of_frame
 from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
-from .call_limit import at_most
+from .call_limit import call_within
 
 #: Seconds after which work is stopped: the sliders wait for it.
 MAX_WORK_SECONDS = 10.0
@@ -87,8 +87,7 @@ def _run(future: Future[Any], call: Callable[[], Any]) -> None:
     if not future.set_running_or_notify_cancel():
         return
     try:
-        with at_most(MAX_WORK_SECONDS):
-            result = call()
+        result = call_within(MAX_WORK_SECONDS, call)
     except TimeoutError:
         future.set_exception(TimeoutError(say("stopped after", seconds=MAX_WORK_SECONDS)))
     except Exception as error:  # whoever waits has it

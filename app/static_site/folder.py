@@ -17,7 +17,7 @@ from importlib.metadata import distribution
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from zipfile import ZIP_DEFLATED, ZipFile
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from bokeh.settings import settings as bokeh_settings
 
@@ -89,14 +89,15 @@ def all_files(pyodide: Path, kernels: Path) -> Iterator[tuple[str, bytes]]:
     files["folder.json"] = json.dumps(
         {"edition": edition(), "sizes": {name: len(data) for name, data in files.items()}}
     ).encode()
-    told = {"version": _digest(files), "files": ["./", *files]}
-    files["offline.js"] = f"self.folder = {json.dumps(told)}\n".encode() + (SCRIPT_FOLDER / "offline.js").read_bytes()
     yield from files.items()
+    yield "offline.js", offline_script(files)
 
 
-def _digest(files: Mapping[str, bytes]) -> str:
+def offline_script(files: Mapping[str, bytes]) -> bytes:
+    """Return the script that keeps these files in the browser; it is another one if one of them is."""
     digests = (name.encode() + hashlib.sha256(data).digest() for name, data in files.items())
-    return hashlib.sha256(b"".join(digests)).hexdigest()[:16]
+    told = {"version": hashlib.sha256(b"".join(digests)).hexdigest()[:16], "files": ["./", *files]}
+    return f"self.folder = {json.dumps(told)}\n".encode() + (SCRIPT_FOLDER / "offline.js").read_bytes()
 
 
 def page() -> str:
@@ -132,15 +133,15 @@ def site_zip(kernels: Path) -> bytes:
             shutil.copyfile(source, target)
         _compile(site)
         data = BytesIO()
-        with ZipFile(data, "w", ZIP_DEFLATED, compresslevel=9) as packed:
-            for path in sorted(site.rglob("*")):
-                packed.write(path, path.relative_to(site))
+        with ZipFile(data, "w") as packed:
+            for path in sorted(path for path in site.rglob("*") if path.is_file()):  # the same bytes at any time
+                packed.writestr(ZipInfo(path.relative_to(site).as_posix()), path.read_bytes(), ZIP_DEFLATED, 9)
         return data.getvalue()
 
 
 def _compile(site: Path) -> None:
     """Replace modules by their byte code where the Python of Pyodide is at hand: they are imported sooner."""
-    options = ("-m", "compileall", "-q", "-b", "--invalidation-mode", "unchecked-hash")
+    options = ("-m", "compileall", "-q", "-b", "--invalidation-mode", "unchecked-hash", "-s", str(site))
     python = shutil.which(PYTHON)
     if python and not subprocess.run([python, *options, site], capture_output=True, check=False).returncode:
         for source in site.rglob("*.py"):
