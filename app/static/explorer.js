@@ -372,25 +372,38 @@ export async function live() {
   }
 }
 
-/** In a page without a server: a worker of its own answers. A link is read there, and drawn when it has been read. */
+/** In a page without a server: a worker of its own answers. */
 export async function openHere() {
   const first = document.getElementById("codim2-first"), {search} = location
-  const text = document.getElementById("codim2-saved").textContent, version = /"version":(\d+)/.exec(text)[1]
-  const saved = ["", `?v=${version}`].includes(search) ? JSON.parse(text) : null
-  if (saved) saved.first = Uint8Array.from(atob(saved.first), (letter) => letter.charCodeAt(0)).buffer
-  else { first.inert = true; first.querySelector(".first").replaceChildren() }
+  const saved = savedFor(search)
+  if (!saved?.first) for (const drawn of first.querySelectorAll(OF_FIRST_SETTING)) drawn.replaceChildren()
+  first.inert = !saved // a link that only the worker can read
   const tell = (sentence) => { const box = document.querySelector(".codim2 .busy"); box.toggleAttribute("hidden", !sentence); say(box, sentence) }
   tell(SAYS.starting)
-  const opening = openWorkerLine(new Worker("worker.js", {type: "module", name: saved ? "" : search}), saved, tell)
+  const opening = openWorkerLine(new Worker("worker.js", {type: "module", name: JSON.stringify({search, drawn: !saved})}), saved, tell)
   try {
     if (!saved) {
+      const thumbnails = /** @type {NodeListOf<HTMLElement>} */ (first.querySelectorAll(".gallery [data-preset]"))
       first.innerHTML = (await opening).markup
+      for (const one of thumbnails) first.querySelector(`.gallery [data-preset=${one.dataset.preset}]`)?.replaceWith(one)
       first.inert = false
     }
     await openIn(first, opening)
     await (await opening).ready
     await navigator.serviceWorker?.register("offline.js")
   } catch { notice(document.querySelector(".codim2 .banner"), SAYS.lost, () => location.reload()) }
+}
+
+const OF_FIRST_SETTING = ".first, .first-words, .portrait-name, .portrait-case, .sentence" // what the page says of it
+const ITS_LOOK = ["embed", "beamer", "lift", "views", "room"] // in a link, beside values
+
+// What an explorer can begin with while the worker loads: the first setting, as it was saved, or what was left in this tab.
+function savedFor(search) {
+  const saved = JSON.parse(document.getElementById("codim2-saved").textContent), {config, offered} = saved
+  const link = new URLSearchParams(search), left = history.state?.codim2?.snapshot
+  if (["", `?v=${offered.link.version}`].includes(search)) return {...saved, first: Uint8Array.from(atob(saved.first), (letter) => letter.charCodeAt(0)).buffer}
+  if (!left || ITS_LOOK.some((name) => link.has(name))) return null
+  return {offered, first: null, config: {...config, values: left.values, look: {...config.look, seen: left.seen}}}
 }
 
 export default {render}

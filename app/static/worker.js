@@ -1,5 +1,7 @@
 // The server's half of a page without a server: Python in Pyodide, with kernels that were compiled beforehand.
 
+const {search, drawn} = JSON.parse(self.name) // of the page's address; whether its markup is to be drawn
+
 const told = {bytes: 0, all: 1}, APART = 100 // ms between two tellings
 let last = 0
 
@@ -27,12 +29,12 @@ async function load() {
   const {edition, sizes} = await (await fetched(here("folder.json"))).json()
   const wheel = Object.keys(sizes).find((name) => name.endsWith(".whl"))
   told.all = ["pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "pyodide/pyodide-lock.json", wheel, "site.zip"].reduce((sum, name) => sum + sizes[name], 0)
-  const [{loadPyodide}, site] = await Promise.all([import(here("pyodide/pyodide.mjs")), fetch(here("site.zip")).then((answer) => answer.arrayBuffer())])
-  const python = await loadPyodide({indexURL: here("pyodide/")})
-  await python.loadPackage("numpy", {messageCallback: () => {}})
-  python.unpackArchive(site, "zip", {extractDir: "/site"})
+  const site = fetch(here("site.zip")).then((answer) => answer.arrayBuffer())
+  const {loadPyodide} = await import(here("pyodide/pyodide.mjs"))
+  const python = await loadPyodide({indexURL: here("pyodide/"), packages: ["numpy"], stdout: () => {}})
+  python.unpackArchive(await site, "zip", {extractDir: "/site"})
   python.runPython("import sys; sys.path.insert(0, '/site')")
-  return python.pyimport("codim2_app.static_site.engine").Engine(self.name, edition, send)
+  return python.pyimport("codim2_app.static_site.engine").Engine(search, edition, send)
 }
 
 // A message of Python's, a dict, whose bytes become a buffer.
@@ -48,7 +50,7 @@ onmessage = async ({data}) => (await engine).answer(JSON.stringify(data))
 
 try {
   const {opening, first, markup} = await engine
-  postMessage({...JSON.parse(opening), first: first.toJs().slice().buffer, markup: self.name && markup()})
+  postMessage({...JSON.parse(opening), first: first.toJs().slice().buffer, markup: drawn && markup()})
 } catch (error) {
   console.error(error)
   postMessage({failed: true})

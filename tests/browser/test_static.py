@@ -75,9 +75,9 @@ def test_a_folder_of_files_is_dragged_and_again_without_a_network(chromium, addr
     assert "mathematics" in explorer.find(".busy").inner_text()
     explorer.find("[data-control=b] .number").fill("0.1")  # what is set meanwhile is drawn when it is there
     explorer.find("[data-control=b] .number").press("Enter")
+    assert explorer.frame() == 0
     page.wait_for_function(ANSWERS)
-    explorer.settle()
-    assert explorer.ask("picture.state.header.portrait.sentence") == explorer.find(".sentence").inner_text()
+    assert explorer.settle().frame() > 0
     assert portraits_of_a_drag(explorer, (0.42, 0.3, 0.1)) == ["CM2", "NCM2"]
     page.evaluate("navigator.serviceWorker.ready.then(() => true)")
     context.set_offline(True)

@@ -18,7 +18,12 @@ export function openWorkerLine(worker, saved, tell) {
       worker.addEventListener("message", ({data}) => {
         if (data.loading) tell(loadingWords(data.loading.bytes, data.loading.all))
         else if (data.failed) lose()
-        else if (data.config) { tell(""); answers(); begin({...data, ...line, ready}) }
+        else if (data.config) {
+          tell("")
+          for (const heard of hearing) heard({frame: data.first})
+          begin({...data, ...line, ready})
+          answers()
+        }
         else for (const heard of hearing) heard(data)
       })
     }))

@@ -23,6 +23,7 @@ test("what is saved begins at once; the worker says how far it is, and answers w
   const {worker, told, opening} = opened(SAVED)
   const line = await opening, order = /** @type {string[]} */ ([])
   assert.deepEqual([line.config, line.offered, line.first?.byteLength], [{page: true}, {first: 1}, 4])
+  line.hear(({frame}) => order.push(`${frame.byteLength} bytes`))
   line.ready?.then(() => order.push("ready"))
   worker.say({loading: {bytes: 5_300_000, all: 18_100_000}})
   worker.say({loading: {bytes: 18_100_000, all: 18_100_000}})
@@ -30,7 +31,7 @@ test("what is saved begins at once; the worker says how far it is, and answers w
   assert.deepEqual([told, order], [["Loading the mathematics: 5 of 19 MB …", "Starting the mathematics …"], []])
   worker.say({config: {page: false}, first: new ArrayBuffer(8)})
   await line.ready
-  assert.deepEqual([told.at(-1), order, line.config], ["", ["ready"], {page: true}])
+  assert.deepEqual([told.at(-1), order, line.config], ["", ["8 bytes", "ready"], {page: true}])
 })
 
 test("a link begins when the worker has read it, with the markup that is drawn for it", async () => {
