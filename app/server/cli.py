@@ -20,6 +20,7 @@ from .commands import (
     add_census,
     add_classify,
     add_docs,
+    add_kernels,
     add_notebooks,
     add_presets,
     add_prove,
@@ -56,6 +57,7 @@ def parser() -> argparse.ArgumentParser:
         add_census,
         add_notebooks,
         add_docs,
+        add_kernels,
         add_static,
     ):
         add(commands)

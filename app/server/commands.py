@@ -24,7 +24,6 @@ from ..frame.dask_executor import ClusterError, dask_executor
 from ..static_site.pyodide import VERSION
 
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
-KERNEL_FOLDER = Path(c2.__file__).parent / "jit" / "compiled"
 
 
 def add_classify(commands: Any) -> None:
@@ -102,14 +101,34 @@ def add_docs(commands: Any) -> None:
     command.set_defaults(run=docs)
 
 
+def add_kernels(commands: Any) -> None:
+    """Add `codim2 kernels`."""
+    command = commands.add_parser("kernels", help="compile the core for pages without a server (WebAssembly): minutes")
+    command.add_argument("folder", nargs="?", type=Path, metavar="DIR", help="default the package's own")
+    command.set_defaults(run=kernels)
+
+
+def kernels(chosen: argparse.Namespace) -> int:
+    """Run `codim2 kernels`."""
+    from ..wasm_kernels.build import FOLDER, build_kernels, extract_all, missing
+
+    if missing():
+        print("codim2: give this Python ziglang, which is clang and a linker: pip install ziglang", file=sys.stderr)
+        return 1
+    folder = chosen.folder or FOLDER
+    build_kernels(folder, extract_all())
+    print(f"codim2: {folder / 'kernels.so'}: {(folder / 'kernels.so').stat().st_size / 1000:.0f} kB")
+    return 0
+
+
 def add_static(commands: Any) -> None:
     """Add `codim2 static`."""
     command = commands.add_parser("static", help="write the explorer as a folder of files, which needs no server")
     command.add_argument("-o", "--output", type=Path, required=True, metavar="DIR", help="write the folder there")
     command.add_argument("--pyodide", type=Path, required=True, metavar="DIR",
                          help=f"holds the release of Pyodide {VERSION}, and its wheel of NumPy")  # fmt: skip
-    command.add_argument("--kernels", type=Path, default=KERNEL_FOLDER, metavar="DIR",
-                         help="holds what `codim2 kernels --wasm` has written; default the package's own")  # fmt: skip
+    command.add_argument("--kernels", type=Path, metavar="DIR",
+                         help="holds what `codim2 kernels` has written; default the package's own")  # fmt: skip
     command.set_defaults(run=static)
 
 
@@ -305,9 +324,10 @@ def notebooks(chosen: argparse.Namespace) -> int:
 def static(chosen: argparse.Namespace) -> int:
     """Write the folder, and say how large it is."""
     from ..static_site.folder import write_folder
+    from ..wasm_kernels.build import FOLDER
 
     try:
-        size = write_folder(chosen.output, chosen.pyodide, chosen.kernels)
+        size = write_folder(chosen.output, chosen.pyodide, chosen.kernels or FOLDER)
     except (ValueError, OSError) as error:
         print(f"codim2: {error}", file=sys.stderr)
         return 1

@@ -15,7 +15,7 @@ from numba.core import caching
 from numba.core import config as numba_config
 
 import codim2_core
-from codim2_core import jit
+from codim2_core.jit import numba_kernels
 
 from ..view import compiled_once
 
@@ -65,7 +65,7 @@ def prepare() -> str:
 
     caching.FunctionCache.save_overload = saved_if_possible
     compiled_once.install()
-    logging.getLogger(jit.__name__).setLevel(logging.ERROR)  # a server tells its own progress
+    logging.getLogger(numba_kernels.__name__).setLevel(logging.ERROR)  # a server tells its own progress
     if config.CACHE_LOCATOR_CLASSES:
         return ""  # the host has named its own
     locators = _locators()

@@ -38,7 +38,7 @@ DEPENDENCIES = (
 )  # fmt: skip
 #: Of our packages: what is imported, lessons, and what markup and live files are made of.
 KEPT = ("*.py", "*.md", "static/**/*.js", "static/**/*.css", "static/*.html")
-LEFT_OUT = ("docs", "notebooks", "server")  # folders of the app
+LEFT_OUT = ("docs", "notebooks", "server", "wasm_kernels")  # folders of the app
 KERNELS = ("kernels.so", "kernels.json")
 MANIFEST = {
     "name": TITLE,
@@ -156,7 +156,7 @@ def site_files(kernels: Path) -> Iterator[tuple[str, Path]]:
     """Yield where the worker finds each file, and where it is here."""
     for name in KERNELS:
         if not (kernels / name).is_file():
-            raise ValueError(f"{kernels} holds no {name}; make it: codim2 kernels --wasm {kernels}")
+            raise ValueError(f"{kernels} holds no {name}; make it: codim2 kernels {kernels}")
         yield f"codim2_core/jit/compiled/{name}", kernels / name
     app = Path(__file__).parents[1]
     for package, folder in (("codim2_core", Path(codim2_core.__file__).parent), ("codim2_app", app)):

@@ -55,7 +55,7 @@ class CellView(Protocol):
         ...
 
 
-def kernel() -> Any:
+def running_kernel() -> Any:
     """Return the Jupyter kernel that this process is, or None."""
     ipython = sys.modules.get("IPython")
     return getattr(ipython.get_ipython(), "kernel", None) if ipython else None
@@ -106,9 +106,9 @@ class Cell:
 
     def _publish(self, update: bool) -> None:
         # a page that can be live tells which cell it runs; nobody waits where a notebook is run without one
-        patient = not update and "cellId" not in kernel().get_parent("shell").get("metadata", {})
+        patient = not update and "cellId" not in running_kernel().get_parent("shell").get("metadata", {})
         svg, sentence, finished = self.view.still(patient)
-        publish = kernel().shell.display_pub.publish
+        publish = running_kernel().shell.display_pub.publish
         publish(still(svg, sentence, self.name), transient={"display_id": self.name}, update=update)
         if not finished:
             self.refresh_still()
@@ -145,7 +145,7 @@ def _listen() -> None:
     """Let pages talk with this kernel: to ask for a view, and then as Panel's own outputs do."""
     settings.simple_ids.set_value(False)  # p1001 could be of a kernel before this one
     pn.state._comm_manager = JupyterCommManagerBinary  # noqa: SLF001 (what pn.extension() does)
-    kernel().comm_manager.register_target(TARGET, _answer_opening)
+    running_kernel().comm_manager.register_target(TARGET, _answer_opening)
 
 
 def _answer_opening(comm: Any, opening: dict[str, Any]) -> None:

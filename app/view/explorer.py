@@ -36,7 +36,7 @@ from ..phrases import say
 from ..state.chosen_system import System_
 from ..state.controls import CONTROL_NAMES, ExplorerState
 from .answers import AnswerQueue
-from .cell import Cell, kernel
+from .cell import Cell, running_kernel
 from .markup import SCRIPT_FOLDER, digest, edition, explorer_html, first_words, offered_text, script, settings
 from .refresh import Frames
 from .shared import SHARED_CONTROLS, declare, join
@@ -175,7 +175,7 @@ class ExplorerView(JSComponent):
 
     def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> Any:
         """Return what a notebook's cell shows."""
-        if kernel() is None or pn.config.comms != "default":
+        if running_kernel() is None or pn.config.comms != "default":
             return super()._repr_mimebundle_(include, exclude)
         if self._cell is None:
             self._cell = Cell(self)

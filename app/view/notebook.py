@@ -23,7 +23,7 @@ from ..state.choices import SLOW_CONTROLS
 from ..state.chosen_system import System_, titles
 from ..state.cleaning import InputError, clean
 from ..state.controls import CONTROL_NAMES, ExplorerState
-from .cell import kernel
+from .cell import running_kernel
 from .explorer import ExplorerView
 from .shared import SHARED_CONTROLS
 
@@ -156,7 +156,7 @@ def _bring_resources() -> None:
     """Publish BokehJS and Panel for a front end of ipywidgets, once a kernel; other pages ask for them themselves."""
     import panel as pn
 
-    if kernel() is not None and pn.config.comms != "default" and not getattr(pn.extension, "_loaded", False):
+    if running_kernel() is not None and pn.config.comms != "default" and not getattr(pn.extension, "_loaded", False):
         pn.extension(inline=True)
 
 

@@ -11,9 +11,9 @@ import math
 
 import numpy as np
 
-from ..jit import fast_kernel, inlined_fast_kernel
+from ..jit import call_field, fast_kernel, inlined_fast_kernel
 from ..stepping.dop853 import advance
-from ..stepping.layout import K0, K12, LANES, NEW, STATE, call_field
+from ..stepping.layout import K0, K12, LANES, NEW, STATE
 from .global_section_kernel import NO_RETURN_YET, OUTWARD, RETURNED, TO_CRITICAL_SET
 from .return_map_steps import (
     LANE_TOLERANCE_SHARE,

@@ -8,7 +8,6 @@ costs less (`kernels.motion`).
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -16,22 +15,18 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numba import (
-    carray,  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
-    cfunc,
-)
 from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..expressions.functions import kernels
 from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.source import program
+from ..jit import carray, compile_source
 from ..numerics.dense import Dense, StepArray
 from ..numerics.growth import BlowUpError, too_short
 from ..numerics.radau import Problem, TooManyStepsError, tableau
 from ..psi.function import Psi
 from ..stepping.compiling import CompiledCache
-from ..stepping.layout import FIELD
 from ..stepping.psi_gain import one_gain
 from ..words import say
 from .field import Field
@@ -80,10 +75,9 @@ def _compile_rows(rows: Any, names: tuple[str, ...]) -> Any:
         *written.inside,
         *(f"D[{k}] = {result}" for k, result in enumerate(written.results)),
     ]
-    scope: dict[str, Any] = {"math": math, "carray": carray, **kernels.called}
-    exec("def function(state, out, parameters):\n" + "\n".join(f"    {line}" for line in lines), scope)
-    # Written by `program`: its own names, numbers and math.* only. Strict arithmetic: a formula ends where it ends.
-    return cfunc(FIELD, nogil=True, error_model="numpy")(scope["function"])
+    source = "def function(state, out, parameters):\n" + "\n".join(f"    {line}" for line in lines)
+    # Written by `program`: its own names, numbers and math.* only.
+    return compile_source(source, {"carray": carray, **kernels.called}, strict=True)
 
 
 @lru_cache(maxsize=1)
@@ -268,8 +262,10 @@ def integrate_compiled(
     numbers, along = np.array([eps, rtol, floor, *span, psi.parameter]), line_directions(lines)
 
     def part(cut: slice) -> list[CompletedMotion]:
-        found = follow_all(made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most))
-        return _split_motions(*found, first.shape[1])
+        times, lengths, states, polynomials, told = follow_all(
+            made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most)
+        )
+        return _split_motions(times, lengths, states, polynomials, told, first.shape[1])
 
     return shared_out(part, count)
 
@@ -281,11 +277,11 @@ def line_directions(lines: Sequence[InvariantLine | None]) -> Array:
 
 def shared_out(part: Callable[[slice], list[Any]], count: int) -> list[Any]:
     """Return what `part` returns for `count` motions, slice by slice: few at once, many on all cores."""
-    if count < SHARED_OUT:
+    cores = os.cpu_count() or 1
+    if count < SHARED_OUT or cores == 1:
         return part(slice(0, count))
     from concurrent.futures import ThreadPoolExecutor  # imported late: one motion does without
 
-    cores = os.cpu_count() or 1
     size = max(1, min(LARGEST_PART, -(-count // (PARTS_PER_CORE * cores))))
     cuts = [slice(i, i + size) for i in range(0, count, size)]
     with ThreadPoolExecutor(cores) as pool:

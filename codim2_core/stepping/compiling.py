@@ -1,19 +1,9 @@
-"""Compiling a right-hand side, and keeping the last ones compiled."""
+"""Keeping the last things that were compiled."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
-
-from numba import cfunc
-
-from ..jit import ARITHMETIC
-from .layout import FIELD
-
-
-def compile_address(function: Callable[..., None], cache: bool) -> Any:
-    """Compile a right-hand side, or a gain, to be called by its `address`."""
-    return cfunc(FIELD, cache=cache, nogil=True, fastmath=ARITHMETIC, error_model="numpy")(function)
 
 
 class CompiledCache:

@@ -9,7 +9,7 @@ E. Hairer, S. P. Norsett, G. Wanner, "Solving Ordinary Differential Equations I"
 
 from __future__ import annotations
 
-from ..jit import fast_kernel
+from ..jit import call_field, fast_kernel
 from .layout import (
     DENSE_ROWS,
     ERROR_3,
@@ -35,7 +35,6 @@ from .layout import (
     STATE,
     STEP_ROW,
     TRIAL,
-    call_field,
 )
 
 

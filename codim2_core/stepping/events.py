@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from ..jit import fast_kernel
+from ..jit import call_field, fast_kernel
 from .dop853 import dense
-from .layout import BLOCK, GAINS, LANES, NEW, PARAMETERS, PSIS, ROW_WIDTH, SIDE_SIGN, call_field
+from .layout import BLOCK, GAINS, LANES, NEW, PARAMETERS, PSIS, ROW_WIDTH, SIDE_SIGN
 
 NO_ATTRACTOR, INTERIOR, ON_EQUATOR_ATTRACTOR = range(3)
 DIFFERENCE_STEP = 1e-5  # of central differences; their error, 1e-10 at unit scale, only has to decide signs

@@ -11,15 +11,10 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any
 
-from numba import (
-    carray,  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
-)
-
-from ..jit import inlined_fast_kernel
+from ..jit import call_at, carray, compile_address, inlined_fast_kernel
 from ..psi.function import Psi
-from .compiling import compile_address
 from .field_parameters import GAIN, PSI
-from .layout import EACH, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, WITH_EACH, call_at
+from .layout import EACH, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, WITH_EACH
 from .psi_gain import GainVariants, arguments, gain, kind, variant
 
 
@@ -87,7 +82,7 @@ def field(psi: Psi) -> Any:
 @lru_cache(maxsize=1)
 def field_of_gain() -> Any:
     """Return the same for a gain that is called at its address, in place GAIN of the parameters."""
-    return compile_address(_field_of_gain, cache=True)
+    return compile_address(_field_of_gain)
 
 
 def field_of_each(psi: Psi, same: bool) -> Any:

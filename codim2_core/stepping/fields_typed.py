@@ -6,19 +6,17 @@ nor another Psi compiles anything. Subformulas that only they enter are computed
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
-
-from numba import carray  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
 
 from ..expressions.functions import kernels
 from ..expressions.names import FAST_NAMES
 from ..expressions.source import program
+from ..jit import call_at, carray, compile_source
 from ..systems.typed import System
-from .compiling import CompiledCache, compile_address
+from .compiling import CompiledCache
 from .field_parameters import FACTOR, GAIN, OWN_NUMBERS
-from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, call_at
+from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
 
 MOST_SYSTEMS = 64  # compiled systems kept
 _fields = CompiledCache(MOST_SYSTEMS)
@@ -64,8 +62,7 @@ def _source(system: System) -> tuple[str, bool]:
 
 def _make_field(system: System) -> GeneralField:
     source, smooth = _source(system)
-    scope: dict[str, Any] = {
-        "math": math,
+    names = {
         **kernels.called,
         "carray": carray,
         "call_at": call_at,
@@ -77,8 +74,7 @@ def _make_field(system: System) -> GeneralField:
         "GAIN": GAIN,
         "OWN": OWN_NUMBERS,
     }
-    exec(source, scope)  # written by `program` from whitelisted formulas: numbers, our own names and math.* only
-    return GeneralField(compile_address(scope["field"], cache=False), smooth)
+    return GeneralField(compile_source(source, names), smooth)  # written by `program` from whitelisted formulas
 
 
 def is_compiled(system: System) -> bool:

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from ..jit import fast_kernel
+from ..jit import call_field, fast_kernel
 from .dop853 import advance, dense, interpolate
 from .events import INTERIOR, MIRROR, NO_ATTRACTOR, is_captured, left_view, winding
 from .layout import (
@@ -29,7 +29,6 @@ from .layout import (
     STATE,
     STEP_ROW,
     WORKSPACE,
-    call_field,
 )
 from .polyline import CURSOR, append_step
 from .polyline_buffers import BEGUN, begin_lines, end_line, in_order, keep_line, length_of, longer

@@ -11,12 +11,8 @@ compiled once, whatever the system. The gain of Psi, where a right-hand side ask
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.extending import intrinsic
 
 from ..jit import kernel
 from .field_parameters import PSI, SHARED_SIZE
@@ -43,67 +39,6 @@ PARAMETERS = PSIS + LANES
 # Where lanes have systems of their own: P[EACH + c LANES + lane] is number c of what e-linear fields read.
 EACH = PARAMETERS
 WITH_EACH = EACH + (PSI + 1) * LANES
-
-_POINTER = types.CPointer(types.float64)
-FIELD = types.void(_POINTER, _POINTER, _POINTER)
-
-
-def _call_field(typing_context, address, S, source, target, P):  # noqa: ARG001 (numba's protocol)
-    """Call the field at `address` on ``S[source:]``, ``S[target:]`` and P."""
-    signature = types.void(types.int64, S, types.int64, types.int64, P)
-
-    def generate(context, builder, _, arguments):
-        address, array, source, target, parameters = arguments
-        data = context.make_array(S)(context, builder, array).data
-        pointer = ir.DoubleType().as_pointer()
-        function = ir.FunctionType(ir.VoidType(), [pointer, pointer, pointer])
-        places = [builder.gep(data, [source]), builder.gep(data, [target])]
-        places.append(context.make_array(P)(context, builder, parameters).data)
-        builder.call(builder.inttoptr(address, function.as_pointer()), places)
-        return context.get_dummy_value()
-
-    return signature, generate
-
-
-call_field: Any = intrinsic(_call_field)
-
-
-def _call_at(typing_context, address, state, out, parameters):  # noqa: ARG001
-    """Call the right-hand side at `address` from within another, on its own three pointers."""
-
-    def generate(context, builder, _signature, arguments):
-        address, *places = arguments
-        function = ir.FunctionType(ir.VoidType(), [place.type for place in places])
-        builder.call(builder.inttoptr(address, function.as_pointer()), places)
-        return context.get_dummy_value()
-
-    return types.void(types.int64, _POINTER, _POINTER, _POINTER), generate
-
-
-call_at: Any = intrinsic(_call_at)
-
-
-def _advance_pointer(typing_context, pointer, places):  # noqa: ARG001
-    """Point some places further on."""
-    return _POINTER(_POINTER, types.int64), lambda _c, builder, _s, a: builder.gep(a[0], [a[1]])
-
-
-ahead: Any = intrinsic(_advance_pointer)
-
-
-def _double_of_bits(typing_context, bits):  # noqa: ARG001
-    """Return the double with these 64 bits."""
-    return types.float64(types.int64), lambda _c, builder, _s, a: builder.bitcast(a[0], ir.DoubleType())
-
-
-def _bits_of_double(typing_context, value):  # noqa: ARG001
-    """Return the 64 bits of a double."""
-    return types.int64(types.float64), lambda _c, builder, _s, a: builder.bitcast(a[0], ir.IntType(64))
-
-
-double_of_bits: Any = intrinsic(_double_of_bits)
-bits_of_double: Any = intrinsic(_bits_of_double)
-
 
 EQUATOR_ROUNDING = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equator: four roundings
 

@@ -13,20 +13,23 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from hashlib import blake2b
 from typing import Any
 
-from numba import (
-    carray,  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
-    njit,
-)
-
 from ..expressions.functions import kernels
-from ..jit import ARITHMETIC, contracted_kernel, inlined_fast_kernel
+from ..jit import (
+    ahead,
+    bits_of_double,
+    call_at,
+    carray,
+    compile_address,
+    compile_with_gain,
+    contracted_kernel,
+    double_of_bits,
+    inlined_fast_kernel,
+)
 from ..psi.function import Psi
 from ..psi.kernel import UNDERFLOW_BOUND
-from ..rebind import rebind
-from .compiling import CompiledCache, compile_address
+from .compiling import CompiledCache
 from .field_parameters import PSI
 from .layout import (
     BLOCK,
@@ -37,10 +40,6 @@ from .layout import (
     PSIS,
     ROW_WIDTH,
     SIDE_SIGN,
-    ahead,
-    bits_of_double,
-    call_at,
-    double_of_bits,
 )
 
 LOG2_E, LN2_HIGH, LN2_LOW = 1.4426950408889634, 0.6931471803691238, 1.9082149292705877e-10
@@ -109,23 +108,21 @@ def _unit_gain(r2, w, parameter):  # noqa: ARG001 (a gain is called with all thr
 gain, kind = _unit_gain, float
 
 
-def _typed_gain(source: str, parameter: str, saturation: float) -> Any:
+def _typed_gain(source: str, parameter: str, saturation: float) -> str:
     """Write the gain for Psi given as Python source in s and a parameter, as `Expression.python_source` writes it."""
-    largest = min(LARGE_ZETA, saturation)
-    scope: dict[str, Any] = {"math": math, **kernels.called}
-    exec(f"def psi(s, {parameter}):\n    return {source}\n", scope)  # written by Expression: names and math.* only
-    psi = njit(error_model="numpy")(scope["psi"])
+    return f"""
+def psi(s, {parameter}):
+    return {source}
 
-    def gain(r2, w, parameter):
-        w2 = w * w
-        shape = 0.0
-        if r2 < largest * w2:
-            shape = w2 * psi(r2 / w2, parameter)
-            if not 0.0 <= shape < math.inf:  # a formula that leaves R1 here: the nonsmooth field instead
-                shape = 0.0
-        return 1.0 / math.sqrt(max(r2 + shape, UNDERFLOW_BOUND))
-
-    return gain
+def gain(r2, w, parameter):
+    w2 = w * w
+    shape = 0.0
+    if r2 < {min(LARGE_ZETA, saturation)!r} * w2:
+        shape = w2 * psi(r2 / w2, parameter)
+        if not 0.0 <= shape < math.inf:  # a formula that leaves R1 here: the nonsmooth field instead
+            shape = 0.0
+    return 1.0 / math.sqrt(max(r2 + shape, {UNDERFLOW_BOUND!r}))
+"""
 
 
 @dataclass(frozen=True)
@@ -154,14 +151,11 @@ class GainVariant:
 
     def make(self, lanes: Callable[..., None]) -> Any:
         """Compile a function of all lanes, which calls ``gain(r2, w, kind(P[PSI]))``, with this gain in its place."""
-        own = _typed_gain(self.key, self.parameter, self.saturation) if isinstance(self.key, str) else self.key
-        versions = {"expm1": expm1, "log": log}  # beside math's, these run in vector registers
-        bound = rebind(own, **versions)
-        gain = njit(fastmath=ARITHMETIC, error_model="numpy", forceinline=not isinstance(self.key, str))(bound)
-        written = repr((own.__code__.co_code, own.__code__.co_consts, own.__code__.co_names, self.whole))
-        digest = blake2b(written.encode(), digest_size=8).hexdigest()  # a changed gain is another one
-        function = rebind(lanes, digest, gain=gain, kind=int if self.whole else float)
-        return compile_address(function, cache=self.cached)
+        if isinstance(self.key, str):
+            own = _typed_gain(self.key, self.parameter, self.saturation)
+            return compile_with_gain(lanes, own, self.whole, self.cached, **kernels.called)
+        # beside math's, these run in vector registers
+        return compile_with_gain(lanes, self.key, self.whole, self.cached, expm1=expm1, log=log)
 
 
 ONE = GainVariant(_unit_gain, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
@@ -265,7 +259,7 @@ def gains_of_block(psi: Psi, smooth: bool) -> Any:
 @lru_cache(maxsize=1)
 def gains_of_blocks() -> Any:
     """Return the compiled gain of lanes that have a Psi of their own, block by block: see `layout.GAINS`."""
-    return compile_address(_gains_of_blocks, cache=True)
+    return compile_address(_gains_of_blocks)
 
 
 def _one_gain(state, out, parameters):

@@ -17,7 +17,7 @@ import math
 
 import numpy as np
 
-from ..jit import fast_kernel
+from ..jit import call_field, fast_kernel
 from .dop853 import dense
 from .events import INTERIOR, MIRROR, ON_EQUATOR_ATTRACTOR, is_captured, left_view
 from .lanes import MAX_GROWTH, MAX_SHRINKAGE, STEP_SAFETY
@@ -40,7 +40,6 @@ from .layout import (
     STATE,
     TRIAL,
     WORKSPACE,
-    call_field,
 )
 from .polyline import CURSOR, X, Y, append_step, start
 from .polyline_buffers import end_line, keep_line, length_of, longer

@@ -11,7 +11,7 @@ ROOT = Path(__file__).parents[2]
 ASIDE = {
     "words": "the registry",
     "critical_changes.py": "rows that the registry reads",
-    "jit.py": "what is logged of the compiler",
+    "jit": "what is logged of the compiler, and what is asked of it that it cannot do",
     "paper.py": "what the paper's labels are called",
     "figures": "captions of the presets, data",
     "examples": "what a system is, data",

@@ -11,8 +11,7 @@ from __future__ import annotations
 
 import math
 
-from ...jit import kernel
-from ...stepping.layout import bits_of_double, call_field
+from ...jit import bits_of_double, call_field, kernel
 from ..line import ZERO_NET
 from .rate import GAIN, RADIUS
 from .slow import RATES, SET_PLACE, TABLE, VALUE, found_set, write_slopes

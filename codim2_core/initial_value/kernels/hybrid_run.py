@@ -11,9 +11,9 @@ import math
 
 import numpy as np
 
-from ...jit import kernel
+from ...jit import double_of_bits, kernel
 from ...stepping.field_parameters import PSI
-from ...stepping.layout import PARAMETERS, double_of_bits
+from ...stepping.layout import PARAMETERS
 from ..safe_steps import SAFE_DEGREE
 from . import explicit
 from .arrival import slides

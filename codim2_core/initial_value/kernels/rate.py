@@ -10,8 +10,7 @@ import math
 from typing import NamedTuple
 
 from ...expressions.names import MOST_SLOW_VARIABLES
-from ...jit import inlined_kernel, kernel, spliced_kernel
-from ...stepping.layout import call_field
+from ...jit import call_field, inlined_kernel, kernel, spliced_kernel
 from ..problem import MAX_INWARD_SHARE
 
 DIFFERENCE_STEP = 1e-5

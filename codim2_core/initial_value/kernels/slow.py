@@ -13,14 +13,9 @@ from functools import lru_cache
 from typing import Any
 
 import numpy as np
-from numba import (
-    carray,  # pyright: ignore[reportPrivateImportUsage] (documented as numba.carray)
-)
 
 from ...expressions.names import MOST_SLOW_VARIABLES
-from ...jit import kernel
-from ...stepping.compiling import compile_address
-from ...stepping.layout import bits_of_double, call_field
+from ...jit import bits_of_double, call_field, carray, compile_address, kernel
 from .explicit import ROOM
 
 MAX_NEWTON, MAX_CORRECTION = 20, 1.0  # iterations, and the longest step of one
@@ -152,4 +147,4 @@ def sets(addresses, points):
 @lru_cache(maxsize=1)
 def flow() -> tuple[Any, Any]:
     """Return the slow flow and its slopes, the same for all systems."""
-    return compile_address(_slow_velocity, cache=True), compile_address(_slow_slopes, cache=True)
+    return compile_address(_slow_velocity), compile_address(_slow_slopes)

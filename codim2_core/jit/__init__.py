@@ -1,0 +1,59 @@
+"""The one door through which everything compiled goes: Numba here, in a browser a table of what it has compiled.
+
+A *kernel* is a function of arrays and numbers, declared by a decorator. A *right-hand side* is a function
+``(state, out, parameters)`` of three pointers that is called by its address: `compile_address` makes one of a function
+of this package, `compile_with_gain` one for each gain of Psi, `compile_source` one of formulas that were typed.
+"""
+
+import sys
+
+if sys.platform == "emscripten":
+    # By its full name: what Numba keeps on disk does not depend on it (see `stamps`).
+    from codim2_core.jit.kernel_table import (
+        ahead,
+        bits_of_double,
+        call_at,
+        call_field,
+        carray,
+        compile_address,
+        compile_source,
+        compile_with_gain,
+        contracted_kernel,
+        double_of_bits,
+        fast_kernel,
+        inlined_fast_kernel,
+        inlined_kernel,
+        kernel,
+        spliced_kernel,
+    )
+else:
+    from .intrinsics import ahead, bits_of_double, call_at, call_field, carray, double_of_bits
+    from .numba_kernels import (
+        compile_address,
+        compile_source,
+        compile_with_gain,
+        contracted_kernel,
+        fast_kernel,
+        inlined_fast_kernel,
+        inlined_kernel,
+        kernel,
+        spliced_kernel,
+    )
+
+__all__ = [
+    "ahead",
+    "bits_of_double",
+    "call_at",
+    "call_field",
+    "carray",
+    "compile_address",
+    "compile_source",
+    "compile_with_gain",
+    "contracted_kernel",
+    "double_of_bits",
+    "fast_kernel",
+    "inlined_fast_kernel",
+    "inlined_kernel",
+    "kernel",
+    "spliced_kernel",
+]

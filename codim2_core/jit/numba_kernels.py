@@ -1,0 +1,144 @@
+"""The kinds of kernels that Numba compiles, and the right-hand sides that are called by their addresses.
+
+Kernels are kept on disk, under the stamp of all that they are made of (`stamps`).
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable, Mapping
+from hashlib import blake2b
+from pathlib import Path
+from typing import Any
+
+from numba import cfunc, njit, types
+from numba.core import caching, event
+from numba.core.dispatcher import Dispatcher
+
+from ..rebind import rebind
+from .intrinsics import POINTER
+from .stamps import CORE_FOLDER, source_stamp
+
+ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep their meaning
+FIELD = types.void(POINTER, POINTER, POINTER)
+
+COMPILING = (
+    "compiling kernels, once on this machine: about 10 s for trajectories, 45 s for motions; "
+    "the command `codim2 warm` compiles all of them beforehand."
+)
+
+
+def _kind_of_kernel(**options: Any) -> Callable[[Callable[..., Any]], Dispatcher]:
+    """Return a decorator whose kernels are compiled once for a type, whatever constants they are called with.
+
+    A function that closes over a kernel is refused: it would never be found on disk again (see `rebind`).
+    """
+    compiled = njit(cache=True, nogil=True, error_model="numpy", **options)
+
+    def declare(function: Callable[..., Any]) -> Dispatcher:
+        if any(isinstance(cell.cell_contents, Dispatcher) for cell in function.__closure__ or ()):
+            raise TypeError(f"{function.__qualname__} closes over a kernel: give it by rebind.")
+        made: Any = compiled(function)
+        typed = made.get_call_template
+        made.get_call_template = lambda given, named: typed(
+            tuple(map(types.unliteral, given)), {name: types.unliteral(one) for name, one in named.items()}
+        )
+        return made
+
+    return declare
+
+
+#: Decorators. `fast_kernel` may reorder sums, `contracted_kernel` only fuse. LLVM inlines `inlined_kernel`; Numba
+#: splices `spliced_kernel` into the caller before it types it, so that functions can be arguments.
+kernel = _kind_of_kernel()
+fast_kernel = _kind_of_kernel(fastmath=ARITHMETIC)
+inlined_kernel = _kind_of_kernel(forceinline=True)
+inlined_fast_kernel = _kind_of_kernel(fastmath=ARITHMETIC, forceinline=True)
+contracted_kernel = _kind_of_kernel(fastmath={"contract"}, forceinline=True)
+spliced_kernel = _kind_of_kernel(inline="always")
+
+
+def compile_address(function: Callable[..., None], cache: bool = True) -> Any:
+    """Compile a right-hand side, or a gain, to be called by its `address`."""
+    return cfunc(FIELD, cache=cache, nogil=True, fastmath=ARITHMETIC, error_model="numpy")(function)
+
+
+def compile_source(source: str, names: Mapping[str, Any], strict: bool = False) -> Any:
+    """Compile a right-hand side whose text was written from typed formulas.
+
+    Parameters
+    ----------
+    source : str
+        Python of one function, of whitelisted formulas: numbers, our own names and ``math.*`` only.
+    names : mapping
+        What else it reads.
+    strict : bool
+        No sum is reordered: a formula ends where it ends.
+
+    Returns
+    -------
+    CFunc
+        Its `address` is called; it must outlive that.
+    """
+    scope = {"math": math, **names}
+    exec(source, scope)
+    function = next(one for name, one in scope.items() if name not in ("math", "__builtins__") and name not in names)
+    return cfunc(FIELD, nogil=True, error_model="numpy")(function) if strict else compile_address(function, cache=False)
+
+
+def compile_with_gain(lanes: Callable[..., None], own: Any, whole: bool, cache: bool, **names: Any) -> Any:
+    """Compile a function of lanes, which calls ``gain(r2, w, kind(parameter))``, with a gain in its place.
+
+    Parameters
+    ----------
+    lanes : function
+    own : function or str
+        The gain of a family; or the source of a function ``gain`` that was written from a typed formula.
+    whole : bool
+        The parameter is read as an int.
+    cache : bool
+        The disk cache holds it.
+    **names
+        What the gain reads in place of its module's: functions that run in vector registers.
+    """
+    typed = isinstance(own, str)
+    if typed:
+        scope: dict[str, Any] = {"math": math, "njit": njit, **names}
+        exec(own, scope)
+        own = scope["gain"]
+        scope["psi"] = njit(error_model="numpy")(scope["psi"])
+    gain = njit(fastmath=ARITHMETIC, error_model="numpy", forceinline=not typed)(own if typed else rebind(own, **names))
+    written = repr((own.__code__.co_code, own.__code__.co_consts, own.__code__.co_names, whole))
+    digest = blake2b(written.encode(), digest_size=8).hexdigest()  # a changed gain is another one
+    return compile_address(rebind(lanes, digest, gain=gain, kind=int if whole else float), cache)
+
+
+_locator: Any = caching._SourceFileBackedLocatorMixin  # noqa: SLF001 (Numba hands out no other way)
+_stamp_of_file = _locator.get_source_stamp
+
+
+def _stamp(locator: Any) -> Any:
+    path = Path(locator._py_file)  # noqa: SLF001
+    return source_stamp(path) if path.is_relative_to(CORE_FOLDER) else _stamp_of_file(locator)
+
+
+_locator.get_source_stamp = _stamp
+
+
+class _Notice(event.Listener):
+    """Says once in a process that kernels are being compiled, which takes seconds and is silent else."""
+
+    said = False
+
+    def on_start(self, event: Any) -> None:
+        """Say it, if the kernel is one that is kept on disk: what is typed is compiled in a moment."""
+        if not self.said and isinstance(event.data["dispatcher"]._cache, caching.FunctionCache):  # noqa: SLF001
+            self.said = True
+            logging.getLogger(__name__).warning(COMPILING)
+
+    def on_end(self, event: Any) -> None:
+        """Nothing is said."""
+
+
+event.register("numba:compile", _Notice())
