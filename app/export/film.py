@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Sequence
-
-from PIL import Image
+from typing import TYPE_CHECKING
 
 from .figure import Style, figure
 from .live import Slider
@@ -17,13 +16,15 @@ from .play import pictures as played
 from .printing import png
 from .view import View
 
+if TYPE_CHECKING:
+    from PIL import Image
+
 FILM_KINDS = {".gif": "GIF", ".webp": "WEBP"}
 #: Positions of the slider; milliseconds that each is seen; at the ends it rests so many times longer.
 POSITIONS, MOST_POSITIONS, PACE, REST = 41, 121, 60, 8
 #: Width of the picture in mm, and dots to those of the screen: 567 px.
 STYLE = Style(size=120.0, legend=False, title=True)
 DENSITY = 1.25
-NO_DITHER = Image.Dither.NONE
 COLOURS, MAX_FILM_BYTES = 256, 24_000_000  # of a GIF's picture; bytes of a film
 
 
@@ -107,10 +108,14 @@ def encode_film(pictures: Sequence[bytes], kind: str = ".gif", play: bool = Fals
     ValueError
         It is too large.
     """
+    from PIL import Image  # late: it is compiled code, which a page without a server does not have
+
     shown = [Image.open(io.BytesIO(one)).convert("RGB") for one in pictures]
     if kind == ".gif":  # by what they cover of all colours: a small mark keeps its own, which the median cut mixes
         palette = _reduce_palette(shown[0])
-        shown = [one.quantize(palette=palette, dither=NO_DITHER) if play else _reduce_palette(one) for one in shown]
+        shown = [
+            one.quantize(palette=palette, dither=Image.Dither.NONE) if play else _reduce_palette(one) for one in shown
+        ]
     order = [*range(len(shown)), *(() if play else range(len(shown) - 2, 0, -1))]
     durations = [PACE * (REST if i in (0, len(shown) - 1) else 1) for i in order]
     film = io.BytesIO()
@@ -122,4 +127,6 @@ def encode_film(pictures: Sequence[bytes], kind: str = ".gif", play: bool = Fals
 
 
 def _reduce_palette(shown: Image.Image) -> Image.Image:
-    return shown.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=NO_DITHER)
+    from PIL import Image
+
+    return shown.quantize(COLOURS, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)

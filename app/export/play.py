@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import io
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from PIL import Image, ImageDraw
 
 from codim2_core.orbits.in_time import InTime, in_time
 
@@ -22,6 +22,9 @@ from .figure import MM, PX, TITLE, Style, figure
 from .printing import DPI, png
 from .small.chart import Frame, line_chart
 from .view import View
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 #: What stands in the place of a slider's name.
 PLAY = "play"
@@ -91,6 +94,8 @@ def pictures(view: View, style: Style, positions: int, first: int, last: int) ->
 
 def scenery(view: View, style: Style) -> Scenery:
     """Return what stands still in the film of a view."""
+    from PIL import Image  # late, as in film.py
+
     i = selected_place(read_launches(view.values["orbits"]), view.values["orbit"])
     if i is None or i == TYPED:
         raise ValueError(say("nothing to play"))
@@ -114,11 +119,15 @@ def scenery(view: View, style: Style) -> Scenery:
 
 
 def _open_png(drawn: bytes) -> Image.Image:
+    from PIL import Image
+
     return Image.open(io.BytesIO(drawn)).convert("RGB")
 
 
 def _put_dot(shown: Image.Image, place: tuple[float, float], colours: tuple[str, str]) -> None:
     """Put a dot on a picture, where it is to parts of a px."""
+    from PIL import Image, ImageDraw
+
     reach = int(DOT + RIM) + 2
     x, y = (round(v) for v in place)
     box = x - reach, y - reach, x + reach, y + reach

@@ -17,6 +17,9 @@ from .work_queue import WorkQueue, in_a_thread
 #: load all kernels, and in a drag no picture would ever be done.
 GRACE_SECONDS = 1.0
 
+#: Has a function called by the thread that answers; any thread may ask.
+Scheduler = Callable[[Callable[[], None]], Any]
+
 _served: list[WorkQueue] = []
 _given: WeakKeyDictionary[Executor, WorkQueue] = WeakKeyDictionary()
 

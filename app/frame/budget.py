@@ -23,7 +23,6 @@ from codim2_core.systems.coefficients import Coefficients
 
 from ..phrases import say
 from .faults import FAILURES
-from .time_limit import CompileClock, at_most
 
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
 LAYER_BUDGET, FRAME_BUDGET = 0.008, 0.02
@@ -112,6 +111,8 @@ def layers_of(
     scene: Scene, names: Iterable[str], known: Mapping[str, Any], seconds: float = MAX_LAYER_SECONDS
 ) -> BackgroundLayers:
     """Compute layers, one after the other, each for at most so long; what stands still comes first."""
+    from .time_limit import CompileClock, at_most  # late: it asks Numba, which a page without a server does not have
+
     scene.give(known)
     took: dict[str, float] = {}
     left_out: dict[str, str] = {}

@@ -9,14 +9,12 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
 from bokeh.document import Document
 from bokeh.io.doc import patch_curdoc
 from tornado.ioloop import IOLoop
 
-#: Has a function called; any thread may ask.
-Scheduler = Callable[[Callable[[], None]], Any]
+from .background_results import Scheduler
 
 
 def next_tick_scheduler(document: Document) -> Scheduler:

@@ -16,7 +16,7 @@ def processor_seconds() -> float:
     try:
         running, waiting, _ = _STATISTICS.read_text().split()
     except (OSError, ValueError):
-        return time.thread_time()
+        return getattr(time, "thread_time", time.perf_counter)()  # a browser does not tell the first
     return 1e-9 * (int(running) + int(waiting))
 
 

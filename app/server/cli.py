@@ -24,6 +24,7 @@ from .commands import (
     add_notebooks,
     add_presets,
     add_prove,
+    add_static,
     join_negative_numbers,
 )
 from .downloads import add_data, add_figure, add_film, add_live
@@ -57,6 +58,7 @@ def parser() -> argparse.ArgumentParser:
         add_notebooks,
         add_docs,
         add_kernels,
+        add_static,
     ):
         add(commands)
     return top

@@ -21,6 +21,7 @@ from codim2_core.psi import FAMILIES, make
 from codim2_core.words import subscript, written_number
 
 from ..frame.dask_executor import ClusterError, dask_executor
+from ..static_site.pyodide import VERSION
 
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 
@@ -118,6 +119,17 @@ def kernels(chosen: argparse.Namespace) -> int:
     build_kernels(folder, extract_all())
     print(f"codim2: {folder / 'kernels.so'}: {(folder / 'kernels.so').stat().st_size / 1000:.0f} kB")
     return 0
+
+
+def add_static(commands: Any) -> None:
+    """Add `codim2 static`."""
+    command = commands.add_parser("static", help="write the explorer as a folder of files, which needs no server")
+    command.add_argument("-o", "--output", type=Path, required=True, metavar="DIR", help="write the folder there")
+    command.add_argument("--pyodide", type=Path, required=True, metavar="DIR",
+                         help=f"holds the release of Pyodide {VERSION}, and its wheel of NumPy")  # fmt: skip
+    command.add_argument("--kernels", type=Path, metavar="DIR",
+                         help="holds what `codim2 kernels` has written; default the package's own")  # fmt: skip
+    command.set_defaults(run=static)
 
 
 def number(text: str) -> float:
@@ -306,6 +318,21 @@ def notebooks(chosen: argparse.Namespace) -> int:
         print(f"codim2: {chosen.folder} cannot be written: {error.strerror}.", file=sys.stderr)
         return 1
     print(f"Open them with: jupyter lab {shlex.quote(str(chosen.folder))}")
+    return 0
+
+
+def static(chosen: argparse.Namespace) -> int:
+    """Write the folder, and say how large it is."""
+    from ..static_site.folder import write_folder
+    from ..wasm_kernels.build import FOLDER
+
+    try:
+        size = write_folder(chosen.output, chosen.pyodide, chosen.kernels or FOLDER)
+    except (ValueError, OSError) as error:
+        print(f"codim2: {error}", file=sys.stderr)
+        return 1
+    print(f"{chosen.output}: {size / 1e6:.0f} MB; put the folder on any web space, or see it here:")
+    print(f"  python -m http.server -d {shlex.quote(str(chosen.output))}")
     return 0
 
 

@@ -9,20 +9,15 @@ from html import escape
 from typing import Any
 
 import bokeh
-from bokeh.embed import json_item
-from jinja2 import Environment
 from tornado.web import RequestHandler
 
-from ..draw.figure import make_figure
-from ..phrases import say
 from ..view import warmup
-from ..view.first_markup import page_markup
-from ..view.markup import address_of_script, page_template
-from .live import LivePages, is_known, link_of, query_of
+from ..view.first_markup import MARKUP, NOTICE, TITLE, page_markup
+from ..view.markup import page_frame
+from ..view.opening import link_of
+from .live import LivePages, is_known, query_of
 from .scripts import PREVIEW
 
-MARKUP, NOTICE = "<!-- codim2 markup -->", "<!-- codim2 notice -->"
-TITLE = "Isolated codimension-2 discontinuity: explorer"
 KEPT_PAGES = 64  # addresses
 BUSY = (
     '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
@@ -52,18 +47,7 @@ def markup_of(query: Mapping[str, str]) -> str:
 
 @cache
 def _page_frame() -> str:
-    """Return the page around the explorer."""
-    return (
-        Environment(autoescape=True)
-        .from_string(page_template())
-        .render(
-            title=TITLE,
-            explorer_script=address_of_script(),
-            bokeh_script=f"./static/js/bokeh.min.js?v={bokeh.__version__}",
-            figure=json_item(make_figure()),
-            refused={"full": say("places taken"), "other": say("no connection")},
-        )
-    )
+    return page_frame(TITLE, f"./static/js/bokeh.min.js?v={bokeh.__version__}", "live")
 
 
 class Page(RequestHandler):

@@ -7,27 +7,10 @@ is asked for anything.
 
 from __future__ import annotations
 
-import base64
-import hashlib
-import re
-
 from tornado.httputil import HTTPHeaders
 from tornado.web import OutputTransform
 
-_INLINE = re.compile(rb"<script(?![^>]*\bsrc=)(?![^>]*application/json)[^>]*>(.*?)</script>", re.DOTALL)
-
-POLICY = (
-    "default-src 'self'; script-src 'self'{hashes}; style-src 'self' 'unsafe-inline'; "
-    "img-src 'self' data: blob:; "
-    "font-src 'self' data:; connect-src 'self'; worker-src 'self'; object-src 'none'; base-uri 'none'; "
-    "form-action 'none'; frame-ancestors {ancestors}"
-)
-
-
-def policy(page: bytes, ancestors: str = "'self'") -> str:
-    """Return the Content-Security-Policy of a page: its own inline scripts, by their hashes."""
-    digests = (base64.b64encode(hashlib.sha256(script).digest()).decode() for script in _INLINE.findall(page))
-    return POLICY.format(hashes="".join(f" 'sha256-{digest}'" for digest in digests), ancestors=ancestors)
+from ..view.first_markup import policy
 
 
 def embedders(sources: str) -> str:

@@ -20,17 +20,15 @@ from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from ..frame.budget import Budget
-from ..phrases import say
 from ..state.chosen_system import NORMAL
-from ..state.cleaning import InputError
-from ..state.controls import ExplorerState
-from ..state.links import Link, read_link
+from ..state.links import Link
 from ..state.request_reading import MOST_CONTROLS
 from ..state.system_opening_values import opening_values
 from ..view.answers import AnswerQueue
-from ..view.markup import offered_text, settings
+from ..view.markup import edition
+from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
-from ..view.warmup import FormulaQuota, is_ready_for_all
+from ..view.warmup import FormulaQuota, is_ready_for_all, progress
 from .session_queue import Rota
 
 #: Bytes of one message from a browser: a request is a few hundred.
@@ -41,15 +39,6 @@ MOST_ASKED = 8
 CLOSE_FULL, CLOSE_FAILED, REFUSED = 1013, 1011, 1008
 
 _log = logging.getLogger(__name__)
-
-
-def link_of(query: Mapping[str, str]) -> Link:
-    """Return what an address asks for, whatever that is."""
-    try:
-        return read_link(query)
-    except Exception:  # a visitor sees the explorer and a sentence; the log has the rest
-        _log.exception("an address could not be opened")
-        return Link(ExplorerState(), (InputError("", say("address failed")),))
 
 
 def is_known(origin: str, names: Sequence[str]) -> bool:
@@ -66,11 +55,9 @@ def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
 
 def open_page(link: Link) -> tuple[Frames, str, bytes]:
     """Return what a page shows, what its script must know, and its first frame."""
-    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget(FormulaQuota().elsewhere))
-    first = frames.answer({"all": True})
-    frames.publish()  # what cannot be drawn is not in the state
-    config = {**settings(link.state, frames.locked, link.look), "page": True, "refused": frames.refused, "dark": False}
-    return frames, f'{{"config":{json.dumps(config)},"offered":{offered_text()}}}', first
+    budget = Budget(FormulaQuota().elsewhere)
+    frames = Frames(link.state, None, is_ready_for_all, link.errors, budget, progress)
+    return frames, *opening_messages(frames, link, edition())
 
 
 def merge_requests(kept: Mapping[str, Any], newer: Mapping[str, Any]) -> dict[str, Any]:
@@ -151,7 +138,7 @@ class LiveConnection(WebSocketHandler):
             self.close(CLOSE_FAILED, "a page could not be opened")
             return
         self.places.openings += 1
-        self.answers = AnswerQueue(frames, self._send, self._later)
+        self.answers = AnswerQueue(frames, self._send, self._later, self._loop.call_later)
         self._write(config)
         self._write(first)
 

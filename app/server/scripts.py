@@ -12,21 +12,15 @@ import segno
 from bokeh.server.views.static_handler import StaticHandler
 from tornado.web import HTTPError, RequestHandler, StaticFileHandler
 
-from ..draw.bundle import bundle
-from ..view.markup import SCRIPT_FOLDER, digest, script
+from ..view.markup import SCRIPT_FOLDER, digest, export_script, script
 
 PREVIEW = "preview.jpg"  # what a link looks like where it is pasted; `python -m tests.browser.picture` makes it
 YEAR = 365 * 86400  # seconds
 MAX_QR_BYTES = 2000  # bytes; beyond it phones no longer read the code from a beamer
 
 
-@cache
-def _take_away() -> str:
-    return bundle(SCRIPT_FOLDER / "takeaway.js")
-
-
-#: The explorer's own, by name. The menu "Export" is loaded when it is first opened.
-SCRIPTS = {"explorer.js": script, "takeaway.js": _take_away}
+#: The explorer's own, by name.
+SCRIPTS = {"explorer.js": script, "takeaway.js": export_script}
 
 
 @cache

@@ -2,6 +2,7 @@
 
 import {Connection} from "./asking/connection.js"
 import {openLine} from "./asking/line.js"
+import {openWorkerLine} from "./asking/worker_line.js"
 import {Requests} from "./asking/requests.js"
 import {Rest} from "./asking/rest.js"
 import {Waiting} from "./asking/waiting.js"
@@ -24,6 +25,7 @@ import {Theme} from "./page/theme.js"
 import {undoable} from "./page/undo.js"
 import {readFrame} from "./picture/frames.js"
 import {Picture} from "./picture/picture.js"
+import {say} from "./dom.js"
 import {SAYS} from "./words.js"
 import {addDialogs, besideOf, grabOf, handsOf, liftOf, panelsOf, pointingOf, roomOf, tableOf} from "./parts.js"
 
@@ -79,7 +81,7 @@ export class Explorer {
     keepFolds(root, (name) => JSON.stringify(values[name]) !== JSON.stringify(config.defaults[name]))
     this.theme = new Theme(root, config, (name) => { picture.paint(name); this.beside?.look?.() })
     if (config.look.seen.length) picture.seen = config.look.seen
-    this.room = this.alone ? roomOf(this) : null
+    this.room = this.alone && !config.worker ? roomOf(this) : null
     if (config.page) addDialogs(this)
     this.beside = besideOf(this)
     this.showRefused()
@@ -120,10 +122,13 @@ export class Explorer {
   connect() {
     const {line} = this
     new Connection(line, {
-      page: this.config.page, edition: this.config.edition, say: (sentence, reload) => this.sentences.notice(sentence, reload), leave: () => this.steps.settle(), lost: () => { this.requests.held = true },
+      page: this.config.page && !this.config.worker, edition: this.config.edition, say: (sentence, reload) => this.sentences.notice(sentence, reload), leave: () => this.steps.settle(), lost: () => { this.requests.held = true },
     })
     line.hear((message) => { if (!this.takes.hear(message) && !this.room?.hear(message)) this.apply(message.frame) })
     if (line.first) this.apply(line.first)
+    if (!line.ready) return
+    this.requests.held = true
+    line.ready.then(() => { this.requests.held = false; this.requests.schedule() })
   }
 
   // What the address has and the server could not use stays to be mended, in the address too.
@@ -342,22 +347,63 @@ export function render({model, view, el}) {
   }, root, view.model.data.picture, el)
 }
 
-/** In the page of its server. */
-export async function live() {
-  const first = document.getElementById("codim2-first"), root = /** @type {HTMLElement} */ (first.querySelector(".codim2"))
+/**
+ * Put an explorer in the place of the markup that stands in the page.
+ * @param {HTMLElement} first what holds the markup @param {Promise<import("./asking/line.js").Line>} opening
+ */
+async function openIn(first, opening) {
+  const root = /** @type {HTMLElement} */ (first.querySelector(".codim2"))
   const figure = JSON.parse(document.getElementById("codim2-figure").textContent)
-  const address = new URL(`live${location.search}`, location.href)
-  address.protocol = address.protocol.replace("http", "ws")
   const drawn = document.createElement("div")
   root.querySelector(".bokeh").append(drawn)
-  try {
-    const [line, views] = await Promise.all([openLine(address), globalThis.Bokeh.embed.embed_item(figure, drawn)])
-    begin(line, root, views.get_by_id(figure.root_id).model, first.parentElement)
-  } catch (why) {
+  const [line, views] = await Promise.all([opening, globalThis.Bokeh.embed.embed_item(figure, drawn)])
+  begin(line, root, views.get_by_id(figure.root_id).model, first.parentElement)
+}
+
+/** In the page of its server. */
+export async function live() {
+  const first = document.getElementById("codim2-first")
+  const address = new URL(`live${location.search}`, location.href)
+  address.protocol = address.protocol.replace("http", "ws")
+  try { await openIn(first, openLine(address)) } catch (why) {
     if (typeof why !== "number") throw why
     const known = first.querySelector(":scope > [role=alert]") // it is said why already
-    if (!known) setTimeout(() => notice(root.querySelector(".banner"), why === FULL ? first.dataset.full : first.dataset.other, () => location.reload()), 300) // a page that is left needs no words
+    if (!known) setTimeout(() => notice(first.querySelector(".banner"), why === FULL ? first.dataset.full : first.dataset.other, () => location.reload()), 300) // a page that is left needs no words
   }
+}
+
+/** In a page without a server: a worker of its own answers. */
+export async function openHere() {
+  const first = document.getElementById("codim2-first"), {search} = location
+  const saved = savedFor(search)
+  if (!saved?.first) for (const drawn of first.querySelectorAll(OF_FIRST_SETTING)) drawn.replaceChildren()
+  first.inert = !saved // a link that only the worker can read
+  const tell = (sentence) => { const box = document.querySelector(".codim2 .busy"); box.toggleAttribute("hidden", !sentence); say(box, sentence) }
+  tell(SAYS.starting)
+  const opening = openWorkerLine(new Worker("worker.js", {type: "module", name: JSON.stringify({search, drawn: !saved})}), saved, tell)
+  try {
+    if (!saved) {
+      const thumbnails = /** @type {NodeListOf<HTMLElement>} */ (first.querySelectorAll(".gallery [data-preset]"))
+      first.innerHTML = (await opening).markup
+      for (const one of thumbnails) first.querySelector(`.gallery [data-preset=${one.dataset.preset}]`)?.replaceWith(one)
+      first.inert = false
+    }
+    await openIn(first, opening)
+    await (await opening).ready
+    await navigator.serviceWorker?.register("offline.js")
+  } catch { notice(document.querySelector(".codim2 .banner"), SAYS.lost, () => location.reload()) }
+}
+
+const OF_FIRST_SETTING = ".first, .first-words, .portrait-name, .portrait-case, .sentence" // what the page says of it
+const ITS_LOOK = ["embed", "beamer", "lift", "views", "room"] // in a link, beside values
+
+// What an explorer can begin with while the worker loads: the first setting, as it was saved, or what was left in this tab.
+function savedFor(search) {
+  const saved = JSON.parse(document.getElementById("codim2-saved").textContent), {config, offered} = saved
+  const link = new URLSearchParams(search), left = history.state?.codim2?.snapshot
+  if (["", `?v=${offered.link.version}`].includes(search)) return {...saved, first: Uint8Array.from(atob(saved.first), (letter) => letter.charCodeAt(0)).buffer}
+  if (!left || ITS_LOOK.some((name) => link.has(name))) return null
+  return {offered, first: null, config: {...config, values: left.values, look: {...config.look, seen: left.seen}}}
 }
 
 export default {render}

@@ -53,6 +53,7 @@ export const SAYS = {
   reload: "Reload",
   noFiles: "The server does not answer, so no files can be made now.",
   waiting: "Waiting for the server …",
+  starting: "Starting the mathematics …",
   follows: "This system takes longer than one frame; its picture follows …",
   compiling: "Compiling once; trajectories are sketched meanwhile …",
   looking: "Looking for limit cycles …",
@@ -123,6 +124,9 @@ export const SAYS = {
 // The first sentence: the push, what can be balanced, and what becomes of it, as markup.
 export const pushSentence = (/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ last, /** @type {boolean} */ more) => `Pushed with |f| = ${push}; ${more ? "only" : "up to"} ${held} can be balanced in this direction: <strong>${last}</strong>.`
 export const noPushSentence = (/** @type {string} */ last) => `Not pushed, f = 0: <strong>${last}</strong>.`
+
+// How much is loaded of the worker that is the server of a page without one.
+export const loadingWords = (/** @type {number} */ bytes, /** @type {number} */ all) => bytes < all ? `Loading the mathematics: ${Math.floor(bytes / 1e6)} of ${Math.ceil(all / 1e6)} MB …` : SAYS.starting
 
 // Curves that are one object, by its name.
 export const CURVES = {R: "ρ-nullcline, U·e = 0", T: "θ-nullcline, Θ = 0", U1: "Nullcline U₁ = 0", U2: "Nullcline U₂ = 0", H: "Hyperbola of the limit directions, Θ = 0"}

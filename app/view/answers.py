@@ -6,9 +6,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from typing import Any
 
-from tornado.ioloop import IOLoop
-
-from ..frame.document_callbacks import Scheduler
+from ..frame.background_results import Scheduler
 from ..rooms.visitor import Visitor
 from .export_jobs import ExportJobs, Reply
 from .refresh import Frames
@@ -56,10 +54,14 @@ class AnswerQueue:
         Sends a message to it, if it is still there.
     later : Scheduler
         Has a function called in its turn.
+    after : callable
+        Has a function called after so many seconds, as a loop's `call_later` does.
     """
 
-    def __init__(self, frames: Frames, send: Reply, later: Scheduler) -> None:
-        self.frames, self._send, self._later = frames, send, later
+    def __init__(
+        self, frames: Frames, send: Reply, later: Scheduler, after: Callable[[float, Callable[[], None]], Any]
+    ) -> None:
+        self.frames, self._send, self._later, self._after = frames, send, later, after
         self.taking = ExportJobs(frames)
         self.visitor = Visitor(frames)
         self._held: _PendingAnswer | None = None  # the frame that waits; a newer one replaces it
@@ -105,7 +107,7 @@ class AnswerQueue:
             self.frames.publish()
 
         held = self._held = _PendingAnswer(self._later, answer)
-        IOLoop.current().call_later(PICTURE_WAIT_SECONDS, held.come)
+        self._after(PICTURE_WAIT_SECONDS, held.come)
         pending.add_done_callback(held.come)
 
     def leave(self) -> None:

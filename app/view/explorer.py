@@ -22,6 +22,7 @@ from panel.io.save import Comm  # pyright: ignore[reportPrivateImportUsage] (the
 from panel.models.esm import DataEvent, ESMEvent
 from panel.viewable import Child
 from param.parameterized import resolve_value
+from tornado.ioloop import IOLoop
 
 from codim2_core.scene import Scene
 from codim2_core.scene.launched_orbits import LaunchedOrbits
@@ -36,11 +37,10 @@ from ..state.chosen_system import System_
 from ..state.controls import CONTROL_NAMES, ExplorerState
 from .answers import AnswerQueue
 from .cell import Cell, running_kernel
-from .first_markup import first_words
-from .markup import SCRIPT_FOLDER, digest, explorer_html, offered_text, script, settings
+from .markup import SCRIPT_FOLDER, digest, edition, explorer_html, first_words, offered_text, script, settings
 from .refresh import Frames
 from .shared import SHARED_CONTROLS, declare, join
-from .warmup import is_ready
+from .warmup import is_ready, progress
 
 COMPILING = say("compiling")
 
@@ -95,7 +95,7 @@ class ExplorerView(JSComponent):
         self._opened: dict[str, Any] = {}
         self._system = system
         self._given_params = params
-        self.frames = Frames(self.state, system, is_ready)
+        self.frames = Frames(self.state, system, is_ready, progress=progress)
         self._answers: AnswerQueue | None = None
         self._cell: Cell | None = None
         self._first_values = self.state.values()
@@ -136,6 +136,7 @@ class ExplorerView(JSComponent):
         self.refused = tuple(header.get("errors", {}).values())
         config = {
             **settings(self.state, self.frames.locked),
+            "edition": edition(),
             "page": False,
             "refused": self.frames.refused,
             "dark": pn.config.theme == "dark",
@@ -248,7 +249,8 @@ class ExplorerView(JSComponent):
             self._handle_msg(event.data)
         else:
             if self._answers is None:
-                self._answers = AnswerQueue(self.frames, partial(_send, model), next_tick_scheduler(model.document))
+                later, after = next_tick_scheduler(model.document), IOLoop.current().call_later
+                self._answers = AnswerQueue(self.frames, partial(_send, model), later, after)
                 model.document.on_session_destroyed(lambda _: self._leave())
             self._answers.answer(event.data or {})
 

@@ -11,7 +11,7 @@ from ..export.export_request import PROOF, SHOWN, TYPES, ExportRequest, file_nam
 from ..export.film import count_of, encode_film, part_of, pictures
 from ..export.play import PLAY
 from ..export.view import View
-from ..frame.document_callbacks import Scheduler
+from ..frame.background_results import Scheduler
 from ..frame.work_queue import FailedResult
 from ..phrases import say
 from .refresh import Frames

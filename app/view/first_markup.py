@@ -1,32 +1,52 @@
-"""Markup of a page before any script runs."""
+"""A page before any script runs: its markup, and which scripts may run."""
 
 from __future__ import annotations
 
+import base64
+import hashlib
+import re
 from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from typing import Any
 
 from ..docs.docs_folder import site
 from ..draw.packing import unpack
-from ..draw.svg import draw
 from ..frame.background_results import Jobs
 from ..frame.budget import Budget
 from ..state.links import Link
-from .markup import explorer_html
+from .markup import markup_of_frame
 from .refresh import Frames
-from .warmup import is_ready_for_all
+from .warmup import is_ready_for_all, progress
+
+#: What a page is called, and where its markup and what its server has to say stand in it.
+TITLE = "Isolated codimension-2 discontinuity: explorer"
+MARKUP, NOTICE = "<!-- codim2 markup -->", "<!-- codim2 notice -->"
+
+_INLINE = re.compile(rb"<script(?![^>]*\bsrc=)(?![^>]*application/json)[^>]*>(.*?)</script>", re.DOTALL)
+
+POLICY = (
+    "default-src 'self'; script-src 'self'{hashes}; style-src 'self' 'unsafe-inline'; "
+    "img-src 'self' data: blob:; "
+    "font-src 'self' data:; connect-src 'self'; worker-src 'self'; object-src 'none'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors {ancestors}"
+)
+
+
+def policy(page: bytes, ancestors: str = "'self'") -> str:
+    """Return the Content-Security-Policy of a page: its own inline scripts, by their hashes."""
+    digests = (base64.b64encode(hashlib.sha256(script).digest()).decode() for script in _INLINE.findall(page))
+    return POLICY.format(hashes="".join(f" 'sha256-{digest}'" for digest in digests), ancestors=ancestors)
 
 
 def page_markup(link: Link) -> tuple[str, bool]:
     """Return the markup of the page of an address, with its first picture, and whether all of the picture is in it."""
-    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget())
+    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget(), progress)
     frames.jobs = Jobs(NoBackground())
     first = frames.answer({"all": True})
     frames.publish()
     header, _ = unpack(first)
     complete = bool(header.get("ready")) and "picture" not in header.get("late", ())
-    words = first_words(header, first, link.state.layers)
-    return explorer_html(link.state, words, (), link.look, docs=site() is not None), complete
+    return markup_of_frame(link, first, site() is not None), complete
 
 
 class NoBackground(Executor):
@@ -35,13 +55,3 @@ class NoBackground(Executor):
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:  # noqa: ARG002
         """Return a future that is never done."""
         return Future()
-
-
-def first_words(header: dict[str, Any], first: bytes, layers: list[str]) -> dict[str, str]:
-    """Return what the page says and shows before any script runs."""
-    portrait = header.get("portrait")
-    if portrait is None:
-        return {}
-    sentence = portrait["sentence"].split(". ", 1)[-1]
-    case = f"Case {portrait['case']}" if portrait["case"] else ""
-    return {"name": portrait["name"], "case": case, "sentence": sentence, "svg": draw(first, layers)}

@@ -10,26 +10,30 @@ from functools import cache, lru_cache
 from importlib.metadata import version
 from itertools import groupby
 from pathlib import Path
-from typing import Any
-
-from jinja2 import Environment, FileSystemLoader, Template, select_autoescape
+from typing import TYPE_CHECKING, Any
 
 from codim2_core.psi import FAMILIES
 
 from ..draw.bundle import bundle
 from ..draw.gallery import FIRST_PRESET, gallery
 from ..draw.layers import LAYERS, TRACES, layer_table, looks, swatches
+from ..draw.packing import unpack
+from ..draw.svg import draw
 from ..draw.theme import MEASURES, custom_properties, themes
 from ..export.printing import has_typst
 from ..panels.registry import PANELS_BY_NAME
+from ..phrases import say
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
 from ..state.chosen_system import BOXES, titles
 from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values
-from ..state.links import SYSTEM_DEFAULTS, VERSION, PageView
+from ..state.links import SYSTEM_DEFAULTS, VERSION, Link, PageView
 from ..state.portraits import portrait_keys, portraits
 from ..state.slider_range import edited_range, slider_range
 from .glossary import EQUATION, GLOSSARY, MARKS, OPENING, PAPER
+
+if TYPE_CHECKING:
+    from jinja2 import Template
 
 SCRIPT_FOLDER = Path(__file__).parents[1] / "static"
 
@@ -39,6 +43,8 @@ GROUPS = {"A": ("a", "b", "d"), "f": ("f1", "f2"), "z": ("z",), "drift": ("k1", 
 
 @cache
 def _template(name: str) -> Template:
+    from jinja2 import Environment, FileSystemLoader, select_autoescape  # late: frames need no template
+
     loader = FileSystemLoader(SCRIPT_FOLDER)
     return Environment(loader=loader, autoescape=select_autoescape(), trim_blocks=True).get_template(name)
 
@@ -67,6 +73,12 @@ def _embedded_rules(look: PageView) -> str:
 def script() -> str:
     """Return the front end as one ES module."""
     return bundle(*(panel.script for panel in PANELS_BY_NAME.values()), SCRIPT_FOLDER / "explorer.js")
+
+
+@cache
+def export_script() -> str:
+    """Return the menu "Export", which is loaded when it is first opened."""
+    return bundle(SCRIPT_FOLDER / "takeaway.js")
 
 
 @cache
@@ -135,13 +147,12 @@ def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: PageView 
         "locked": list(locked),
         "film": has_typst(),
         "look": asdict(look or PageView()),
-        "edition": edition(),
     }
 
 
 def page_config(state: ExplorerState, locked: tuple[str, ...] = (), look: PageView | None = None) -> dict[str, Any]:
     """Return all that the front end must know."""
-    return {**front_end_constants(), **settings(state, locked, look)}
+    return {**front_end_constants(), **settings(state, locked, look), "edition": edition()}
 
 
 def _differences(first: Mapping[str, Any], key: str) -> dict[str, Any]:
@@ -154,6 +165,7 @@ def explorer_html(
     locked: tuple[str, ...] = (),
     look: PageView | None = None,
     docs: bool = False,
+    known_edition: str = "",
 ) -> str:
     """Return the explorer's markup: controls with their values, legend, and the first picture as SVG.
 
@@ -168,6 +180,8 @@ def explorer_html(
         An embedded page has but the picture and the controls that it names.
     docs : bool
         Whether the site is there to be linked to.
+    known_edition : str
+        What `edition` returned where the explorer was put together, if that was elsewhere.
     """
     values = state.values()
 
@@ -201,10 +215,46 @@ def explorer_html(
         most=MAX_TRAJECTORIES,
         first=first or {},
         look=look or PageView(),
-        edition=edition(),
+        edition=known_edition or edition(),
     )
 
 
-def page_template() -> str:
-    """Return the page around the explorer, for Bokeh's server; it asks no other host for anything."""
-    return (SCRIPT_FOLDER / "page.html").read_text(encoding="utf-8")
+def first_words(header: dict[str, Any], first: bytes, layers: list[str]) -> dict[str, str]:
+    """Return what the page says and shows before any script runs."""
+    portrait = header.get("portrait")
+    if portrait is None:
+        return {}
+    sentence = portrait["sentence"].split(". ", 1)[-1]
+    case = f"Case {portrait['case']}" if portrait["case"] else ""
+    return {"name": portrait["name"], "case": case, "sentence": sentence, "svg": draw(first, layers)}
+
+
+def markup_of_frame(link: Link, first: bytes, docs: bool = False, known_edition: str = "") -> str:
+    """Return the markup of an address, drawn as its first frame says."""
+    words = first_words(unpack(first)[0], first, link.state.layers)
+    return explorer_html(link.state, words, (), link.look, docs, known_edition)
+
+
+def page_frame(title: str, bokeh_script: str, begin: str) -> str:
+    """Return the page around the explorer; it asks no other host for anything.
+
+    Parameters
+    ----------
+    title : str
+    bokeh_script : str
+        Where the page finds BokehJS, from where it is.
+    begin : str
+        The function of the front end that opens the explorer.
+    """
+    from bokeh.embed import json_item  # late: frames need no figure
+
+    from ..draw.figure import make_figure
+
+    return _template("page.html").render(
+        title=title,
+        explorer_script=address_of_script(),
+        bokeh_script=bokeh_script,
+        begin=begin,
+        figure=json_item(make_figure()),
+        refused={"full": say("places taken"), "other": say("no connection")},
+    )

@@ -41,7 +41,6 @@ from ..state.compatible_changes import compatible_changes, culprit
 from ..state.controls import TYPED_IN, ExplorerState, first_values, preset_values
 from ..state.drag_critical_set import GRAB, PUSH, push_for
 from ..state.request_reading import read_request
-from . import warmup
 from .notices import left_out
 
 #: Controls that are axes of the picture's parameters.
@@ -70,6 +69,8 @@ class Frames:
         What the address asked for in vain, told with the first frames.
     budget : Budget, optional
         What may be computed here and now, where others wait meanwhile; by default everything.
+    progress : callable, optional
+        Says of the kernels that a page waits for how many are compiled, of how many; None if it waits for none.
     """
 
     def __init__(
@@ -79,6 +80,7 @@ class Frames:
         ready: Callable[[Psi, Any], bool] = lambda _psi, _system: True,
         errors: Sequence[InputError] = (),
         budget: Budget | None = None,
+        progress: Callable[[], tuple[int, int] | None] = lambda: None,
     ) -> None:
         self.state = state
         self.budget = budget
@@ -96,7 +98,7 @@ class Frames:
         axes = opening_axes(self.scene, self.values, self.locked)
         self.values |= axes
         self._unpublished |= axes
-        self.ready = ready
+        self.ready, self.progress = ready, progress
         self.jobs = Jobs()
         self.window: Window | None = None
         self._moved = FIRST_MOVED  # the control moved last
@@ -151,8 +153,8 @@ class Frames:
         self._last, self._untold = (sent, told, left), {}
         if told:
             header["set"] = told
-        if header.get("ready") is False and warmup.done is not None and warmup.done[0] < warmup.done[1]:
-            header["compiled"] = warmup.done
+        if header.get("ready") is False and (compiled := self.progress()):
+            header["compiled"] = compiled
         errors = {name: printed_sentence(said) for name, said in errors.items()}
         return self._pack({"id": request.get("id", 0), "errors": errors, "load": load.measure(), **header}, blocks)
 

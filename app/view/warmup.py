@@ -26,7 +26,7 @@ from ..draw.lines.arrowheads import arrowheads
 from ..draw.lines.spacing import evenly
 from ..frame.scenes import make_scene
 from ..state.controls import first_values
-from .compile_lock import alone
+from .compiled_once import alone
 
 MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
 
@@ -102,6 +102,11 @@ def warm_all(told: Told = _nobody, after: Callable[[int], None] = _nobody) -> No
 outcome = ""
 #: How many of the steps are done, and of how many; None before the first one is begun.
 done: tuple[int, int] | None = None
+
+
+def progress() -> tuple[int, int] | None:
+    """Return how many steps are done, and of how many; None before the first one is begun, and when all are."""
+    return done if done is not None and done[0] < done[1] else None
 
 
 def page_asked() -> None:

@@ -10,8 +10,8 @@ from codim2_app import phrases
 from codim2_app.draw.packing import unpack
 from codim2_app.frame import budget, work_queue
 from codim2_app.panels.parameters.atlas_columns import atlas_columns
-from codim2_app.server.live import link_of
 from codim2_app.state.controls import ExplorerState
+from codim2_app.view.opening import link_of
 from codim2_app.view.refresh import Frames
 
 from codim2_core import System, equator_equilibria, psi
@@ -64,7 +64,7 @@ def address_failed(_key, monkeypatch):
     def broken(_query):
         raise RuntimeError("/secret/path")
 
-    monkeypatch.setattr("codim2_app.server.live.read_link", broken)
+    monkeypatch.setattr("codim2_app.view.opening.read_link", broken)
     link = link_of({"a": "1"})
     assert [str(error) for error in link.errors] == [phrases.say("address failed")]
     assert link.state.values() == ExplorerState().values()

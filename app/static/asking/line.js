@@ -2,7 +2,8 @@
 
 /**
  * @typedef {{config: any, offered: any, first: ArrayBuffer | null, send: (message: any) => void,
- *   hear: (heard: (message: any) => void) => void, lost: (told: () => void) => void}} Line  what an explorer asks
+ *   hear: (heard: (message: any) => void) => void, lost: (told: () => void) => void, ready?: Promise<void>}} Line  what an
+ *   explorer asks; until it is `ready`, if it is not so from the beginning, nothing is asked
  */
 
 /**

@@ -25,13 +25,15 @@ export class Share {
    * @param {() => string} query of the present view
    * @param {number} version of links
    * @param {{open: () => void, enter: (code: string) => void} | null} room null where there are none
+   * @param {boolean} coded whether there is a server, which makes QR codes
    * @param {(box: HTMLElement) => Promise<void>} more fills what is below the links
    */
-  constructor(dialog, query, version, room, more) {
+  constructor(dialog, query, version, room, coded, more) {
     this.dialog = dialog
     this.query = query
     this.version = version
     this.room = room
+    this.coded = coded
     this.more = more
   }
   find(name) { return this.dialog.querySelector(name) }
@@ -45,8 +47,8 @@ export class Share {
     const address = `${page}?${short}`
     this.find(".address").value = address
     const code = this.find(".qr")
-    code.src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: address})}`
-    code.hidden = false
+    if (this.coded) code.src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: address})}`
+    code.hidden = !this.coded
     code.onerror = () => { code.hidden = true }
     this.frame = () => {
       const names = this.find(".names").value.replace(/[^\w,]/g, "")

@@ -27,13 +27,13 @@ class Frames:
 
 
 @pytest.fixture
-def held(monkeypatch):
+def held():
     """What is sent, what comes in its turn, and what after a time."""
-    sent, soon, late = [], [], []
-    monkeypatch.setattr(
-        answers.IOLoop, "current", lambda: SimpleNamespace(call_later=lambda after, call: late.append((after, call)))
-    )
-    return sent, soon, late
+    return [], [], []
+
+
+def queue(frames, send, soon, late):
+    return AnswerQueue(frames, send, soon.append, lambda after, call: late.append((after, call)))
 
 
 @pytest.mark.parametrize(
@@ -41,10 +41,10 @@ def held(monkeypatch):
 )
 def test_who_asks_for_all_is_at_rest_when_it_is_answered(held, asked, rest):
     """A link that opened on the Atlas, with a formula yet to be compiled, had no regions until something moved."""
-    sent, soon, _ = held
+    sent, soon, late = held
     frames = Frames()
     data = {"id": 7, "window": [1.0], **asked}
-    AnswerQueue(frames, sent.append, soon.append).answer(data)
+    queue(frames, sent.append, soon, late).answer(data)
     assert sent == []
     frames.pending.set_result(None)
     [answer] = soon
@@ -56,7 +56,7 @@ def test_who_asks_for_all_is_at_rest_when_it_is_answered(held, asked, rest):
 @pytest.mark.parametrize("meanwhile", ["nothing", "left", "answered"])
 def test_an_answer_comes_soon_without_its_picture_unless_nobody_waits_for_it(held, meanwhile):
     sent, soon, late = held
-    made = AnswerQueue(frames := Frames(), sent.append, soon.append)
+    made = queue(frames := Frames(), sent.append, soon, late)
     frames.jobs, made.visitor = SimpleNamespace(leave=lambda: None), SimpleNamespace(leave=lambda: None)
     made.answer({"id": 7})
     [(after, call)] = late
@@ -85,7 +85,7 @@ def test_what_was_waited_for_holds_no_page_that_waits_no_more(held, how):
     """A picture that others want too, or that is kept, outlives the page that asked for it."""
     _, soon, late = held
     model = Page()
-    made = AnswerQueue(frames := Frames(), model.send, soon.append)
+    made = queue(frames := Frames(), model.send, soon, late)
     pending, page = frames.pending, weakref.ref(model)
     frames.jobs, made.visitor = SimpleNamespace(leave=lambda: None), SimpleNamespace(leave=lambda: None)
     made.answer({"id": 7})

@@ -6,7 +6,7 @@ import zlib
 from contextlib import contextmanager
 
 import pytest
-from codim2_app.view import compile_lock, compiled_once
+from codim2_app.view import compiled_once
 from codim2_app.view.compiled_once import hold_name, once
 from numba import cfunc, njit
 from numba.core.ccallback import CFunc
@@ -23,15 +23,15 @@ except BlockingIOError:
 
 def asked(name):
     """What another process finds."""
-    file, byte = compile_lock.lock_path().with_suffix(".kernels"), zlib.crc32(name.encode())
+    file, byte = compiled_once.lock_path().with_suffix(".kernels"), zlib.crc32(name.encode())
     command = [sys.executable, "-S", "-c", ASK, str(file), str(byte)]
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout.strip()
 
 
 @pytest.fixture
 def folder(monkeypatch, tmp_path):
-    monkeypatch.setattr(compile_lock.tempfile, "tempdir", str(tmp_path))
-    monkeypatch.setattr(compile_lock.config, "CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(compiled_once.tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(compiled_once.config, "CACHE_DIR", str(tmp_path))
     return tmp_path
 
 

@@ -9,10 +9,8 @@ from codim2_app.draw import packing
 from codim2_app.draw.lines import arrowheads
 from codim2_app.draw.packing import unpack
 from codim2_app.state.controls import ExplorerState
-from codim2_app.view import compile_lock as alone_module
-from codim2_app.view import warmup
-from codim2_app.view.compile_lock import alone, lock_path
-from codim2_app.view.compiled_once import hold_name
+from codim2_app.view import compiled_once, warmup
+from codim2_app.view.compiled_once import alone, hold_name, lock_path
 from codim2_app.view.refresh import Frames
 from codim2_app.view.warmup import MIN_SETTINGS, MOST_COMPILED, FormulaQuota
 
@@ -36,7 +34,7 @@ def asked():
 
 @pytest.fixture
 def folder(monkeypatch, tmp_path):
-    monkeypatch.setattr(alone_module.tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(compiled_once.tempfile, "tempdir", str(tmp_path))
     return tmp_path
 
 
@@ -51,7 +49,7 @@ def test_one_process_at_a_time_compiles(folder):
 
 
 def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
-    monkeypatch.setattr(alone_module.tempfile, "tempdir", str(folder / "none"))
+    monkeypatch.setattr(compiled_once.tempfile, "tempdir", str(folder / "none"))
     done = []
     with alone(), hold_name("one kernel"):
         done.append(1)
@@ -74,7 +72,7 @@ def test_each_step_is_told_and_held_by_one_process(folder, monkeypatch):
 @pytest.mark.parametrize(("done", "shown"), [((1, 8), [1, 8]), ((8, 8), None), (None, None)])
 def test_a_page_is_told_how_far_the_compiler_is(monkeypatch, done, shown):
     monkeypatch.setattr(warmup, "done", done)
-    header, _ = unpack(Frames(ExplorerState(), ready=lambda *_: False).answer({"all": True}))
+    header, _ = unpack(Frames(ExplorerState(), ready=lambda *_: False, progress=warmup.progress).answer({"all": True}))
     assert header["ready"] is False
     assert header.get("compiled") == shown
     header, _ = unpack(Frames(ExplorerState()).answer({"all": True}))

@@ -129,7 +129,7 @@ export function wired(more = {}, first = FIRST, scope = {}) {
   if (settings.page) {
     begin({
       config: settings, offered: {}, first: /** @type {any} */ (model.first), send: model.send_msg,
-      hear: (call) => { heard["msg:custom"] = ({data}) => call(data) }, lost: (call) => { connections.connection_lost = call },
+      hear: (call) => { heard["msg:custom"] = ({data}) => call(data) }, lost: (call) => { connections.connection_lost = call }, ready: scope.ready,
     }, document.querySelector("#codim2-first .codim2"), plot, el)
   } else explorer.render({model, view: {model: {document: {on_event: (name, call) => { connections[name] = call }}, data: {picture: plot}}}, el})
   const root = /** @type {any} */ (el.querySelector(".codim2"))

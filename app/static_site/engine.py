@@ -1,0 +1,96 @@
+"""The server's half of one page, in a worker of the visitor's browser: messages in, messages out.
+
+There is one thread and it belongs to an event loop. What a server computes beside the frames is computed here between
+two messages, when the frame that asked for it has left.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import Callable
+from concurrent.futures import Executor, Future
+from functools import partial
+from typing import Any
+from urllib.parse import parse_qsl
+
+from ..frame.background_results import Scheduler, serve_with
+from ..frame.work_queue import WorkQueue
+from ..phrases import say
+from ..view.answers import AnswerQueue
+from ..view.markup import markup_of_frame
+from ..view.opening import link_of, opening_messages
+from ..view.refresh import Frames
+from .call_limit import call_within
+
+#: Seconds after which work is stopped: the sliders wait for it.
+MAX_WORK_SECONDS = 10.0
+
+
+class Engine:
+    """The answers to one page.
+
+    Parameters
+    ----------
+    query : str
+        Of the page's address.
+    edition : str
+        Of the folder.
+    send : callable
+        Sends a message, a mapping, to the page.
+
+    Attributes
+    ----------
+    opening : str
+        What the page's script must know, as JSON.
+    first : bytes
+        The page's first frame.
+    """
+
+    def __init__(self, query: str, edition: str, send: Callable[[dict[str, Any]], Any]) -> None:
+        self._edition = edition
+        loop = asyncio.get_event_loop()
+        serve_with(WorkQueue(NextTask(loop.call_soon)))
+        self._link = link_of(dict(parse_qsl(query.removeprefix("?"), keep_blank_values=True)))
+        frames = Frames(self._link.state, errors=self._link.errors)
+        self.opening, self.first = opening_messages(frames, self._link, edition, worker=True)
+        self._answers = AnswerQueue(frames, send, loop.call_soon, loop.call_later)
+
+    def markup(self) -> str:
+        """Return the explorer's markup, with the first picture."""
+        return markup_of_frame(self._link, self.first, known_edition=self._edition)
+
+    def answer(self, message: str) -> None:
+        """Answer a message of the page, as JSON, now or once the answer is there."""
+        self._answers.answer(json.loads(message))
+
+
+class NextTask(Executor):
+    """Runs what it is given in a later task of this thread.
+
+    Parameters
+    ----------
+    later : Scheduler
+    """
+
+    def __init__(self, later: Scheduler) -> None:
+        self._later = later
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        """Have ``fn(*args, **kwargs)`` run; after `MAX_WORK_SECONDS` its future has TimeoutError."""
+        future: Future[Any] = Future()
+        self._later(partial(_run, future, partial(fn, *args, **kwargs)))
+        return future
+
+
+def _run(future: Future[Any], call: Callable[[], Any]) -> None:
+    if not future.set_running_or_notify_cancel():
+        return
+    try:
+        result = call_within(MAX_WORK_SECONDS, call)
+    except TimeoutError:
+        future.set_exception(TimeoutError(say("stopped after", seconds=MAX_WORK_SECONDS)))
+    except Exception as error:  # whoever waits has it
+        future.set_exception(error)
+    else:
+        future.set_result(result)

@@ -1,0 +1,88 @@
+import assert from "node:assert/strict"
+import test from "node:test"
+
+import {asked, pull, settled, wired} from "../played/wiring.js"
+import {openWorkerLine} from "../../../../app/static/asking/worker_line.js"
+
+/** A worker that is played. */
+class Worker extends EventTarget {
+  constructor() { super(); this.heard = [] }
+  postMessage(message) { this.heard.push(message) }
+  say(data) { this.dispatchEvent(Object.assign(new Event("message"), {data})) }
+}
+
+const SAVED = {config: {page: true}, offered: {first: 1}, first: new ArrayBuffer(4)}
+
+/** A line, what it tells meanwhile, and what becomes of it. */
+function opened(saved) {
+  const worker = new Worker(), told = []
+  return {worker, told, opening: openWorkerLine(worker, saved, (sentence) => told.push(sentence))}
+}
+
+test("what is saved begins at once; the worker says how far it is, and answers when it is ready", async () => {
+  const {worker, told, opening} = opened(SAVED)
+  const line = await opening, order = /** @type {string[]} */ ([])
+  assert.deepEqual([line.config, line.offered, line.first?.byteLength], [{page: true}, {first: 1}, 4])
+  line.hear(({frame}) => order.push(`${frame.byteLength} bytes`))
+  line.ready?.then(() => order.push("ready"))
+  worker.say({loading: {bytes: 5_300_000, all: 18_100_000}})
+  worker.say({loading: {bytes: 18_100_000, all: 18_100_000}})
+  await Promise.resolve()
+  assert.deepEqual([told, order], [["Loading the mathematics: 5 of 19 MB …", "Starting the mathematics …"], []])
+  worker.say({config: {page: false}, first: new ArrayBuffer(8)})
+  await line.ready
+  assert.deepEqual([told.at(-1), order, line.config], ["", ["8 bytes", "ready"], {page: true}])
+})
+
+test("a link begins when the worker has read it, with the markup that is drawn for it", async () => {
+  const {worker, opening} = opened(null)
+  worker.say({config: {page: true}, first: new ArrayBuffer(8), markup: "<p>"})
+  const line = await opening
+  assert.deepEqual([line.config, line.first?.byteLength, line.markup], [{page: true}, 8, "<p>"])
+  await line.ready
+})
+
+test("messages go and come as they are", async () => {
+  const {worker, opening} = opened(SAVED), line = await opening, heard = /** @type {any[]} */ ([])
+  line.hear((message) => heard.push(message))
+  line.send({id: 1, set: {a: -1}})
+  worker.say({frame: "bytes"})
+  assert.deepEqual([worker.heard, heard], [[{id: 1, set: {a: -1}}], [{frame: "bytes"}]])
+})
+
+test("a worker that cannot be loaded, or ends, is told of", async () => {
+  const {worker, told, opening} = opened(null)
+  worker.say({loading: {bytes: 0, all: 1e6}})
+  worker.say({failed: true})
+  await assert.rejects(opening, /the worker has ended/)
+  assert.equal(told.at(-1), "")
+  const later = opened(SAVED), line = await later.opening
+  let lost = 0
+  line.lost(() => { lost += 1 })
+  later.worker.dispatchEvent(new Event("error"))
+  assert.equal(lost, 1)
+})
+
+test("what is moved before the worker is ready leaves once, with the newest values", async () => {
+  let answers = () => {}
+  const one = wired({worker: true}, undefined, {ready: new Promise((done) => { answers = () => done(null) })})
+  one.tick(400)
+  asked(one)
+  pull(one, "#c2-f1", "0.75")
+  one.tick(400)
+  pull(one, "#c2-f1", "0.8")
+  pull(one, "#c2-a", "-1")
+  one.tick(400)
+  assert.deepEqual([asked(one), settled(one)], [[], "false"])
+  answers()
+  await new Promise((done) => setImmediate(done))
+  one.tick(20)
+  assert.deepEqual(asked(one), [{f1: 0.8, a: -1}])
+})
+
+test("where a worker answers there are no rooms, and none is reloaded for", () => {
+  const one = wired({worker: true}, undefined, {ready: Promise.resolve()})
+  assert.equal(one.root.explorer.room, null)
+  one.connections.connection_lost()
+  assert.match(one.find(".banner").textContent, /^Connection lost\. Reload/)
+})

@@ -1,0 +1,92 @@
+"""The folder of `codim2 static`, under a prefix of a server of plain files: dragged, and again without a network."""
+
+import os
+from contextlib import contextmanager
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+from threading import Thread
+
+import pytest
+from codim2_app.server.cli import main
+
+from .conftest import PATIENCE, VISITED, WINDOW, Explorer
+
+PREFIX = "lecture/codim2"
+#: Told of a page whose files come from a release of Pyodide and from `codim2 kernels`.
+NEEDED = "set CODIM2_PYODIDE to the folder of Pyodide's release, with its wheel of NumPy and our compiled kernels"
+ANSWERS = "() => document.querySelector('.codim2')?.explorer?.requests.held === false"
+
+
+class Quiet(SimpleHTTPRequestHandler):
+    """Answers with files, and says nothing of it."""
+
+    def log_message(self, *_):
+        pass
+
+
+@contextmanager
+def files_of(folder):
+    """Serve a folder; yield its address."""
+    server = ThreadingHTTPServer(("localhost", 0), partial(Quiet, directory=folder))
+    Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://localhost:{server.server_port}"
+    server.shutdown()
+    server.server_close()
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    pyodide = os.environ.get("CODIM2_PYODIDE")
+    if pyodide is None:
+        pytest.skip(NEEDED)
+    folder = tmp_path_factory.mktemp("web")
+    kernels = ["--kernels", pyodide] if (Path(pyodide) / "kernels.so").is_file() else []
+    assert main(["static", "-o", str(folder / PREFIX), "--pyodide", pyodide, *kernels]) == 0
+    with files_of(folder) as host:
+        yield f"{host}/{PREFIX}"
+
+
+def portraits_of_a_drag(explorer, places):
+    """Drag f1 by the mouse; return the names that the portrait has on the way."""
+    box = explorer.find("[data-control=f1] input[type=range]").bounding_box()
+    at = lambda share: (box["x"] + share * box["width"], box["y"] + box["height"] / 2)
+    mouse, names = explorer.page.mouse, []
+    mouse.move(*at(places[0]))
+    mouse.down()
+    for place in places[1:]:
+        mouse.move(*at(place), steps=3)
+        names.append(explorer.settle().name())
+    mouse.up()
+    explorer.kept()
+    return names
+
+
+def test_a_folder_of_files_is_dragged_and_again_without_a_network(chromium, address):
+    context = chromium.new_context(viewport=WINDOW)
+    context.add_init_script(VISITED)
+    context.set_default_timeout(PATIENCE)
+    explorer = Explorer(context.new_page(), address)
+    page, everything = explorer.page, []
+    context.on("request", lambda request: everything.append(request.url))  # the workers' too
+    page.goto(f"{address}/")
+    page.wait_for_selector(".codim2[data-ready]")
+    assert explorer.name() == "CM4"  # as it was saved, while the mathematics is loaded
+    assert "mathematics" in explorer.find(".busy").inner_text()
+    explorer.find("[data-control=b] .number").fill("0.1")  # what is set meanwhile is drawn when it is there
+    explorer.find("[data-control=b] .number").press("Enter")
+    assert explorer.frame() == 0
+    page.wait_for_function(ANSWERS)
+    assert explorer.settle().frame() > 0
+    assert portraits_of_a_drag(explorer, (0.42, 0.3, 0.1)) == ["CM2", "NCM2"]
+    page.evaluate("navigator.serviceWorker.ready.then(() => true)")
+    context.set_offline(True)
+    page.reload()
+    page.wait_for_function(ANSWERS)
+    page.wait_for_selector(".codim2[data-ready]")
+    assert explorer.settle().name() == "NCM2"  # the link has brought it back
+    assert explorer.find("[data-control=b] .number").input_value() == "0.1"
+    assert portraits_of_a_drag(explorer, (0.1, 0.3, 0.42)) == ["CM2", "CM4"]
+    assert explorer.complaints == []
+    assert [url for url in everything if not url.startswith(f"{address}/")] == []
+    context.close()
