@@ -66,5 +66,5 @@ def test_a_call_reads_its_arguments_from_a_row_and_writes_what_is_returned(extra
 
 
 def test_what_the_runtime_does_not_have_is_refused():
-    with pytest.raises(ValueError, match="ask for somewhere, which runtime.c does not have"):
+    with pytest.raises(ValueError, match=r"ask for somewhere, which runtime\.c does not have"):
         make_object([Extract(("a", "b"), "f", FOREIGN)])
