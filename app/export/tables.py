@@ -135,7 +135,7 @@ def _select_columns(columns: Mapping[str, tuple[str, str]], data: Mapping[str, A
 
 def _curve_table(part: Part, scene: Scene) -> Table:
     offsets, points = part.pieces(scene[part.scene])
-    sizes = np.diff(offsets)
+    sizes = np.diff(offsets).astype(np.intp)  # of 32 bits in a browser
     data = {"curve": np.repeat(np.arange(len(sizes)), sizes), "px": points[:, 0], "py": points[:, 1]}
     return Table(PLACE_COLUMNS, data)
 

@@ -58,7 +58,7 @@ class Engine:
 
     def markup(self) -> str:
         """Return the explorer's markup, with the first picture."""
-        return markup_of_frame(self._link, self.first, known_edition=self._edition)
+        return markup_of_frame(self._link, self.first, worker_edition=self._edition)
 
     def answer(self, message: str) -> None:
         """Answer a message of the page, as JSON, now or once the answer is there."""

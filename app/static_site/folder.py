@@ -116,7 +116,7 @@ def page() -> str:
     saved = saved.replace("<", r"\u003c")
     text = page_frame(TITLE, "bokeh.min.js", "openHere")
     text = text.replace(NOTICE, f'<script type="application/json" id="codim2-saved">{saved}</script>')
-    text = text.replace(MARKUP, markup_of_frame(link, first))
+    text = text.replace(MARKUP, markup_of_frame(link, first, worker_edition=edition()))
     allowed = policy(text.encode()).partition("; frame-ancestors")[0]  # which only a header may say
     head = f'<meta http-equiv="Content-Security-Policy" content="{escape(allowed)}">'
     return text.replace("<title>", f'{head}\n<link rel="manifest" href="manifest.webmanifest">\n<title>', 1)

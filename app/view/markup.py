@@ -165,7 +165,7 @@ def explorer_html(
     locked: tuple[str, ...] = (),
     look: PageView | None = None,
     docs: bool = False,
-    known_edition: str = "",
+    worker_edition: str = "",
 ) -> str:
     """Return the explorer's markup: controls with their values, legend, and the first picture as SVG.
 
@@ -180,8 +180,8 @@ def explorer_html(
         An embedded page has but the picture and the controls that it names.
     docs : bool
         Whether the site is there to be linked to.
-    known_edition : str
-        What `edition` returned where the explorer was put together, if that was elsewhere.
+    worker_edition : str
+        Of a page that a worker answers; "" where a server does, which has rooms and codes for phones.
     """
     values = state.values()
 
@@ -215,7 +215,8 @@ def explorer_html(
         most=MAX_TRAJECTORIES,
         first=first or {},
         look=look or PageView(),
-        edition=known_edition or edition(),
+        edition=worker_edition or edition(),
+        worker=bool(worker_edition),
     )
 
 
@@ -229,10 +230,10 @@ def first_words(header: dict[str, Any], first: bytes, layers: list[str]) -> dict
     return {"name": portrait["name"], "case": case, "sentence": sentence, "svg": draw(first, layers)}
 
 
-def markup_of_frame(link: Link, first: bytes, docs: bool = False, known_edition: str = "") -> str:
+def markup_of_frame(link: Link, first: bytes, docs: bool = False, worker_edition: str = "") -> str:
     """Return the markup of an address, drawn as its first frame says."""
     words = first_words(unpack(first)[0], first, link.state.layers)
-    return explorer_html(link.state, words, (), link.look, docs, known_edition)
+    return explorer_html(link.state, words, (), link.look, docs, worker_edition)
 
 
 def page_frame(title: str, bokeh_script: str, begin: str) -> str:

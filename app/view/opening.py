@@ -43,4 +43,6 @@ def opening_messages(frames: Frames, link: Link, edition: str, worker: bool = Fa
         **settings(link.state, frames.locked, link.look), "page": True, "refused": frames.refused, "dark": False,
         "edition": edition, "worker": worker,
     }  # fmt: skip
+    if worker:
+        config["film"] = False  # as in the worker, wherever the page was written
     return f'{{"config":{json.dumps(config)},"offered":{offered_text()}}}', first

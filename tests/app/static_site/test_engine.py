@@ -16,6 +16,8 @@ from codim2_app.static_site.call_limit import call_within
 from codim2_app.static_site.engine import Engine, NextTask
 from codim2_app.view.refresh import Frames
 
+from tests.app.server.test_first_page import talk as in_a_thread
+
 
 @pytest.fixture(autouse=True)
 def queue_of_this_process(monkeypatch):
@@ -34,7 +36,7 @@ def talk(query, *messages, until=lambda sent: sent):
             await asyncio.sleep(0)
         return engine, sent
 
-    return asyncio.run(run())
+    return in_a_thread(run())
 
 
 def test_a_page_opens_with_the_link_of_its_address():
@@ -75,7 +77,7 @@ def test_a_panel_is_computed_after_the_frame_that_asked_for_it():
             for _ in range(3):
                 await asyncio.sleep(0)
 
-    asyncio.run(run())
+    in_a_thread(run())
     assert "diagram" in headers[0]["late"]
     assert any("diagram" in header for header in headers[1:])
     assert "late" not in headers[-1]
@@ -102,7 +104,7 @@ def run_in_loop(work):
             await asyncio.sleep(0)
         return begun, future
 
-    return asyncio.run(run())
+    return in_a_thread(run())
 
 
 def endless():

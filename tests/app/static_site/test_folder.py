@@ -85,7 +85,7 @@ def test_only_the_pages_own_scripts_run(files):
 
 def test_the_page_begins_with_its_own_first_frame(files):
     saved = json.loads(re.search(r'id="codim2-saved">(.*?)</script>', files["index.html"].decode())[1])
-    assert saved["config"]["worker"]
+    assert (saved["config"]["worker"], saved["config"]["film"]) == (True, False)
     assert saved["config"]["edition"] == edition()
     header, blocks = unpack(b64decode(saved["first"]))
     assert header["portrait"]["name"] in page()
