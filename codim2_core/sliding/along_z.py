@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
+from ..curves.assignment import assign
 from ..layer_problem.critical import CriticalSet, critical_sets
-from ..numerics.assignment import assign
 from ..numerics.root_between import root_between
 from ..psi.function import Psi
 from ..systems.bounds import slow_values

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Array, Complex
+from ...curves.assignment import assign
 from ...initial_value.field import Field
-from ...numerics.assignment import assign
 from ...psi.function import Psi
 from ..result import Simulation
 from ..tracked_set import place_on_hemisphere

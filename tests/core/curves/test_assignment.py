@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import linear_sum_assignment
 
-from codim2_core.numerics.assignment import assign
+from codim2_core.curves.assignment import assign
 
 
 @pytest.mark.parametrize("n", range(8))
