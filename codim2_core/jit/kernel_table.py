@@ -26,7 +26,6 @@ MOST_SLOTS = 512  # numbers of eight bytes that a call passes, and gets back
 
 _slots = (ctypes.c_int64 * MOST_SLOTS)()
 _place = ctypes.addressof(_slots)
-_memory = memoryview((ctypes.c_char * (2**31 - 1)).from_address(0)).cast("B")
 
 
 class Table:
@@ -94,15 +93,16 @@ class TabledKernel:
 
 def _fits(takes: list[Any], one: Any) -> bool:
     kind = takes[0]
-    if isinstance(one, np.ndarray):
-        dtype = one.dtype
-        same = dtype.name == kind or (kind == "int64" and dtype.kind == "i")
-        return same and one.ndim == takes[1] and one.flags.c_contiguous
+    if isinstance(one, np.ndarray) or len(takes) > 1:
+        if not isinstance(one, np.ndarray) or [one.ndim] != takes[1:]:
+            return False
+        same = one.dtype.name == kind or (kind == "int64" and one.dtype.kind == "i")
+        return same and one.flags.c_contiguous
     if kind == "float64":
         return isinstance(one, (float, np.floating))
     if kind == "bool":
         return isinstance(one, (bool, np.bool_))
-    return len(takes) == 1 and isinstance(one, (int, np.integer)) and not isinstance(one, bool)
+    return isinstance(one, (int, np.integer)) and not isinstance(one, bool)
 
 
 def _call(function: Any, takes: list[Any], returns: list[Any], given: tuple[Any, ...]) -> Any:
@@ -151,7 +151,7 @@ def _read_array(kind: list[Any], k: int) -> Any:
     size = dtype.itemsize
     for n in shape:
         size *= n
-    array = np.frombuffer(bytearray(_memory[data : data + size]), dtype).reshape(shape)
+    array = np.frombuffer(bytearray(ctypes.string_at(data, size)), dtype).reshape(shape)
     table().library.let_go(owner)
     return array.astype(np.intp) if kind[0] == "int64" else array
 

@@ -24,6 +24,7 @@ def address(tmp_path_factory):
         yield address
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("state", STATES)
 def test_pages_break_no_rule_and_ask_nobody_else(address, chromium, axe, state):
     context = chromium.new_context(**STATES[state])

@@ -102,6 +102,7 @@ def page(open_page, address):
     assert made.complaints == []
 
 
+@pytest.mark.slow
 def test_a_panel_from_a_folder_is_one_registration(page):
     page.open("?panel=twice")
     assert sum("explorer.js" in url for url in page.requests) == 1  # fetched first, and used

@@ -99,6 +99,7 @@ def test_a_live_file_of_the_page_moves_what_was_chosen(open_page):
     assert page.complaints == []
 
 
+@pytest.mark.slow
 def test_a_film_tells_how_far_it_is_and_can_be_stopped(open_page):
     page = opened(open_page().open("?preset=case1-cm4"))
     page.find(".take .first-slider").select_option("f1")
