@@ -128,6 +128,7 @@ export class Explorer {
     if (line.first) this.apply(line.first)
     if (!line.ready) return
     this.requests.held = true
+    if (!line.first) this.put({...this.values}) // what was left in this tab: the page's markup is of the first setting
     line.ready.then(() => { this.requests.held = false; this.requests.schedule() })
   }
 

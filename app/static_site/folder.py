@@ -39,6 +39,8 @@ DEPENDENCIES = (
 #: Of our packages: what is imported, lessons, and what markup and live files are made of.
 KEPT = ("*.py", "*.md", "static/**/*.js", "static/**/*.css", "static/*.html")
 LEFT_OUT = ("docs", "notebooks", "server", "wasm_kernels")  # folders of the app
+#: Folders whose source is read there: right-hand sides with a typed formula are compiled from it.
+READ = ("stepping",)
 KERNELS = ("kernels.so", "kernels.json")
 MANIFEST = {
     "name": TITLE,
@@ -149,7 +151,8 @@ def _compile(site: Path) -> None:
     python = shutil.which(PYTHON)
     if python and not subprocess.run([python, *options, site], capture_output=True, check=False).returncode:
         for source in site.rglob("*.py"):
-            source.unlink()
+            if source.parent.name not in READ:
+                source.unlink()
 
 
 def site_files(kernels: Path) -> Iterator[tuple[str, Path]]:

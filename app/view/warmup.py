@@ -60,6 +60,7 @@ def _steps() -> list[tuple[str, Callable[[], object]]]:
         ("approach outcomes", _warm_outcomes),
         (GENERAL, warm_general),
         ("branches of cycles", _warm_branches),
+        ("names of many systems", _warm_names),
         ("motions in time", _warm_motions),
         ("the gallery", draw_all),
     ]
@@ -164,6 +165,13 @@ def _warm_branches() -> None:
     system = ELinear(1.0, 1.3, -1.2, (0.33, 0.07))
     for name, span in (("f1", (0.32, 0.34)), ("n", (3.0, 3.1))):
         continue_cycles(system, hill(3.0), name, span)
+
+
+def _warm_names() -> None:
+    """Compile, or load, what names many e-linear systems at once."""
+    from codim2_core.counting.names import names
+
+    names(np.eye(1, 5))
 
 
 def _warm_arrowheads() -> None:

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..numerics.radau import Step, truncate_step
+from ..numerics.root_between import root_between
 
 DEGREES = (8, 16, 32, 64)  # of the polynomials tried for an event along a step
 RESOLVED = 1e-7  # last coefficients, in units of the largest, from which on a polynomial is taken for the event
@@ -171,6 +172,4 @@ def chebyshev_coefficients(values: Array) -> Array:
 def _root(along: Callable[[float], float], low: float, high: float, at_high: float) -> float:
     if at_high == 0.0 or along(high) == 0.0:
         return high
-    from scipy.optimize import root_scalar  # imported late: it takes longer than all of this package
-
-    return float(root_scalar(along, bracket=(low, high), xtol=1e-15).root)
+    return root_between(along, low, high, 1e-15)

@@ -15,6 +15,7 @@ from functools import cache
 import numpy as np
 
 from ..arrays import Array
+from ..numerics.root_between import root_between
 from .field import Field
 
 INVARIANCE_SAMPLES = 16  # points at which invariance is asked
@@ -71,10 +72,7 @@ class InvariantLine:
         before = q
         for after in net.tolist():
             if self.radial_speed(after, z) * end <= 0.0:
-                from scipy.optimize import brentq  # imported late: it takes longer than all of this package
-
-                root = brentq(lambda at: self.radial_speed(at, z), before, after, xtol=1e-16)
-                return float(root)  # pyright: ignore[reportArgumentType] (the root alone, as full_output is False)
+                return root_between(lambda at: self.radial_speed(at, z), before, after, 1e-16)
             before = after
         return end
 

@@ -9,13 +9,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
+from ..curves.assignment import assign
 from ..layer_problem.critical import CriticalSet, critical_sets
+from ..numerics.root_between import root_between
 from ..psi.function import Psi
 from ..systems.bounds import slow_values
 from ..systems.elinear import ELinear
@@ -256,11 +257,9 @@ def _location_of(C: CriticalSet) -> tuple[tuple[float, float], tuple[float, ...]
 
 def _match_sets(before: Sequence[CriticalSet], after: Sequence[CriticalSet]) -> list[tuple[CriticalSet, CriticalSet]]:
     """Pair the critical sets at two neighbouring z, each with the one that moved least."""
-    from scipy.optimize import linear_sum_assignment  # imported late: it takes longer than all of this package
-
     distance = [[float(np.hypot(*(p.e - q.e))) for q in after] for p in before]
-    rows, columns = linear_sum_assignment(np.array(distance).reshape(len(before), len(after)))
-    return [(before[i], after[j]) for i, j in zip(rows, columns, strict=True)]
+    columns = assign(np.array(distance).reshape(len(before), len(after)))
+    return [(p, after[j]) for p, j in zip(before, columns, strict=True)]
 
 
 def _follow(values: list[float], sets: list[tuple[CriticalSet, ...]]) -> list[SlowBranch]:
@@ -283,8 +282,6 @@ def _follow(values: list[float], sets: list[tuple[CriticalSet, ...]]) -> list[Sl
 
 def _equilibria(line: _Line, branch: SlowBranch) -> list[SlowPoint]:
     """Zeros of the slow flow along z on one branch, to rounding."""
-    from scipy.optimize import brentq
-
     flow = branch.flow[:, line.axis]
     found = []
     for i in np.flatnonzero((flow[:-1] * flow[1:] < 0.0) | ((flow[:-1] == 0.0) & (flow[1:] != 0.0))):
@@ -298,10 +295,8 @@ def _equilibria(line: _Line, branch: SlowBranch) -> list[SlowPoint]:
 
         z = float(branch.z[i])
         if flow[i] != 0.0:
-            root: Any = brentq(
-                lambda z: float(on_branch(z).slow_flow[line.axis]), z, float(branch.z[i + 1]), xtol=1e-15
-            )
-            z = float(root)
+            flow_at = lambda z: float(on_branch(z).slow_flow[line.axis])
+            z = root_between(flow_at, z, float(branch.z[i + 1]), 1e-15)
         falling = bool(flow[i + 1] < 0.0)
         way = "attracts" if falling else "repels"
         here = on_branch(z)

@@ -24,6 +24,7 @@ from ...initial_value.slow_manifold import FixedManifold, SlowManifold, compleme
 from ...numerics.dense import StepArray
 from ...numerics.growth import until_blow_up
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps
+from ...numerics.root_between import root_between
 from ...psi.function import Psi
 
 if TYPE_CHECKING:
@@ -312,9 +313,7 @@ def _first_negative(
         if at > 0.0:
             positive = u
         elif at < 0.0 and positive is not None:
-            from scipy.optimize import root_scalar  # imported late: it takes longer than all of this package
-
-            return float(root_scalar(value, args=(-1.0,), bracket=(positive, u), xtol=1e-15).root)
+            return root_between(lambda part: value(part, -1.0), positive, u, 1e-15)
     return 0.0 if start <= 0.0 and end < 0.0 else None  # began on the border itself, and stays outside
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...arrays import Array, Complex
+from ...curves.assignment import assign
 from ...initial_value.field import Field
 from ...psi.function import Psi
 from ..result import Simulation
@@ -120,10 +121,5 @@ def _eigenvalues(matrix: Array) -> tuple[Complex, Array]:
 
 def matching_distances(values: Complex, others: Complex) -> Array:
     """Distance of each value to its partner among as many others, partners being chosen to be close in all."""
-    from scipy.optimize import linear_sum_assignment  # imported late: it takes longer than all of this package
-
     apart = np.abs(values[:, None] - others[None, :])
-    rows, columns = linear_sum_assignment(apart)
-    found = np.empty(len(values))
-    found[rows] = apart[rows, columns]
-    return found
+    return apart[np.arange(len(values)), assign(apart)]

@@ -1,0 +1,46 @@
+"""Frames of a fixed set of requests: run here and, with the kernels of a page without a server, in Pyodide."""
+
+from concurrent.futures import Executor, Future
+
+DRAG = [{"set": {"f1": -0.5 + 0.1 * k}} for k in range(20)]
+TYPED = {"system": "own", "texts": {"U1": "c - 3*s + mu + 0.1*c**3 + ellipe(c**2/2)", "U2": "3*c - s + tanh(x*y)"}}
+PSI_TEXTS = ("1/(1+s)**2", "max(1 - s, 0)", "exp(-s)*(1 + sqrt(s))/2")
+
+
+def requests():
+    """Return them: drags, all portraits, families of Psi, panels, typed formulas."""
+    from codim2_app.panels.registry import PANELS_BY_NAME
+    from codim2_app.state.portraits import portrait_keys
+
+    from codim2_core.psi import FAMILIES
+
+    chosen = [{"preset": key} for key in portrait_keys()]
+    chosen += [{"preset": "case3-n3"}, *({"panel": name} for name in PANELS_BY_NAME)]
+    chosen += [{"psi": name} for name, family in FAMILIES.items() if not family.typed]
+    chosen += [{"psi": "custom", "psi_text": text} for text in PSI_TEXTS]
+    chosen += [TYPED, *({"parameters": {"mu": 0.1 * k}} for k in range(5))]
+    return [{"all": True}, *DRAG, *({"set": one, "rest": True} for one in chosen)]
+
+
+class AtOnce(Executor):
+    """Computes what it is given when it is given."""
+
+    def submit(self, fn, /, *args, **kwargs):
+        future = Future()
+        try:
+            future.set_result(fn(*args, **kwargs))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+def frames():
+    """Return the frame of each request, as bytes."""
+    from codim2_app.frame.background_results import serve_with
+    from codim2_app.frame.work_queue import WorkQueue
+    from codim2_app.state.controls import ExplorerState
+    from codim2_app.view.refresh import Frames
+
+    serve_with(WorkQueue(AtOnce()))
+    page = Frames(ExplorerState())
+    return [page.answer({"id": number, **request}) for number, request in enumerate(requests())]
