@@ -1,7 +1,9 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
+import {page} from "../played/page.js"
 import {asked, pull, settled, wired} from "../played/wiring.js"
+import {openHere} from "../../../../app/static/explorer.js"
 import {openWorkerLine} from "../../../../app/static/asking/worker_line.js"
 
 /** A worker that is played. */
@@ -85,4 +87,53 @@ test("where a worker answers there are no rooms, and none is reloaded for", () =
   assert.equal(one.root.explorer.room, null)
   one.connections.connection_lost()
   assert.match(one.find(".banner").textContent, /^Connection lost\. Reload/)
+})
+
+const PAGE = `<div id="codim2-first"><script type="application/json" id="codim2-saved">{"config":{"values":{"a":-2},"look":{"embed":false}},"offered":{"link":{"version":1}},"first":"AAAA"}</script>
+<div class="codim2"><div class="banner" hidden></div><div class="picture"><div class="first">drawing</div><div class="bokeh"></div><p class="busy" hidden></p></div><p class="sentence">CM4.</p></div></div>
+<script type="application/json" id="codim2-figure">{}</script>`
+
+/** A page without a server, at an address; what it has left in its tab; what it asks of its worker. */
+async function pageAt(search, left = null) {
+  const made = /** @type {any[]} */ ([]), shown = /** @type {any[]} */ ([])
+  const there = page(PAGE, {
+    location: {search}, history: {state: left && {codim2: {snapshot: left}}}, navigator: {},
+    Worker: class extends Worker { constructor(address, {type, name}) { super(); made.push({address, type, ...JSON.parse(name), worker: this}) } },
+    Bokeh: {embed: {embed_item: (_, drawn) => { shown.push(drawn.parentElement.className); return new Promise(() => {}) }}},
+  })
+  openHere()
+  await new Promise((done) => setImmediate(done))
+  const find = (selector) => there.document.querySelector(selector)
+  return {...there, shown, find, ...made[0], words: () => [find(".busy").textContent, find(".first")?.textContent, find(".sentence")?.textContent, Boolean(find("#codim2-first").inert)]}
+}
+
+test("the first setting is there at once, as it was saved", async () => {
+  for (const search of ["", "?v=1"]) {
+    const one = await pageAt(search)
+    assert.deepEqual([one.address, one.type, one.search, one.drawn, one.shown], ["worker.js", "module", search, false, ["bokeh"]])
+    assert.deepEqual(one.words(), ["Starting the mathematics …", "drawing", "CM4.", false])
+  }
+})
+
+test("what was left in a tab is there at once, but for its picture", async () => {
+  const one = await pageAt("?v=1&a=-1", {values: {a: -1}, seen: []})
+  assert.deepEqual([one.drawn, one.shown, one.words().slice(1)], [false, ["bokeh"], ["", "", false]])
+})
+
+test("a link waits for the worker, which draws its markup; what it says of its look is read there", async () => {
+  for (const [search, left] of [["?v=1&a=-1", null], ["?v=1&a=-1&embed=1", {values: {a: -1}, seen: []}]]) {
+    const one = await pageAt(search, left)
+    assert.deepEqual([one.search, one.drawn, one.shown, one.words().slice(1)], [search, true, [], ["", "", true]])
+    one.worker.say({config: {}, markup: '<div class="codim2"><p class="busy"></p><div class="bokeh"></div><p class="sentence">CM2.</p></div>'})
+    await new Promise((done) => setImmediate(done))
+    assert.deepEqual([one.shown, one.find(".sentence").textContent, one.find("#codim2-first").inert], [["bokeh"], "CM2.", false])
+  }
+})
+
+test("a worker that cannot be loaded leaves a sentence, and the button that loads the page again", async () => {
+  const one = await pageAt("?v=1&a=-1")
+  one.worker.say({failed: true})
+  await new Promise((done) => setImmediate(done))
+  assert.match(one.find(".banner").textContent, /^Connection lost\. Reload/)
+  assert.ok(one.find(".banner button"))
 })
