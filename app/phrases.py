@@ -22,6 +22,9 @@ SENTENCES: dict[str, Sentence] = {
         "an exception of the program",
     ),
     "stopped": Sentence("This took too long and was stopped.", "work beside the frames"),
+    "no scipy": Sentence(
+        "SciPy computes this; a page without a server does not have it.", "a page that computes in the browser"
+    ),
     "stopped after": Sentence("This took longer than {seconds:g} s and was stopped.", "work beside the frames"),
     "lost": Sentence("The process that computed this has ended. Move a control to try again.", "a worker that ended"),
     "memory": Sentence("This needs more memory than the server gives it.", "a worker at its bound"),

@@ -28,6 +28,8 @@ def sentence_of(error: Exception, doing: str) -> str:
     """
     if isinstance(error, FAILURES):
         return str(error)
+    if isinstance(error, ModuleNotFoundError) and error.name is not None and error.name.split(".")[0] == "scipy":
+        return say("no scipy")
     where = error.__traceback__
     while where is not None and where.tb_next is not None:
         where = where.tb_next

@@ -214,6 +214,7 @@ ELSEWHERE = {
     ),
     "app/state/test_chosen.py": ("name of a box", "name of the regularisation", "name of time"),
     "app/panels/test_panels_of_motion.py": ("no time passes",),
+    "app/frame/test_faults.py": ("no scipy",),
     "app/frame/test_turns.py": ("stopped", "lost"),
     "app/frame/test_workers.py": ("stopped after",),
     "browser/test_connection.py": ("places taken", "no connection"),

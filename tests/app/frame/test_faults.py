@@ -83,3 +83,9 @@ def test_a_scene_that_cannot_be_made_opens_on_the_first_setting(monkeypatch, cap
 def test_what_the_core_says_is_told_as_it_is(caplog):
     assert faults.sentence_of(ValueError("give a number."), "it") == "give a number."
     assert not caplog.records
+
+
+def test_what_a_page_without_a_server_lacks_is_no_fault(caplog):
+    error = ModuleNotFoundError("No module named 'scipy'", name="scipy.optimize")
+    assert faults.sentence_of(error, "a panel") == "SciPy computes this; a page without a server does not have it."
+    assert not caplog.records
