@@ -75,7 +75,7 @@ def _compile_rows(rows: Any, names: tuple[str, ...]) -> Any:
         *written.inside,
         *(f"D[{k}] = {result}" for k, result in enumerate(written.results)),
     ]
-    source = "def function(state, out, parameters):\n" + "\n".join(f"    {line}" for line in lines)
+    source = "def right_hand_side(state, out, parameters):\n" + "\n".join(f"    {line}" for line in lines)
     # Written by `program`: its own names, numbers and math.* only.
     return compile_source(source, {"carray": carray, **kernels.called}, strict=True)
 

@@ -12,6 +12,7 @@ import math
 import struct
 import textwrap
 from collections.abc import Callable, Iterable, Mapping
+from functools import cache
 from typing import Any
 
 from .wasm_module import F64, I32, integer, module, natural
@@ -335,6 +336,7 @@ def inlined(function: Any) -> ast.FunctionDef | None:
     return syntax_of(plain)
 
 
+@cache
 def syntax_of(function: Any) -> ast.FunctionDef:
     """Return the syntax of a function of this package."""
     (found,) = ast.parse(textwrap.dedent(inspect.getsource(function))).body

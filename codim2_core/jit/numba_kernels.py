@@ -70,7 +70,8 @@ def compile_source(source: str, names: Mapping[str, Any], strict: bool = False) 
     Parameters
     ----------
     source : str
-        Python of one function, of whitelisted formulas: numbers, our own names and ``math.*`` only.
+        Python of a function ``right_hand_side(state, out, parameters)``, written from whitelisted formulas: numbers,
+        our own names and ``math.*`` only.
     names : mapping
         What else it reads.
     strict : bool
@@ -81,9 +82,9 @@ def compile_source(source: str, names: Mapping[str, Any], strict: bool = False) 
     CFunc
         Its `address` is called; it must outlive that.
     """
-    scope = {"math": math, **names}
+    scope: dict[str, Any] = {"math": math, **names}
     exec(source, scope)
-    function = next(one for name, one in scope.items() if name not in ("math", "__builtins__") and name not in names)
+    function = scope["right_hand_side"]
     return cfunc(FIELD, nogil=True, error_model="numpy")(function) if strict else compile_address(function, cache=False)
 
 
@@ -104,7 +105,7 @@ def compile_with_gain(lanes: Callable[..., None], own: Any, whole: bool, cache: 
     """
     typed = isinstance(own, str)
     if typed:
-        scope: dict[str, Any] = {"math": math, "njit": njit, **names}
+        scope: dict[str, Any] = {"math": math, **names}
         exec(own, scope)
         own = scope["gain"]
         scope["psi"] = njit(error_model="numpy")(scope["psi"])

@@ -56,7 +56,11 @@ def _source(system: System) -> tuple[str, bool]:
         "D[lane + LANES] = v - py*q",
         "D[lane + 2*LANES] = P[lane + SIGN]*w*q",
     ]
-    lines = ["def field(state, out, parameters):", *(f"    {line}" for line in before), "    for lane in range(LANES):"]
+    lines = [
+        "def right_hand_side(state, out, parameters):",
+        *(f"    {line}" for line in before),
+        "    for lane in range(LANES):",
+    ]
     return "\n".join([*lines, *(f"        {line}" for line in inside)]) + "\n", written.entire
 
 
