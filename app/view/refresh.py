@@ -166,9 +166,11 @@ class Frames:
             if value != self.values.get(name):
                 with suppress(InputError):  # the page says so
                     good[name] = clean(name, value)
-        had, _ = compatible_changes(good, self._reach)
         before = self.values
-        self.values, _, self.scene = self._reach(had)
+        try:
+            self.values, _, self.scene = self._reach(good)
+        except Exception:  # the page says which of them cannot be had
+            self.values, _, self.scene = self._reach(compatible_changes(good, self._reach)[0])
         self._unpublished.update({name: value for name, value in self.values.items() if value != before[name]})
         self.publish()
         if self.budget is not None:
