@@ -1,4 +1,4 @@
-"""What is sent of a site that holds an explorer of files: its page by its folder's name, and a worker that may compute."""
+"""What is sent of a site that holds an explorer of files: pages of folders, and a worker that may compute."""
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
