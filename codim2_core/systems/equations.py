@@ -17,7 +17,7 @@ def with_left_sides(rows: Sequence[Expression]) -> Equations:
     return tuple(zip(("x", "y", *SLOW_NAMES), rows, strict=False))
 
 
-def linear_rows(coefficients: Sequence[tuple[Any, Any, Any]], parameters: Sequence[str], m: int) -> list[Expression]:
+def linear_rows(coefficients: Sequence[Sequence[Any]], parameters: Sequence[str], m: int) -> list[Expression]:
     """Return ``p c + q s + r`` for each (p, q, r), numbers or formulas; z is written z1 where there are several."""
     names = (*FAST_NAMES, "z", *SLOW_NAMES, *parameters, "A_", "B_", "C_")
     template = parse("A_*c + B_*s + C_", names)
