@@ -13,10 +13,12 @@ import numpy as np
 
 from ...arrays import Array
 from ...cycles.limit_cycles import LimitCycle, limit_cycles
-from ...initial_value.problem import growth_bound, own_time
-from ...numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
+from ...initial_value.functions import called_back
+from ...initial_value.motion_steps import MotionSteps
+from ...numerics.radau import Step, TooManyStepsError
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
+from .slide import own_time
 
 RTOL, ATOL = 1e-6, 1e-8  # no better than the cycles themselves are known
 DIFFERENCE_STEP = 1e-4
@@ -37,12 +39,14 @@ class CycleSlide:
         Whether the cycle is there until the end of the time span.
     e, p : list of ndarray (2,)
         Their means over the cycle in time, at the beginning and at the end of each step.
+    evaluations : int
     """
 
     taken: list[Step]
     lives: bool
     e: list[Array]
     p: list[Array]
+    evaluations: int
 
 
 def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> CycleSlide:
@@ -59,51 +63,54 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
     most : int
         Steps.
     """
-    first = limit_cycles(system, psi, tuple(z.tolist()))[index]
+    means: list[tuple[Array, Array]] = []
+    m, first = len(z), limit_cycles(system, psi, tuple(z.tolist()))[index]
     middle = _centroid(first)
-    e, p = list[Array](), list[Array]()
-    m = len(z)
+
+    def near(at: Array) -> LimitCycle | None:
+        """Return the stable cycle at another z that is nearest to the last one, if it may be the same."""
+        stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
+        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
+        return None if cycle is None or math.dist(_centroid(cycle), middle) > OTHER_CYCLE_DISTANCE else cycle
 
     def rate(at: Array) -> Array:
-        stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
-        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
-        if cycle is None or math.dist(_centroid(cycle), middle) > OTHER_CYCLE_DISTANCE:
-            return np.full(m, math.nan)
-        return np.array(cycle.slow_flow)
+        cycle = near(at) if np.isfinite(at).all() else None
+        return np.full(m, math.nan) if cycle is None else np.array(cycle.slow_flow)
 
-    def jacobian(at: Array) -> Array:
+    def value(*at: float) -> list[float]:
+        return [0.0, 0.0, *rate(np.array(at[4:])).tolist()]
+
+    def note(at: Array) -> None:
         nonlocal middle
-        stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
-        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
-        if cycle is not None:  # asked once at the beginning, and at the end of each step
+        cycle = near(at)
+        if cycle is not None:
             middle = _centroid(cycle)
-            means = _means(system, psi, at, cycle)
-            e.append(means[0])
-            p.append(means[1])
-        here, columns = rate(at), []
-        for i in range(m):
-            aside = at.copy()
-            aside[i] += DIFFERENCE_STEP * (1.0 + abs(at[i]))
-            columns.append((rate(aside) - here) / (aside[i] - at[i]))
-        return np.nan_to_num(np.stack(columns, axis=-1))
+            means.append(_means(system, psi, at, cycle))
 
-    problem = Problem(
-        rate,
-        jacobian,
-        lambda at: np.abs(at) + ATOL / RTOL,
-        lambda at, rate, slope: growth_bound(slope),  # noqa: ARG005
-    )
-    still = np.zeros(2)
-    taken: list[Step] = []
+    def slopes(*at: float) -> list[float]:
+        z, found = np.array(at[4:]), np.zeros((2 + m, 4 + m))
+        note(z)  # once where a step begins
+        here = rate(z)
+        for i, h in enumerate(DIFFERENCE_STEP * (1.0 + np.abs(z))):
+            found[2:, 4 + i] = (rate(z + h * (np.arange(m) == i)) - here) / h
+        return np.nan_to_num(found).ravel().tolist()
+
+    floor = ATOL / RTOL
+    pace = min(t_end - t, own_time(z, np.array(first.slow_flow), floor))
+    motion = MotionSteps(
+        called_back(m, value, slopes), lambda state: np.array(value(0.0, 0.0, *state)), 1.0, None, (t, t_end),
+        np.concatenate([np.zeros(2), z]), RTOL, floor, most, h=FIRST_STEP_SHARE * pace, least=MIN_STEP * pace,
+        implicit=True,
+    )  # fmt: skip
+    taken, lives = list[Step](), True
     try:
-        pace = min(t_end - t, own_time(problem, z, np.array(first.slow_flow)))
-        for step in steps(problem, t, t_end, z, RTOL, FIRST_STEP_SHARE * pace, most, MIN_STEP * pace):
-            polynomial = np.concatenate([np.zeros((2, STAGES)), step.polynomial])
-            first, last = np.concatenate([still, step.first]), np.concatenate([still, step.last])
-            taken.append(Step(step.start, step.h, first, last, polynomial))
+        for part in motion.chunks(most):
+            taken += part
+        note(motion.y[2:])
     except TooManyStepsError:
-        return CycleSlide(taken, False, e, p)
-    return CycleSlide(taken, True, e, p)
+        lives = False
+    e, p = ([own[k] for own in means] for k in range(2))
+    return CycleSlide(taken, lives, e, p, motion.evaluations)
 
 
 def _centroid(cycle: LimitCycle) -> tuple[float, float]:
