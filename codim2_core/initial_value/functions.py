@@ -6,6 +6,7 @@ of a system takes as long as some ten thousand evaluations.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Iterable
 from typing import Any
 
@@ -25,11 +26,12 @@ from .field import Field
 from .kernels.motion import follow_steps
 
 MOST_SYSTEMS = 64
-CALLS_WORTH_COMPILING = 50_000  # evaluations in Python take as long as compiling the formulas
+#: Evaluations in Python that take as long as compiling the formulas; in a browser that takes some milliseconds.
+CALLS_WORTH_COMPILING = 0 if sys.platform == "emscripten" else 50_000
 
 
 class FieldFunctions:
-    """What kernels call of a field and a Psi: objects with addresses, which must outlive the use of these.
+    """The functions of a field and a Psi: objects with addresses, which must outlive the use of these.
 
     Attributes
     ----------
@@ -56,7 +58,7 @@ class FieldFunctions:
             callback.check()
 
 
-_compiled, _called = CompiledCache(MOST_SYSTEMS), CompiledCache(MOST_SYSTEMS)
+_whole, _called = CompiledCache(MOST_SYSTEMS), CompiledCache(MOST_SYSTEMS)
 _fields = CompiledCache(MOST_SYSTEMS)
 
 
@@ -71,13 +73,13 @@ def functions_of(field: Field, psi: Psi, many: bool = False) -> FieldFunctions:
     """
     key = field.rows, psi
     called = _called.get(key, lambda: called_back(field.m, field.value, field.slope, psi))
-    if not (many or key in _compiled or called.calls >= CALLS_WORTH_COMPILING):
+    if not (many or key in _whole or called.calls >= CALLS_WORTH_COMPILING):
         return called
 
     def compile_all() -> FieldFunctions:
         return FieldFunctions((*_fields.get(field.rows, lambda: _compile_field(field)), one_gain(psi)), psi.parameter)
 
-    return _compiled.get(key, compile_all)
+    return _whole.get(key, compile_all)
 
 
 def called_back(

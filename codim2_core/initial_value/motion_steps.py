@@ -30,6 +30,7 @@ from .kernels.motion import (
     CHUNK_FULL,
     CONTROL,
     FARTHEST_RHO,
+    FINISHED,
     IMPLICIT,
     LEAST_STEP,
     LIMIT,
@@ -168,6 +169,8 @@ class MotionSteps:
                     starts, lengths, ends, polynomials,
                 )  # fmt: skip
             self.functions.count(self.evaluations - before)
+            if self.code == FINISHED:
+                lengths[filled - 1] = self.clock[2] - starts[filled - 1]  # it ends then, to the last digit
             yield StepArray(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
         error = failure(self.code, float(self.clock[0]), self.y, self.rate, self.control[LEAST_STEP])
         if error is not None:

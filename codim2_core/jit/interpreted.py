@@ -15,7 +15,7 @@ from ..rebind import rebind
 
 Array = NDArray[np.float64]
 PACKAGE = __name__.partition(".")[0]
-FIELD = ctypes.CFUNCTYPE(ctypes.c_void_p, *[ctypes.c_void_p] * 3)
+THREE_POINTERS = ctypes.CFUNCTYPE(ctypes.c_void_p, *[ctypes.c_void_p] * 3)
 
 
 def is_at_hand(kernel: Any) -> bool:
@@ -39,7 +39,7 @@ class InterpretedAddress:
     """A right-hand side as Python, called by its `address`."""
 
     def __init__(self, function: Any) -> None:
-        self._entry = FIELD(interpreted(function))
+        self._entry = THREE_POINTERS(interpreted(function))
         self.address = ctypes.cast(self._entry, ctypes.c_void_p).value
 
 
@@ -63,7 +63,7 @@ class _PythonModule:
 
 def _call_field(address: int, S: Array, source: int, target: int, P: Array) -> None:
     start = S.ctypes.data
-    FIELD(int(address))(start + 8 * source, start + 8 * target, P.ctypes.data)
+    THREE_POINTERS(int(address))(start + 8 * source, start + 8 * target, P.ctypes.data)
 
 
 def _carray(pointer: Any, shape: tuple[int, ...]) -> Array:

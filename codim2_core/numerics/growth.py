@@ -1,4 +1,4 @@
-"""Why a motion ends where its steps become too short: it grows beyond all bounds, or its formulas end."""
+"""The end of a motion whose steps become too short: it grows beyond all bounds, or its formulas end."""
 
 from __future__ import annotations
 

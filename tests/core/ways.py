@@ -14,6 +14,6 @@ def follow(monkeypatch: pytest.MonkeyPatch, way: str) -> None:
     """Follow motions in one way, whatever has been asked for before."""
     monkeypatch.setattr(functions, "CALLS_WORTH_COMPILING", 0 if way == "compiled" else math.inf)
     if way != "compiled":
-        monkeypatch.setattr(functions, "_compiled", CompiledCache(functions.MOST_SYSTEMS))
+        monkeypatch.setattr(functions, "_whole", CompiledCache(functions.MOST_SYSTEMS))
     if way == "as Python":
         monkeypatch.setattr(motion_steps, "is_at_hand", lambda kernel: False)

@@ -268,7 +268,7 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                 if decided:
                     break
                 if code == FINISHED:
-                    decided = True
+                    times[row], decided = t_end, True
                     break
                 if code == AT_SIGMA:
                     h = _straight_on(motion, S, y, rates, linear, square)

@@ -336,6 +336,8 @@ def follow_all(fields, numbers, coefficients, lines, first, most):
             for a in range(row, row + filled):  # from a step's start to its end, never decreasing
                 times[a + 1] = max(times[a], times[a + 1] + lengths[a])
             row += filled
+            if code == FINISHED:
+                times[row] = numbers[4]
         told[i, 0], told[i, 1], told[i, 2], told[i, 3] = row - begun, code, clock[0], clock[3]
         row += 1
     return times[:row], lengths[:row], states[: row * n], polynomials[: row * each], told

@@ -23,8 +23,7 @@ from ...initial_value.motion_steps import MotionSteps
 from ...initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements
 from ...initial_value.slow_manifold import SlowManifold, complement, determinant, trace
 from ...initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps
-from ...numerics.dense import StepArray
-from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError
+from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, truncate_step
 from ...numerics.root_between import root_between
 from ...psi.function import Psi
 
@@ -141,22 +140,21 @@ def slide(
         return Slide(taken, end, e, places, motion.evaluations, stopped)
 
     try:
-        for step, whole, after, is_safe in ahead:
+        for step, after, is_safe in ahead:
             found: list[tuple[float, str]] = (
                 [] if is_safe else _end_fractions(manifold, gauges, step, places[-1], after)
             )
-            if not is_safe and gauges["fold"](after, step.last) < FOLD_MARGIN:
+            if not is_safe and gauges["fold"](after, step.last[2:]) < FOLD_MARGIN:
                 found.append((1.0, "fold"))  # where the slow flow vanishes at the fold, it never gets past it
-            if not alive(step.last):
+            if not alive(step.last[2:]):
                 found.append((_last_alive(alive, step), "cycle"))
             if found:
                 u, name = min(found)
-                last = step.at(u)
-                taken.append(_lift_step(step, u))
-                end = manifold.at(last)
+                taken.append(truncate_step(step, u))
+                end = manifold.at(taken[-1].last[2:])
                 places.append(after if end is None else end)
                 return ended(name, places[-1])
-            taken.append(whole)
+            taken.append(step)
             places.append(after)
     except StepsTooShortError as error:
         if taken and t_end - taken[-1].end <= shortest:  # the rounding of t_end is left
@@ -169,10 +167,9 @@ def slide(
 
 
 class _Ahead(NamedTuple):
-    """A step of z, the same of the whole state, e at its end, and whether it is known that no end lies within it."""
+    """A step, e at its end, and whether it is known that no end lies within it."""
 
     step: Step
-    whole: Step
     e: Array
     is_safe: bool
 
@@ -203,8 +200,8 @@ def _steps_at_rest(
 
 def _steps_of_rest(e: Array, motion: MotionSteps) -> Iterator[_Ahead]:
     for part in motion.chunks():
-        for whole in part:
-            yield _Ahead(whole, whole, e, True)
+        for step in part:
+            yield _Ahead(step, e, True)
 
 
 def _steps_of_set(manifold: SlowManifold, motion: SlowSteps, safe: StepRequirements | None) -> Iterator[_Ahead]:
@@ -216,17 +213,13 @@ def _steps_of_set(manifold: SlowManifold, motion: SlowSteps, safe: StepRequireme
                 continue
             e, D = motion.sets(part, SAFE_NODES)
             known = [False] * len(e) if safe is None else safe.steps(e, D)
-            zs = StepArray(part.first[2:], part.starts, part.lengths, part.ends[:, 2:], part.polynomials[:, 2:])
-            wholes = StepArray(
-                *(of.copy() for of in (part.first, part.starts, part.lengths, part.ends, part.polynomials))
-            )
-            for array in (wholes.first, wholes.ends.T, wholes.polynomials.swapaxes(0, 1)):
-                array[:2] = 0.0
-            for step, whole, before, after, is_safe in zip(zs, wholes, e[:, 0], e[:, -1], known, strict=True):
+            for array in (part.first, part.ends.T, part.polynomials.swapaxes(0, 1)):
+                array[:2] = 0.0  # of a state on Sigma
+            for step, before, after, is_safe in zip(part, e[:, 0], e[:, -1], known, strict=True):
                 if not is_safe:
-                    manifold.begin(before, step.first)
-                yield _Ahead(step, whole, after, is_safe)
-                z = step.last
+                    manifold.begin(before, step.first[2:])
+                yield _Ahead(step, after, is_safe)
+                z = step.last[2:]
     except StepsTooShortError:
         manifold.begin(motion.y[:2].copy(), z)
         raise
@@ -239,7 +232,7 @@ def _end_fractions(
     place = cache(partial(_critical_set_at, manifold, step))
     found: list[tuple[float, str]] = []
     for name, gauge in gauges.items():
-        u = _first_negative(gauge, place, gauge(before, step.first), gauge(after, step.last))
+        u = _first_negative(gauge, place, gauge(before, step.first[2:]), gauge(after, step.last[2:]))
         if u is not None:
             found.append((u, name))
     lost = _lost(manifold, step, before, after)
@@ -254,8 +247,8 @@ def _lost(manifold: SlowManifold, step: Step, before: Array, after: Array) -> tu
 
     At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
     """
-    last = SlowManifold(manifold.field, after, step.last)
-    u, there = _track_slow_manifold(SlowManifold(manifold.field, before, step.first), step, 1.0, SHORTEST_PART, last)
+    last, first = (SlowManifold(manifold.field, e, at[2:]) for e, at in ((after, step.last), (before, step.first)))
+    u, there = _track_slow_manifold(first, step, 1.0, SHORTEST_PART, last)
     return None if there is last else (u, there)
 
 
@@ -269,7 +262,7 @@ def _track_slow_manifold(
     u, part = 0.0, to
     while part > least:
         at = min(u + part, to)
-        ahead = last if at == to and last is not None else _search_slow_manifold(here, step.at(at))
+        ahead = last if at == to and last is not None else _search_slow_manifold(here, step.at(at)[2:])
         if ahead is not None and here.joined(ahead):
             if at == to:
                 return at, ahead
@@ -319,7 +312,7 @@ def _end_reason(manifold: SlowManifold) -> str:
 
 def _critical_set_at(manifold: SlowManifold, step: Step, u: float) -> tuple[Array | None, Array]:
     """Return the critical set, None where there is none, and z at a fraction of a step."""
-    z = step.at(u)
+    z = step.at(u)[2:]
     e = manifold.at(z)
     if e is None:
         at, there = _track_slow_manifold(SlowManifold(manifold.field, manifold.e, manifold.z), step, u, LEAST_PART * u)
@@ -354,16 +347,5 @@ def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:
     low, high = 0.0, 1.0
     for _ in range(20):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if alive(step.at(middle)) else (low, middle)
+        low, high = (middle, high) if alive(step.at(middle)[2:]) else (low, middle)
     return low
-
-
-def _lift_step(step: Step, u: float) -> Step:
-    """Return the part of a step in z up to its fraction u, as a step of the whole state on Sigma."""
-    degree = step.polynomial.shape[1]
-    polynomial = np.zeros((2 + len(step.first), degree))
-    polynomial[2:] = step.polynomial * u ** np.arange(1, degree + 1)
-    last = step.last if u == 1.0 else step.at(u)
-    still = np.zeros(2)
-    first, last = np.concatenate([still, step.first]), np.concatenate([still, last])
-    return Step(step.start, u * step.h, first, last, polynomial)
