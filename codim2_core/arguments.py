@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from .psi.constructors import from_text
 from .psi.function import Psi
 from .systems.coefficients import Coefficients
 from .systems.elinear import ELinear
@@ -39,9 +40,11 @@ def short_repr(value: object) -> str:
 
 
 def psi(name: str, value: Any) -> Psi:
-    """Check a regularisation function."""
+    """Check a regularisation function, or read its name: "hill:3", "1/(1+s)"."""
     if isinstance(value, Psi):
         return value
+    if isinstance(value, str):
+        return from_text(value)
     called = getattr(value, "__name__", "")
     if callable(value) and called:
         raise ValueError(f"{name} is the function {called}; give what it makes when it is called.")

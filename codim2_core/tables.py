@@ -1,46 +1,14 @@
-"""Results as small HTML tables, which a notebook shows, as CSV and as data frames."""
+"""Rows of results as small HTML tables, which a notebook shows, as CSV and as data frames."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from html import escape
 from pathlib import Path
-from typing import Any, ClassVar, TypeVar
+from typing import Any
 
 MAX_ROWS = 40  # rows that are shown
 NEGLIGIBLE = 1e-14  # of the largest coordinate: smaller ones are told as 0
-
-
-class Tabled:
-    """A result that is one row of a table."""
-
-    __slots__ = ()
-
-    _head_: ClassVar[tuple[str, ...]] = ()
-
-    def _row_(self) -> tuple[str, ...]:
-        raise NotImplementedError
-
-    def _repr_html_(self) -> str:
-        return result_rows([self])
-
-
-Kind = TypeVar("Kind", bound=Tabled)
-
-
-class Results(tuple[Kind, ...]):
-    """Several results of one kind, in order: a tuple that a notebook shows as one table."""
-
-    __slots__ = ()
-
-    def _repr_html_(self) -> str:
-        return result_rows(self) or "<p>none</p>"
-
-
-def result_rows(results: Iterable[Tabled]) -> str:
-    """Return results of one kind as a table, a row each; nothing if there are none."""
-    found = list(results)
-    return html_table(found[0]._head_, [one._row_() for one in found]) if found else ""
 
 
 def table_number(value: float) -> str:

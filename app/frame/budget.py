@@ -176,6 +176,7 @@ class Budget:
         self._timed: OrderedDict[Hashable, tuple[int, dict[str, float]]] = OrderedDict()
         self._left_out: OrderedDict[Hashable, Mapping[str, str]] = OrderedDict()
         self._slow_once: set[str] = set()
+        self._wildness_of: tuple[Any, int] = (None, 0)  # of the system asked for last: each layer of a frame asks
         self.begin()
 
     def begin(self) -> None:
@@ -205,11 +206,17 @@ class Budget:
         if bounded and name not in POSSIBLY_LONG_LAYERS:
             cost = took.get(name, 0.0)
         else:
-            cost = took.get(name, math.inf) if wildness(scene) <= wildest else math.inf
+            cost = took.get(name, math.inf) if self._wildness(scene) <= wildest else math.inf
         if cost > LAYER_BUDGET or self._spent + cost > FRAME_BUDGET or self._elsewhere(scene):
             raise PendingLayer(name)
         self._spent += cost
         return partial(self._computed, formula, name, time.perf_counter(), self._timed_so_far)
+
+    def _wildness(self, scene: Scene) -> int:
+        """Return the wildness of a scene, computed once for all layers of a frame."""
+        if self._wildness_of[0] is not scene.coefficients:
+            self._wildness_of = scene.coefficients, wildness(scene)
+        return self._wildness_of[1]
 
     def _computed(self, formula: Hashable, name: str, began: float, before_it: float) -> None:
         """Note what a layer took here, without the layers that it asked for."""

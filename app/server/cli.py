@@ -170,6 +170,7 @@ def _serve(chosen: argparse.Namespace) -> None:
         sessions=chosen.sessions,
         rooms=chosen.rooms,
         told=_say_if_compiled,
+        engine=None if chosen.pyodide is None else _engine(chosen.pyodide, chosen.kernels),
         **long,
     )
     everybody = chosen.address in ("0.0.0.0", "::")
@@ -184,6 +185,16 @@ def _serve(chosen: argparse.Namespace) -> None:
     if chosen.show:
         server.io_loop.add_callback(server.show, "/")
     server.io_loop.start()
+
+
+def _engine(pyodide: Path, kernels: Path | None) -> Any:
+    from ..wasm_kernels.build import FOLDER
+    from .engine_files import EngineFiles
+
+    try:
+        return EngineFiles(pyodide, kernels or FOLDER)
+    except (ValueError, OSError) as error:
+        raise SystemExit(f"codim2: {error}") from None
 
 
 def _offer_lessons(folder: Path) -> bool:

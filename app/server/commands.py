@@ -17,7 +17,7 @@ from typing import Any
 import codim2_core as c2
 from codim2_core.counting.draws import DRAWS
 from codim2_core.paper import cite
-from codim2_core.psi import FAMILIES, make
+from codim2_core.psi import FAMILIES
 from codim2_core.words import subscript, written_number
 
 from ..frame.dask_executor import ClusterError, dask_executor
@@ -160,26 +160,10 @@ def _whole_number(text: str) -> int:
     return int(value)
 
 
-def psi_of(text: str) -> c2.Psi:
-    """Return the Psi that a text names: a family, hill:N, or a formula in s.
-
-    Raises
-    ------
-    ValueError
-        It is none of these.
-    """
-    name, _, number = text.partition(":")
-    family = FAMILIES.get(name)
-    if family is None or family.typed:
-        constant = next(known for known in FAMILIES.values() if known.identity)
-        return make(constant.name) if text == constant.formula else c2.psi.custom(text)
-    return make(name, number or None)  # type: ignore[arg-type]  # it reads text, and says what is wrong with it
-
-
 def classify(chosen: argparse.Namespace) -> int:
     """Print the portrait of one system."""
     try:
-        psi = psi_of(chosen.psi)
+        psi = c2.psi.from_text(chosen.psi)
         system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
         found = c2.classify(system, psi)
     except ValueError as error:
@@ -226,7 +210,7 @@ def classify(chosen: argparse.Namespace) -> int:
 def prove(chosen: argparse.Namespace) -> int:
     """Print how many limit cycles one system has, and whether that is proved: then the status is 0, else 1."""
     try:
-        psi = psi_of(chosen.psi)
+        psi = c2.psi.from_text(chosen.psi)
         system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
         found = c2.limit_cycles(system, psi, prove=True)
     except ValueError as error:
@@ -275,7 +259,7 @@ def census(chosen: argparse.Namespace) -> int:
     try:
         with _executor(chosen) as executor:
             found = c2.census(
-                chosen.draw, psi_of(chosen.psi), chosen.count, seed=chosen.seed, outcomes=chosen.outcomes,
+                chosen.draw, c2.psi.from_text(chosen.psi), chosen.count, seed=chosen.seed, outcomes=chosen.outcomes,
                 resume=chosen.resume, executor=executor, progress=progress,
             )  # fmt: skip
     except (ValueError, ClusterError) as error:

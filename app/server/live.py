@@ -3,7 +3,7 @@
 ``/live`` with the query of the page's address. The server begins with a text, ``{"config", "offered"}``, and the first
 frame. A page then sends one JSON object a message: ``{"id", "set", "rest", "window"}`` asks for a frame, which comes
 as bytes; ``{"take": …}`` and ``{"room": …}`` are answered in JSON, and where that says ``"file": true`` the next
-message is the file.
+message is the file. A page that draws itself says so: ``{"note": values}`` is not answered.
 """
 
 from __future__ import annotations
@@ -35,6 +35,8 @@ from .session_queue import Rota
 MOST_SENT = 200_000
 #: What a page may ask for at once: a frame, files, and a room.
 MOST_ASKED = 8
+#: Names of what is asked or told besides frames.
+ASIDE = frozenset({"take", "room", "note"})
 #: Why a connection is closed before its page has begun, as codes of websockets: all places are taken; a fault here.
 CLOSE_FULL, CLOSE_FAILED, REFUSED = 1013, 1011, 1008
 
@@ -53,11 +55,11 @@ def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
     return {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
 
 
-def open_page(link: Link) -> tuple[Frames, str, bytes]:
+def open_page(link: Link, engine: Mapping[str, Any] | None = None) -> tuple[Frames, str, bytes]:
     """Return what a page shows, what its script must know, and its first frame."""
     budget = Budget(FormulaQuota().elsewhere)
     frames = Frames(link.state, None, is_ready_for_all, link.errors, budget, progress)
-    return frames, *opening_messages(frames, link, edition())
+    return frames, *opening_messages(frames, link, edition(), engine=engine)
 
 
 def merge_requests(kept: Mapping[str, Any], newer: Mapping[str, Any]) -> dict[str, Any]:
@@ -80,14 +82,16 @@ class LivePages:
     ----------
     most : int
         Pages that there may be.
+    engine : mapping or None
+        What pages are told of a worker of their own.
     open : set of LiveConnection
     rota : Rota
     frames, openings, refused : int
         How many have been sent, were let in, and found no place.
     """
 
-    def __init__(self, most: int) -> None:
-        self.most, self.open, self.rota = most, set[LiveConnection](), Rota()
+    def __init__(self, most: int, engine: Mapping[str, Any] | None = None) -> None:
+        self.most, self.engine, self.open, self.rota = most, engine, set[LiveConnection](), Rota()
         self.frames = self.openings = self.refused = 0
 
     def beat(self) -> None:
@@ -132,7 +136,7 @@ class LiveConnection(WebSocketHandler):
         if self not in self.places.open:
             return
         try:
-            frames, config, first = open_page(link_of(query_of(self.request.arguments)))
+            frames, config, first = open_page(link_of(query_of(self.request.arguments)), self.places.engine)
         except Exception:  # the page says so; the log has the rest
             _log.exception("a page could not be opened")
             self.close(CLOSE_FAILED, "a page could not be opened")
@@ -150,7 +154,7 @@ class LiveConnection(WebSocketHandler):
             request = None
         if not isinstance(request, dict):
             self._refuse("a message is no JSON object")
-        elif "take" in request or "room" in request:
+        elif ASIDE & request.keys():
             if len(self._asked) < MOST_ASKED:
                 self._errand(lambda: self._answer(request))
         elif self._request is None:

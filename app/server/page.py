@@ -28,6 +28,7 @@ from ..rooms.rooms import MOST_ROOMS, SHARING_SECONDS, Rooms
 from ..rooms.rooms import serve_with as serve_rooms
 from ..view import warmup
 from ..view.markup import edition
+from .engine_files import EngineFiles, served_panels
 from .first_page import Page
 from .headers import transform
 from .live import MOST_SENT, LiveConnection, LivePages
@@ -100,6 +101,7 @@ def make_server(
     sessions: int = 400,
     rooms: int = MOST_ROOMS,
     told: warmup.Told | None = None,
+    engine: EngineFiles | None = None,
     executor: Executor | None = None,
     at_once: int = 1,
     **options: Any,
@@ -128,6 +130,8 @@ def make_server(
         Rooms that lecturers have open at once, of a process; 0 for none.
     told : callable, optional
         Told what has been compiled, see `warmup.warm_all`.
+    engine : EngineFiles, optional
+        With which pages compute on their visitors' devices.
     executor : Executor, optional
         Does the long work in place of `workers`, `at_once` at a time; with one process only, as it cannot be forked.
     """
@@ -144,7 +148,7 @@ def make_server(
         begin()
     parent = os.getpid()
     board = Board(processes)
-    places = LivePages(sessions)
+    places = LivePages(sessions, engine and {"script": engine.script, "served": served_panels()})
     listen = partial(Listener, counts=Counter(), places=sessions, health=json.dumps(health()))
     with share_port(processes, listen):
         server = _server(port, address, allow_origin, processes, prefix, places, options)
@@ -155,7 +159,7 @@ def make_server(
     _keep(kept)
     application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
     application.settings["metrics"] = Metrics(places, turns, kept)
-    application.add_handlers(".*", routes(server.prefix))
+    application.add_handlers(".*", routes(server.prefix) + ([engine.route(server.prefix)] if engine else []))
     application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
     application.settings["log_function"] = _log_request
     if not warmup_now:

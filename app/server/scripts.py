@@ -33,7 +33,8 @@ def _file(path: str, changed: float) -> bytes:  # noqa: ARG001 (a file that has 
     return gzip.compress(Path(path).read_bytes(), 9, mtime=0)
 
 
-def _takes_packed(handler: RequestHandler) -> bool:
+def takes_packed(handler: RequestHandler) -> bool:
+    """Whether a browser takes a whole file compressed."""
     headers = handler.request.headers
     return "gzip" in headers.get("Accept-Encoding", "") and "Range" not in headers
 
@@ -46,7 +47,7 @@ class Script(RequestHandler):
         self.set_header("Content-Type", "text/javascript; charset=utf-8")
         kept = f"public, max-age={YEAR}, immutable" if self.get_query_argument("v", "") == digest() else "no-cache"
         self.set_header("Cache-Control", kept)
-        if _takes_packed(self):
+        if takes_packed(self):
             self.set_header("Content-Encoding", "gzip")
             self.finish(_read_script(name))
         else:
@@ -58,7 +59,7 @@ class _Packed(StaticFileHandler):
 
     async def get(self, path: str, include_body: bool = True) -> None:
         """Answer with the file."""
-        if not _takes_packed(self):
+        if not takes_packed(self):
             await super().get(path, include_body)
             return
         self.path = self.parse_url_path(path)

@@ -87,6 +87,8 @@ SETTINGS = (
     Setting("rooms", 20, "rooms open at once, of a server process; 0 for none", whole_number(0), "N"),
     Setting("lessons", None, "a folder of your own lessons, after the course; /?lesson=NAME opens one", Path, "DIR"),
     Setting("docs", None, "a folder with the site that `codim2 docs DIR` built; else the package's own", Path, "DIR"),
+    Setting("pyodide", None, "a folder with Pyodide's release: pages compute on their visitors' devices", Path, "DIR"),
+    Setting("kernels", None, "a folder that `codim2 kernels` wrote, for pages; else the package's own", Path, "DIR"),
     Setting("log-level", "warning", "what is logged to standard error", str, "LEVEL", choices=LEVELS),
     Setting("log-json", False, "log JSON lines", bool),
     Setting("show", None, "open a browser window (default: when started from a terminal on a screen)", bool),

@@ -1,8 +1,9 @@
 // The explorer: markup from the server, one Bokeh figure, frames asked for as fast as the line carries them.
 
 import {Connection} from "./asking/connection.js"
+import {DeviceLine} from "./asking/device_line.js"
 import {openLine} from "./asking/line.js"
-import {openWorkerLine} from "./asking/worker_line.js"
+import {callWorker, openWorkerLine, outermost} from "./asking/worker_line.js"
 import {Requests} from "./asking/requests.js"
 import {Rest} from "./asking/rest.js"
 import {Waiting} from "./asking/waiting.js"
@@ -13,6 +14,7 @@ import {SystemChooser, TYPED} from "./controls/system.js"
 import {YoursList} from "./controls/yours_list.js"
 import {letScroll} from "./interaction/gestures.js"
 import {OrbitWords} from "./interaction/orbit_words.js"
+import {DeviceSwitch, isWanted} from "./page/device.js"
 import {keepFolds} from "./page/folds.js"
 import {Headline} from "./page/headline.js"
 import {Inspector} from "./page/inspector.js"
@@ -91,6 +93,7 @@ export class Explorer {
       link: ({values: wanted, seen}) => `?${writeLink(wanted, seen.every((edge) => Math.abs(edge) === config.measures.view) ? null : seen, config)}`,
       settled: () => this.note(),
     })
+    if (line instanceof DeviceLine && this.alone) new DeviceSwitch(this.find(".about"), (on) => line.turn(on))
     this.waiting = new Waiting(this.find(".busy"), this.requests)
     this.connect()
     this.begin()
@@ -280,7 +283,9 @@ export class Explorer {
 
   /** A frame has come. @param {ArrayBuffer} buffer */
   apply(buffer) {
-    const frame = readFrame(buffer), {header} = frame, late = header.late ?? []
+    const frame = readFrame(buffer), {header} = frame
+    this.line.heard?.(header, this.values)
+    const late = header.late ?? []
     if (header.set) this.follow(header.set, this.requests.out.has(header.id))
     this.systems.apply(frame)
     this.sentences.say({...header.left_out && {"": header.left_out}, ...header.errors})
@@ -366,11 +371,23 @@ export async function live() {
   const first = document.getElementById("codim2-first")
   const address = new URL(`live${location.search}`, location.href)
   address.protocol = address.protocol.replace("http", "ws")
-  try { await openIn(first, openLine(address)) } catch (why) {
+  try { await openIn(first, openLine(address).then(withDevice)) } catch (why) {
     if (typeof why !== "number") throw why
     const known = first.querySelector(":scope > [role=alert]") // it is said why already
     if (!known) setTimeout(() => notice(first.querySelector(".banner"), why === FULL ? first.dataset.full : first.dataset.other, () => location.reload()), 300) // a page that is left needs no words
   }
+}
+
+/** The line of a page whose server has a worker for it, or that line as it is. @param {import("./asking/line.js").Line} line */
+function withDevice(line) {
+  const {engine, look, edition} = line.config
+  if (!engine || look.embed && outermost() === window) return line // a frame in a page of others is one of many
+  const open = async () => {
+    const worker = await openWorkerLine(callWorker(new URL(engine.script, location.href), "", false), null, () => {})
+    if (worker.config.edition !== edition || JSON.stringify(worker.offered) !== JSON.stringify(line.offered)) throw new Error("the worker has another explorer")
+    return worker
+  }
+  return new DeviceLine(line, {open, wanted: isWanted, served: engine.served})
 }
 
 /** In a page without a server: a worker of its own answers. */
@@ -381,7 +398,7 @@ export async function openHere() {
   first.inert = !saved // a link that only the worker can read
   const tell = (sentence) => { const box = document.querySelector(".codim2 .busy"); box.toggleAttribute("hidden", !sentence); say(box, sentence) }
   tell(SAYS.starting)
-  const opening = openWorkerLine(new Worker("worker.js", {type: "module", name: JSON.stringify({search, drawn: !saved})}), saved, tell)
+  const opening = openWorkerLine(callWorker(new URL("worker.js", location.href), search, !saved), saved, tell)
   try {
     if (!saved) {
       const thumbnails = /** @type {NodeListOf<HTMLElement>} */ (first.querySelectorAll(".gallery [data-preset]"))

@@ -53,6 +53,8 @@ export const SAYS = {
   reload: "Reload",
   noFiles: "The server does not answer, so no files can be made now.",
   waiting: "Waiting for the server …",
+  onDevice: "Compute on this device",
+  onDeviceTip: "The browser loads the mathematics (11 MB) and draws by itself. The server then makes files and opens rooms.",
   starting: "Starting the mathematics …",
   follows: "This system takes longer than one frame; its picture follows …",
   compiling: "Compiling once; trajectories are sketched meanwhile …",

@@ -1,15 +1,15 @@
-// The server's half of a page without a server: Python in Pyodide, with kernels that were compiled beforehand.
-
-const {search, drawn} = JSON.parse(self.name) // of the page's address; whether its markup is to be drawn
+// The server's half of explorers that compute where they are seen: Python in Pyodide, with kernels that were compiled
+// beforehand. All explorers of a page share one worker; each has a port.
 
 const told = {bytes: 0, all: 1}, APART = 100 // ms between two tellings
+const ports = /** @type {Set<MessagePort>} */ (new Set())
 let last = 0
 
 function tell() {
   const now = performance.now()
   if (now - last < APART && told.bytes < told.all) return
   last = now
-  postMessage({loading: told})
+  for (const port of ports) port.postMessage({loading: told})
 }
 
 const fetched = globalThis.fetch
@@ -25,7 +25,6 @@ globalThis.fetch = async (asked, options) => {
 const here = (name) => new URL(name, location.href).href
 
 async function load() {
-  tell()
   const {edition, sizes} = await (await fetched(here("folder.json"))).json()
   const wheel = Object.keys(sizes).find((name) => name.endsWith(".whl"))
   told.all = ["pyodide/pyodide.asm.wasm", "pyodide/python_stdlib.zip", "pyodide/pyodide-lock.json", wheel, "site.zip"].reduce((sum, name) => sum + sizes[name], 0)
@@ -34,24 +33,35 @@ async function load() {
   const python = await loadPyodide({indexURL: here("pyodide/"), packages: ["numpy"], stdout: () => {}})
   python.unpackArchive(await site, "zip", {extractDir: "/site"})
   python.runPython("import sys; sys.path.insert(0, '/site')")
-  return python.pyimport("codim2_app.static_site.engine").Engine(search, edition, send)
+  const {Engine} = python.pyimport("codim2_app.static_site.engine")
+  return (search, reply) => Engine(search, edition, reply)
 }
 
 // A message of Python's, a dict, whose bytes become a buffer.
-function send(message) {
+function send(port, message) {
   const plain = message.toJs({dict_converter: Object.fromEntries})
   const [name, bytes] = Object.entries(plain).find(([, value]) => value instanceof Uint8Array) ?? []
   if (name) plain[name] = bytes.slice().buffer
-  postMessage(plain, {transfer: name ? [plain[name]] : []})
+  port.postMessage(plain, {transfer: name ? [plain[name]] : []})
 }
 
-const engine = load()
-onmessage = async ({data}) => (await engine).answer(JSON.stringify(data))
+const loading = load()
 
-try {
-  const {opening, first, markup} = await engine
-  postMessage({...JSON.parse(opening), first: first.toJs().slice().buffer, markup: drawn && markup()})
-} catch (error) {
-  console.error(error)
-  postMessage({failed: true})
+// An explorer comes: the query of its address, whether its markup is to be drawn, and its port.
+onmessage = async ({data: {search, drawn, port}}) => {
+  ports.add(port)
+  port.postMessage({loading: told})
+  try {
+    const engine = (await loading)(search, (message) => send(port, message)), {opening, first, elsewhere, markup} = engine
+    port.postMessage({...JSON.parse(opening), first: first.toJs().slice().buffer, elsewhere: elsewhere.toJs(), markup: drawn && markup()})
+    port.onmessage = ({data}) => {
+      if (!data.leave) { engine.answer(JSON.stringify(data)); return }
+      ports.delete(port)
+      engine.leave()
+      engine.destroy()
+    }
+  } catch (error) {
+    console.error(error)
+    port.postMessage({failed: true})
+  }
 }

@@ -1,4 +1,4 @@
-"""The server's half of one page, in a worker of the visitor's browser: messages in, messages out.
+"""The server's half of a page, in a worker of the visitor's browser: messages in, messages out.
 
 There is one thread and it belongs to an event loop. What a server computes beside the frames is computed here between
 two messages, when the frame that asked for it has left.
@@ -10,9 +10,11 @@ import asyncio
 import json
 from collections.abc import Callable
 from concurrent.futures import Executor, Future
-from functools import partial
+from functools import cache, partial
 from typing import Any
 from urllib.parse import parse_qsl
+
+from codim2_core.words import printed_sentence
 
 from ..frame.background_results import Scheduler, serve_with
 from ..frame.work_queue import WorkQueue
@@ -28,7 +30,7 @@ MAX_WORK_SECONDS = 10.0
 
 
 class Engine:
-    """The answers to one page.
+    """The answers to one explorer; those of one page share a worker.
 
     Parameters
     ----------
@@ -45,12 +47,16 @@ class Engine:
         What the page's script must know, as JSON.
     first : bytes
         The page's first frame.
+    elsewhere : tuple of str
+        What is said here of what a server can do.
     """
+
+    elsewhere = tuple(map(printed_sentence, (say("no scipy"), say("stopped after", seconds=MAX_WORK_SECONDS))))
 
     def __init__(self, query: str, edition: str, send: Callable[[dict[str, Any]], Any]) -> None:
         self._edition = edition
         loop = asyncio.get_event_loop()
-        serve_with(WorkQueue(NextTask(loop.call_soon)))
+        serve_with(_queue_of(loop))
         self._link = link_of(dict(parse_qsl(query.removeprefix("?"), keep_blank_values=True)))
         frames = Frames(self._link.state, errors=self._link.errors)
         self.opening, self.first = opening_messages(frames, self._link, edition, worker=True)
@@ -63,6 +69,15 @@ class Engine:
     def answer(self, message: str) -> None:
         """Answer a message of the page, as JSON, now or once the answer is there."""
         self._answers.answer(json.loads(message))
+
+    def leave(self) -> None:
+        """Compute nothing more: the explorer has gone."""
+        self._answers.leave()
+
+
+@cache
+def _queue_of(loop: asyncio.AbstractEventLoop) -> WorkQueue:
+    return WorkQueue(NextTask(loop.call_soon))
 
 
 class NextTask(Executor):

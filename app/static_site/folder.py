@@ -82,19 +82,25 @@ def all_files(pyodide: Path, kernels: Path) -> Iterator[tuple[str, bytes]]:
         "explorer.js": script().encode(),
         "takeaway.js": export_script().encode(),
         "bokeh.min.js": (Path(bokeh_settings.bokehjs_path()) / "js" / "bokeh.min.js").read_bytes(),
-        "worker.js": (SCRIPT_FOLDER / "worker.js").read_bytes(),
         "manifest.webmanifest": json.dumps(MANIFEST).encode(),
         "icon.svg": _icon(),
+        **engine_files(pyodide, kernels),
+        "index.html": page().encode(),
+    }
+    yield from files.items()
+    yield "offline.js", offline_script(files)
+
+
+def engine_files(pyodide: Path, kernels: Path) -> dict[str, bytes]:
+    """Return what the worker of a page is made of, by name."""
+    files = {
+        "worker.js": (SCRIPT_FOLDER / "worker.js").read_bytes(),
         "site.zip": site_zip(kernels),
         **{f"pyodide/{name}": data for name, data in copied_files(pyodide)},
         "pyodide/pyodide-lock.json": json.dumps(LOCK).encode(),
     }
-    files["index.html"] = page().encode()
-    files["folder.json"] = json.dumps(
-        {"edition": edition(), "sizes": {name: len(data) for name, data in files.items()}}
-    ).encode()
-    yield from files.items()
-    yield "offline.js", offline_script(files)
+    told = {"edition": edition(), "sizes": {name: len(data) for name, data in files.items()}}
+    return {**files, "folder.json": json.dumps(told).encode()}
 
 
 def offline_script(files: Mapping[str, bytes]) -> bytes:

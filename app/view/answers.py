@@ -67,11 +67,16 @@ class AnswerQueue:
         self._held: _PendingAnswer | None = None  # the frame that waits; a newer one replaces it
 
     def answer(self, request: Any) -> None:
-        """Answer a request: for a file (``take``), of a room (``room``), else for a frame; see `Frames.answer`."""
+        """Answer a request: for a file (``take``), of a room (``room``), else for a frame; see `Frames.answer`.
+
+        What a page shows that draws itself (``note``) is noted, and not answered.
+        """
         if isinstance(request, Mapping) and "take" in request:
             self.taking.answer(request["take"], self._send, self._later)
         elif isinstance(request, Mapping) and "room" in request:
             self.visitor.answer(request["room"], self._tell_of_room, self._later)
+        elif isinstance(request, Mapping) and "note" in request:
+            self.frames.note(request["note"])
         else:
             self._draw(request)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Mapping
+from typing import Any
 
 from ..phrases import say
 from ..state.cleaning import InputError
@@ -23,7 +24,9 @@ def link_of(query: Mapping[str, str]) -> Link:
         return Link(ExplorerState(), (InputError("", say("address failed")),))
 
 
-def opening_messages(frames: Frames, link: Link, edition: str, worker: bool = False) -> tuple[str, bytes]:
+def opening_messages(
+    frames: Frames, link: Link, edition: str, worker: bool = False, engine: Mapping[str, Any] | None = None
+) -> tuple[str, bytes]:
     """Return what the script of a page must know, as JSON, and the page's first frame.
 
     Parameters
@@ -36,12 +39,14 @@ def opening_messages(frames: Frames, link: Link, edition: str, worker: bool = Fa
         Of the page that this belongs to.
     worker : bool
         Whether a worker of the page answers, and there is no server with rooms and codes for phones.
+    engine : mapping, optional
+        Of a page whose server has a worker for it too: where its script is, and which panels are the server's alone.
     """
     first = frames.answer({"all": True})
     frames.publish()  # what cannot be drawn is not in the state
     config = {
         **settings(link.state, frames.locked, link.look), "page": True, "refused": frames.refused, "dark": False,
-        "edition": edition, "worker": worker,
+        "edition": edition, "worker": worker, "engine": engine,
     }  # fmt: skip
     if worker:
         config["film"] = False  # as in the worker, wherever the page was written

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
+from contextlib import suppress
 from typing import Any
 
 from param.parameterized import batch_call_watchers
@@ -23,7 +24,7 @@ from ..draw import glyphs
 from ..draw.lines import arrowheads, spacing
 from ..draw.packing import pack
 from ..frame.background_results import Jobs
-from ..frame.budget import BackgroundLayers, Budget, OmittedLayer, layers_of
+from ..frame.budget import BackgroundLayers, Budget, OmittedLayer, PendingLayer, layers_of
 from ..frame.faults import sentence_of
 from ..frame.frame_contents import Blocks, RequestedLayers, make_frame
 from ..frame.frame_context import FrameContext
@@ -157,6 +158,25 @@ class Frames:
             header["compiled"] = compiled
         errors = {name: printed_sentence(said) for name, said in errors.items()}
         return self._pack({"id": request.get("id", 0), "errors": errors, "load": load.measure(), **header}, blocks)
+
+    def note(self, given: Any) -> None:
+        """Take the values of a page that draws itself, by control: rooms and files go by them. Nothing is drawn."""
+        good: dict[str, Any] = {}
+        for name, value in read_request({"set": given})[1].items():
+            if value != self.values.get(name):
+                with suppress(InputError):  # the page says so
+                    good[name] = clean(name, value)
+        before = self.values
+        try:
+            self.values, _, self.scene = self._reach(good)
+        except Exception:  # the page says which of them cannot be had
+            self.values, _, self.scene = self._reach(compatible_changes(good, self._reach)[0])
+        self._unpublished.update({name: value for name, value in self.values.items() if value != before[name]})
+        self.publish()
+        if self.budget is not None:
+            self.budget.begin()
+        with suppress(PendingLayer, OmittedLayer):
+            self._sent = {**self._sent, "classification": self.scene["name"]}
 
     def keep(self) -> None:
         """Note that the last frame was not sent: what it told is told by the next one."""

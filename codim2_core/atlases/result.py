@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
-from .. import drawing
 from ..arrays import Array
 from ..paper import cite, label_of
-from ..tables import Tabled, paragraphs, point, result_rows, table_number
+from ..results import Pictured, Tabled, result_rows
+from ..tables import paragraphs, point, table_number
 
 __all__ = ["Atlas", "AtlasCurve", "AtlasPoint", "AtlasRegion", "SamplingReport"]
 
@@ -60,7 +62,7 @@ class AtlasCurve(Tabled):
         return bool((self.points[0] == self.points[-1]).all())
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class AtlasPoint(Tabled):
     """A point of codimension two.
 
@@ -131,7 +133,7 @@ class SamplingReport:
 
 
 @dataclass(frozen=True, eq=False)
-class Atlas:
+class Atlas(Pictured):
     """All that changes over two parameters.
 
     Attributes
@@ -162,10 +164,12 @@ class Atlas:
     degenerate: tuple[tuple[str, float], ...] = ()
     looked: SamplingReport = SamplingReport()
 
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
+    def _records(self) -> Iterator[dict[str, Any]]:
+        for i, curve in enumerate(self.curves):
+            for across, up in curve.points.tolist():
+                yield {"curve": i, "kind": curve.kind, self.names[0]: across, self.names[1]: up}
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         labels = dict.fromkeys(f"{one.kind}: {cite(one.label)}" for one in self.curves if cite(one.label))
         tables = result_rows(self.regions) + result_rows(self.points) + result_rows(self.curves)
-        return (self._repr_svg_() or "") + tables + paragraphs(["; ".join(labels)])
+        return tables + paragraphs(["; ".join(labels)])

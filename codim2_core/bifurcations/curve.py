@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from .. import drawing
 from ..arrays import Array
 from ..paper import cite
+from ..results import Pictured, Tabled, result_rows
 from ..systems.elinear import ELinear
-from ..tables import Tabled, paragraphs, point, result_rows
+from ..tables import paragraphs, point
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class SpecialPoint(Tabled):
     """A point of codimension two on a bifurcation curve.
 
@@ -38,7 +39,7 @@ class SpecialPoint(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class BifurcationCurve:
+class BifurcationCurve(Pictured):
     """One bifurcation in the plane (f1, f2) at fixed a, b, d (and Psi).
 
     Attributes
@@ -69,11 +70,16 @@ class BifurcationCurve:
     sentence: str = ""
 
     def _repr_svg_(self) -> str | None:
-        return drawing.svg(self) if self.branches else None
+        return super()._repr_svg_() if self.branches else None
 
-    def _repr_html_(self) -> str:
+    def _records(self) -> Iterator[dict[str, Any]]:
+        for i, branch in enumerate(self.branches):
+            for f1, f2 in branch.tolist():
+                yield {"branch": i, "f1": f1, "f2": f2}
+
+    def _tables_(self) -> str:
         said = paragraphs([f"{self.name} ({cite(self.label)})" if self.label else self.name, self.sentence])
-        return (self._repr_svg_() or "") + said + result_rows(self.special)
+        return said + result_rows(self.special)
 
     def __len__(self) -> int:
         return len(self.branches)

@@ -13,9 +13,10 @@ from ..layer_problem.location import locate
 from ..numerics.sign_changes import roots
 from ..psi.constructors import hill, many, with_parameter
 from ..psi.function import Psi
+from ..results import Results, Tabled
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
-from ..tables import Results, Tabled, table_number
+from ..tables import table_number
 from ..words import say
 
 SEGMENT_STEPS = 241

@@ -12,13 +12,13 @@ from functools import cached_property
 
 import numpy as np
 
-from .. import drawing
 from ..layer_problem.location import Existence, locate
 from ..layer_problem.problem import LayerProblem
 from ..portrait.classify import Classification, classify, portrait_name
 from ..psi.constructors import constant
+from ..results import Pictured, Results, Tabled
 from ..systems.coefficients import Coefficients
-from ..tables import Results, Tabled, point
+from ..tables import point
 from .arrangement import arrangement, face_borders
 from .curve import Array, matrix, read_only_lines
 from .geometry import Geometry
@@ -61,16 +61,10 @@ class Region(Tabled):
         return self.name, point(self.inside), "yes" if self.bounded else "no", self.classification.sentence
 
 
-class Regions(Results[Region]):
+class Regions(Results[Region], Pictured):
     """All regions of the plane (f1, f2): a tuple that a notebook shows as a picture and a table."""
 
     __slots__ = ()
-
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
-
-    def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + super()._repr_html_()
 
 
 def regions(a: float, b: float, d: float) -> Regions:

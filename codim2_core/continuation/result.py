@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import drawing
 from ..arrays import Array
-from ..tables import Tabled, paragraphs, result_rows, table_number
+from ..results import Pictured, Result, Several, Tabled, result_rows
+from ..tables import paragraphs, table_number
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CyclePoint(Tabled):
     """A special point of a branch of cycles.
 
@@ -46,7 +45,7 @@ class CyclePoint(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class CycleBranch:
+class CycleBranch(Result):
     """One branch of limit cycles, in order along it; arrays are read-only and of the same length m.
 
     Attributes
@@ -90,7 +89,7 @@ class CycleBranch:
 
 
 @dataclass(frozen=True, eq=False)
-class CycleBranches:
+class CycleBranches(Several[CycleBranch], Pictured):
     """All branches found over the span; iterates over them.
 
     Attributes
@@ -104,6 +103,8 @@ class CycleBranches:
         What was not decided.
     """
 
+    _held_ = "branches"
+
     name: str
     span: tuple[float, float]
     branches: tuple[CycleBranch, ...]
@@ -111,20 +112,11 @@ class CycleBranches:
     notes: tuple[str, ...] = ()
 
     def _repr_svg_(self) -> str | None:
-        return drawing.svg(self) if self.branches else None
+        return super()._repr_svg_() if self.branches else None
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         special = result_rows(one for branch in self.branches for one in branch.special)
-        return (self._repr_svg_() or "") + special + paragraphs([self.reason, *self.notes])
-
-    def __iter__(self) -> Iterator[CycleBranch]:
-        return iter(self.branches)
-
-    def __len__(self) -> int:
-        return len(self.branches)
-
-    def __getitem__(self, i: int) -> CycleBranch:
-        return self.branches[i]
+        return special + paragraphs([self.reason, *self.notes])
 
     def count(self, value: float) -> int:
         """Count the cycles at a value of the parameter (one between the ends of the branches and their folds)."""

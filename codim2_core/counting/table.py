@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..tables import Tabled, frame, paragraphs, point, result_rows, table_number, write_csv
+from ..results import Result, Tabled, result_rows
+from ..tables import paragraphs, point, table_number
 from .tally import CensusPlan, SampleLocation, Tally
 
 NORMAL_95 = 1.959963984540054  # two-sided 95 % of the normal distribution
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class CensusRow(Tabled):
     """One portrait.
 
@@ -54,8 +55,8 @@ class CensusRow(Tabled):
         )
 
 
-@dataclass(frozen=True)
-class Census:
+@dataclass(frozen=True, eq=False)
+class Census(Result):
     """The portraits of many systems.
 
     Attributes
@@ -74,16 +75,11 @@ class Census:
     seed: int
     contradictions: int = 0
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         return result_rows(self.table) + paragraphs([f"{self.count:,} systems, seed {self.seed}"])
 
-    def to_csv(self, path: str | Path) -> None:
-        """Write the table as CSV, a row a portrait."""
-        write_csv(path, map(vars, self.table))
-
-    def to_frame(self) -> Any:
-        """Return the table as a pandas DataFrame (pandas must be installed)."""
-        return frame(map(vars, self.table))
+    def _records(self) -> Iterator[dict[str, Any]]:
+        return map(dict, map(vars, self.table))
 
 
 def make_census(tally: Tally, plan: CensusPlan, chunk: int) -> Census:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
+from ..results import Results, Tabled
 from ..systems.kinds import AnySystem
-from ..tables import Results, Tabled, frame, table_number
+from ..tables import table_number
 from .limit_cycles import cycles_of
 
 
@@ -55,11 +55,6 @@ class LawVerdicts(Results[LawVerdict]):
     """The verdicts of several laws, in their order."""
 
     __slots__ = ()
-
-    def to_frame(self) -> Any:
-        """Return a pandas DataFrame, a row a law (pandas must be installed)."""
-        names = ("law", "verdict", "trace", "creep", "chatter")
-        return frame({name: getattr(one, name) for name in names} for one in self)
 
 
 def compare_laws(system: AnySystem, laws: Mapping[str, tuple[Psi, float]], z: ArrayLike = ()) -> LawVerdicts:

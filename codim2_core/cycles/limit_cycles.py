@@ -12,7 +12,6 @@ Everywhere else there is a theorem, see `reason_for_none`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -20,16 +19,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import drawing
 from ..arrays import Array
 from ..layer_problem.critical import CriticalSet, slow_flow_at
 from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.location import Existence, Location, locate
 from ..layer_problem.problem import LayerProblem, found_once
 from ..psi.function import Psi
+from ..results import Pictured, Several, Tabled, result_rows
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
-from ..tables import Tabled, paragraphs, point, result_rows, table_number
+from ..tables import paragraphs, point, table_number
 from ..words import say
 from .displacement_sampling import count_sentence
 from .fixed_point_search import ReturnMapSamples, sample_return_map, search
@@ -97,7 +96,7 @@ class LimitCycle(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class LimitCycles:
+class LimitCycles(Several[LimitCycle], Pictured):
     """The limit cycles found, innermost first, and what is to be said about them; iterates over the cycles.
 
     Attributes
@@ -111,29 +110,19 @@ class LimitCycles:
         None if no proof was asked for. It is true in a condition exactly where the count stands proved.
     """
 
+    _held_ = "cycles"
+
     cycles: tuple[LimitCycle, ...]
     reason: str
     notes: tuple[str, ...] = ()
     proved: Proof | None = None
 
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
-
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         return (
             (self._repr_svg_() or "")
             + result_rows(self)
             + paragraphs([self.reason, *self.notes] if self.proved is None else [self.proved.reason, *self.notes])
         )
-
-    def __iter__(self) -> Iterator[LimitCycle]:
-        return iter(self.cycles)
-
-    def __len__(self) -> int:
-        return len(self.cycles)
-
-    def __getitem__(self, i: int) -> LimitCycle:
-        return self.cycles[i]
 
 
 def surrounds(line: Array, place: Array) -> bool:

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..psi.function import Psi
-from ..tables import Tabled, table_number
+from ..results import Tabled
+from ..tables import table_number
 from .classes import classes_over
 from .critical import OFF_CENTRE
 from .equilibrium_branches import equilibrium_branches

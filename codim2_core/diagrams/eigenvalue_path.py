@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import drawing
 from ..arrays import Array
 from ..layer_problem.critical import critical_sets
 from ..layer_problem.vary import vary
 from ..psi.function import Psi
+from ..results import Pictured
 from ..tables import html_table, table_number
 from .test_functions import KINDS, family, linearise
 
@@ -20,7 +20,7 @@ __all__ = ["LinearisationPath", "linearisation_path"]
 
 
 @dataclass(frozen=True, eq=False)
-class LinearisationPath:
+class LinearisationPath(Pictured):
     """The critical set's linearisation (eq:scjaco) along one parameter.
 
     Attributes
@@ -53,16 +53,13 @@ class LinearisationPath:
         starts = [i for i, kind in enumerate(self.kind) if not i or kind != self.kind[i - 1]]
         return tuple(zip(starts, [*(i - 1 for i in starts[1:]), len(self.kind) - 1], strict=True)) if starts else ()
 
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
-
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         found = [
             (*(table_number(self.values[k]) for k in (i, j)), self.kind[i] or "none", table_number(self.trace[i]))
             for i, j in self.pieces
         ]
         head = (f"from {self.name}", "to", "critical set", "tr J at first")
-        return (self._repr_svg_() or "") + html_table(head, found)
+        return html_table(head, found)
 
 
 def linearisation_path(system: Any, psi: Psi, name: str, values: ArrayLike, z: ArrayLike = ()) -> LinearisationPath:

@@ -5,18 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from .. import drawing
 from ..arrays import Array
 from ..continuation.result import CycleBranch, CycleBranches, CyclePoint
 from ..paper import label_of
 from ..psi.function import Psi
+from ..results import Pictured, Result, Tabled
 from ..systems.kinds import AnySystem
-from ..tables import Tabled, frame, html_table, paragraphs, table_number, write_csv
+from ..tables import html_table, paragraphs, table_number
 from ..words import say
 from .family import SystemPath, linear_path, values_over
 
@@ -30,7 +29,7 @@ _COLUMNS = (
 UNREPORTED_KINDS = ("Hopf", "span", "closed")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class SpecialValue(Tabled):
     """A value of the parameter where something changes.
 
@@ -68,7 +67,7 @@ class SpecialValue(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class DirectionBranch:
+class DirectionBranch(Result):
     """A limit direction along a piece on which its stability does not change (eq:equator_zeros).
 
     Attributes
@@ -90,7 +89,7 @@ class DirectionBranch:
 
 
 @dataclass(frozen=True, eq=False)
-class ClosedEquator:
+class ClosedEquator(Result):
     """The equator as a closed orbit along a piece on which its stability does not change (thm:geneps0(c)).
 
     Attributes
@@ -108,7 +107,7 @@ class ClosedEquator:
 
 
 @dataclass(frozen=True, eq=False)
-class CriticalBranch:
+class CriticalBranch(Result):
     """A critical set along a piece on which its kind does not change (eq:critical_set).
 
     Attributes
@@ -137,7 +136,7 @@ class CriticalBranch:
 
 
 @dataclass(frozen=True, eq=False)
-class Branches:
+class Branches(Pictured):
     """Branches along one parameter, and their special points.
 
     Attributes
@@ -205,21 +204,8 @@ class Branches:
         reason = f" {say('elsewhere')} ".join(dict.fromkeys(part.reason for part in parts))
         return replace(self, cycles=CycleBranches(self.along, self.span, tuple(found), reason, tuple(notes)))
 
-    def to_frame(self) -> Any:
-        """Return all branches as a pandas DataFrame, a row a point: which branch, the parameter's value, what is there.
-
-        Raises
-        ------
-        ValueError
-            pandas is not installed.
-        """
-        return frame(self._records())
-
-    def to_csv(self, path: str | Path) -> None:
-        """Write what `to_frame` has as CSV."""
-        write_csv(path, self._records())
-
     def _records(self) -> Iterator[dict[str, Any]]:
+        """Return a row for each point of each branch: which branch, the parameter's value, what is there."""
         for i, way in enumerate(self.limit_directions):
             more = {"theta": way.theta, "lambda_rho": way.lambda_rho, "lambda_theta": way.lambda_theta}
             yield from self._each("limit direction", i, way.value, way.kind, more)
@@ -245,14 +231,11 @@ class Branches:
                 "what": what, "branch": i, self.along: at, "kind": kind, **{k: given.get(k) for k in _COLUMNS}
             }  # fmt: skip
 
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
-
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         special = html_table(
             ("at", self.along, "what happens"), [(*one._row_()[:2], one.sentence) for one in self.special]
         )
-        return (self._repr_svg_() or "") + special + paragraphs([self.cycles.reason, *self.notes])
+        return special + paragraphs([self.cycles.reason, *self.notes])
 
 
 def _in_own_axes(branch: CycleBranch, path: SystemPath) -> CycleBranch:

@@ -50,6 +50,10 @@ class Field:
     value: Callable[..., tuple[float, ...]]
     slope: Callable[..., tuple[float, ...]]
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Be pickled by the formulas, of which the functions are made again."""
+        return _make_field, (self.rows, self.m)
+
     def jacobian(self, c: float, s: float, x: float, y: float, z: Sequence[float]) -> Array:
         """``D (U, W)`` by (c, s, x, y, z), of shape (2 + m, 4 + m).
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..numerics.line_pair import line_pair
 from ..numerics.trigonometric import tangential_zeros
 from ..numerics.trigonometric_exact import to_integers
+from ..results import Result
 from ..tables import html_table, paragraphs, table_number
 from ..words import say
 from .equator_zeros import equator_as_orbit
@@ -24,8 +25,8 @@ DESCENTS = 6  # of Newton's method: from within 2.5 degrees of a minimum
 NEUTRAL_EQUATOR = 2.0**-49  # of the terms of the exponent: zero within rounding
 
 
-@dataclass(frozen=True)
-class EquatorCycle:
+@dataclass(frozen=True, eq=False)
+class EquatorCycle(Result):
     """The equator as a closed orbit (thm:geneps0(c)).
 
     Attributes
@@ -45,7 +46,7 @@ class EquatorCycle:
     exponent: float
     neutral: bool
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         numbers = html_table(("period in T", "exponent"), [(table_number(self.period), table_number(self.exponent))])
         return paragraphs([self.sentence]) + numbers
 

@@ -15,11 +15,12 @@ from ..expressions.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, progr
 from ..expressions.kinks import kinks
 from ..expressions.names import FAST_NAMES
 from ..psi.function import Psi
+from ..results import Results, Tabled
 from ..systems.bounds import at_place
 from ..systems.coefficients import Affine
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
-from ..tables import Results, Tabled, html_table, point, table_number
+from ..tables import html_table, point, table_number
 from .disc_zeros import disc_zeros
 from .linearisation import (
     Frame,
@@ -35,7 +36,7 @@ SMALL_TRACE = 1e-9  # of the terms of tr J, below which it is asked whether roun
 PLACED = 4 * 2.0**-52  # of |e|, to which the place of a zero is known
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class CriticalSet(Tabled):
     """A critical set C of the layer problem, eq:critical_set, with its linearisation eq:scjaco.
 
@@ -97,7 +98,7 @@ class CriticalSets(Results[CriticalSet]):
 
     __slots__ = ()
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         names = ["C"] if len(self) == 1 else [f"C{i + 1}" for i in range(len(self))]
         found = [(name, *C._row_()) for name, C in zip(names, self, strict=True)]
         return html_table(("critical set", *CriticalSet._head_), found) or "<p>no critical set</p>"

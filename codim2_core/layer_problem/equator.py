@@ -7,7 +7,7 @@ dTheta/dtheta along the equator, lambda_rho outwards and -lambda_rho up the hemi
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -26,6 +26,7 @@ from ..numerics.trigonometric import (
     tangential_zeros,
 )
 from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
+from ..results import Result, column_rows
 from ..systems.coefficients import Affine, Coefficients
 from ..systems.frozen import FrozenSystem
 from ..tables import html_table, paragraphs, table_number
@@ -43,7 +44,7 @@ SINGULAR_ROUNDING = (
 
 
 @dataclass(frozen=True, eq=False)
-class EquatorEquilibria:
+class EquatorEquilibria(Result):
     """Equilibria on the equator, Q1, Q2, ... in increasing theta (thm:geneps0, eq:equator_equilibria).
 
     Attributes
@@ -100,11 +101,16 @@ class EquatorEquilibria:
     def __len__(self) -> int:
         return len(self.theta)
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         head = ("limit direction", "θ", "λ_ρ", "λ_θ", "kind")
         values = zip(self.theta.tolist(), self.lambda_rho.tolist(), self.lambda_theta.tolist(), strict=True)
         rows = [(self.labels[i], *map(table_number, row), self.kind(i)) for i, row in enumerate(values)]
         return paragraphs([self.summary]) + html_table(head, rows)
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        columns = {"label": self.labels, "theta": self.theta, "lambda_rho": self.lambda_rho}
+        columns |= {"lambda_theta": self.lambda_theta, "multiplicity": self.multiplicity}
+        return column_rows(columns | {"kind": [self.kind(i) for i in range(len(self))]})
 
     @property
     def labels(self) -> tuple[str, ...]:

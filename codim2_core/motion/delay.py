@@ -10,7 +10,8 @@ from ..arrays import Array
 from ..initial_value.field import Field
 from ..initial_value.slow_manifold import solve_critical
 from ..numerics.dense import Dense
-from ..tables import Tabled, point
+from ..results import Tabled
+from ..tables import point
 from ..words import say
 
 DELAY_SAMPLES = 33  # of the delay

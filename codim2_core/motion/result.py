@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import drawing
 from ..arrays import Array
 from ..expressions.names import SLOW_NAMES
 from ..numerics.dense import Dense
-from ..tables import MAX_ROWS, Tabled, frame, paragraphs, result_rows, table_number
+from ..results import Pictured, Tabled, column_rows, result_rows
+from ..tables import MAX_ROWS, frame, paragraphs, table_number
 from ..words import say
 from .delay import Delay
 from .locations import NO_POINTS, Ascent, Location
@@ -36,7 +36,7 @@ class SimulationStatus(Enum):
     STEP_LIMIT = say("step limit")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Phase(Tabled):
     """One phase of a motion.
 
@@ -149,7 +149,7 @@ class Phase(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class Simulation:
+class Simulation(Pictured):
     """A motion; arrays are read-only.
 
     Attributes
@@ -177,19 +177,16 @@ class Simulation:
     eps: float
     evaluations: int
     events: tuple[Array, ...]
-    _phases: Callable[[], tuple[Phase, ...]] = field(repr=False)
-    _variation: Callable[[tuple[str, ...]], Variation] = field(repr=False)
+    _phases: Callable[[], tuple[Phase, ...]] = field(repr=False, compare=False)
+    _variation: Callable[[tuple[str, ...]], Variation] = field(repr=False, compare=False)
 
     def __repr__(self) -> str:
         phases = ", ".join(f"{one.kind} from {one.t_start:.6g}" for one in self.phases[:MAX_ROWS])
         span = f"{self.times[0]:.6g} to {self.times[-1]:.6g}"
         return f"<motion for eps = {self.eps:g} from t = {span}: {phases}. {self.reason}>"
 
-    def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + result_rows(self.phases) + paragraphs([self.reason])
-
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
+    def _tables_(self) -> str:
+        return result_rows(self.phases) + paragraphs([self.reason])
 
     @property
     def times(self) -> Array:
@@ -285,6 +282,9 @@ class Simulation:
         """
         return drawn_curve(self.motion, self.phases, self.eps)
 
+    def _records(self) -> Iterator[dict[str, Any]]:
+        return column_rows(self._columns(self.times, self.states))
+
     def to_frame(self, t: ArrayLike | None = None) -> Any:
         """Return the motion as a pandas DataFrame: a row a time, columns t, x, y, z1, ..., zm, phase and onto.
 
@@ -301,12 +301,14 @@ class Simulation:
         when = self.times if t is None else np.asarray(t, float)
         if when.ndim != 1:
             raise ValueError(f"t has shape {when.shape}; give a list of times.")
-        states = self.states if t is None else self.dense(when)
+        return frame(self._columns(when, self.states if t is None else self.dense(when)))
+
+    def _columns(self, when: Array, states: Array) -> dict[str, Any]:
         named = dict(zip(("x", "y", *SLOW_NAMES), states.T, strict=False))
         starts = [phase.t_start for phase in self.phases]
         phases = [self.phases[i - 1] for i in np.searchsorted(starts, when, side="right") if i]  # as `phase_at`
         told = {"phase": [phase.kind for phase in phases], "onto": [phase.onto for phase in phases]} if starts else {}
-        return frame({"t": when, **named, **told})
+        return {"t": when, **named, **told}
 
 
 def simulation(

@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import drawing
 from ..arrays import Array
 from ..layer_problem.equator import equator_equilibria
 from ..psi.constructors import constant
 from ..psi.function import Psi
+from ..results import Pictured, Results, Tabled
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
-from ..tables import Results, Tabled, point
+from ..tables import point
 from .conics import ConicCurve, Straight, affine_field, chord_ends, conic, lines
 from .general_nullclines import Kind, inside_curves, outside_curves
 from .polylines import picture_points
 from .view_refinement import Seen, on_component
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class NullclineBranch(Tabled):
     """One connected piece of a nullcline in the picture.
 
@@ -49,16 +51,15 @@ class NullclineBranch(Tabled):
         return _NULLCLINE_NAMES[self.kind], "hemisphere" if self.inside else "outside", *ends
 
 
-class Nullclines(Results[NullclineBranch]):
+class Nullclines(Results[NullclineBranch], Pictured):
     """All nullclines of a picture: a tuple that a notebook shows as a picture and a table."""
 
     __slots__ = ()
 
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
-
-    def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + super()._repr_html_()
+    def _records(self) -> Iterator[dict[str, Any]]:
+        for i, one in enumerate(self):
+            for x, y in one.points.tolist():
+                yield {"branch": i, "kind": one.kind, "inside": one.inside, "x": x, "y": y}
 
 
 _NULLCLINE_NAMES: dict[Kind, str] = {"rho": "ρ′ = 0", "theta": "θ′ = 0", "U1": "U₁ = 0", "U2": "U₂ = 0"}

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
+from ..equality import ByValue
 from .radau import STAGES, Step
 
 
 @dataclass(frozen=True, eq=False)
-class Dense:
+class Dense(ByValue):
     """The states of a motion at any time it covers; arrays are read-only.
 
     Attributes

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Array
+from ..equality import ByValue
 from .result import Status, Trajectories
 
 
-@dataclass(frozen=True)
-class Orbits:
+@dataclass(frozen=True, eq=False)
+class Orbits(ByValue):
     """Orbits through seeds; all arrays are read-only and points run with increasing time.
 
     Attributes

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
+from ..equality import ByValue
 from ..layer_problem.hemisphere import disc_from_scaling, e_psi, outside_flow, scaling_from_disc
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem, FrozenSystem
@@ -27,7 +28,7 @@ MAX_HALF_POINTS = 300  # points of each half
 
 
 @dataclass(frozen=True, eq=False)
-class InTime:
+class InTime(ByValue):
     """An orbit over time; arrays are read-only and run with increasing time.
 
     Attributes

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .. import drawing
 from ..arrays import Array
+from ..results import Pictured, column_rows
 from ..tables import html_table
 from ..words import say
 
@@ -34,8 +35,8 @@ class Status(Enum):
 STATUSES = tuple(Status)  # in the order of the codes of `stepping`
 
 
-@dataclass(frozen=True)
-class Trajectories:
+@dataclass(frozen=True, eq=False)
+class Trajectories(Pictured):
     """Trajectories as polylines of the picture. All arrays are read-only; the lists are views of `buffer` and `clock`.
 
     Attributes
@@ -70,13 +71,14 @@ class Trajectories:
         told = "; ".join(f"{count}: {end}" for end, count in ends.most_common())
         return f"<{len(self)} trajectories, {self.evaluations} evaluations. {told}>"
 
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
-
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         ends = Counter(one.value for one in self.status)
         found = [(end, str(count)) for end, count in ends.most_common()]
-        return (self._repr_svg_() or "") + html_table(("why it ended", "trajectories"), found)
+        return html_table(("why it ended", "trajectories"), found)
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        which = np.repeat(np.arange(len(self)), np.diff(self.offsets))
+        return column_rows({"trajectory": which, "T": self.clock, "x": self.buffer[:, 0], "y": self.buffer[:, 1]})
 
     def __len__(self) -> int:
         return len(self.codes)

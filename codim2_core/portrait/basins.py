@@ -8,16 +8,18 @@ from __future__ import annotations
 
 import math
 import reprlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .. import drawing
 from ..cycles.limit_cycles import LimitCycles, cycles_of
 from ..layer_problem.problem import LayerProblem
 from ..orbits.trajectories import trajectories
 from ..psi.function import Psi
+from ..results import Pictured, column_rows
 from ..systems.kinds import AnySystem
 from ..tables import html_table, point, table_number
 from .omega_limits import CAPTURE, critical_label, drawn_time, omega_limits
@@ -32,7 +34,7 @@ Box = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Basins:
+class Basins(Pictured):
     """Basins of attraction of the layer problem, as a class for each cell of the disc.
 
     Attributes
@@ -62,13 +64,13 @@ class Basins:
         inside = max(1, int((self.cells != OUTSIDE).sum()))
         return tuple(float((self.cells == i).sum()) / inside for i in range(len(self.destinations)))
 
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
+    def _records(self) -> Iterator[dict[str, Any]]:
+        return column_rows({"leads_to": self.destinations, "share": self.shares})
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         flows = ["–" if flow is None else point(flow) for flow in self.slow_flow]
         found = list(zip(self.destinations, map(table_number, self.shares), flows, strict=True))
-        return (self._repr_svg_() or "") + html_table(("leads to", "share of the cells", "slow flow z′"), found)
+        return html_table(("leads to", "share of the cells", "slow flow z′"), found)
 
 
 def basins(

@@ -13,12 +13,13 @@ from ..layer_problem.closed_equator import NEUTRAL_EQUATOR
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..numerics.trigonometric import INPUT_ROUNDING
-from ..tables import Tabled, paragraphs, result_rows
+from ..results import Result, Tabled, result_rows
+from ..tables import paragraphs
 from ..words import SENTENCES, power, say, subscript, written_label
 from .omega_limits import critical_label, radially_neutral_ones
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class Degeneracy(Tabled):
     """Something that a small change of the system would destroy.
 
@@ -65,8 +66,8 @@ class PortraitName(NamedTuple):
         return f"{self.case} {self.name}" if self.case else self.name
 
 
-@dataclass(frozen=True, slots=True)
-class Classification:
+@dataclass(frozen=True, eq=False, slots=True)
+class Classification(Result):
     """Name of a phase portrait.
 
     Attributes
@@ -94,7 +95,7 @@ class Classification:
         """The name with its case, if it has one: "I CM4"."""
         return PortraitName(self.case, self.name, self.degeneracies).full_name
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         case = f"Case {self.case}" if self.case else ""
         name = f"<p><strong>{escape(self.name)}</strong> {case}</p>"
         return f"{name}{paragraphs([self.sentence])}{result_rows(self.degeneracies)}"

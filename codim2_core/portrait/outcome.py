@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import bisect
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
 from ..arrays import Array
 from ..layer_problem.equator import EquatorEquilibria, arcs_of
+from ..results import Several, Tabled, result_rows
 from ..systems.frozen import FrozenSystem
-from ..tables import Tabled, point, result_rows, table_number
+from ..tables import point, table_number
 from ..words import say
 
 __all__ = ["Outcome", "Outcomes"]
@@ -84,7 +84,7 @@ class Outcome(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class Outcomes:
+class Outcomes(Several[Outcome]):
     """Outcomes of all limit directions that trajectories arrive along, open sets first; iterates over them.
 
     Attributes
@@ -98,23 +98,16 @@ class Outcomes:
         None where there are limit directions Q.
     """
 
+    _held_ = "outcomes"
+
     outcomes: tuple[Outcome, ...]
     directions: tuple[Outcome, ...] = field(repr=False)
     equator: EquatorEquilibria = field(repr=False)
     whole: Outcome | None
     _at: FrozenSystem = field(repr=False)
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         return result_rows(self) or result_rows(self.directions)
-
-    def __iter__(self) -> Iterator[Outcome]:
-        return iter(self.outcomes)
-
-    def __len__(self) -> int:
-        return len(self.outcomes)
-
-    def __getitem__(self, i: int) -> Outcome:
-        return self.outcomes[i]
 
     def destination(self, theta: float) -> int | None:
         """Index (from 0) of the limit direction that a trajectory outside, now at angle theta, tends to.

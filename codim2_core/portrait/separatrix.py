@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from .. import drawing
 from ..arrays import Array
-from ..tables import Tabled, paragraphs, result_rows
+from ..results import Pictured, Several, Tabled, result_rows
+from ..tables import paragraphs
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +55,7 @@ class Separatrix(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class Separatrices:
+class Separatrices(Several[Separatrix], Pictured):
     """All separatrices; iterates over them.
 
     Attributes
@@ -66,23 +65,13 @@ class Separatrices:
         What has no separatrix because it is degenerate, saddle connections, branches left undecided.
     """
 
+    _held_ = "branches"
+
     branches: tuple[Separatrix, ...]
     notes: tuple[str, ...] = ()
 
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
-
-    def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + result_rows(self) + paragraphs(self.notes)
-
-    def __iter__(self) -> Iterator[Separatrix]:
-        return iter(self.branches)
-
-    def __len__(self) -> int:
-        return len(self.branches)
-
-    def __getitem__(self, i: int) -> Separatrix:
-        return self.branches[i]
+    def _tables_(self) -> str:
+        return result_rows(self) + paragraphs(self.notes)
 
     @property
     def graph(self) -> tuple[tuple[str, str], ...]:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 
-from .constructors import constant, custom, exponential, hill, make, rational, tanh
+from .constructors import constant, custom, exponential, from_text, hill, make, rational, tanh
 from .engines import ENGINES, Engine, engine, engine_eps
 from .families import FAMILIES, Family, Parameter, register, unregister
 from .function import Psi
@@ -20,6 +20,7 @@ __all__ = [
     "engine",
     "engine_eps",
     "exponential",
+    "from_text",
     "hill",
     "make",
     "rational",

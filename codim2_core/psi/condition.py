@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from ..tables import Tabled, result_rows, table_number
+from ..results import Result, Tabled, result_rows
+from ..tables import table_number
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class Condition(Tabled):
     """One condition of def:Psi.
 
@@ -37,8 +38,8 @@ class Condition(Tabled):
         return self.holds
 
 
-@dataclass(frozen=True, slots=True)
-class PsiCheck:
+@dataclass(frozen=True, eq=False, slots=True)
+class PsiCheck(Result):
     """R1 to R5 of def:Psi for one Psi; iterates over the five."""
 
     R1: Condition
@@ -47,7 +48,7 @@ class PsiCheck:
     R4: Condition
     R5: Condition
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         return result_rows(self)
 
     def __iter__(self) -> Iterator[Condition]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import reprlib
 from typing import Any
 
 import numpy as np
@@ -70,7 +71,31 @@ def custom(text: str) -> Psi:
     return Psi(TYPED.name, 0.0, expression.text, expression, custom_kernel(expression), TYPED)
 
 
-def make(family: str, parameter: float | None = None, text: str = "") -> Psi:
+def from_text(text: str) -> Psi:
+    """Psi as the command line names it: a family, ``"hill:3"`` with its parameter, or a formula in s.
+
+    Parameters
+    ----------
+    text : str
+
+    Raises
+    ------
+    ValueError
+        It is none of these.
+    """
+    if not isinstance(text, str):
+        raise ValueError(f"text is {reprlib.repr(text)}; give text such as 'hill:3' or '1/(1 + s)'.")
+    name, _, number = text.strip().partition(":")
+    record = FAMILIES.get(name)
+    if record is None or record.typed:
+        identity = next(one for one in FAMILIES.values() if one.identity)
+        return make(identity.name) if text == identity.formula else custom(text)
+    if number and record.parameter is None:
+        raise ValueError(f"{name} has no parameter, and {number!r} is given; leave it out.")
+    return make(name, number or None)
+
+
+def make(family: str, parameter: float | str | None = None, text: str = "") -> Psi:
     """Psi by the name of its family, for menus and links.
 
     Parameters

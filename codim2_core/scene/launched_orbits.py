@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import drawing
 from ..arrays import Array
 from ..cycles.limit_cycles import cycles_of
 from ..layer_problem.critical import CriticalSet
@@ -19,6 +18,7 @@ from ..orbits.trajectories import concatenate, trajectories
 from ..portrait.approach_outcomes import outcomes_of
 from ..portrait.omega_limits import AT_SADDLE, CAPTURE, OmegaLimit, critical_label, drawn_time, nearest, omega_limits
 from ..portrait.outcome import Outcome
+from ..results import Pictured
 from ..systems.frozen import FrozenSystem
 from ..tables import html_table, point
 from ..words import say
@@ -53,7 +53,7 @@ class LimitSet:
 
 
 @dataclass(frozen=True, eq=False)
-class LaunchedOrbits:
+class LaunchedOrbits(Pictured):
     """Orbits through given points of the picture.
 
     Attributes
@@ -69,15 +69,13 @@ class LaunchedOrbits:
     comes: tuple[LimitSet, ...]
 
     def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
+        return super()._repr_svg_() if self.goes else None
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         starts = [point(line[0]) for line in self.orbits.forward.points]
         fates = [(go.sentence, come.sentence) for go, come in zip(self.goes, self.comes, strict=True)]
         found = [(start, *fate) for start, fate in zip(starts, fates, strict=True)]
-        if not found:
-            return "<p>no orbit is launched</p>"
-        return (self._repr_svg_() or "") + html_table(("starts at", "goes", "comes"), found)
+        return html_table(("starts at", "goes", "comes"), found) or "<p>no orbit is launched</p>"
 
     def __len__(self) -> int:
         return len(self.goes)

@@ -17,6 +17,8 @@ from numpy.typing import ArrayLike
 
 from .. import drawing
 from ..arguments import number, whole_number
+from ..arguments import psi as checked_psi
+from ..equality import equal_values
 from ..layer_problem.problem import CachedFunction, LayerProblem, Result
 from ..orbits.options import LEAST_PIXEL
 from ..orbits.seeds import checked_seeds
@@ -102,7 +104,7 @@ class Scene:
     def __init__(
         self,
         system: AnySystem,
-        psi: Psi | None = None,
+        psi: Psi | str | None = None,
         z: ArrayLike = (),
         *,
         seeds: ArrayLike | None = None,
@@ -120,10 +122,7 @@ class Scene:
     ) -> None:
         if not isinstance(system, SYSTEM_KINDS):
             raise ValueError(f"system is {system!r}; give an ELinear or a System.")
-        if psi is None:
-            psi = constructors.constant()
-        if not isinstance(psi, Psi):
-            raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
+        psi = constructors.constant() if psi is None else checked_psi("psi", psi)
         view, pixel, count = number("view", view), number("pixel", pixel), whole_number("count", count, MOST_SEEDS)
         if not view > 1.0:
             raise ValueError(f"view is {view}; give a finite radius greater than 1 (the equator).")
@@ -215,6 +214,14 @@ class Scene:
 
     def __iter__(self) -> Iterator[str]:
         return iter(layers)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Scene):
+            return NotImplemented
+        return self is other or all(equal_values(getattr(self, name), getattr(other, name)) for name in _PARAMETERS)
+
+    def __hash__(self) -> int:
+        return hash((type(self), self.count, self.view, self.pixel, self.cut))
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Be pickled, and copied, by the inputs: what has been computed stays here."""

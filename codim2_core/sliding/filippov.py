@@ -11,11 +11,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array, read_only
+from ..results import Result, column_rows
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from ..tables import html_table, paragraphs, point
@@ -34,8 +36,8 @@ SAME_DIRECTION = 1e-3  # directions nearer than this stand for one
 _GOLDEN = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
-@dataclass(frozen=True, slots=True)
-class FilippovSliding:
+@dataclass(frozen=True, eq=False, slots=True)
+class FilippovSliding(Result):
     """The Filippov candidates at one z.
 
     Attributes
@@ -58,10 +60,13 @@ class FilippovSliding:
     unique: bool
     sentence: str
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         combined = zip(self.vertices, self.directions, self.weights, strict=True)
         found = [tuple(map(point, one)) for one in combined]
         return paragraphs([self.sentence]) + html_table(("candidate z′", "combines U, W at θ", "with weights"), found)
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        return column_rows({f"flow_{k + 1}": column for k, column in enumerate(self.vertices.T)})
 
     def __len__(self) -> int:
         return len(self.vertices)

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
-from .. import drawing
 from ..arrays import Array
-from ..tables import Tabled, point, result_rows, table_number
+from ..results import Pictured, Result, Tabled, result_rows
+from ..tables import point, table_number
 
 
-@dataclass(frozen=True, slots=True)
-class SlowBranch:
+@dataclass(frozen=True, eq=False, slots=True)
+class SlowBranch(Result):
     """One critical set followed along z.
 
     Attributes
@@ -37,7 +39,7 @@ class SlowBranch:
         return self.kind.startswith("stable")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class SlowPoint(Tabled):
     """A value of z at which something happens.
 
@@ -68,7 +70,7 @@ class SlowPoint(Tabled):
         return self.kind, table_number(self.z), point(self.e), point(self.flow), self.sentence
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True)
 class SlowInterval(Tabled):
     """An interval of z: kind "sliding", "unstable" or "crossing"."""
 
@@ -83,16 +85,19 @@ class SlowInterval(Tabled):
         return table_number(self.low), table_number(self.high), self.kind, self.sentence
 
 
-@dataclass(frozen=True, slots=True)
-class SlowPortrait:
+@dataclass(frozen=True, eq=False, slots=True)
+class SlowPortrait(Pictured):
     """The slow flow on Sigma along one slow variable, made by `slow_portrait`."""
 
     branches: tuple[SlowBranch, ...]
     points: tuple[SlowPoint, ...]
     intervals: tuple[SlowInterval, ...]
 
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
+    def _records(self) -> Iterator[dict[str, Any]]:
+        for i, one in enumerate(self.branches):
+            for z, e, flow in zip(one.z.tolist(), one.e.tolist(), one.flow.tolist(), strict=True):
+                flows = {f"flow_{k + 1}": value for k, value in enumerate(flow)}
+                yield {"branch": i, "kind": one.kind, "z": z, "c": e[0], "s": e[1], **flows}
 
-    def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + result_rows(self.intervals) + result_rows(self.points)
+    def _tables_(self) -> str:
+        return result_rows(self.intervals) + result_rows(self.points)

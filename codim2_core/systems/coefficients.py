@@ -10,11 +10,13 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..equality import ByValue
+
 Affine = tuple[float, float, float, float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Coefficients:
+@dataclass(frozen=True, eq=False, slots=True)
+class Coefficients(ByValue):
     """The e-linear system at one z: plain numbers, all that the hemisphere at that z depends on.
 
     Attributes

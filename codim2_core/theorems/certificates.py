@@ -16,10 +16,10 @@ from numpy.typing import ArrayLike
 from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
+from ..results import Results
 from ..sliding.flow import sliding_flow
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
-from ..tables import Results
 from ..words import say
 from .cases import case1, case2
 from .degenerate import NOT_LINEAR, equal_diagonal, normal_form, symmetric

@@ -19,9 +19,10 @@ from ..paper import cite
 from ..portrait.classification import PortraitName
 from ..portrait.classify import portrait_name
 from ..psi.function import Psi
+from ..results import Tabled
 from ..systems.coefficients import Coefficients
 from ..systems.frozen import FrozenSystem
-from ..tables import Tabled, table_number
+from ..tables import table_number
 
 RELATIVE_TOLERANCE = 1e-9  # of the size of what is compared
 RAY_ANGLES = np.linspace(0.0, 2.0 * math.pi, 48, endpoint=False)

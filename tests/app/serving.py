@@ -29,6 +29,7 @@ def serving(
     """Yield the address of a warm server on a free port; what it logs goes to a file, if one is given."""
     whole = [python, *command, "serve", "--port", "0", *options]
     with_output = {**environment, "PYTHONUNBUFFERED": "1"}
+    with_output.pop("CODIM2_PYODIDE", None)  # of tests: a server that is to have it is told by its flag
     with nullcontext(subprocess.STDOUT) if log is None else open(log, "w") as logged:
         process = subprocess.Popen(whole, stdout=subprocess.PIPE, stderr=logged, text=True, env=with_output, user=user)
     try:

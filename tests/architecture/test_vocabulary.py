@@ -62,14 +62,20 @@ def tree(path):
     return ast.parse(path.read_text())
 
 
+def definitions(node):
+    yield node
+    for part in getattr(node, "body", ()):
+        if isinstance(part, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            yield from definitions(part)
+
+
 def test_every_docstring_begins_as_an_entry_of_a_reference():
     found = []
     for path in MODULES:
-        for node in ast.walk(tree(path)):
-            if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
-                said = ast.get_docstring(node)
-                if said and said.split()[0].strip("`,:;.") in OPENINGS:
-                    found.append((path.relative_to(ROOT).as_posix(), said.split("\n")[0]))
+        for node in definitions(tree(path)):
+            said = ast.get_docstring(node)
+            if said and said.split()[0].strip("`,:;.") in OPENINGS:
+                found.append((path.relative_to(ROOT).as_posix(), said.split("\n")[0]))
     assert not found
 
 

@@ -40,6 +40,7 @@ def stands_still(page, server):
     assert box.input_value() == "-1.5"
 
 
+@pytest.mark.slow
 def test_a_server_is_waited_for_and_when_it_was_lost_the_page_returns_as_it_was(open_page, port):
     page = open_page()
     with serving("--port", port) as page.address:

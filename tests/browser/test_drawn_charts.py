@@ -168,6 +168,7 @@ def test_slow_flow_in_the_plane_of_two_slow_variables(open_page):
         assert way @ flow / np.hypot(*flow) > 0.99
 
 
+@pytest.mark.slow
 def test_a_typed_start_over_time(opened, setting):
     page = opened("orbits", launch="0.6, 0.8, 0.3", t_end=3.0, log_eps=-1.0, orbit_eps="show")
     page.page.wait_for_selector(".phases li")
@@ -185,6 +186,7 @@ def test_a_typed_start_over_time(opened, setting):
             np.testing.assert_allclose(points[:, 1], wanted, atol=6 * plot.near[1] + 0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [(0.45, -0.3), (-1.2, 0.7)])
 def test_an_orbit_over_time(opened, setting, seed):
     x, y = seed

@@ -73,6 +73,7 @@ def alike(first, second):
     return np.mean(np.abs(pixels[0] - pixels[1]).max(axis=2) > 8) < 0.005
 
 
+@pytest.mark.slow
 def test_a_portrait_is_the_same_whatever_was_open_before(open_page):
     page, fresh = open_page().open(), open_page().open()
     page.type("B2", "0.5").type("g0", "0.3")

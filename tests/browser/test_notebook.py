@@ -185,6 +185,7 @@ def test_widget_takes_the_theme_and_leaves_the_notebook_alone(notebook):
 STILL = "[class^=explorer-still]"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("notebook", ["default"], indirect=True)
 def test_a_page_that_is_loaded_again_is_live_without_running_a_cell(notebook):
     notebook.show(0, 0)

@@ -136,6 +136,7 @@ def test_a_bar_of_the_census_opens_a_portrait_of_its_name(explorer):
     explorer.kept()
 
 
+@pytest.mark.slow
 def test_other_axes_of_the_atlas(explorer):
     choose(explorer, "across", "a")
     choose(explorer, "up", "d")

@@ -17,6 +17,8 @@ STATIC = ROOT / "app" / "static"
 PSI = c2.psi.constant()
 RECORDER = (Path(__file__).parent / "recorder.js").read_text()
 
+pytestmark = pytest.mark.slow  # a server of its own, with workers, for each of what programs add
+
 PYTHON = """
 import sys
 from pathlib import Path
@@ -102,7 +104,6 @@ def page(open_page, address):
     assert made.complaints == []
 
 
-@pytest.mark.slow
 def test_a_panel_from_a_folder_is_one_registration(page):
     page.open("?panel=twice")
     assert sum("explorer.js" in url for url in page.requests) == 1  # fetched first, and used

@@ -49,6 +49,7 @@ def test_the_portrait_stays_and_each_sheet_is_reached(phone):
         assert phone.find(".picture").bounding_box()["width"] > before
 
 
+@pytest.mark.slow
 def test_every_panel_is_wide_enough_for_its_chart(phone):
     for tab in phone.find(".tabs [role=tab]").all():
         tab.tap()

@@ -35,14 +35,19 @@ def files_of(folder):
     server.server_close()
 
 
-@pytest.fixture(scope="module")
-def address(tmp_path_factory):
+def release():
+    """The options that name the files, or no test."""
     pyodide = os.environ.get("CODIM2_PYODIDE")
     if pyodide is None:
         pytest.skip(NEEDED)
-    folder = tmp_path_factory.mktemp("web")
     kernels = ["--kernels", pyodide] if (Path(pyodide) / "kernels.so").is_file() else []
-    assert main(["static", "-o", str(folder / PREFIX), "--pyodide", pyodide, *kernels]) == 0
+    return ["--pyodide", pyodide, *kernels]
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("web")
+    assert main(["static", "-o", str(folder / PREFIX), *release()]) == 0
     with files_of(folder) as host:
         yield f"{host}/{PREFIX}"
 

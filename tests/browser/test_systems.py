@@ -2,6 +2,8 @@
 
 from urllib.parse import parse_qs, urlparse
 
+import pytest
+
 from .test_panels import open_panel, value
 
 
@@ -28,6 +30,7 @@ def test_an_example_brings_its_equations_sliders_and_place(explorer):
     assert explorer.name() == "CM2"
 
 
+@pytest.mark.slow
 def test_a_box_is_as_high_as_its_formula(explorer):
     choose(explorer, "own")
     box = explorer.find("textarea[data-box=U1]")
@@ -42,6 +45,7 @@ def test_a_box_is_as_high_as_its_formula(explorer):
     assert box.bounding_box()["height"] == low
 
 
+@pytest.mark.slow
 def test_play_drifts_along_the_slow_flow_to_its_equilibrium(explorer):
     choose(explorer, "ball_in_pool")
     open_panel(explorer, "Along z")

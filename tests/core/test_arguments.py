@@ -49,6 +49,7 @@ GOOD = {
     c2.psi.engine: {"name": "ipc"},
     c2.psi.engine_eps: {"name": "ipc"},
     c2.psi.exponential: {},
+    c2.psi.from_text: {"text": "hill:3"},
     c2.psi.hill: {"n": 3},
     c2.psi.make: {"family": "hill", "parameter": 3.0, "text": "1/(1+s)"},
     c2.psi.rational: {},

@@ -37,7 +37,7 @@ def _call_at(address: int, state: Any, out: Any, parameters: Any) -> None:
     Entry.known[address](state, out, parameters)
 
 
-def _ahead(pointer: Any, places: int) -> Any:
+def _advance_pointer(pointer: Any, places: int) -> Any:
     return pointer[places:]
 
 
@@ -49,14 +49,14 @@ def _bits_of_double(value: float) -> int:
     return struct.unpack("<q", struct.pack("<d", value))[0]
 
 
-STAND_INS = {one.__name__: one for one in (_call_field, _call_at, _ahead, _double_of_bits, _bits_of_double)}
+STAND_INS = {one.__name__: one for one in (_call_field, _call_at, _advance_pointer, _double_of_bits, _bits_of_double)}
 
 
 def _njit(function: Any = None, **_options: Any) -> Any:
     """Return the function itself, which knows itself as Python."""
     if function is None:
         return _njit
-    function.py_func = function
+    function.py_func, function.get_call_template = function, None
     return function
 
 
@@ -64,10 +64,11 @@ def interpret() -> None:
     """See to it that modules imported from now on compile nothing."""
     import numba
     import numba.extending
+    from numba.np import numpy_support
 
     np.seterr(all="ignore")  # as in machine code
     numba.config.DISABLE_JIT = True
     numba.njit = _njit
     numba.cfunc = lambda *_signature, **_options: Entry
-    numba.carray = lambda pointer, shape: pointer[: shape[0]]
+    numpy_support.carray = lambda pointer, shape: pointer[: shape[0]]
     numba.extending.intrinsic = lambda function: STAND_INS[function.__name__]

@@ -14,10 +14,10 @@ from ...layer_problem.critical import CriticalSet, critical_sets
 from ...numerics.dense import dense, gather_steps
 from ...numerics.radau import Step, truncate_step
 from ...psi.function import Psi
+from ...results import Results
 from ...systems.bounds import slow_values
 from ...systems.elinear import ELinear
 from ...systems.typed import System
-from ...tables import Results
 from ..delay import Delay, delay
 from .delay import REST_CHANGE, NotAnalyticError, cut_at_exit
 from .fold_classification import classify_fold

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum
 
-from ... import drawing
 from ...arrays import Array, Complex
+from ...results import Pictured
 from ...tables import html_table, paragraphs, table_number
 from ..result import Simulation
 
@@ -23,7 +23,7 @@ class PeriodicStatus(Enum):
 
 
 @dataclass(frozen=True, eq=False)
-class PeriodicMotion:
+class PeriodicMotion(Pictured):
     """A motion that repeats itself, or what a search for one has come to; arrays are read-only.
 
     Attributes
@@ -78,13 +78,10 @@ class PeriodicMotion:
         """Whether it repeats itself."""
         return self.status in (PeriodicStatus.FOUND, PeriodicStatus.NOT_ISOLATED)
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         rows = [
             (table_number(one.real), table_number(one.imag), table_number(abs(one)), f"{error:.1e}")
             for one, error in zip(self.multipliers.tolist(), self.multiplier_errors.tolist(), strict=True)
         ]
         head = ("multiplier", "imaginary part", "modulus", "error")
-        return (self._repr_svg_() or "") + html_table(head, rows) + paragraphs([self.reason])
-
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
+        return html_table(head, rows) + paragraphs([self.reason])

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arrays import Array
+from ...results import Result
 from ...tables import html_table, paragraphs, table_number
 
 
 @dataclass(frozen=True, eq=False)
-class Variation:
+class Variation(Result):
     """Derivatives of a motion, the variational equation solved along it; arrays are read-only.
 
     In the limit eps -> 0 they go through arrival, sliding, crossing and exit at the equator by saltation matrices.
@@ -46,7 +47,7 @@ class Variation:
     reason: str
     within: Array | None = field(default=None, repr=False)
 
-    def _repr_html_(self) -> str:
+    def _tables_(self) -> str:
         states = ["x", "y", *(f"z{i}" for i in range(1, len(self.rate) - 1))]
         head = (f"at t = {table_number(float(self.times[-1]))}", *(f"∂/∂{name}" for name in (*states, *self.names)))
         body = [(name, *map(table_number, row)) for name, row in zip(states, self.last.tolist(), strict=True)]

@@ -9,7 +9,6 @@ import sys
 import pytest
 from codim2_app.frame.dask_executor import ClusterError
 from codim2_app.server.cli import main
-from codim2_app.server.commands import psi_of
 
 import codim2_core as c2
 from codim2_core.cycles.proof.check import check
@@ -30,17 +29,6 @@ def test_classify_in_words_and_as_json(capsys):
     assert C["trace"] == pytest.approx(-71 + 32.25 * 3)
     assert C["kind"] == "unstable focus"
     assert len(found["limit_directions"]) == 4
-
-
-@pytest.mark.parametrize(
-    ("text", "psi"),
-    [
-        ("constant", c2.psi.constant()), ("tanh", c2.psi.tanh()), ("hill:3", c2.psi.hill(3)), ("hill", c2.psi.hill(2)),
-        ("1/(1+s)**2", c2.psi.custom("1/(1+s)**2")),
-    ],
-)  # fmt: skip
-def test_a_psi_by_its_text(text, psi):
-    assert psi_of(text) == psi
 
 
 @pytest.mark.parametrize("wrong", [["--psi", "hill:many"], ["--psi", "s +"], ["--f1", "nan"]])

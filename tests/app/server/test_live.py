@@ -129,3 +129,33 @@ def test_metrics_count_what_was_done(server):
     assert there["codim2_wait_seconds_count"] - before["codim2_wait_seconds_count"] >= 5
     assert there["codim2_pages"] >= 1
     assert there["codim2_resident_bytes"] > 5e7
+
+
+def test_what_a_page_draws_itself_is_noted_for_rooms_and_files(server):
+    """No frame is made of it; the next frame has every layer, as its page asks for all."""
+
+    async def noted():
+        lecturer, student = await Wire.connect(server.port), await Wire.connect(server.port)
+        code = (await lecturer.ask("room", {"open": ""}))["open"]
+        await student.ask("room", {"join": code})
+        await student.send({"note": {"f1": 2.5, "a": "no number", "nothing": 1}})
+        row = []
+        while row[2:] != [{"f1": 2.5}, None]:
+            row = ((await lecturer.heard("room")).get("rows") or [[]])[0]
+        await student.send({"note": {"f1": 1.0, "psi": "rational"}})
+        await student.send({"take": {"kind": "json", "id": 1}})
+        link = (await student.message())["file"].decode()
+        frames = student.frames
+        await student.send({"id": 9, "set": {}, "all": True})
+        header, blocks = unpack(await student.next_frame())
+        await lecturer.close()
+        await student.close()
+        return row[1], link, frames, header, blocks
+
+    name, link, frames, header, blocks = talk(noted())
+    assert name == "NCM2"
+    assert "f1=1.0" in link
+    assert "psi=rational" in link
+    assert frames == 0
+    assert (header["id"], header["portrait"]["name"]) == (9, "CM2")
+    assert "inside.xy" in blocks

@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 
+import pytest
+
 CODE = """
 import sys
 from codim2_app.server import worker
@@ -23,6 +25,7 @@ print(*sorted(name for name in set(sys.modules) - known if name.startswith(("num
 """
 
 
+@pytest.mark.slow
 def test_a_picture_of_typed_formulas_needs_no_more_than_is_there_before_the_fork():
     """Kernels took each new worker a second: while somebody moved something, none had one to draw his picture.
 

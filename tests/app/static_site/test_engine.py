@@ -90,6 +90,22 @@ def test_a_file_is_sent_with_its_bytes():
     assert json.loads(told["file"])
 
 
+def test_explorers_of_one_page_share_a_worker_and_one_may_leave():
+    async def run():
+        sent = {"one": [], "other": []}
+        engines = {name: Engine("?v=1&panel=diagram", "", found.append) for name, found in sent.items()}
+        engines["one"].leave()
+        for number in range(1, 9):
+            engines["other"].answer(json.dumps({"id": number, "set": {}, "rest": True}))
+            for _ in range(3):
+                await asyncio.sleep(0)
+        return sent
+
+    sent = in_a_thread(run())
+    assert sent["one"] == []
+    assert any("diagram" in unpack(told["frame"])[0] for told in sent["other"])
+
+
 class Named:
     def __str__(self):
         return ""

@@ -90,7 +90,7 @@ def test_equator_of_reversible_systems_and_none():
         assert len(curve) == 0
         assert "Case III" in curve.sentence
     with pytest.raises(ValueError, match="psi"):
-        bifurcations.heteroclinic(1, 1.3, -1.2, "tanh")
+        bifurcations.heteroclinic(1, 1.3, -1.2, 3.0)
 
 
 def test_loops_close_on_their_curve(loop_curve):

@@ -86,6 +86,7 @@ print([sum(one.stats.cache_misses.values()) for one in (value, slope)])
 """
 
 
+@pytest.mark.slow
 def test_versions_of_one_function_are_kept_apart_and_found_again(tmp_path):
     told = []
     for _ in range(2):

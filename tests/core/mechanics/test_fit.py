@@ -49,6 +49,7 @@ def test_a_disc_tells_its_friction_and_radius_of_gyration():
     assert found.values == pytest.approx({"mu": 0.25, "k": 0.65}, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_slow_variables_move_along():
     t = np.linspace(0.0, 0.3, 16)
     ball = examples.ball_in_pool(mu=0.3, K=0.8)
@@ -58,6 +59,7 @@ def test_slow_variables_move_along():
     assert found.values == pytest.approx({"mu": 0.3, "K": 0.8}, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_the_intervals_hold_what_is_true_as_often_as_they_say():
     """95 of 100: at least 10 of 12 by the binomial law, but one time in fifty."""
     t = np.linspace(0.0, 0.4, 25)

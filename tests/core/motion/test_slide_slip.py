@@ -69,6 +69,7 @@ def test_on_a_cycle_it_slides_with_the_mean_in_time(psi):
     assert slide.p(1.0) == pytest.approx([mean(run.states[-1, 3]) / q * zeta / math.hypot(1.0, zeta), 0.0], abs=1e-4)
 
 
+@pytest.mark.slow
 def test_a_slide_on_a_cycle_ends_where_the_cycle_does():
     """Circles |e|^2 = q with z + 4q/5 - 2q^2 = 0: two meet at z = -2/25, about C, which attracts; z = q leaves at 1."""
     r2 = "(c**2 + s**2)"

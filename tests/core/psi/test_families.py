@@ -113,3 +113,23 @@ def test_what_cannot_be_registered():
         unregister("hill")
     with pytest.raises(AttributeError, match="no attribute 'power'"):
         c2.psi.power  # noqa: B018
+
+
+@pytest.mark.parametrize(
+    ("text", "psi"),
+    [
+        ("constant", c2.psi.constant()), ("tanh", c2.psi.tanh()), ("hill:3", c2.psi.hill(3)), ("hill", c2.psi.hill(2)),
+        (" tanh ", c2.psi.tanh()), ("1", c2.psi.constant()),
+        ("1/(1+s)**2", c2.psi.custom("1/(1+s)**2")),
+    ],
+)  # fmt: skip
+def test_a_psi_by_its_text(text, psi):
+    assert c2.psi.from_text(text) == psi
+    system = c2.ELinear(172, 186, -200, (-86, -93))
+    assert c2.classify(system, text) == c2.classify(system, psi)
+    assert c2.Scene(system, text).psi == psi
+
+
+def test_a_family_without_a_parameter_is_given_none():
+    with pytest.raises(ValueError, match="tanh has no parameter"):
+        c2.psi.from_text("tanh:3")

@@ -99,7 +99,7 @@ def test_z_reaches_the_atlas_only_through_the_matrix():
 def test_a_bad_change_leaves_the_scene_as_it_was():
     scene = c2.Scene(typed(), z=0.5)
     first = scene["classification"]
-    for bad in ({"a": float("nan")}, {"q": 1.0}, {"view": 1.0}, {"seeds": [[1, 2, 3]]}, {"psi": "tanh"}, {"z": [1, 2]},
+    for bad in ({"a": float("nan")}, {"q": 1.0}, {"view": 1.0}, {"seeds": [[1, 2, 3]]}, {"psi": 3.0}, {"z": [1, 2]},
                 {"count": -1}, {"t_max": 0.0}, {"pixel": 0.0}):  # fmt: skip
         with pytest.raises(ValueError, match=r"give|allowed|has"):
             scene.evolve(**bad)["inside"]

@@ -4,12 +4,13 @@ import test from "node:test"
 import {page} from "../played/page.js"
 import {asked, pull, settled, wired} from "../played/wiring.js"
 import {openHere} from "../../../../app/static/explorer.js"
-import {openWorkerLine} from "../../../../app/static/asking/worker_line.js"
+import {callWorker, openWorkerLine, outermost} from "../../../../app/static/asking/worker_line.js"
 
-/** A worker that is played. */
+/** The port of a worker that is played. */
 class Worker extends EventTarget {
   constructor() { super(); this.heard = [] }
   postMessage(message) { this.heard.push(message) }
+  start() {}
   say(data) { this.dispatchEvent(Object.assign(new Event("message"), {data})) }
 }
 
@@ -96,9 +97,14 @@ const PAGE = `<div id="codim2-first"><script type="application/json" id="codim2-
 /** A page without a server, at an address; what it has left in its tab; what it asks of its worker. */
 async function pageAt(search, left = null) {
   const made = /** @type {any[]} */ ([]), shown = /** @type {any[]} */ ([])
+  const worker = new Worker()
   const there = page(PAGE, {
-    location: {search}, history: {state: left && {codim2: {snapshot: left}}}, navigator: {},
-    Worker: class extends Worker { constructor(address, {type, name}) { super(); made.push({address, type, ...JSON.parse(name), worker: this}) } },
+    location: {search, href: `http://h/x/${search}`}, history: {state: left && {codim2: {snapshot: left}}}, navigator: {}, addEventListener: () => {},
+    MessageChannel: class { port1 = worker; port2 = "port" },
+    framed: {Worker: class extends EventTarget {
+      constructor(...given) { super(); this.given = given }
+      postMessage(wish) { const [address, {type}] = this.given; made.push({address, type, ...wish, worker}) }
+    }},
     Bokeh: {embed: {embed_item: (_, drawn) => { shown.push(drawn.parentElement.className); return new Promise(() => {}) }}},
   })
   openHere()
@@ -110,7 +116,7 @@ async function pageAt(search, left = null) {
 test("the first setting is there at once, as it was saved", async () => {
   for (const search of ["", "?v=1"]) {
     const one = await pageAt(search)
-    assert.deepEqual([one.address, one.type, one.search, one.drawn, one.shown], ["worker.js", "module", search, false, ["bokeh"]])
+    assert.deepEqual([one.address, one.type, one.search, one.drawn, one.port, one.shown], ["http://h/x/worker.js", "module", search, false, "port", ["bokeh"]])
     assert.deepEqual(one.words(), ["Starting the mathematics …", "drawing", "CM4.", false])
   }
 })
@@ -136,4 +142,24 @@ test("a worker that cannot be loaded leaves a sentence, and the button that load
   await new Promise((done) => setImmediate(done))
   assert.match(one.find(".banner").textContent, /^Connection lost\. Reload/)
   assert.ok(one.find(".banner button"))
+})
+
+test("explorers in one page and in the frames of it share a worker; one that could not be loaded is tried again", () => {
+  const made = /** @type {any[]} */ ([]), came = /** @type {any[]} */ ([])
+  class Made extends EventTarget { constructor(address) { super(); made.push(this); this.address = address } postMessage(wish) { came.push(wish.search) } }
+  const top = /** @type {any} */ ({document: {}, Worker: Made})
+  top.parent = top
+  const inner = {document: {}, parent: {document: {}, parent: top}}
+  page("", {framed: {parent: top}, addEventListener: () => {}, MessageChannel: class { port1 = new Worker(); port2 = {} }})
+  assert.equal(outermost(inner), top)
+  assert.equal(outermost({parent: {get document() { throw new Error("of another host") }}}).document, undefined)
+  const call = (address, search) => callWorker(new URL(address), search, false)
+  const ports = [call("http://h/a/worker.js", "?1"), call("http://h/a/worker.js", "?2"), call("http://h/b/worker.js", "?3")]
+  assert.deepEqual([made.map(({address}) => address), came], [["http://h/a/worker.js", "http://h/b/worker.js"], ["?1", "?2", "?3"]])
+  let lost = 0
+  ports[1].addEventListener("error", () => { lost += 1 })
+  made[0].dispatchEvent(new Event("error"))
+  assert.equal(lost, 1)
+  call("http://h/a/worker.js", "?4")
+  assert.equal(made.length, 3)
 })

@@ -1,0 +1,164 @@
+"""Results of public functions: equal by their values, shown in a notebook, taken away as tables and pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields
+from enum import Enum
+from pathlib import Path
+from typing import Any, ClassVar, Generic, TypeVar, cast
+
+import numpy as np
+
+from . import drawing
+from .equality import ByValue
+from .tables import frame, html_table, write_csv
+
+MAX_COLUMNS = 4  # numbers of an array or a tuple that a row of `to_frame` holds: a place, or z'
+
+
+class Result(ByValue):
+    """A result: a frozen dataclass whose fields say all that it is, and by which it is compared."""
+
+    __slots__ = ()
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        yield record(self)
+
+    def to_frame(self) -> Any:
+        """Return a pandas DataFrame.
+
+        Raises
+        ------
+        ValueError
+            pandas is not installed.
+        """
+        return frame(self._records())
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write what `to_frame` has as CSV."""
+        write_csv(path, self._records())
+
+    def _repr_svg_(self) -> str | None:
+        return None
+
+    def _tables_(self) -> str:
+        """Return what a notebook shows below the picture, as HTML."""
+        row = record(self)
+        return html_table(tuple(row), [tuple(map(str, row.values()))])
+
+    def _repr_html_(self) -> str:
+        return (self._repr_svg_() or "") + self._tables_()
+
+
+class Pictured(Result):
+    """A result that has a picture."""
+
+    __slots__ = ()
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture that a notebook shows.
+
+        Parameters
+        ----------
+        path : str or Path
+            The name of an SVG file.
+
+        Raises
+        ------
+        ValueError
+            The name ends otherwise, nothing is to be drawn, or the app, which draws, is not installed.
+        """
+        if Path(path).suffix.lower() != ".svg":
+            raise ValueError(f"path is {str(path)!r}; give a name that ends with .svg.")
+        picture = self._repr_svg_()
+        if picture is None:
+            raise ValueError("There is nothing to draw, or the app that draws is missing: pip install codim2.")
+        Path(path).write_text(picture, encoding="utf-8")
+
+
+class Tabled(Result):
+    """A result that is one row of a table."""
+
+    __slots__ = ()
+
+    _head_: ClassVar[tuple[str, ...]] = ()
+
+    def _row_(self) -> tuple[str, ...]:
+        raise NotImplementedError
+
+    def _tables_(self) -> str:
+        return result_rows([self])
+
+
+Kind = TypeVar("Kind", bound=Result)
+Row = TypeVar("Row", bound=Tabled)
+
+
+class Several(Result, Generic[Kind]):
+    """A result that holds others of one kind, in the field that `_held_` names; it iterates over them."""
+
+    __slots__ = ()
+
+    _held_: ClassVar[str] = ""
+
+    def __iter__(self) -> Iterator[Kind]:
+        return iter(getattr(self, self._held_))
+
+    def __len__(self) -> int:
+        return len(getattr(self, self._held_))
+
+    def __getitem__(self, i: int) -> Kind:
+        return getattr(self, self._held_)[i]
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        return map(record, self)
+
+
+class Results(tuple[Row, ...], Result):
+    """Several results of one kind, in order: a tuple that a notebook shows as one table."""
+
+    __slots__ = ()
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        return map(record, self)
+
+    def _tables_(self) -> str:
+        return result_rows(self) or "<p>none</p>"
+
+
+def record(result: Result) -> dict[str, Any]:
+    """Return one row: the fields that are text or a number, and short arrays, a column for each of their numbers."""
+    row: dict[str, Any] = {}
+    for one in fields(cast("Any", result)):
+        value = getattr(result, one.name)
+        if isinstance(value, Enum):
+            value = value.value
+        if value is None or isinstance(value, str | bool | int | float | complex):
+            row[one.name] = value
+        elif (numbers := short_numbers(value)) is not None:
+            row |= {f"{one.name}_{i + 1}": number for i, number in enumerate(numbers)}
+    return row
+
+
+def short_numbers(value: Any) -> list[Any] | None:
+    """Return the numbers of a short array, or of a tuple of numbers; None of anything else."""
+    if isinstance(value, np.ndarray):
+        return value.tolist() if value.ndim == 1 and len(value) <= MAX_COLUMNS else None
+    short = isinstance(value, tuple) and len(value) <= MAX_COLUMNS
+    return list(value) if short and all(isinstance(one, int | float) for one in value) else None
+
+
+def column_rows(columns: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
+    """Return the rows of columns of one length, arrays or sequences, by their names."""
+    values = (one.tolist() if isinstance(one, np.ndarray) else one for one in columns.values())
+    return (dict(zip(columns, row, strict=True)) for row in zip(*values, strict=True))
+
+
+def result_rows(results: Iterable[Tabled]) -> str:
+    """Return results of one kind as a table, a row each; nothing if there are none."""
+    found = list(results)
+    return html_table(found[0]._head_, [one._row_() for one in found]) if found else ""

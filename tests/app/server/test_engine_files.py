@@ -1,0 +1,74 @@
+"""What a page needs to compute in its visitor's browser: sent short, to be kept, and told where it is offered."""
+
+import gzip
+import json
+
+import pytest
+from codim2_app.lessons import library
+from codim2_app.server import cli
+from codim2_app.server import engine_files as engine_module
+from codim2_app.server.engine_files import EngineFiles, served_panels
+from codim2_app.server.live import open_page
+from codim2_app.view.opening import link_of
+from tornado.testing import AsyncHTTPTestCase
+from tornado.web import Application
+
+KINDS = {
+    "worker.js": "text/javascript", "folder.json": "application/json", "site.zip": "application/zip",
+    "pyodide/pyodide.mjs": "text/javascript", "pyodide/pyodide.asm.wasm": "application/wasm",
+    "pyodide/numpy.whl": "application/octet-stream",
+}  # fmt: skip
+FILES = {name: name.encode() * 100 for name in KINDS}
+
+
+def engine_of(files):
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(engine_module, "engine_files", lambda *_: files)
+        return EngineFiles(None, None)
+
+
+class FilesTest(AsyncHTTPTestCase):
+    def get_app(self):
+        self.engine = engine_of(FILES)
+        return Application([self.engine.route("/below")])
+
+    def test_each_file_is_the_same_for_ever_and_compressed_once(self):
+        for name, kind in KINDS.items():
+            address = f"/below/{self.engine.script}".replace("worker.js", name)
+            for asked in ("gzip", "identity"):
+                answer = self.fetch(address, headers={"Accept-Encoding": asked}, decompress_response=False)
+                packed = answer.headers.get("Content-Encoding") == "gzip"
+                assert packed == (asked == "gzip" and not name.endswith(("zip", "whl")))
+                assert (gzip.decompress(answer.body) if packed else answer.body) == FILES[name]
+                assert answer.headers["Content-Type"] == kind
+                assert "immutable" in answer.headers["Cache-Control"]
+                assert "'wasm-unsafe-eval'" in answer.headers["Content-Security-Policy"]
+        assert self.fetch(f"/below/{self.engine.script}x").code == 404
+
+
+def test_another_file_has_another_address():
+    script = engine_of(FILES).script
+    assert script == engine_of(dict(FILES)).script
+    assert script != engine_of({**FILES, "site.zip": b"another"}).script
+
+
+def test_a_page_is_told_where_it_is_and_of_nothing_where_it_is_not():
+    offered = {"script": "engine/x/worker.js", "served": []}
+    told = [json.loads(open_page(link_of({}), engine)[1])["config"]["engine"] for engine in (offered, None)]
+    assert told == [offered, None]
+
+
+def test_lessons_of_ones_own_are_the_servers(monkeypatch):
+    assert served_panels() == []
+    monkeypatch.setattr(library, "_own", {"mine": library.lessons()["01-friction"]})
+    library.lessons.cache_clear()
+    try:
+        assert served_panels() == ["lessons"]
+    finally:
+        monkeypatch.undo()
+        library.lessons.cache_clear()
+
+
+def test_a_folder_that_holds_no_release_is_told(tmp_path):
+    with pytest.raises(SystemExit, match=r"codim2: .* holds no"):
+        cli._engine(tmp_path, None)
