@@ -73,7 +73,7 @@ def functions_of(field: Field, psi: Psi, many: bool = False) -> FieldFunctions:
     """
     key = field.rows, psi
     called = _called.get(key, lambda: called_back(field.m, field.value, field.slope, psi))
-    if not (many or key in _whole or called.calls >= CALLS_WORTH_COMPILING):
+    if not (many or field.rows in _fields or called.calls >= CALLS_WORTH_COMPILING):
         return called
 
     def compile_all() -> FieldFunctions:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from ..jit.interpreted import interpreted, is_at_hand
+from ..jit.interpreted import call_kernel
 from ..numerics.dense import Dense, StepArray
 from ..numerics.growth import BlowUpError, too_short
 from ..numerics.radau import StepsTooShortError, TooManyStepsError, tableau
@@ -136,7 +136,6 @@ class MotionSteps:
         implicit: bool = False,
     ) -> None:
         self.functions, self.addresses, self.rate = functions, functions.addresses, rate
-        self.is_at_hand = functions.is_compiled or is_at_hand(follow_steps)
         self.numbers = np.array([eps, rtol, floor, *line_directions([line])[0]])
         self.S = np.zeros(SLOW_EXTENT)
         self.S[PSI] = functions.parameter
@@ -158,16 +157,15 @@ class MotionSteps:
             The state grows beyond all bounds in no time.
         TooManyStepsError, StepsTooShortError
         """
-        n, step = len(self.y), follow_steps if self.is_at_hand else interpreted(follow_steps)
+        n = len(self.y)
         while self.code in (CHUNK_FULL, AT_SIGMA):  # who has arrived asks for no more
             starts, lengths = np.empty(size), np.empty(size)
             ends, polynomials = np.empty((size, n)), np.empty((size, n, DENSE_DEGREE))
             begin, before = self.y.copy(), self.evaluations
-            with np.errstate(all="ignore"):
-                self.code, filled = step(
-                    self.addresses, self.numbers, numbers_of_tableau(), self.S, self.y, self.clock, self.control,
-                    starts, lengths, ends, polynomials,
-                )  # fmt: skip
+            self.code, filled = call_kernel(
+                follow_steps, self.addresses, self.numbers, numbers_of_tableau(), self.S, self.y, self.clock,
+                self.control, starts, lengths, ends, polynomials, compiles=self.functions.is_compiled,
+            )  # fmt: skip
             self.functions.count(self.evaluations - before)
             if self.code == FINISHED:
                 lengths[filled - 1] = self.clock[2] - starts[filled - 1]  # it ends then, to the last digit

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
 
 from ..arrays import Array
-from ..jit.interpreted import interpreted
+from ..jit.interpreted import InterpretedAddress, call_kernel, is_at_hand
 from ..numerics.dense import StepArray
 from ..psi.constructors import constant
 from .field import Field
-from .functions import functions_of
+from .functions import called_back, functions_of
+from .kernels.motion import follow_steps
 from .kernels.slow import SLOPES, SLOW_RATES, VALUE, flow, sets
 from .line import InvariantLine
 from .motion_steps import MotionSteps
@@ -52,7 +56,9 @@ class SlowSteps(MotionSteps):
         )
         own = self.functions.addresses
         self.S[VALUE], self.S[SLOPES], self.S[SLOW_RATES] = *own[:2].view(float), len(z)
-        self._flow = flow(self.is_at_hand)
+        self._compiles = self.functions.is_compiled
+        at_hand = self._compiles or is_at_hand(follow_steps)
+        self._flow = flow() if at_hand else flow(InterpretedAddress)
         self.addresses = np.array([*(one.address for one in self._flow), own[2]], np.int64)
 
     def sets(self, steps: StepArray, u: Array) -> tuple[Array, Array]:
@@ -60,8 +66,43 @@ class SlowSteps(MotionSteps):
         first = np.concatenate([steps.first[None], steps.ends[:-1]])
         powers = u[:, None] ** np.arange(1, steps.polynomials.shape[2] + 1)
         points = first[:, None, :] + np.einsum("kij,dj->kdi", steps.polynomials, powers)
-        find = sets if self.is_at_hand else interpreted(sets)
-        with np.errstate(all="ignore"):
-            e, D = find(self.S[VALUE : SLOPES + 1], points.reshape(-1, points.shape[2]))
+        points, places = points.reshape(-1, points.shape[2]), points.shape[:2]
+        e, D = call_kernel(sets, self.S[VALUE : SLOPES + 1], points, compiles=self._compiles)
         self.functions.count(0)
-        return e.reshape(*points.shape[:2], 2), D.reshape(*points.shape[:2], 2, 2)
+        return e.reshape(*places, 2), D.reshape(*places, 2, 2)
+
+
+def steps_of_z(
+    rate: Callable[[Array], Array],
+    slopes: Callable[[Array], Array],
+    span: tuple[float, float],
+    z: Array,
+    rtol: float,
+    floor: float,
+    most: int,
+    **how: Any,
+) -> MotionSteps:
+    """Return a motion on Sigma of which only z moves, at a rate that Python gives.
+
+    Parameters
+    ----------
+    rate, slopes : callable
+        z (m,) to its rate (m,), and the derivatives of that (m, m).
+    span, z, rtol, floor, most, how
+        As in `MotionSteps`.
+    """
+    m = len(z)
+
+    def value(*at: float) -> list[float]:
+        return [0.0, 0.0, *rate(np.array(at[4:])).tolist()]
+
+    def derivatives(*at: float) -> list[float]:
+        found = np.zeros((2 + m, 4 + m))
+        found[2:, 4:] = slopes(np.array(at[4:]))
+        return found.ravel().tolist()
+
+    first = np.concatenate([np.zeros(2), z])
+    return MotionSteps(
+        called_back(m, value, derivatives), lambda state: np.array(value(0.0, 0.0, *state)), 1.0, None, span, first,
+        rtol, floor, most, **how,
+    )  # fmt: skip

@@ -24,12 +24,15 @@ def is_at_hand(kernel: Any) -> bool:
     return kept is None or bool(kernel.signatures) or bool(kept._cache_file._load_index())  # noqa: SLF001
 
 
+def call_kernel(kernel: Any, *given: Any, compiles: bool = False) -> Any:
+    """Call a kernel; as Python where it is not at hand, unless it may be compiled now."""
+    with np.errstate(all="ignore"):  # as in machine code
+        return (kernel if compiles or is_at_hand(kernel) else interpreted(kernel))(*given)
+
+
 @cache
 def interpreted(kernel: Any) -> Any:
-    """Return a kernel, or a right-hand side, as a function of Python, and so all that it calls.
-
-    Warnings of NumPy are the caller's affair.
-    """
+    """Return a kernel, or a right-hand side, as a function of Python, and so all that it calls."""
     function = getattr(kernel, "py_func", kernel)
     names = function.__globals__.keys() & set(function.__code__.co_names)
     return rebind(function, **{name: _as_python(name, function.__globals__[name]) for name in names})

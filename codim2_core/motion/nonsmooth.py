@@ -141,7 +141,7 @@ def simulate_nonsmooth(
     if t_end < t_start:
         pasts = tuple(_past(asked, first) for first in states)
         return pasts[0] if np.ndim(state0) < 2 else pasts
-    many = are_many(len(states), max_steps) or functions_of(formulas, constant()).is_compiled
+    many = functions_of(formulas, constant(), are_many(len(states), max_steps)).is_compiled
     runs = _run_motions(asked, states) if many else map(asked.one, states)
     return next(iter(runs)) if np.ndim(state0) < 2 else tuple(runs)
 

@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from codim2_core.initial_value import functions, motion_steps
+from codim2_core.initial_value import functions, slow_steps
+from codim2_core.jit import interpreted
 from codim2_core.stepping.compiling import CompiledCache
 
 WAYS = ("compiled", "called back", "as Python")
@@ -14,6 +15,7 @@ def follow(monkeypatch: pytest.MonkeyPatch, way: str) -> None:
     """Follow motions in one way, whatever has been asked for before."""
     monkeypatch.setattr(functions, "CALLS_WORTH_COMPILING", 0 if way == "compiled" else math.inf)
     if way != "compiled":
-        monkeypatch.setattr(functions, "_whole", CompiledCache(functions.MOST_SYSTEMS))
+        monkeypatch.setattr(functions, "_fields", CompiledCache(functions.MOST_SYSTEMS))
     if way == "as Python":
-        monkeypatch.setattr(motion_steps, "is_at_hand", lambda kernel: False)
+        for module in (interpreted, functions, slow_steps):
+            monkeypatch.setattr(module, "is_at_hand", lambda kernel: False)

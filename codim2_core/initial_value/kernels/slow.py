@@ -9,6 +9,7 @@ and the step shorter.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
@@ -16,7 +17,6 @@ import numpy as np
 
 from ...expressions.names import MOST_SLOW_VARIABLES
 from ...jit import bits_of_double, call_field, carray, compile_address, held_kernel, kernel
-from ...jit.interpreted import InterpretedAddress
 from .explicit import ROOM
 
 MAX_NEWTON, MAX_CORRECTION = 20, 1.0  # iterations, and the longest step of one
@@ -146,7 +146,6 @@ def sets(addresses, points):
 
 
 @lru_cache(maxsize=2)
-def flow(is_at_hand: bool = True) -> tuple[Any, Any]:
-    """Return the slow flow and its slopes, the same for all systems; as Python where kernels are not at hand."""
-    make = compile_address if is_at_hand else InterpretedAddress
+def flow(make: Callable[..., Any] = compile_address) -> tuple[Any, Any]:
+    """Return the slow flow and its slopes, the same for all systems, at addresses that are made of functions."""
     return make(_slow_velocity), make(_slow_slopes)

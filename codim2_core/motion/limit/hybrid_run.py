@@ -268,8 +268,8 @@ class HybridRun:
             raise StopError(f"{decision.reason} {say('no z to follow')}")
         part = slide_on_cycle(self.system, self.own, index, self.t, z, self.t_end, self.left)
         self.evaluations += part.evaluations
-        self.add("slide", part.taken, decision.reason, decision.onto, part.e, part.p)
-        if part.lives:
+        self.add("slide", part.taken, decision.reason, decision.onto, part.places, part.p)
+        if part.end == "time":
             return None
         if not part.taken:
             return Decision("stop", say("cycle ends at once"))

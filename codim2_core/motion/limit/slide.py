@@ -6,7 +6,7 @@ On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, eq:linslowflow. The 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
 from typing import NamedTuple
@@ -16,13 +16,12 @@ import numpy as np
 from ...arrays import Array
 from ...initial_value.events import DEGREES, monotone_fractions
 from ...initial_value.field import Field
-from ...initial_value.functions import called_back
 from ...initial_value.kernels.motion import FIRST_STEP_SHARE
 from ...initial_value.line import InvariantLine
 from ...initial_value.motion_steps import MotionSteps
 from ...initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements
 from ...initial_value.slow_manifold import SlowManifold, complement, determinant, trace
-from ...initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps
+from ...initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps, steps_of_z
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, truncate_step
 from ...numerics.root_between import root_between
 from ...psi.function import Psi
@@ -54,6 +53,8 @@ class Slide:
     evaluations : int
     stopped : TooManyStepsError or None
         Why it was given up; also where W is undefined from some z on.
+    p : sequence of ndarray (2,)
+        On a cycle of a general system, whose means `places` are: the means of p.
     """
 
     taken: list[Step]
@@ -62,6 +63,7 @@ class Slide:
     places: list[Array]
     evaluations: int = 0
     stopped: TooManyStepsError | None = None
+    p: Sequence[Array] = ()
 
 
 def own_time(z: Array, rate: Array, floor: float) -> float:
@@ -127,7 +129,9 @@ def slide(
     pace = own_time(z, np.array(field.value(*manifold.e.tolist(), 0.0, 0.0, *z.tolist())[2:]), floor)
     h, shortest = FIRST_STEP_SHARE * pace, MIN_STEP * min(pace, t_end - t)
     if resting:
-        motion = _steps_at_rest(field, e, (t, t_end), z, rtol, floor, most, h, shortest)
+        (c, s), slope = e.tolist(), partial(field.jacobian, *e.tolist(), 0.0, 0.0)
+        rate = lambda z: np.array(field.value(c, s, 0.0, 0.0, *z)[2:])
+        motion = steps_of_z(rate, lambda z: slope(z)[2:, 4:], (t, t_end), z, rtol, floor, most, h=h, least=shortest)
         ahead = _steps_of_rest(e, motion)
     else:
         motion = SlowSteps(field, manifold.e, line, (t, t_end), z, rtol, floor, most, h, shortest)
@@ -172,30 +176,6 @@ class _Ahead(NamedTuple):
     step: Step
     e: Array
     is_safe: bool
-
-
-def _steps_at_rest(
-    field: Field, e: Array, span: tuple[float, float], z: Array, rtol: float, floor: float, most: int, h: float,
-    shortest: float,
-) -> MotionSteps:  # fmt: skip
-    """Return the steps of a slide on a set that does not move."""
-    (c, s), m = e.tolist(), len(z)
-
-    def value(*at: float) -> tuple[float, ...]:
-        return (0.0, 0.0, *field.value(c, s, 0.0, 0.0, *at[4:])[2:])
-
-    def slopes(*at: float) -> list[float]:
-        found = field.jacobian(c, s, 0.0, 0.0, at[4:])
-        found[:2] = found[:, :4] = 0.0
-        return found.ravel().tolist()
-
-    def rate(state: Array) -> Array:
-        return np.array(value(0.0, 0.0, *state.tolist()))
-
-    first = np.concatenate([np.zeros(2), z])
-    return MotionSteps(
-        called_back(m, value, slopes), rate, 1.0, None, span, first, rtol, floor, most, h=h, least=shortest
-    )
 
 
 def _steps_of_rest(e: Array, motion: MotionSteps) -> Iterator[_Ahead]:

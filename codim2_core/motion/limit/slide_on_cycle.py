@@ -7,18 +7,16 @@ read off the cycle itself, found anew at every z that the method asks for.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from ...arrays import Array
 from ...cycles.limit_cycles import LimitCycle, limit_cycles
-from ...initial_value.functions import called_back
-from ...initial_value.motion_steps import MotionSteps
+from ...initial_value.slow_steps import steps_of_z
 from ...numerics.radau import Step, TooManyStepsError
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
-from .slide import own_time
+from .slide import Slide, own_time
 
 RTOL, ATOL = 1e-6, 1e-8  # no better than the cycles themselves are known
 DIFFERENCE_STEP = 1e-4
@@ -27,29 +25,7 @@ FIRST_STEP_SHARE, MIN_STEP = 0.05, 1e-6
 OTHER_CYCLE_DISTANCE = 0.2  # in the disc: a cycle whose middle has moved further is another
 
 
-@dataclass(frozen=True)
-class CycleSlide:
-    """A slide on a limit cycle.
-
-    Attributes
-    ----------
-    taken : list of Step
-        Of the whole state, with x = y = 0.
-    lives : bool
-        Whether the cycle is there until the end of the time span.
-    e, p : list of ndarray (2,)
-        Their means over the cycle in time, at the beginning and at the end of each step.
-    evaluations : int
-    """
-
-    taken: list[Step]
-    lives: bool
-    e: list[Array]
-    p: list[Array]
-    evaluations: int
-
-
-def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> CycleSlide:
+def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> Slide:
     """Follow the averaged slow flow of a general system.
 
     Parameters
@@ -77,9 +53,6 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
         cycle = near(at) if np.isfinite(at).all() else None
         return np.full(m, math.nan) if cycle is None else np.array(cycle.slow_flow)
 
-    def value(*at: float) -> list[float]:
-        return [0.0, 0.0, *rate(np.array(at[4:])).tolist()]
-
     def note(at: Array) -> None:
         nonlocal middle
         cycle = near(at)
@@ -87,30 +60,28 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
             middle = _centroid(cycle)
             means.append(_means(system, psi, at, cycle))
 
-    def slopes(*at: float) -> list[float]:
-        z, found = np.array(at[4:]), np.zeros((2 + m, 4 + m))
-        note(z)  # once where a step begins
-        here = rate(z)
-        for i, h in enumerate(DIFFERENCE_STEP * (1.0 + np.abs(z))):
-            found[2:, 4 + i] = (rate(z + h * (np.arange(m) == i)) - here) / h
-        return np.nan_to_num(found).ravel().tolist()
+    def slopes(at: Array) -> Array:
+        note(at)  # once where a step begins
+        here, columns = rate(at), []
+        for i, h in enumerate(DIFFERENCE_STEP * (1.0 + np.abs(at))):
+            columns.append((rate(at + h * (np.arange(m) == i)) - here) / h)
+        return np.nan_to_num(np.stack(columns, axis=-1))
 
     floor = ATOL / RTOL
     pace = min(t_end - t, own_time(z, np.array(first.slow_flow), floor))
-    motion = MotionSteps(
-        called_back(m, value, slopes), lambda state: np.array(value(0.0, 0.0, *state)), 1.0, None, (t, t_end),
-        np.concatenate([np.zeros(2), z]), RTOL, floor, most, h=FIRST_STEP_SHARE * pace, least=MIN_STEP * pace,
-        implicit=True,
+    motion = steps_of_z(
+        rate, slopes, (t, t_end), z, RTOL, floor, most,
+        h=FIRST_STEP_SHARE * pace, least=MIN_STEP * pace, implicit=True,
     )  # fmt: skip
-    taken, lives = list[Step](), True
+    taken, end = list[Step](), "time"
     try:
         for part in motion.chunks(most):
             taken += part
         note(motion.y[2:])
     except TooManyStepsError:
-        lives = False
+        end = "cycle"
     e, p = ([own[k] for own in means] for k in range(2))
-    return CycleSlide(taken, lives, e, p, motion.evaluations)
+    return Slide(taken, end, e[-1] if e else np.array(middle), e, motion.evaluations, p=p)
 
 
 def _centroid(cycle: LimitCycle) -> tuple[float, float]:
