@@ -61,11 +61,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 @pytest.fixture
-def compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+def called_back(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let motions take the same steps whatever was compiled for other tests."""
     from tests.core import ways
 
-    ways.follow(monkeypatch, "compiled")
+    ways.follow(monkeypatch, "called back")
 
 
 @pytest.fixture(scope="session")
