@@ -61,13 +61,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 @pytest.fixture
-def in_python(monkeypatch: pytest.MonkeyPatch) -> None:
+def called_back(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let motions take the same steps whatever was compiled for other tests."""
-    from codim2_core.motion import nonsmooth, regularised
+    from tests.core import ways
 
-    monkeypatch.setattr(regularised, "waited_for", lambda formulas: regularised.PYTHON_STEPS)
-    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: False)
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: regularised.PYTHON_STEPS)
+    ways.follow(monkeypatch, "called back")
 
 
 @pytest.fixture(scope="session")

@@ -195,12 +195,12 @@ def _warm_motions() -> None:
     from codim2_core.motion.nonsmooth import simulate_nonsmooth  # late: both bring SciPy along
     from codim2_core.motion.regularised import simulate
 
-    example = presets["nonunique-sliding"]
-    several = [(0.02, 0.01, 0.1)] * 8  # so many are compiled at once
-    simulate(example.system, example.psi, 0.01, several, (0.0, 0.2))
+    pushed = ELinear(-1.0, 0.3, -2.0, f=("1.3*sin(z1)", "0.4*cos(2*z1)"), B=((0.0, 0.0),), g=(1.0,))
+    several = [(0.3, 0.2, 0.0)] * 8  # so many are compiled at once
     never = Event(lambda t, state: 1.0)  # noqa: ARG005 (an event is of both)
-    for events in ((), (never,)):  # whole, and phase by phase; the same formulas: compiled too
-        simulate_nonsmooth(example.system, several[0], (0.0, 0.2), example.psi, events=events)
+    for events in ((never,), ()):  # step by step, and whole: it slips, slides and leaves
+        simulate_nonsmooth(pushed, several, (0.0, 3.0), hill(3.0), events=events)
+        simulate(pushed, hill(3.0), 0.01, several, (0.0, 0.2), events=events)
 
 
 def _warm_general_alone() -> None:

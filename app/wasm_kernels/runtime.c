@@ -13,7 +13,7 @@ MemInfo *NRT_MemInfo_alloc_aligned(int64_t size, uint32_t align) {
     return m;
 }
 MemInfo *NRT_MemInfo_alloc(int64_t size) { return NRT_MemInfo_alloc_aligned(size, 16); }
-static void varsize_dtor(void *data, size_t size, void *info) { if (info) ((void *(*)(void *))info)(data); free(data); }
+static void varsize_dtor(void *data, size_t size, void *info) { if (info) ((void (*)(void *))info)(data); free(data); }
 MemInfo *NRT_MemInfo_new_varsize_dtor(int64_t size, void *dtor) {
     MemInfo *m = malloc(sizeof(MemInfo));
     m->refct = 1; m->dtor = (void *)varsize_dtor; m->info = dtor; m->data = malloc((size_t)size); m->size = size; m->ext = 0;

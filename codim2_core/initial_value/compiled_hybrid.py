@@ -12,12 +12,13 @@ from ..arrays import Array
 from ..numerics.dense import Dense
 from ..psi.constructors import constant
 from ..psi.function import Psi
-from .compiled_motion import functions_of, line_directions, numbers_of_tableau, shared_out
 from .field import Field
+from .functions import functions_of
 from .kernels.explicit import DENSE_DEGREE
 from .kernels.hybrid_run import PHASE_NUMBERS, TOLD, follow_courses
 from .kernels.slow import flow
 from .line import InvariantLine
+from .motion_steps import line_directions, numbers_of_tableau, shared_out
 
 
 @dataclass(frozen=True)
@@ -92,10 +93,10 @@ def run_hybrid(
     first : ndarray (k, n)
     span : (t_start, t_end)
     rtol, floor, most
-        As in `CompiledMotion`.
+        As in `MotionSteps`.
     """
     own = constant() if psi is None else psi
-    outside, inside = functions_of(field, constant()), functions_of(field, own)
+    outside, inside = functions_of(field, constant(), many=True), functions_of(field, own, many=True)
     addresses = np.array([*outside.addresses, *(one.address for one in flow()), inside.addresses[2]], np.int64)
     numbers = np.array([rtol, floor, *span, own.parameter, _is_affine(field), psi is not None], float)
     along = line_directions(lines)

@@ -18,6 +18,7 @@ from .events import chebyshev_coefficients
 
 SAFE_DEGREE = 4
 LEFT_OUT = 8.0
+FOLD_MARGIN = 1e-8  # det D_e U, or what turns with it in a line, in units of its entries: a smaller one counts as zero
 SAFE_NODES = 0.5 - 0.5 * np.cos(math.pi * np.arange(SAFE_DEGREE + 1) / SAFE_DEGREE)
 COEFFICIENTS = np.array([chebyshev_coefficients(row) for row in np.eye(SAFE_DEGREE + 1)])
 
@@ -55,9 +56,11 @@ class StepRequirements:
         r = np.hypot(e[..., 0], e[..., 1])
         gap = (1.0 - r) * (1.0 + r)
         safe = _stays_positive(gap)
+        margin = FOLD_MARGIN * np.abs(D).max(axis=(2, 3))
         if self.n is not None:
-            return (safe & _stays_positive(-np.einsum("i,kdij,j->kd", self.n, D, self.n))).tolist()
-        safe &= _stays_positive(self.sign * (D[..., 0, 0] * D[..., 1, 1] - D[..., 0, 1] * D[..., 1, 0]))
+            return (safe & _stays_positive(-np.einsum("i,kdij,j->kd", self.n, D, self.n) - margin)).tolist()
+        margin *= margin / FOLD_MARGIN
+        safe &= _stays_positive(self.sign * (D[..., 0, 0] * D[..., 1, 1] - D[..., 0, 1] * D[..., 1, 0]) - margin)
         if not safe.any():
             return safe.tolist()
         n = np.where(r[..., None] > 0.0, e / np.where(r > 0.0, r, 1.0)[..., None], (1.0, 0.0))

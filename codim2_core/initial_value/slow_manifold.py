@@ -7,10 +7,8 @@ import math
 import numpy as np
 
 from ..arrays import Array
-from ..numerics.radau import Problem
 from ..psi.function import Psi
 from .field import Field
-from .problem import growth_bound
 
 MAX_NEWTON, FURTHER = 12, 20  # iterations; and where there was a set a little before
 MAX_CORRECTION = 0.6  # in e: no set is looked for if Newton's first step is longer
@@ -85,37 +83,6 @@ class SlowManifold:
         """Continue from e at z from now on."""
         self.e, self.z, self.slope = e, z, np.zeros((2, len(z)))
         self.move(z)
-
-    def problem(self, floor: float) -> Problem:
-        """Return the slow flow as an initial value problem in z; errors are measured by |z| + floor."""
-
-        def F(z: Array) -> Array:
-            e = self.at(z)
-            if e is None:
-                return np.full(len(z), math.nan)
-            return np.array(self.field.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:])
-
-        def J(z: Array) -> Array:
-            self.move(z)
-            D = self.slopes(self.e, self.z)
-            return D[2:, 4:] + D[2:, :2] @ self.slope
-
-        def limit(z: Array, rate: Array, jacobian: Array) -> float:  # noqa: ARG001 (the form of Problem.limit)
-            return growth_bound(jacobian)
-
-        return Problem(F, J, lambda z: np.abs(z) + floor, limit)
-
-
-class FixedManifold(SlowManifold):
-    """A critical set that does not move: it is there at all z, also where it meets others."""
-
-    def at(self, z: Array) -> Array | None:  # noqa: ARG002 (as of any other set)
-        """Return e."""
-        return self.e
-
-    def move(self, z: Array) -> None:
-        """Go on at z."""
-        self.z = np.array(z)
 
 
 def complement(e: Array) -> float:

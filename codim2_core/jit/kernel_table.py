@@ -156,7 +156,8 @@ def _read_array(kind: list[Any], k: int) -> Any:
     return array.astype(np.intp) if kind[0] == "int64" else array
 
 
-kernel = fast_kernel = inlined_kernel = inlined_fast_kernel = contracted_kernel = spliced_kernel = TabledKernel
+kernel = held_kernel = fast_kernel = inlined_kernel = inlined_fast_kernel = contracted_kernel = TabledKernel
+spliced_kernel = TabledKernel
 
 
 class Address:

@@ -29,12 +29,12 @@ COMPILING = (
 )
 
 
-def _kind_of_kernel(**options: Any) -> Callable[[Callable[..., Any]], Dispatcher]:
+def _kind_of_kernel(nogil: bool = True, **options: Any) -> Callable[[Callable[..., Any]], Dispatcher]:
     """Return a decorator whose kernels are compiled once for a type, whatever constants they are called with.
 
     A function that closes over a kernel is refused: it would never be found on disk again (see `rebind`).
     """
-    compiled = njit(cache=True, nogil=True, error_model="numpy", **options)
+    compiled = njit(cache=True, nogil=nogil, error_model="numpy", **options)
 
     def declare(function: Callable[..., Any]) -> Dispatcher:
         if any(isinstance(cell.cell_contents, Dispatcher) for cell in function.__closure__ or ()):
@@ -50,8 +50,10 @@ def _kind_of_kernel(**options: Any) -> Callable[[Callable[..., Any]], Dispatcher
 
 
 #: Decorators. `fast_kernel` may reorder sums, `contracted_kernel` only fuse. LLVM inlines `inlined_kernel`; Numba
-#: splices `spliced_kernel` into the caller before it types it, so that functions can be arguments.
+#: splices `spliced_kernel` into the caller before it types it, so that functions can be arguments. `held_kernel` holds
+#: the interpreter meanwhile, as its callbacks need it.
 kernel = _kind_of_kernel()
+held_kernel = _kind_of_kernel(nogil=False)
 fast_kernel = _kind_of_kernel(fastmath=ARITHMETIC)
 inlined_kernel = _kind_of_kernel(forceinline=True)
 inlined_fast_kernel = _kind_of_kernel(fastmath=ARITHMETIC, forceinline=True)

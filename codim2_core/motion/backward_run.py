@@ -12,9 +12,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..initial_value.problem import own_time
+from ..arrays import Array
+from ..initial_value.slopes import slopes_of, smoothed_direction
 from ..numerics.dense import Dense
-from ..numerics.radau import Problem
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem
 from ..words import say
 from .result import Simulation, SimulationStatus
 
@@ -32,51 +34,56 @@ class Past(NamedTuple):
     events: tuple[tuple[float, ...], ...]
 
     @classmethod
-    def from_run(cls, run: Simulation, problem: Problem, rtol: float) -> Past:
+    def from_run(cls, run: Simulation, system: AnySystem, psi: Psi, rtol: float, atol: float) -> Past:
         """Return what a motion that was followed backwards, in the time -t, tells of the past.
 
         Parameters
         ----------
         run : Simulation
-        problem : Problem
-            What was followed.
-        rtol : float
-            Its tolerance: differences that it cannot tell.
+        system : ELinear, System, Coefficients or Frozen
+            What was followed backwards.
+        psi : Psi
+        rtol, atol : float
+            Its tolerances: differences of rtol it cannot tell.
         """
-        return cls.upto(run, _reliable_steps(run.motion, problem, math.log(AGREE / rtol)), "past forgotten")
+        growth, most = _growth(run, system, psi, atol / rtol), math.log(AGREE / rtol)
+        k = int(np.searchsorted(np.cumsum(growth), most, side="right"))
+        if k == len(growth):
+            return cls.upto(run, run.motion, "")
+        return cls.upto(
+            run, run.motion.upto(k + 1, (most - float(growth[:k].sum())) / float(growth[k])), "past forgotten"
+        )
 
     @classmethod
-    def upto(cls, run: Simulation, k: int, why: str) -> Past:
-        """Return what the first k steps of a motion that was followed backwards tell.
+    def upto(cls, run: Simulation, told: Dense, why: str) -> Past:
+        """Return what the first part of a motion that was followed backwards tells.
 
         Parameters
         ----------
         run : Simulation
-        k : int
+        told : Dense
+            The part.
         why : str
-            The sentence, by its key, that says why no more are told, if there are more.
+            The sentence, by its key, that says why no more is told, if there is more.
         """
-        motion = run.motion.upto(k).backwards()
+        motion = told.backwards()
         first = float(motion.times[0])
         events = tuple(tuple(t for t in (-times[::-1]).tolist() if t >= first) for times in run.events)
-        if k == len(run.motion.lengths):
+        if told.times[-1] == run.times[-1]:
             detail = run.reason.removeprefix(run.status.value).strip()
             return cls(motion, run.status, detail, run.evaluations, events)
         return cls(motion, SimulationStatus.FORGOTTEN, say(why, t=first), run.evaluations, events)
 
 
-def _reliable_steps(motion: Dense, problem: Problem, most: float) -> int:
-    """Return the steps along which differences grow by at most exp(most) beyond what the motion itself does."""
-    grown = np.cumsum([_growth(motion, i, problem) for i in range(len(motion.lengths))])
-    return int(np.searchsorted(grown, most, side="right"))
-
-
-def _growth(motion: Dense, i: int, problem: Problem) -> float:
-    """Return the integral of the growth over one step, by Simpson's rule."""
-    rates = []
-    for u in (0.0, 0.5, 1.0):
-        state = motion.in_step(i, u)
-        jacobian = problem.J(state)
-        rate = float(np.linalg.eigvals(jacobian).real.max()) if np.isfinite(jacobian).all() else 0.0
-        rates.append(max(0.0, rate - FASTER / own_time(problem, state, problem.F(state))))
-    return float(motion.lengths[i]) * (rates[0] + 4.0 * rates[1] + rates[2]) / 6.0
+def _growth(run: Simulation, system: AnySystem, psi: Psi, floor: float) -> Array:
+    """Return by what differences grow along each step beyond what the motion itself does, by Simpson's rule."""
+    motion, slopes = run.motion, slopes_of(system)
+    n, steps = motion.states.shape[1], range(len(motion.lengths))
+    states = np.array([motion.in_step(i, u) for i in steps for u in (0.0, 0.5, 1.0)]).reshape(-1, n)
+    e, De = smoothed_direction(psi, run.eps, states[:, :2])
+    jacobians, sizes = -slopes.of_state(e, De, states), np.abs(states) + floor
+    sizes[:, :2] = np.hypot(np.hypot(*states[:, :2].T), run.eps)[:, None]
+    known = np.isfinite(jacobians).all(axis=(1, 2), keepdims=True)
+    rates = np.linalg.eigvals(np.where(known, jacobians, 0.0)).real.max(axis=1, initial=0.0)
+    own = FASTER * np.max(np.abs(slopes.rates(e, states)) / sizes, axis=1)
+    return motion.lengths * (np.maximum(rates - own, 0.0).reshape(-1, 3) @ (1.0, 4.0, 1.0)) / 6.0

@@ -6,33 +6,32 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, overload
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from ..initial_value.compiled_phases import CompiledPhases
+from ..initial_value.compiled_hybrid import run_hybrid
 from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards_system, field
+from ..initial_value.functions import functions_of
 from ..initial_value.line import invariant_line
-from ..initial_value.problem import plane_problem
 from ..numerics.dense import dense, gather_steps
 from ..numerics.growth import BlowUpError
 from ..numerics.radau import TooManyStepsError
+from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
 from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
+from .limit.compiled_run_phases import PhaseBuilder
 from .limit.hybrid_run import AtEventError, HybridRun, StopError
 from .locations import OfState
-from .regularised import MANY_MOTIONS, MAX_STEPS, count_steps, waited_for
+from .regularised import MAX_STEPS, are_many
 from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
-
-if TYPE_CHECKING:
-    from .limit.compiled_run_phases import PhaseBuilder
 
 __all__ = ["simulate_nonsmooth"]
 
@@ -142,11 +141,8 @@ def simulate_nonsmooth(
     if t_end < t_start:
         pasts = tuple(_past(asked, first) for first in states)
         return pasts[0] if np.ndim(state0) < 2 else pasts
-    runs = (
-        _run_motions(asked, states)
-        if len(states) >= MANY_MOTIONS or not waited_for(formulas)
-        else map(asked.one, states)
-    )
+    many = functions_of(formulas, constant(), are_many(len(states), max_steps)).is_compiled
+    runs = _run_motions(asked, states) if many else map(asked.one, states)
     return next(iter(runs)) if np.ndim(state0) < 2 else tuple(runs)
 
 
@@ -163,27 +159,17 @@ class _NonsmoothRun:
     atol: float
     max_steps: int
 
-    def one(self, first: Array, compiled: bool = False, begun: PhaseBuilder | None = None) -> Simulation:
+    def one(self, first: Array, begun: PhaseBuilder | None = None) -> Simulation:
         """Follow one motion from a state, or from where it was handed over, phase by phase."""
-        (t_start, t_end), rtol, atol, count = self.span, self.rtol, self.atol, [0]
-        value = self.formulas.value
-
-        def count_calls(*arguments: float) -> tuple[float, ...]:
-            count[0] += 1
-            return value(*arguments)
-
-        formulas = Field(self.formulas.m, self.formulas.rows, count_calls, self.formulas.slope)
-        line = invariant_line(formulas, first)
-        problem = plane_problem(formulas, None, 0.0, rtol, atol, None if line is None else line.vector)
+        t_start, t_end = self.span
+        line = invariant_line(self.formulas, first)
         watch = EventWatch(self.watched, t_start, first)
         course = HybridRun(
-            self.system, self.psi, formulas, problem, line, watch, t_start, first, t_end, rtol, atol, self.max_steps
-        )
-        if compiled or not waited_for(formulas):
-            course.compiled = CompiledPhases(problem, formulas, line, rtol, atol / rtol)
+            self.system, self.psi, self.formulas, line, watch, t_start, first, t_end, self.rtol, self.atol,
+            self.max_steps,
+        )  # fmt: skip
         if begun is not None:
             course.go_on(begun)
-            count[0] += begun.found.evaluations
         status, detail = SimulationStatus.T_END, ""
         try:
             course.run()
@@ -195,12 +181,12 @@ class _NonsmoothRun:
             status, detail = SimulationStatus.BLOW_UP, str(error)
         except TooManyStepsError as error:
             status, detail = SimulationStatus.STEP_LIMIT, str(error)
-        count_steps(formulas, len(course.taken))
-        evaluations = count[0] + (course.compiled.evaluations if course.compiled else 0)
         motion = dense(t_start, first, [gather_steps(course.taken, len(first))])
         phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
         variation = partial(of_nonsmooth, self.system, motion, phases, line)
-        return simulation(motion, phases, variation, status, detail=detail, evaluations=evaluations, events=watch.times)
+        return simulation(
+            motion, phases, variation, status, detail=detail, evaluations=course.evaluations, events=watch.times
+        )
 
 
 def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
@@ -216,7 +202,7 @@ def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
     )  # fmt: skip
     arrives = len(back.phases) > 1
     steps = int(np.searchsorted(back.times, back.phases[0].t_end, side="right")) - 1 if arrives else len(back.times) - 1
-    past = Past.upto(back, steps, "has left Sigma")
+    past = Past.upto(back, back.motion.upto(steps), "has left Sigma")
     motion, first = past.motion, float(past.motion.times[0])
     slip = Phase("slip", first, t_start, say("past on Sigma" if arrives else "starts outside"))
     phases = (slip.with_place(OfState(motion, None, 0.0, first, t_start), None),)
@@ -235,9 +221,6 @@ def _run_motions(asked: _NonsmoothRun, states: Array) -> Iterator[Simulation]:
     outside = [i for i, first in enumerate(states) if first[:2].any()] if not asked.watched else []
     legs: dict[int, PhaseBuilder] = {}
     if outside:
-        from ..initial_value.compiled_hybrid import run_hybrid  # loads the compiler
-        from .limit.compiled_run_phases import PhaseBuilder
-
         lines = [invariant_line(asked.formulas, states[i]) for i in outside]
         own = (asked.rtol, asked.atol / asked.rtol, asked.max_steps)
         found = run_hybrid(asked.formulas, asked.psi, lines, states[outside], asked.span, *own)
@@ -248,9 +231,9 @@ def _run_motions(asked: _NonsmoothRun, states: Array) -> Iterator[Simulation]:
     for i, first in enumerate(states):
         begun = legs.get(i)
         if begun is None or not begun.found.legs:
-            yield asked.one(first, compiled=True)
+            yield asked.one(first)
         elif not begun.whole:
-            yield asked.one(first, True, begun)
+            yield asked.one(first, begun)
         else:
             found = begun.found
             phases = partial(begun.phases, found.motion)

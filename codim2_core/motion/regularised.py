@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-import math
-import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from importlib.util import resolve_name
-from typing import TYPE_CHECKING, NoReturn, overload
+from typing import overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from ..expressions.expression import Expression
 from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards, field
-from ..initial_value.line import invariant_line
-from ..initial_value.problem import plane_problem
+from ..initial_value.functions import FieldFunctions, functions_of
+from ..initial_value.kernels.motion import UNDEFINED
+from ..initial_value.line import InvariantLine, invariant_line
+from ..initial_value.motion_steps import MotionSteps, failure, integrate_compiled, rate_at
 from ..numerics.dense import Dense, StepArray, dense, gather_steps
-from ..numerics.growth import BlowUpError, until_blow_up
-from ..numerics.radau import Problem, Step, TooManyStepsError, steps
+from ..numerics.growth import BlowUpError
+from ..numerics.radau import Step, TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
@@ -30,20 +28,12 @@ from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation
 from .variation.regularised import of_regularised
 
-if TYPE_CHECKING:
-    from ..initial_value.compiled_motion import CompiledMotion
-
 __all__ = ["simulate"]
 
 
-_stepped: dict[tuple[Expression, ...], int] = {}  # steps in Python so far, by the formulas of a system
-
 SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
-FIRST_STEP_SHARE = 1e-2  # of rho/|U|: the first step tried
 MAX_STEPS = 20_000
-PYTHON_STEPS = 400  # steps in Python, of all motions of a system: they take about as long as compiling its formulas
-COUNTED_SYSTEMS = 64  # systems whose steps are counted
-MANY_MOTIONS = 8  # motions at once for which that is not waited for
+MANY_MOTIONS = 8  # motions at once, of `MAX_STEPS`, for which the formulas of a system are compiled
 
 
 @overload
@@ -160,18 +150,58 @@ class _RegularisedRun:
     max_steps: int
 
     def runs(self, states: Array) -> tuple[Simulation, ...]:
-        """Follow all motions."""
-        if not self.events and (len(states) >= MANY_MOTIONS or _is_compiled(self.formulas)):
-            return self.compiled(states)
-        return tuple(self.one(first) for first in states)
+        """Follow all motions: in as few calls as there are cores, or one by one."""
+        functions = functions_of(self.formulas, self.psi, are_many(len(states), self.max_steps))
+        if functions.is_compiled and not self.events:
+            return self.whole(states)
+        return tuple(self.one(functions, first) for first in states)
 
-    def one(self, first: Array) -> Simulation:
-        """Follow one motion, in Python at first."""
-        watch = EventWatch(self.events, self.span[0], first)
-        parts, status, detail, count = _integrate_regularised(
-            self.formulas, self.psi, self.eps, first, self.span, self.rtol, self.atol, self.max_steps, watch
-        )
-        return self.told(dense(self.span[0], first, parts), status, detail, count, watch.times)
+    def rate(self, line: InvariantLine | None) -> Callable[[Array], Array]:
+        """Return the rate of a state, in Python."""
+        return partial(rate_at, self.formulas, self.psi, self.eps, line)
+
+    def one(self, functions: FieldFunctions, first: Array) -> Simulation:
+        """Follow one motion step by step."""
+        line, watch = invariant_line(self.formulas, first), EventWatch(self.events, self.span[0], first)
+        motion = MotionSteps(
+            functions, self.rate(line), self.eps, line, self.span, first, self.rtol, self.atol / self.rtol,
+            self.max_steps,
+        )  # fmt: skip
+        parts: list[StepArray] = []
+        status, detail = SimulationStatus.T_END, ""
+        try:
+            for part in motion.chunks():
+                ended = _cut_at_event(part, watch, len(first))
+                parts.append(part if ended is None else ended)
+                if ended is not None:
+                    status = SimulationStatus.EVENT
+                    break
+        except TooManyStepsError as error:
+            status, detail = self.end(motion.code, error, first)
+        return self.told(dense(self.span[0], first, parts), status, detail, motion.evaluations, watch.times)
+
+    def whole(self, states: Array) -> tuple[Simulation, ...]:
+        """Follow motions from their start to their end."""
+        lines = [invariant_line(self.formulas, first) for first in states]
+        found = integrate_compiled(
+            self.formulas, self.psi, self.eps, lines, states, self.span, self.rtol, self.atol / self.rtol,
+            self.max_steps,
+        )  # fmt: skip
+        runs = []
+        for one, line in zip(found, lines, strict=True):
+            error = failure(one.code, one.t, one.motion.states[-1], self.rate(line))
+            runs.append(self.told(one.motion, *self.end(one.code, error, one.motion.states[0]), one.evaluations))
+        return tuple(runs)
+
+    def end(self, code: int, error: Exception | None, first: Array) -> tuple[SimulationStatus, str]:
+        """Return how a motion from a state has ended, and what there is to say of it."""
+        if code == UNDEFINED:
+            rate = self.rate(None)(first).tolist()
+            raise ValueError(f"(U, W) is {rate} at state0 = {first.tolist()}; it must be finite there.")
+        if error is None:
+            return SimulationStatus.T_END, ""
+        status = SimulationStatus.BLOW_UP if isinstance(error, BlowUpError) else SimulationStatus.STEP_LIMIT
+        return status, str(error)
 
     def told(
         self,
@@ -188,29 +218,6 @@ class _RegularisedRun:
             motion, phases, variation, status, detail=detail, eps=self.eps, evaluations=evaluations, events=events
         )
 
-    def compiled(self, states: Array) -> tuple[Simulation, ...]:
-        """Follow motions compiled from the start, in as few calls as there are cores."""
-        from ..initial_value.compiled_motion import failure, integrate_compiled  # loads the compiler
-        from ..initial_value.kernels.motion import UNDEFINED
-
-        formulas, psi, eps, rtol, atol = self.formulas, self.psi, self.eps, self.rtol, self.atol
-        lines = [invariant_line(formulas, first) for first in states]
-        found, runs = (
-            integrate_compiled(formulas, psi, eps, lines, states, self.span, rtol, atol / rtol, self.max_steps),
-            [],
-        )
-        for one, line, first in zip(found, lines, states, strict=True):
-            status, detail = SimulationStatus.T_END, ""
-            if one.code == UNDEFINED:
-                _refuse(plane_problem(formulas, psi, eps, 1.0, 1.0).F(first), first)
-            if one.code:
-                problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
-                error = failure(problem, one.code, one.t, one.motion.states[-1])
-                status = SimulationStatus.BLOW_UP if isinstance(error, BlowUpError) else SimulationStatus.STEP_LIMIT
-                detail = str(error)
-            runs.append(self.told(one.motion, status, detail, one.evaluations))
-        return tuple(runs)
-
 
 def _pasts(asked: _RegularisedRun, states: Array) -> tuple[Simulation, ...]:
     """Follow motions backwards, and return them as they run, as far as their states tell where they came from."""
@@ -220,87 +227,8 @@ def _pasts(asked: _RegularisedRun, states: Array) -> tuple[Simulation, ...]:
         span=(-asked.span[0], -asked.span[1]),
         events=tuple(map(reverse_event, asked.events)),
     )
-    problem = plane_problem(back.formulas, asked.psi, asked.eps, asked.rtol, asked.atol)
-    pasts = [Past.from_run(run, problem, asked.rtol) for run in back.runs(states)]
+    pasts = [Past.from_run(run, asked.system, asked.psi, asked.rtol, asked.atol) for run in back.runs(states)]
     return tuple(asked.told(*past) for past in pasts)
-
-
-def _refuse(rate: Array, first: Array) -> NoReturn:
-    """Say that the rate is not finite where a motion begins."""
-    raise ValueError(f"(U, W) is {rate.tolist()} at state0 = {first.tolist()}; it must be finite there.")
-
-
-def _count_evaluations(problem: Problem, count: list[int]) -> Problem:
-    def F(state: Array) -> Array:
-        count[0] += 1
-        return problem.F(state)
-
-    return Problem(F, problem.J, problem.scale, problem.limit)
-
-
-def first_step(problem: Problem, state: Array, rate: Array) -> float:
-    """Return a short first step: a small part of the time in which the state changes by its own size."""
-    speed = float(np.max(np.abs(rate) / problem.scale(state)))
-    return FIRST_STEP_SHARE / speed if speed > 0.0 else math.inf
-
-
-def _integrate_regularised(
-    formulas: Field,
-    psi: Psi,
-    eps: float,
-    first: Array,
-    span: tuple[float, float],
-    rtol: float,
-    atol: float,
-    max_steps: int,
-    watch: EventWatch,
-) -> tuple[list[StepArray], SimulationStatus, str, int]:
-    """Follow a motion: its steps, why it ended, and the evaluations it took."""
-    line = invariant_line(formulas, first)
-    problem = plane_problem(formulas, psi, eps, rtol, atol, None if line is None else line.vector)
-    count = [0]
-    problem = _count_evaluations(problem, count)
-    rate = problem.F(first)
-    if not np.isfinite(rate).all():
-        _refuse(rate, first)
-    taken: list[Step] = []
-    parts: list[StepArray] = []
-    t, state, h = span[0], first, first_step(problem, first, rate)
-    motion: CompiledMotion | None = None
-    patience = waited_for(formulas)
-    status, detail = SimulationStatus.T_END, ""
-    try:
-        if patience > 0:
-            for step in until_blow_up(problem, steps(problem, *span, first, rtol, h, max_steps)):
-                last = watch.step(step)
-                taken.append(step if last is None else last)
-                if last is not None:
-                    return [gather_steps(taken, len(first))], SimulationStatus.EVENT, "", count[0]
-                if len(taken) == patience:
-                    t, state, h = step.end, step.last, step.h
-                    break
-        if t < span[1] and len(taken) == max(0, patience):
-            from ..initial_value.compiled_motion import (
-                CompiledMotion,  # loads the compiler, which most motions do without
-            )
-
-            motion = CompiledMotion(
-                problem, formulas, psi, eps, line, t, span[1], state, rtol, atol / rtol, h, max_steps - len(taken)
-            )
-            for part in motion.chunks():
-                ended = _cut_at_event(part, watch, len(first))
-                parts.append(part if ended is None else ended)
-                if ended is not None:
-                    status = SimulationStatus.EVENT
-                    break
-    except BlowUpError as error:
-        status, detail = SimulationStatus.BLOW_UP, str(error)
-    except TooManyStepsError as error:
-        status, detail = SimulationStatus.STEP_LIMIT, str(error)
-    finally:
-        count_steps(formulas, len(taken))
-    evaluations = count[0] + (0 if motion is None else motion.evaluations)
-    return [gather_steps(taken, len(first)), *parts], status, detail, evaluations
 
 
 def _cut_at_event(part: StepArray, watch: EventWatch, n: int) -> StepArray | None:
@@ -314,20 +242,6 @@ def _cut_at_event(part: StepArray, watch: EventWatch, n: int) -> StepArray | Non
     return None
 
 
-def waited_for(formulas: Field) -> int:
-    """Say how many steps in Python are still taken before a system's motions are followed compiled."""
-    return 0 if _is_compiled(formulas) else max(0, PYTHON_STEPS - _stepped.get(formulas.rows, 0))
-
-
-def count_steps(formulas: Field, steps: int) -> None:
-    """Count steps in Python: a system that comes again is compiled once its motions together are a long one."""
-    before = _stepped.pop(formulas.rows, 0)
-    while len(_stepped) >= COUNTED_SYSTEMS:
-        _stepped.pop(next(iter(_stepped)), None)
-    _stepped[formulas.rows] = before + steps
-
-
-def _is_compiled(formulas: Field) -> bool:
-    """Whether the formulas are compiled already; none are before the compiler has been loaded."""
-    module = sys.modules.get(resolve_name("..initial_value.compiled_motion", __package__))
-    return module is not None and module.is_compiled(formulas)
+def are_many(count: int, max_steps: int) -> bool:
+    """Whether so many motions, of so many steps at most, are worth compiling the formulas at once."""
+    return count * max_steps >= MANY_MOTIONS * MAX_STEPS

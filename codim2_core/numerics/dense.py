@@ -52,11 +52,15 @@ class Dense(ByValue):
         found = np.where((flat == self.times[at])[:, None], self.states[at], found)
         return found.reshape(*when.shape, self.states.shape[1])
 
-    def upto(self, k: int) -> Dense:
-        """Return the first k steps."""
-        return Dense(*(array[:end] for array, end in zip(
-            (self.times, self.states, self.lengths, self.polynomials), (k + 1, k + 1, k, k), strict=True
-        )))  # fmt: skip
+    def upto(self, k: int, u: float = 1.0) -> Dense:
+        """Return the first k steps, of the last one the part up to its fraction u."""
+        times, states = self.times[: k + 1].copy(), self.states[: k + 1].copy()
+        lengths, polynomials = self.lengths[:k].copy(), self.polynomials[:k].copy()
+        if u < 1.0:
+            states[k], lengths[-1] = self.in_step(k - 1, u), u * lengths[-1]
+            times[k] = times[k - 1] + lengths[-1]
+            polynomials[-1] *= u ** np.arange(1, polynomials.shape[2] + 1)
+        return Dense(times, states, lengths, polynomials)
 
     def backwards(self) -> Dense:
         """Return the same states in the order of the time -t."""

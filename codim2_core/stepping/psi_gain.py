@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from ..expressions.functions import kernels
+from ..expressions.functions import called, kernels
 from ..jit import (
     ahead,
     bits_of_double,
@@ -157,6 +157,23 @@ class GainVariant:
         # beside math's, these run in vector registers
         return compile_with_gain(lanes, self.key, self.whole, self.cached, expm1=expm1, log=log)
 
+    def in_python(self, parameter: float) -> Callable[[float, float], tuple[float]]:
+        """Return this gain at one place as a function of Python, from (|p|^2, w)."""
+        own: Any = self.key
+        if isinstance(own, str):
+            scope: dict[str, Any] = {"math": math, **called}
+            exec(_typed_gain(own, self.parameter, self.saturation), scope)
+            own = scope["gain"]
+        given = int(parameter) if self.whole else parameter
+
+        def gain(r2: float, w: float) -> tuple[float]:
+            try:
+                return (own(r2, w, given),)
+            except (ArithmeticError, ValueError):  # as `_typed_gain` where it is infinite
+                return (1.0 / math.sqrt(max(r2, UNDERFLOW_BOUND)),)
+
+        return gain
+
 
 ONE = GainVariant(_unit_gain, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
 
@@ -273,3 +290,8 @@ _compiled_one = GainVariants(_one_gain)
 def one_gain(psi: Psi) -> Any:
     """Return the compiled gain at one place: by its `address`, from (|p|^2, w)."""
     return _compiled_one.get(variant(psi, False))
+
+
+def has_one_gain(psi: Psi) -> bool:
+    """Whether `one_gain` answers without compiling, as `has_gains`."""
+    return variant(psi, False) in _compiled_one

@@ -25,7 +25,12 @@ class Entry:
 
 
 def _call_field(address: int, S: Any, source: int, target: int, P: Any) -> None:
-    Entry.known[address](S[source:], S[target:], P)
+    if address in Entry.known:
+        Entry.known[address](S[source:], S[target:], P)
+    else:  # of a callback
+        from codim2_core.jit import interpreted
+
+        interpreted.STAND_INS["call_field"](address, S, source, target, P)
 
 
 def _call_at(address: int, state: Any, out: Any, parameters: Any) -> None:

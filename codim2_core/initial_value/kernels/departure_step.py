@@ -1,20 +1,34 @@
-"""The way out of Sigma along a limit direction, compiled: the expansion of `departure`, where it is sure."""
+"""The way out of Sigma along a limit direction: the expansion at Sigma that a first, short step is made of.
+
+Where lambda_rho > 0 it is the unstable manifold of Q in (rho, theta, z): rho = lambda_rho t + O(t^2), with
+theta - theta_Q linear in t. Where a critical set has just reached the equator at Q (fig:transcrit), lambda_rho grows
+from 0 as beta t, rho = beta t^2/2 + O(t^3), and theta follows Q(z).
+"""
 
 from __future__ import annotations
 
 import math
 
-from ...jit import kernel
-from ..departure import FAST_START, MAX_CORRECTION, MAX_NEWTON, NEUTRAL_RATE, SLOW_START, TILT, pace
+from ...jit import held_kernel, kernel
 from .arrival import write_at
 from .slow import RATES, TABLE
 
-_pace = kernel(pace)
+FAST_START, SLOW_START = 1e-9, 1e-5  # first part, of the time ahead or of the rates' own, covered by an expansion
+TILT = 1e-6  # largest angle that this expansion may cover
+MAX_NEWTON, MAX_CORRECTION = 6, 0.05  # steps to polish theta, and how far one may go
+NEUTRAL_RATE = 1e-7  # of the size of U's slopes: lambda_rho counts as zero
+NOTHING_LEAVES, REPELS_ANGULARLY = 0.0, -1.0
+
+
+@kernel
+def _pace(rate, change):
+    """Time in which a rate that changes at this rate becomes another; infinite where it stands, or does not change."""
+    return abs(rate / change) if rate != 0.0 and change != 0.0 else math.inf
 
 
 @kernel
 def _polish_theta(S, m, theta):
-    """Return the zero of Theta near theta, by Newton's method; NaN where there is none."""
+    """Return the zero of Theta near theta, by Newton's method; theta itself where there is none."""
     angle, width = theta, 4 + m
     for _ in range(MAX_NEWTON):
         c, s = math.cos(angle), math.sin(angle)
@@ -24,14 +38,14 @@ def _polish_theta(S, m, theta):
         rate = s * (s * D11 - c * D12) + c * (c * D22 - s * D21) - (c * u + s * v)
         change = (c * v - s * u) / rate
         if not abs(change) < MAX_CORRECTION:
-            return math.nan
+            return theta
         angle -= change
     return angle
 
 
-@kernel
+@held_kernel
 def leave(S, m, n1, n2, theta, ahead, linear, square):
-    """Write the first, short step away from Sigma; return its length, 0 where the caller has to decide.
+    """Write the first, short step away from Sigma; return its length, or why there is none.
 
     Parameters
     ----------
@@ -50,8 +64,6 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
     width, in_line = 4 + m, n1 != 0.0 or n2 != 0.0
     if not in_line:
         theta = _polish_theta(S, m, theta)
-        if not math.isfinite(theta):
-            return 0.0
     c, s = math.cos(theta), math.sin(theta)
     if in_line:  # exactly
         side = math.copysign(1.0, n1 * c + n2 * s)
@@ -64,7 +76,7 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
     angular = c * across2 - s * across1 - radial
     size = max(max(abs(D11), abs(D12)), max(abs(D21), abs(D22))) + math.hypot(u, v)
     if not in_line and not angular < 0.0:
-        return 0.0
+        return REPELS_ANGULARLY
     drift1, drift2 = 0.0, 0.0
     for j in range(m):
         drift1 += S[TABLE + 4 + j] * S[RATES + 2 + j]
@@ -95,7 +107,7 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
     turning = 0.0 if in_line else -(c * drift2 - s * drift1) / angular
     beta = c * drift1 + s * drift2 + (c * across1 + s * across2) * turning
     if radial < -NEUTRAL_RATE * size or not beta > 0.0:
-        return 0.0
+        return NOTHING_LEAVES
     h = SLOW_START * min(ahead, abs(angular if angular != 0.0 else size) / beta)
     h = min(h, 1e-2 * math.sqrt(TILT) / abs(turning)) if turning != 0.0 else h
     for i in range(m):

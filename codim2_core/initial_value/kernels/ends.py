@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from ...jit import kernel
-from ..safe_steps import COEFFICIENTS, LEFT_OUT, SAFE_DEGREE, SAFE_NODES
+from ..safe_steps import COEFFICIENTS, FOLD_MARGIN, LEFT_OUT, SAFE_DEGREE, SAFE_NODES
 from .slow import SET_PLACE, TABLE, found_set
 
 SAFE, AT_EQUATOR_END, UNSURE_END = range(3)
@@ -58,11 +58,12 @@ def determinant(S, n):
 def _write_gauges(S, n, sign, n1, n2, values, node):
     D11, D12, D21, D22 = S[TABLE], S[TABLE + 1], S[TABLE + n + 2], S[TABLE + n + 3]
     values[0, node] = _gap(S)
+    size = max(max(abs(D11), abs(D12)), max(abs(D21), abs(D22)))
     if n1 != 0.0 or n2 != 0.0:
-        values[1, node] = -(n1 * (n1 * D11 + n2 * D12) + n2 * (n1 * D21 + n2 * D22))
+        values[1, node] = -(n1 * (n1 * D11 + n2 * D12) + n2 * (n1 * D21 + n2 * D22)) - FOLD_MARGIN * size
         values[2, node] = values[3, node] = 1.0
         return
-    values[1, node] = sign * (D11 * D22 - D12 * D21)
+    values[1, node] = sign * (D11 * D22 - D12 * D21) - FOLD_MARGIN * size * size
     c, s = S[SET_PLACE], S[SET_PLACE + 1]
     r = math.hypot(c, s)
     c, s = (c / r, s / r) if r > 0.0 else (1.0, 0.0)

@@ -41,7 +41,8 @@ PHASE_NUMBERS = 5  # numbers of a phase: its motion, what it is, its first and l
 TOLD = 5  # numbers of a motion: its steps and phases, what is handed over (or WHOLE), the angle, evaluations
 WHOLE = -1
 MIN_STEP = 1e-14  # of the time in which z changes by its own size: shorter steps mean that a set ends
-OF_SLIPS = 0.5  # of rtol, asked of the steps of a slip: see `initial_value.compiled_phases`
+#: Of rtol, asked of the steps of a slip: explicit ones use up what is allowed, implicit ones leave most of it.
+OF_SLIPS = 0.5
 
 
 @kernel
@@ -267,7 +268,7 @@ def follow_courses(addresses, numbers, coefficients, lines, first, most):
                 if decided:
                     break
                 if code == FINISHED:
-                    decided = True
+                    times[row], decided = t_end, True
                     break
                 if code == AT_SIGMA:
                     h = _straight_on(motion, S, y, rates, linear, square)

@@ -11,18 +11,18 @@ import math
 
 import numpy as np
 
-from ...jit import kernel, spliced_kernel
-from ...numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH
-from .. import problem
+from ...jit import held_kernel, kernel, spliced_kernel
+from ...numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH, STAGES
 from . import explicit, radau
 from .rate import MotionConstants, inward_bound, rate, sizes
-from .stages import tableau_of, workspace
+from .stages import tableau_of, work_on, workspace
 
 FINISHED, LIMIT, SHORT, CHUNK_FULL, BLOWN_UP, UNDEFINED, AT_SIGMA = range(7)
 FIRST_STEP_SHARE = 1e-2  # of rho/|U|: the first step tried
 MIN_STEP = 1e-290
 STEPS_PER_CALL = 256  # steps that are filled in at once
-MAX_STATE, GROWN = 1e200, 8.0  # as in `numerics.growth`
+MAX_STATE, GROWN = 1e200, 8.0  # what has grown so large, or so many times within the spacing of times, has blown up
+MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE = 1e-13, 5e-5  # of the largest rho of a slip; of that times rtol
 
 # What `control` holds.
 NEXT, REFINED, WARY, STEPS_LEFT, STEPS_TRIED, LARGEST_RHO, IMPLICIT, SIGN_COUNT, WORTH, FARTHEST_RHO, LEAST_STEP = (
@@ -30,12 +30,20 @@ NEXT, REFINED, WARY, STEPS_LEFT, STEPS_TRIED, LARGEST_RHO, IMPLICIT, SIGN_COUNT,
 )
 CONTROL = 11
 
+PASSED_SHRINKAGE = 0.5  # of a step that has passed Sigma
+ONLY = 2.0  # of IMPLICIT: and explicit never
 STABLE = 4.0  # h times a growth rate of an explicit step in a slide
 SWITCH_SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
 MIN_IMPLICIT_STEPS = 20.0  # implicit steps that a slide takes at least, about: as many have to be saved
 
 
-arrived = kernel(problem.arrival_radius)
+@kernel
+def arrived(rtol):
+    """Part of the largest rho of a slip at which it has arrived at Sigma: the rest of the way is straight.
+
+    What is left to turn on it, to a limit direction that attracts, is a small part of 1: rtol has room for it.
+    """
+    return max(MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE * rtol)
 
 
 @kernel
@@ -57,6 +65,17 @@ def _advance_time(clock, control, h, y):
         control[LARGEST_RHO] = max(control[LARGEST_RHO], extent)
     clock[0] = ahead
     return extent > MAX_STATE or extent > GROWN * control[LARGEST_RHO]
+
+
+@spliced_kernel
+def _passes_sigma(motion, y, work, implicit):
+    """Whether a step leads from one side of Sigma to the other, and not to it: the field beyond may be the same."""
+    if implicit:
+        x1, x2 = y[0] + work.Z[STAGES - 1, 0], y[1] + work.Z[STAGES - 1, 1]
+    else:
+        x1, x2 = work.S[explicit.NEW], work.S[explicit.NEW + 1]
+    near = (radau.CONTACT * motion.eps) ** 2
+    return y[0] * x1 + y[1] * x2 < 0.0 and min(y[0] * y[0] + y[1] * y[1], x1 * x1 + x2 * x2) > near
 
 
 @spliced_kernel
@@ -86,7 +105,7 @@ def _turned_implicit(motion, control, work, h, remaining):
 @spliced_kernel
 def _turned_explicit(motion, control, bound, reach):
     """Go on explicitly where an implicit step would cost more than explicit ones over the same span."""
-    if motion.n > explicit.MAX_COMPONENTS or min(control[NEXT], bound) * reach > price(motion.n) * STABLE:
+    if control[IMPLICIT] == ONLY or min(control[NEXT], bound) * reach > price(motion.n) * STABLE:
         control[SIGN_COUNT] = 0.0
         return False
     control[SIGN_COUNT] += 1.0
@@ -112,10 +131,10 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
         Time, what its rounding lost, the end of the time, evaluations so far.
     control : (CONTROL,)
         NEXT: the next step. REFINED: 1 where the last one was not accepted. WARY: careful steps left. LEFT: steps
-        left to try. TRIED: how many were. EXTENT: the largest size of the state so far. IMPLICIT: 1 in a slide. COUNT:
-        signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead. FARTHEST: the
-        largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is `arrived` of that.
-        LEAST: a shorter step ends the motion.
+        left to try. TRIED: how many were. EXTENT: the largest size of the state so far. IMPLICIT: 1 in a slide, or
+        ONLY. COUNT: signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead.
+        FARTHEST: the largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is
+        `arrived` of that. LEAST: a shorter step ends the motion.
     starts, lengths (k,), ends (k, n), polynomials (k, n, 7)
         Filled with steps.
 
@@ -155,6 +174,8 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
             fresh, change = radau.attempt(motion, table, y, h, before_h, control[REFINED] > 0.0, clock, work)
         else:
             fresh, change = explicit.attempt(motion, h, clock, work)
+        if fresh and _passes_sigma(motion, y, work, implicit):
+            fresh, change = False, PASSED_SHRINKAGE
         if not fresh:
             before_h = 0.0  # a prediction may have misled
             control[NEXT], control[REFINED] = h * change, 1.0
@@ -189,7 +210,6 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
 def prepare_motion(motion, y, clock, control, t_start, t_end, most, work):
     """Set the clock and the control for a motion from its start; say whether the rate is finite there."""
     clock[0], clock[1], clock[2], clock[3] = t_start, 0.0, t_end, 1.0
-    explicit_first = motion.n <= explicit.MAX_COMPONENTS
     rate(motion, y, work.S, work.rate)
     sizes(motion, y, work.size)
     speed, extent = 0.0, 1.0
@@ -201,8 +221,46 @@ def prepare_motion(motion, y, clock, control, t_start, t_end, most, work):
     control[NEXT] = FIRST_STEP_SHARE / speed if speed > 0.0 else math.inf
     control[REFINED], control[WARY], control[STEPS_LEFT], control[STEPS_TRIED] = 1.0, 0.0, most, 0.0
     control[LARGEST_RHO], control[SIGN_COUNT], control[WORTH] = extent, 0.0, MIN_IMPLICIT_STEPS * price(motion.n)
-    control[IMPLICIT], control[FARTHEST_RHO], control[LEAST_STEP] = 0.0 if explicit_first else 1.0, 0.0, MIN_STEP
+    control[IMPLICIT] = 0.0 if motion.n <= explicit.MAX_COMPONENTS else ONLY
+    control[FARTHEST_RHO], control[LEAST_STEP] = 0.0, MIN_STEP
     return True
+
+
+@held_kernel
+def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, lengths, ends, polynomials):
+    """Follow one motion for as many steps as the arrays hold.
+
+    Parameters
+    ----------
+    fields : int64 (3,)
+        Addresses, as in `MotionConstants`; they may be of Python.
+    numbers : (5,)
+        eps, rtol, floor, and the invariant line, or 0.
+    coefficients
+        As for `tableau_of`.
+    S : (ROOM,)
+        What the fields read and write.
+    y, clock, control, starts, lengths, ends, polynomials
+        As of `integrate_motion`. At first of control only LEFT, FARTHEST, LEAST, and NEXT and IMPLICIT, or 0.
+
+    Returns
+    -------
+    (int, int)
+        As of `integrate_motion`.
+    """
+    work, table = work_on(S, len(y)), tableau_of(coefficients)
+    motion = MotionConstants(
+        fields[0], fields[1], fields[2], len(y), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]
+    )
+    if control[STEPS_TRIED] == 0.0:
+        first, most, implicit = control[NEXT], control[STEPS_LEFT], control[IMPLICIT]
+        farthest, least = control[FARTHEST_RHO], control[LEAST_STEP]
+        if not prepare_motion(motion, y, clock, control, clock[0], clock[2], most, work):
+            return UNDEFINED, 0
+        control[FARTHEST_RHO], control[LEAST_STEP] = farthest, max(least, control[LEAST_STEP])
+        control[NEXT] = first if first > 0.0 else control[NEXT]
+        control[IMPLICIT] = max(implicit, control[IMPLICIT])
+    return integrate_motion(motion, table, work, y, clock, control, starts, lengths, ends, polynomials)
 
 
 @kernel
@@ -278,6 +336,8 @@ def follow_all(fields, numbers, coefficients, lines, first, most):
             for a in range(row, row + filled):  # from a step's start to its end, never decreasing
                 times[a + 1] = max(times[a], times[a + 1] + lengths[a])
             row += filled
+            if code == FINISHED:
+                times[row] = numbers[4]
         told[i, 0], told[i, 1], told[i, 2], told[i, 3] = row - begun, code, clock[0], clock[3]
         row += 1
     return times[:row], lengths[:row], states[: row * n], polynomials[: row * each], told

@@ -1,7 +1,4 @@
-"""Radau IIA of order 9 for one motion (x, y, z), compiled: the method of `numerics.radau`, step by step the same.
-
-What `numerics.radau` writes in arrays stands here, and in `stages`, in plain loops over numbers.
-"""
+"""One step of Radau IIA of order 9 for one motion (x, y, z): its coefficients are those of `numerics.radau`."""
 
 from __future__ import annotations
 
@@ -11,16 +8,17 @@ import numpy as np
 
 from ...jit import spliced_kernel
 from ...numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE, STAGES, STEP_SAFETY
-from ..problem import CONTACT
 from .rate import inward_bound, jacobian, rate, sizes
 from .stages import factor, guess, matrices, solve, solve_stages
+
+CONTACT = 20.0  # times eps: so near, what looks like a way inward may be the rounding of a slide, eps times 1/rtol
 
 
 @spliced_kernel
 def _longest_step(motion, y, work, h):
     """Longest step: 0.9 of the way to Sigma, and one time of growth, which a longer step would damp; and the reach.
 
-    In contact with Sigma (`problem.CONTACT`) there is no way left to jump over.
+    In contact with Sigma there is no way left to jump over.
 
     The reach is that of Gershgorin's circles, in units of size: h times it is about how stiff a step is. The
     eigenvalues are asked for only if a step h could be too long for them.

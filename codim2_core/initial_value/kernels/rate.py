@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 from ...expressions.names import MOST_SLOW_VARIABLES
 from ...jit import call_field, inlined_kernel, kernel, spliced_kernel
-from ..problem import MAX_INWARD_SHARE
 
 DIFFERENCE_STEP = 1e-5
+MAX_INWARD_SHARE = 0.9  # of rho: how far towards Sigma one step may go
 
 # Where the right-hand side reads and writes: the gain's arguments, the field's, its value, its slopes. The same array
 # holds the parameter of Psi, at PSI, where the gain looks for it.
@@ -31,7 +31,7 @@ class MotionConstants(NamedTuple):
     n : int
         Components of the state (x, y, z).
     eps, rtol, floor : float
-        As in `numerics.radau`, floor = atol/rtol.
+        The error allowed in a step is rtol rho for x and y, rtol (|z| + floor) for z: floor = atol/rtol.
     line1, line2 : float
         The invariant line that is kept to, or 0.
     """

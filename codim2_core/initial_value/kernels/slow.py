@@ -9,13 +9,14 @@ and the step shorter.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from ...expressions.names import MOST_SLOW_VARIABLES
-from ...jit import bits_of_double, call_field, carray, compile_address, kernel
+from ...jit import bits_of_double, call_field, carray, compile_address, held_kernel, kernel
 from .explicit import ROOM
 
 MAX_NEWTON, MAX_CORRECTION = 20, 1.0  # iterations, and the longest step of one
@@ -126,7 +127,7 @@ def _slow_slopes(state, out, parameters):
         D[4 + j], D[width + 4 + j] = _critical_velocity(S, m, u, v)
 
 
-@kernel
+@held_kernel
 def sets(addresses, points):
     """Find the critical sets near points (k, 2 + m), (e, z): e (k, 2), NaN where there is none, and D_e U (k, 2, 2)."""
     k, n = points.shape
@@ -144,7 +145,7 @@ def sets(addresses, points):
     return e, D
 
 
-@lru_cache(maxsize=1)
-def flow() -> tuple[Any, Any]:
-    """Return the slow flow and its slopes, the same for all systems."""
-    return compile_address(_slow_velocity), compile_address(_slow_slopes)
+@lru_cache(maxsize=2)
+def flow(make: Callable[..., Any] = compile_address) -> tuple[Any, Any]:
+    """Return the slow flow and its slopes, the same for all systems, at addresses that are made of functions."""
+    return make(_slow_velocity), make(_slow_slopes)

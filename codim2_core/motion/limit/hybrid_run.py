@@ -6,20 +6,19 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from dataclasses import field as made_with
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ...arrays import Array
 from ...cycles.limit_cycles import limit_cycles
-from ...initial_value.compiled_phases import CompiledPhases
 from ...initial_value.departure import leave
 from ...initial_value.events import EventWatch
 from ...initial_value.field import Field
 from ...initial_value.line import InvariantLine
 from ...layer_problem.equator import equator_equilibria
 from ...numerics.dense import StepArray
-from ...numerics.radau import Problem, Step, TooManyStepsError
+from ...numerics.radau import Step, TooManyStepsError
 from ...psi import constructors
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
@@ -27,6 +26,7 @@ from ...words import say
 from ..locations import Ascent
 from ..result import Phase
 from ..tracked_set import in_disc
+from .compiled_run_phases import PhaseBuilder
 from .delay import REST_CHANGE, NotAnalyticError
 from .delayed_exit import cut_at_delayed_exit, departure_point, exit_circle
 from .fold_classification import Fold, classify_fold
@@ -35,10 +35,6 @@ from .sigma_decision import Decision, critical_name, decide_arrival, decide_from
 from .slide import Slide, slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import slip
-
-if TYPE_CHECKING:
-    from .compiled_run_phases import PhaseBuilder
-
 
 CLOSER_FACTOR = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
 SAME_DIRECTION = 1e-12  # 1 - cos: directions that differ by a rounding of either
@@ -61,7 +57,6 @@ class HybridRun:
     system: AnySystem
     psi: Psi | None
     formulas: Field
-    problem: Problem
     line: InvariantLine | None
     watch: EventWatch
     t: float
@@ -70,10 +65,10 @@ class HybridRun:
     rtol: float
     atol: float
     most: int
+    evaluations: int = 0
     taken: list[Step] = made_with(default_factory=list)
     parts: list[PendingPhase] = made_with(default_factory=list)
     ascent: Ascent | None = None  # of the phase to come
-    compiled: CompiledPhases | None = None
     decided: Decision | None = None  # what follows at first, where that is known
     leaving: Array | None = None  # points of the disc by which the set is left that is slid on, where they are known
 
@@ -117,7 +112,7 @@ class HybridRun:
 
     def go_on(self, legs: PhaseBuilder) -> None:
         """Begin where a motion that was followed compiled was handed over."""
-        motion = legs.found.motion
+        motion, self.evaluations = legs.found.motion, legs.found.evaluations
         before = StepArray(motion.states[0], motion.times[:-1], motion.lengths, motion.states[1:], motion.polynomials)
         self.taken, self.parts, self.decided = list(before), list(legs.parts), legs.onward()
         self.t, self.state = float(motion.times[-1]), motion.states[-1].copy()
@@ -179,7 +174,9 @@ class HybridRun:
             t, state = begun[-1].end, begun[-1].last
         largest = 0.0
         while True:
-            part = slip(self.problem, t, state, self.t_end, self.rtol, self.left, largest, self.compiled)
+            options = {"rtol": self.rtol, "atol": self.atol, "most": self.left, "largest": largest}
+            part = slip(self.formulas, self.line, (t, self.t_end), state, **options)
+            self.evaluations += part.evaluations
             if part.theta is None:
                 self.add("slip", taken + part.taken, reason)
                 if part.stopped is not None:
@@ -229,8 +226,10 @@ class HybridRun:
 
     def slid(self, e: Array, **how: Any) -> Slide:
         """Follow the slow flow from the critical set at e."""
-        options = {"rtol": self.rtol, "atol": self.atol, "most": self.left, "compiled": self.compiled}
-        return slide(self.formulas, self.own, e, self.t, self.state[2:], self.t_end, **options, **how)
+        options = {"rtol": self.rtol, "atol": self.atol, "most": self.left}
+        part = slide(self.formulas, self.own, e, self.t, self.state[2:], self.t_end, **options, **how)
+        self.evaluations += part.evaluations
+        return part
 
     def follow(
         self, part: Slide, reason: str, onto: str | None, on_cycle: bool = False, delaying: PendingDelay | None = None
@@ -268,8 +267,9 @@ class HybridRun:
         if not len(z):
             raise StopError(f"{decision.reason} {say('no z to follow')}")
         part = slide_on_cycle(self.system, self.own, index, self.t, z, self.t_end, self.left)
-        self.add("slide", part.taken, decision.reason, decision.onto, part.e, part.p)
-        if part.lives:
+        self.evaluations += part.evaluations
+        self.add("slide", part.taken, decision.reason, decision.onto, part.places, part.p)
+        if part.end == "time":
             return None
         if not part.taken:
             return Decision("stop", say("cycle ends at once"))

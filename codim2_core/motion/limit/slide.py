@@ -6,34 +6,30 @@ On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, eq:linslowflow. The 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ...arrays import Array
-from ...initial_value.compiled_phases import CompiledPhases
 from ...initial_value.events import DEGREES, monotone_fractions
 from ...initial_value.field import Field
+from ...initial_value.kernels.motion import FIRST_STEP_SHARE
 from ...initial_value.line import InvariantLine
-from ...initial_value.problem import own_time
-from ...initial_value.safe_steps import SAFE_NODES, StepRequirements
-from ...initial_value.slow_manifold import FixedManifold, SlowManifold, complement, determinant, trace
-from ...numerics.dense import StepArray
-from ...numerics.growth import until_blow_up
-from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, steps
+from ...initial_value.motion_steps import MotionSteps
+from ...initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements
+from ...initial_value.slow_manifold import SlowManifold, complement, determinant, trace
+from ...initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps, steps_of_z
+from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, truncate_step
 from ...numerics.root_between import root_between
 from ...psi.function import Psi
-
-if TYPE_CHECKING:
-    from ...initial_value.compiled_slow import CompiledSlow
-
 
 MIN_STEP = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
 EQUATOR_GAP = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
+TINY = 1e-300
 SHORTEST_PART = 1e-13  # of a step: a set that is not followed so far has gone
 LEAST_PART = 1.0 / 64.0  # of a step, in which a set that has moved far is followed to a place within it
 GAUGE_DEGREES = (4, *DEGREES)  # of the polynomials that a gauge is taken for along a step: most are far from zero
@@ -54,15 +50,26 @@ class Slide:
         Critical set at the end.
     places : list of ndarray (2,)
         The critical set at the beginning, and at the end of each step.
+    evaluations : int
     stopped : TooManyStepsError or None
         Why it was given up; also where W is undefined from some z on.
+    p : sequence of ndarray (2,)
+        On a cycle of a general system, whose means `places` are: the means of p.
     """
 
     taken: list[Step]
     end: str
     e: Array
     places: list[Array]
+    evaluations: int = 0
     stopped: TooManyStepsError | None = None
+    p: Sequence[Array] = ()
+
+
+def own_time(z: Array, rate: Array, floor: float) -> float:
+    """Return the time in which z changes by its own size, |z| + floor; infinite where it stands."""
+    speed = float(np.max(np.abs(rate) / (np.abs(z) + floor)))
+    return 1.0 / speed if speed > 0.0 else math.inf
 
 
 def slide(
@@ -78,7 +85,6 @@ def slide(
     most: int,
     lives: Callable[[Array], bool] | None = None,
     line: InvariantLine | None = None,
-    compiled: CompiledPhases | None = None,
     delayed: bool = False,
     resting: bool = False,
 ) -> Slide:
@@ -99,8 +105,6 @@ def slide(
         For sliding on a limit cycle: whether it is still there at z.
     line : InvariantLine, optional
         The invariant line that the motion stays in, stable across it or not.
-    compiled : CompiledPhases, optional
-        Takes the steps instead.
     delayed : bool
         Go on where stability changes: for how long a motion follows is left to `delay`.
     resting : bool
@@ -108,7 +112,7 @@ def slide(
     """
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
-    manifold = FixedManifold(field, e, z) if resting else SlowManifold(field, e, z)
+    manifold = SlowManifold(field, e, z)
     gauges = _gauges(manifold, psi, on_cycle=lives is not None, line=line)
     if delayed:
         del gauges["hopf"]
@@ -121,85 +125,81 @@ def slide(
             np.abs(manifold.slopes(e, z)[:2, :2]).max()
         )
 
-    problem = manifold.problem(atol / rtol)
-    rate = np.array(field.value(*manifold.e.tolist(), 0.0, 0.0, *z.tolist())[2:])
-    pace = own_time(problem, z, rate)
-    h, shortest = 1e-2 * pace, MIN_STEP * min(pace, t_end - t)
-    if compiled is None or lives is not None or resting:
-        ahead = _in_python(
-            manifold, until_blow_up(problem, steps(problem, t, t_end, z, rtol, h, most, shortest), shortest)
-        )
+    floor = atol / rtol
+    pace = own_time(z, np.array(field.value(*manifold.e.tolist(), 0.0, 0.0, *z.tolist())[2:]), floor)
+    h, shortest = FIRST_STEP_SHARE * pace, MIN_STEP * min(pace, t_end - t)
+    if resting:
+        (c, s), slope = e.tolist(), partial(field.jacobian, *e.tolist(), 0.0, 0.0)
+        rate = lambda z: np.array(field.value(c, s, 0.0, 0.0, *z)[2:])
+        motion = steps_of_z(rate, lambda z: slope(z)[2:, 4:], (t, t_end), z, rtol, floor, most, h=h, least=shortest)
+        ahead = _steps_of_rest(e, motion)
     else:
-        safe = StepRequirements(
-            psi, math.copysign(1.0, determinant(manifold, manifold.e, z)), None if line is None else line.n
-        )
-        ahead = _compiled_steps(manifold, compiled.slide(problem, manifold.e, t, t_end, z, h, most, shortest), safe)
+        motion = SlowSteps(field, manifold.e, line, (t, t_end), z, rtol, floor, most, h, shortest)
+        sign, n = math.copysign(1.0, determinant(manifold, manifold.e, z)), None if line is None else line.n
+        ahead = _steps_of_set(manifold, motion, StepRequirements(psi, sign, n) if lives is None else None)
     taken: list[Step] = []
     places = [manifold.e]
+
+    def ended(end: str, e: Array, stopped: TooManyStepsError | None = None) -> Slide:
+        return Slide(taken, end, e, places, motion.evaluations, stopped)
+
     try:
-        for step, whole, after, is_safe in ahead:
+        for step, after, is_safe in ahead:
             found: list[tuple[float, str]] = (
                 [] if is_safe else _end_fractions(manifold, gauges, step, places[-1], after)
             )
-            if not alive(step.last):
+            if not is_safe and gauges["fold"](after, step.last[2:]) < FOLD_MARGIN:
+                found.append((1.0, "fold"))  # where the slow flow vanishes at the fold, it never gets past it
+            if not alive(step.last[2:]):
                 found.append((_last_alive(alive, step), "cycle"))
             if found:
                 u, name = min(found)
-                last = step.at(u)
-                taken.append(_lift_step(step, u))
-                end = manifold.at(last)
+                taken.append(truncate_step(step, u))
+                end = manifold.at(taken[-1].last[2:])
                 places.append(after if end is None else end)
-                return Slide(taken, name, places[-1], places)
-            taken.append(whole)
+                return ended(name, places[-1])
+            taken.append(step)
             places.append(after)
     except StepsTooShortError as error:
         if taken and t_end - taken[-1].end <= shortest:  # the rounding of t_end is left
-            return Slide(taken, "time", places[-1], places)
+            return ended("time", places[-1])
         end = _end_reason(manifold)
-        return Slide(taken, end, manifold.e, places, error if end == "given up" else None)
+        return ended(end, manifold.e, error if end == "given up" else None)
     except TooManyStepsError as error:
-        return Slide(taken, "given up", places[-1], places, error)
-    return Slide(taken, "time", places[-1], places)
+        return ended("given up", places[-1], error)
+    return ended("time", places[-1])
 
 
 class _Ahead(NamedTuple):
-    """A step of z, the same of the whole state, e at its end, and whether it is known that no end lies within it."""
+    """A step, e at its end, and whether it is known that no end lies within it."""
 
     step: Step
-    whole: Step
     e: Array
     is_safe: bool
 
 
-def _in_python(manifold: SlowManifold, ahead: Iterator[Step]) -> Iterator[_Ahead]:
-    """Take the steps of the slow flow; the manifold moves with them."""
-    for step in ahead:
-        after = manifold.at(step.last)
-        if after is None:
-            raise StepsTooShortError
-        yield _Ahead(step, _lift_step(step, 1.0), after, isinstance(manifold, FixedManifold))
+def _steps_of_rest(e: Array, motion: MotionSteps) -> Iterator[_Ahead]:
+    for part in motion.chunks():
+        for step in part:
+            yield _Ahead(step, e, True)
 
 
-def _compiled_steps(manifold: SlowManifold, motion: CompiledSlow, safe: StepRequirements) -> Iterator[_Ahead]:
-    """Take the steps of a compiled slide; the manifold is moved to where an end may be near."""
+def _steps_of_set(manifold: SlowManifold, motion: SlowSteps, safe: StepRequirements | None) -> Iterator[_Ahead]:
+    """Take the steps of a slide; the manifold is moved to where an end may be near."""
     z = manifold.z
     try:
-        for part in motion.chunks():
+        for part in motion.chunks(SLOW_STEPS_PER_CALL):
             if not len(part.starts):
                 continue
             e, D = motion.sets(part, SAFE_NODES)
-            known = safe.steps(e, D)
-            zs = StepArray(part.first[2:], part.starts, part.lengths, part.ends[:, 2:], part.polynomials[:, 2:])
-            wholes = StepArray(
-                *(of.copy() for of in (part.first, part.starts, part.lengths, part.ends, part.polynomials))
-            )
-            for array in (wholes.first, wholes.ends.T, wholes.polynomials.swapaxes(0, 1)):
-                array[:2] = 0.0
-            for step, whole, before, after, is_safe in zip(zs, wholes, e[:, 0], e[:, -1], known, strict=True):
+            known = [False] * len(e) if safe is None else safe.steps(e, D)
+            for array in (part.first, part.ends.T, part.polynomials.swapaxes(0, 1)):
+                array[:2] = 0.0  # of a state on Sigma
+            for step, before, after, is_safe in zip(part, e[:, 0], e[:, -1], known, strict=True):
                 if not is_safe:
-                    manifold.begin(before, step.first)
-                yield _Ahead(step, whole, after, is_safe)
-                z = step.last
+                    manifold.begin(before, step.first[2:])
+                yield _Ahead(step, after, is_safe)
+                z = step.last[2:]
     except StepsTooShortError:
         manifold.begin(motion.y[:2].copy(), z)
         raise
@@ -212,7 +212,7 @@ def _end_fractions(
     place = cache(partial(_critical_set_at, manifold, step))
     found: list[tuple[float, str]] = []
     for name, gauge in gauges.items():
-        u = _first_negative(gauge, place, gauge(before, step.first), gauge(after, step.last))
+        u = _first_negative(gauge, place, gauge(before, step.first[2:]), gauge(after, step.last[2:]))
         if u is not None:
             found.append((u, name))
     lost = _lost(manifold, step, before, after)
@@ -227,8 +227,8 @@ def _lost(manifold: SlowManifold, step: Step, before: Array, after: Array) -> tu
 
     At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
     """
-    last = SlowManifold(manifold.field, after, step.last)
-    u, there = _track_slow_manifold(SlowManifold(manifold.field, before, step.first), step, 1.0, SHORTEST_PART, last)
+    last, first = (SlowManifold(manifold.field, e, at[2:]) for e, at in ((after, step.last), (before, step.first)))
+    u, there = _track_slow_manifold(first, step, 1.0, SHORTEST_PART, last)
     return None if there is last else (u, there)
 
 
@@ -242,7 +242,7 @@ def _track_slow_manifold(
     u, part = 0.0, to
     while part > least:
         at = min(u + part, to)
-        ahead = last if at == to and last is not None else _search_slow_manifold(here, step.at(at))
+        ahead = last if at == to and last is not None else _search_slow_manifold(here, step.at(at)[2:])
         if ahead is not None and here.joined(ahead):
             if at == to:
                 return at, ahead
@@ -266,27 +266,33 @@ def _gauges(
     }
     if line is not None:
         n = line.n
-        return {**found, "fold": lambda e, z: -float(n @ manifold.slopes(e, z)[:2, :2] @ n)}
+        return {**found, "fold": lambda e, z: -float(n @ _unit_slopes(manifold, e, z) @ n)}
     sign = math.copysign(1.0, determinant(manifold, manifold.e, manifold.z))
     turn = -1.0 if on_cycle else 1.0  # around a stable cycle C is unstable: tr J > 0
     return {
         **found,
-        "fold": lambda e, z: sign * determinant(manifold, e, z),
+        "fold": lambda e, z: sign * float(np.linalg.det(_unit_slopes(manifold, e, z))),
         "hopf": lambda e, z: -turn * trace(manifold, psi, e, z),
     }
+
+
+def _unit_slopes(manifold: SlowManifold, e: Array, z: Array) -> Array:
+    """Return D_e U in units of its largest entry."""
+    D = manifold.slopes(e, z)[:2, :2]
+    return D / max(float(np.abs(D).max()), TINY)
 
 
 def _end_reason(manifold: SlowManifold) -> str:
     """Say what ends the set where steps become too short to go on."""
     if complement(manifold.e) < EQUATOR_GAP:
         return "equator"
-    size = float(np.abs(manifold.slopes(manifold.e, manifold.z)[:2, :2]).max())
-    return "fold" if abs(determinant(manifold, manifold.e, manifold.z)) < AT_FOLD * size**2 else "given up"
+    det = float(np.linalg.det(_unit_slopes(manifold, manifold.e, manifold.z)))
+    return "fold" if abs(det) < AT_FOLD else "given up"
 
 
 def _critical_set_at(manifold: SlowManifold, step: Step, u: float) -> tuple[Array | None, Array]:
     """Return the critical set, None where there is none, and z at a fraction of a step."""
-    z = step.at(u)
+    z = step.at(u)[2:]
     e = manifold.at(z)
     if e is None:
         at, there = _track_slow_manifold(SlowManifold(manifold.field, manifold.e, manifold.z), step, u, LEAST_PART * u)
@@ -321,16 +327,5 @@ def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:
     low, high = 0.0, 1.0
     for _ in range(20):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if alive(step.at(middle)) else (low, middle)
+        low, high = (middle, high) if alive(step.at(middle)[2:]) else (low, middle)
     return low
-
-
-def _lift_step(step: Step, u: float) -> Step:
-    """Return the part of a step in z up to its fraction u, as a step of the whole state on Sigma."""
-    degree = step.polynomial.shape[1]
-    polynomial = np.zeros((2 + len(step.first), degree))
-    polynomial[2:] = step.polynomial * u ** np.arange(1, degree + 1)
-    last = step.last if u == 1.0 else step.at(u)
-    still = np.zeros(2)
-    first, last = np.concatenate([still, step.first]), np.concatenate([still, last])
-    return Step(step.start, u * step.h, first, last, polynomial)

@@ -7,16 +7,16 @@ read off the cycle itself, found anew at every z that the method asks for.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
 from ...arrays import Array
 from ...cycles.limit_cycles import LimitCycle, limit_cycles
-from ...initial_value.problem import growth_bound, own_time
-from ...numerics.radau import STAGES, Problem, Step, TooManyStepsError, steps
+from ...initial_value.slow_steps import steps_of_z
+from ...numerics.radau import Step, TooManyStepsError
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
+from .slide import Slide, own_time
 
 RTOL, ATOL = 1e-6, 1e-8  # no better than the cycles themselves are known
 DIFFERENCE_STEP = 1e-4
@@ -25,27 +25,7 @@ FIRST_STEP_SHARE, MIN_STEP = 0.05, 1e-6
 OTHER_CYCLE_DISTANCE = 0.2  # in the disc: a cycle whose middle has moved further is another
 
 
-@dataclass(frozen=True)
-class CycleSlide:
-    """A slide on a limit cycle.
-
-    Attributes
-    ----------
-    taken : list of Step
-        Of the whole state, with x = y = 0.
-    lives : bool
-        Whether the cycle is there until the end of the time span.
-    e, p : list of ndarray (2,)
-        Their means over the cycle in time, at the beginning and at the end of each step.
-    """
-
-    taken: list[Step]
-    lives: bool
-    e: list[Array]
-    p: list[Array]
-
-
-def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> CycleSlide:
+def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> Slide:
     """Follow the averaged slow flow of a general system.
 
     Parameters
@@ -59,51 +39,49 @@ def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, 
     most : int
         Steps.
     """
-    first = limit_cycles(system, psi, tuple(z.tolist()))[index]
+    means: list[tuple[Array, Array]] = []
+    m, first = len(z), limit_cycles(system, psi, tuple(z.tolist()))[index]
     middle = _centroid(first)
-    e, p = list[Array](), list[Array]()
-    m = len(z)
+
+    def near(at: Array) -> LimitCycle | None:
+        """Return the stable cycle at another z that is nearest to the last one, if it may be the same."""
+        stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
+        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
+        return None if cycle is None or math.dist(_centroid(cycle), middle) > OTHER_CYCLE_DISTANCE else cycle
 
     def rate(at: Array) -> Array:
-        stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
-        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
-        if cycle is None or math.dist(_centroid(cycle), middle) > OTHER_CYCLE_DISTANCE:
-            return np.full(m, math.nan)
-        return np.array(cycle.slow_flow)
+        cycle = near(at) if np.isfinite(at).all() else None
+        return np.full(m, math.nan) if cycle is None else np.array(cycle.slow_flow)
 
-    def jacobian(at: Array) -> Array:
+    def note(at: Array) -> None:
         nonlocal middle
-        stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
-        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
-        if cycle is not None:  # asked once at the beginning, and at the end of each step
+        cycle = near(at)
+        if cycle is not None:
             middle = _centroid(cycle)
-            means = _means(system, psi, at, cycle)
-            e.append(means[0])
-            p.append(means[1])
+            means.append(_means(system, psi, at, cycle))
+
+    def slopes(at: Array) -> Array:
+        note(at)  # once where a step begins
         here, columns = rate(at), []
-        for i in range(m):
-            aside = at.copy()
-            aside[i] += DIFFERENCE_STEP * (1.0 + abs(at[i]))
-            columns.append((rate(aside) - here) / (aside[i] - at[i]))
+        for i, h in enumerate(DIFFERENCE_STEP * (1.0 + np.abs(at))):
+            columns.append((rate(at + h * (np.arange(m) == i)) - here) / h)
         return np.nan_to_num(np.stack(columns, axis=-1))
 
-    problem = Problem(
-        rate,
-        jacobian,
-        lambda at: np.abs(at) + ATOL / RTOL,
-        lambda at, rate, slope: growth_bound(slope),  # noqa: ARG005
-    )
-    still = np.zeros(2)
-    taken: list[Step] = []
+    floor = ATOL / RTOL
+    pace = min(t_end - t, own_time(z, np.array(first.slow_flow), floor))
+    motion = steps_of_z(
+        rate, slopes, (t, t_end), z, RTOL, floor, most,
+        h=FIRST_STEP_SHARE * pace, least=MIN_STEP * pace, implicit=True,
+    )  # fmt: skip
+    taken, end = list[Step](), "time"
     try:
-        pace = min(t_end - t, own_time(problem, z, np.array(first.slow_flow)))
-        for step in steps(problem, t, t_end, z, RTOL, FIRST_STEP_SHARE * pace, most, MIN_STEP * pace):
-            polynomial = np.concatenate([np.zeros((2, STAGES)), step.polynomial])
-            first, last = np.concatenate([still, step.first]), np.concatenate([still, step.last])
-            taken.append(Step(step.start, step.h, first, last, polynomial))
+        for part in motion.chunks(most):
+            taken += part
+        note(motion.y[2:])
     except TooManyStepsError:
-        return CycleSlide(taken, False, e, p)
-    return CycleSlide(taken, True, e, p)
+        end = "cycle"
+    e, p = ([own[k] for own in means] for k in range(2))
+    return Slide(taken, end, e[-1] if e else np.array(middle), e, motion.evaluations, p=p)
 
 
 def _centroid(cycle: LimitCycle) -> tuple[float, float]:

@@ -9,17 +9,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from ...arrays import Array
-from ...initial_value.compiled_phases import CompiledPhases
 from ...initial_value.departure import polynomial_of
-from ...initial_value.problem import arrival_radius
-from ...numerics.growth import until_blow_up
-from ...numerics.radau import Problem, Step, TooManyStepsError, steps
-
-FIRST_STEP_SHARE = 1e-2
+from ...initial_value.field import Field
+from ...initial_value.functions import functions_of
+from ...initial_value.kernels.hybrid_run import OF_SLIPS
+from ...initial_value.kernels.motion import AT_SIGMA
+from ...initial_value.line import InvariantLine
+from ...initial_value.motion_steps import MotionSteps, rate_at
+from ...numerics.radau import Step, TooManyStepsError
+from ...psi.constructors import constant
 
 
 @dataclass(frozen=True)
@@ -31,71 +34,70 @@ class Slip:
     taken : list of Step
     theta : float or None
         Angle at which it arrives at Sigma; None if it ends outside, at the end of the time span.
+    evaluations : int
     stopped : TooManyStepsError or None
         Why it was given up before.
     """
 
     taken: list[Step]
     theta: float | None
+    evaluations: int
     stopped: TooManyStepsError | None = None
 
 
 def slip(
-    problem: Problem,
-    t: float,
+    field: Field,
+    line: InvariantLine | None,
+    span: tuple[float, float],
     state: Array,
-    t_end: float,
+    *,
     rtol: float,
+    atol: float,
     most: int,
     largest: float,
-    compiled: CompiledPhases | None = None,
 ) -> Slip:
     """Follow the nonsmooth system until it arrives at Sigma, or to the end of the time span.
 
     Parameters
     ----------
-    problem : Problem
-        `plane_problem` with eps = 0.
-    t, t_end : float
+    field : Field
+    line : InvariantLine or None
+        The invariant line that the motion stays in.
+    span : (t, t_end)
     state : ndarray (2 + m,)
         With (x, y) != 0.
-    rtol : float
+    rtol, atol : float
     most : int
         Steps.
     largest : float
-        The scale of rho: it has arrived where rho is `arrival_radius` of that (or of a larger rho met on the way).
-    compiled : CompiledPhases, optional
-        Takes the steps instead.
+        The scale of rho: it has arrived where rho is a small part of that (or of a larger rho met on the way), see
+        `kernels.motion.arrived`.
     """
+    rate, functions = partial(rate_at, field, None, 0.0, line), functions_of(field, constant())
+    farthest = max(largest, math.hypot(state[0], state[1]))
+    motion = MotionSteps(functions, rate, 0.0, line, span, state, OF_SLIPS * rtol, atol / rtol, most, farthest=farthest)
     taken: list[Step] = []
-    rate = problem.F(state)
-    largest = max(largest, math.hypot(state[0], state[1]))
-    h = FIRST_STEP_SHARE / float(np.max(np.abs(rate) / problem.scale(state))) if rate.any() else math.inf
-    if compiled is None:
-        ahead = until_blow_up(problem, steps(problem, t, t_end, state, rtol, h, most))
-    else:
-        ahead = compiled.slip(t, t_end, state, h, most, largest)
     try:
-        for step in ahead:
-            taken.append(step)
-            x, y = float(step.last[0]), float(step.last[1])
-            rho = math.hypot(x, y)
-            largest = max(largest, rho)
-            if rho <= arrival_radius(rtol) * largest:
-                u, v = problem.F(step.last)[:2].tolist()
-                inward = -(x * u + y * v) / rho
-                if inward > 0.0 and step.end + rho / inward < t_end:
-                    taken.append(_straight(problem, step, rho / inward))
-                    return Slip(taken, math.atan2(y, x))
+        for part in motion.chunks():
+            taken += part
+            if motion.code == AT_SIGMA:
+                last = _straight(taken[-1], rate(taken[-1].last))
+                if last is not None and last.end < span[1]:
+                    x, y = last.first[:2].tolist()
+                    return Slip([*taken, last], math.atan2(y, x), motion.evaluations)
     except TooManyStepsError as error:
-        return Slip(taken, None, error)
-    return Slip(taken, None)
+        return Slip(taken, None, motion.evaluations, error)
+    return Slip(taken, None, motion.evaluations)
 
 
-def _straight(problem: Problem, before: Step, h: float) -> Step:
-    """Make the step that covers the rest of the way to Sigma."""
-    change = h * problem.F(before.last)
-    change[:2] = -before.last[:2]
+def _straight(before: Step, rate: Array) -> Step | None:
+    """Make the step that covers the rest of the way to Sigma, None where it leads away from it."""
+    at = before.last[:2]
+    inward = -float(at @ rate[:2])
+    if not inward > 0.0:
+        return None
+    h = float(at @ at) / inward
+    change = np.concatenate([-at, h * rate[2:]])
     last = before.last + change
     last[:2] = 0.0
     return Step(before.end, h, before.last, last, polynomial_of(change))

@@ -1,6 +1,7 @@
 """Whole compiled motions that take few steps, so that they take little time as Python too (`tests.mutation`)."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -8,13 +9,12 @@ from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, System, simulate_nonsmooth
 from codim2_core import psi as families
-from codim2_core.initial_value import compiled_hybrid, compiled_motion
+from codim2_core.initial_value import compiled_hybrid, motion_steps
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels.hybrid_run import LEAVE, SLIDE, SLIP, WHOLE
 from codim2_core.initial_value.kernels.motion import BLOWN_UP, FINISHED, LIMIT, SHORT
 from codim2_core.initial_value.line import invariant_line
-from codim2_core.initial_value.problem import plane_problem
-from codim2_core.motion import nonsmooth
+from tests.core.ways import follow
 
 TANH = families.tanh()
 TURNS = System(U=("-2*c + 1.5*c*s + 2.4*sin(z1) + 0.3*x", "-s + 0.9*cos(z1)"), W=("1 + c*y - 0.3*s",))
@@ -23,12 +23,12 @@ TURNS = System(U=("-2*c + 1.5*c*s + 2.4*sin(z1) + 0.3*x", "-s + 0.9*cos(z1)"), W
 def _followed(system, psi, eps, first, span, rtol=1e-6, most=1000):
     first, own = np.atleast_2d(np.array(first, float)), field(system)
     lines = [invariant_line(own, state) for state in first]
-    return compiled_motion.integrate_compiled(own, psi, eps, lines, first, span, rtol, 0.01, most)
+    return motion_steps.integrate_compiled(own, psi, eps, lines, first, span, rtol, 0.01, most)
 
 
 def test_a_slip_is_what_scipy_finds():
     first, span = [(0.8, -0.5, 0.3), (-0.4, 0.9, 1.0)], (0.5, 1.3)
-    F = plane_problem(field(TURNS), TANH, 0.3, 1e-6, 1e-8).F
+    F = partial(motion_steps.rate_at, field(TURNS), TANH, 0.3, None)
     for start, one in zip(first, _followed(TURNS, TANH, 0.3, first, span), strict=True):
         exact = solve_ivp(lambda t, y: F(y), span, start, "DOP853", rtol=1e-11, atol=1e-12, dense_output=True)
         assert (one.code, one.t) == (FINISHED, 1.3)
@@ -92,12 +92,12 @@ def _course(system, first, t_end, rtol=1e-5, psi=TANH, most=1000):
 
 
 def _by_phase(monkeypatch, system, first, t_end, psi=TANH, rtol=1e-8):
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 10**9)
+    follow(monkeypatch, "called back")
     return simulate_nonsmooth(system, first, (0.0, t_end), psi, rtol=rtol, atol=0.01 * rtol)
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_a_motion_in_the_limit_is_the_one_in_python(monkeypatch, case):
+def test_a_motion_in_the_limit_is_the_one_phase_by_phase(monkeypatch, case):
     system, first, t_end, kinds = CASES[case]
     (found,) = _course(system, first, t_end)
     own = _by_phase(monkeypatch, system, first, t_end)

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, Event, System, examples, psi, simulate_nonsmooth
-from codim2_core.initial_value import compiled_hybrid
 from codim2_core.motion import nonsmooth
 from codim2_core.motion.limit import compiled_run_phases
 from codim2_core.motion.result import Phase, SimulationStatus
+from tests.core.ways import WAYS, follow
 
 SPAN = (0.0, 6.0)
 PUSHED = ELinear(-1.0, 0.3, -2.0, f=("1.3*sin(z1)", "0.4*cos(2*z1)"), B=((0.0, 0.0),), g=(1.0,))
@@ -39,8 +39,8 @@ def by_phase(monkeypatch):
 
     def run(system, state, rtol, own):
         with monkeypatch.context() as only:
-            only.setattr(nonsmooth, "_run_motions", lambda asked, states: iter([asked.one(states[0], compiled=True)]))
-            only.setattr(nonsmooth, "waited_for", lambda formulas: 0)
+            follow(only, "compiled")
+            only.setattr(nonsmooth, "_run_motions", lambda asked, states: iter([asked.one(states[0])]))
             return simulate_nonsmooth(system, state, SPAN, own, rtol=rtol, atol=rtol)
 
     return run
@@ -55,9 +55,9 @@ def _told(phase: Phase) -> tuple[str, str | None, str]:
 )
 def test_it_is_the_motion_phase_by_phase(monkeypatch, by_phase, case, own):
     system, state, is_decided = CASES[case]
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)
-    steps, count = [], compiled_hybrid.run_hybrid
-    monkeypatch.setattr(compiled_hybrid, "run_hybrid", lambda *given: steps.append(count(*given)) or steps[-1])
+    follow(monkeypatch, "compiled")
+    steps, count = [], nonsmooth.run_hybrid
+    monkeypatch.setattr(nonsmooth, "run_hybrid", lambda *given: steps.append(count(*given)) or steps[-1])
     rtol = 1e-8
     found, other = (
         simulate_nonsmooth(system, state, SPAN, own, rtol=rtol, atol=rtol),
@@ -83,7 +83,7 @@ def test_it_is_handed_over_where_the_next_phase_is_not_sure(monkeypatch, by_phas
     """The slide ends where a saddle meets C, at z = 0.09: what follows a fold is decided by orbits."""
     folds = System(U=("z1 - c**2 - 0.09", "-s"), W=("-1",))
     state = (0.3, 0.1, 0.5)
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)
+    follow(monkeypatch, "compiled")
     handed, own = [], compiled_run_phases.PhaseBuilder.onward
     monkeypatch.setattr(compiled_run_phases.PhaseBuilder, "onward", lambda one: handed.append(one) or own(one))
     found, other = (run(folds, state, 1e-8, psi.constant()) for run in (_as_it_is, by_phase))
@@ -122,10 +122,10 @@ def test_few_rows_and_events_are_followed_one_by_one():
         simulate_nonsmooth(PUSHED, [(0.3, 0.2, 0.0), (math.nan, 1.0, 0.0)], SPAN)
 
 
-@pytest.mark.parametrize("way", [0, 10**9])
+@pytest.mark.parametrize("way", WAYS)
 def test_a_span_that_ends_at_the_arrival_is_whole(monkeypatch, way):
     """So near Sigma that the rest of the way is straight, and yet it is not reached in time."""
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: way)
+    follow(monkeypatch, way)
     ball, t_end = examples.ball_in_pool(K=0.0, mu=0.25, g=8.0), 1.0 / 7.0 * (1.0 - 4e-15)
     own = Event(lambda t, state: 1.0)
     for events in ((), own):
@@ -137,7 +137,7 @@ def test_a_span_that_ends_at_the_arrival_is_whole(monkeypatch, way):
 
 def test_a_slide_whose_end_is_a_rounding_away_has_ended(monkeypatch):
     """Found at random: 2e-16 are left, and a step of that length is taken for the end of the set."""
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: 0)
+    follow(monkeypatch, "compiled")
     state, t_end = (-0.4955759740468772, -0.0663660602076763, 0.16035802925580112), 1.7266351098640789
     options = {"rtol": 1e-3, "atol": 1e-3, "events": Event(lambda t, state: 1.0)}
     run = simulate_nonsmooth(examples.tilting_block(), state, (0.0, t_end), psi.constant(), **options)

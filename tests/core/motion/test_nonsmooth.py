@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.motion import nonsmooth
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.result import SimulationStatus
+from tests.core.ways import WAYS, follow
 
 G = 9.81
 CASE_3 = ELinear(172.0, 186.0, -200.0, ("-172*z", "-186*z"), B=((0.5, 0.0),))  # C at e = (z, 0), z' = e_1/2
@@ -66,9 +66,9 @@ def test_crossing_at_once_and_coming_back():
     )
 
 
-@pytest.mark.parametrize("in_python", [True, False])
-def test_arrival_by_a_spiral(monkeypatch, in_python):
-    monkeypatch.setattr(nonsmooth, "waited_for", lambda formulas: in_python)
+@pytest.mark.parametrize("way", WAYS)
+def test_arrival_by_a_spiral(monkeypatch, way):
+    follow(monkeypatch, way)
     # f = 0, a = d: rho' = a, theta' = b/rho.
     run = simulate_nonsmooth(ELinear(-0.3, 1.0, -0.3), (0.6, 0.8), (0.0, 5.0))
     assert run.phases[0].t_end == pytest.approx(1.0 / 0.3, abs=1e-10)

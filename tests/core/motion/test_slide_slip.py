@@ -30,6 +30,22 @@ def test_a_slide_does_not_step_over_a_gap_in_which_there_is_no_set(gap):
         assert slide.e(slide.t_end) == pytest.approx([0.0, 0.0], abs=1e-4)
 
 
+@pytest.mark.parametrize("eps", [0.0, 1e-3, 1e-7])
+def test_a_slip_does_not_step_over_sigma_where_the_field_is_the_same_on_both_sides(eps):
+    """U = z - c^2, z' = -1, from z = 1/2 in a line: x' = -1/2 - t comes to Sigma, and C at c = sqrt(z) attracts."""
+    system = c2.System(U=("z - c**2", "-s"), W=("-1",))
+    for x in (0.3, 0.1):
+        arrives = (math.sqrt(1.0 + 8.0 * x) - 1.0) / 2.0
+        for count in (1, 8):
+            states = [(x, 0.0, 0.5)] * count
+            if eps:
+                run = c2.simulate(system, CONSTANT, eps, states, (0.0, 0.48))[0]
+            else:
+                run = c2.simulate_nonsmooth(system, states, (0.0, 0.48), CONSTANT)[0]
+            assert [phase.kind for phase in run.phases] == ["slip", "slide"], (x, count)
+            assert run.phases[1].t_start == pytest.approx(arrives, abs=20.0 * eps + 1e-9)
+
+
 @pytest.mark.parametrize(("height", "rate"), [(1.5, 1.0), (1.01, 10.0), (1.0001, 1.0), (1.0000001, 1.0)])
 def test_a_slide_ends_where_the_set_is_outside_for_part_of_a_step(height, rate):
     """c = height sin(rate z), z' = 1: beyond the equator for a short while, which one step of z spans."""

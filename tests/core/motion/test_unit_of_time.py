@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from codim2_core import psi as families
-from codim2_core.motion import regularised
 from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.regularised import simulate
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
+from tests.core.ways import WAYS, follow
 
 K = 1024.0  # a power of two: no rounding differs
 
@@ -32,20 +32,14 @@ def same(own, other):
     np.testing.assert_allclose(other.states[-1], own.states[-1], rtol=1e-9, atol=1e-14)
 
 
-def in_one_way(monkeypatch, compiled):
-    """Follow both motions in Python, or both compiled, whatever has been asked for before."""
-    monkeypatch.setattr(regularised, "PYTHON_STEPS", 10**9)
-    monkeypatch.setattr(regularised, "_is_compiled", lambda formulas: compiled)
-
-
 FOLD = fold, (0.0, 0.0, 0.3), 1.0, families.constant(), "C₁ ends in a fold (det J = 0). They cross Σ and leave"
 EQUATOR = equator, (0.3, -0.2, 0.1), 3.0, families.tanh(), "C reaches the equator (Figure 19), so sliding ends"
 
 
-@pytest.mark.parametrize(("case", "compiled"), [(FOLD, False), (EQUATOR, False), (EQUATOR, True)])
-def test_a_motion_and_its_limit_are_the_same_in_another_unit_of_time(monkeypatch, case, compiled):
+@pytest.mark.parametrize(("case", "way"), [*((FOLD, way) for way in WAYS[:2]), *((EQUATOR, way) for way in WAYS)])
+def test_a_motion_and_its_limit_are_the_same_in_another_unit_of_time(monkeypatch, case, way):
     system, state0, t, psi, end = case  # … and what is said of its last phase
-    in_one_way(monkeypatch, compiled)
+    follow(monkeypatch, way)
     own, other = (simulate_nonsmooth(system(k), state0, (0.0, t / k), psi) for k in (1.0, K))
     assert own.phases[-1].reason.startswith(end)
     same(own, other)

@@ -8,8 +8,8 @@ from scipy.optimize import brentq
 
 from codim2_core import System
 from codim2_core import psi as families
-from codim2_core.initial_value.compiled_motion import functions_of
 from codim2_core.initial_value.field import field
+from codim2_core.initial_value.functions import functions_of
 from codim2_core.initial_value.kernels import slow
 from codim2_core.initial_value.kernels.rate import MotionConstants
 
@@ -22,7 +22,7 @@ TANH, HILL = families.tanh(), families.hill(3)
 
 def placed(system, z, psi=TANH):
     """The workspace that the kernels read, with z in place."""
-    S, own = np.zeros(slow.SLOW_EXTENT), functions_of(field(system), psi).addresses
+    S, own = np.zeros(slow.SLOW_EXTENT), functions_of(field(system), psi, many=True).addresses
     S[slow.VALUE : slow.SLOPES + 1] = own[:2].view(float)
     S[slow.SLOW_RATES] = len(z)
     S[slow.SET_PLACE + 4 : slow.SET_PLACE + 4 + len(z)] = z
@@ -30,7 +30,7 @@ def placed(system, z, psi=TANH):
 
 
 def motion_of(system, psi, eps, rtol=1e-6, floor=0.01, line=(0.0, 0.0)):
-    own = functions_of(field(system), psi).addresses.tolist()
+    own = functions_of(field(system), psi, many=True).addresses.tolist()
     return MotionConstants(*own, 2 + system.m, eps, rtol, floor, *line)
 
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from codim2_core import System
-from codim2_core.initial_value.compiled_motion import functions_of
 from codim2_core.initial_value.field import field
+from codim2_core.initial_value.functions import functions_of
 from codim2_core.initial_value.kernels import slow
 from codim2_core.initial_value.kernels.arrival import slides
 from codim2_core.stepping.field_parameters import PSI
@@ -19,7 +19,7 @@ from .placing import HILL, TANH, directions, placed
 def _slides(system, theta, psi=None, affine=False, line=(0.0, 0.0), z=()):
     S, P = placed(system, z, psi or TANH), np.zeros(PARAMETERS)
     P[PSI] = (psi or TANH).parameter
-    gain = int(functions_of(field(system), psi or TANH).addresses[2])
+    gain = int(functions_of(field(system), psi or TANH, many=True).addresses[2])
     found = slides(S, P, gain, 2 + len(z), affine, psi is not None, *line, theta)
     return bool(found), (float(S[slow.SET_PLACE]), float(S[slow.SET_PLACE + 1]))
 

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from codim2_core import System
-from codim2_core.initial_value.departure import FAST_START, TILT
-from codim2_core.initial_value.kernels.departure_step import leave
+from codim2_core.initial_value.kernels.departure_step import FAST_START, TILT, leave
 
 from .placing import placed
 

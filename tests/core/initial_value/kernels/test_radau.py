@@ -1,17 +1,14 @@
-"""One step of Radau IIA, compiled: the stages, the estimate and the factor are those of `numerics.radau`."""
+"""One step of Radau IIA: its stages are those of the collocation, and its error estimate is that of order 5."""
 
 import math
 
 import numpy as np
 import pytest
 
-from codim2_core.initial_value.compiled_motion import numbers_of_tableau
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels import radau
 from codim2_core.initial_value.kernels.stages import tableau_of, workspace
-from codim2_core.initial_value.problem import plane_problem
-from codim2_core.numerics import radau as in_python
-from codim2_core.numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE
+from codim2_core.initial_value.motion_steps import numbers_of_tableau, rate_at
 
 from .placing import CURVED, TANH, motion_of
 
@@ -19,39 +16,32 @@ TABLE = tableau_of(numbers_of_tableau())
 STATES = [(0.4, 0.3, 0.7, -0.2), (-0.02, 0.01, 1.3, 0.5)]
 
 
-class Begun:
-    """A step about to be tried, compiled and in Python."""
-
-    def __init__(self, y, eps, rtol, h, system=CURVED):
-        self.y, self.rtol, self.h, n = np.array(y, float), rtol, h, len(y)
-        self.motion = motion_of(system, TANH, eps, rtol)
-        self.problem = plane_problem(field(system), TANH, eps, rtol, 0.01 * rtol)
-        self.work, self.clock = workspace(n, 0.0), np.zeros(4)
-        radau.linearise(self.motion, self.y, h, self.clock, self.work)
-        self.here = in_python._linearise(self.problem, self.y)
-
-    def tried(self, refine=False, previous=None):
-        """Whether it is accepted, and the factor; the same in Python, and its stages."""
-        before_h = 0.0
-        if previous is not None:
-            self.work.before[:], self.work.first[:], before_h = previous.polynomial, previous.first, previous.h
-        own = radau.attempt(self.motion, TABLE, self.y, self.h, before_h, refine, self.clock, self.work)
-        found, factor = in_python._attempt(self.problem, self.here, self.y, self.h, previous, self.rtol, refine)
-        return own, factor, None if found is None else found[0]
-
-
 @pytest.mark.parametrize("y", STATES)
-@pytest.mark.parametrize(("eps", "refine"), [(0.3, False), (1e-3, True)])
-def test_it_takes_the_steps_that_are_taken_in_python(y, eps, refine):
+@pytest.mark.parametrize("eps", [0.3, 1e-3])
+def test_its_stages_solve_the_collocation_and_its_end_is_as_near_as_it_says(y, eps):
+    rate = lambda state: rate_at(field(CURVED), TANH, eps, None, state)
     told = []
     for rtol in (1e-3, 1e-6):
         for h in math.hypot(y[0], y[1], eps) * np.array([0.03, 0.3, 1.0, 4.0, 30.0]):
-            step = Begun(y, eps, rtol, h)
-            (accepted, change), factor, Z = step.tried(refine)
-            assert bool(accepted) is (Z is not None)
-            assert change == pytest.approx(factor, rel=2e-2)
-            if Z is not None:
-                np.testing.assert_allclose(step.work.Z / step.work.size, Z / step.here.size, atol=3e-2 * rtol)
-            told.append((bool(accepted), change not in (FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE)))
-    assert {accepted for accepted, _ in told} == {False, True}
-    assert any(between for _, between in told)
+            state, work, clock = np.array(y), workspace(4, 0.0), np.zeros(4)
+            motion = motion_of(CURVED, TANH, eps, rtol)
+            radau.linearise(motion, state, h, clock, work)
+            accepted, _ = radau.attempt(motion, TABLE, state, h, 0.0, False, clock, work)
+            told.append(bool(accepted))
+            if not accepted:
+                continue
+            Z, end, polynomial = work.Z.copy(), np.empty(4), np.empty((4, 7))
+            increments = h * TABLE.A @ np.array([rate(np.array(y) + stage) for stage in Z])
+            np.testing.assert_allclose(Z / work.size, increments / work.size, atol=3e-2 * rtol)
+            radau.keep(TABLE, state, work, polynomial, end)
+            np.testing.assert_array_equal(state, end)
+            for node, stage in zip(TABLE.nodes, Z, strict=True):
+                np.testing.assert_allclose(polynomial @ node ** np.arange(1, 8), stage, atol=1e-12)
+            small, exact = np.array(y), 4000  # by the classical method
+            for _ in range(exact):
+                k1 = rate(small)
+                k2 = rate(small + h / exact / 2 * k1)
+                k3 = rate(small + h / exact / 2 * k2)
+                small = small + h / exact / 6 * (k1 + 2 * k2 + 2 * k3 + rate(small + h / exact * k3))
+            np.testing.assert_allclose(end / work.size, small / work.size, atol=3.0 * rtol)
+    assert set(told) == {False, True}

@@ -1,0 +1,108 @@
+"""The steps of a slide along a critical set: a motion of (e, z) whose right-hand side is the slow flow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from ..arrays import Array
+from ..jit.interpreted import InterpretedAddress, call_kernel, is_at_hand
+from ..numerics.dense import StepArray
+from ..psi.constructors import constant
+from .field import Field
+from .functions import called_back, functions_of
+from .kernels.motion import follow_steps
+from .kernels.slow import SLOPES, SLOW_RATES, VALUE, flow, sets
+from .line import InvariantLine
+from .motion_steps import MotionSteps
+
+SLOW_STEPS_PER_CALL = 64  # steps that one call fills in
+
+
+class SlowSteps(MotionSteps):
+    """One slide under way.
+
+    Parameters
+    ----------
+    field : Field
+    e : ndarray (2,)
+        On the set at z.
+    line, span, z, rtol, floor, most, h, least
+        As in `MotionSteps`.
+    """
+
+    def __init__(
+        self,
+        field: Field,
+        e: Array,
+        line: InvariantLine | None,
+        span: tuple[float, float],
+        z: Array,
+        rtol: float,
+        floor: float,
+        most: int,
+        h: float,
+        least: float,
+    ) -> None:
+        def rate(state: Array) -> Array:
+            return np.array(field.value(*state[:2].tolist(), 0.0, 0.0, *state[2:].tolist()))
+
+        first = np.concatenate([e, z])
+        # eps is read as the size by which errors of e are measured: 1 and more.
+        super().__init__(
+            functions_of(field, constant()), rate, 1.0, line, span, first, rtol, floor, most, h=h, least=least
+        )
+        own = self.functions.addresses
+        self.S[VALUE], self.S[SLOPES], self.S[SLOW_RATES] = *own[:2].view(float), len(z)
+        self._compiles = self.functions.is_compiled
+        at_hand = self._compiles or is_at_hand(follow_steps)
+        self._flow = flow() if at_hand else flow(InterpretedAddress)
+        self.addresses = np.array([*(one.address for one in self._flow), own[2]], np.int64)
+
+    def sets(self, steps: StepArray, u: Array) -> tuple[Array, Array]:
+        """Return e (k, d, 2) and D_e U (k, d, 2, 2) at d fractions of steps."""
+        first = np.concatenate([steps.first[None], steps.ends[:-1]])
+        powers = u[:, None] ** np.arange(1, steps.polynomials.shape[2] + 1)
+        points = first[:, None, :] + np.einsum("kij,dj->kdi", steps.polynomials, powers)
+        points, places = points.reshape(-1, points.shape[2]), points.shape[:2]
+        e, D = call_kernel(sets, self.S[VALUE : SLOPES + 1], points, compiles=self._compiles)
+        self.functions.count(0)
+        return e.reshape(*places, 2), D.reshape(*places, 2, 2)
+
+
+def steps_of_z(
+    rate: Callable[[Array], Array],
+    slopes: Callable[[Array], Array],
+    span: tuple[float, float],
+    z: Array,
+    rtol: float,
+    floor: float,
+    most: int,
+    **how: Any,
+) -> MotionSteps:
+    """Return a motion on Sigma of which only z moves, at a rate that Python gives.
+
+    Parameters
+    ----------
+    rate, slopes : callable
+        z (m,) to its rate (m,), and the derivatives of that (m, m).
+    span, z, rtol, floor, most, how
+        As in `MotionSteps`.
+    """
+    m = len(z)
+
+    def value(*at: float) -> list[float]:
+        return [0.0, 0.0, *rate(np.array(at[4:])).tolist()]
+
+    def derivatives(*at: float) -> list[float]:
+        found = np.zeros((2 + m, 4 + m))
+        found[2:, 4:] = slopes(np.array(at[4:]))
+        return found.ravel().tolist()
+
+    first = np.concatenate([np.zeros(2), z])
+    return MotionSteps(
+        called_back(m, value, derivatives), lambda state: np.array(value(0.0, 0.0, *state)), 1.0, None, span, first,
+        rtol, floor, most, **how,
+    )  # fmt: skip
