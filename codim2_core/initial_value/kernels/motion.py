@@ -25,10 +25,21 @@ MAX_STATE, GROWN = 1e200, 8.0  # what has grown so large, or so many times withi
 MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE = 1e-13, 5e-5  # of the largest rho of a slip; of that times rtol
 
 # What `control` holds.
-NEXT, REFINED, WARY, STEPS_LEFT, STEPS_TRIED, LARGEST_RHO, IMPLICIT, SIGN_COUNT, WORTH, FARTHEST_RHO, LEAST_STEP = (
-    range(11)
-)
-CONTROL = 11
+(
+    NEXT,
+    REFINED,
+    WARY,
+    STEPS_LEFT,
+    STEPS_TRIED,
+    LARGEST_RHO,
+    IMPLICIT,
+    SIGN_COUNT,
+    WORTH,
+    FARTHEST_RHO,
+    LEAST_STEP,
+    PAID_AT,
+) = range(12)
+CONTROL = 12
 
 PASSED_SHRINKAGE = 0.5  # of a step that has passed Sigma
 ONLY = 2.0  # of IMPLICIT: and explicit never
@@ -88,7 +99,7 @@ def _length(wanted, bound, remaining):
 
 
 @kernel
-def _turned_implicit(motion, control, work, h, remaining):
+def _turned_implicit(motion, clock, control, work, h, remaining):
     """After an explicit step: go on implicitly where the next ones would be short for stability alone, and many."""
     if remaining < control[WORTH] * h:
         return
@@ -98,12 +109,11 @@ def _turned_implicit(motion, control, work, h, remaining):
     control[SIGN_COUNT] += 1.0
     if control[SIGN_COUNT] < SWITCH_SIGNS:
         return
-    control[IMPLICIT], control[SIGN_COUNT] = 1.0, 0.0
-    control[WORTH] *= 2.0  # what turns back soon is asked for more the next time
+    control[IMPLICIT], control[SIGN_COUNT], control[PAID_AT] = 1.0, 0.0, clock[0] + h + control[WORTH] * h
 
 
 @spliced_kernel
-def _turned_explicit(motion, control, bound, reach):
+def _turned_explicit(motion, clock, control, bound, reach):
     """Go on explicitly where an implicit step would cost more than explicit ones over the same span."""
     if control[IMPLICIT] == ONLY or min(control[NEXT], bound) * reach > price(motion.n) * STABLE:
         control[SIGN_COUNT] = 0.0
@@ -112,6 +122,8 @@ def _turned_explicit(motion, control, bound, reach):
     if control[SIGN_COUNT] < SIGNS_BACK:
         return False
     control[IMPLICIT], control[SIGN_COUNT], control[REFINED] = 0.0, 0.0, 1.0
+    # What turns back soon is asked for more the next time.
+    control[WORTH] = 2.0 * control[WORTH] if clock[0] < control[PAID_AT] else MIN_IMPLICIT_STEPS * price(motion.n)
     control[NEXT] = min(control[NEXT], STABLE / reach) if reach > 0.0 else control[NEXT]
     return True
 
@@ -134,7 +146,7 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
         left to try. TRIED: how many were. EXTENT: the largest size of the state so far. IMPLICIT: 1 in a slide, or
         ONLY. COUNT: signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead.
         FARTHEST: the largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is
-        `arrived` of that. LEAST: a shorter step ends the motion.
+        `arrived` of that. LEAST: a shorter step ends the motion. PAID: when the turn to implicit steps has paid.
     starts, lengths (k,), ends (k, n), polynomials (k, n, 7)
         Filled with steps.
 
@@ -150,7 +162,7 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
         if fresh and control[IMPLICIT] > 0.0:
             bound, reach = radau.linearise(motion, y, control[NEXT], clock, work)
             begun = False
-            if _turned_explicit(motion, control, bound, reach):
+            if _turned_explicit(motion, clock, control, bound, reach):
                 before_h = 0.0
         if fresh and control[IMPLICIT] == 0.0:
             if begun:
@@ -187,7 +199,7 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
             radau.keep(table, y, work, polynomials[filled], ends[filled])
             before_h = h
         else:
-            _turned_implicit(motion, control, work, h, remaining - h)
+            _turned_implicit(motion, clock, control, work, h, remaining - h)
             explicit.keep(motion, y, clock, work, polynomials[filled], ends[filled])
         filled += 1
         if _advance_time(clock, control, h, y):
