@@ -146,7 +146,7 @@ layers: Mapping[str, Recipe] = MappingProxyType(
 )
 
 #: Layers that a public function returns as well, by the name of that function.
-FUNCTIONS: Mapping[str, str] = MappingProxyType(
+LAYER_OF_FUNCTION: Mapping[str, str] = MappingProxyType(
     {
         "equator_equilibria": "equator", "critical_sets": "critical", "sliding_flow": "slow_flow",
         "classify": "classification", "limit_cycles": "cycles", "approach_outcomes": "outcomes",

@@ -27,7 +27,7 @@ from ..psi.function import Psi
 from ..systems.bounds import slow_values
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import SYSTEM_KINDS, AnySystem
-from .layer_table import ELINEAR_ONLY, FUNCTIONS, INPUTS, layers
+from .layer_table import ELINEAR_ONLY, INPUTS, LAYER_OF_FUNCTION, layers
 from .memory import Memory
 
 MOST_SEEDS = 20_000
@@ -174,9 +174,9 @@ class Scene(Mapping[str, Any]):
     def __getitem__(self, name: str) -> Any:
         if name in self._own:
             return self._own[name]
-        name = FUNCTIONS.get(name, name)
+        name = LAYER_OF_FUNCTION.get(name, name)
         if name not in layers:
-            raise ValueError(f"{name!r} is no layer; there are {', '.join((*layers, *FUNCTIONS))}.")
+            raise ValueError(f"{name!r} is no layer; there are {', '.join((*layers, *LAYER_OF_FUNCTION))}.")
         layer = layers[name]
 
         def compute() -> Any:
@@ -223,7 +223,7 @@ class Scene(Mapping[str, Any]):
         return len(layers)
 
     def __contains__(self, name: object) -> bool:
-        return name in layers or name in FUNCTIONS
+        return name in layers or name in LAYER_OF_FUNCTION
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Scene):
