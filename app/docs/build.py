@@ -60,7 +60,7 @@ def setup(site: Any) -> None:
     site.connect("autodoc-process-docstring", reference.print_labels, priority=400)
 
 
-def build(target: Path, *, portraits: bool = True) -> list[str]:
+def build(target: Path, *, portraits: bool = True, live: str = "") -> list[str]:
     """Build the site.
 
     Parameters
@@ -69,6 +69,8 @@ def build(target: Path, *, portraits: bool = True) -> list[str]:
         A folder, made or replaced.
     portraits : bool
         Whether the gallery is drawn, which takes most of the time.
+    live : str
+        Where in it an explorer without a server will be, such as "explorer-files/"; "" if there will be none.
 
     Returns
     -------
@@ -91,7 +93,7 @@ def build(target: Path, *, portraits: bool = True) -> list[str]:
         for kind in (DeprecationWarning, PendingDeprecationWarning):  # of what Sphinx itself will do otherwise
             warnings.simplefilter("ignore", kind)
         source, made = Path(scratch, "source"), Path(scratch, "site")
-        _write_sources(source, portraits)
+        _write_sources(source, portraits, live)
         warned = Path(scratch, "warnings")
         with (
             warned.open("w", encoding="utf-8") as log,
@@ -122,23 +124,22 @@ def _accessible(page: str) -> str:
     return page
 
 
-def _write_sources(source: Path, portraits: bool) -> None:
+def _write_sources(source: Path, portraits: bool, live: str) -> None:
     shutil.copytree(TEXT_FOLDER, source)
     if portraits:
-        gallery.write_gallery(source)
+        gallery.write_gallery(source, live)
         static = source / "_static"
         shutil.move(source / "portraits", static / "portraits")
     else:
-        (source / "gallery.md").write_text(gallery.GALLERY_HEAD, encoding="utf-8")
-    (source / "lessons.md").write_text(_lessons(), encoding="utf-8")
+        (source / "gallery.md").write_text(gallery.GALLERY_HEAD.format(click=""), encoding="utf-8")
+    (source / "lessons.md").write_text(_lessons(live or "../"), encoding="utf-8")
     reference.write_reference(source)
 
 
 LESSONS = """# Lessons
 
 A course in the explorer, through the paper in its order and beyond it: text with numbers that can be dragged, and
-questions that are judged by the system on your own sliders. A click opens a lesson in the explorer
-that serves this page.
+questions that are judged by the system on your own sliders. A click opens a lesson in the explorer.
 
 ```{raw} html
 <ol>
@@ -148,20 +149,20 @@ that serves this page.
 """
 
 
-def _lessons() -> str:
-    """Return the page of lessons: the course, each with a link that opens it in the explorer."""
+def _lessons(explorer: str) -> str:
+    """Return the page of lessons: the course, each with a link that opens it in the explorer of an address."""
     rows = (
-        f'<li><a href="../?panel=lessons&amp;lesson={key}" class="live">{escape(one.title)}</a>: '
+        f'<li><a href="{explorer}?panel=lessons&amp;lesson={key}" class="live">{escape(one.title)}</a>: '
         f"{escape(one.summary)}</li>"
         for key, one in built_in().items()
     )
     return LESSONS % "\n".join(rows)
 
 
-def main(target: Path) -> int:
+def main(target: Path, live: str = "") -> int:
     """Build the site for the command `codim2 docs`; return the exit status."""
     try:
-        warned = build(target)
+        warned = build(target, live=live)
     except ValueError as error:
         print(f"codim2: {error}", file=sys.stderr)
         return 2

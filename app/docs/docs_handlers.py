@@ -15,6 +15,10 @@ UNBUILT = (
 )
 
 
+#: Of a worker's script: what it loads is compiled in the browser.
+WORKER_POLICY = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'"
+
+
 class Docs(RequestHandler):
     """Answers ``docs/PATH`` with a file of the site."""
 
@@ -26,11 +30,13 @@ class Docs(RequestHandler):
             self.set_status(404)
             self.finish(UNBUILT)
             return
-        file = (folder / (path or "index.html")).resolve()
+        file = (folder / path / ("index.html" if path.endswith("/") or not path else "")).resolve()
         if not file.is_relative_to(folder.resolve()) or not file.is_file():
             raise HTTPError(404)
         kind = mimetypes.guess_type(file.name)[0] or "application/octet-stream"
         self.set_header("Content-Type", f"{kind}; charset=utf-8" if kind.startswith("text/") else kind)
+        if file.name == "worker.js":
+            self.set_header("Content-Security-Policy", WORKER_POLICY)
         self.finish(file.read_bytes())
 
 

@@ -18,13 +18,24 @@ from ..export.view import view_of
 SIZE = 90.0
 GALLERY_HEAD = """# Gallery
 
-Every portrait of the paper, drawn from its numbers when this page was made. A click opens it in the explorer that
-serves this page; `codim2 figure KEY -o FILE` draws it for print.
+Every portrait of the paper, drawn from its numbers when this page was made. {click}
+`codim2 figure KEY -o FILE` draws it for print.
 """
+#: What a click does.
+OPENS = "A click opens it in the explorer that serves this page."
+MOVES = "A click lets it move: drag C or a limit direction. Its title opens it in the explorer."
+SCRIPT = '<script type="module" src="{}figures.js"></script>'
 
 
-def write_gallery(folder: Path) -> None:
-    """Write the page, and each portrait light and dark, into a folder of sources."""
+def write_gallery(folder: Path, live: str = "") -> None:
+    """Write the page, and each portrait light and dark, into a folder of sources.
+
+    Parameters
+    ----------
+    folder : Path
+    live : str
+        Where the site has an explorer without a server, such as "explorer-files/"; "" if it has none.
+    """
     pictures = folder / "portraits"
     pictures.mkdir()
     for key in presets:
@@ -32,20 +43,27 @@ def write_gallery(folder: Path) -> None:
         for theme in ("light", "dark"):
             drawn = figure(view, Style(size=SIZE, theme=theme, legend=False))
             (pictures / f"{key}-{theme}.svg").write_text(drawn, encoding="utf-8")
-    (folder / "gallery.md").write_text(GALLERY_HEAD + "".join(_groups()), encoding="utf-8")
+    text = GALLERY_HEAD.format(click=MOVES if live else OPENS) + "".join(_groups(live))
+    (folder / "gallery.md").write_text(text, encoding="utf-8")
 
 
-def _groups() -> Iterator[str]:
+def _groups(live: str) -> Iterator[str]:
     for group, members in groupby(presets.items(), key=lambda item: item[1].group):
-        cards = "\n".join(_card(key, preset) for key, preset in members)
+        cards = "\n".join(_card(key, preset, live) for key, preset in members)
         yield f'\n## {group}\n\n```{{raw}} html\n<div class="gallery">\n{cards}\n</div>\n```\n'
+    if live:
+        yield f"\n```{{raw}} html\n{SCRIPT.format(live)}\n```\n"
 
 
-def _card(key: str, preset: Preset) -> str:
+def _card(key: str, preset: Preset, live: str) -> str:
     title = escape(preset.title)
     shown = "".join(
         f'<img class="only-{theme}" src="_static/portraits/{key}-{theme}.svg" alt="{title}" loading="lazy">'
         for theme in ("light", "dark")
     )
-    said = f"{title} <small>{escape(cite(preset.label))}, <code>{key}</code></small>"
-    return f'<figure><a href="../?preset={key}" class="live">{shown}</a><figcaption>{said}</figcaption></figure>'
+    label = f"<small>{escape(cite(preset.label))}, <code>{key}</code></small>"
+    link = f'<a href="{live or "../"}?preset={key}" class="live">'
+    if live:
+        box = f'<div data-codim2="preset={key}" data-start="press">{shown}</div>'
+        return f"<figure>{box}<figcaption>{link}{title}</a> {label}</figcaption></figure>"
+    return f"<figure>{link}{shown}</a><figcaption>{title} {label}</figcaption></figure>"

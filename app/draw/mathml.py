@@ -9,7 +9,6 @@ from html import escape
 from types import MappingProxyType
 
 from codim2_core.expressions.expression import Expression, parse
-from codim2_core.expressions.names import FAST_NAMES, SLOW_NAMES
 from codim2_core.expressions.tape import FUNCTIONS_OF_TWO, compact
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
@@ -145,41 +144,6 @@ def _binary(op: str, left: MarkupPiece, right: MarkupPiece, left_number: bool, r
     return f"{first}{times}{_parenthesise(right, _POWER)}", _SIGN if left[1] == _SIGN else _PRODUCT
 
 
-def equations(system: ELinear | System) -> tuple[tuple[str, Expression], ...]:
-    """Left sides ("x", "y", "z1" …) and right sides of all equations of a system, eq:vf.
-
-    An e-linear system made from a matrix is written in its normal form only if that has formulas; otherwise as given.
-    """
-    if isinstance(system, System):
-        U, W = system.without_clock  # what is typed in t is written in t
-        left = ("x", "y", *SLOW_NAMES[: len(W)])
-        return tuple(zip(left, (*U, *W), strict=True))
-    names = (*FAST_NAMES, "z", *SLOW_NAMES, *dict(system.parameters), "A_", "B_", "C_")
-    template = parse("A_*c + B_*s + C_", names)
-
-    def row(c: object, s: object, constant: object) -> Expression:
-        result = template
-        for name, value in (("A_", c), ("B_", s), ("C_", constant)):
-            part = value if isinstance(value, Expression) else parse(repr(value), names)
-            result = result.substitute(name, part)
-        return result.substitute("z", parse("z1", names)) if "z" in result.names and system.m > 1 else result
-
-    (a11, a12), (a21, a22) = _matrix(system, names)
-    rows = [("x", row(a11, a12, system.f[0])), ("y", row(a21, a22, system.f[1]))]
-    for i in range(system.m):
-        B = (0.0, 0.0) if system.B is None else system.B[i]
-        rows.append((SLOW_NAMES[i], row(B[0], B[1], 0.0 if system.g is None else system.g[i])))
-    return tuple(rows)
-
-
-def _matrix(system: ELinear, names: tuple[str, ...]) -> tuple[tuple[object, object], tuple[object, object]]:
-    if system.given_matrix is not None:
-        return system.given_matrix
-    if isinstance(system.b, Expression):
-        return (system.a, parse("-B_", names).substitute("B_", system.b)), (system.b, system.d)
-    return (system.a, -system.b), (system.b, system.d)
-
-
 def _meanings(system: ELinear | System) -> dict[str, Expression]:
     """Return the definitions of a system as formulas, by name."""
     if isinstance(system, ELinear) or not system.definitions:
@@ -202,7 +166,7 @@ def equations_mathml(system: ELinear | System) -> str:
     meanings = {plain(meaning): name for name, meaning in _meanings(system).items()}
     rows = [
         _markup_row(symbol("z" if alone and left == "z1" else left, dot=True), mathml(plain(right), meanings))
-        for left, right in equations(system)
+        for left, right in system.equations
     ]
     for k, (meaning, name) in enumerate(meanings.items()):
         before = dict(list(meanings.items())[:k])

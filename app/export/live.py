@@ -186,15 +186,23 @@ def _page(
     script = bundle(SCRIPTS / "live.js").replace("</script", "<\\/script")
     told = "; ".join(filter(None, (system_words(view), psi_words(view), place_words(view))))
     at_first = f'<p class="note">At first: {escape(told)}. Made by codim2 {__version__}.</p>'
+    return html_page(
+        title,
+        '<canvas role="img" aria-label="The projected hemisphere: phase portrait">'
+        f'</canvas><div class="sliders"></div><p class="sentence" aria-live="polite"></p>{at_first}\n'
+        f'<script type="application/json" id="settings">{data}</script>\n'
+        f'<script type="text/plain" id="frames">{base64.b64encode(frames).decode()}</script>\n'
+        f'<script type="module">{script}</script>',
+    )
+
+
+def html_page(title: str, body: str) -> str:
+    """Return a page of its own with a title above."""
     return (
         f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1"><meta name="color-scheme" '
         f'content="light dark">\n<style>{(SCRIPTS / "live.css").read_text(encoding="utf-8")}</style></head>\n'
-        f'<body><h1>{escape(title)}</h1><canvas role="img" aria-label="The projected hemisphere: phase portrait">'
-        f'</canvas><div class="sliders"></div><p class="sentence" aria-live="polite"></p>{at_first}\n'
-        f'<script type="application/json" id="settings">{data}</script>\n'
-        f'<script type="text/plain" id="frames">{base64.b64encode(frames).decode()}</script>\n'
-        f'<script type="module">{script}</script></body></html>\n'
+        f"<body><h1>{escape(title)}</h1>{body}</body></html>\n"
     )
 
 

@@ -23,6 +23,8 @@ from codim2_core.words import subscript, written_number
 from ..frame.dask_executor import ClusterError, dask_executor
 from ..static_site.pyodide import VERSION
 
+#: Where a site has its explorer without a server.
+LIVE = "explorer-files/"
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 
 
@@ -98,6 +100,7 @@ def add_docs(commands: Any) -> None:
     command = commands.add_parser("docs", help="build the site that the explorer serves at /docs/")
     command.add_argument("folder", nargs="?", type=Path, metavar="DIR",
                          help="default the package's own; `codim2 serve --docs DIR` serves another")  # fmt: skip
+    _add_release(command, required=False)
     command.set_defaults(run=docs)
 
 
@@ -125,11 +128,15 @@ def add_static(commands: Any) -> None:
     """Add `codim2 static`."""
     command = commands.add_parser("static", help="write the explorer as a folder of files, which needs no server")
     command.add_argument("-o", "--output", type=Path, required=True, metavar="DIR", help="write the folder there")
-    command.add_argument("--pyodide", type=Path, required=True, metavar="DIR",
-                         help=f"holds the release of Pyodide {VERSION}, and its wheel of NumPy")  # fmt: skip
+    _add_release(command, required=True)
+    command.set_defaults(run=static)
+
+
+def _add_release(command: Any, required: bool) -> None:
+    words = f"holds the release of Pyodide {VERSION}, and its wheel of NumPy" + "; pictures then move" * (not required)
+    command.add_argument("--pyodide", type=Path, required=required, metavar="DIR", help=words)
     command.add_argument("--kernels", type=Path, metavar="DIR",
                          help="holds what `codim2 kernels` has written; default the package's own")  # fmt: skip
-    command.set_defaults(run=static)
 
 
 def number(text: str) -> float:
@@ -305,15 +312,22 @@ def notebooks(chosen: argparse.Namespace) -> int:
     return 0
 
 
-def static(chosen: argparse.Namespace) -> int:
-    """Write the folder, and say how large it is."""
+def _write_static(folder: Path, chosen: argparse.Namespace) -> int | None:
+    """Write the folder, and return its size; say what is wrong where it cannot be written."""
     from ..static_site.folder import write_folder
     from ..wasm_kernels.build import FOLDER
 
     try:
-        size = write_folder(chosen.output, chosen.pyodide, chosen.kernels or FOLDER)
+        return write_folder(folder, chosen.pyodide, chosen.kernels or FOLDER)
     except (ValueError, OSError) as error:
         print(f"codim2: {error}", file=sys.stderr)
+        return None
+
+
+def static(chosen: argparse.Namespace) -> int:
+    """Write the folder, and say how large it is."""
+    size = _write_static(chosen.output, chosen)
+    if size is None:
         return 1
     print(f"{chosen.output}: {size / 1e6:.0f} MB; put the folder on any web space, or see it here:")
     print(f"  python -m http.server -d {shlex.quote(str(chosen.output))}")
@@ -325,4 +339,7 @@ def docs(chosen: argparse.Namespace) -> int:
     from ..docs.build import main
     from ..docs.docs_folder import PACKAGED_SITE
 
-    return main(PACKAGED_SITE if chosen.folder is None else chosen.folder)
+    folder = PACKAGED_SITE if chosen.folder is None else chosen.folder
+    if chosen.pyodide is None:
+        return main(folder)
+    return main(folder, LIVE) or int(_write_static(folder / LIVE, chosen) is None)

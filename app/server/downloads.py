@@ -49,6 +49,8 @@ def add_live(commands: Any) -> None:
     command.add_argument("view", metavar="PRESET|LINK", help=VIEW_HELP)
     words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'; give it twice for two sliders"
     command.add_argument("--slider", action="append", required=True, metavar="NAME[=LOW,HIGH]", help=words)
+    words = "where the file finds what `codim2 static` wrote: it then computes where it is seen"
+    command.add_argument("--explorer", metavar="DIR", help=words)
     command.add_argument("-o", "--output", type=Path, required=True, metavar="FILE", help="ends in .html")
     command.set_defaults(run=lambda chosen: _write_output(chosen.output, lambda: _live(chosen)))
 
@@ -86,11 +88,13 @@ def _film(chosen: argparse.Namespace) -> bytes:
 
 
 def _live(chosen: argparse.Namespace) -> bytes:
+    from ..export.figure_page import figure_page
     from ..export.live import live
     from ..export.view import suffix_of, view_of
 
     suffix_of(chosen.output, (".html",))
-    return live(view_of(chosen.view), chosen.slider)
+    view = view_of(chosen.view)
+    return figure_page(view, chosen.slider, chosen.explorer) if chosen.explorer else live(view, chosen.slider)
 
 
 def _figure(chosen: argparse.Namespace) -> bytes:

@@ -10,14 +10,13 @@ from typing import Any
 
 from tornado.web import HTTPError, RequestHandler
 
+from ..docs.docs_handlers import WORKER_POLICY
 from ..lessons.library import built_in, lessons
 from ..static_site.folder import engine_files
 from .scripts import YEAR, takes_packed
 
 #: Endings of what is sent compressed; the others are so already.
 LOOSE = (".js", ".mjs", ".wasm", ".json")
-#: Of the worker's script: what it loads is compiled in the browser.
-POLICY = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'"
 
 
 def served_panels() -> list[str]:
@@ -67,7 +66,7 @@ class EngineFile(RequestHandler):
         data, loose = self.packed[name], name.endswith(LOOSE)
         self.set_header("Content-Type", "text/javascript" if name.endswith("js") else
                         mimetypes.guess_type(name)[0] or "application/octet-stream")  # fmt: skip
-        self.set_header("Content-Security-Policy", POLICY)
+        self.set_header("Content-Security-Policy", WORKER_POLICY)
         self.set_header("Cache-Control", f"public, max-age={YEAR}, immutable")
         if loose and takes_packed(self):
             self.set_header("Content-Encoding", "gzip")

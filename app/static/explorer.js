@@ -396,7 +396,7 @@ export async function openHere() {
   const saved = savedFor(search)
   if (!saved?.first) for (const drawn of first.querySelectorAll(OF_FIRST_SETTING)) drawn.replaceChildren()
   first.inert = !saved // a link that only the worker can read
-  const tell = (sentence) => { const box = document.querySelector(".codim2 .busy"); box.toggleAttribute("hidden", !sentence); say(box, sentence) }
+  const tell = (sentence) => { const box = document.querySelector(".codim2 .busy"); box.toggleAttribute("hidden", !sentence); say(box, sentence); tellAround({busy: sentence}) }
   tell(SAYS.starting)
   const opening = openWorkerLine(callWorker(new URL("worker.js", location.href), search, !saved), saved, tell)
   try {
@@ -408,9 +408,16 @@ export async function openHere() {
     }
     await openIn(first, opening)
     await (await opening).ready
-    await navigator.serviceWorker?.register("offline.js")
-  } catch { notice(document.querySelector(".codim2 .banner"), SAYS.lost, () => location.reload()) }
+    if (window.parent === window) await navigator.serviceWorker?.register("offline.js")
+    setTimeout(() => tellAround({live: true}), 200) // when it is painted
+  } catch {
+    notice(document.querySelector(".codim2 .banner"), SAYS.lost, () => location.reload())
+    tellAround({failed: true})
+  }
 }
+
+/** Tell the page around this one, whose figure it may be. @param {{busy?: string, live?: boolean, failed?: boolean}} message */
+function tellAround(message) { if (window.parent !== window) window.parent.postMessage({codim2: message}, "*") }
 
 const OF_FIRST_SETTING = ".first, .first-words, .portrait-name, .portrait-case, .sentence" // what the page says of it
 const ITS_LOOK = ["embed", "beamer", "lift", "views", "room"] // in a link, beside values

@@ -25,6 +25,7 @@ import codim2_core
 from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import warm
 
+from ..draw.bundle import bundle
 from ..draw.gallery import HOOKS, draw_all
 from ..view.first_markup import MARKUP, NOTICE, TITLE, policy
 from ..view.markup import SCRIPT_FOLDER, edition, export_script, markup_of_frame, page_frame, script
@@ -81,6 +82,7 @@ def all_files(pyodide: Path, kernels: Path) -> Iterator[tuple[str, bytes]]:
     files = {
         "explorer.js": script().encode(),
         "takeaway.js": export_script().encode(),
+        "figures.js": bundle(SCRIPT_FOLDER / "figures.js").encode(),
         "bokeh.min.js": (Path(bokeh_settings.bokehjs_path()) / "js" / "bokeh.min.js").read_bytes(),
         "manifest.webmanifest": json.dumps(MANIFEST).encode(),
         "icon.svg": _icon(),

@@ -47,6 +47,8 @@ class Event:
             raise ValueError(
                 f"an event's direction is {reprlib.repr(self.direction)}; give +1 (rising), -1 (falling) or 0 (both)."
             )
+        if not isinstance(self.terminal, bool | np.bool_):
+            raise ValueError(f"an event's terminal is {reprlib.repr(self.terminal)}; give True or False.")
 
 
 def reverse_event(event: Event) -> Event:

@@ -145,4 +145,11 @@ layers: Mapping[str, Recipe] = MappingProxyType(
     }
 )
 
+#: Layers that a public function returns as well, by the name of that function.
+FUNCTIONS: Mapping[str, str] = MappingProxyType(
+    {
+        "equator_equilibria": "equator", "critical_sets": "critical", "sliding_flow": "slow_flow",
+        "classify": "classification", "limit_cycles": "cycles", "approach_outcomes": "outcomes",
+    }
+)  # fmt: skip
 ELINEAR_ONLY = frozenset({"atlas_curves", "regions"})

@@ -20,14 +20,14 @@ from ..arguments import number, whole_number
 from ..arguments import psi as checked_psi
 from ..equality import equal_values
 from ..layer_problem.problem import CachedFunction, LayerProblem, Result
-from ..orbits.options import LEAST_PIXEL
+from ..orbits.options import LEAST_PIXEL, stepping
 from ..orbits.seeds import checked_seeds
 from ..psi import constructors
 from ..psi.function import Psi
 from ..systems.bounds import slow_values
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import SYSTEM_KINDS, AnySystem
-from .layer_table import ELINEAR_ONLY, INPUTS, layers
+from .layer_table import ELINEAR_ONLY, FUNCTIONS, INPUTS, layers
 from .memory import Memory
 
 MOST_SEEDS = 20_000
@@ -58,8 +58,10 @@ class _Problem(LayerProblem):
         return super().keep(finding) if scene is None or not finding.layer else scene[finding.layer]
 
 
-class Scene:
-    """Everything drawn for one system at one z; layers are computed when first asked for.
+class Scene(Mapping[str, Any]):
+    """Everything drawn for one system at one z, by name; layers are computed when first asked for.
+
+    ``scene["critical_sets"]`` is what ``critical_sets`` returns, and so for the other public functions.
 
     Parameters
     ----------
@@ -135,6 +137,7 @@ class Scene:
         self.launch = checked_seeds(launch)
         self.count, self.rtol, self.atol = count, number("rtol", rtol), number("atol", atol)
         self.t_max, self.length = None if t_max is None else number("t_max", t_max), float(length)
+        stepping(rtol=self.rtol, atol=self.atol, length=self.length)  # refuses what no trajectory may have
         if window is not None and not (
             len(window) == 4 and np.isfinite(window).all() and window[0] < window[1] and window[2] < window[3]
         ):
@@ -171,8 +174,9 @@ class Scene:
     def __getitem__(self, name: str) -> Any:
         if name in self._own:
             return self._own[name]
+        name = FUNCTIONS.get(name, name)
         if name not in layers:
-            raise ValueError(f"{name!r} is no layer; there are {', '.join(layers)}.")
+            raise ValueError(f"{name!r} is no layer; there are {', '.join((*layers, *FUNCTIONS))}.")
         layer = layers[name]
 
         def compute() -> Any:
@@ -214,6 +218,12 @@ class Scene:
 
     def __iter__(self) -> Iterator[str]:
         return iter(layers)
+
+    def __len__(self) -> int:
+        return len(layers)
+
+    def __contains__(self, name: object) -> bool:
+        return name in layers or name in FUNCTIONS
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Scene):

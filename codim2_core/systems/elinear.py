@@ -20,6 +20,7 @@ from ..expressions.expression import Expression, parse
 from ..expressions.names import MOST_SLOW_VARIABLES
 from .bounds import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
 from .coefficients import Coefficients
+from .equations import Equations, equations_text, linear_rows, negative, with_left_sides
 from .normal_form import in_normal_form, rotate_f
 
 Coefficient = float | Expression
@@ -181,6 +182,17 @@ class ELinear:
                 elif isinstance(entry, tuple):
                     found += [(f"{name}[{i},{j}]", v) for j, v in enumerate(entry, 1) if isinstance(v, Expression)]
         return tuple(found)
+
+    @cached_property
+    def equations(self) -> Equations:
+        """Left and right sides of eq:vf, ("x", ...), ("y", ...), ("z1", ...): in the axes in which it was given."""
+        matrix = self.given_matrix or ((self.a, negative(self.b)), (self.b, self.d))
+        B, g = self.B or ((0.0, 0.0),) * self.m, self.g or (0.0,) * self.m
+        rows = [(*row, constant) for row, constant in zip((*matrix, *B), (*self.f, *g), strict=True)]
+        return with_left_sides(linear_rows(rows, tuple(dict(self.parameters)), self.m))
+
+    def __str__(self) -> str:
+        return equations_text(self.equations, self.parameters)
 
     @cached_property
     def _slow_names(self) -> frozenset[str]:

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from ..expressions.names import SLOW_NAMES
 from .bounds import slow_values
+from .equations import Equations, equations_text, with_left_sides
 from .reading import parameter
 from .typed_at_z import Frozen
 from .typed_formulas import Formulas
@@ -82,6 +83,15 @@ class System(Formulas):
         copy.__dict__.update(self.__dict__)
         copy.__dict__["parameters"] = tuple(parameters.items())
         return copy
+
+    @property
+    def equations(self) -> Equations:
+        """Left and right sides of eq:vf, ("x", ...), ("y", ...), ("z1", ...): what is typed in t is written in t."""
+        U, W = self.without_clock
+        return with_left_sides((*U, *W))
+
+    def __str__(self) -> str:
+        return equations_text(self.equations, self.parameters)
 
     @property
     def typed(self) -> System:

@@ -41,7 +41,7 @@ def explorer(chromium, offering):
 
 
 def test_a_page_is_handed_over_to_its_device_and_asks_the_server_for_what_remains(explorer, offering):
-    explorer.open("?panel=numbers")
+    explorer.open("?panel=numbers&solid=filippov")
     explorer.find(".codim2").evaluate(PATIENT)
     explorer.type("b", "0.1").kept()
     explorer.until(f"{LINE}.worker")
@@ -54,10 +54,8 @@ def test_a_page_is_handed_over_to_its_device_and_asks_the_server_for_what_remain
     explorer.press("body", "Control+z").kept()  # what was done while the server answered
     assert explorer.find("[data-control=b] .number").input_value() == "0"
     assert (frames(offering), len(explorer.received)) == (before, sent)
-    explorer.find(".bokeh").click(position={"x": 200, "y": 250})
-    explorer.click("[role=tab][data-panel=orbits]")  # which SciPy computes
-    explorer.until("root.querySelector('.panel-orbits .orbit-time canvas, .panel-orbits .series')")
-    assert "SciPy" not in explorer.find(".panel-orbits").inner_text()
+    explorer.click("[role=tab][data-panel=solid]")  # whose polygon of Filippov SciPy computes
+    assert "SciPy" not in explorer.find(".panel-solid").inner_text()
     assert frames(offering) > before
 
 

@@ -4,7 +4,7 @@
 import {readFrame} from "../picture/frames.js"
 
 const QUIET = 4000 // ms without a request after which the worker is loaded
-const WARM_FRAMES = 3, MAX_WARM_FRAMES = 40 // that the worker draws for nobody: so many, and until nothing is late
+const WARM_FRAMES = 3, MAX_WARM_FRAMES = 40 // that the worker draws for nobody: so many, and two of which nothing is late
 const WARM_PAUSE = 100 // ms between two of them
 const SLOWER = 3, QUICK = 60 // a worker is slow that takes so many times what the server takes, and more than these ms
 const TRIPS = 9, FEWEST_TRIPS = 5 // of the last frames in which something moved, whose median counts
@@ -38,7 +38,7 @@ export class DeviceLine {
     this.worker = /** @type {(Line & {elsewhere?: string[]}) | null} */ (null)
     this.begun = this.gone = this.room = this.ahead = this.silent = false
     this.on = true
-    this.warmed = 0 // frames that the worker has drawn for nobody
+    this.warmed = this.calm = 0 // frames that the worker has drawn for nobody; the last ones of which nothing was late
     this.beyond = new Map() // systems, and panels of systems, that the worker leaves to the server -> until when
     this.limits = {quick: QUICK, patience: PATIENCE}
     this.out = new Map() // number of a request without an answer -> when it was sent, and whether something moves
@@ -173,8 +173,8 @@ export class DeviceLine {
   // Frames that nobody sees: what is loaded and compiled for the first ones no drag waits for.
   warm(worker, frame) {
     this.warmed += 1
-    const {late} = readFrame(frame).header
-    if (this.warmed < (late?.length ? MAX_WARM_FRAMES : WARM_FRAMES)) { this.time.setTimeout(() => this.draw(worker), WARM_PAUSE); return }
+    this.calm = readFrame(frame).header.late?.length ? 0 : this.calm + 1
+    if (this.warmed < (this.calm > 1 ? WARM_FRAMES : MAX_WARM_FRAMES)) { this.time.setTimeout(() => this.draw(worker), WARM_PAUSE); return }
     this.worker = worker
     this.trips.set(worker, Array(FEWEST_TRIPS).fill(this.time.performance.now() - this.drawn))
     this.judge()

@@ -31,8 +31,8 @@ export class Theme {
   get name() { return this.root.classList.contains("dark") ? "dark" : "light" }
 
   get isDark() {
-    const {jpThemeLight} = document.body.dataset, {page, dark} = this.config
-    return jpThemeLight ? jpThemeLight === "false" : dark || !page && onDark(this.root) || this.system.matches
+    const {jpThemeLight} = document.body.dataset, {page, dark} = this.config, frame = page && window.frameElement // of a figure
+    return jpThemeLight ? jpThemeLight === "false" : frame ? onDark(frame) : dark || !page && onDark(this.root) || this.system.matches
   }
 
   choose(name) { this.chosen = name; this.paint() }

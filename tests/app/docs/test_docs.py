@@ -8,6 +8,7 @@ from urllib.parse import unquote, urlsplit
 import codim2_app
 import pytest
 from codim2_app.docs import gallery
+from codim2_app.docs.build import _lessons as lessons_page
 from codim2_app.docs.docs_folder import serve_folder, site
 from codim2_app.lessons.library import built_in
 from codim2_app.server.cli import main
@@ -127,6 +128,20 @@ def test_the_gallery_has_every_portrait_light_and_dark(tmp_path, monkeypatch):
         assert (tmp_path / "portraits" / f"{key}-{theme}.svg").is_file()
         assert f"_static/portraits/{key}-{theme}.svg" in text
     assert text.count("<figure>") == len(c2.presets)
+
+
+def test_with_an_explorer_of_files_pictures_move_and_all_links_lead_to_it(tmp_path, monkeypatch):
+    monkeypatch.setattr(gallery, "figure", lambda *_: "<svg/>")
+    for name, live in (("still", ""), ("live", "explorer-files/")):
+        (tmp_path / name).mkdir()
+        gallery.write_gallery(tmp_path / name, live)
+    still, live = ((tmp_path / name / "gallery.md").read_text(encoding="utf-8") for name in ("still", "live"))
+    assert "data-codim2" not in still
+    assert "<script" not in still
+    assert re.findall(r'data-codim2="preset=([^"]+)"', live) == list(c2.presets)
+    assert live.count('href="explorer-files/?preset=') == still.count('href="../?preset=') == len(c2.presets)
+    assert '<script type="module" src="explorer-files/figures.js"></script>' in live
+    assert 'href="explorer-files/?panel=lessons' in lessons_page("explorer-files/")
 
 
 def test_a_folder_of_something_else_is_left_alone(tmp_path, capsys):

@@ -5,7 +5,7 @@ import re
 from xml.etree import ElementTree
 
 import pytest
-from codim2_app.draw.mathml import equations, equations_mathml, mathml, plain_symbol, symbol
+from codim2_app.draw.mathml import equations_mathml, mathml, plain_symbol, symbol
 from hypothesis import example, given
 from hypothesis import strategies as st
 
@@ -118,7 +118,7 @@ def test_the_equations_of_an_example_are_its_right_hand_sides(example):
     at = system.at(example.z)
     values = {"c": 0.6, "s": -0.8, "x": 0.0, "y": 0.0, "z": (*example.z, 0.0)[0], **dict(system.parameters)}
     values.update((f"z{i + 1}", v) for i, v in enumerate(example.z))
-    rates = [float(right.evaluate(values)) for _, right in equations(system)]
+    rates = [float(right.evaluate(values)) for _, right in system.equations]
     assert rates == pytest.approx([*at.U((0.6, -0.8)), *at.W((0.6, -0.8))], abs=1e-12)
     ElementTree.fromstring(equations_mathml(system))
 
@@ -134,14 +134,14 @@ def test_the_equations_of_an_e_linear_system_are_its_right_hand_sides(more, b):
     z = (0.7, -0.4)[: system.m] or (0.7,) * isinstance(b, str)
     at = system.at(z)
     values = {"c": 0.6, "s": -0.8, "mu": 1.5, "z": 0.7, "z1": 0.7, "z2": -0.4}
-    rates = [float(right.evaluate(values)) for _, right in equations(system)]
+    rates = [float(right.evaluate(values)) for _, right in system.equations]
     assert rates == pytest.approx([*at.U((0.6, -0.8)), *at.W((0.6, -0.8))], abs=1e-12)
-    assert [left for left, _ in equations(system)] == ["x", "y", "z1", "z2"][: 2 + system.m]
+    assert [left for left, _ in system.equations] == ["x", "y", "z1", "z2"][: 2 + system.m]
 
 
 def test_a_matrix_is_written_as_given():
     system = c2.ELinear.from_matrix([["k", 2.0], [0.0, -1.0]], (0.5, "z"), g=(1.0,), parameters={"k": -3.0})
-    rows = dict(equations(system))
+    rows = dict(system.equations)
     assert rows["x"].evaluate({"c": 0.6, "s": 0.8, "k": -3.0}) == pytest.approx(-1.8 + 1.6 + 0.5)
     assert rows["y"].evaluate({"c": 0.6, "s": 0.8, "z": 0.25}) == pytest.approx(-0.8 + 0.25)
 

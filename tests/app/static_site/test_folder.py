@@ -45,6 +45,7 @@ def test_every_file_that_a_page_asks_for_is_there(files):
     for name in ("takeaway.js", "worker.js", "offline.js"):
         assert name in files["explorer.js"].decode()
         assert name in files
+    assert "index.html" in files["figures.js"].decode()
 
 
 def list_of(script):
@@ -66,7 +67,9 @@ def test_the_sizes_that_are_told_are_those_of_the_files(files):
     assert {"site.zip", "pyodide/pyodide.asm.wasm"} <= told["sizes"].keys()
 
 
-@pytest.mark.parametrize("name", ["index.html", "worker.js", "offline.js", "manifest.webmanifest", "takeaway.js"])
+@pytest.mark.parametrize(
+    "name", ["index.html", "worker.js", "offline.js", "manifest.webmanifest", "takeaway.js", "figures.js"]
+)
 def test_no_other_host_is_named_and_no_place(files, name):
     text = files[name].decode()
     assert not re.search("https?://", re.sub(NAMES, "", text))

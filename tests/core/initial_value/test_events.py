@@ -82,6 +82,8 @@ def test_functions_that_are_no_events_say_so(which, events, message):
         motion(which, TURNS, (1.0, 0.1, 0.0, 0.3), 2.0, events=events)
     with pytest.raises(ValueError, match="direction"):
         Event(lambda t, q: t, direction=True + 1)
+    with pytest.raises(ValueError, match="terminal is 'x'; give True or False"):
+        Event(lambda t, q: t, terminal="x")
 
 
 def test_one_event_alone_and_arrays_of_one_number_are_taken():

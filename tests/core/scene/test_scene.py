@@ -100,7 +100,8 @@ def test_a_bad_change_leaves_the_scene_as_it_was():
     scene = c2.Scene(typed(), z=0.5)
     first = scene["classification"]
     for bad in ({"a": float("nan")}, {"q": 1.0}, {"view": 1.0}, {"seeds": [[1, 2, 3]]}, {"psi": 3.0}, {"z": [1, 2]},
-                {"count": -1}, {"t_max": 0.0}, {"pixel": 0.0}):  # fmt: skip
+                {"count": -1}, {"t_max": 0.0}, {"pixel": 0.0},
+                {"length": -1.0}, {"rtol": 1.0}):  # fmt: skip
         with pytest.raises(ValueError, match=r"give|allowed|has"):
             scene.evolve(**bad)["inside"]
     assert scene["classification"] is first
@@ -145,3 +146,14 @@ def test_one_that_nobody_holds_is_gone_at_once(system):
         assert [one() for one in gone] == [None] * 4
     finally:
         gc.enable()
+
+
+def test_a_scene_is_a_mapping_under_the_names_of_the_functions():
+    scene = c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)), "hill:3")
+    for name in ("classify", "critical_sets", "equator_equilibria", "limit_cycles", "approach_outcomes"):
+        assert scene[name] == getattr(c2, name)(*(scene.system, scene.psi)[: 2 - (name == "equator_equilibria")])
+        assert name in scene
+    assert scene["sliding_flow"].tolist() == []
+    assert "cycles" in scene
+    assert "cycle" not in scene
+    assert len(scene) == len(dict(scene.items())) == len(list(scene))

@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import codim2_core as c2
 from codim2_core.expressions.expression import ExpressionError, parse
 from codim2_core.systems.reading import LONGEST_KEY
 from codim2_core.systems.typed import System
@@ -220,3 +221,12 @@ def test_e_linear_systems_need_no_compiler():
         sys.exit("numba" in sys.modules)
     """
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_a_system_is_written_as_its_equations():
+    assert str(c2.ELinear(-2, 0.5, "mu", (-0.5, 0), g=(1e-7,), parameters={"mu": 2})) == (
+        "x′ = -2*c - 0.5*s - 0.5\ny′ = 0.5*c + mu*s\nz1′ = 1e-07\nmu = 2"
+    )
+    assert str(c2.System(U=("K*c - 2e-3", "-s"), W=("z - c",), definitions={"K": "1+c"})) == (
+        "x′ = (1 + c)*c - 0.002\ny′ = -s\nz1′ = z1 - c"
+    )

@@ -75,7 +75,7 @@ function page({wanted = true, served = [], opens = true} = {}) {
     async warmed(ms = 10, frames = 3) {
       time.tick(4000)
       await soon()
-      for (let i = 0; i < frames; i++) { time.tick(ms); worker.say({frame: packed({late: i + 1 < frames ? ["atlas"] : []})}); if (i + 1 < frames) time.tick(100) }
+      for (let i = 0; i < frames; i++) { time.tick(ms); worker.say({frame: packed({late: i + 2 < frames ? ["atlas"] : []})}); if (i + 1 < frames) time.tick(100) }
       worker.asked()
       return one
     },
@@ -111,6 +111,16 @@ test("the server answers until the worker, loaded while the page is at rest, has
     one.time.tick(100)
   }
   assert.deepEqual(one.shown(), [{frame: "server 3"}, {frame: "server 4"}, {frame: "server 5"}])
+  assert.equal(one.set({f1: 1}), "worker")
+})
+
+test("the frame by which a worker is judged waits for no panel", async () => {
+  const one = page()
+  one.time.tick(4000); await soon()
+  for (const [ms, late] of /** @type {[number, string[]][]} */ ([[10, ["diagram"]], [10, ["diagram"]], [900, []], [10, []]])) {
+    one.time.tick(ms); one.worker.say({frame: packed({late})}); one.time.tick(100)
+  }
+  one.worker.asked()
   assert.equal(one.set({f1: 1}), "worker")
 })
 

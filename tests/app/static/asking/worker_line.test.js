@@ -95,13 +95,13 @@ const PAGE = `<div id="codim2-first"><script type="application/json" id="codim2-
 <script type="application/json" id="codim2-figure">{}</script>`
 
 /** A page without a server, at an address; what it has left in its tab; what it asks of its worker. */
-async function pageAt(search, left = null) {
+async function pageAt(search, left = null, framed = {}) {
   const made = /** @type {any[]} */ ([]), shown = /** @type {any[]} */ ([])
   const worker = new Worker()
   const there = page(PAGE, {
     location: {search, href: `http://h/x/${search}`}, history: {state: left && {codim2: {snapshot: left}}}, navigator: {}, addEventListener: () => {},
     MessageChannel: class { port1 = worker; port2 = "port" },
-    framed: {Worker: class extends EventTarget {
+    framed: {...framed, Worker: class extends EventTarget {
       constructor(...given) { super(); this.given = given }
       postMessage(wish) { const [address, {type}] = this.given; made.push({address, type, ...wish, worker}) }
     }},
@@ -162,4 +162,14 @@ test("explorers in one page and in the frames of it share a worker; one that cou
   assert.equal(lost, 1)
   call("http://h/a/worker.js", "?4")
   assert.equal(made.length, 3)
+})
+
+test("a figure tells the page around it how far it is, and when it cannot be", async () => {
+  const around = /** @type {any[]} */ ([])
+  const parent = {get document() { throw new Error("of another host") }, postMessage: (message, whom) => around.push([message.codim2, whom])}
+  const one = await pageAt("?v=1&a=-1&embed=1", null, {parent})
+  one.worker.say({loading: {bytes: 5e6, all: 18e6}})
+  one.worker.say({failed: true})
+  await new Promise((done) => setImmediate(done))
+  assert.deepEqual(around, [[{busy: "Starting the mathematics …"}, "*"], [{busy: "Loading the mathematics: 5 of 18 MB …"}, "*"], [{busy: ""}, "*"], [{failed: true}, "*"]])
 })
