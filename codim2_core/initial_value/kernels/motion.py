@@ -45,6 +45,7 @@ PASSED_SHRINKAGE = 0.5  # of a step that has passed Sigma
 ONLY = 2.0  # of IMPLICIT: and explicit never
 STABLE = 4.0  # h times a growth rate of an explicit step in a slide
 SWITCH_SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
+MAX_WORTH = 64.0  # times what is asked for at first
 MIN_IMPLICIT_STEPS = 20.0  # implicit steps that a slide takes at least, about: as many have to be saved
 
 
@@ -109,7 +110,8 @@ def _turned_implicit(motion, clock, control, work, h, remaining):
     control[SIGN_COUNT] += 1.0
     if control[SIGN_COUNT] < SWITCH_SIGNS:
         return
-    control[IMPLICIT], control[SIGN_COUNT], control[PAID_AT] = 1.0, 0.0, clock[0] + h + control[WORTH] * h
+    control[IMPLICIT], control[SIGN_COUNT] = 1.0, 0.0
+    control[PAID_AT] = clock[0] + h + MIN_IMPLICIT_STEPS * price(motion.n) * h
 
 
 @spliced_kernel
@@ -123,7 +125,8 @@ def _turned_explicit(motion, clock, control, bound, reach):
         return False
     control[IMPLICIT], control[SIGN_COUNT], control[REFINED] = 0.0, 0.0, 1.0
     # What turns back soon is asked for more the next time.
-    control[WORTH] = 2.0 * control[WORTH] if clock[0] < control[PAID_AT] else MIN_IMPLICIT_STEPS * price(motion.n)
+    least = MIN_IMPLICIT_STEPS * price(motion.n)
+    control[WORTH] = min(2.0 * control[WORTH], MAX_WORTH * least) if clock[0] < control[PAID_AT] else least
     control[NEXT] = min(control[NEXT], STABLE / reach) if reach > 0.0 else control[NEXT]
     return True
 
