@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arrays import Array
 
-LEAST_RADIUS = 1e-6  # of the picture: nearer to its middle a motion that is drawn is rounding
+LEAST_RADIUS = 1e-6  # of the picture: nearer to its middle a motion followed to 1e-7 is its own error
 
 
 def angle_along(points: Array, least: float) -> Array:

@@ -1,37 +1,30 @@
 """What is sent of a site that holds an explorer of files: pages of folders, and a worker that may compute."""
 
-from pathlib import Path
-from tempfile import TemporaryDirectory
-
+import pytest
 from codim2_app.docs.docs_folder import serve_folder
 from codim2_app.docs.docs_handlers import Docs
-from tornado.testing import AsyncHTTPTestCase
 from tornado.web import Application
 
+from tests.app.fetching import fetch_all
 
-class SiteTest(AsyncHTTPTestCase):
-    def setUp(self):
-        self.place = TemporaryDirectory()
-        inner = Path(self.place.name, "explorer-files")
-        inner.mkdir()
-        (Path(self.place.name) / "index.html").write_text("site")
-        for name in ("index.html", "worker.js", "figures.js"):
-            (inner / name).write_text(name)
-        serve_folder(Path(self.place.name))
-        super().setUp()
 
-    def tearDown(self):
-        super().tearDown()
-        serve_folder(None)
-        self.place.cleanup()
+@pytest.fixture
+def answers(tmp_path):
+    inner = tmp_path / "explorer-files"
+    inner.mkdir()
+    (tmp_path / "index.html").write_text("site")
+    for name in ("index.html", "worker.js", "figures.js"):
+        (inner / name).write_text(name)
+    serve_folder(tmp_path)
+    yield lambda *paths: fetch_all(Application([(r"/docs/(.*)", Docs)]), [(f"/docs/{path}", {}) for path in paths])
+    serve_folder(None)
 
-    def get_app(self):
-        return Application([(r"/docs/(.*)", Docs)])
 
-    def test_a_folder_is_its_page_and_a_worker_may_compile_what_it_loads(self):
-        bodies = [self.fetch(f"/docs/{path}").body for path in ("", "explorer-files/", "explorer-files/figures.js")]
-        assert bodies == [b"site", b"index.html", b"figures.js"]
-        policies = [self.fetch(f"/docs/explorer-files/{name}.js").headers.get("Content-Security-Policy", "")
-                    for name in ("worker", "figures")]  # fmt: skip
-        assert ["'wasm-unsafe-eval'" in policy for policy in policies] == [True, False]
-        assert [self.fetch(path).code for path in ("/docs/../x", "/docs/nothing/", "/docs/explorer-files")] == [404] * 3
+def test_a_folder_is_its_page_and_a_worker_may_compile_what_it_loads(answers):
+    site, folder, figures, worker = answers(
+        "", "explorer-files/", "explorer-files/figures.js", "explorer-files/worker.js"
+    )
+    assert [one.body for one in (site, folder, figures)] == [b"site", b"index.html", b"figures.js"]
+    policies = [one.headers.get("Content-Security-Policy", "") for one in (worker, figures)]
+    assert ["'wasm-unsafe-eval'" in policy for policy in policies] == [True, False]
+    assert [one.code for one in answers("../x", "nothing/", "explorer-files")] == [404] * 3

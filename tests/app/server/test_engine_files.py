@@ -10,8 +10,9 @@ from codim2_app.server import engine_files as engine_module
 from codim2_app.server.engine_files import EngineFiles, served_panels
 from codim2_app.server.live import open_page
 from codim2_app.view.opening import link_of
-from tornado.testing import AsyncHTTPTestCase
 from tornado.web import Application
+
+from tests.app.fetching import fetch_all
 
 KINDS = {
     "worker.js": "text/javascript", "folder.json": "application/json", "site.zip": "application/zip",
@@ -27,23 +28,21 @@ def engine_of(files):
         return EngineFiles(None, None)
 
 
-class FilesTest(AsyncHTTPTestCase):
-    def get_app(self):
-        self.engine = engine_of(FILES)
-        return Application([self.engine.route("/below")])
-
-    def test_each_file_is_the_same_for_ever_and_compressed_once(self):
-        for name, kind in KINDS.items():
-            address = f"/below/{self.engine.script}".replace("worker.js", name)
-            for asked in ("gzip", "identity"):
-                answer = self.fetch(address, headers={"Accept-Encoding": asked}, decompress_response=False)
-                packed = answer.headers.get("Content-Encoding") == "gzip"
-                assert packed == (asked == "gzip" and not name.endswith(("zip", "whl")))
-                assert (gzip.decompress(answer.body) if packed else answer.body) == FILES[name]
-                assert answer.headers["Content-Type"] == kind
-                assert "immutable" in answer.headers["Cache-Control"]
-                assert "'wasm-unsafe-eval'" in answer.headers["Content-Security-Policy"]
-        assert self.fetch(f"/below/{self.engine.script}x").code == 404
+def test_each_file_is_the_same_for_ever_and_compressed_once():
+    engine = engine_of(FILES)
+    asked = [(name, packing) for name in KINDS for packing in ("gzip", "identity")]
+    requests = [
+        (f"/below/{engine.script}".replace("worker.js", name), {"Accept-Encoding": packing}) for name, packing in asked
+    ]
+    *answers, none = fetch_all(Application([engine.route("/below")]), [*requests, (f"/below/{engine.script}x", {})])
+    for (name, packing), answer in zip(asked, answers, strict=True):
+        packed = answer.headers.get("Content-Encoding") == "gzip"
+        assert packed == (packing == "gzip" and not name.endswith(("zip", "whl")))
+        assert (gzip.decompress(answer.body) if packed else answer.body) == FILES[name]
+        assert answer.headers["Content-Type"] == KINDS[name]
+        assert "immutable" in answer.headers["Cache-Control"]
+        assert "'wasm-unsafe-eval'" in answer.headers["Content-Security-Policy"]
+    assert none.code == 404
 
 
 def test_another_file_has_another_address():
