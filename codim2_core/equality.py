@@ -23,7 +23,8 @@ class ByValue:
         return self is other or all(equal_values(value, getattr(other, name)) for name, value in compared_fields(self))
 
     def __hash__(self) -> int:
-        return hash((type(self), *(value for _, value in compared_fields(self) if type(value) in (str, int, bool))))
+        texts = (value for _, value in compared_fields(self) if type(value) is str)  # equal numbers may differ in type
+        return hash((type(self), *texts))
 
 
 def compared_fields(result: ByValue) -> list[tuple[str, Any]]:

@@ -85,7 +85,8 @@ def from_text(text: str) -> Psi:
     """
     if not isinstance(text, str):
         raise ValueError(f"text is {reprlib.repr(text)}; give text such as 'hill:3' or '1/(1 + s)'.")
-    name, _, number = text.strip().partition(":")
+    text = text.strip()
+    name, _, number = text.partition(":")
     record = FAMILIES.get(name)
     if record is None or record.typed:
         identity = next(one for one in FAMILIES.values() if one.identity)

@@ -36,6 +36,9 @@ def test_one_number_makes_two_results_unlike():
     (C,) = c2.critical_sets(FOUR, ONE)
     assert c2.critical_sets(FOUR, ONE) == (replace(C, e=C.e.copy()),)
     assert c2.critical_sets(FOUR, ONE) != (replace(C, kind="saddle"),)
+    exact = replace(c2.equator_equilibria(FOUR), exact_count=4.0)  # equal, of another type
+    assert exact == c2.equator_equilibria(FOUR)
+    assert hash(exact) == hash(c2.equator_equilibria(FOUR))
 
 
 @pytest.mark.parametrize("key", KEYS)

@@ -119,7 +119,7 @@ def test_what_cannot_be_registered():
     ("text", "psi"),
     [
         ("constant", c2.psi.constant()), ("tanh", c2.psi.tanh()), ("hill:3", c2.psi.hill(3)), ("hill", c2.psi.hill(2)),
-        (" tanh ", c2.psi.tanh()), ("1", c2.psi.constant()),
+        (" tanh ", c2.psi.tanh()), (" 1", c2.psi.constant()),
         ("1/(1+s)**2", c2.psi.custom("1/(1+s)**2")),
     ],
 )  # fmt: skip
