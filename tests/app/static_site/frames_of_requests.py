@@ -67,3 +67,8 @@ def frames():
     serve_with(WorkQueue(AtOnce()))
     page = Frames(ExplorerState())
     return [page.answer({"id": number, **request}) for number, request in enumerate(requests())]
+
+
+def written():
+    """Return the frames one after the other, each after its length."""
+    return b"".join(len(one).to_bytes(4, "little") + one for one in frames())

@@ -2,18 +2,15 @@
 
 import os
 import shutil
-import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
 from codim2_app.draw.packing import INT16_STEP, unpack
 from codim2_app.draw.theme import HALF_VIEW
-from codim2_app.static_site.folder import site_zip
-
-import codim2_core
 
 from .frames_of_requests import frames, requests
+from .in_pyodide import run_in_pyodide
 
 HERE = Path(__file__).parent
 #: Numbers of headers; digits of two processors differ less.
@@ -24,25 +21,15 @@ ASIDE = {"load", "compiled", "lines", "blocks"}
 
 
 @pytest.fixture(scope="module")
-def both(tmp_path_factory):
-    release, node = os.environ.get("CODIM2_PYODIDE"), shutil.which("node")
-    if release is None or node is None:
+def both():
+    release = os.environ.get("CODIM2_PYODIDE")
+    if release is None or shutil.which("node") is None:
         pytest.skip("set CODIM2_PYODIDE to the folder of Pyodide's release, with its wheel of NumPy; Node runs it")
-    kernels = (
-        Path(release)
-        if (Path(release) / "kernels.so").is_file()
-        else Path(codim2_core.__file__).parent / "jit/compiled"
-    )
-    site = tmp_path_factory.mktemp("site") / "site.zip"
-    site.write_bytes(site_zip(kernels))
-    done = subprocess.run(
-        [node, HERE / "run_python.mjs", release, site, HERE / "frames_of_requests.py"], capture_output=True, check=False
-    )
-    assert done.returncode == 0, done.stderr.decode()[-3000:]
+    written = run_in_pyodide(Path(release), HERE / "frames_of_requests.py")
     there, at = [], 0
-    while at < len(done.stdout):
-        size = int.from_bytes(done.stdout[at : at + 4], "little")
-        there.append(done.stdout[at + 4 : at + 4 + size])
+    while at < len(written):
+        size = int.from_bytes(written[at : at + 4], "little")
+        there.append(written[at + 4 : at + 4 + size])
         at += 4 + size
     return frames(), there
 
