@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -45,7 +46,7 @@ def join(pieces: Sequence[Points]) -> tuple[NDArray[np.int64], Points]:
     """Return offsets (k + 1,) and points (n, 2): piece i is ``points[offsets[i]:offsets[i + 1]]``."""
     if not pieces:
         return np.zeros(1, np.int64), np.zeros((0, 2))
-    return np.cumsum([0, *map(len, pieces)]), np.concatenate(pieces)
+    return np.array([0, *accumulate(map(len, pieces))]), np.concatenate(pieces)
 
 
 def spread(angles: Sequence[float], gap: float = LABEL_GAP) -> list[float]:
@@ -97,10 +98,8 @@ def equator_columns(equator: Any) -> dict[str, list[Any]]:
     ``shape`` is "circle" where it is angularly attracting, "diamond" where repelling, "triangle" if degenerate;
     ``colour`` is a key of the themes.
     """
-    theta = [float(v) for v in equator.theta]
-    rho = [float(v) for v in equator.lambda_rho]
-    ang = [float(v) for v in equator.lambda_theta]
-    multiplicity = [int(v) for v in equator.multiplicity]
+    theta, rho, ang = equator.theta.tolist(), equator.lambda_rho.tolist(), equator.lambda_theta.tolist()
+    multiplicity = equator.multiplicity.tolist()
     around = [theta[0] + (angle - theta[0]) % math.tau for angle in theta]  # Q1 need not be the first after 0
     labels = [angle + LABEL_TURN for angle in spread(around)]
     shapes = [
@@ -200,7 +199,9 @@ def eigen_columns(objects: Sequence[Linearised]) -> list[dict[str, Any]]:
     """Return the eigenvectors of each object, as x, y, eigenvalue and where; and why others have none."""
     return [
         {
-            "directions": [[*(round(v, 5) for v in d.direction), d.value, d.where] for d in one.directions],
+            "directions": [
+                [round(d.direction[0], 5), round(d.direction[1], 5), d.value, d.where] for d in one.directions
+            ],
             "turning": one.turning,
             "every": one.every,
         }

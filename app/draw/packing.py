@@ -103,8 +103,13 @@ def pack(
     ValueError
         If the header holds NaN or infinity: JSON has no word for them, so they must be named before.
     """
-    lines = {name: block for name, block in blocks.items() if isinstance(block, Polylines)}
-    arrays = {name: block for name, block in blocks.items() if not isinstance(block, Polylines)}
+    lines: dict[str, Polylines] = {}
+    arrays: dict[str, NDArray[Any]] = {}
+    for name, block in blocks.items():
+        if isinstance(block, Polylines):
+            lines[name] = block
+        else:
+            arrays[name] = block
     listing: dict[str, Any] = {}
     parts = [b"", b""]
     if lines:
@@ -143,8 +148,9 @@ def _pack_layers(
             heads.append(placed)
         rows.append((name, len(offsets) - 1, len(points), None if placed is None else len(placed)))
     all_heads = np.concatenate(heads) if heads else EMPTY_POLYLINE
-    places = np.concatenate([*(layer.points for layer in lines.values()), all_heads[:, :2]])
-    counts = np.concatenate([np.diff(layer.offsets) for layer in lines.values()]).astype(np.uint16).tobytes()
+    places = np.concatenate([line.points for line in lines.values()] + [all_heads[:, :2]])
+    counts = np.concatenate([line.offsets[1:] - line.offsets[:-1] for line in lines.values()])
+    counts = counts.astype(np.uint16).tobytes()
     data = (
         counts,
         b"\0" * (-len(counts) % 4),

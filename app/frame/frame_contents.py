@@ -148,7 +148,7 @@ def _changed_blocks(
                     blocks[part.name] = Polylines(*glyphs.join([]), part.arrows)
                 continue
             if layer.optional and part.name not in now and not len(result):
-                continue
+                break
             if _fresh(now, part.name, result) or moved:
                 offsets, points = part.pieces(result)
                 names = part.owners(result) if part.owners else None
@@ -180,8 +180,7 @@ def _portrait_text(asked: RequestedLayers, ready: bool) -> Any:
 
 def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: RequestedLayers, ready: bool) -> None:
     """Add what is said of the setting: limit directions, critical sets, the portrait's name, the slow flow."""
-    equator, cycle, critical = (asked.get(name) for name in ("equator", "equator_cycle", "critical"))
-    eigen = asked.get("eigendirections")
+    equator, cycle, critical, eigen = map(asked.get, ("equator", "equator_cycle", "critical", "eigendirections"))
     name, flow = _portrait_text(asked, ready), asked.get("slow_flow")
     if equator is NOT_DRAWN:
         equator, cycle = no_directions(), None

@@ -188,9 +188,9 @@ class Frames:
         heads = header.get("ready", True) or (
             arrowheads.is_warm() and spacing.is_warm()
         )  # no frame waits for the compiler
-        guards = None  # the cycles that are drawn: orbits keep away from them
-        if "cycles" in self.values["layers"] and (found := self.scene.results().get("closed_orbits")):
-            guards = glyphs.join([one.points for one in found.cycles])
+        drawn = self._sent.get("cycles") if "cycles" in self.values["layers"] else None
+        cycles = getattr(drawn, "cycles", ())  # orbits keep away from these
+        guards = glyphs.join([one.points for one in cycles]) if cycles else None
         if self.window is None:
             return pack(header, blocks, heads=heads, guards=guards)
         return pack(header, blocks, self.window.rectangle, self.window.pixel, heads, guards)

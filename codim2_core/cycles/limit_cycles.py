@@ -165,6 +165,13 @@ def reason_for_none(
     return None
 
 
+@found_once()
+def excluding_theorem(problem: LayerProblem) -> str | None:
+    """Return the theorem that excludes limit cycles of a layer problem (`reason_for_none`), or None."""
+    form = problem.at.normal_form
+    return None if form is None else reason_for_none(form, problem.critical, problem.location)
+
+
 def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool = False) -> LimitCycles:
     """Find the limit cycles of the layer problem, eq:LP, sec:case3 (the closed equator is not one of them).
 
@@ -206,17 +213,15 @@ def proof_of(problem: LayerProblem) -> Proof:
     """Prove how many limit cycles a layer problem has, as far as that can be done."""
     from .proof.prove import prove_count
 
-    found, form = closed_orbits(problem), problem.at.normal_form
-    forbidden = None if form is None else reason_for_none(form, problem.critical, problem.location)
-    return prove_count(problem, [cycle.points for cycle in found.cycles], forbidden)
+    found = closed_orbits(problem)
+    return prove_count(problem, [cycle.points for cycle in found.cycles], excluding_theorem(problem))
 
 
 def provable(problem: LayerProblem) -> str:
     """Say how the number of limit cycles may be proved: by a "theorem", by a "certificate", or "", not at all."""
-    form = problem.at.normal_form
-    if form is None:
+    if problem.at.normal_form is None:
         return ""
-    if reason_for_none(form, problem.critical, problem.location) is not None:
+    if excluding_theorem(problem) is not None:
         return "theorem"
     return "certificate" if covers(problem.psi) else ""
 
@@ -274,7 +279,7 @@ def return_map_samples_of(problem: LayerProblem) -> ReturnMapSamples | str:
     """Sample the return map of an e-linear layer problem in its own axes, or say why a theorem forbids cycles."""
     coefficients, critical, location = problem.at.normal_form, problem.critical, problem.location
     assert coefficients is not None
-    reason = reason_for_none(coefficients, critical, location)
+    reason = excluding_theorem(problem)
     return (
         sample_return_map(Section(coefficients, problem.psi, critical[0], location=location))
         if reason is None

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import ctypes
 import json
-import struct
+import math
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
+from struct import Struct
 from tempfile import NamedTemporaryFile
 from typing import Any
 
@@ -70,7 +71,7 @@ class TabledKernel:
     def __init__(self, function: Callable[..., Any]) -> None:
         self.py_func = function
         self.__name__, self.__doc__, self.__module__ = function.__name__, function.__doc__, function.__module__
-        self._signatures: list[tuple[Any, list[Any], list[Any]]] | None = None
+        self._signatures: dict[tuple[Any, ...], _Signature] = {}  # by the types of arguments that have come
 
     def __call__(self, *given: Any) -> Any:
         """Run it.
@@ -80,11 +81,21 @@ class TabledKernel:
         NotImplementedError
             It was not compiled for arguments such as these.
         """
-        if self._signatures is None:
-            self._signatures = table().kernels.get((self.__module__, self.__name__), [])
-        for function, takes, returns in self._signatures:
+        types = tuple(
+            [
+                (one.dtype.char, one.ndim, one.flags.c_contiguous) if type(one) is np.ndarray else type(one)
+                for one in given
+            ]
+        )
+        signature = self._signatures.get(types)
+        if signature is None:
+            signature = self._signatures[types] = self._find_signature(given)
+        return signature.call(given)
+
+    def _find_signature(self, given: tuple[Any, ...]) -> _Signature:
+        for function, takes, returns in table().kernels.get((self.__module__, self.__name__), []):
             if len(takes) == len(given) and all(map(_fits, takes, given)):
-                return _call(function, takes, returns, given)
+                return _Signature(function, takes, returns)
         kinds = ", ".join(
             f"{one.dtype}[{one.ndim}]" if isinstance(one, np.ndarray) else type(one).__name__ for one in given
         )
@@ -105,55 +116,62 @@ def _fits(takes: list[Any], one: Any) -> bool:
     return isinstance(one, (int, np.integer)) and not isinstance(one, bool)
 
 
-def _call(function: Any, takes: list[Any], returns: list[Any], given: tuple[Any, ...]) -> Any:
-    """Write the arguments, call, and read what is returned."""
-    code, numbers, back, held = ["<"], [], [], []
-    for kind, one in zip(takes, given, strict=True):
-        if len(kind) > 1:  # an array
-            array = one
-            if array.dtype.name != kind[0]:
-                array = one.astype(kind[0])
-                held.append(array)
-                if one.flags.writeable:
+class _Signature:
+    """One signature of a kernel: how its arguments are written, and what it returns is read."""
+
+    def __init__(self, function: Any, takes: list[list[Any]], returns: list[Any]) -> None:
+        self.function, self.several = function, returns[0] == "tuple"
+        # of an array its type and its number of dimensions, of a number the type of which it is made
+        self.takes = [np.dtype(kind[0]) if len(kind) > 1 else None if kind[0] == "float64" else int for kind in takes]
+        self.returns = [(np.dtype(kind[0]), kind[1]) if len(kind) > 1 else kind[0] for kind in returns[1]]
+        self.given = Struct("<" + "".join(_format_of(kind, 1, 2) for kind in takes))
+        self.found = Struct("<" + "".join(_format_of(kind, 2, 1) for kind in returns[1]))
+
+    def call(self, given: tuple[Any, ...]) -> Any:
+        """Write the arguments, call, and read what is returned."""
+        numbers, back = [], []
+        for kind, one in zip(self.takes, given, strict=True):
+            if kind is None:
+                numbers.append(one)
+            elif kind is int:
+                numbers.append(int(one))
+            else:
+                array = one
+                if array.dtype != kind:
+                    array = one.astype(kind)
                     back.append((one, array))
-            code.append(f"{1 + 2 * array.ndim}q")
-            numbers += [array.__array_interface__["data"][0] if array.size else 8, *array.shape, *array.strides]
-        elif kind[0] == "float64":
-            code.append("d")
-            numbers.append(one)
-        else:
-            code.append("q")
-            numbers.append(int(one))
-    struct.pack_into("".join(code), _slots, 0, *numbers)
-    status = function(_place)
-    if status:
-        raise RuntimeError(f"a kernel has ended with {status}")
-    for one, array in back:
-        one[...] = array
-    found, k = [], 0
-    for kind in returns[1]:
-        if len(kind) > 1:
-            found.append(_read_array(kind, k))
-            k += 2 + kind[1]
-        elif kind[0] == "float64":
-            found.append(struct.unpack_from("<d", _slots, 8 * k)[0])
-            k += 1
-        else:
-            found.append(bool(_slots[k]) if kind[0] == "bool" else _slots[k])
-            k += 1
-    return tuple(found) if returns[0] == "tuple" else found[0] if found else None
+                numbers += (array.__array_interface__["data"][0] if array.size else 8, *array.shape, *array.strides)
+        self.given.pack_into(_slots, 0, *numbers)
+        status = self.function(_place)
+        if status:
+            raise RuntimeError(f"a kernel has ended with {status}")
+        for one, array in back:
+            if one.flags.writeable:
+                one[...] = array
+        values, found, k = self.found.unpack_from(_slots), [], 0
+        for kind in self.returns:
+            if type(kind) is tuple:
+                dtype, dimensions = kind
+                shape = values[k + 2 : k + 2 + dimensions]
+                found.append(_read_array(values[k], values[k + 1], dtype, shape))
+                k += 2 + dimensions
+            else:
+                found.append(bool(values[k]) if kind == "bool" else values[k])
+                k += 1
+        return tuple(found) if self.several else found[0] if found else None
 
 
-def _read_array(kind: list[Any], k: int) -> Any:
+def _format_of(kind: list[Any], first: int, each: int) -> str:
+    """Return the format of a number, or of an array: so many numbers, and so many for each dimension."""
+    return f"{first + each * kind[1]}q" if len(kind) > 1 else "d" if kind[0] == "float64" else "q"
+
+
+def _read_array(owner: int, data: int, dtype: np.dtype[Any], shape: tuple[int, ...]) -> Any:
     """Copy an array that a kernel has made, and let it go."""
-    owner, data, dtype = _slots[k], _slots[k + 1], np.dtype(kind[0])
-    shape = tuple(_slots[k + 2 : k + 2 + kind[1]])
-    size = dtype.itemsize
-    for n in shape:
-        size *= n
-    array = np.frombuffer(bytearray(ctypes.string_at(data, size)), dtype).reshape(shape)
+    content = bytearray(ctypes.string_at(data, dtype.itemsize * math.prod(shape)))
     table().library.let_go(owner)
-    return array.astype(np.intp) if kind[0] == "int64" else array
+    array = np.frombuffer(content, dtype).reshape(shape)
+    return array.astype(np.intp) if dtype == np.int64 else array
 
 
 kernel = held_kernel = fast_kernel = inlined_kernel = inlined_fast_kernel = contracted_kernel = TabledKernel

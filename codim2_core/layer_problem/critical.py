@@ -143,7 +143,7 @@ def _linear_set(at: FrozenSystem, psi: Psi, affine: Affine, location: Location, 
         return _critical_set(e, _turned_parts(parts, at.turn), shift, slow_flow_at(at, e))
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
     shift = math.frexp(max(map(abs, form.plane[:3])))[1]
-    a, b, d = (math.ldexp(v, -shift) for v in form.plane[:3])
+    a, b, d = [math.ldexp(v, -shift) for v in form.plane[:3]]
     parts = linearisation((a, b, d), psi, e, location.complement, sign)
     return _critical_set(e, parts, shift, slow_flow_at(at, e))
 

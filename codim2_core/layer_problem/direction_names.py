@@ -48,8 +48,9 @@ def _first_index(before: NDArray[np.float64], theta: NDArray[np.float64]) -> int
     """Index in `theta`, increasing from 0, of the direction that is the first one before."""
     if len(before) != len(theta):
         return int(np.argmin(np.abs(_wrap_angle(theta - before[0]))))
-    sums = [float((_wrap_angle(np.roll(theta, -k) - before) ** 2).sum()) for k in range(len(theta))]
-    return int(np.argmin(sums))
+    one = np.arange(len(theta))
+    turned = theta[(one[:, None] + one) % len(theta)]  # row k begins with direction k
+    return int((_wrap_angle(turned - before) ** 2).sum(axis=1).argmin())
 
 
 def _wrap_angle(angle: NDArray[np.float64]) -> NDArray[np.float64]:

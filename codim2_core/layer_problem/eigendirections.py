@@ -20,7 +20,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..arrays import Array
+from ..arrays import Array, join_columns
 from ..numerics.trigonometric import INPUT_ROUNDING
 from ..systems.frozen import FrozenSystem
 from .critical import CriticalSet
@@ -129,8 +129,8 @@ def of_limit_directions(problem: LayerProblem) -> tuple[Linearised, ...]:
     on, at, psi = problem.equator, problem.at, problem.psi
     if not len(on):
         return ()
-    e = np.stack([np.cos(on.theta), np.sin(on.theta)], axis=-1)
-    across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
+    e = join_columns(np.cos(on.theta), np.sin(on.theta))
+    across = join_columns(-e[:, 1], e[:, 0])
     tilting = np.einsum("ki,kij,kj->k", across, at.DU(e), e)
     tilting[tilting != 0.0] *= psi.limit  # infinite of a Psi that grows for ever (R5)
     lifting = (across * _along_rho(at, e)).sum(axis=-1)

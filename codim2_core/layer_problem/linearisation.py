@@ -20,7 +20,7 @@ def scale_by_power_of_two(values: tuple[float, ...]) -> tuple[float, ...]:
     if size == 0.0:
         return values
     shift = -math.frexp(size)[1]
-    return tuple(math.ldexp(v, shift) for v in values)
+    return tuple([math.ldexp(v, shift) for v in values])
 
 
 def exact_determinant(a: float, b: float, d: float) -> float:
@@ -50,7 +50,7 @@ def determinant_sign(a: float, b: float, d: float) -> int:
 def matrix_determinant(m11: float, m12: float, m21: float, m22: float) -> tuple[float, int]:
     """``det M`` of the doubles as given, to full relative accuracy, and its sign: 0 within their rounding."""
     shift = -math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22)) or 1.0)[1]
-    m11, m12, m21, m22 = (math.ldexp(v, shift) for v in (m11, m12, m21, m22))
+    m11, m12, m21, m22 = [math.ldexp(v, shift) for v in (m11, m12, m21, m22)]
     det, size = m11 * m22 - m12 * m21, abs(m11 * m22) + abs(m12 * m21)
     if size == 0.0:
         return 0.0, 0

@@ -36,7 +36,7 @@ class CachedFunction(Generic[Result]):
 
     def __call__(self, problem: LayerProblem) -> Result:
         """Return what was found in a problem, or find it."""
-        return problem.keep(self)
+        return problem.found[self] if self in problem.found else problem.keep(self)
 
 
 def found_once(
@@ -84,6 +84,11 @@ class LayerProblem:
     cut : float
         Angle from which limit directions are counted: Q1 is the first at or after it.
 
+    Attributes
+    ----------
+    found : dict
+        What has been found in it, by the function that found it.
+
     Examples
     --------
     >>> from codim2_core import ELinear, psi
@@ -94,7 +99,7 @@ class LayerProblem:
 
     def __init__(self, at: FrozenSystem, psi: Psi, cut: float = 0.0) -> None:
         self.at, self.psi, self.cut = at, psi, cut
-        self._kept: dict[CachedFunction[Any], Any] = {}
+        self.found: dict[CachedFunction[Any], Any] = {}
         self._others: dict[Psi, LayerProblem] = {}  # made from this one
         self._base = ref(self)  # no cycles: a problem that nobody holds is gone at once
 
@@ -107,14 +112,14 @@ class LayerProblem:
         base = self._base() or self
         if not finding.of_psi and base is not self:
             return base.keep(finding)
-        if finding not in self._kept:
-            self._kept[finding] = finding.compute(self)
-        return self._kept[finding]
+        if finding not in self.found:
+            self.found[finding] = finding.compute(self)
+        return self.found[finding]
 
     def give(self, finding: CachedFunction[Result], result: Result | None) -> LayerProblem:
         """Keep what is known already, unless it is None; return this problem."""
         if result is not None:
-            self._kept[finding] = result
+            self.found[finding] = result
         return self
 
     def with_psi(self, psi: Psi) -> LayerProblem:

@@ -18,12 +18,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Array
+from ..arrays import Array, join_columns
 from ..numerics.trigonometric import radial_zeros
 from ..systems.coefficients import Coefficients
 from ..systems.frozen import FrozenSystem
 from .general_nullclines import Kind
 
+Point = tuple[float, float]
 ConicCurve = Callable[[Array], Array]  # a parameter in [0, 1] -> points of the closed e-disc
 
 SPIKE = 0.9  # |e| beyond which a nullcline that turns back is drawn from there on both sides
@@ -62,16 +63,15 @@ def _linear_part(kind: Kind, U: Affine) -> tuple[float, float]:
     return (U[2], U[5]) if kind == "rho" else (U[5], -U[2])
 
 
-def chord_ends(n1: float, n2: float, k: float) -> tuple[Array, Array] | None:
+def chord_ends(n1: float, n2: float, k: float) -> tuple[Point, Point] | None:
     """Return the ends on the unit circle of the line n.e + k = 0, or None if it misses the open disc."""
     length = math.hypot(n1, n2)
     if length <= abs(k):
         return None
     foot = -k / length
     half = math.sqrt((1.0 - foot) * (1.0 + foot))
-    u = np.array([n1, n2]) / length
-    across = np.array([-u[1], u[0]])
-    return foot * u - half * across, foot * u + half * across
+    c, s = n1 / length, n2 / length
+    return (foot * c + half * s, foot * s - half * c), (foot * c - half * s, foot * s + half * c)
 
 
 def _null_directions(q11: float, q12: float, q22: float) -> list[float]:
@@ -88,12 +88,13 @@ def _null_directions(q11: float, q12: float, q22: float) -> list[float]:
 class Straight:
     """A straight curve of the e-disc between two points."""
 
-    start: Array
-    end: Array
+    start: Point
+    end: Point
 
     def __call__(self, t: Array) -> Array:
         """Points at the parameters t in [0, 1]."""
-        return self.start + t[:, None] * (self.end - self.start)
+        start, end = np.array([self.start, self.end])
+        return start + t[:, None] * (end - start)
 
     @property
     def is_diameter(self) -> bool:
@@ -107,12 +108,12 @@ def conic(kind: Kind, U: Affine, ends: list[float]) -> list[ConicCurve]:
     l1, l2 = _linear_part(kind, U)
     size_q, size_l = max(abs(q11), abs(q12), abs(q22)), math.hypot(l1, l2)
     if size_l == 0.0:
-        diameters = [np.array([math.cos(t), math.sin(t)]) for t in _null_directions(q11, q12, q22)]
-        return [Straight(-u, u) for u in diameters]
+        diameters = [(math.cos(t), math.sin(t)) for t in _null_directions(q11, q12, q22)]
+        return [Straight((-c, -s), (c, s)) for c, s in diameters]
     c0, s0 = l2 / size_l, -l1 / size_l  # the direction with L = 0: the tangent of the conic at the origin
     at_tangent = q11 * c0 * c0 + q12 * s0 * c0 + q22 * s0 * s0
     if abs(at_tangent) <= 1e-9 * size_l:  # within an angle of 1e-9, far below a pixel, the tangent is the curve
-        branches = [Straight(np.array([-c0, -s0]), np.array([c0, s0]))]
+        branches = [Straight((-c0, -s0), (c0, s0))]
         if size_q > 0.0:
             # Q = (l.e)(k.e) with k found along l and across it; the rest of the conic is the line k.e + 1 = 0.
             u1, u2 = l1 / size_l, l2 / size_l
@@ -158,7 +159,7 @@ class Arc:
     def __call__(self, t: Array) -> Array:
         """Points at the parameters t in [0, 1]."""
         m, c, s = self._polar(t)
-        return np.stack([m * c, m * s], axis=-1)
+        return join_columns(m * c, m * s)
 
     def tips(self) -> list[float]:
         """Parameters inside at which it comes nearest to the unit circle: Psi draws these out to spikes."""

@@ -11,14 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
-from ..layer_problem.equator import equator_equilibria
+from ..layer_problem.problem import LayerProblem, found_once
 from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..results import Pictured, Results, Tabled
-from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from ..tables import point
-from .conics import ConicCurve, Straight, affine_field, chord_ends, conic, lines
+from .conics import Affine, ConicCurve, Straight, affine_field, chord_ends, conic, lines
 from .general_nullclines import Kind, inside_curves, outside_curves
 from .polylines import picture_points
 from .view_refinement import Seen, on_component
@@ -65,11 +64,15 @@ class Nullclines(Results[NullclineBranch], Pictured):
 _NULLCLINE_NAMES: dict[Kind, str] = {"rho": "ρ′ = 0", "theta": "θ′ = 0", "U1": "U₁ = 0", "U2": "U₂ = 0"}
 
 
-def inside_nullclines(
-    coefficients: FrozenSystem, psi: Psi, limit_directions: list[float], seen: Seen | None = None
-) -> tuple[NullclineBranch, ...]:
-    """Nullclines on the hemisphere; `limit_directions` are the zeros of Theta (where theta-nullclines end)."""
-    affine = affine_field(coefficients)
+@found_once(of_psi=False)
+def find_affine_field(problem: LayerProblem) -> tuple[Affine, list[float]] | None:
+    """Return U where it is affine, and where lambda_rho vanishes: what is drawn inside and outside begins with it."""
+    return affine_field(problem.at)
+
+
+def inside_nullclines(problem: LayerProblem, seen: Seen | None = None) -> tuple[NullclineBranch, ...]:
+    """Nullclines on the hemisphere; theta-nullclines end at the limit directions."""
+    coefficients, psi, affine = problem.at, problem.psi, find_affine_field(problem)
     if affine is None:
         return tuple(
             _make_branch(kind, True, picture_points(curve, psi, seen, on_component(coefficients, kind, inside=True)))
@@ -78,7 +81,7 @@ def inside_nullclines(
     U, radial = affine
     ends: tuple[tuple[Kind, list[float]], ...] = (
         ("rho", radial),
-        ("theta", limit_directions),
+        ("theta", problem.equator.theta.tolist()),
     )
     shapes: list[tuple[Kind, ConicCurve]] = []
     for kind, angles in ends:
@@ -96,15 +99,13 @@ def _make_branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
     return NullclineBranch(kind, inside, points)
 
 
-def outside_nullclines(
-    coefficients: FrozenSystem, limit_directions: list[float], view: float, seen: Seen | None = None
-) -> tuple[NullclineBranch, ...]:
+def outside_nullclines(problem: LayerProblem, view: float, seen: Seen | None = None) -> tuple[NullclineBranch, ...]:
     """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued.
 
     Where U is not affine in (c, s), U1 = 0 and U2 = 0 are rays too, and none is straight if U reads x or y.
     """
     reach = math.sqrt(2.0) * view
-    affine = affine_field(coefficients)
+    coefficients, affine = problem.at, find_affine_field(problem)
     if affine is None:
         one = constant()
         return tuple(
@@ -115,21 +116,19 @@ def outside_nullclines(
     branches = []
     rays: tuple[tuple[Kind, list[float]], ...] = (
         ("rho", radial),
-        ("theta", limit_directions),
+        ("theta", problem.equator.theta.tolist()),
     )
     for kind, angles in rays:
         for t in angles:
-            u = np.array([math.cos(t), math.sin(t)])
-            branches.append(NullclineBranch(kind, False, np.stack([u, reach * u])))
+            c, s = math.cos(t), math.sin(t)
+            branches.append(_make_branch(kind, False, np.array([(c, s), (reach * c, reach * s)])))
     for kind, (n1, n2, k) in lines(U):
         outer, inner = chord_ends(n1, n2, k / reach), chord_ends(n1, n2, k)
         if outer is None:
             continue
-        start, end = reach * outer[0], reach * outer[1]
+        start, end = [(reach * x, reach * y) for x, y in outer]
         pieces = [(start, end)] if inner is None else [(start, inner[0]), (inner[1], end)]
-        branches += [NullclineBranch(kind, False, np.stack(piece)) for piece in pieces]
-    for branch in branches:
-        branch.points.flags.writeable = False
+        branches += [_make_branch(kind, False, np.array(piece)) for piece in pieces]
     return tuple(branches)
 
 
@@ -151,7 +150,5 @@ def nullclines(system: AnySystem, psi: Psi, z: ArrayLike = (), *, view: float = 
     """
     if not view > 1.0:
         raise ValueError(f"view is {view}; give a half-width greater than 1 (the equator).")
-    coefficients = system.at(z)
-    directions = [float(t) for t in equator_equilibria(coefficients).theta]
-    inside = inside_nullclines(coefficients, psi, directions)
-    return Nullclines(inside + outside_nullclines(coefficients, directions, view))
+    problem = LayerProblem(system.at(z), psi)
+    return Nullclines(inside_nullclines(problem) + outside_nullclines(problem, view))

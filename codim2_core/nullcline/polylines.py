@@ -54,9 +54,9 @@ def picture_points(curve: ConicCurve, psi: Psi, seen: Seen | None = None, exactl
     the curve is `seen`. `exactly` brings points of a traced curve onto what it was traced for.
     """
     if isinstance(curve, Straight) and (psi.record.identity or curve.is_diameter):
-        return _onto_disc(psi, np.stack([curve.start, curve.end]))  # Psi moves points along their radius
+        return _onto_disc(psi, np.array([curve.start, curve.end]))  # Psi moves points along their radius
     if isinstance(curve, Traced) and curve.straight:
-        return picture_points(Straight(curve.points[0], curve.points[-1]), psi, seen)
+        return picture_points(Straight(tuple(curve.points[0]), tuple(curve.points[-1])), psi, seen)
     t, points = _sample_curve(curve, psi)
     if seen is None or not seen.steps_in_view(points).any():
         return points

@@ -170,8 +170,8 @@ def _finish(
 ) -> TrigonometricZeros:
     if fast is not None:
         zeros, distance = fast
-        theta = tuple(z[0] for z in zeros)
-        slope = tuple(math.ldexp(z[1], exponent) for z in zeros)
+        theta = tuple([z[0] for z in zeros])
+        slope = tuple([math.ldexp(z[1], exponent) for z in zeros])
         return TrigonometricZeros(theta, slope, (1,) * len(theta), False, len(theta), distance)
     exact = solve_exactly(inputs, patterns)
     # In cyclic order already: zeros closer than the spacing of doubles keep it.

@@ -34,12 +34,14 @@ class Orbits(ByValue):
     def _order(self) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
         """Places of all points in (backward.buffer, forward.buffer) laid end to end, and offsets (k + 1,)."""
         back, ahead = self.backward.offsets, self.forward.offsets
-        before, after = np.diff(back) - 1, np.diff(ahead)  # the seed is drawn once
-        offsets = np.concatenate([[0], np.cumsum(before + after)])
-        within = np.arange(offsets[-1]) - np.repeat(offsets[:-1], before + after)
-        past = within < np.repeat(before, before + after)
-        from_back = np.repeat(back[1:] - 1, before + after) - within
-        from_ahead = np.repeat(back[-1] + ahead[:-1] - before, before + after) + within
+        before, after = back[1:] - back[:-1] - 1, ahead[1:] - ahead[:-1]  # the seed is drawn once
+        counts = before + after
+        offsets = np.zeros(len(counts) + 1, np.int64)
+        counts.cumsum(out=offsets[1:])
+        within = np.arange(offsets[-1]) - offsets[:-1].repeat(counts)
+        past = within < before.repeat(counts)
+        from_back = (back[1:] - 1).repeat(counts) - within
+        from_ahead = (back[-1] + ahead[:-1] - before).repeat(counts) + within
         return np.where(past, from_back, from_ahead), offsets
 
     @property

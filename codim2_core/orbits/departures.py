@@ -19,6 +19,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arrays import join_columns
 from ..psi.function import Psi
 from ..systems.frozen import FrozenSystem
 
@@ -77,19 +78,19 @@ def departures_under(
     if not np.isfinite(angle).all():
         raise ValueError(f"theta is {theta!r}; every limit direction must be a finite angle in radians.")
     size = at.speed
-    e = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    across = np.stack([-e[:, 1], e[:, 0]], axis=-1)
+    e = join_columns(np.cos(angle), np.sin(angle))
+    across = join_columns(-e[:, 1], e[:, 0])
     U, DU = at.U(e) / size, at.DU(e) / size
     Theta, lambda_rho = (across * U).sum(axis=-1), (e * U).sum(axis=-1)
     tilting = np.einsum("ki,kij,kj->k", across, DU, e)
     lambda_theta = np.einsum("ki,kij,kj->k", across, DU, across) - lambda_rho
-    for i in np.flatnonzero(np.abs(Theta) > LIMIT):
+    for i in (np.abs(Theta) > LIMIT).nonzero()[0]:
         raise ValueError(
             f"theta[{i}] = {angle[i]} is no limit direction: Theta is {Theta[i] * size:.3g} there, not 0; "
             "take theta from equator_equilibria."
         )
     wrong = lambda_rho <= 0.0 if backward else lambda_rho >= 0.0
-    for i in np.flatnonzero(wrong):
+    for i in wrong.nonzero()[0]:
         raise ValueError(
             f"theta[{i}] = {angle[i]} has lambda_rho = {lambda_rho[i] * size:.3g}; a trajectory continues up the "
             f"hemisphere {'backward where lambda_rho > 0' if backward else 'where lambda_rho < 0'} only."
@@ -100,5 +101,5 @@ def departures_under(
         value = psi(far)
         mu = max(-far * psi.derivative(far) / value, 0.0) if value > 0.0 else 0.0
         turned = angle + w * w * _tilt(lambda_theta, lambda_rho, 0.5 * value * tilting, mu, w)
-        found.append(np.stack([r * np.cos(turned), r * np.sin(turned), np.full_like(turned, w)], axis=-1))
+        found.append(join_columns(r * np.cos(turned), r * np.sin(turned), np.full_like(turned, w)))
     return found

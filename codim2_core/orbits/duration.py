@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.equator import EquatorEquilibria
 from ..systems.frozen import FrozenSystem
@@ -22,9 +24,11 @@ def is_stiff(equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ())
     equator : EquatorEquilibria
     critical : tuple of CriticalSet, optional
     """
-    pairs = [*zip(equator.lambda_rho.tolist(), equator.lambda_theta.tolist(), strict=True)]
-    pairs += [tuple(C.eigenvalues.real.tolist()) for C in critical if C.discriminant >= 0.0]
-    return any(max(map(abs, pair)) > STIFF * min(map(abs, pair)) for pair in pairs)
+    rho, theta = abs(equator.lambda_rho), abs(equator.lambda_theta)
+    if (np.maximum(rho, theta) > STIFF * np.minimum(rho, theta)).any():
+        return True
+    rates = [abs(C.eigenvalues.real) for C in critical if C.discriminant >= 0.0]
+    return any(one.max() > STIFF * one.min() for one in rates)
 
 
 def drawn_duration(at: FrozenSystem, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> float:
@@ -47,14 +51,11 @@ def drawn_duration(at: FrozenSystem, equator: EquatorEquilibria, critical: tuple
         Between `MIN_DURATION` and `MAX_DURATION` over the size of U; rates that would take longer are not waited for.
     """
     size = at.size or 1.0
-    rates = [
-        min(abs(float(radial)), abs(float(angular)))
-        for radial, angular in zip(equator.lambda_rho, equator.lambda_theta, strict=True)
-    ]
+    rates = np.minimum(abs(equator.lambda_rho), abs(equator.lambda_theta)).tolist()
     for C in critical:
         if C.kind != "saddle":
             # J is in the time of kappa_2, and dT = ebar dtau
             height = 1.0 / math.hypot(1.0, float(C.x2[0]), float(C.x2[1]))
             rates.append(float(abs(C.eigenvalues.real).min()) / height)
-    needed = max((ARRIVAL / rate for rate in rates if rate > 0.0), default=0.0)
+    needed = ARRIVAL / min([rate for rate in rates if rate > 0.0], default=math.inf)
     return min(max(MIN_DURATION / size, needed), MAX_DURATION / size)

@@ -95,8 +95,8 @@ def checked_seeds(seeds: ArrayLike) -> NDArray[np.float64]:
             f"seeds have shape {points.shape}; give points of the picture, shape (k, 2): |p| < 1 on the hemisphere, "
             "|p| = 1 + rho outside."
         )
-    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if bad.size:
-        raise ValueError(f"seed {bad[0]} is {tuple(points[bad[0]])}; every seed needs two finite numbers.")
+    if not np.isfinite(points).all():
+        bad = np.flatnonzero(~np.isfinite(points).all(axis=1))[0]
+        raise ValueError(f"seed {bad} is {tuple(points[bad])}; every seed needs two finite numbers.")
     points.flags.writeable = False
     return points

@@ -124,7 +124,7 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
         return say("closed equator, stable" if cycle.exponent < 0.0 else "closed equator, unstable")
     neutral = radially_neutral_ones(equator)
     moving = [rho for rho, still in zip(equator.lambda_rho.tolist(), neutral, strict=True) if not still]
-    arriving, leaving = sum(rho < 0.0 for rho in moving), sum(rho > 0.0 for rho in moving)
+    arriving, leaving = len([rho for rho in moving if rho < 0.0]), len([rho for rho in moving if rho > 0.0])
     if arriving == leaving == 0:
         first = say("none moves", count=count)
     elif arriving and leaving:

@@ -41,6 +41,15 @@ _MULTIPLE = {
 _CUSP_DEGENERACY = undecided_degeneracy("cusp", say("cusp"))
 
 
+_EXISTENCE_DEGENERACIES = {
+    Existence.EQUATOR: "transcritical",
+    Existence.SINGULAR_NONE: "det A = 0",
+    Existence.SINGULAR_OUTSIDE: "det A = 0",
+    Existence.SINGULAR_LINE: "line of equilibria",
+    Existence.EVERYTHING: "everything stands still",
+}
+
+
 def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
     found = []
     if equator.all_directions:
@@ -70,16 +79,9 @@ def _true_centre(coefficients: Coefficients) -> bool:
 def _critical_degeneracies(
     location: Location, critical: tuple[CriticalSet, ...], coefficients: Coefficients
 ) -> list[Degeneracy]:
-    names = {
-        Existence.EQUATOR: "transcritical",
-        Existence.SINGULAR_NONE: "det A = 0",
-        Existence.SINGULAR_OUTSIDE: "det A = 0",
-        Existence.SINGULAR_LINE: "line of equilibria",
-        Existence.EVERYTHING: "everything stands still",
-    }
     found = []
-    if location.existence in names:
-        found.append(undecided_degeneracy(names[location.existence], location.existence.value))
+    if location.existence in _EXISTENCE_DEGENERACIES:
+        found.append(undecided_degeneracy(_EXISTENCE_DEGENERACIES[location.existence], location.existence.value))
     if any(C.kind == "centre (linear)" for C in critical):
         found.append(
             undecided_degeneracy(

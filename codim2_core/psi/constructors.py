@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import reprlib
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from .kernel import Each
 from .typed import custom_kernel
 
 
+@cache
 def constant() -> Psi:
     """``Psi = 1``: ``e_Psi`` is the point of the projected hemisphere itself."""
     return make("constant")

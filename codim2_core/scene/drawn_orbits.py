@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ..layer_problem.problem import LayerProblem, found_once
 from ..orbits.both_directions import Orbits
 from ..orbits.duration import drawn_duration, is_stiff
 from ..orbits.seeds import ring, structured_seeds, window_seeds
@@ -42,13 +43,22 @@ def _structured_seeds(count: int, view: float) -> tuple[np.ndarray, np.ndarray]:
     return _sides(structured_seeds(count, view))
 
 
+@found_once()
+def _pace(problem: LayerProblem) -> tuple[float, bool]:
+    """Return for how long orbits are followed, and whether they creep, on the hemisphere."""
+    return drawn_duration(problem.at, problem.equator, problem.critical), is_stiff(problem.equator, problem.critical)
+
+
+@found_once(of_psi=False)
+def _pace_outside(problem: LayerProblem) -> tuple[float, bool]:
+    """Return the same outside, where critical sets have no say."""
+    return drawn_duration(problem.at, problem.equator), is_stiff(problem.equator)
+
+
 def _stepping_options(setting: SceneSetting, outside: bool = False) -> dict[str, Any]:
-    longest, problem = setting.t_max, setting.problem
-    critical = () if outside else problem.critical
-    if longest is None:
-        longest = drawn_duration(problem.at, problem.equator, critical)
+    duration, stiff = (_pace_outside if outside else _pace)(setting.problem)
     return {
-        "t_max": longest,
+        "t_max": duration if setting.t_max is None else setting.t_max,
         "length": setting.length,
         "rtol": setting.rtol,
         "atol": setting.atol,
@@ -56,7 +66,7 @@ def _stepping_options(setting: SceneSetting, outside: bool = False) -> dict[str,
         "pixel": setting.pixel,
         "capture": CAPTURE * setting.pixel,
         "step_limit": MAX_HALF_STEPS,
-        "stiff": is_stiff(problem.equator, critical),
+        "stiff": stiff,
     }
 
 
@@ -77,8 +87,10 @@ def orbits(setting: SceneSetting, outside: bool) -> Orbits:
     # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
     cheapest = outside and setting.coefficients.typed is None
     psi = constructors.constant() if cheapest else setting.psi
-    halves = (trajectories(setting.coefficients, psi, seeds, backward=back, **options) for back in (True, False))
-    return Orbits(*halves)
+    backward, forward = [
+        trajectories(setting.coefficients, psi, seeds, backward=back, **options) for back in (True, False)
+    ]
+    return Orbits(backward, forward)
 
 
 def sketch_orbits(setting: SceneSetting, outside: bool) -> Sketch:

@@ -44,7 +44,7 @@ INPUTS: Mapping[str, Callable[[SceneSetting], Hashable]] = {
     "matrix": lambda s: _matrix(s),
     "slow": lambda s: s.coefficients.slow_key,
     "place": lambda s: (s.system, s.z) if s.system.moves_with_z else None,
-    "psi": lambda s: s.psi,
+    "psi": lambda s: (s.psi.family, s.psi.parameter, s.psi.text),  # what makes two equal, as numbers and text
     "inner seeds": lambda s: (s.count, s.window) if s.seeds is None else seeds_of(s, outside=False).tobytes(),
     "outer seeds": lambda s: (s.count, s.window) if s.seeds is None else seeds_of(s, outside=True).tobytes(),
     "launch": lambda s: s.launch.tobytes(),
@@ -102,13 +102,11 @@ def _certificates(setting: SceneSetting) -> tuple[Certificate, ...]:
 
 
 def _inside_nullclines(setting: SceneSetting) -> tuple[NullclineBranch, ...]:
-    directions = setting.problem.equator.theta.tolist()
-    return inside_nullclines(setting.coefficients, setting.psi, directions, seen_closely(setting))
+    return inside_nullclines(setting.problem, seen_closely(setting))
 
 
 def _outside_nullclines(setting: SceneSetting) -> tuple[NullclineBranch, ...]:
-    directions = setting.problem.equator.theta.tolist()
-    return outside_nullclines(setting.coefficients, directions, setting.view, seen_closely(setting))
+    return outside_nullclines(setting.problem, setting.view, seen_closely(setting))
 
 
 def _conics(setting: SceneSetting) -> Conics:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter, OrderedDict
+from collections import Counter, OrderedDict, defaultdict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field
 from threading import Lock
 from typing import Any
 
+ABSENT = object()  # in place of a result that is not kept
 KEPT_RESULTS = 8  # results kept for each layer: a few settings back and forth
 
 
@@ -25,27 +26,24 @@ class Memory:
         ``before(scene, layer)`` is called before a layer is computed; it may raise, or return what is called after.
     """
 
-    results: dict[str, OrderedDict[Hashable, Any]] = field(default_factory=dict)
+    results: defaultdict[str, OrderedDict[Hashable, Any]] = field(default_factory=lambda: defaultdict(OrderedDict))
     runs: Counter[str] = field(default_factory=Counter)
     before: Callable[[Any, str], Callable[[], None] | None] | None = None
     lock: Lock = field(default_factory=Lock)  # the jobs beside the frames read the same memory
 
-    def result(self, layer: str, key: Hashable, compute: Callable[[], Any]) -> Any:
-        """Return what is kept for these values, or compute it and keep it."""
+    def find(self, layer: str, key: Hashable) -> Any:
+        """Return what is kept for these values, or `ABSENT`."""
         with self.lock:
-            kept = self.results.setdefault(layer, OrderedDict())
-            if key in kept:
-                kept.move_to_end(key)
-                return kept[key]
-        result = compute()
-        self.keep(layer, key, result)
-        self.runs[layer] += 1
-        return result
+            kept = self.results[layer]
+            if key not in kept:
+                return ABSENT
+            kept.move_to_end(key)
+            return kept[key]
 
     def keep(self, layer: str, key: Hashable, result: Any) -> None:
         """Keep a result, and forget the oldest of more than `KEPT_RESULTS`."""
         with self.lock:
-            kept = self.results.setdefault(layer, OrderedDict())
+            kept = self.results[layer]
             kept[key] = result
             if len(kept) > KEPT_RESULTS:
                 kept.popitem(last=False)

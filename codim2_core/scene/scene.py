@@ -28,7 +28,7 @@ from ..systems.bounds import slow_values
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import SYSTEM_KINDS, AnySystem
 from .layer_table import ELINEAR_ONLY, INPUTS, LAYER_OF_FUNCTION, layers
-from .memory import Memory
+from .memory import ABSENT, Memory
 
 MOST_SEEDS = 20_000
 
@@ -55,7 +55,10 @@ class _Problem(LayerProblem):
     def keep(self, finding: CachedFunction[Result]) -> Result:
         """Return what was found, once for all scenes that agree in what it reads."""
         scene = self._scene()
-        return super().keep(finding) if scene is None or not finding.layer else scene[finding.layer]
+        if scene is None or not finding.layer:
+            return super().keep(finding)
+        result = self.found[finding] = scene[finding.layer]
+        return result
 
 
 class Scene(Mapping[str, Any]):
@@ -146,6 +149,7 @@ class Scene(Mapping[str, Any]):
         self.coefficients: FrozenSystem = system.at(self.z)
         self._memory = Memory() if _memory is None else _memory
         self._own: dict[str, Any] = {}
+        self._inputs: dict[str, Hashable] = {}  # values of `INPUTS`, each found once
         self.problem: LayerProblem = _Problem(self)
 
     def evolve(self, **changes: Any) -> Scene:
@@ -174,20 +178,23 @@ class Scene(Mapping[str, Any]):
     def __getitem__(self, name: str) -> Any:
         if name in self._own:
             return self._own[name]
-        name = LAYER_OF_FUNCTION.get(name, name)
         if name not in layers:
-            raise ValueError(f"{name!r} is no layer; there are {', '.join((*layers, *LAYER_OF_FUNCTION))}.")
+            if name not in LAYER_OF_FUNCTION:
+                raise ValueError(f"{name!r} is no layer; there are {', '.join((*layers, *LAYER_OF_FUNCTION))}.")
+            return self[LAYER_OF_FUNCTION[name]]
         layer = layers[name]
 
-        def compute() -> Any:
-            after = None if self._memory.before is None else self._memory.before(self, name)
+        memory, key = self._memory, self.key(*layer.inputs)
+        result = memory.find(name, key)
+        if result is ABSENT:
+            after = None if memory.before is None else memory.before(self, name)
             result = layer.compute(self)
             if after is not None:
                 after()
-            return result
-
-        self._own[name] = self._memory.result(name, self.key(*layer.inputs), compute)
-        return self._own[name]
+            memory.keep(name, key, result)
+            memory.runs[name] += 1
+        self._own[name] = result
+        return result
 
     def plot(self) -> Any:
         """Return the picture as a HoloViews overlay, to add to, restyle and lay out.
@@ -264,7 +271,11 @@ class Scene(Mapping[str, Any]):
 
     def key(self, *inputs: str) -> tuple[Hashable, ...]:
         """Return the present values of some inputs of layers ("plane", "matrix", "slow", "psi", …), hashable."""
-        return tuple(INPUTS[name](self) for name in inputs)
+        known = self._inputs
+        for name in inputs:
+            if name not in known:
+                known[name] = INPUTS[name](self)
+        return tuple(map(known.__getitem__, inputs))
 
     @property
     def runs(self) -> Mapping[str, int]:

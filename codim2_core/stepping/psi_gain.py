@@ -218,9 +218,10 @@ class GainVariants:
         """Return a variant, compiling it or loading it from the disk cache the first time."""
         if isinstance(asked.key, str):
             return self._typed.get(asked, lambda: asked.make(self._lanes))
-        if asked not in self._families:
-            self._families[asked] = asked.make(self._lanes)
-        return self._families[asked]
+        found = self._families.get(asked)
+        if found is None:
+            found = self._families[asked] = asked.make(self._lanes)
+        return found
 
 
 def _gains(state, out, parameters):

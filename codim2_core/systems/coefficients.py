@@ -5,14 +5,23 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..arrays import join_columns
 from ..equality import ByValue
 
 Affine = tuple[float, float, float, float, float, float]
+
+
+@lru_cache(maxsize=16)
+def _speed(plane: tuple[float, ...]) -> float:
+    """Return |plane|, or 1: each trajectory's kernel and each sample of a field asks for it."""
+    size = max(map(abs, plane)) or 1.0
+    return size * math.hypot(*[value / size for value in plane]) or 1.0
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -118,8 +127,7 @@ class Coefficients(ByValue):
     @property
     def speed(self) -> float:
         """|(a, b, d, f1, f2)|, or 1 where all are zero: the unit of speed of the compiled field."""
-        size = self.size or 1.0
-        return size * math.hypot(*(value / size for value in self.plane)) or 1.0
+        return _speed(self.plane)
 
     def by_rotation_near(self, angle: float) -> Coefficients:
         """Return the same system in the axes of the normal form to which the angle nearest to this one turns."""
@@ -152,11 +160,13 @@ class Coefficients(ByValue):
         """``U = A e + f`` for e of shape (..., 2)."""
         e = np.asarray(e, float)
         c, s = e[..., 0], e[..., 1]
-        return np.stack([self.a * c - self.b * s + self.f1, self.b * c + self.d * s + self.f2], axis=-1)
+        return join_columns(self.a * c - self.b * s + self.f1, self.b * c + self.d * s + self.f2)
 
     def DU(self, e: ArrayLike) -> NDArray[np.float64]:
         """``D_(c,s) U = A`` for e of shape (..., 2); shape (..., 2, 2)."""
-        return np.broadcast_to(self.A, (*np.shape(e)[:-1], 2, 2))
+        each = np.empty((*np.asarray(e).shape[:-1], 2, 2))
+        each[...] = self.A
+        return each
 
     def W(self, e: ArrayLike, xy: ArrayLike | None = None) -> NDArray[np.float64]:  # noqa: ARG002
         """``W = B e + g`` for e of shape (..., 2); shape (..., m)."""

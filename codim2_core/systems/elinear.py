@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import reprlib
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, ClassVar
@@ -24,6 +25,8 @@ from .equations import Equations, equations_text, linear_rows, negative, with_le
 from .normal_form import in_normal_form, rotate_f
 
 Coefficient = float | Expression
+#: Names that text may use of slow variables.
+SLOW_NAMES = (*(f"z{i}" for i in range(1, MOST_SLOW_VARIABLES + 1)), "z")
 
 
 def _coefficient(value: object, what: str, names: tuple[str, ...]) -> Coefficient:
@@ -42,14 +45,18 @@ def _coefficient(value: object, what: str, names: tuple[str, ...]) -> Coefficien
 
 
 def _require_finite(number: float, what: str) -> float:
+    if abs(number) <= MAX_NUMBER:
+        return number
     if not math.isfinite(number):
         raise ValueError(f"{what} is {number}; give a finite number.")
-    if abs(number) > MAX_NUMBER:
-        raise ValueError(
-            f"{what} is {number:.3g}; at most {MAX_NUMBER:g} in size is allowed. "
-            "Divide all coefficients by one common factor: that only rescales time."
-        )
-    return number
+    raise ValueError(
+        f"{what} is {number:.3g}; at most {MAX_NUMBER:g} in size is allowed. "
+        "Divide all coefficients by one common factor: that only rescales time."
+    )
+
+
+def _parameter_value(value: object, name: str) -> float:
+    return _require_finite(_real_number(value, f"parameter {name}"), f"parameter {name}")
 
 
 def _grid(values: Any, what: str, shape_text: str, columns: int | None) -> tuple[tuple[Any, ...], ...]:
@@ -102,10 +109,8 @@ class ELinear:
     typed: ClassVar[None] = None
 
     def __post_init__(self) -> None:
-        parameters = dict(self.parameters)
-        for name, value in parameters.items():
-            parameters[name] = _require_finite(_real_number(value, f"parameter {name}"), f"parameter {name}")
-        names = (*(f"z{i}" for i in range(1, MOST_SLOW_VARIABLES + 1)), "z", *parameters)
+        parameters = {name: _parameter_value(value, name) for name, value in dict(self.parameters).items()}
+        names = (*SLOW_NAMES, *parameters)
         entry = lambda value, what: _coefficient(value, what, names)
         if isinstance(self.f, str) or not hasattr(self.f, "__len__") or len(self.f) != 2:
             raise ValueError(f"f is {self.f!r}; give two coefficients (f1, f2).")
@@ -230,6 +235,11 @@ class ELinear:
         if self.given_matrix is not None and {"a", "b", "d"} & changes.keys():
             return self.rotated().evolve(**changes)
         parameters = dict(self.parameters)
+        if changes.keys() <= parameters.keys():  # no text is read again, and what is known of it stays
+            changed = copy(self)
+            parameters |= {name: _parameter_value(value, name) for name, value in changes.items()}
+            object.__setattr__(changed, "parameters", tuple(parameters.items()))
+            return changed
         fields: dict[str, Any] = {}
         f = list(self.f)
         for name, value in changes.items():
@@ -274,7 +284,7 @@ class ELinear:
         held = {"f1": self.f[0], "f2": self.f[1]}
         if self.given_matrix is None:  # else a, b, d belong to the rotated form
             held |= {"a": self.a, "b": self.b, "d": self.d}
-        numbers = (name for name in Coefficients.variable if isinstance(held.get(name), float))
+        numbers = [name for name in Coefficients.variable if isinstance(held.get(name), float)]
         return (*numbers, *dict(self.parameters))
 
     def varied(self, name: str, value: float) -> ELinear:
@@ -317,6 +327,8 @@ class ELinear:
                 result = float(value.evaluate(names))
             except (ArithmeticError, ValueError) as error:
                 raise ValueError(f"{what} cannot be computed{at_place(z)}: {error}.") from error
+            if abs(result) <= MAX_NUMBER:
+                return result
             if not math.isfinite(result):
                 raise ValueError(f"{what} is {result}{at_place(z)}; every coefficient must be finite there.")
             return _require_finite(result, f"{what}{at_place(z)}")

@@ -44,8 +44,10 @@ def _write_field(value: object, format_: str) -> str:
 def say(key: str, **fields: object) -> str:
     """Return a sentence with its fields filled in."""
     return "".join(
-        text if name is None else text + _write_field(fields[name], format_ or "")
-        for text, name, format_ in _parse_fields(key)
+        [
+            text if name is None else text + _write_field(fields[name], format_ or "")
+            for text, name, format_ in _parse_fields(key)
+        ]
     )
 
 

@@ -69,9 +69,10 @@ def add(draft: FrameContext) -> None:
 def _plane_of_f(draft: FrameContext) -> None:
     scene, header = draft.scene, draft.header
     curves = scene["atlas_curves"]
-    size = plane_curves.size_of(curves)
     if draft.fresh("atlas_curves", curves):
-        header["atlas_size"] = size
+        header["atlas_size"] = draft.now["atlas_size"] = plane_curves.size_of(curves)
+    size = draft.now["atlas_size"]
+    if "atlas_size" in header:
         for name, curve in zip(CURVES, curves, strict=True):
             draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
     matrix = scene.key("matrix")

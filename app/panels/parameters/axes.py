@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from codim2_core.examples import catalogue
@@ -59,6 +60,13 @@ def available(draft: FrameContext) -> dict[str, Axis]:
     return found
 
 
+@cache
+def _declared(name: str) -> tuple[str, tuple[float, float]]:
+    """Return the label and the range of a slider, which cost much of `param`."""
+    declared = ExplorerState.param[name]
+    return str(declared.label), declared.softbounds
+
+
 def axes_there(scene: Scene, values: Mapping[str, Any], locked: Collection[str] = ()) -> dict[str, Axis]:
     """Return, by name, the axes that belong to the system and Psi of a scene.
 
@@ -75,9 +83,9 @@ def axes_there(scene: Scene, values: Mapping[str, Any], locked: Collection[str] 
         core = name if slow is None else f"z{slow + 1}"
         if core not in known or name in locked or (name == "n" and "n" in own):
             continue
-        declared = ExplorerState.param[name]
-        low, high = edited_range(values, name, declared.softbounds if normal or slow is None else ranges[slow])
-        symbol = example.slow[slow][0] if example and slow is not None else str(declared.label)
+        label, softbounds = _declared(name)
+        low, high = edited_range(values, name, softbounds if normal or slow is None else ranges[slow])
+        symbol = example.slow[slow][0] if example and slow is not None else label
         found[name] = Axis(name, core, symbol, float(low), float(high), float(values[name]))
     typed = parameter_ranges(values["system"], values["texts"])
     for parameter, value in own.items():
