@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import gzip
 from collections import OrderedDict
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, lru_cache
 from html import escape
 from typing import Any
 
@@ -12,11 +13,11 @@ import bokeh
 from tornado.web import RequestHandler
 
 from ..view import warmup
-from ..view.first_markup import MARKUP, NOTICE, TITLE, page_markup
+from ..view.first_markup import MARKUP, NOTICE, TITLE, page_markup, policy
 from ..view.markup import page_frame
 from ..view.opening import link_of
 from .live import LivePages, is_known, query_of
-from .scripts import PREVIEW
+from .scripts import PREVIEW, takes_packed
 
 KEPT_PAGES = 64  # addresses
 BUSY = (
@@ -50,12 +51,19 @@ def _page_frame() -> str:
     return page_frame(TITLE, f"./static/js/bokeh.min.js?v={bokeh.__version__}", "live")
 
 
+@lru_cache(maxsize=KEPT_PAGES)
+def _ready_page(text: str, ancestors: str) -> tuple[bytes, bytes, str]:
+    """Return a page, the same compressed, and what may run in it: made once for all who open one address."""
+    page = text.encode()
+    return page, gzip.compress(page, 6, mtime=0), policy(page, ancestors)
+
+
 class Page(RequestHandler):
     """Answers with the page as text."""
 
-    def initialize(self, places: LivePages) -> None:
+    def initialize(self, places: LivePages, ancestors: str) -> None:
         """Take what `make_server` gives."""
-        self.places = places
+        self.places, self.ancestors = places, ancestors
 
     def get(self) -> None:
         """Answer with the page, or ask to wait where all places are taken."""
@@ -73,7 +81,11 @@ class Page(RequestHandler):
         here = f"{self.request.protocol}://{escape(self.request.host)}{app.prefix}"
         text = _page_frame().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
         text = text.replace(MARKUP, markup_of(query_of(self.request.arguments)))
-        self.finish(text.replace(NOTICE, self._notice()))
+        page, packed, allowed = _ready_page(text.replace(NOTICE, self._notice()), self.ancestors)
+        self.set_header("Content-Security-Policy", allowed)
+        if takes_packed(self):
+            self.set_header("Content-Encoding", "gzip")
+        self.finish(packed if takes_packed(self) else page)
 
     head = get
 

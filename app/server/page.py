@@ -30,7 +30,7 @@ from ..view import warmup
 from ..view.markup import edition
 from .engine_files import EngineFiles, served_panels
 from .first_page import Page
-from .headers import transform
+from .headers import embedders, transform
 from .live import MOST_SENT, LiveConnection, LivePages
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
@@ -151,7 +151,7 @@ def make_server(
     places = LivePages(sessions, engine and {"script": engine.script, "served": served_panels()})
     listen = partial(Listener, counts=Counter(), places=sessions, health=json.dumps(health()))
     with share_port(processes, listen):
-        server = _server(port, address, allow_origin, processes, prefix, places, options)
+        server = _server(port, address, allow_origin, processes, prefix, places, embedders(frame_ancestors), options)
     keep_steady(server.io_loop)
     listen_by_own(server, address, listen)
     board.belong(task_id() or 0)
@@ -220,6 +220,7 @@ def _server(
     processes: int,
     prefix: str,
     places: LivePages,
+    ancestors: str,
     options: dict[str, Any],
 ) -> Any:
     return pn.io.server.get_server(
@@ -229,7 +230,7 @@ def _server(
         websocket_origin=list(allow_origin) or None,
         num_procs=processes,
         extra_patterns=[
-            (r"/?", Page, {"places": places}),
+            (r"/?", Page, {"places": places, "ancestors": ancestors}),
             (r"/live", LiveConnection, {"places": places}),
             (r"/health", Health),
             (r"/ready", Ready),

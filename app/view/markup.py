@@ -139,10 +139,11 @@ def offered_text() -> str:
 
 def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: PageView | None = None) -> dict[str, Any]:
     """Return what the front end must know of one view."""
+    declared = {name: type(state).param[name] for name in NUMBERS}  # of the class: a state would copy each
     return {
-        "ranges": {name: list(state.param[name].softbounds) for name in NUMBERS},
-        "symbols": {name: state.param[name].label for name in NUMBERS},
-        "docs": {name: state.param[name].doc for name in NUMBERS},
+        "ranges": {name: list(one.softbounds) for name, one in declared.items()},
+        "symbols": {name: one.label for name, one in declared.items()},
+        "docs": {name: one.doc for name, one in declared.items()},
         "values": state.values(),
         "locked": list(locked),
         "film": has_typst(),
@@ -186,7 +187,7 @@ def explorer_html(
     values = state.values()
 
     def control(name: str) -> dict[str, Any]:
-        declared = state.param[name]
+        declared = type(state).param[name]
         low, high, step = slider_range(*edited_range(values, name, declared.softbounds), values[name])
         return {"name": name, "symbol": declared.label, "doc": declared.doc, "value": values[name],
                 "low": low, "high": high, "step": step}  # fmt: skip

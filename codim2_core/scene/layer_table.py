@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
@@ -85,7 +86,13 @@ def _atlas_curves(setting: SceneSetting) -> tuple[BifurcationCurve, BifurcationC
 
 def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
     matrix = _matrix(setting)
-    return None if matrix is None else regions(*matrix)
+    return None if matrix is None else _regions_of(matrix)
+
+
+@lru_cache(maxsize=64)
+def _regions_of(matrix: tuple[float, float, float]) -> tuple[Region, ...]:
+    """Return the regions of a plane: the same for all who open one address, of whose first picture they take half."""
+    return regions(*matrix)
 
 
 def _launched_layer(setting: SceneSetting) -> LaunchedOrbits:

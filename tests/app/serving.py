@@ -1,4 +1,4 @@
-"""`codim2 serve` in its own process, for tests that talk to it."""
+"""`codim2 serve` in its own process, for tests that talk to it; and a folder of files."""
 
 import os
 import subprocess
@@ -6,6 +6,9 @@ import sys
 import time
 from contextlib import contextmanager, nullcontext
 from fcntl import LOCK_EX, LOCK_SH, LOCK_UN, flock
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from threading import Thread
 from urllib.request import urlopen
 
 from tests.work import PATIENCE, wait_until
@@ -46,6 +49,23 @@ def serving(
         process.terminate()
         process.wait(PATIENCE)
         process.stdout.close()
+
+
+class Quiet(SimpleHTTPRequestHandler):
+    """Answers with files, and says nothing of it."""
+
+    def log_message(self, *_):
+        pass
+
+
+@contextmanager
+def files_of(folder):
+    """Serve a folder; yield its address."""
+    server = ThreadingHTTPServer(("localhost", 0), partial(Quiet, directory=folder))
+    Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://localhost:{server.server_port}"
+    server.shutdown()
+    server.server_close()
 
 
 def is_ready(shown):

@@ -16,13 +16,10 @@ import time
 from dataclasses import dataclass
 
 import numpy as np
-from codim2_app.rooms.rooms import SHARING_SECONDS
-from codim2_app.state.controls import first_values
 
-from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, overtaken, serving, value
+from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, overtaken, serving
 from .app_servers import queued
 from .visits import TICKS, TICKS_OF_TEN, WILD, Chair, Waited, beside, seated
-from .wire import Wire
 
 CHAIRS = (1, 8, 16, 24, 32, 40)
 SECONDS = 12.0
@@ -219,39 +216,8 @@ def report(quick: bool = False) -> str:
             f"{saturated(found[chairs[-1]], processes)}",
             "",
         ]
-    lines += [first_come(quick), "", figures(quick), "", on_devices(quick)]
+    lines += [first_come(quick), "", figures(quick)]
     return "\n".join(lines)
-
-
-async def noted(port: int, pid: int, pages: int, seconds: float) -> float:
-    """Return the server's processor time of a settled change of pages in a room that draw themselves."""
-    lecturer = await Wire.connect(port)
-    code = (await lecturer.ask("room", {"open": ""}))["open"]
-    students = [await Wire.connect(port) for _ in range(pages)]
-    for student in students:
-        await student.ask("room", {"join": code})
-    await at_rest(pid)
-    before, ticks = cpu(pid), int(seconds / SHARING_SECONDS)
-    for tick in range(ticks):
-        for i, student in enumerate(students):
-            await student.send({"note": {**first_values(), "a": float(value(tick + 7.3 * i))}})
-        await asyncio.sleep(SHARING_SECONDS)
-    spent = cpu(pid) - before
-    for wire in (lecturer, *students):
-        await wire.close()
-    return spent / (ticks * pages)
-
-
-def on_devices(quick: bool) -> str:
-    """Say what pages cost the server that their visitors' devices draw."""
-    with serving("explorer") as (port, pid):
-        asyncio.run(seated(port, 2, 2.0))
-        asyncio.run(at_rest(pid))
-        spent = asyncio.run(noted(port, pid, MANY, 5.0 if quick else SECONDS))
-    return (
-        f"{MANY} pages in a room that their devices draw, with a settled change every {SHARING_SECONDS:g} s: "
-        f"{1e3 * spent:.2f} ms of the server's processor time each (1 to reach); none outside of rooms, nor a frame."
-    )
 
 
 def saturated(load: Load, processes: int) -> str:

@@ -3,8 +3,10 @@
 import pytest
 from codim2_app.server.cli import main
 
+from tests.app.serving import files_of
+
 from .conftest import PATIENCE
-from .test_static import files_of, release
+from .test_static import release
 
 PAGE = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Notes</title><link rel="icon" href="data:,">
 <h1>Two portraits</h1>

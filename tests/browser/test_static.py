@@ -1,14 +1,12 @@
 """The folder of `codim2 static`, under a prefix of a server of plain files: dragged, and again without a network."""
 
 import os
-from contextlib import contextmanager
-from functools import partial
-from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from threading import Thread
 
 import pytest
 from codim2_app.server.cli import main
+
+from tests.app.serving import files_of
 
 from .conftest import PATIENCE, VISITED, WINDOW, Explorer
 
@@ -16,23 +14,6 @@ PREFIX = "lecture/codim2"
 #: Told of a page whose files come from a release of Pyodide and from `codim2 kernels`.
 NEEDED = "set CODIM2_PYODIDE to the folder of Pyodide's release, with its wheel of NumPy and our compiled kernels"
 ANSWERS = "() => document.querySelector('.codim2')?.explorer?.requests.held === false"
-
-
-class Quiet(SimpleHTTPRequestHandler):
-    """Answers with files, and says nothing of it."""
-
-    def log_message(self, *_):
-        pass
-
-
-@contextmanager
-def files_of(folder):
-    """Serve a folder; yield its address."""
-    server = ThreadingHTTPServer(("localhost", 0), partial(Quiet, directory=folder))
-    Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://localhost:{server.server_port}"
-    server.shutdown()
-    server.server_close()
 
 
 def release():
