@@ -1,7 +1,10 @@
 // The server's half of explorers that compute where they are seen: Python in Pyodide, with kernels that were compiled
-// beforehand. All explorers of a page share one worker; each has a port.
+// beforehand. All explorers of a page share one worker; each has a port. What takes long goes to another one, which runs
+// this script too, under the name BESIDE.
 
 const told = {bytes: 0, all: 1}, APART = 100 // ms between two tellings
+const BESIDE = "beside", LATER = 3000 // ms after what is first to be computed there: the first frames come before it
+const FEWEST_PROCESSORS = 2, LEAST_MEMORY = 4 // GB; a device with less computes all in one worker
 const ports = /** @type {Set<MessagePort>} */ (new Set())
 let last = 0
 
@@ -33,8 +36,36 @@ async function load() {
   const python = await loadPyodide({indexURL: here("pyodide/"), packages: ["numpy"], stdout: () => {}})
   python.unpackArchive(await site, "zip", {extractDir: "/site"})
   python.runPython("import sys; sys.path.insert(0, '/site')")
-  const {Engine} = python.pyimport("codim2_app.static_site.engine")
+  return {python, edition}
+}
+
+// Sends calls to another worker once that has come.
+function share(python, calls) {
+  const other = new Worker(location.href, {type: "module", name: BESIDE})
+  other.onerror = () => calls.lose()
+  other.onmessage = ({data: {number, answer}}) => {
+    if (answer) calls.hear(number, python.toPy(answer))
+    else calls.meet((sent, call) => other.postMessage({number: sent, call: call.toJs().slice()}))
+  }
+}
+
+async function loadEngine() {
+  const {python, edition} = await load(), {Engine, other_worker} = python.pyimport("codim2_app.static_site.engine")
+  const {hardwareConcurrency, deviceMemory = LEAST_MEMORY} = /** @type {any} */ (navigator), calls = other_worker()
+  if (hardwareConcurrency >= FEWEST_PROCESSORS && deviceMemory >= LEAST_MEMORY) {
+    calls.load_with(() => { setTimeout(() => share(python, calls), LATER) })
+  }
   return (search, reply) => Engine(search, edition, reply)
+}
+
+async function answerCalls() {
+  const {python} = await load(), {run_call} = python.pyimport("codim2_app.static_site.other_worker")
+  onmessage = ({data: {number, call}}) => {
+    const answer = run_call(python.toPy(call))
+    postMessage({number, answer: answer.toJs().slice()})
+    answer.destroy()
+  }
+  postMessage({})
 }
 
 // A message of Python's, a dict, whose bytes become a buffer.
@@ -45,10 +76,8 @@ function send(port, message) {
   port.postMessage(plain, {transfer: name ? [plain[name]] : []})
 }
 
-const loading = load()
-
 // An explorer comes: the query of its address, whether its markup is to be drawn, and its port.
-onmessage = async ({data: {search, drawn, port}}) => {
+async function answerExplorer(loading, {search, drawn, port}) {
   ports.add(port)
   port.postMessage({loading: told})
   try {
@@ -64,4 +93,10 @@ onmessage = async ({data: {search, drawn, port}}) => {
     console.error(error)
     port.postMessage({failed: true})
   }
+}
+
+if (/** @type {any} */ (globalThis).name === BESIDE) answerCalls()
+else {
+  const loading = loadEngine()
+  onmessage = ({data}) => answerExplorer(loading, data)
 }

@@ -1,7 +1,7 @@
 """The server's half of a page, in a worker of the visitor's browser: messages in, messages out.
 
-There is one thread and it belongs to an event loop. What a server computes beside the frames is computed here between
-two messages, when the frame that asked for it has left.
+There is one thread and it belongs to an event loop. What a server computes beside the frames another worker computes,
+or this one between two messages, when the frame that asked for it has left (`other_worker`).
 """
 
 from __future__ import annotations
@@ -9,24 +9,20 @@ from __future__ import annotations
 import asyncio
 import json
 from collections.abc import Callable
-from concurrent.futures import Executor, Future
-from functools import cache, partial
+from functools import cache
 from typing import Any
 from urllib.parse import parse_qsl
 
 from codim2_core.words import printed_sentence
 
-from ..frame.background_results import Scheduler, serve_with
+from ..frame.background_results import serve_with
 from ..frame.work_queue import WorkQueue
 from ..phrases import say
 from ..view.answers import AnswerQueue
 from ..view.markup import markup_of_frame
 from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
-from .call_limit import call_within
-
-#: Seconds after which work is stopped: the sliders wait for it.
-MAX_WORK_SECONDS = 10.0
+from .other_worker import MAX_WORK_SECONDS, OtherWorker
 
 
 class Engine:
@@ -56,7 +52,7 @@ class Engine:
     def __init__(self, query: str, edition: str, send: Callable[[dict[str, Any]], Any]) -> None:
         self._edition = edition
         loop = asyncio.get_event_loop()
-        serve_with(_queue_of(loop))
+        serve_with(_queue_of(other_worker()))
         self._link = link_of(dict(parse_qsl(query.removeprefix("?"), keep_blank_values=True)))
         frames = Frames(self._link.state, errors=self._link.errors)
         self.opening, self.first = opening_messages(frames, self._link, edition, worker=True)
@@ -75,37 +71,16 @@ class Engine:
         self._answers.leave()
 
 
+def other_worker() -> OtherWorker:
+    """Return what computes beside the frames for all explorers of this worker."""
+    return _other_worker_of(asyncio.get_event_loop())
+
+
 @cache
-def _queue_of(loop: asyncio.AbstractEventLoop) -> WorkQueue:
-    return WorkQueue(NextTask(loop.call_soon))
+def _other_worker_of(loop: asyncio.AbstractEventLoop) -> OtherWorker:
+    return OtherWorker(loop.call_soon)
 
 
-class NextTask(Executor):
-    """Runs what it is given in a later task of this thread.
-
-    Parameters
-    ----------
-    later : Scheduler
-    """
-
-    def __init__(self, later: Scheduler) -> None:
-        self._later = later
-
-    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """Have ``fn(*args, **kwargs)`` run; after `MAX_WORK_SECONDS` its future has TimeoutError."""
-        future: Future[Any] = Future()
-        self._later(partial(_run, future, partial(fn, *args, **kwargs)))
-        return future
-
-
-def _run(future: Future[Any], call: Callable[[], Any]) -> None:
-    if not future.set_running_or_notify_cancel():
-        return
-    try:
-        result = call_within(MAX_WORK_SECONDS, call)
-    except TimeoutError:
-        future.set_exception(TimeoutError(say("stopped after", seconds=MAX_WORK_SECONDS)))
-    except Exception as error:  # whoever waits has it
-        future.set_exception(error)
-    else:
-        future.set_result(result)
+@cache
+def _queue_of(executor: OtherWorker) -> WorkQueue:
+    return WorkQueue(executor)

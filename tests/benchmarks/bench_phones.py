@@ -11,7 +11,7 @@ import os
 import signal
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
@@ -22,10 +22,12 @@ from codim2_app.server.cli import main
 from playwright.sync_api import Browser
 
 from ..app.serving import files_of, serving
+from .app_load import family
 from .bench_browser import DRAG, launched
 
 RATES = (1, 4, 6)
 SLICE = 0.002  # seconds for which a slowed process runs at a time
+LOOKED_AFTER = 20  # such times it is looked which processes there are
 PHONE: Any = {"viewport": {"width": 390, "height": 844}, "device_scale_factor": 3, "has_touch": True}
 LINE = "document.querySelector('.codim2').explorer.line"
 PATIENCE = 300_000  # ms
@@ -48,35 +50,50 @@ CHANGE = """async () => {
 }"""
 
 
-def renderers(browser: Browser) -> list[int]:
-    """Return the processes in which pages run, with their workers."""
+def main_process(browser: Browser) -> int:
+    """Return the process of a browser that has started all others."""
     session = browser.new_browser_cdp_session()
     processes = session.send("SystemInfo.getProcessInfo")["processInfo"]
     session.detach()
-    return [int(process["id"]) for process in processes if process["type"] == "renderer"]
+    return next(int(process["id"]) for process in processes if process["type"] == "browser")
+
+
+def renderers(pid: int) -> list[int]:
+    """Return the processes in which a browser's pages run, with their workers."""
+    return [one for one in family(pid) if b"--type=renderer" in Path(f"/proc/{one}/cmdline").read_bytes()]
 
 
 @contextmanager
-def slowed(pids: list[int], rate: int) -> Iterator[None]:
-    """Let processes run for one in `rate` parts of the time."""
+def slowed(pid: int, rate: int) -> Iterator[None]:
+    """Let a browser's pages run for one in `rate` parts of the time."""
     done = Event()
 
+    def signal_all(number: int) -> None:
+        for one in pages:
+            with suppress(ProcessLookupError):
+                os.kill(one, number)
+
+    pages: list[int] = []
+
     def alternate() -> None:
-        while rate > 1 and not done.is_set():
-            for pid in pids:
-                os.kill(pid, signal.SIGSTOP)
-            time.sleep(SLICE * (rate - 1))
-            for pid in pids:
-                os.kill(pid, signal.SIGCONT)
-            time.sleep(SLICE)
+        while not done.is_set():
+            with suppress(OSError):  # one has just ended: next time
+                pages[:] = renderers(pid)  # a page of another host has another process
+            for _ in range(LOOKED_AFTER):
+                signal_all(signal.SIGSTOP)
+                time.sleep(SLICE * (rate - 1))
+                signal_all(signal.SIGCONT)
+                time.sleep(SLICE)
 
     thread = Thread(target=alternate)
-    thread.start()
+    if rate > 1:
+        thread.start()
     try:
         yield
     finally:
         done.set()
-        thread.join()
+        if rate > 1:
+            thread.join()
 
 
 def visit(browser: Browser, address: str, rate: int, seconds: float, handed_over: bool) -> dict[str, Any]:
@@ -85,8 +102,7 @@ def visit(browser: Browser, address: str, rate: int, seconds: float, handed_over
     context.set_default_timeout(PATIENCE)
     try:
         page = context.new_page()
-        page.goto("about:blank")
-        with slowed(renderers(browser), rate):
+        with slowed(main_process(browser), rate):
             page.goto(address, wait_until="commit")
             there, changed = page.evaluate(CHANGE)
             loaded = None

@@ -5,15 +5,17 @@ import json
 import subprocess
 import sys
 import time
+from concurrent.futures import BrokenExecutor
 
 import pytest
 from codim2_app.draw.packing import unpack
 from codim2_app.frame import background_results
 from codim2_app.phrases import say
 from codim2_app.state.controls import ExplorerState
-from codim2_app.static_site import engine as engine_module
+from codim2_app.static_site import other_worker
 from codim2_app.static_site.call_limit import call_within
-from codim2_app.static_site.engine import Engine, NextTask
+from codim2_app.static_site.engine import Engine
+from codim2_app.static_site.other_worker import OtherWorker, run_call
 from codim2_app.view.refresh import Frames
 
 from tests.app.server.test_first_page import talk as in_a_thread
@@ -113,7 +115,7 @@ class Named:
 
 def run_in_loop(work):
     async def run():
-        executor = NextTask(asyncio.get_running_loop().call_soon)
+        executor = OtherWorker(asyncio.get_running_loop().call_soon)
         future = executor.submit(work)
         begun = future.done()
         while not future.done():
@@ -137,8 +139,45 @@ def test_work_begins_in_a_later_task_and_is_stopped_after_its_time(monkeypatch):
     assert (begun, future.result()) == (False, 3)
     _, future = run_in_loop(lambda: 1 // 0)
     assert isinstance(future.exception(), ZeroDivisionError)
-    monkeypatch.setattr(engine_module, "MAX_WORK_SECONDS", 0.05)
+    monkeypatch.setattr(other_worker, "MAX_WORK_SECONDS", 0.05)
     _, future = run_in_loop(endless)
+    assert isinstance(future.exception(), TimeoutError)
+    assert str(future.exception()) == say("stopped after", seconds=0.05)
+
+
+def test_another_worker_computes_once_it_has_come_and_this_one_before_and_after():
+    later, loads, posted = [], [], []
+    executor = OtherWorker(later.append)
+    executor.load_with(lambda: loads.append(1))
+    here = [executor.submit(divmod, 7, 2), executor.submit(divmod, 9, 2)]
+    assert (len(loads), len(later), posted) == (1, 2, [])
+    executor.meet(lambda number, call: posted.append((number, call)))
+    there = [executor.submit(divmod, 17, 5), executor.submit(divmod, 1, 0)]
+    for task in later:
+        task()
+    assert [future.result() for future in here] == [(3, 1), (4, 1)]
+    assert not any(future.done() for future in there)
+    for number, call in reversed(posted):
+        executor.hear(number, run_call(call))
+    assert there[0].result() == (3, 2)
+    assert isinstance(there[1].exception(), ZeroDivisionError)
+    lost = executor.submit(divmod, 3, 2)
+    executor.lose()
+    assert isinstance(lost.exception(), BrokenExecutor)  # whoever wants it asks again
+    again = executor.submit(divmod, 3, 2)
+    later[-1]()
+    assert again.result() == (1, 1)
+    assert (len(loads), len(posted)) == (1, 3)
+
+
+def test_another_worker_stops_what_takes_too_long(monkeypatch):
+    monkeypatch.setattr(other_worker, "MAX_WORK_SECONDS", 0.05)
+    posted = []
+    executor = OtherWorker(None)
+    executor.meet(lambda *sent: posted.append(sent))
+    future = executor.submit(endless)
+    [(number, call)] = posted
+    executor.hear(number, run_call(call))
     assert isinstance(future.exception(), TimeoutError)
     assert str(future.exception()) == say("stopped after", seconds=0.05)
 
