@@ -1,4 +1,4 @@
-"""What takes long, in another worker of the page: calls as bytes, there and back, while this one answers frames.
+"""Another worker of a page computes what takes long: calls as bytes, there and back, while this one answers frames.
 
 Until the other worker has come, and on a device without a processor for it, calls run here between two messages.
 """
