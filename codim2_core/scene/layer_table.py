@@ -86,11 +86,11 @@ def _atlas_curves(setting: SceneSetting) -> tuple[BifurcationCurve, BifurcationC
 
 def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
     matrix = _matrix(setting)
-    return None if matrix is None else _regions_of(matrix)
+    return None if matrix is None else regions_of(matrix)
 
 
 @lru_cache(maxsize=64)
-def _regions_of(matrix: tuple[float, float, float]) -> tuple[Region, ...]:
+def regions_of(matrix: tuple[float, float, float]) -> tuple[Region, ...]:
     """Return the regions of a plane: the same for all who open one address, of whose first picture they take half."""
     return regions(*matrix)
 

@@ -27,10 +27,12 @@ from .bench_browser import DRAG, launched
 
 RATES = (1, 4, 6)
 SLICE = 0.002  # seconds for which a slowed process runs at a time
-LOOKED_AFTER = 20  # such times it is looked which processes there are
+LOOKED_AFTER = 1.0  # seconds after which it is looked again which processes there are
 PHONE: Any = {"viewport": {"width": 390, "height": 844}, "device_scale_factor": 3, "has_touch": True}
 LINE = "document.querySelector('.codim2').explorer.line"
 PATIENCE = 300_000  # ms
+PANELS = ("diagram", "along", "solid")  # which compute for longest
+BURSTS, RESTING, LOADING = 6, 400, 15_000  # of a drag; ms between two, and after the first change
 
 #: Moves f1 as soon as the page is there; returns ms from the start of the page to that, and to the frame that shows it.
 CHANGE = """async () => {
@@ -66,24 +68,27 @@ def renderers(pid: int) -> list[int]:
 @contextmanager
 def slowed(pid: int, rate: int) -> Iterator[None]:
     """Let a browser's pages run for one in `rate` parts of the time."""
-    done = Event()
+    done, pages = Event(), list[int]()
 
     def signal_all(number: int) -> None:
         for one in pages:
             with suppress(ProcessLookupError):
                 os.kill(one, number)
 
-    pages: list[int] = []
-
     def alternate() -> None:
+        looked = 0.0
         while not done.is_set():
-            with suppress(OSError):  # one has just ended: next time
-                pages[:] = renderers(pid)  # a page of another host has another process
-            for _ in range(LOOKED_AFTER):
-                signal_all(signal.SIGSTOP)
-                time.sleep(SLICE * (rate - 1))
-                signal_all(signal.SIGCONT)
-                time.sleep(SLICE)
+            signal_all(signal.SIGCONT)
+            began = time.perf_counter()
+            time.sleep(SLICE)
+            signal_all(signal.SIGSTOP)
+            stopped = time.perf_counter()
+            if stopped - looked > LOOKED_AFTER:
+                with suppress(OSError):  # one has just ended: next time
+                    pages[:] = renderers(pid)  # a page of another host has another process
+                looked = time.perf_counter()
+            time.sleep(max(0.0, (rate - 1) * (stopped - began) - (time.perf_counter() - stopped)))
+        signal_all(signal.SIGCONT)
 
     thread = Thread(target=alternate)
     if rate > 1:
@@ -118,10 +123,32 @@ def visit(browser: Browser, address: str, rate: int, seconds: float, handed_over
         context.close()
 
 
+def computed_beside(browser: Browser, address: str, panel: str, bursts: int) -> list[float]:
+    """Return the delays of a drag that rests and goes on, again and again, while a panel computes what it shows."""
+    context = browser.new_context(viewport={"width": 1440, "height": 900})
+    context.set_default_timeout(PATIENCE)
+    try:
+        page = context.new_page()
+        page.goto(f"{address}?panel={panel}")
+        page.evaluate(CHANGE)
+        page.wait_for_timeout(LOADING)  # a second worker comes, if there is one
+        delays: list[float] = []
+        for _ in range(bursts):
+            delays += page.locator(".codim2").evaluate(DRAG, ["f1", 1.0])["delays"]
+            page.wait_for_timeout(RESTING)
+        return sorted(delays)
+    finally:
+        context.close()
+
+
+def quantiles(delays: list[float]) -> str:
+    """Return the median, the p95 and the longest of some delays, in order."""
+    return f"{median(delays):.0f}, {delays[int(0.95 * len(delays))]:.0f}, {delays[-1]:.0f}" if delays else "–"
+
+
 def row(where: str, rate: int, found: dict[str, Any]) -> str:
     """Return the row of a visit."""
-    delays = sorted(found["delays"])
-    late = f"{median(delays):.0f}, {delays[int(0.95 * len(delays))]:.0f}, {delays[-1]:.0f}" if delays else "–"
+    late = quantiles(sorted(found["delays"]))
     loaded = "–" if found["loaded"] is None else f"{1e-3 * found['loaded']:.1f}"
     return (
         f"| {where} | {rate} | {1e-3 * found['there']:.1f} | {1e-3 * found['changed']:.1f} | {loaded} "
@@ -138,10 +165,18 @@ def report(quick: bool = False) -> str:
         "|---|---|---|---|---|---|---|",
     ]
     rates = RATES[: 2 if quick else None]
+    stalls = [
+        "",
+        "| panel that computes when a drag rests | change to picture, ms: median, p95, longest |",
+        "|---|---|",
+    ]
     with TemporaryDirectory() as folder, launched() as browser:
         main(["static", "-o", folder, "--pyodide", release])
         with files_of(Path(folder)) as address:
             lines += [row("of files", rate, visit(browser, f"{address}/", rate, seconds, False)) for rate in rates]
+            for panel in PANELS[: 1 if quick else None]:
+                delays = computed_beside(browser, f"{address}/", panel, BURSTS)
+                stalls.append(f"| {panel} | {quantiles(delays)} |")
         with serving("--pyodide", release) as address:
             lines += [row("of a server", rate, visit(browser, f"{address}/", rate, seconds, True)) for rate in rates]
-    return "\n".join([*lines, "", f"Load of the machine then: {os.getloadavg()[0]:.1f}."])
+    return "\n".join([*lines, *stalls, "", f"Load of the machine then: {os.getloadavg()[0]:.1f}."])

@@ -15,6 +15,7 @@ import time
 
 import codim2_core as c2
 from codim2_core.scene import layers
+from codim2_core.scene.layer_table import regions_of
 
 TRAJECTORIES = ("inside", "outside")
 ON_REQUEST = ("separatrices", "regions", "certificates", "outcomes")  # only when a person asks, or at rest
@@ -26,6 +27,7 @@ PICTURE = tuple(name for name in LAYERS if name not in ON_REQUEST)  # what a fra
 def cold(preset: str) -> dict[str, float]:
     """Microseconds of each layer of a scene computed for the first time."""
     values = c2.presets[preset]
+    regions_of.cache_clear()
     scene = c2.Scene(values.system, values.psi)
     spent = {}
     for name in LAYERS:
