@@ -33,6 +33,15 @@ def address(tmp_path_factory):
         yield f"{host}/{PREFIX}"
 
 
+def worker_count(page):
+    """Count the workers of a page once that has come which computes beside the one that answers."""
+    for _ in range(int(PATIENCE / 100)):
+        if len(page.workers) > 1:
+            break
+        page.wait_for_timeout(100)
+    return len(page.workers)
+
+
 def portraits_of_a_drag(explorer, places):
     """Drag f1 by the mouse; return the names that the portrait has on the way."""
     box = explorer.find("[data-control=f1] input[type=range]").bounding_box()
@@ -58,7 +67,7 @@ def test_a_folder_of_files_is_dragged_and_again_without_a_network(chromium, addr
     page.goto(f"{address}/")
     page.wait_for_selector(".codim2[data-ready]")
     assert explorer.name() == "CM4"  # as it was saved, while the mathematics is loaded
-    assert "mathematics" in explorer.find(".busy").inner_text()
+    page.wait_for_selector(".busy:has-text('mathematics')")
     explorer.find("[data-control=b] .number").fill("0.1")  # what is set meanwhile is drawn when it is there
     explorer.find("[data-control=b] .number").press("Enter")
     assert explorer.frame() == 0
