@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[2]
 #: What is no statement about a system: data with texts of its own, and what is said of a wrong input.
 ASIDE = {
     "words": "the registry",
-    "critical_changes.py": "rows that the registry reads",
+    "special_kinds.py": "rows that the registry reads",
     "jit": "what is logged of the compiler, and what is asked of it that it cannot do",
     "paper.py": "what the paper's labels are called",
     "figures": "captions of the presets, data",
