@@ -126,7 +126,8 @@ def loop_end(
     turn = last.turn
     if turn.period < PERIOD_GROWTH * last.before.period:
         return None
-    ahead = {m.kind: m for m in reversed(marked) if _lies_ahead(m, last, width)}  # the first of each kind
+    far_first = sorted(marked, key=lambda m: -abs(m.value - turn.value))
+    ahead = {m.kind: m for m in far_first if _lies_ahead(m, last, width)}  # the nearest of each kind
     fold, meeting = ahead.get("fold of critical sets"), ahead.get("saddle-node")
     if fold is not None and min(_gaps([fold.place], last.states)) < LOOP_DISTANCE:
         return _make_end(
