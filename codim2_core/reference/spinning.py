@@ -42,7 +42,9 @@ DISC = ReferenceMotion(
 GYRATION = ReferenceMotion(
     "gyration", "Discs that are not uniform",
     "Discs of other radii of gyration k R under uniform pressure: between k = 1/2 and √(2/3) both stop at once.",
-    WEIDMAN, (_known_ratio("v/(Rω) for k = 0.6", 0.9354650672281), _known_ratio("v/(Rω) for k = 0.75", 0.5090734155928)),
+    WEIDMAN, (
+        _known_ratio("v/(Rω) for k = 0.6", 0.9354650672281), _known_ratio("v/(Rω) for k = 0.75", 0.5090734155928),
+    ),
     partial(_terminal_ratios, spinning_disc, (0.6, 0.75)),
 )  # fmt: skip
 WASHER = ReferenceMotion(
