@@ -15,6 +15,7 @@ ASIDE = {
     "paper.py": "what the paper's labels are called",
     "figures": "captions of the presets, data",
     "examples": "what a system is, data",
+    "reference": "what moves, and where it is from, data; its values are held in tests/core/reference",
     "arguments.py": "what may be given",
     "expressions": "how a text is to be written",
     "conditions.py": "conditions of Ψ, held in tests/core/psi",
