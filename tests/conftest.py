@@ -50,7 +50,10 @@ def pytest_collection() -> Iterator[None]:
         if "numba" in sys.modules:
             from codim2_app.view import compiled_once
 
+            from codim2_core.jit import tiers
+
             compiled_once.install()  # all processes begin with the same kernels
+            tiers.policy.way = tiers.COMPILE  # and what a test sees does not depend on what is on disk
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -126,9 +126,12 @@ def _warm() -> int:
     from .kernel_cache import prepare
 
     uncached = prepare()
+    from codim2_core.jit import tiers
+
     from ..view.warmup import warm_all
 
-    warm_all(_say_compiled)
+    with tiers.in_thread(tiers.COMPILE):
+        warm_all(_say_compiled)
     if uncached:
         print(f"codim2: {uncached}", file=sys.stderr)
         return 1

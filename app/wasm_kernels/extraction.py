@@ -40,6 +40,9 @@ def leave_unoptimised() -> None:
     """Have Numba compile in this process, and stop before it optimises."""
     from numba.core import caching, codegen
 
+    from codim2_core.jit import tiers
+
+    tiers.policy.way = tiers.COMPILE
     library: Any = codegen.CPUCodeLibrary
     library._optimize_functions = lambda _self, _module: None  # noqa: SLF001
     library._optimize_final_module = lambda _self: None  # noqa: SLF001
