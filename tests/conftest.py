@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-from tests import tiers
 from tests.leftovers import pytest_sessionfinish, pytest_sessionstart  # noqa: F401
 
 # Where this is set, as in containers, each process, a test's server too, would compile all that it imports.
@@ -48,12 +47,12 @@ def pytest_collection() -> Iterator[None]:
         gc.freeze()
         gc.enable()
         if "numba" in sys.modules:
-            from codim2_app.view import compiled_once
+            from codim2_app.view.compiling import once
 
-            from codim2_core.jit import tiers
+            from codim2_core.jit import policy
 
-            compiled_once.install()  # all processes begin with the same kernels
-            tiers.policy.way = tiers.COMPILE  # and what a test sees does not depend on what is on disk
+            once.install()  # all processes begin with the same kernels
+            policy.choose_way(policy.COMPILE)  # and what a test sees does not depend on what is on disk
 
 
 @pytest.hookimpl(tryfirst=True)

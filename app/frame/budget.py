@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from codim2_core.jit.interpreted import total
+from codim2_core.jit.policy import is_left
 from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
 
@@ -203,6 +203,8 @@ class Budget:
             return None  # nothing says how long an orbit would take
         if bounded and name in CYCLE_SEARCH_LAYERS and scene["name"].case == "III":
             raise PendingLayer(name)
+        if bounded and is_left():  # kernels run as Python: that says nothing of later, and workers have not begun
+            return None
         wildest, took = self._timed.get(formula, (0, {}))
         if bounded and name not in POSSIBLY_LONG_LAYERS:
             cost = took.get(name, 0.0)
@@ -211,7 +213,7 @@ class Budget:
         if cost > LAYER_BUDGET or self._spent + cost > FRAME_BUDGET or self._elsewhere(scene):
             raise PendingLayer(name)
         self._spent += cost
-        return partial(self._computed, formula, name, time.perf_counter(), self._timed_so_far, total.seconds)
+        return partial(self._computed, formula, name, time.perf_counter(), self._timed_so_far)
 
     def _wildness(self, scene: Scene) -> int:
         """Return the wildness of a scene, computed once for all layers of a frame."""
@@ -219,12 +221,10 @@ class Budget:
             self._wildness_of = scene.coefficients, wildness(scene)
         return self._wildness_of[1]
 
-    def _computed(self, formula: Hashable, name: str, began: float, before_it: float, as_python: float) -> None:
-        """Note what a layer took here, without the layers that it asked for; not where kernels ran as Python."""
+    def _computed(self, formula: Hashable, name: str, began: float, before_it: float) -> None:
+        """Note what a layer took here, without the layers that it asked for."""
         took = time.perf_counter() - began
         own, self._timed_so_far = took - (self._timed_so_far - before_it), before_it + took
-        if total.seconds > as_python:
-            return
         if own > LAYER_BUDGET:  # or this thread waited: asking how long it has worked takes longer than many a layer
             own = min(own, time.thread_time() - self._worked_before)
         if own > LAYER_BUDGET and name not in self._slow_once:

@@ -126,11 +126,11 @@ def _warm() -> int:
     from .kernel_cache import prepare
 
     uncached = prepare()
-    from codim2_core.jit import tiers
+    from codim2_core.jit import policy
 
-    from ..view.warmup import warm_all
+    from ..view.compiling.steps import warm_all
 
-    with tiers.in_thread(tiers.COMPILE):
+    with policy.in_thread(policy.COMPILE):
         warm_all(_say_compiled)
     if uncached:
         print(f"codim2: {uncached}", file=sys.stderr)

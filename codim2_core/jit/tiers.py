@@ -9,10 +9,8 @@ Numba's dispatcher stays in front: it asks only where it has found no machine co
 
 from __future__ import annotations
 
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from functools import cached_property, partial
 from typing import Any
 
@@ -21,7 +19,7 @@ from numba.core.caching import FunctionCache
 from numba.core.registry import cpu_target
 from numba.core.typing.typeof import Purpose, typeof
 
-from . import interpreted
+from . import interpreted, policy
 
 #: Seconds that a byte of Python's code costs to compile, all functions that a kernel is made of counted once: the
 #: kernels of this package take 0.2 to 0.7 ms.
@@ -30,54 +28,8 @@ SECONDS_PER_BYTE = 3e-4
 LOOK_SECONDS = 0.5
 
 
-class NotCompiledError(RuntimeError):
-    """A kernel is not on disk, where it is only to be loaded."""
-
-
 class _GivenUpError(Exception):
     """A kernel that runs as Python is to run compiled."""
-
-
-#: What is done with a kernel that is not at hand: `RENT` runs it as Python, at first; `COMPILE` never does; `LOAD` takes
-#: it from the disk, or raises `NotCompiledError`.
-RENT, COMPILE, LOAD = "rent", "compile", "load"
-
-
-class _Policy:
-    """What this process does with kernels that are not at hand.
-
-    Attributes
-    ----------
-    way : str
-    compiled_elsewhere : callable
-        Whether another process compiles them now: what runs as Python does so however long that takes.
-    """
-
-    def __init__(self) -> None:
-        self.way = RENT
-        self.compiled_elsewhere: Callable[[], bool] = lambda: False
-
-
-class _OfThread(threading.local):
-    way = ""
-
-
-policy, _of_thread = _Policy(), _OfThread()
-
-
-@contextmanager
-def in_thread(way: str) -> Iterator[None]:
-    """Let this thread do something else than its process with kernels that are not at hand."""
-    _of_thread.way = way
-    try:
-        yield
-    finally:
-        _of_thread.way = ""
-
-
-def current_way() -> str:
-    """Return what this thread does with kernels that are not at hand."""
-    return _of_thread.way or policy.way
 
 
 def is_on_disk(cache: Any, signature: Any) -> bool:
@@ -98,11 +50,11 @@ def may_wait(cache: Any, signature: Any, name: str) -> bool:
     ------
     NotCompiledError
     """
-    way = current_way()
-    if way == COMPILE or is_on_disk(cache, signature):
+    way = policy.current_way()
+    if way == policy.COMPILE or is_on_disk(cache, signature):
         return False
-    if way == LOAD and isinstance(cache, FunctionCache):
-        raise NotCompiledError(f"{name} is not compiled; run `codim2 warm`.")
+    if way == policy.LOAD and isinstance(cache, FunctionCache):
+        raise policy.NotCompiledError(f"{name} is not compiled; run `codim2 warm`.")
     return True
 
 
@@ -145,7 +97,7 @@ class TieredKernel:
         except ValueError:  # Numba says which has no type
             return self._compile(given)
         now = time.perf_counter()
-        is_due = now >= self._next_looks.get(signature, 0.0) or current_way() != RENT
+        is_due = now >= self._next_looks.get(signature, 0.0) or policy.current_way() != policy.RENT
         if is_due and not may_wait(self.kernel._cache, signature, self.kernel.__name__):  # noqa: SLF001
             return self._compile(given)
         if is_due:
@@ -154,7 +106,7 @@ class TieredKernel:
 
     def _may_go_on(self, seconds: float) -> bool:
         """Whether it runs as Python after so many seconds more."""
-        return policy.compiled_elsewhere() or self.seconds + seconds < self.cost
+        return policy.is_left() or self.seconds + seconds < self.cost
 
     def _compile(self, given: tuple[Any, ...]) -> Callable[..., Any]:
         if self._calls_addresses:
@@ -173,7 +125,7 @@ class TieredKernel:
             return now + LOOK_SECONDS
 
         try:
-            left = LOOK_SECONDS if policy.compiled_elsewhere() else min(LOOK_SECONDS, self.cost - self.seconds)
+            left = LOOK_SECONDS if policy.is_left() else min(LOOK_SECONDS, self.cost - self.seconds)
             return interpreted.run(self.kernel, given, began + left, look)
         except (_GivenUpError, ArithmeticError, ValueError):
             for array, copy in before:

@@ -9,7 +9,6 @@ and the step shorter.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
