@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+from tests import tiers
 from tests.leftovers import pytest_sessionfinish, pytest_sessionstart  # noqa: F401
 
 # Where this is set, as in containers, each process, a test's server too, would compile all that it imports.

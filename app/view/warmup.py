@@ -36,7 +36,7 @@ MAX_PAGE_FORMULAS, MIN_SETTINGS = 8, 4
 #: sent: it needs none of them, and is half as fast beside them.
 POLL_SECONDS, MAX_WAIT_SECONDS = 1.0, 20.0
 #: Seconds between two looks for a kernel on the disk.
-LOOK_SECONDS = 0.3
+LOOK_SECONDS = 0.5
 
 _lock = threading.Lock()
 _threads: dict[Hashable, threading.Thread] = {}
@@ -76,7 +76,8 @@ def _load(make_: Callable[[], object]) -> None:
         except policy.NotCompiledError:
             if ended:
                 break
-            _cold.set()
+            if not outcome:
+                _cold.set()
             if not _compiler.is_at_work():
                 _compiler.start()
             time.sleep(LOOK_SECONDS)
@@ -152,7 +153,8 @@ def _start_thread(key: Hashable, target: Callable[..., None], *arguments: Any) -
 def is_ready(psi: Psi | None = None, system: AnySystem | None = None, moving: bool = False) -> bool:
     """Say whether all layers can be drawn without waiting for the compiler; if not, see that it is at work.
 
-    As long as another process compiles them, kernels run as Python, which is fast enough unless a control is moving. If compiling failed, they are asked for all the same, so that their error is seen.
+    As long as another process compiles them, kernels run as Python, which is fast enough where no control is moving. If
+    compiling failed, all layers are asked for all the same, so that their error is seen.
     """
     psi = constant() if psi is None else psi
     if _cold.is_set():  # as Python

@@ -171,7 +171,8 @@ class _PythonModule:
 
 def _total(function: Any) -> Callable[..., float]:
     """Return a function of `math` that is NaN or infinite where that of Python raises."""
-    elsewhere = getattr(np, NUMPY_NAMES.get(function.__name__, function.__name__), None)
+    name: str = function.__name__
+    elsewhere = getattr(np, NUMPY_NAMES.get(name, name), None)
     if elsewhere is None:
         return function
 

@@ -44,7 +44,7 @@ def _kind_of_kernel(nogil: bool = True, **options: Any) -> Callable[[Callable[..
         made.get_call_template = lambda given, named: typed(
             tuple(map(types.unliteral, given)), {name: types.unliteral(one) for name, one in named.items()}
         )
-        made._compile_for_args = TieredKernel(made, compile_waiting).select
+        made._compile_for_args = TieredKernel(made, compile_waiting).select  # noqa: SLF001 (asked where nothing fits)
         return made
 
     return declare

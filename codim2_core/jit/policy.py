@@ -6,8 +6,8 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-#: `RENT` runs a kernel as Python until that has taken as long as compiling it does; `COMPILE` compiles it at once; `LOAD`
-#: takes it from the disk only.
+#: `RENT` runs a kernel as Python until that has taken as long as compiling it does; `COMPILE` compiles it at once;
+#: `LOAD` takes it from the disk only.
 RENT, COMPILE, LOAD = "rent", "compile", "load"
 
 

@@ -67,7 +67,7 @@ class RightHandSide:
 
 def right_hand_side(function: Callable[..., None], cache: bool, **options: Any) -> Any:
     """Return a right-hand side with its `address`, compiled if it is called by machine code, or on disk."""
-    made = CFunc(function, (FIELD.args, FIELD.return_type), {}, {"error_model": "numpy", "nogil": True, **options})
+    made: Any = CFunc(function, (FIELD.args, FIELD.return_type), {}, {"error_model": "numpy", "nogil": True, **options})
     if cache:
         made.enable_caching()
     with _lock:

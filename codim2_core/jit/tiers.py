@@ -36,7 +36,8 @@ def is_on_disk(cache: Any, signature: Any) -> bool:
     """Whether a compiled function is kept on disk for a signature; of what is kept nowhere, it is not."""
     if not isinstance(cache, FunctionCache):
         return False
-    key = cache._index_key(signature, cpu_target.target_context.codegen())  # noqa: SLF001 (Numba tells no other way)
+    context: Any = cpu_target.target_context
+    key = cache._index_key(signature, context.codegen())  # noqa: SLF001 (Numba tells no other way)
     try:
         return key in cache._cache_file._load_index()  # noqa: SLF001
     except (OSError, EOFError):  # it is being written

@@ -108,7 +108,7 @@ def _open_lock(path: Path) -> int:
 
 
 def try_lock(exclusive: bool) -> int | None:
-    """Lock the file that stands for the process that compiles; return it, or `BUSY`, or None where there are no locks."""
+    """Lock the file that stands for the process that compiles; return it, `BUSY`, or None where there are no locks."""
     try:
         import fcntl
 
