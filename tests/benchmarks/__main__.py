@@ -24,8 +24,8 @@ PAGE = PICTURES / "benchmarks.md"
 START, END = "<!-- benchmarks -->", "<!-- /benchmarks -->"
 # bench_<name>: `measure` with `text` and `plots` where there is something to draw, else `report` alone.
 DRAWN = ("trajectories", "roots", "orbits")
-TABLES = ("scene", "general", "motions", "cycles", "census", "proofs", "load", "browser", "page")
-ON_PAGE = ("trajectories", "scene", "general", "motions", "cycles", "census", "load", "browser", "page")
+TABLES = ("scene", "general", "motions", "cycles", "census", "proofs", "load", "browser", "page", "fresh")
+ON_PAGE = ("trajectories", "scene", "general", "motions", "cycles", "census", "load", "browser", "page", "fresh")
 # Titles of the plots of the second picture, by their beginnings.
 OTHERS = ("limit directions: wrong", "period, n = 3", "separatrices")
 ALT = {
