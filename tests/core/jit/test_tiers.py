@@ -48,15 +48,16 @@ def told_of(name):
     """What is drawn and said of a preset, as numbers and words."""
     preset = c2.presets[name]
     scene = c2.Scene(preset.system, preset.psi, preset.z, launch=[(0.3, 0.2)])
-    cycles, drawn = scene["closed_orbits"].cycles, ("inside", "outside", "launched")
+    drawn = [scene["inside"], scene["outside"]]
     return {
         "name": scene["classification"].sentence,
-        "directions": [(one.theta, one.lambda_rho) for one in scene["equator"]],
-        "sets": [tuple(one.e) for one in scene["critical"]],
-        "cycles": [(one.period, one.multiplier) for one in cycles],
+        "directions": np.stack([scene["equator"].theta, scene["equator"].lambda_rho]),
+        "sets": np.array([one.e for one in scene["critical"]]),
+        "cycles": [(one.period, one.multiplier) for one in scene["closed_orbits"].cycles],
         "separatrices": [(one.origin, one.end, one.status) for one in scene["separatrices"]],
-        "codes": [scene[layer].codes.tolist() for layer in drawn[:2]],
-        "lines": [[np.array(line) for line in scene[layer].points] for layer in drawn[:2]],
+        "goes": [str(one) for one in scene["launched"].goes],
+        "status": [[str(one) for one in layer.status] for layer in drawn],
+        "lines": [[np.array(line) for line in layer.points] for layer in drawn],
     }
 
 
@@ -66,7 +67,7 @@ def test_a_scene_is_the_same_as_python(tmp_path, name):
     found, compiled = computed(tmp_path, SCENES, name)
     own = told_of(name)
     assert compiled == []
-    for what in ("name", "separatrices", "codes"):
+    for what in ("name", "separatrices", "goes", "status"):
         assert found[what] == own[what], what
     for what in ("directions", "sets", "cycles"):
         np.testing.assert_allclose(found[what], own[what], rtol=1e-6, atol=1e-9, err_msg=what)
