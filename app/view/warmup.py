@@ -65,7 +65,7 @@ def page_sent() -> None:
 _compiler = CompilerProcess()
 
 
-def _load(make_: Callable[[], object]) -> None:
+def _take_step(make_: Callable[[], object]) -> None:
     """Load what a step needs as soon as it is on disk; what nobody can keep there is compiled here."""
     while True:
         ended = _compiler.has_ended()
@@ -96,10 +96,10 @@ def _load_all(told: steps.Told, patience: float) -> None:
     try:
         for number, (what, make_) in enumerate(everything, 1):
             began = time.perf_counter()
-            _load(make_)
+            _take_step(make_)
             done = number, len(everything)
             if number == steps.FIRST_PRIORITY:
-                _load(steps.draw_first_scene)
+                _take_step(steps.draw_first_scene)
                 outcome = "ready"
                 _cold.clear()
             if number == len(everything) + steps.PICTURES:

@@ -28,11 +28,11 @@ NUMPY_NAMES = {"pow": "power", "atan2": "arctan2", "atan": "arctan", "asin": "ar
 
 #: Right-hand sides that are not compiled, by their addresses.
 waiting: WeakValueDictionary[int, Any] = WeakValueDictionary()
-_kernels: WeakKeyDictionary[Any, FunctionType] = WeakKeyDictionary()
+_made: WeakKeyDictionary[Any, FunctionType] = WeakKeyDictionary()
 
 
 class _Clock(threading.local):
-    """When the kernel that this thread runs as Python is due to be looked at.
+    """The time at which the kernel that this thread runs as Python is looked at.
 
     Attributes
     ----------
@@ -89,9 +89,9 @@ def _plain(value: Any) -> Any:
 
 def interpreted(kernel: Any) -> FunctionType:
     """Return a kernel as a function of Python, and so all that it calls; made once."""
-    found = _kernels.get(kernel)
+    found = _made.get(kernel)
     if found is None:
-        found = _kernels[kernel] = interpret(kernel.py_func)
+        found = _made[kernel] = interpret(kernel.py_func)
     return found
 
 
@@ -124,7 +124,7 @@ def _is_ours(value: Any) -> bool:
 
 def _as_python(name: str, value: Any) -> Any:
     if hasattr(value, "py_func"):
-        return _checked(interpreted(value))
+        return _ask_before(interpreted(value))
     if value is math or _is_ours(value):
         return _PythonModule(value)
     if isinstance(value, BuiltinFunctionType) and value.__module__ == "math":
@@ -132,7 +132,7 @@ def _as_python(name: str, value: Any) -> Any:
     return STAND_INS.get(name, value)
 
 
-def _checked(function: FunctionType) -> Callable[..., Any]:
+def _ask_before(function: FunctionType) -> Callable[..., Any]:
     """Return a function that asks for the time; one with loops does so by itself."""
     if "range" in function.__code__.co_names:
         return function

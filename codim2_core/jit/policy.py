@@ -1,4 +1,4 @@
-"""What is done with kernels that are neither compiled in this process nor kept on disk."""
+"""The choice of what is done with kernels that are neither compiled in this process nor kept on disk."""
 
 from __future__ import annotations
 
