@@ -9,7 +9,7 @@ A public name is imported when it is first asked for (PEP 562): a program loads 
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Python the same
-    from . import bifurcations, examples, mechanics, psi
+    from . import bifurcations, examples, mechanics, psi, reference
     from .atlases.atlas import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, atlas
     from .counting.census import census
     from .counting.table import Census
@@ -111,6 +111,7 @@ __all__ = [
     "periodic_motion",
     "presets",
     "psi",
+    "reference",
     "separatrices",
     "simulate",
     "simulate_nonsmooth",
@@ -125,6 +126,7 @@ _MODULES = {
     "hemisphere": "layer_problem.hemisphere",
     "mechanics": "mechanics",
     "psi": "psi",
+    "reference": "reference",
 }
 _HOMES = {
     "atlases.atlas": "Atlas AtlasCurve AtlasPoint AtlasRegion atlas",

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 
-from .critical_changes import CRITICAL_CHANGES
+from .special_kinds import SPECIAL_KINDS
 
 #: Label, what it is called, and its title (of sections the paper's, of the others what it shows, in a few words).
 PRINTED: dict[str, tuple[str, str]] = {
@@ -107,7 +107,7 @@ CHANGES: dict[str, str] = {
 
 def label_of(kind: str) -> str:
     """Return where the paper has a kind of change."""
-    return next((row.label for row in CRITICAL_CHANGES if row.kind == kind), None) or CHANGES[kind]
+    return next((row.label for row in SPECIAL_KINDS if row.kind == kind), None) or CHANGES[kind]
 
 
 _LABEL = re.compile(r"((?:fig|sec|thm|prop|lem|tab|def|rem):\w+)(\(\w\))?")

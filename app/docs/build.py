@@ -19,7 +19,7 @@ from typing import Any
 from codim2_core import __version__
 
 from ..lessons.library import built_in
-from . import gallery, mathematics, reference
+from . import gallery, mathematics, reference, validation
 
 TEXT_FOLDER = Path(__file__).parent / "text"
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
@@ -134,6 +134,7 @@ def _write_sources(source: Path, portraits: bool, live: str) -> None:
         (source / "gallery.md").write_text(gallery.GALLERY_HEAD.format(click=""), encoding="utf-8")
     (source / "lessons.md").write_text(_lessons(live or "../"), encoding="utf-8")
     reference.write_reference(source)
+    validation.write_validation(source)
 
 
 LESSONS = """# Lessons

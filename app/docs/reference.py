@@ -23,6 +23,7 @@ MODULES = {
     "examples": "Example systems",
     "hemisphere": "Charts of the hemisphere",
     "mechanics": "From a mechanism to its system",
+    "reference": "Motions whose values are known",
 }
 
 

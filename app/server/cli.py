@@ -16,18 +16,12 @@ from typing import Any
 
 from ..docs import docs_folder
 from ..frame.dask_executor import ClusterError, dask_executor
-from .commands import (
-    add_census,
-    add_classify,
-    add_docs,
-    add_kernels,
-    add_notebooks,
-    add_presets,
-    add_prove,
-    add_static,
-    join_negative_numbers,
-)
-from .downloads import add_data, add_figure, add_film, add_live
+from .commands.answers import add_classify, add_presets, add_prove
+from .commands.builds import add_docs, add_kernels, add_notebooks, add_static
+from .commands.count import add_census
+from .commands.downloads import add_data, add_figure, add_film, add_live
+from .commands.numbers import join_negative_numbers
+from .commands.reference import add_reference
 from .process.files import many_files
 from .process.logs import log_to_stderr
 from .process.stopping import stop_when_asked
@@ -54,6 +48,7 @@ def parser() -> argparse.ArgumentParser:
         add_data,
         add_live,
         add_film,
+        add_reference,
         add_census,
         add_notebooks,
         add_docs,

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Array
-from ..critical_changes import HOPF, NODE_FOCUS
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.sign_changes import roots
 from ..psi.constructors import with_parameter
+from ..special_kinds import HOPF, NODE_FOCUS
 from ..words import say
 from .result import CriticalBranch, SpecialValue
 from .test_functions import KINDS, Linearisation, Plane, SystemPath, border_functions, linearise

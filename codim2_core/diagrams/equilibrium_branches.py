@@ -10,17 +10,13 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..continuation.result import CycleBranches
-from ..critical_changes import CRITICAL_CHANGES, CriticalChange
-from ..layer_problem.critical import CriticalSet
-from ..layer_problem.problem import LayerProblem
-from ..layer_problem.vary import vary
-from ..numerics.root_between import root_between
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
 from ..words import say
 from .critical import critical_part, existence_borders
 from .equator import equator_part
 from .family import linear_path, values_over
+from .further_kinds import further_kinds
 from .recheck_intervals import samples_beside
 from .result import Branches, ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
 from .test_functions import Plane, SystemPath, scale
@@ -41,39 +37,12 @@ def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float
     if not (np.isfinite([low, high]).all() and low < high):
         raise ValueError(f"the span of {along} is {low:g} to {high:g}; give two finite numbers, the smaller one first.")
     directions, orbits, sets, special, gaps = _find_parts(system, psi, along, (low, high), z)
-    special += _further_changes(system, psi, along, z, sets)
+    special += further_kinds(system, psi, along, z, [*directions, *sets])
     special.sort(key=lambda s: s.value)
     none = CycleBranches(along, (low, high), (), say("cycles not looked for"))
     slow = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
     parts = tuple(directions), tuple(orbits), tuple(sets), tuple(special), tuple(gaps), none
     return Branches(system, psi, slow, along, (low, high), *parts)
-
-
-def _further_changes(
-    system: Any, psi: Psi, along: str, z: ArrayLike, sets: Sequence[CriticalBranch]
-) -> list[SpecialValue]:
-    """Find the changes of `CRITICAL_CHANGES` that part no kinds, by changes of sign between values of a branch."""
-    found = []
-    for change in (one for one in CRITICAL_CHANGES if not one.parts):
-        for branch in sets:
-            size = change.function(branch.trace, branch.determinant)
-            at_zero = change.holds(branch.trace, branch.determinant)
-            for i in np.flatnonzero((size[1:] * size[:-1] < 0.0) & at_zero[1:] & at_zero[:-1]).tolist():
-                place = 0.5 * (branch.p[i] + branch.p[i + 1])
-
-                def set_at(value: float, place: Array = place) -> CriticalSet:
-                    at, psi_at, z_at = vary(system, psi, z, along, value)
-                    there = LayerProblem(at.at(z_at), psi_at).critical
-                    return min(there, key=lambda C: float(np.hypot(*(C.p - place))))
-
-                def test(value: float, set_at: Any = set_at, change: CriticalChange = change) -> float:
-                    C = set_at(value)
-                    return float(change.function(C.trace, C.determinant))
-
-                value = root_between(test, *branch.value[i : i + 2].tolist())
-                p = set_at(value).p
-                found.append(SpecialValue(change.kind, value, (float(p[0]), float(p[1])), change.says))
-    return found
 
 
 EquilibriumParts = tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]

@@ -183,7 +183,7 @@ class _NonsmoothRun:
             status, detail = SimulationStatus.STEP_LIMIT, str(error)
         motion = dense(t_start, first, [gather_steps(course.taken, len(first))])
         phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
-        variation = partial(of_nonsmooth, self.system, motion, phases, line)
+        variation = partial(of_nonsmooth, self.system, self.psi, motion, phases, line)
         return simulation(
             motion, phases, variation, status, detail=detail, evaluations=course.evaluations, events=watch.times
         )
@@ -206,7 +206,9 @@ def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
     motion, first = past.motion, float(past.motion.times[0])
     slip = Phase("slip", first, t_start, say("past on Sigma" if arrives else "starts outside"))
     phases = (slip.with_place(OfState(motion, None, 0.0, first, t_start), None),)
-    variation = partial(of_nonsmooth, asked.system, motion, lambda: phases, invariant_line(asked.formulas, last))
+    variation = partial(
+        of_nonsmooth, asked.system, asked.psi, motion, lambda: phases, invariant_line(asked.formulas, last)
+    )
     return simulation(
         motion, lambda: phases, variation, past.status,
         detail=past.detail, evaluations=past.evaluations, events=past.events,
@@ -237,5 +239,5 @@ def _run_motions(asked: _NonsmoothRun, states: Array) -> Iterator[Simulation]:
         else:
             found = begun.found
             phases = partial(begun.phases, found.motion)
-            variation = partial(of_nonsmooth, asked.system, found.motion, phases, begun.line)
+            variation = partial(of_nonsmooth, asked.system, asked.psi, found.motion, phases, begun.line)
             yield simulation(found.motion, phases, variation, SimulationStatus.T_END, evaluations=found.evaluations)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from ..critical_changes import CRITICAL_CHANGES
+from ..special_kinds import SPECIAL_KINDS
 from .sentence import Sentence
 
 SENTENCES: dict[str, Sentence] = {
-    **{change.kind: Sentence(change.says, change.when) for change in CRITICAL_CHANGES},
+    **{change.kind: Sentence(change.says, change.when) for change in SPECIAL_KINDS},
     "pitchfork in the plane": Sentence(
         "Θ has a triple zero, and b = 0 makes the system symmetric: a pitchfork of limit directions (D2).",
         "a triple zero, b = 0",

@@ -10,11 +10,12 @@ ROOT = Path(__file__).parents[2]
 #: What is no statement about a system: data with texts of its own, and what is said of a wrong input.
 ASIDE = {
     "words": "the registry",
-    "critical_changes.py": "rows that the registry reads",
+    "special_kinds.py": "rows that the registry reads",
     "jit": "what is logged of the compiler, and what is asked of it that it cannot do",
     "paper.py": "what the paper's labels are called",
     "figures": "captions of the presets, data",
     "examples": "what a system is, data",
+    "reference": "what moves, and where it is from, data; its values are held in tests/core/reference",
     "arguments.py": "what may be given",
     "expressions": "how a text is to be written",
     "conditions.py": "conditions of Ψ, held in tests/core/psi",

@@ -41,8 +41,8 @@ from .typed_ends import (
     TypedBranchEnd,
     equator_end,
     hopf_end,
-    limit_value,
     loop_end,
+    slow_sequence,
 )
 from .typed_family import VariedRay, run_typed_batch
 
@@ -354,7 +354,7 @@ class TypedSearch:
                 break
         else:
             return None
-        told = LastCycles(last, states.states, before, earlier.states, limit_value(turns[: end + 1]))
+        told = LastCycles(last, states.states, before, earlier.states, slow_sequence(turns[: end + 1]))
         return loop_end(self.name, told, self.problem(last.value), self.marked, self.width)
 
     def _known(self, cycle: LimitCycle | KnownCycle, value: float) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
@@ -27,6 +28,7 @@ LIMIT_TOLERANCE, MAX_END_DISTANCE = (
 LIMIT_PERIOD_GROWTH = 1.5  # times the period before: cycles that tell the value to which those of growing periods tend
 RATE_BOUNDS = 0.05, 20.0  # with which powers of the period the values come to it
 SADDLE_NODE_DISTANCE = 2.0  # times the way to it: there a saddle-node, to which they come more slowly, may be the end
+SAME_SLOPE = 0.1  # relative: slopes of the logarithm of the period that are one
 MAX_LIMIT_DISTANCE = 10.0  # times the way of the last cycles: how far from the last one is what they come to
 
 
@@ -54,13 +56,13 @@ class MarkedValue(Protocol):
 
 @dataclass(frozen=True)
 class LastCycles:
-    """The last cycles of a branch: the turn, the states along it, an earlier one, and the limit of their values."""
+    """The last cycles of a branch: the turn, the states along it, an earlier one, and those that slow down to it."""
 
     turn: ReturnMapPoint
     states: Array
     before: ReturnMapPoint
     earlier: Array
-    limit: float | None
+    slower: Sequence[ReturnMapPoint]
 
 
 @dataclass(frozen=True)
@@ -96,17 +98,24 @@ def equator_end(
     return TypedBranchEnd(point, (value, math.inf, away, 0.0, *turn.p))
 
 
-def limit_value(turns: Sequence[ReturnMapPoint]) -> float | None:
-    """Extrapolate the values of cycles whose periods grow, as v + C period^-r through three; None if they do not."""
+def slow_sequence(turns: Sequence[ReturnMapPoint]) -> list[ReturnMapPoint]:
+    """Return the last cycle, and up to two before it of much shorter periods."""
     three = [turns[-1]]
     for turn in reversed(turns[:-1]):
         if (
             len(three) < 3 and 0.0 < LIMIT_PERIOD_GROWTH * turn.period < three[-1].period
         ):  # one carried too far may be negative
             three.append(turn)
-    last, middle, first = (three * 3)[:3]
+    return three
+
+
+def limit_value(slower: Sequence[ReturnMapPoint]) -> float | None:
+    """Extrapolate the values of three cycles whose periods grow, as v + C period^-r; None if they do not."""
+    if len(slower) < 3:
+        return None
+    last, middle, first = slower
     way = middle.value - last.value
-    if len(three) < 3 or not (ratio := (first.value - middle.value) / way if way else 0.0) > 0.0:
+    if not (ratio := (first.value - middle.value) / way if way else 0.0) > 0.0:
         return None
     one, two = (math.log(last.period / turn.period) for turn in (first, middle))
 
@@ -119,6 +128,15 @@ def limit_value(turns: Sequence[ReturnMapPoint]) -> float | None:
     return last.value + way * math.exp(-power) / math.expm1(-power)
 
 
+def slow_down_at(slower: Sequence[ReturnMapPoint], value: float) -> bool:
+    """Whether the periods of three cycles grow as exp(c/sqrt(distance from a value)), as at a saddle-node there."""
+    if len(slower) < 3:
+        return False
+    rows = [(abs(turn.value - value) ** -0.5, math.log(turn.period)) for turn in slower if turn.value != value]
+    slopes = [(y - v) / (x - u) if x != u else math.nan for (x, y), (u, v) in pairwise(rows)]
+    return len(slopes) == 2 and slopes[0] > 0.0 and abs(slopes[1] - slopes[0]) < SAME_SLOPE * slopes[0]
+
+
 def loop_end(
     name: str, last: LastCycles, problem: LayerProblem, marked: Sequence[MarkedValue], width: float
 ) -> TypedBranchEnd | None:
@@ -126,15 +144,20 @@ def loop_end(
     turn = last.turn
     if turn.period < PERIOD_GROWTH * last.before.period:
         return None
-    ahead = {m.kind: m for m in reversed(marked) if _lies_ahead(m, last, width)}  # the first of each kind
+    far_first = sorted(marked, key=lambda m: -abs(m.value - turn.value))
+    ahead = {m.kind: m for m in far_first if _lies_ahead(m, last, width)}  # the nearest of each kind
     fold, meeting = ahead.get("fold of critical sets"), ahead.get("saddle-node")
     if fold is not None and min(_gaps([fold.place], last.states)) < LOOP_DISTANCE:
         return _make_end(
             "saddle-node on the cycle", say("meets two sets", name=name, value=fold.value), turn, fold.value
         )
     sunk, settled = _comes_to_equator(last), abs(turn.value - last.before.value) < LIMIT_TOLERANCE * width
-    value = turn.value if last.limit is None else last.limit
-    reached = meeting is not None and abs(meeting.value - turn.value) < SADDLE_NODE_DISTANCE * abs(value - turn.value)
+    limit = limit_value(last.slower)
+    value = turn.value if limit is None else limit
+    reached = meeting is not None and (
+        abs(meeting.value - turn.value) < SADDLE_NODE_DISTANCE * abs(value - turn.value)
+        or slow_down_at(last.slower, meeting.value)
+    )
     if sunk and meeting is not None and (reached or not settled):
         sentence = say("meets a saddle-node", name=name, value=meeting.value)
         return _make_end("saddle-node on the equator", sentence, turn, meeting.value)

@@ -8,8 +8,8 @@ from itertools import combinations
 
 import numpy as np
 
-from ...critical_changes import DETERMINANT, change_between
 from ...layer_problem.critical import CriticalSet
+from ...special_kinds import DETERMINANT, change_between
 from ...words import say
 from ..result import SpecialValue
 from .state import Array, State

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from ...critical_changes import CriticalChange, change_between
+from ...special_kinds import SpecialKind, change_between
 from .cancellation_zones import States
 from .state import State
 
@@ -119,7 +119,7 @@ def _of_direction(theta: float, radial: bool) -> Measure:
     return measure
 
 
-def _of_set(change: CriticalChange, place: tuple[float, float]) -> Measure:
+def _of_set(change: SpecialKind, place: tuple[float, float]) -> Measure:
     """Return the test function of a change, of the critical set nearest to a place."""
 
     def measure(state: State) -> float:

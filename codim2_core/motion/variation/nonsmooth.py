@@ -7,6 +7,7 @@ equator, both fields agree and the motion begins with no speed: nothing is added
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
@@ -20,9 +21,11 @@ from ...arrays import Array
 from ...initial_value.line import InvariantLine
 from ...initial_value.slopes import Slopes, outside, slopes_of
 from ...numerics.dense import Dense
+from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
 from .chain import chain_propagators
+from .passage import shrinks_across
 from .propagators import Propagators, pad_jacobians, propagators, states_along
 from .result import Variation
 
@@ -49,6 +52,7 @@ class Phase(Protocol):
 
 def of_nonsmooth(
     system: AnySystem,
+    psi: Psi | None,
     motion: Dense,
     phases: Callable[[], Sequence[Phase]],
     line: InvariantLine | None,
@@ -59,16 +63,22 @@ def of_nonsmooth(
     Parameters
     ----------
     system : ELinear, System, Coefficients or Frozen
+    psi : Psi or None
     motion : Dense
     phases : callable
         Makes its phases.
     line : InvariantLine or None
-        The invariant line that it stays in: where the line repels, changes that leave it are left out.
+        The invariant line that it stays in: where the line repels (but see `passage`), changes that leave it are left
+        out.
     names : sequence of str
         Of ``system.variable``.
     """
     course, legs = _Course(slopes_of(system, names), motion, None), list(_legs(motion, phases()))
-    if line is not None and any(course.repels(leg, line.n) for leg in legs):
+    if line is not None and any(
+        course.repels(leg, line.n) and not (following and course.shrinks(system, psi, leg, following, line.n))
+        for leg, following in pairwise([*legs, None])
+        if leg
+    ):
         course = replace(course, n=line.n)
     start = course.line_projector.copy()
     if legs and legs[0].slides:
@@ -255,6 +265,17 @@ class _Course:
             U = self.n * (self.n @ U)
         return bool(np.abs(U).max() <= AT_REST * np.abs(D).max())
 
+    def shrinks(self, system: AnySystem, psi: Psi | None, leg: _Leg, following: _Leg, n: Array) -> bool:
+        """Whether of what turns away from the line along n as a slip arrives nothing is left, see `passage`."""
+        if leg.slides or (leg.from_sigma and self.repels(replace(leg, to_sigma=False), n)):
+            return False
+        z = tuple(self.motion.states[leg.last, 2:].tolist())
+        arriving, leaving = (
+            math.atan2(*outside(self.motion.states[i : i + 1, :2])[0][0, ::-1].tolist())
+            for i in (self.arrival_step(leg), following.first + 1)
+        )
+        return shrinks_across(system, psi, z, arriving, None if following.slides else leaving)
+
     def repels(self, leg: _Leg, n: Array) -> bool:
         """Whether what lies beside the line along n turns away from it: in a slide, or as it arrives or leaves."""
         across = np.array([-n[1], n[0]])
@@ -288,15 +309,27 @@ class _Course:
         return found
 
     def arrival(self, step: int, onward: Array) -> Array:
-        """Saltation matrix of an arrival, straight on from a step's beginning, where the motion goes on at a rate."""
+        """Saltation matrix of an arrival, straight on from a step's beginning, where the motion goes on at a rate.
+
+        What is across the way, at one distance from Sigma, falls as ``y ~ tau^a`` with the time to go, rho = v tau and
+        ``a = -(t.D t)/v`` for D = D_e U and t across. The rates change by ``D_e (U, W) t y/rho`` meanwhile: in all, by
+        ``-D_e (U, W) t/(t.D t)`` times y.
+        """
         state = self.motion.states[step]
-        e, rate = outside(state[None, :2], self.n)[0][0], self.slipping_rate(state)
-        later = np.zeros(self.size)
-        later[:2] = -e / (e @ rate[:2])
-        found = np.eye(self.size)
-        found[:2, :2] = 0.0
-        found[2 : len(state)] += np.outer(rate[2:] - onward[2:], later)
-        found[:2] -= np.outer(onward[:2], later)
+        n, e, rate = len(state), outside(state[None, :2], self.n)[0][0], self.slipping_rate(state)
+        sooner, rest = np.zeros(self.size), np.eye(self.size)
+        sooner[:2] = -e / (e @ rate[:2])
+        across = np.array([-e[1], e[0]])
+        D = self.slopes.at(e[None], state[None])[0, :, :2]
+        falls = float(across @ D[:2] @ across)
+        if self.n is None and falls < 0.0:
+            rest[:n, :2] -= np.outer(D @ across / falls, across)
+        to_section = np.eye(self.size)
+        to_section[:n] += np.outer(rate, sooner)
+        whole = rest @ to_section
+        found, later = to_section @ whole, sooner + sooner @ whole
+        found[:2] = 0.0
+        found[:n] -= np.outer(onward, later)
         return found
 
     def departure(self, leg: _Leg) -> Array:
@@ -310,10 +343,13 @@ class _Course:
         return start
 
     def later(self, leg: _Leg) -> Array:
-        """Return the change of the time of leaving by a change of the state; where a slide ended, (x, y) has none."""
+        """Return the change of the time of leaving by a change of the state; where a slide ended, (x, y) has none.
+
+        Undefined where it begins with no speed.
+        """
         found, onward = np.zeros(self.size), self.initial_rate(leg)[:2]
         if not leg.left:
-            found[:2] = -onward / (onward @ onward)
+            found[:2] = -onward / (onward @ onward) if onward.any() else math.nan
         return found
 
     def departure_matrix(self, leg: _Leg, first: Array) -> Array:

@@ -131,7 +131,7 @@ def test_a_census_on_a_cluster_that_is_not_there(capsys, monkeypatch):
     def missing(_):
         raise ClusterError("no Dask scheduler answers at tcp://127.0.0.1:9.")
 
-    monkeypatch.setattr("codim2_app.server.commands.dask_executor", missing)
+    monkeypatch.setattr("codim2_app.server.commands.count.dask_executor", missing)
     assert main(["census", "--dask", "tcp://127.0.0.1:9"]) == 2
     assert "no Dask scheduler answers" in capsys.readouterr().err
 

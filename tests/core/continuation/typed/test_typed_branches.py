@@ -12,6 +12,8 @@ import codim2_core as c2
 ONE = c2.psi.constant()
 CASE3 = c2.ELinear(172, 186, -200, (-86, -93))
 FOLD = c2.ELinear(1.6215774162507035, -2.4647033090719974, -2.095840045086004, (1.3369924, -1.0251566))
+SLOW_MEETING = c2.ELinear(0.286, -0.709, -1.339, (-0.057, -0.94))
+TWO_MEETINGS = c2.ELinear(1.831, -1.525, -1.013, (0.743, -0.799))
 LOOP = c2.ELinear(0.6285923608169889, -1.2085733311350155, -1.5844770979730014, (-0.861192783343166, 0.99838561970375))
 QUADRATIC = c2.System(
     U=("m*c - s + 0.3*c**2 - 2*c*(c**2 + s**2)", "c + m*s - 0.2*c*s - 2*s*(c**2 + s**2)"), parameters={"m": 0.1}
@@ -45,6 +47,27 @@ def test_an_e_linear_system_as_text_has_the_same_branches(system, n, along, span
         assert q.value == pytest.approx(p.value, rel=1e-7 if loose else 1e-8)
         assert q.period == pytest.approx(p.period, rel=1e-7)
         assert q.amplitude == pytest.approx(p.amplitude, abs=5e-3 if math.isinf(p.period) else 2e-4)
+
+
+def test_a_branch_that_comes_down_ends_at_the_first_saddle_node():
+    """Two lie ahead as f1 falls: the one that is farther away was told."""
+    psi = c2.psi.rational()
+    (branch,) = c2.branches(twin(TWO_MEETINGS, 0.0), psi, "f1", (-1.0, 2.5)).cycles
+    special = c2.branches(TWO_MEETINGS, psi, "f1", (-1.0, 2.5), with_cycles=False).special
+    *_, last = (one.value for one in special if one.kind == "saddle-node")
+    assert [point.kind for point in branch.special] == ["Hopf", "saddle-node on the equator"]
+    assert branch.end.value == pytest.approx(last, abs=1e-9)
+    assert not c2.limit_cycles(TWO_MEETINGS.evolve(f1=last - 1e-3), psi)
+
+
+def test_a_branch_that_slows_down_at_a_saddle_node_ends_there():
+    """Its periods grow as exp(c/sqrt(distance)), to 1e13 within 2e-6: a loop was told that much before."""
+    psi = c2.psi.tanh()
+    (branch,) = c2.branches(twin(SLOW_MEETING, 0.0), psi, "f1", (-1.396, 1.282)).cycles
+    special = c2.branches(SLOW_MEETING, psi, "f1", (-1.396, 1.282), with_cycles=False).special
+    value, _ = (one.value for one in special if one.kind == "saddle-node")
+    assert [point.kind for point in branch.special] == ["Hopf", "saddle-node on the equator"]
+    assert branch.end.value == pytest.approx(value, abs=1e-9)
 
 
 def motion(system, psi, value):

@@ -67,14 +67,45 @@ def test_den_hartogs_motion_in_its_line_and_in_the_plane(mu, F, w):
     change = {"mu": mu, "F": F, "w": w}
     line = periodic_motion(LINE.evolve(**change), (speed + 0.01, 0.0, q, 0.0), math.tau / w)
     np.testing.assert_allclose(line.state0, [speed, 0.0, q, 0.0], atol=1e-9)
-    close(line, exact.multipliers)
-    # In the line nothing is lost; the line repels, and across it no derivative is known.
-    assert line.stability == "undecided"
-    assert keys(line) == ["repeats", "periodic beside a line"]
+    # The line repels as the motion arrives, and yet of what is across nothing is left once it has passed.
+    close(line, [*exact.multipliers, 0.0])
+    assert (line.stability, keys(line)) == ("stable", ["repeats", "start is lost", "periodic stable"])
     plane = periodic_motion(PLANE.evolve(**change), (speed, 0.0, q - 0.01, 0.0, 0.0), math.tau / w)
     np.testing.assert_allclose(plane.state0, [speed, 0.0, q, 0.0, 0.0], atol=1e-9)
     assert plane.state0[[1, 3]].tolist() == [0.0, 0.0]  # it stays in the line y = z2 = 0
-    close(plane, exact.multipliers)
+    # z2 across is not lost: its multiplier is the limit of quotients of differences, y between passes being forgotten
+    system, period = PLANE.evolve(**change), math.tau / w
+    first = next(phase.t_start for phase in plane.run.phases if phase.kind == "cross")
+    start = plane.run.dense(first + 0.2)
+    ends = [
+        simulate_nonsmooth(system, start + h * np.eye(5)[3], (0.0, period), rtol=1e-12, atol=1e-18).states[-1, 3] / h
+        for h in (1e-4, 1e-5, 1e-6)
+    ]
+    across = ends[2] - (ends[2] - ends[1]) ** 2 / (ends[2] - 2.0 * ends[1] + ends[0])  # Aitken: they come as a power
+    last = plane.run.variation().last
+    (lost,) = (one for one in plane.multipliers.tolist() if one == 0.0)
+    (kept,) = (one for one in plane.multipliers.tolist() if one.imag == 0.0 and one != 0.0)
+    close(plane, [*exact.multipliers, kept, lost])
+    shifted = periodic_motion(system.evolve(), start, period).run.variation().last
+    assert shifted[3, 3] == pytest.approx(across, abs=1e-4)
+    assert kept.real == pytest.approx(np.trace(last[np.ix_([1, 3], [1, 3])]), abs=1e-9)  # the other is 0
+
+
+def test_friction_that_drives_across_leaves_it_undecided():
+    """Then a small angle beside the line grows faster than any multiple, and no derivative exists."""
+    exact, system = DenHartog(0.1, 1.0, 0.6), System(
+        U=("-z1 - mu*c + F*cos(w*z2)", "mu*s"), W=("x", "1"), parameters={"mu": 0.1, "F": 1.0, "w": 0.6}
+    )  # fmt: skip
+    speed, q = exact.at_clock(0.0)
+    found = periodic_motion(system, (speed + 0.01, 0.0, q, 0.0), math.tau / 0.6)
+    close(found, exact.multipliers)
+    assert (found.stability, keys(found)) == ("undecided", ["repeats", "periodic beside a line"])
+
+
+def test_a_start_that_begins_with_no_speed_has_no_derivative():
+    """Leine's block at the end of its stick: told, and no warning of a division by zero."""
+    block = System(U=("-z1 - c/(1 + 3*abs(x))", "-s"), W=("x + 0.2",))
+    assert periodic_motion(block, (0.0, 0.0, 1.0), 12.0).status is PeriodicStatus.NO_DERIVATIVE
 
 
 @settings(max_examples=2, deadline=None)

@@ -1,38 +1,39 @@
-"""Kinds of special values of a critical set that its Jacobian J alone decides: a row each, in this one place.
+"""Kinds of special values that two numbers of an object decide: a row each, in this one place.
 
-A row is a test function of tr J and det J (eq:scjaco; Kuznetsov 2004, Section 10.2), with its name, its sentence, and
-where the paper has it. Where two rows part what a critical set is called, diagrams find the value by that function and
-by comparing; any other row is looked for along the branches of critical sets. Tables, exports, the page and its marks
-take what they say of a kind from here.
+A row is a test function (Kuznetsov 2004, Section 10.2) of tr J and det J of a critical set (eq:scjaco), or of
+lambda_rho and lambda_theta of a limit direction (thm:geneps0), with its name, its sentence, and where the paper has it.
+Where a row parts what a critical set is called, diagrams find the value by that function and by comparing; any other
+row is looked for along the branches. Tables, exports, the page and its marks take what they say of a kind from here.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
-TestFunction = Callable[[Any, Any], Any]  # of tr J and det J, numbers or arrays
+TestFunction = Callable[[Any, Any], Any]  # of two numbers of an object, or arrays of them
 
 
 @dataclass(frozen=True, slots=True)
-class CriticalChange:
-    """A kind of special value of a critical set.
+class SpecialKind:
+    """A kind of special value.
 
     Attributes
     ----------
     kind : str
         Its name.
     function : callable
-        Of tr J and det J: it goes through zero there.
+        Of tr J and det J, or of lambda_rho and lambda_theta: it goes through zero there.
     holds : callable
-        Of tr J and det J: whether a zero is of this kind.
+        Of the same: whether a zero is of this kind.
     says, when : str
         The sentence for people, and when it is said.
     label : str
         The paper's label.
     parts : bool
         Whether a critical set has another name on the other side.
+    of : {"critical set", "limit direction"}
     """
 
     kind: str
@@ -42,9 +43,10 @@ class CriticalChange:
     when: str
     label: str
     parts: bool = False
+    of: Literal["critical set", "limit direction"] = "critical set"
 
 
-NODE_FOCUS = CriticalChange(
+NODE_FOCUS = SpecialKind(
     "node-focus",
     lambda trace, determinant: trace**2 - 4.0 * determinant,
     lambda _, determinant: determinant > 0.0,
@@ -53,7 +55,7 @@ NODE_FOCUS = CriticalChange(
     "fig:bads",
     parts=True,
 )
-HOPF = CriticalChange(
+HOPF = SpecialKind(
     "Hopf",
     lambda trace, _: trace,
     lambda _, determinant: determinant > 0.0,
@@ -62,7 +64,7 @@ HOPF = CriticalChange(
     "sec:case3",
     parts=True,
 )
-DETERMINANT = CriticalChange(
+DETERMINANT = SpecialKind(
     "det J = 0",
     lambda _, determinant: determinant,
     lambda trace, _: trace == trace,
@@ -71,10 +73,10 @@ DETERMINANT = CriticalChange(
     "eq:scjaco",
     parts=True,
 )
-CRITICAL_CHANGES = [NODE_FOCUS, HOPF, DETERMINANT]
+SPECIAL_KINDS = [NODE_FOCUS, HOPF, DETERMINANT]
 
 
-def change_between(one: str, other: str) -> CriticalChange:
+def change_between(one: str, other: str) -> SpecialKind:
     """Return what lies between two kinds of critical sets, such as "stable node" and "stable focus"."""
     if one.split()[0] == other.split()[0]:
         return NODE_FOCUS

@@ -37,8 +37,8 @@ def add_data(commands: Any) -> None:
 
 
 def _data(chosen: argparse.Namespace) -> bytes:
-    from ..export.files import DATA
-    from ..export.view import suffix_of, view_of
+    from ...export.files import DATA
+    from ...export.view import suffix_of, view_of
 
     return DATA[suffix_of(chosen.output, tuple(DATA))](view_of(chosen.view))
 
@@ -75,9 +75,9 @@ def add_film(commands: Any) -> None:
 def _film(chosen: argparse.Namespace) -> bytes:
     from dataclasses import replace
 
-    from ..export.film import FILM_KINDS, STYLE, film
-    from ..export.play import PLAY
-    from ..export.view import suffix_of, view_of
+    from ...export.film import FILM_KINDS, STYLE, film
+    from ...export.play import PLAY
+    from ...export.view import suffix_of, view_of
 
     def progress(done: int, count: int) -> None:
         if sys.stderr.isatty():
@@ -88,9 +88,9 @@ def _film(chosen: argparse.Namespace) -> bytes:
 
 
 def _live(chosen: argparse.Namespace) -> bytes:
-    from ..export.figure_page import figure_page
-    from ..export.live import live
-    from ..export.view import suffix_of, view_of
+    from ...export.figure_page import figure_page
+    from ...export.live import live
+    from ...export.view import suffix_of, view_of
 
     suffix_of(chosen.output, (".html",))
     view = view_of(chosen.view)
@@ -98,10 +98,10 @@ def _live(chosen: argparse.Namespace) -> bytes:
 
 
 def _figure(chosen: argparse.Namespace) -> bytes:
-    from ..export.figure import Style, figure  # the kernels, and all that is drawn, are not needed for --help
-    from ..export.printing import pdf, png
-    from ..export.tex.picture import tikz
-    from ..export.view import suffix_of, view_of
+    from ...export.figure import Style, figure  # the kernels, and all that is drawn, are not needed for --help
+    from ...export.printing import pdf, png
+    from ...export.tex.picture import tikz
+    from ...export.view import suffix_of, view_of
 
     suffix = suffix_of(chosen.output, (".svg", ".png", ".pdf", ".tikz"))
     style = Style(chosen.size, chosen.theme, chosen.legend, chosen.labels, chosen.ticks, chosen.title, chosen.caption)

@@ -1,0 +1,1 @@
+"""The commands, but for the server: what they take, what they print and write."""

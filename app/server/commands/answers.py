@@ -1,0 +1,139 @@
+"""The commands that answer in the terminal: a portrait, a proof, what there is. None of them loads the server."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import codim2_core as c2
+from codim2_core.paper import cite
+from codim2_core.psi import FAMILIES
+from codim2_core.words import subscript
+
+from .numbers import number, six
+
+
+def add_classify(commands: Any) -> None:
+    """Add `codim2 classify`."""
+    command = commands.add_parser("classify", help="name the portrait of an e-linear system, and say what stands still")
+    _add_system(command)
+    command.add_argument("--json", action="store_true", help="as JSON")
+    command.set_defaults(run=classify)
+
+
+def add_prove(commands: Any) -> None:
+    """Add `codim2 prove`."""
+    command = commands.add_parser("prove", help="prove how many limit cycles an e-linear system has")
+    _add_system(command)
+    command.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the certificate there")
+    command.set_defaults(run=prove)
+
+
+def _add_system(command: Any) -> None:
+    for name in ("a", "b", "d"):
+        command.add_argument(f"-{name}", type=number, required=name != "b", default=0.0, help=f"{name} of A")
+    for name in ("f1", "f2"):
+        command.add_argument(f"--{name}", type=number, default=0.0)
+    add_psi(command)
+
+
+def add_psi(command: argparse.ArgumentParser) -> None:
+    """Add --psi."""
+    known = ", ".join(
+        family.name + (f":{family.parameter.name.upper()}" if family.parameter else "")
+        for family in FAMILIES.values()
+        if not family.typed
+    )
+    command.add_argument("--psi", default="1", help=f"{known}, or text in s; default 1")
+
+
+def add_presets(commands: Any) -> None:
+    """Add `codim2 presets`."""
+    command = commands.add_parser("presets", help="list the paper's figures")
+    command.add_argument("--json", action="store_true", help="as JSON")
+    command.set_defaults(run=presets)
+
+
+def classify(chosen: argparse.Namespace) -> int:
+    """Print the portrait of one system."""
+    try:
+        psi = c2.psi.from_text(chosen.psi)
+        system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
+        found = c2.classify(system, psi)
+    except ValueError as error:
+        print(f"codim2: {error}", file=sys.stderr)
+        return 2
+    equator, critical = c2.equator_equilibria(system), c2.critical_sets(system, psi)
+    if chosen.json:
+        print(
+            json.dumps(
+                {
+                    "case": found.case,
+                    "name": found.name,
+                    "sentence": found.sentence,
+                    "degeneracies": [item.name for item in found.degeneracies],
+                    "limit_directions": [
+                        {"theta": t, "lambda_rho": r, "lambda_theta": a}
+                        for t, r, a in zip(
+                            equator.theta.tolist(),
+                            equator.lambda_rho.tolist(),
+                            equator.lambda_theta.tolist(),
+                            strict=True,
+                        )
+                    ],
+                    "critical_sets": [
+                        {"e": list(map(float, C.e)), "kind": C.kind, "trace": C.trace, "determinant": C.determinant}
+                        for C in critical
+                    ],
+                }
+            )
+        )
+        return 0
+    print(found.sentence)
+    for item in found.degeneracies:
+        print(f"  {item.name}: {item.sentence}")
+    for i, theta in enumerate(equator.theta.tolist()):
+        rates = f"λ_ρ = {six(equator.lambda_rho[i])}, λ_θ = {six(equator.lambda_theta[i])}"
+        print(f"  Q{subscript(i + 1)}: θ = {six(theta)}, {rates}")
+    for C in critical:
+        place = f"e = ({six(C.e[0])}, {six(C.e[1])})"
+        print(f"  C: {place}, {C.kind}, tr J = {six(C.trace)}, det J = {six(C.determinant)}")
+    return 0
+
+
+def prove(chosen: argparse.Namespace) -> int:
+    """Print how many limit cycles one system has, and whether that is proved: then the status is 0, else 1."""
+    try:
+        psi = c2.psi.from_text(chosen.psi)
+        system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
+        found = c2.limit_cycles(system, psi, prove=True)
+    except ValueError as error:
+        print(f"codim2: {error}", file=sys.stderr)
+        return 2
+    proved = found.proved
+    assert proved is not None
+    print(f"Limit cycles: {len(found)}. {proved.reason}")
+    for i, (cycle, alone) in enumerate(zip(found, proved.cycles, strict=True)):
+        told = f"{cycle.kind}, period {six(cycle.period)}, multiplier {six(cycle.multiplier)}"
+        print(f"  cycle {i + 1}: {told}{', proved' if alone else ''}")
+    if chosen.output is not None and proved.certificate is None:
+        print(f"codim2: {chosen.output} is not written: what is said above rests on no certificate.", file=sys.stderr)
+        return 1
+    if chosen.output is not None:
+        proved.save(chosen.output)
+        print(f"wrote {chosen.output}; to check it: {Path(sys.executable).name} {proved.checker()} < {chosen.output}")
+    return 0 if proved else 1
+
+
+def presets(chosen: argparse.Namespace) -> int:
+    """Print the presets: key, the paper's label, title."""
+    if chosen.json:
+        print(json.dumps({key: {"label": p.label, "title": p.title} for key, p in c2.presets.items()}))
+        return 0
+    wide = max(map(len, c2.presets))
+    for key, preset in c2.presets.items():
+        print(f"{key:{wide}}  {preset.title}  ({cite(preset.label)})")
+    return 0
