@@ -77,8 +77,11 @@ def compile_for_parent() -> None:
         child = os.fork()
         if child == 0:
             _end_with_parent()
-            with once.alone():
-                make_()
+            try:
+                with once.alone():
+                    make_()
+            except OSError:  # nothing can be kept: who has begun it does without
+                os._exit(1)
             os._exit(0)
         if os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]):
             sys.exit(1)
