@@ -35,11 +35,11 @@ def choose_way(way: str) -> None:
 @contextmanager
 def in_thread(way: str) -> Iterator[None]:
     """Let this thread do something else than its process."""
-    _thread.way = way
+    before, _thread.way = _thread.way, way
     try:
         yield
     finally:
-        _thread.way = ""
+        _thread.way = before
 
 
 def current_way() -> str:

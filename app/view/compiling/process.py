@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -66,6 +67,7 @@ def compile_for_parent() -> None:
     """
     if hasattr(os, "nice"):
         os.nice(NICE)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C in a terminal reaches all: it ends with who has begun it
     _end_with_parent()
     logging.getLogger(numba_kernels.__name__).setLevel(logging.ERROR)  # who has begun it tells its progress
     once.install()
