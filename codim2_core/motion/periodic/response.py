@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...arguments import number as positive_number
+from ...arguments import short_repr
 from ...arrays import Array, Complex
 from ...curves.arclength import CurveEdge, StepBounds, tangent, trace_one_way, zero_between
 from ...layer_problem.vary import check_name
@@ -99,11 +100,14 @@ def response_curve(
     value = float(system.value_of(along)) if along in system.variable else math.nan
     if not low <= value <= high or not low < high:
         raise ValueError(
-            f"span is ({low:g}, {high:g}), and {along} is {value:g}; give two numbers about it, the smaller one first."
+            f"span is ({low:g}, {high:g}), and {along} of the system is {value:g}; give two numbers about it, low first."
         )
 
     def period_of(at: float) -> float:
-        return positive_number("period", period(at) if callable(period) else period)
+        try:
+            return positive_number("period", period(at) if callable(period) else period)
+        except TypeError as error:
+            raise ValueError(f"period is {short_repr(period)}; give a number, or a function of {along}.") from error
 
     found = periodic_motion(
         system, state0, period_of(value), psi, eps, advance=advance, rtol=rtol, atol=atol, max_steps=max_steps
