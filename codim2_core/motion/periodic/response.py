@@ -100,7 +100,7 @@ def response_curve(
     value = float(system.value_of(along)) if along in system.variable else math.nan
     if not low <= value <= high or not low < high:
         raise ValueError(
-            f"span is ({low:g}, {high:g}), and {along} of the system is {value:g}; give two numbers about it, low first."
+            f"span is ({low:g}, {high:g}), and {along} of the system {value:g}; give two numbers about it, low first."
         )
 
     def period_of(at: float) -> float:
