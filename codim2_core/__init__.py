@@ -26,6 +26,8 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.delay import Delay
     from .motion.limit.predicted_delays import delays
     from .motion.nonsmooth import simulate_nonsmooth
+    from .motion.periodic.response import response_curve
+    from .motion.periodic.response_result import ResponseCurve
     from .motion.periodic.result import PeriodicMotion, PeriodicStatus
     from .motion.periodic.search import periodic_motion
     from .motion.regularised import simulate
@@ -80,6 +82,7 @@ __all__ = [
     "Phase",
     "Preset",
     "Psi",
+    "ResponseCurve",
     "Scene",
     "Separatrices",
     "Separatrix",
@@ -112,6 +115,7 @@ __all__ = [
     "presets",
     "psi",
     "reference",
+    "response_curve",
     "separatrices",
     "simulate",
     "simulate_nonsmooth",
@@ -144,6 +148,8 @@ _HOMES = {
     "motion.delay": "Delay",
     "motion.limit.predicted_delays": "delays",
     "motion.nonsmooth": "simulate_nonsmooth",
+    "motion.periodic.response": "response_curve",
+    "motion.periodic.response_result": "ResponseCurve",
     "motion.periodic.result": "PeriodicMotion PeriodicStatus",
     "motion.periodic.search": "periodic_motion",
     "motion.regularised": "simulate",

@@ -25,7 +25,7 @@ MAX_NUMBER = 1e150  # of a number: its square is finite
 MOST_VALUES = 1_000_000  # in an array
 MAX_COUNTS: Mapping[str, int] = {"count": 1_000_000_000, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
 MOST_HERE: Mapping[tuple[str, str], int] = {("slow_portrait", "count"): 20_001}
-ZERO_TOO = (("periodic_motion", "eps"),)  # stands for a limit there
+ZERO_TOO = (("periodic_motion", "eps"), ("response_curve", "eps"))  # stands for a limit there
 POSITIVE = ("period", "eps", "rtol", "atol", "t_max", "pixel", "tolerance", "length", "capture", "view")
 
 _SHORT = reprlib.Repr()
@@ -204,6 +204,11 @@ def executor(name: str, value: Any) -> Any:
     raise ValueError(f"{name} is {short_repr(value)}; give an executor of concurrent.futures.")
 
 
+def number_or_function(name: str, value: Any) -> Any:
+    """Check a number, or a function of one."""
+    return value if callable(value) else number(name, value)
+
+
 def _as_given(_: str, value: Any) -> Any:
     return value
 
@@ -229,6 +234,7 @@ BY_NAME: Mapping[str, Check] = {
 }
 BY_ANNOTATION: Mapping[str, Check] = {
     "float": number, "bool": truth, "str": text, "ArrayLike": numbers,
+    "float | Callable[[float], float]": number_or_function,
     "str | Path": file, "ArrayLike | str | Path": numbers_or_file, "tuple[float, float]": pair,
     "ELinear | Coefficients": e_linear, "AnySystem": system, "ELinear | System": system, "Any": system,
 }  # fmt: skip

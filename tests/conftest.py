@@ -48,9 +48,12 @@ def pytest_collection() -> Iterator[None]:
         gc.freeze()
         gc.enable()
         if "numba" in sys.modules:
-            from codim2_app.view import compiled_once
+            from codim2_app.view.compiling import once
 
-            compiled_once.install()  # all processes begin with the same kernels
+            from codim2_core.jit import policy
+
+            once.install()  # all processes begin with the same kernels
+            policy.choose_way(policy.COMPILE)  # and what a test sees does not depend on what is on disk
 
 
 @pytest.hookimpl(tryfirst=True)

@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from codim2_core.jit.policy import is_left
 from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
 
@@ -202,6 +203,8 @@ class Budget:
             return None  # nothing says how long an orbit would take
         if bounded and name in CYCLE_SEARCH_LAYERS and scene["name"].case == "III":
             raise PendingLayer(name)
+        if bounded and is_left():  # kernels run as Python: that says nothing of later, and workers have not begun
+            return None
         wildest, took = self._timed.get(formula, (0, {}))
         if bounded and name not in POSSIBLY_LONG_LAYERS:
             cost = took.get(name, 0.0)

@@ -121,9 +121,12 @@ def _warm() -> int:
     from .kernel_cache import prepare
 
     uncached = prepare()
-    from ..view.warmup import warm_all
+    from codim2_core.jit import policy
 
-    warm_all(_say_compiled)
+    from ..view.compiling.steps import warm_all
+
+    with policy.in_thread(policy.COMPILE):
+        warm_all(_say_compiled)
     if uncached:
         print(f"codim2: {uncached}", file=sys.stderr)
         return 1

@@ -17,7 +17,7 @@ from numba.core import config as numba_config
 import codim2_core
 from codim2_core.jit import numba_kernels
 
-from ..view import compiled_once
+from ..view.compiling import once
 
 config: Any = numba_config  # its names are made at run time
 
@@ -64,7 +64,7 @@ def prepare() -> str:
             _say_once(UNCACHED.format(why=error.strerror))
 
     caching.FunctionCache.save_overload = saved_if_possible
-    compiled_once.install()
+    once.install()
     logging.getLogger(numba_kernels.__name__).setLevel(logging.ERROR)  # a server tells its own progress
     if config.CACHE_LOCATOR_CLASSES:
         return ""  # the host has named its own

@@ -28,7 +28,7 @@ from ..view.answers import AnswerQueue
 from ..view.markup import edition
 from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
-from ..view.warmup import FormulaQuota, is_ready_for_all, progress
+from ..view.warmup import FormulaQuota, is_ready_for_all
 from .session_queue import Rota
 
 #: Bytes of one message from a browser: a request is a few hundred.
@@ -58,7 +58,7 @@ def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
 def open_page(link: Link, engine: Mapping[str, Any] | None = None) -> tuple[Frames, str, bytes]:
     """Return what a page shows, what its script must know, and its first frame."""
     budget = Budget(FormulaQuota().elsewhere)
-    frames = Frames(link.state, None, is_ready_for_all, link.errors, budget, progress)
+    frames = Frames(link.state, None, is_ready_for_all, link.errors, budget)
     return frames, *opening_messages(frames, link, edition(), engine=engine)
 
 

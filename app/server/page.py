@@ -27,6 +27,7 @@ from ..rooms.board import Board
 from ..rooms.rooms import MOST_ROOMS, SHARING_SECONDS, Rooms
 from ..rooms.rooms import serve_with as serve_rooms
 from ..view import warmup
+from ..view.compiling.steps import Told
 from ..view.markup import edition
 from .engine_files import EngineFiles, served_panels
 from .first_page import Page
@@ -100,7 +101,7 @@ def make_server(
     frame_ancestors: str = "'self'",
     sessions: int = 400,
     rooms: int = MOST_ROOMS,
-    told: warmup.Told | None = None,
+    told: Told | None = None,
     engine: EngineFiles | None = None,
     executor: Executor | None = None,
     at_once: int = 1,
@@ -129,7 +130,7 @@ def make_server(
     rooms : int
         Rooms that lecturers have open at once, of a process; 0 for none.
     told : callable, optional
-        Told what has been compiled, see `warmup.warm_all`.
+        Told what has been compiled, see `steps.warm_all`.
     engine : EngineFiles, optional
         With which pages compute on their visitors' devices.
     executor : Executor, optional
@@ -170,7 +171,7 @@ def make_server(
     return server
 
 
-def _report_warm_up(told: warmup.Told | None, what: str, seconds: float, done: int, of: int) -> None:
+def _report_warm_up(told: Told | None, what: str, seconds: float, done: int, of: int) -> None:
     """Tell what has been compiled; once it is all, it is no garbage: no search stops a visitor for it."""
     if told is not None:
         told(what, seconds, done, of)

@@ -40,7 +40,7 @@ from .cell import Cell, running_kernel
 from .markup import SCRIPT_FOLDER, digest, edition, explorer_html, first_words, offered_text, script, settings
 from .refresh import Frames
 from .shared import SHARED_CONTROLS, declare, join
-from .warmup import is_ready, progress
+from .warmup import is_ready
 
 COMPILING = say("compiling")
 
@@ -95,7 +95,7 @@ class ExplorerView(JSComponent):
         self._opened: dict[str, Any] = {}
         self._system = system
         self._given_params = params
-        self.frames = Frames(self.state, system, is_ready, progress=progress)
+        self.frames = Frames(self.state, system, is_ready)
         self._answers: AnswerQueue | None = None
         self._cell: Cell | None = None
         self._first_values = self.state.values()
@@ -128,7 +128,7 @@ class ExplorerView(JSComponent):
 
     def _opening(self) -> dict[str, Any]:
         """Return what a browser starts from: the values of the controls, the first frame and the markup."""
-        first = self.frames.answer({"all": True})
+        first = self.frames.answer({"all": True, "rest": True})
         self.frames.publish()  # what cannot be drawn is not in the state
         self._opened = self.frames.values
         header, _ = unpack(first)

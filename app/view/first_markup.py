@@ -16,7 +16,7 @@ from ..frame.budget import Budget
 from ..state.links import Link
 from .markup import markup_of_frame
 from .refresh import Frames
-from .warmup import is_ready_for_all, progress
+from .warmup import is_ready_for_all
 
 #: What a page is called, and where its markup and what its server has to say stand in it.
 TITLE = "Isolated codimension-2 discontinuity: explorer"
@@ -40,7 +40,7 @@ def policy(page: bytes, ancestors: str = "'self'") -> str:
 
 def page_markup(link: Link) -> tuple[str, bool]:
     """Return the markup of the page of an address, with its first picture, and whether all of the picture is in it."""
-    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget(), progress)
+    frames = Frames(link.state, None, is_ready_for_all, link.errors, Budget())
     frames.jobs = Jobs(NoBackground())
     first = frames.answer({"all": True})
     frames.publish()

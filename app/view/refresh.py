@@ -65,23 +65,21 @@ class Frames:
     system : ELinear or System, optional
         Drawn instead of one that the controls choose.
     ready : callable, optional
-        Says whether the compiled integrator is ready for this Psi and system; until then trajectories are sketched.
+        Says whether all layers of this Psi and system can be drawn without waiting, also while a control may be moving;
+        until then trajectories are sketched.
     errors : sequence of InputError
         What the address asked for in vain, told with the first frames.
     budget : Budget, optional
         What may be computed here and now, where others wait meanwhile; by default everything.
-    progress : callable, optional
-        Says of the kernels that a page waits for how many are compiled, of how many; None if it waits for none.
     """
 
     def __init__(
         self,
         state: ExplorerState,
         system: System_ | None = None,
-        ready: Callable[[Psi, Any], bool] = lambda _psi, _system: True,
+        ready: Callable[[Psi, Any, bool], bool] = lambda _psi, _system, _moving: True,
         errors: Sequence[InputError] = (),
         budget: Budget | None = None,
-        progress: Callable[[], tuple[int, int] | None] = lambda: None,
     ) -> None:
         self.state = state
         self.budget = budget
@@ -99,10 +97,11 @@ class Frames:
         axes = opening_axes(self.scene, self.values, self.locked)
         self.values |= axes
         self._unpublished |= axes
-        self.ready, self.progress = ready, progress
+        self.ready = ready
         self.jobs = Jobs()
         self.window: Window | None = None
         self._moved = FIRST_MOVED  # the control moved last
+        self._moving = False  # a control may be
         self._sent: dict[str, Any] = {}
         self._last: tuple[Mapping[str, Any], dict[str, Any], str] = ({}, {}, "")  # see `keep`
         self._untold: dict[str, Any] = {}
@@ -145,6 +144,7 @@ class Frames:
             except InputError as error:
                 self.refused[name], errors[error.control] = value, str(error)
         rest = request.get("rest", False) or request.get("all", False)
+        self._moving = not request.get("rest", False)
         header, blocks = self._accept(good, sent, errors, rest) or ({}, {})
         if "fault" in header:  # of a panel
             errors.setdefault("", header.pop("fault"))
@@ -154,8 +154,6 @@ class Frames:
         self._last, self._untold = (sent, told, left), {}
         if told:
             header["set"] = told
-        if header.get("ready") is False and (compiled := self.progress()):
-            header["compiled"] = compiled
         errors = {name: printed_sentence(said) for name, said in errors.items()}
         return self._pack({"id": request.get("id", 0), "errors": errors, "load": load.measure(), **header}, blocks)
 
@@ -237,7 +235,7 @@ class Frames:
     def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:
         values, changed, scene = self._reach(changes)
         scene = resample_for_window(scene, self.window, rest)
-        ready = self.ready(scene.psi, scene.system)
+        ready = self.ready(scene.psi, scene.system, self._moving)
         drawable = ready or scene.coefficients.typed is None  # all of a general system needs the compiler
         if "preset" in changes:  # a whole state: nothing was moved
             self._moved = FIRST_MOVED

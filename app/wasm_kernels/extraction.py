@@ -40,6 +40,9 @@ def leave_unoptimised() -> None:
     """Have Numba compile in this process, and stop before it optimises."""
     from numba.core import caching, codegen
 
+    from codim2_core.jit import policy
+
+    policy.choose_way(policy.COMPILE)
     library: Any = codegen.CPUCodeLibrary
     library._optimize_functions = lambda _self, _module: None  # noqa: SLF001
     library._optimize_final_module = lambda _self: None  # noqa: SLF001
@@ -106,7 +109,7 @@ def _compile_everything() -> None:
     from codim2_core.psi import FAMILIES, hill, make
     from codim2_core.stepping import fields, psi_gain
 
-    from ..view import warmup
+    from ..view.compiling.steps import warm_all
 
     for psi in (*(make(family.name) for family in FAMILIES.values() if not family.typed), hill(2.5)):
         for smooth in (True, False):
@@ -117,7 +120,7 @@ def _compile_everything() -> None:
             fields.field_of_each(psi, same=smooth)
     fields.field_of_gain()
     psi_gain.gains_of_blocks()
-    warmup.warm_all()
+    warm_all()
 
 
 def _of_kernel(made: Any, signature: Any) -> Extract:

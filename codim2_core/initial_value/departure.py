@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import Array
-from ..jit.interpreted import call_kernel
 from ..numerics.radau import STAGES, Step
 from ..psi.constructors import constant
 from ..words import say
@@ -48,11 +47,7 @@ def leave(
     S, linear, square = np.zeros(SLOW_EXTENT), np.zeros(2 + m), np.zeros(2 + m)
     S[VALUE : SLOPES + 1], S[SET_PLACE + 4 : SET_PLACE + 4 + m] = functions.addresses[:2].view(float), z
     n1, n2 = (0.0, 0.0) if line is None else line.vector
-    h = float(
-        call_kernel(
-            departure_step.leave, S, m, n1, n2, theta, t_end - t, linear, square, compiles=functions.is_compiled
-        )
-    )
+    h = float(departure_step.leave(S, m, n1, n2, theta, t_end - t, linear, square))
     functions.count(0)
     if not h > 0.0:
         key = "repels angularly" if h == departure_step.REPELS_ANGULARLY else "nothing leaves"

@@ -17,13 +17,11 @@ from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.source import program
 from ..jit import carray, compile_source
 from ..jit.callbacks import Callback
-from ..jit.interpreted import is_at_hand
 from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..stepping.compiling import CompiledCache
 from ..stepping.psi_gain import has_one_gain, one_gain, variant
 from .field import Field
-from .kernels.motion import follow_steps
 
 MOST_SYSTEMS = 64
 #: Evaluations in Python that take as long as compiling the formulas; in a browser that takes some milliseconds.
@@ -87,8 +85,8 @@ def called_back(
 ) -> FieldFunctions:
     """Return functions that Python evaluates: `value` and `slopes` as of a `Field` with m slow variables."""
     own, count = constant() if psi is None else psi, 4 + m
-    at_hand = is_at_hand(follow_steps) and has_one_gain(own)
-    gain = one_gain(own) if at_hand else Callback(variant(own, False).in_python(own.parameter), 2, 1)
+    known = has_one_gain(own)
+    gain = one_gain(own) if known else Callback(variant(own, False).in_python(own.parameter), 2, 1)
     functions = Callback(value, count, 2 + m), Callback(slopes, count, (2 + m) * count), gain
     return FieldFunctions(functions, own.parameter)
 

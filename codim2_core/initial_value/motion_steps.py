@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from ..jit.interpreted import call_kernel
 from ..numerics.dense import Dense, StepArray
 from ..numerics.growth import BlowUpError, too_short
 from ..numerics.radau import StepsTooShortError, TooManyStepsError, tableau
@@ -162,9 +161,9 @@ class MotionSteps:
             starts, lengths = np.empty(size), np.empty(size)
             ends, polynomials = np.empty((size, n)), np.empty((size, n, DENSE_DEGREE))
             begin, before = self.y.copy(), self.evaluations
-            self.code, filled = call_kernel(
-                follow_steps, self.addresses, self.numbers, numbers_of_tableau(), self.S, self.y, self.clock,
-                self.control, starts, lengths, ends, polynomials, compiles=self.functions.is_compiled,
+            self.code, filled = follow_steps(
+                self.addresses, self.numbers, numbers_of_tableau(), self.S, self.y, self.clock, self.control, starts,
+                lengths, ends, polynomials,
             )  # fmt: skip
             self.functions.count(self.evaluations - before)
             if self.code == FINISHED:

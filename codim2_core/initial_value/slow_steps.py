@@ -8,12 +8,10 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from ..jit.interpreted import InterpretedAddress, call_kernel, is_at_hand
 from ..numerics.dense import StepArray
 from ..psi.constructors import constant
 from .field import Field
 from .functions import called_back, functions_of
-from .kernels.motion import follow_steps
 from .kernels.slow import SLOPES, SLOW_RATES, VALUE, flow, sets
 from .line import InvariantLine
 from .motion_steps import MotionSteps
@@ -56,9 +54,7 @@ class SlowSteps(MotionSteps):
         )
         own = self.functions.addresses
         self.S[VALUE], self.S[SLOPES], self.S[SLOW_RATES] = *own[:2].view(float), len(z)
-        self._compiles = self.functions.is_compiled
-        at_hand = self._compiles or is_at_hand(follow_steps)
-        self._flow = flow() if at_hand else flow(InterpretedAddress)
+        self._flow = flow()
         self.addresses = np.array([*(one.address for one in self._flow), own[2]], np.int64)
 
     def sets(self, steps: StepArray, u: Array) -> tuple[Array, Array]:
@@ -67,7 +63,7 @@ class SlowSteps(MotionSteps):
         powers = u[:, None] ** np.arange(1, steps.polynomials.shape[2] + 1)
         points = first[:, None, :] + np.einsum("kij,dj->kdi", steps.polynomials, powers)
         points, places = points.reshape(-1, points.shape[2]), points.shape[:2]
-        e, D = call_kernel(sets, self.S[VALUE : SLOPES + 1], points, compiles=self._compiles)
+        e, D = sets(self.S[VALUE : SLOPES + 1], points)
         self.functions.count(0)
         return e.reshape(*places, 2), D.reshape(*places, 2, 2)
 

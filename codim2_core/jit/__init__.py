@@ -3,6 +3,8 @@
 A *kernel* is a function of arrays and numbers, declared by a decorator. A *right-hand side* is a function
 ``(state, out, parameters)`` of three pointers that is called by its address: `compile_address` makes one of a function
 of this package, `compile_with_gain` one for each gain of Psi, `compile_source` one of formulas that were typed.
+
+What is neither compiled nor kept on disk runs as Python until that has taken as long as to compile it (`tiers`).
 """
 
 import sys

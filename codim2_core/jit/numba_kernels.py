@@ -12,16 +12,16 @@ from hashlib import blake2b
 from pathlib import Path
 from typing import Any
 
-from numba import cfunc, njit, types
+from numba import njit, types
 from numba.core import caching, event
 from numba.core.dispatcher import Dispatcher
 
 from ..rebind import rebind
-from .intrinsics import POINTER
+from .right_hand_sides import compile_waiting, right_hand_side
 from .stamps import CORE_FOLDER, source_stamp
+from .tiers import TieredKernel
 
 ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep their meaning
-FIELD = types.void(POINTER, POINTER, POINTER)
 
 COMPILING = (
     "compiling kernels, once on this machine: about 10 s for trajectories, 45 s for motions; "
@@ -44,6 +44,7 @@ def _kind_of_kernel(nogil: bool = True, **options: Any) -> Callable[[Callable[..
         made.get_call_template = lambda given, named: typed(
             tuple(map(types.unliteral, given)), {name: types.unliteral(one) for name, one in named.items()}
         )
+        made._compile_for_args = TieredKernel(made, compile_waiting).select  # noqa: SLF001 (asked where nothing fits)
         return made
 
     return declare
@@ -63,7 +64,7 @@ spliced_kernel = _kind_of_kernel(inline="always")
 
 def compile_address(function: Callable[..., None], cache: bool = True) -> Any:
     """Compile a right-hand side, or a gain, to be called by its `address`."""
-    return cfunc(FIELD, cache=cache, nogil=True, fastmath=ARITHMETIC, error_model="numpy")(function)
+    return right_hand_side(function, cache, fastmath=ARITHMETIC)
 
 
 def compile_source(source: str, names: Mapping[str, Any], strict: bool = False) -> Any:
@@ -87,7 +88,7 @@ def compile_source(source: str, names: Mapping[str, Any], strict: bool = False) 
     scope: dict[str, Any] = {"math": math, **names}
     exec(source, scope)
     function = scope["right_hand_side"]
-    return cfunc(FIELD, nogil=True, error_model="numpy")(function) if strict else compile_address(function, cache=False)
+    return right_hand_side(function, cache=False) if strict else compile_address(function, cache=False)
 
 
 def compile_with_gain(lanes: Callable[..., None], own: Any, whole: bool, cache: bool, **names: Any) -> Any:

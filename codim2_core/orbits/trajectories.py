@@ -255,8 +255,9 @@ def warm(psi: Psi | None = None, system: AnySystem | None = None) -> None:
 
 def is_warm(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
     """Whether trajectories (with this Psi and system, if given) run at once, without compiling or loading."""
-    if CREEPING not in _warm:
-        return False
+    kernels = _kernels()
+    if CREEPING not in _warm or not all(getattr(one, "signatures", True) for one in (kernels.integrate, kernels.creep)):
+        return False  # or they run as Python
     if psi is None:
         return True
     if system is not None and system.typed is not None:

@@ -50,4 +50,30 @@ SENTENCES: dict[str, Sentence] = {
     "comes to rest": Sentence(
         "No periodic motion was found: the search led to an equilibrium. Start further from it.", "an equilibrium"
     ),
+    "response": Sentence("{count} motions, for {name} from {low:.6g} to {high:.6g}.", "a response curve"),
+    "response folds": Sentence(
+        "{name} = {value:.6g}: the curve turns, and two periodic motions meet and vanish.", "a multiplier +1, a turn"
+    ),
+    "branches off": Sentence(
+        "{name} = {value:.6g}: a multiplier is +1, and another curve of periodic motions may branch off.",
+        "a multiplier +1, no turn",
+    ),
+    "doubles": Sentence(
+        "{name} = {value:.6g}: a multiplier is −1, and a motion of twice the period branches off.", "a multiplier −1"
+    ),
+    "becomes a torus": Sentence(
+        "{name} = {value:.6g}: two complex multipliers cross the unit circle, and a torus branches off.",
+        "a complex pair of modulus 1",
+    ),
+    "sticks change": Sentence(
+        "{name} = {value:.6g}: a stick begins or ends. A period has {below} below this value, and {above} above it.",
+        "slides of a period",
+    ),
+    "passages change": Sentence(
+        (
+            "{name} = {value:.6g}: in a period the motion passes Σ {below} times below this value, and {above} times "
+            "above it."
+        ),
+        "crossings of a period",
+    ),
 }

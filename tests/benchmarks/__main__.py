@@ -24,33 +24,11 @@ PAGE = PICTURES / "benchmarks.md"
 START, END = "<!-- benchmarks -->", "<!-- /benchmarks -->"
 # bench_<name>: `measure` with `text` and `plots` where there is something to draw, else `report` alone.
 DRAWN = ("trajectories", "roots", "orbits")
-TABLES = (
-    "scene",
-    "general",
-    "motions",
-    "cycles",
-    "census",
-    "proofs",
-    "frames",
-    "load",
-    "devices",
-    "phones",
-    "browser",
-    "page",
-)
 ON_PAGE = (
-    "trajectories",
-    "scene",
-    "general",
-    "motions",
-    "cycles",
-    "census",
-    "frames",
-    "load",
-    "devices",
-    "browser",
-    "page",
-)
+    "trajectories", "scene", "general", "motions", "cycles", "census", "frames", "load", "devices", "phones", "browser",
+    "page", "fresh",
+)  # fmt: skip
+TABLES = (*ON_PAGE[1:], "proofs")
 # Titles of the plots of the second picture, by their beginnings.
 OTHERS = ("limit directions: wrong", "period, n = 3", "separatrices")
 ALT = {

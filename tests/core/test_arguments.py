@@ -18,6 +18,7 @@ AT = SYSTEM.at(0.1)
 PLANE = {"system": SYSTEM, "psi": PSI, "z": 0.1}
 ABD = {"a": -2.0, "b": 0.3, "d": -1.0}
 BAD_ABD = {"a": 172.0, "b": 186.0, "d": -200.0}
+DRIVEN = c2.System(U=("-z1 - f1*c + cos(2*z3)", "-z2 - f1*s + sin(2*z3)"), W=("x", "y", "1"), parameters={"f1": 0.5})
 MOTION = {"system": SYSTEM, "psi": PSI, "state0": (1.0, 0.2, 0.1), "t_span": (0.0, 0.3)}
 
 #: For each public function, arguments with which it is quick: what is not there keeps its default.
@@ -37,6 +38,8 @@ GOOD = {
     c2.filippov_sliding: {"system": SYSTEM, "z": 0.1},
     c2.limit_cycles: PLANE,
     c2.nullclines: PLANE,
+    c2.response_curve: {"system": DRIVEN, "state0": (0.0, -0.55, -0.28, 0.07, 0.0), "period": np.pi,
+                        "along": "f1", "span": (0.49, 0.51), "psi": PSI},
     c2.periodic_motion: {"system": SYSTEM, "psi": PSI, "state0": (1.0, 0.2, 0.1), "period": 0.3},
     c2.separatrices: PLANE,
     c2.simulate: {**MOTION, "eps": 1e-3},
@@ -86,8 +89,12 @@ GOOD = {
     c2.hemisphere.outside_flow: {"coefficients": AT, "theta": 0.1},
     c2.hemisphere.scaling_from_disc: {"p": (0.1, 0.2)},
 }  # fmt: skip
-SLOW = {c2.bifurcations.cycle_folds, c2.bifurcations.heteroclinic}  # what is valid there takes seconds
-LONG = {c2.census: ("10**9",), c2.periodic_motion: ("10**9", "10**30")}  # right: minutes, and eight seconds each
+SLOW = {c2.bifurcations.cycle_folds, c2.bifurcations.heteroclinic, c2.response_curve}  # seconds
+LONG = {
+    c2.census: ("10**9",),
+    c2.periodic_motion: ("10**9", "10**30"),
+    c2.response_curve: ("10**9", "10**30"),
+}  # right: minutes, and eight seconds each
 LONGEST = 240.0  # seconds: where nothing is compiled yet, kernels are, in turn with other processes
 
 NAN, INF = float("nan"), float("inf")

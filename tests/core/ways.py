@@ -1,11 +1,13 @@
 """The ways in which a motion is stepped: formulas compiled, or called back; the kernels run as Python too."""
 
 import math
+from functools import partial
 
 import pytest
 
-from codim2_core.initial_value import functions, slow_steps
-from codim2_core.jit import interpreted
+from codim2_core.initial_value import functions, motion_steps, slow_steps
+from codim2_core.initial_value.kernels import departure_step, slow
+from codim2_core.jit import interpreted, policy, right_hand_sides
 from codim2_core.stepping.compiling import CompiledCache
 
 WAYS = ("compiled", "called back", "as Python")
@@ -17,5 +19,19 @@ def follow(monkeypatch: pytest.MonkeyPatch, way: str) -> None:
     if way != "compiled":
         monkeypatch.setattr(functions, "_fields", CompiledCache(functions.MOST_SYSTEMS))
     if way == "as Python":
-        for module in (interpreted, functions, slow_steps):
-            monkeypatch.setattr(module, "is_at_hand", lambda kernel: False)
+        for module, name in ((motion_steps, "follow_steps"), (slow_steps, "sets"), (departure_step, "leave")):
+            monkeypatch.setattr(module, name, partial(run_as_python, getattr(module, name)))
+        made = tuple(waiting(monkeypatch, one) for one in (slow._slow_velocity, slow._slow_slopes))
+        monkeypatch.setattr(slow_steps, "flow", lambda: made)
+
+
+def run_as_python(kernel, *given):
+    """Call a kernel that is compiled already as Python."""
+    return interpreted.run(kernel, given, math.inf, lambda: math.inf)
+
+
+def waiting(monkeypatch, function):
+    """Return a right-hand side that is not compiled."""
+    monkeypatch.setattr(right_hand_sides, "_machine_code_runs", False)
+    with policy.in_thread(policy.RENT):
+        return right_hand_sides.right_hand_side(function, cache=False)

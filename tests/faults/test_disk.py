@@ -20,7 +20,8 @@ NOBODY = 65534
 #: and to compile them all takes minutes, each time.
 FEW = (
     "from codim2_app.server.kernel_cache import prepare; prepare()\n"
-    "from codim2_app.view import warmup; few = warmup._steps()[: warmup.FIRST_PRIORITY]; warmup._steps = lambda: few\n"
+    "from codim2_app.view.compiling import process, steps\n"
+    "few = steps.kernel_steps()[: steps.FIRST_PRIORITY]; steps.kernel_steps = lambda: few\n"
 )
 CODE = FEW + "import sys; from codim2_app.server.cli import main; sys.exit(main(sys.argv[1:]))"
 

@@ -15,13 +15,20 @@ FEWER = ("codim2_core/stepping/layout.py", "LANES = 32", "LANES = 4")  # file, w
 
 
 class Entry:
-    """What `numba.cfunc` makes of a function: something with an address."""
+    """What `numba.core.ccallback.CFunc` makes of a function: something with an address."""
 
     known: dict[int, Callable[..., None]] = {}  # noqa: RUF012
+    _cache = _sig = None
 
-    def __init__(self, function: Callable[..., None]) -> None:
-        self.address = id(function)
+    def __init__(self, function: Callable[..., None], *_: Any) -> None:
+        self.__name__, self.address = function.__name__, id(function)
         self.known[self.address] = function
+
+    def enable_caching(self) -> None:
+        """Keep nothing."""
+
+    def compile(self) -> None:
+        """Leave it as it is."""
 
 
 def _call_field(address: int, S: Any, source: int, target: int, P: Any) -> None:
@@ -63,12 +70,16 @@ def _njit(function: Any = None, **_options: Any) -> Any:
 def interpret() -> None:
     """See to it that modules imported from now on compile nothing."""
     import numba
+    import numba.core.ccallback
     import numba.extending
     from numba.np import numpy_support
 
     np.seterr(all="ignore")  # as in machine code
     numba.config.DISABLE_JIT = True
     numba.njit = _njit
-    numba.cfunc = lambda *_signature, **_options: Entry
+    numba.core.ccallback.CFunc = Entry
     numpy_support.carray = lambda pointer, shape: pointer[: shape[0]]
     numba.extending.intrinsic = lambda function: STAND_INS[function.__name__]
+    from codim2_core.jit import policy
+
+    policy.choose_way(policy.COMPILE)

@@ -25,7 +25,7 @@ export class Waiting {
     if (!("ready" in header)) return
     const slow = late.includes("picture")
     this.box.hidden = header.ready && !slow
-    this.box.textContent = slow ? SAYS.follows : [SAYS.compiling, ...header.compiled ? [header.compiled.join(" / ")] : []].join(" ")
+    this.box.textContent = slow ? SAYS.follows : SAYS.compiling
     clearTimeout(this.timer)
     if (!header.ready) this.timer = setTimeout(() => this.requests.refresh(), AGAIN)
   }

@@ -9,7 +9,6 @@ and the step shorter.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
@@ -145,7 +144,7 @@ def sets(addresses, points):
     return e, D
 
 
-@lru_cache(maxsize=2)
-def flow(make: Callable[..., Any] = compile_address) -> tuple[Any, Any]:
-    """Return the slow flow and its slopes, the same for all systems, at addresses that are made of functions."""
-    return make(_slow_velocity), make(_slow_slopes)
+@lru_cache(maxsize=1)
+def flow() -> tuple[Any, Any]:
+    """Return the slow flow and its slopes, the same for all systems, at addresses."""
+    return compile_address(_slow_velocity), compile_address(_slow_slopes)

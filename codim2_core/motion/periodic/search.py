@@ -108,6 +108,16 @@ def periodic_motion(
         raise ValueError(f"eps is {eps!r}; give 0 for the limit, or {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
     if eps > 0.0 and psi is None:
         raise ValueError("psi is None; give the regularisation, or leave out eps for the limit eps -> 0.")
+    asked = shooting(system, psi, float(eps), start, float(period), advance, atol / rtol, max_steps)
+    return _search(asked, start, rtol)
+
+
+def shooting(
+    system: AnySystem, psi: Psi | None, eps: float, start: Array, period: float, advance: ArrayLike | None,
+    floor: float, max_steps: int,
+) -> Shooting:  # fmt: skip
+    """Return the boundary value problem of a periodic motion; refuse formulas that do not repeat themselves."""
+    formulas = field(system)
     rates = np.array([row.constant or 0.0 for row in formulas.rows[2:]])
     moved = _advance(advance, rates, period)
     if not _repeats(formulas, start[None], moved):
@@ -115,8 +125,7 @@ def periodic_motion(
             f"the formulas do not repeat themselves as z moves on by {moved.tolist()}; give a multiple of the "
             "forcing's period, or by how much z moves on as advance."
         )
-    asked = Shooting(system, psi, float(eps), formulas, rates != 0.0, moved, float(period), atol / rtol, max_steps)
-    return _search(asked, start, rtol)
+    return Shooting(system, psi, eps, formulas, rates != 0.0, moved, period, floor, max_steps)
 
 
 def _advance(given: ArrayLike | None, rates: Array, period: float) -> Array:

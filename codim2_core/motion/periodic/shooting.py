@@ -61,6 +61,8 @@ class Shooting:
     floor : float
         What small z are measured by.
     max_steps : int
+    names : tuple of str
+        Numbers of the system by which motions are differentiated too.
     """
 
     system: AnySystem
@@ -72,6 +74,7 @@ class Shooting:
     period: float
     floor: float
     max_steps: int
+    names: tuple[str, ...] = ()
 
     @property
     def is_forced(self) -> bool:
@@ -102,7 +105,7 @@ class Shooting:
         run = self.follow(state, period, rtol)
         if run.status is not SimulationStatus.T_END:
             raise LostError(PeriodicStatus.MOTION_ENDS, f"{say('motion ends early')} {run.reason}", run)
-        variation = run.variation()
+        variation = run.variation(*self.names)
         if variation.reason or not (np.isfinite(variation.rate).all() and np.isfinite(variation.last).all()):
             raise LostError(PeriodicStatus.NO_DERIVATIVE, f"{say('no derivative')} {variation.reason}".strip(), run)
         return Shot(self, run, period, variation)

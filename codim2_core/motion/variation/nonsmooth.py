@@ -35,6 +35,7 @@ RTOL = 1e-10  # how far a part of a step and its halves may differ
 EQUATOR_DISTANCE = 1e-6  # 1 - |e| at which a slide has ended there
 LEAVES = 1e-13  # of the largest slope: what turns U out of a line by more than rounding
 NEUTRAL_RATE = 1e-9  # lambda_theta, in units of U, up to which a line does not repel: all directions are alike
+TINY = 1e-300
 AT_REST = 1e-6  # |U| on a critical set, in units of its slopes: on a limit cycle e is a mean, where U is not zero
 
 
@@ -186,7 +187,7 @@ class _Course:
         rho = np.hypot(*self.motion.states[leg.first : leg.last, :2].T)
         turns = np.append(np.abs(np.diff(e, axis=0)).max(axis=1), 0.0)
         turns[-1] = turns[-2] if len(turns) > 1 else 0.0
-        apart = np.maximum(turns, rho / rho.max())
+        apart = np.maximum(turns, rho / max(float(rho.max()), TINY))
         apart[: np.argmax(rho)] = np.inf
         return leg.first + int(np.argmin(apart))
 

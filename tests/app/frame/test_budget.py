@@ -21,6 +21,8 @@ from codim2_app.frame.work_queue import WorkQueue
 from codim2_app.state.controls import ExplorerState, preset_values
 from codim2_app.view.refresh import Frames
 
+from codim2_core.jit import policy
+
 from .test_turns import Held
 
 MILD = {"U1": "c - 1/2", "U2": "s"}
@@ -191,6 +193,25 @@ def test_a_layer_is_slow_that_is_slow_twice_by_the_processors_time(monkeypatch):
     scene.evolve(f1=-0.63)["equator"]
     with pytest.raises(PendingLayer):
         scene.evolve(f1=-0.64)["equator"]
+
+
+def test_while_kernels_run_as_python_no_layer_of_an_e_linear_system_is_taken_for_slow():
+    """Each is computed here, though all are: a worker would wait for the compiled kernels."""
+    scene, budget = make_scene(ExplorerState().values()), Budget()
+    scene.ask_before(budget.check_cost)
+    budget._timed[None] = 10**9, dict.fromkeys(("equator", "inside"), 2 * LAYER_BUDGET)
+    policy.leave_to(lambda: True)
+    try:
+        assert len(scene["inside"].points)
+        of_formulas = make_scene(typed())
+        of_formulas.ask_before(budget.check_cost)
+        with pytest.raises(PendingLayer):
+            of_formulas["inside"]
+    finally:
+        policy.leave_to(None)
+    with pytest.raises(PendingLayer):
+        scene.evolve(f1=0.2)["inside"]
+    assert budget._timed[None][1]["inside"] == 2 * LAYER_BUDGET
 
 
 def test_all_that_panels_ask_of_other_processes_can_travel():

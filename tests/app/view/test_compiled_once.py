@@ -6,8 +6,8 @@ import zlib
 from contextlib import contextmanager
 
 import pytest
-from codim2_app.view import compiled_once
-from codim2_app.view.compiled_once import hold_name, once
+from codim2_app.view.compiling import once as compiled_once
+from codim2_app.view.compiling.once import hold_name, once
 from numba import cfunc, njit
 from numba.core.ccallback import CFunc
 from numba.core.dispatcher import Dispatcher

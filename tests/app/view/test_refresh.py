@@ -138,7 +138,7 @@ def test_what_the_system_gives_as_text_is_not_for_python():
 
 def test_cold_integrator_sends_closed_forms_then_the_rest():
     ready = [False]
-    frames = Frames(ExplorerState(), ready=lambda _psi, _system: ready[0])
+    frames = Frames(ExplorerState(), ready=lambda *_: ready[0])
     header, blocks = unpack(frames.answer({"all": True}))
     assert header["ready"] is False
     assert header["portrait"]["name"] == "CM4"
@@ -156,7 +156,7 @@ def test_cold_integrator_sends_closed_forms_then_the_rest():
 
 def test_a_general_system_that_is_not_compiled_yet_leaves_the_picture_and_shows_its_equations():
     ready = [True]
-    frames = Frames(ExplorerState(), ready=lambda _psi, _system: ready[0])
+    frames = Frames(ExplorerState(), ready=lambda *_: ready[0])
     frames.answer({"all": True})
     ready[0] = False
     header, blocks = unpack(frames.answer({"id": 1, "set": {"system": "attracting_repelling"}}))
@@ -251,7 +251,7 @@ def test_orbits_keep_away_from_the_cycles_that_are_drawn_and_from_no_others():
 
 
 def test_cycles_that_are_not_there_yet_keep_no_frame_waiting():
-    frames = Frames(ExplorerState(), budget=Budget(lambda _psi, _system: True))
+    frames = Frames(ExplorerState(), budget=Budget(lambda *_: True))
     frames.jobs = Jobs(NoBackground())
     frames.answer({"all": True})
     header, _ = unpack(frames.answer({"set": {"psi": "custom", "psi_text": "1/(1+s)**3"}}))

@@ -6,17 +6,22 @@ import threading
 
 import pytest
 from codim2_app.draw import packing
-from codim2_app.draw.lines import arrowheads
+from codim2_app.draw.lines import arrowheads, spacing
 from codim2_app.draw.packing import unpack
 from codim2_app.state.controls import ExplorerState
-from codim2_app.view import compiled_once, warmup
-from codim2_app.view.compiled_once import alone, hold_name, lock_path
+from codim2_app.view import warmup
+from codim2_app.view.compiling import once, process, steps
+from codim2_app.view.compiling.once import alone, hold_name, lock_path
+from codim2_app.view.compiling.process import CompilerProcess
 from codim2_app.view.refresh import Frames
 from codim2_app.view.warmup import MIN_SETTINGS, MOST_COMPILED, FormulaQuota
 
 import codim2_core as c2
+from codim2_core.jit import policy
 from codim2_core.stepping import fields_typed as typed_fields
 from codim2_core.stepping import psi_gain as stepping
+from tests.core.jit.fresh import computed
+from tests.work import wait_until
 
 ASK = """import fcntl, sys
 try:
@@ -34,7 +39,7 @@ def asked():
 
 @pytest.fixture
 def folder(monkeypatch, tmp_path):
-    monkeypatch.setattr(compiled_once.tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(once.tempfile, "tempdir", str(tmp_path))
     return tmp_path
 
 
@@ -49,7 +54,7 @@ def test_one_process_at_a_time_compiles(folder):
 
 
 def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
-    monkeypatch.setattr(compiled_once.tempfile, "tempdir", str(folder / "none"))
+    monkeypatch.setattr(once.tempfile, "tempdir", str(folder / "none"))
     done = []
     with alone(), hold_name("one kernel"):
         done.append(1)
@@ -57,32 +62,19 @@ def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
 
 
 def test_each_step_is_told_and_held_by_one_process(folder, monkeypatch):
-    found, seen, told, after = [], [], [], []
-    monkeypatch.setattr(warmup, "done", None)
-    step = lambda: (found.append(asked()), seen.append(warmup.done))
-    monkeypatch.setattr(warmup, "_steps", lambda: [("one", step), ("two", step)])
-    warmup.warm_all(lambda what, seconds, done, of: told.append((what, seconds >= 0.0, done, of)), after.append)
+    found, told = [], []
+    step = lambda: found.append(asked())
+    monkeypatch.setattr(steps, "kernel_steps", lambda: [("one", step), ("two", step)])
+    steps.warm_all(lambda what, seconds, done, of: told.append((what, seconds >= 0.0, done, of)))
     assert found == ["held", "held"]
-    assert seen == [(0, 2), (1, 2)]
     assert told == [("one", True, 1, 2), ("two", True, 2, 2)]
-    assert after == [1, 2]
-    assert warmup.done == (2, 2)
-
-
-@pytest.mark.parametrize(("done", "shown"), [((1, 8), [1, 8]), ((8, 8), None), (None, None)])
-def test_a_page_is_told_how_far_the_compiler_is(monkeypatch, done, shown):
-    monkeypatch.setattr(warmup, "done", done)
-    header, _ = unpack(Frames(ExplorerState(), ready=lambda *_: False, progress=warmup.progress).answer({"all": True}))
-    assert header["ready"] is False
-    assert header.get("compiled") == shown
-    header, _ = unpack(Frames(ExplorerState()).answer({"all": True}))
-    assert "compiled" not in header
 
 
 @pytest.mark.parametrize(("ready", "warm", "heads"), [(False, False, False), (False, True, True), (True, False, True)])
 def test_no_frame_waits_for_the_compiler_of_arrowheads(monkeypatch, ready, warm, heads):
     placed = []
-    monkeypatch.setattr(arrowheads, "is_warm", lambda: warm)
+    for module in (arrowheads, spacing):
+        monkeypatch.setattr(module, "is_warm", lambda: warm)
     monkeypatch.setattr(packing, "arrowheads", lambda *given: (placed.append(1), arrowheads.arrowheads(*given))[1])
     frame = Frames(ExplorerState(), ready=lambda *_: ready).answer({"all": True})
     assert bool(placed) == heads
@@ -153,31 +145,152 @@ def test_a_page_and_a_process_compile_so_many_formulas_and_keep_them_all(compile
     assert typed_fields.MOST_SYSTEMS >= MOST_COMPILED
 
 
-def test_who_waits_for_pictures_does_not_wait_for_what_cannot_be_compiled(folder, monkeypatch, caplog):
+@pytest.fixture
+def begun(monkeypatch):
+    """A process that has begun nothing, with few steps; what becomes of them."""
+    for name in ("_pictures", "_cold", "_page_asked", "_page_sent"):
+        monkeypatch.setattr(warmup, name, threading.Event())
+    monkeypatch.setattr(warmup, "_threads", {})
+    monkeypatch.setattr(warmup, "outcome", "")
+    monkeypatch.setattr(warmup, "done", None)
+    monkeypatch.setattr(warmup, "LOOK_SECONDS", 0.01)
+    monkeypatch.setattr(warmup, "_compiler", Compiler())
+    monkeypatch.setattr(steps, "draw_first_scene", lambda: None)
+
+    def begin(step, **options):
+        monkeypatch.setattr(steps, "kernel_steps", lambda: [("step", step)] * 4)
+        warmup.start(**options)
+
+    yield begin
+    warmup._threads[c2.psi.constant()].join()
+
+
+class Compiler:
+    """Stands for the process that compiles."""
+
+    starts = 0
+    ended = False
+
+    def start(self):
+        self.starts += 1
+
+    def is_at_work(self):
+        return self.starts > 0 and not self.ended
+
+    def has_ended(self):
+        return self.ended
+
+
+def test_what_is_not_on_disk_is_loaded_once_another_process_has_compiled_it(begun):
+    on_disk, ways = threading.Event(), []
+
+    def step():
+        ways.append(policy.current_way())
+        if not on_disk.is_set():
+            raise policy.NotCompiledError
+
+    assert warmup.is_ready()
+    begin_with = c2.Scene(c2.presets["case1-cm4"].system)
+    begun(step)
+    wait_until(lambda: len(ways) > 3)
+    assert warmup._compiler.starts == 1
+    assert policy.is_left()  # to it: kernels run as Python
+    assert warmup.is_ready(begin_with.psi, begin_with.system)
+    assert not warmup.is_ready(begin_with.psi, begin_with.system, moving=True)  # sketched, as that is faster
+    assert warmup.outcome == ""
+    on_disk.set()
+    wait_until(lambda: warmup.done == (4, 4))
+    warmup.wait()
+    assert warmup.outcome == "ready"
+    assert set(ways) == {policy.LOAD}
+    warmup._threads[c2.psi.constant()].join()
+    assert not policy.is_left()
+
+
+def test_what_that_process_could_not_keep_is_compiled_here(begun):
+    ways = []
+
+    def step():
+        ways.append(policy.current_way())
+        if ways[-1] == policy.LOAD:
+            raise policy.NotCompiledError
+
+    warmup._compiler.ended = True
+    begun(step)
+    wait_until(lambda: warmup.done == (4, 4))
+    assert ways == 4 * [policy.LOAD, policy.COMPILE]
+    assert warmup.outcome == "ready"
+
+
+def test_who_waits_for_pictures_does_not_wait_for_what_cannot_be_compiled(begun):
     def fails():
         raise RuntimeError("no compiler")
 
-    monkeypatch.setattr(warmup, "_steps", lambda: [("one", fails), ("two", fails), ("three", fails)])
-    monkeypatch.setattr(warmup, "_threads", {})
-    monkeypatch.setattr(warmup, "_pictures", threading.Event())
-    monkeypatch.setattr(warmup, "outcome", "")
-    warmup.start()
+    begun(fails)
     warmup.wait()
+    wait_until(lambda: warmup.outcome)
     assert warmup.outcome == "the first scene cannot be computed: no compiler"
 
 
-def test_kernels_stand_back_for_the_first_page(monkeypatch):
+def test_kernels_stand_back_for_the_first_page(begun):
     order, loaded = [], threading.Event()
-    monkeypatch.setattr(warmup, "_threads", {})
-    monkeypatch.setattr(warmup, "outcome", "")  # nor has another test seen it end
-    for name in ("_page_asked", "_page_sent"):
-        monkeypatch.setattr(warmup, name, threading.Event())
-    monkeypatch.setattr(warmup, "warm_all", lambda *given: (order.append("kernels"), loaded.set()))
-    warmup.start(patience=60.0)
+    begun(lambda: (order.append("kernels"), loaded.set()), patience=60.0)
     warmup.page_asked()
     assert not loaded.wait(0.05)
     assert not warmup.is_ready()  # what is drawn meanwhile is sketched
     order.append("page")
     warmup.page_sent()
     assert loaded.wait(60.0)
-    assert order == ["page", "kernels"]
+    assert order[:2] == ["page", "kernels"]
+
+
+def test_one_process_compiles_for_all(folder, monkeypatch):
+    """It ends with the one that has begun it; another one begins one only then."""
+    monkeypatch.setattr(process, "CODE", "import os; os.read(0, 1)")
+    first, second = CompilerProcess(), CompilerProcess()
+    assert not first.is_at_work()
+    first.start()
+    second.start()
+    assert second.process is None
+    assert first.is_at_work()
+    assert second.is_at_work()
+    assert not first.has_ended()
+    first.process.stdin.close()
+    first.process.wait()
+    assert first.has_ended()
+    assert not second.is_at_work()
+    second.start()
+    assert second.process is not None
+    second.process.stdin.close()
+    second.process.wait()
+
+
+FRAMES = """
+import time
+from codim2_app.draw.packing import unpack
+from codim2_app.frame.budget import Budget
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view import warmup
+from codim2_app.view.refresh import Frames
+
+warmup.start()
+while not warmup._cold.is_set():
+    time.sleep(0.01)
+frames = Frames(ExplorerState(), None, warmup.is_ready_for_all, budget=Budget())
+asked = {"all": True}, {"set": {"f1": 0.05}}, {"set": {"f1": 0.1}}, {"rest": True}
+found = [unpack(frames.answer(one))[0]["ready"] for one in asked], len(frames.scene["inside"].points)
+"""
+
+
+def test_frames_are_answered_on_an_empty_disk_and_nothing_is_compiled_here(tmp_path):
+    (ready, trajectories), compiled = computed(tmp_path, FRAMES)
+    assert ready == [False, False, False, True]
+    assert trajectories > 10
+    assert compiled == []
+
+
+def test_the_process_that_compiles_ends_with_its_parent():
+    code = "import time; from codim2_app.view.compiling import process; process._end_with_parent(); time.sleep(3600)"
+    child = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE)
+    child.stdin.close()
+    assert child.wait() == 1

@@ -48,6 +48,7 @@ def test_that_kernels_are_compiled_is_said_once_and_only_then(tmp_path):
     """On a fresh machine; not the next time, and not of what is compiled in a moment and not kept."""
     script = (
         "import numpy as np\nfrom numba import njit\n"
+        "from codim2_core.jit import policy; policy.choose_way(policy.COMPILE)\n"
         "from codim2_core.numerics.fourier_arcs import _evaluate_series, _only_zero\n"
         "njit(lambda x: x)(1.0)\n"
         "_evaluate_series(np.ones(2, complex), 0.5)\n"
@@ -79,6 +80,8 @@ def test_a_kernel_that_closes_over_another_is_refused():
 
 SCRIPT = """
 from codim2_core.expressions.functions import code
+from codim2_core.jit import policy
+policy.choose_way(policy.COMPILE)
 from codim2_core.expressions.functions.kernels import slope, value
 e = value(code["ellipe"], 0.3)
 print([value(code["sin"], 0.3), value(code["ellipk"], 0.3), e, slope(code["ellipe"], 0.3, e)])

@@ -55,7 +55,7 @@ def test_typed_systems(values):
 @pytest.mark.parametrize("system", GIVEN.values(), ids=GIVEN.keys())
 def test_systems_from_python(system):
     view = explorer(system, layers=[], trajectories=0)
-    view.frames.ready = lambda _psi, _system: True
+    view.frames.ready = lambda *_: True
     assert why_not(unpack(view.frames.answer({"all": True, "rest": True}))[0], "map") is None  # it opens on something
     hold(view.frames)
     assert (view.state.across, view.state.up) == (view.frames.values["across"], view.frames.values["up"])

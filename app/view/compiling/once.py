@@ -24,6 +24,8 @@ from numba.core.dispatcher import Dispatcher
 
 import codim2_core
 
+BUSY = -1  # in place of a file that another process holds
+
 _one_thread: Any = compiler_lock.global_compiler_lock
 config: Any = numba_config  # its names are made at run time
 
@@ -103,3 +105,19 @@ def hold_name(name: str) -> Iterator[None]:
 def _open_lock(path: Path) -> int:
     """Return the file, open for as long as the process lives: closing it would give up all that is held of it."""
     return os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+
+
+def try_lock(exclusive: bool) -> int | None:
+    """Lock the file that stands for the process that compiles; return it, `BUSY`, or None where there are no locks."""
+    try:
+        import fcntl
+
+        held = os.open(lock_path().with_suffix(".compiler"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+    except (ImportError, OSError):  # as above
+        return None
+    try:
+        fcntl.flock(held, (fcntl.LOCK_EX if exclusive else fcntl.LOCK_SH) | fcntl.LOCK_NB)
+    except OSError:
+        os.close(held)
+        return BUSY
+    return held

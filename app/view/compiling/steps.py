@@ -1,0 +1,131 @@
+"""The kernels that are compiled beforehand, step by step."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from codim2_core.cycles.limit_cycles import limit_cycles
+from codim2_core.figures.presets import presets
+from codim2_core.orbits.trajectories import warm
+from codim2_core.portrait.approach_outcomes import approach_outcomes
+from codim2_core.psi import FAMILIES, hill, make
+from codim2_core.scene import Scene
+from codim2_core.systems.elinear import ELinear
+
+from ...draw.gallery import draw_all
+from ...draw.lines.arrowheads import arrowheads
+from ...draw.lines.spacing import evenly
+from ...frame.scenes import make_scene
+from ...state.controls import first_values
+from .once import alone
+
+#: Is told what has been compiled, in how many seconds, and how many steps are done of how many.
+Told = Callable[[str, float, int, int], None]
+
+
+def kernel_steps() -> list[tuple[str, Callable[[], object]]]:
+    """Return what is compiled beforehand, by what it is called, in the order in which it is asked for."""
+    families = [family for family in FAMILIES.values() if not family.typed]
+    first, *others = ((f"trajectories for Ψ = {family.title}", partial(warm, make(family.name))) for family in families)
+    last = [
+        ("approach outcomes", _warm_outcomes),
+        ("kernels of general systems", warm_general),
+        ("branches of cycles", _warm_branches),
+        ("names of many systems", _warm_names),
+        ("motions in time", _warm_motions),
+        ("the gallery", draw_all),
+    ]
+    return [("arrowheads", _warm_arrowheads), first, ("limit cycles", _warm_cycles), *others, *last]
+
+
+#: Of `kernel_steps`, those after which the first scene is drawn, and those that pictures need: all but the last.
+FIRST_PRIORITY, PICTURES = 3, -2
+
+
+def tell_nobody(*_: object) -> None:
+    """Let nobody know."""
+
+
+def warm_all(told: Told = tell_nobody) -> None:
+    """Compile, or load from the disk cache, what all built-in families and the kernels of general systems need.
+
+    Parameters
+    ----------
+    told : callable
+        Called with what has been compiled, the seconds that it took, how many steps are done, and of how many.
+    """
+    steps = kernel_steps()
+    for number, (what, make_) in enumerate(steps, 1):
+        with alone():
+            began = time.perf_counter()
+            make_()
+            took = time.perf_counter() - began
+        told(what, took, number, len(steps))
+
+
+def draw_first_scene() -> None:
+    """Compute what the picture needs that the explorer opens with."""
+    scene = make_scene(first_values())
+    for layer in ("equator", "critical", "inside", "outside", "nullclines_inside"):
+        scene[layer]
+
+
+def _warm_cycles() -> None:
+    """Compile, or load, the return map of e-linear systems."""
+    three = presets["case3-n3"]
+    limit_cycles(three.system, three.psi)
+
+
+def _warm_outcomes() -> None:
+    """Compile, or load, what follows orbits under all Psi side by side."""
+    three = presets["case3-n3"]
+    approach_outcomes(three.system, three.psi)
+
+
+def _warm_branches() -> None:
+    """Compile, or load, what follows limit cycles along a parameter, f1 or n."""
+    from codim2_core.continuation.branches import continue_cycles
+
+    system = ELinear(1.0, 1.3, -1.2, (0.33, 0.07))
+    for name, span in (("f1", (0.32, 0.34)), ("n", (3.0, 3.1))):
+        continue_cycles(system, hill(3.0), name, span)
+
+
+def _warm_names() -> None:
+    """Compile, or load, what names many e-linear systems at once."""
+    from codim2_core.counting.names import names
+
+    names(np.eye(1, 5))
+
+
+def _warm_arrowheads() -> None:
+    """Compile, or load, what places arrowheads on curves and spaces orbits."""
+    one = np.array([0, 2]), np.eye(2), 0.01, (-1.0, 1.0, -1.0, 1.0)
+    arrowheads(*one)
+    evenly(*one)
+
+
+def warm_general() -> None:
+    """Compile, or load, what searches a general system: once for all of them."""
+    example = presets["nonunique-sliding"]
+    scene = Scene(example.system, example.psi, example.z)
+    for layer in ("equator", "critical", "nullclines_inside", "nullclines_outside", "cycles", "separatrices"):
+        scene[layer]
+
+
+def _warm_motions() -> None:
+    """Compile, or load, what follows motions, also in the limit: once for all systems, but for their formulas."""
+    from codim2_core.initial_value.events import Event
+    from codim2_core.motion.nonsmooth import simulate_nonsmooth  # late: both bring SciPy along
+    from codim2_core.motion.regularised import simulate
+
+    pushed = ELinear(-1.0, 0.3, -2.0, f=("1.3*sin(z1)", "0.4*cos(2*z1)"), B=((0.0, 0.0),), g=(1.0,))
+    several = [(0.3, 0.2, 0.0)] * 8  # so many are compiled at once
+    never = Event(lambda t, state: 1.0)  # noqa: ARG005 (an event is of both)
+    for events in ((never,), ()):  # step by step, and whole: it slips, slides and leaves
+        simulate_nonsmooth(pushed, several, (0.0, 3.0), hill(3.0), events=events)
+        simulate(pushed, hill(3.0), 0.01, several, (0.0, 0.2), events=events)

@@ -1,0 +1,242 @@
+"""Response curves: a periodic motion followed along a parameter, for eps > 0 and in the limit, whatever its stability.
+
+The unknowns are the start (without its clocks), the period where no clock gives it, and the parameter p; the conditions
+are those of shooting, ``X(T) = X(0) + a``, and across them ``n.(X(0) - X_ref) = 0`` where every point is a start. The
+curve of their zeros is followed by pseudo-arclength, so through folds. The variational equation gives all slopes: by
+X(0) and T as in `shooting`, by p as its column of p.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...arguments import number as positive_number
+from ...arguments import short_repr
+from ...arrays import Array, Complex
+from ...curves.arclength import CurveEdge, StepBounds, tangent, trace_one_way, zero_between
+from ...layer_problem.vary import check_name
+from ...psi.constructors import constant
+from ...psi.function import Psi
+from ...systems.kinds import AnySystem
+from ..regularised import MAX_STEPS
+from .response_piece import MotionFamily, Piece, at_value, jump_corner, measure_piece, response_row
+from .response_points import KINDS_OF_CHANGE, ResponsePoint, ResponseRow, change_point
+from .response_result import ResponseCurve
+from .search import periodic_motion, shooting
+
+__all__ = ["response_curve"]
+
+PIECE_POINTS = 24  # points after which unknowns are measured anew, and the section is laid anew
+LONGEST_STEP, MAX_TURN = 0.1, 0.25  # of the span, or of the motion's size; between tangents, rad
+MAX_POINTS, MAX_GROWTH = 600, 1e2  # each way; times its first size: a motion that grows beyond has no bound
+PLACE_SHARE = 1e-9  # of a step, to which special points are found
+CLOSED_DISTANCE = 0.5  # of the longest step: a curve that comes so near to its start, the same way, is closed
+
+
+def response_curve(
+    system: AnySystem,
+    state0: ArrayLike,
+    period: float | Callable[[float], float],
+    along: str,
+    span: tuple[float, float],
+    psi: Psi | None = None,
+    eps: float = 0.0,
+    *,
+    advance: ArrayLike | None = None,
+    rtol: float = 1e-9,
+    atol: float = 1e-11,
+    max_steps: int = MAX_STEPS,
+) -> ResponseCurve:
+    """Follow a periodic motion along a parameter, both ways from where the system is, through folds.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    state0 : (2 + m,)
+        Near a periodic motion of the system as it is.
+    period : float, or callable
+        Of a forced motion its period; where that changes with the parameter, a function of it, as
+        ``lambda w: 2*pi/w``. Of others near it.
+    along : str
+        One of ``system.variable``; its present value lies in the span.
+    span : (low, high)
+    psi, eps, advance, rtol, atol, max_steps
+        As in `periodic_motion`.
+
+    Returns
+    -------
+    ResponseCurve
+        Points in order along the curve, with all multipliers; folds, period doublings, Neimark-Sacker points, and where
+        phases of the motion begin or end, such as a stick.
+
+    Raises
+    ------
+    ValueError
+        An argument is invalid, or no periodic motion was found to begin with; the message says why.
+
+    Examples
+    --------
+    A mass on springs that is driven round, with friction 1/2, goes round on circles of radius
+    sqrt(F^2 - S^2)/|1 - w^2|:
+
+    >>> import math
+    >>> from codim2_core import System, response_curve
+    >>> mass = System(
+    ...     U=("-z1 - c/2 + cos(w*z3)", "-z2 - s/2 + sin(w*z3)"), W=("x", "y", "1"), parameters={"w": 2.0},
+    ... )
+    >>> found = response_curve(mass, (0.0, -0.5, -0.3, 0.05, 0.0), lambda w: 2.0*math.pi/w, "w", (1.8, 2.2))
+    >>> radius = [math.hypot(*state[2:4]) for state in found.state0]
+    >>> max(abs(r - math.sqrt(0.75)/(w*w - 1.0)) for r, w in zip(radius, found.value)) < 1e-8
+    True
+    """
+    check_name(system, psi or constant(), (0.0,) * system.m, "along", along)
+    low, high = float(span[0]), float(span[1])
+    value = float(system.value_of(along)) if along in system.variable else math.nan
+    if not low <= value <= high or not low < high:
+        raise ValueError(
+            f"span is ({low:g}, {high:g}), and {along} of the system {value:g}; give two numbers about it, low first."
+        )
+
+    def period_of(at: float) -> float:
+        try:
+            return positive_number("period", period(at) if callable(period) else period)
+        except TypeError as error:
+            raise ValueError(f"period is {short_repr(period)}; give a number, or a function of {along}.") from error
+
+    found = periodic_motion(
+        system, state0, period_of(value), psi, eps, advance=advance, rtol=rtol, atol=atol, max_steps=max_steps
+    )
+    if not found.found:
+        raise ValueError(f"no periodic motion to begin with: {found.reason}")
+    moved = None if callable(period) and advance is None else found.advance
+    family = MotionFamily(
+        shooting(system, psi, float(eps), found.state0, found.period, moved, atol / rtol, max_steps), along,
+        (low, high), period_of, moved, rtol,
+    )  # fmt: skip
+    return _traced(family, found.state0, found.period, value)
+
+
+def _traced(family: MotionFamily, state: Array, period: float, value: float) -> ResponseCurve:
+    rows: list[ResponseRow] = []
+    special: list[ResponsePoint] = []
+    ends: list[str] = []
+    for sign in (-1.0, 1.0):
+        found, points, end = _one_way(family, state, period, value, sign)
+        if not found:
+            raise ValueError("the periodic motion to begin with is one of a family: its curve has no direction there.")
+        rows = [*reversed(rows), *found[1 if rows else 0 :]]
+        special = [*reversed(special), *points]
+        ends.append(end)
+        if end == "closed":
+            ends = ["closed", "closed"]
+            break
+    return ResponseCurve.of(family.along, family.span, rows, special, (ends[0], ends[1]))
+
+
+def _one_way(
+    family: MotionFamily, state: Array, period: float, value: float, sign: float
+) -> tuple[list[ResponseRow], list[ResponsePoint], str]:
+    """Follow the curve one way: its motions from the first on, special points between them, and how it ends."""
+    rows: list[ResponseRow] = []
+    special: list[ResponsePoint] = []
+    piece, way = measure_piece(family, state, period, value)[0], None
+    here = piece.unknowns(piece.state, period, value)
+    while True:
+        along = tangent(piece.condition, here)
+        if along is None:
+            return rows, special, "lost"
+        along = along * (sign if way is None and along[-1] >= 0.0 else -sign if way is None else 1.0)
+        if way is not None and float(along @ way) < 0.0:
+            along = -along
+        edges = [CurveEdge("span", lambda v: (-float(v[-1]), -_last_unit(v))),
+                 CurveEdge("span", lambda v: (float(v[-1]) - 1.0, _last_unit(v)))]  # fmt: skip
+        bounds = StepBounds(LONGEST_STEP, MAX_TURN, PIECE_POINTS, close=1e-8, enough=1e-5)
+        points, end = trace_one_way(piece.condition, here, along, edges, bounds)
+        line = [here, *points]
+        if end == "lost" and len(line) > 1 and (beyond := jump_corner(piece, *line[-2:])) is not None:
+            line, end = [*line, beyond], "many"
+        for one, other in pairwise(line):
+            before = rows[-1] if rows else response_row(piece, one, float(other[-1] - one[-1]))
+            after = response_row(piece, other, float(other[-1] - one[-1]))
+            if before is None or after is None:
+                return rows, special, "lost"
+            rows += [before] if not rows else []
+            special += _changes(piece, one, other, before, after)
+            rows.append(after)
+        if (rows[-1].swings > MAX_GROWTH * np.maximum(rows[0].swings, piece.family.first.floor)).any():
+            return rows, special, "grows"
+        if end != "many" or len(rows) > MAX_POINTS or len(line) < 2:
+            return rows, special, end
+        if _comes_round(rows, piece):
+            return rows, special, "closed"
+        (old, before, earlier), (start, period, value) = piece.motion_of(line[-2]), piece.motion_of(line[-1])
+        further, part = measure_piece(family, start, period, value)
+        old = family.at(earlier).follow(old, before, family.rtol).dense(part * before)
+        way = further.unknowns(further.state, period, value) - further.unknowns(old, before, earlier)
+        piece, here = further, further.unknowns(further.state, period, value)
+
+
+def _last_unit(v: Array) -> Array:
+    unit = np.zeros(len(v))
+    unit[-1] = 1.0
+    return unit
+
+
+def _comes_round(rows: list[ResponseRow], piece: Piece) -> bool:
+    """Whether the last motions have come to the first again, in the same direction."""
+    first, width = rows[0], piece.family.span[1] - piece.family.span[0]
+    for row in rows[max(PIECE_POINTS, len(rows) - PIECE_POINTS) :]:
+        away = np.abs((row.state - first.state) / piece.sizes)[piece.free].max(initial=0.0)
+        near = max(away, abs(row.value - first.value) / width) < CLOSED_DISTANCE * LONGEST_STEP
+        if near and row.onward * rows[1].onward > 0.0:
+            return True
+    return False
+
+
+def _changes(
+    piece: Piece, one: Array, other: Array, before: ResponseRow, after: ResponseRow
+) -> Iterator[ResponsePoint]:
+    """Find special points between two neighbours."""
+    for kind, test in KINDS_OF_CHANGE.items():
+        if len(before.multipliers) != len(after.multipliers):
+            continue
+        if not test(before.multipliers) * test(after.multipliers) < 0.0:
+            continue
+
+        def value(v: Array, test: Callable[[Complex], float] = test) -> float:
+            row = response_row(piece, v, 0.0)
+            return math.nan if row is None else test(row.multipliers)
+
+        place = zero_between(piece.condition, value, one, other, PLACE_SHARE)
+        row = response_row(piece, place, before.onward)
+        if row is not None and (point := change_point(piece.family.along, kind, row, before, after)) is not None:
+            yield point
+    if Counter(before.phases) != Counter(after.phases) and piece.family.first.eps == 0.0:
+        row = _phase_border(piece, (one, before), (other, after))
+        if (point := change_point(piece.family.along, "phases change", row, before, after)) is not None:
+            yield point
+
+
+def _phase_border(piece: Piece, one: tuple[Array, ResponseRow], other: tuple[Array, ResponseRow]) -> ResponseRow:
+    """Bisect for where the phases of a motion change between two, as far as it can be followed there.
+
+    The curve has a corner there, and slopes of it may not be known: so it is bisected in the parameter.
+    """
+    (low, before), (high, after) = one, other
+    while abs(float(high[-1] - low[-1])) > PLACE_SHARE:
+        middle = 0.5 * (low + high)
+        found = at_value(piece, middle[:-1], float(middle[-1]))
+        row = None if found is None else response_row(piece, found, before.onward)
+        if found is None or row is None:
+            break
+        if Counter(row.phases) == Counter(before.phases):
+            low, before = found, row
+        else:
+            high, after = found, row
+    return after

@@ -1,0 +1,175 @@
+"""One piece of a response curve: its unknowns, measured by one motion, and its conditions with their slopes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ...arrays import Array
+from ...curves.newton import newton
+from ...initial_value.field import field
+from ...layer_problem.vary import vary
+from ...psi.constructors import constant
+from .extent import swing
+from .multipliers import multipliers, rate_at
+from .response_points import ResponseRow
+from .shooting import LostError, Shooting, Shot
+
+PERIOD_STEP = 1e-6  # relative: for the slope of a period that is given
+JUMPS = 1e-6, 1e-5, 1e-4, 1e-3  # of the span: how far beyond a corner, where a phase begins, the curve is sought again
+MAX_JUMP = 0.1  # of the motion's size, by which it may differ there
+
+
+@dataclass(frozen=True, eq=False)
+class MotionFamily:
+    """Boundary value problems along the parameter."""
+
+    first: Shooting
+    along: str
+    span: tuple[float, float]
+    period_of: Callable[[float], float]
+    advance: Array | None
+    rtol: float
+
+    def at(self, value: float) -> Shooting:
+        """Return the problem at a value."""
+        system, _, _ = vary(self.first.system, constant(), (), self.along, value)
+        formulas = field(system)
+        rates = np.array([row.constant or 0.0 for row in formulas.rows[2:]])
+        advance = rates * self.period_of(value) if self.advance is None else self.advance
+        return replace(self.first, system=system, formulas=formulas, advance=advance, names=(self.along,))
+
+    def forced_period(self, value: float) -> float:
+        """Return the period that a clock gives."""
+        if self.advance is None:
+            return self.period_of(value)
+        rows = self.at(value).formulas.rows[2:]
+        i = int(np.argmax(self.first.clocks))
+        return float(self.advance[i]) / float(rows[i].constant or math.nan)
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Unknowns measured by one motion: (X(0) - X_ref)/sizes, T/T_ref - 1 without a clock, and the part of the span.
+
+    What is exactly 0, and stays so whatever else is changed, as across an invariant line, is none of the `free` ones:
+    so rounding does not lead out of it.
+    """
+
+    family: MotionFamily
+    state: Array
+    sizes: Array
+    period: float
+    normal: Array
+    free: NDArray[np.bool_]
+
+    @property
+    def forced(self) -> bool:
+        """Whether a clock gives the period."""
+        return self.family.first.is_forced
+
+    def unknowns(self, state: Array, period: float, value: float) -> Array:
+        """Return the unknowns (n,) of a motion: start, period where none is given, parameter."""
+        low, high = self.family.span
+        more = [] if self.forced else [period / self.period - 1.0]
+        return np.array([*((state - self.state) / self.sizes)[self.free], *more, (value - low) / (high - low)])
+
+    def motion_of(self, v: Array) -> tuple[Array, float, float]:
+        """Return start, period and value of unknowns."""
+        (low, high), state = self.family.span, self.state.copy()
+        n = int(self.free.sum())
+        state[self.free] += v[:n] * self.sizes[self.free]
+        value = low + float(v[-1]) * (high - low)
+        period = self.family.forced_period(value) if self.forced else self.period * (1.0 + float(v[n]))
+        return state, period, value
+
+    def shot(self, v: Array) -> Shot:
+        """Follow the motion of unknowns over a period; LostError where that cannot be."""
+        state, period, value = self.motion_of(v)
+        return self.family.at(value).shot(state, period, self.family.rtol)
+
+    def condition(self, v: Array) -> tuple[Array, Array]:
+        """Conditions with all slopes; NaN where the motion cannot be followed."""
+        count = len(v)
+        try:
+            shot = self.shot(v)
+        except (LostError, ValueError):
+            return np.full(count - 1, math.nan), np.full((count - 1, count), math.nan)
+        free, n = self.free, len(self.state)
+        sizes, width = self.sizes[free], self.family.span[1] - self.family.span[0]
+        last, rate = shot.variation.last, shot.variation.rate
+        slope = np.zeros((count - 1, count))
+        rows = len(sizes)
+        slope[:rows, :rows] = (last[:, :n] - np.eye(n))[np.ix_(free, free)] * sizes / sizes[:, None]
+        by_value = last[:, n]
+        if self.forced:
+            by_value = by_value + rate * self.period_slope(self.motion_of(v)[2])
+        else:
+            slope[:rows, rows] = (rate * self.period)[free] / sizes
+            slope[rows, :rows] = self.normal[free]
+        slope[:rows, -1] = by_value[free] * width / sizes
+        value = shot.miss[free] / sizes
+        return (value if self.forced else np.append(value, self.normal[free] @ v[:rows])), slope
+
+    def period_slope(self, value: float) -> float:
+        """Return the derivative of the period that is given."""
+        step = PERIOD_STEP * max(abs(value), self.family.span[1] - self.family.span[0])
+        before, after = (self.family.forced_period(value + sign * step) for sign in (-1.0, 1.0))
+        return (after - before) / (2.0 * step)
+
+
+def measure_piece(family: MotionFamily, state: Array, period: float, value: float) -> tuple[Piece, float]:
+    """Measure by a motion, begun anew where it is farthest from Sigma; at which part of the period that is."""
+    run = family.at(value).follow(state, period, family.rtol)
+    i = int(np.argmax(np.hypot(*run.states[:-1, :2].T)))
+    state, part = run.states[i].copy(), float(run.times[i]) / period
+    if family.first.is_forced:  # near time 0, so that a change of a frequency changes the phase little
+        k, advance = int(np.argmax(family.first.clocks)), family.at(value).advance
+        state[2:] -= advance * np.round(state[2 + k] / advance[k])
+    shot = family.at(value).shot(state, period, family.rtol)
+    ahead = rate_at(shot.of.formulas, shot.of.psi, shot.run, 0) / shot.sizes
+    coupled = np.column_stack([shot.variation.last, shot.variation.rate, shot.miss]) != 0.0
+    coupled[:, : len(state)] &= ~np.eye(len(state), dtype=bool)
+    free = shot.of.free & ((state != 0.0) | coupled.any(axis=1))
+    normal = ahead / max(float(np.linalg.norm(ahead)), 1e-300)
+    return Piece(family, state, shot.sizes, period, normal, free), part
+
+
+def response_row(piece: Piece, v: Array, onward: float) -> ResponseRow | None:
+    """Return what is told of the motion of unknowns; None where it cannot be followed."""
+    try:
+        shot = piece.shot(v)
+    except (LostError, ValueError):
+        return None
+    own = shot.of
+    values, _, _ = multipliers(own.formulas, own.psi, shot.run, shot.variation, own.clocks)
+    _, period, value = piece.motion_of(v)
+    kinds = [phase.kind for phase in shot.run.phases]
+    if len(kinds) > 1 and kinds[0] == kinds[-1]:  # one phase, in which it starts
+        kinds.pop()
+    return ResponseRow(value, period, shot.state, swing(shot.run), values, tuple(kinds), onward)
+
+
+def at_value(piece: Piece, start: Array, value: float) -> Array | None:
+    """Find the motion at a value of the last unknown, near a start (n - 1,); None if there is none."""
+
+    def condition(u: Array) -> tuple[Array, Array]:
+        found, slope = piece.condition(np.append(u, value))
+        return found, slope[:, :-1]
+
+    found = newton(condition, start, MAX_JUMP)
+    return None if found is None else np.append(found, value)
+
+
+def jump_corner(piece: Piece, before: Array, last: Array) -> Array | None:
+    """Find the curve beyond a place where it has a corner, as where a stick begins; None if it is not seen there."""
+    way = math.copysign(1.0, float(last[-1] - before[-1]))
+    for value in (float(last[-1]) + way * jump for jump in JUMPS):
+        found = at_value(piece, last[:-1], value) if 0.0 <= value <= 1.0 else None
+        if found is not None:
+            return found
+    return None

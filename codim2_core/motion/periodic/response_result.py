@@ -1,0 +1,95 @@
+"""The result of following a periodic motion along a parameter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ...arrays import Array, Complex
+from ...results import Result, column_rows, result_rows
+from ...tables import paragraphs
+from ...words import say
+from .response_points import ResponsePoint, ResponseRow
+
+
+@dataclass(frozen=True, eq=False)
+class ResponseCurve(Result):
+    """Periodic motions along one parameter, in order along their curve; arrays are read-only.
+
+    Attributes
+    ----------
+    along : str
+    span : (float, float)
+    value, period : ndarray (k,)
+    state0 : ndarray (k, 2 + m)
+        Their starts.
+    amplitude : ndarray (k, 2 + m)
+        Half of what lies between the extremes of x, y, z1, ..., zm.
+    multipliers : ndarray (k, q) of complex
+        As `PeriodicMotion.multipliers`.
+    stable : ndarray (k,) of bool
+        Whether all of them are inside the unit circle.
+    phases : tuple of str
+        Of each the kinds of its phases, such as "slip, slide".
+    special : tuple of ResponsePoint
+        In order along the curve.
+    ends : (str, str)
+        Of either end "span", "grows" (to a hundred times its first size), "lost" (it was followed no further), "many"
+        (points were too many), or "closed".
+    """
+
+    along: str
+    span: tuple[float, float]
+    value: Array = field(repr=False)
+    period: Array = field(repr=False)
+    state0: Array = field(repr=False)
+    amplitude: Array = field(repr=False)
+    multipliers: Complex = field(repr=False)
+    stable: Array = field(repr=False)
+    phases: tuple[str, ...] = field(repr=False)
+    special: tuple[ResponsePoint, ...]
+    ends: tuple[str, str]
+
+    @classmethod
+    def of(
+        cls, along: str, span: tuple[float, float], rows: Sequence[ResponseRow],
+        special: Sequence[ResponsePoint], ends: tuple[str, str],
+    ) -> ResponseCurve:  # fmt: skip
+        """Gather the motions of a curve."""
+        most = max(len(row.multipliers) for row in rows)
+        values = np.full((len(rows), most), np.nan, complex)
+        for i, row in enumerate(rows):
+            values[i, : len(row.multipliers)] = row.multipliers
+        arrays = (
+            np.array([row.value for row in rows]), np.array([row.period for row in rows]),
+            np.array([row.state for row in rows]), np.array([row.swings for row in rows]), values,
+            np.array([bool((np.abs(row.multipliers) < 1.0).all()) for row in rows]),
+        )  # fmt: skip
+        for array in arrays:
+            array.flags.writeable = False
+        return cls(along, span, *arrays, tuple(", ".join(row.phases) for row in rows), tuple(special), ends)
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def crossings(self, value: float) -> int:
+        """Return how many of its motions have a value of the parameter: how often the curve passes it."""
+        side = self.value - value
+        return int(np.count_nonzero(side[1:] * side[:-1] < 0.0) + np.count_nonzero(side == 0.0))
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        names = ["x", "y", *(f"z{i}" for i in range(1, self.state0.shape[1] - 1))]
+        columns: dict[str, Any] = {self.along: self.value, "period": self.period, "stable": self.stable}
+        columns |= {f"amplitude_{name}": row for name, row in zip(names, self.amplitude.T, strict=True)}
+        columns |= {f"start_{name}": row for name, row in zip(names, self.state0.T, strict=True)}
+        columns["largest_multiplier"] = np.nanmax(np.abs(self.multipliers), axis=1, initial=0.0)
+        return column_rows(columns | {"phases": self.phases})
+
+    def _tables_(self) -> str:
+        told = say(
+            "response", name=self.along, low=float(self.value.min()), high=float(self.value.max()), count=len(self)
+        )
+        return result_rows(self.special) + paragraphs([told])
