@@ -18,9 +18,7 @@ AT = SYSTEM.at(0.1)
 PLANE = {"system": SYSTEM, "psi": PSI, "z": 0.1}
 ABD = {"a": -2.0, "b": 0.3, "d": -1.0}
 BAD_ABD = {"a": 172.0, "b": 186.0, "d": -200.0}
-DRIVEN = c2.System(
-    U=("-z1 - f1*c + cos(2*z3)", "-z2 - f1*s + sin(2*z3)"), W=("x", "y", "1"), parameters={"f1": 0.5}
-)
+DRIVEN = c2.System(U=("-z1 - f1*c + cos(2*z3)", "-z2 - f1*s + sin(2*z3)"), W=("x", "y", "1"), parameters={"f1": 0.5})
 MOTION = {"system": SYSTEM, "psi": PSI, "state0": (1.0, 0.2, 0.1), "t_span": (0.0, 0.3)}
 
 #: For each public function, arguments with which it is quick: what is not there keeps its default.
@@ -92,8 +90,11 @@ GOOD = {
     c2.hemisphere.scaling_from_disc: {"p": (0.1, 0.2)},
 }  # fmt: skip
 SLOW = {c2.bifurcations.cycle_folds, c2.bifurcations.heteroclinic, c2.response_curve}  # seconds
-LONG = {c2.census: ("10**9",), c2.periodic_motion: ("10**9", "10**30"),
-        c2.response_curve: ("10**9", "10**30")}  # right: minutes, and eight seconds each
+LONG = {
+    c2.census: ("10**9",),
+    c2.periodic_motion: ("10**9", "10**30"),
+    c2.response_curve: ("10**9", "10**30"),
+}  # right: minutes, and eight seconds each
 LONGEST = 240.0  # seconds: where nothing is compiled yet, kernels are, in turn with other processes
 
 NAN, INF = float("nan"), float("inf")
