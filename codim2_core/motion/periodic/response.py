@@ -157,7 +157,7 @@ def _trace_response(
         edges = [CurveEdge("span", lambda v: (-float(v[-1]), -_last_unit(v))),
                  CurveEdge("span", lambda v: (float(v[-1]) - 1.0, _last_unit(v)))]  # fmt: skip
         bounds = StepBounds(LONGEST_STEP, MAX_TANGENT_TURN, PIECE_POINTS, close=1e-8, enough=1e-5)
-        points, end = trace_trace_response(piece.condition, here, along, edges, bounds)
+        points, end = trace_one_way(piece.condition, here, along, edges, bounds)
         line = [here, *points]
         if end == "lost" and len(line) > 1 and (beyond := jump_corner(piece, *line[-2:])) is not None:
             line, end = [*line, beyond], "many"
