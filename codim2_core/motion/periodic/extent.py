@@ -1,4 +1,4 @@
-"""How far a motion swings: half of what lies between its extremes, to the digits of its polynomials."""
+"""Half of what lies between the extremes of a motion, to the digits of its polynomials."""
 
 from __future__ import annotations
 
@@ -28,12 +28,14 @@ def swing(run: Simulation) -> Array:
             step, sample = np.unravel_index(int(values.argmax()), values.shape)
             best = max(float(values.max()), float((sign * motion.states[:, j]).max()))
             for at in {int(step), min(int(step) + 1, len(values) - 1)}:  # it may lie just behind a step's end
-                best = max(best, sign * _extreme(motion.polynomials[at, j], motion.states[at, j], float(u[sample])))
+                best = max(
+                    best, sign * _step_extreme(motion.polynomials[at, j], motion.states[at, j], float(u[sample]))
+                )
             found[k, j] = sign * best
     return 0.5 * (found[0] - found[1])
 
 
-def _extreme(polynomial: Array, start: float, u: float) -> float:
+def _step_extreme(polynomial: Array, start: float, u: float) -> float:
     """Return the value of a step's polynomial at the zero of its derivative next to u, within the step."""
     d = np.arange(1, len(polynomial) + 1)
     for _ in range(NEWTON_ROUNDS):

@@ -33,8 +33,8 @@ from .search import periodic_motion, shooting
 __all__ = ["response_curve"]
 
 PIECE_POINTS = 24  # points after which unknowns are measured anew, and the section is laid anew
-LONGEST_STEP, MAX_TURN = 0.1, 0.25  # of the span, or of the motion's size; between tangents, rad
-MAX_POINTS, MAX_GROWTH = 600, 1e2  # each way; times its first size: a motion that grows beyond has no bound
+LONGEST_STEP, MAX_TANGENT_TURN = 0.1, 0.25  # of the span, or of the motion's size; between tangents, rad
+MAX_MOTIONS, MAX_SIZE_RATIO = 600, 1e2  # each way; times its first size: a motion that grows beyond has no bound
 PLACE_SHARE = 1e-9  # of a step, to which special points are found
 CLOSED_DISTANCE = 0.5  # of the longest step: a curve that comes so near to its start, the same way, is closed
 
@@ -92,7 +92,7 @@ def response_curve(
     ... )
     >>> found = response_curve(mass, (0.0, -0.5, -0.3, 0.05, 0.0), lambda w: 2.0*math.pi/w, "w", (1.8, 2.2))
     >>> radius = [math.hypot(*state[2:4]) for state in found.state0]
-    >>> max(abs(r - math.sqrt(0.75)/(w*w - 1.0)) for r, w in zip(radius, found.value)) < 1e-8
+    >>> bool(max(abs(r - math.sqrt(0.75)/(w*w - 1.0)) for r, w in zip(radius, found.value)) < 1e-8)
     True
     """
     check_name(system, psi or constant(), (0.0,) * system.m, "along", along)
@@ -119,15 +119,15 @@ def response_curve(
         shooting(system, psi, float(eps), found.state0, found.period, moved, atol / rtol, max_steps), along,
         (low, high), period_of, moved, rtol,
     )  # fmt: skip
-    return _traced(family, found.state0, found.period, value)
+    return _trace_both_ways(family, found.state0, found.period, value)
 
 
-def _traced(family: MotionFamily, state: Array, period: float, value: float) -> ResponseCurve:
+def _trace_both_ways(family: MotionFamily, state: Array, period: float, value: float) -> ResponseCurve:
     rows: list[ResponseRow] = []
     special: list[ResponsePoint] = []
     ends: list[str] = []
     for sign in (-1.0, 1.0):
-        found, points, end = _one_way(family, state, period, value, sign)
+        found, points, end = _trace_response(family, state, period, value, sign)
         if not found:
             raise ValueError("the periodic motion to begin with is one of a family: its curve has no direction there.")
         rows = [*reversed(rows), *found[1 if rows else 0 :]]
@@ -139,7 +139,7 @@ def _traced(family: MotionFamily, state: Array, period: float, value: float) -> 
     return ResponseCurve.of(family.along, family.span, rows, special, (ends[0], ends[1]))
 
 
-def _one_way(
+def _trace_response(
     family: MotionFamily, state: Array, period: float, value: float, sign: float
 ) -> tuple[list[ResponseRow], list[ResponsePoint], str]:
     """Follow the curve one way: its motions from the first on, special points between them, and how it ends."""
@@ -156,7 +156,7 @@ def _one_way(
             along = -along
         edges = [CurveEdge("span", lambda v: (-float(v[-1]), -_last_unit(v))),
                  CurveEdge("span", lambda v: (float(v[-1]) - 1.0, _last_unit(v)))]  # fmt: skip
-        bounds = StepBounds(LONGEST_STEP, MAX_TURN, PIECE_POINTS, close=1e-8, enough=1e-5)
+        bounds = StepBounds(LONGEST_STEP, MAX_TANGENT_TURN, PIECE_POINTS, close=1e-8, enough=1e-5)
         points, end = trace_one_way(piece.condition, here, along, edges, bounds)
         line = [here, *points]
         if end == "lost" and len(line) > 1 and (beyond := jump_corner(piece, *line[-2:])) is not None:
@@ -167,11 +167,11 @@ def _one_way(
             if before is None or after is None:
                 return rows, special, "lost"
             rows += [before] if not rows else []
-            special += _changes(piece, one, other, before, after)
+            special += _special_points(piece, one, other, before, after)
             rows.append(after)
-        if (rows[-1].swings > MAX_GROWTH * np.maximum(rows[0].swings, piece.family.first.floor)).any():
+        if (rows[-1].swings > MAX_SIZE_RATIO * np.maximum(rows[0].swings, piece.family.first.floor)).any():
             return rows, special, "grows"
-        if end != "many" or len(rows) > MAX_POINTS or len(line) < 2:
+        if end != "many" or len(rows) > MAX_MOTIONS or len(line) < 2:
             return rows, special, end
         if _comes_round(rows, piece):
             return rows, special, "closed"
@@ -199,7 +199,7 @@ def _comes_round(rows: list[ResponseRow], piece: Piece) -> bool:
     return False
 
 
-def _changes(
+def _special_points(
     piece: Piece, one: Array, other: Array, before: ResponseRow, after: ResponseRow
 ) -> Iterator[ResponsePoint]:
     """Find special points between two neighbours."""

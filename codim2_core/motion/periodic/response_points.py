@@ -1,4 +1,4 @@
-"""Where a periodic motion changes along a parameter: a test function of its multipliers each (Kuznetsov 2004, 5.2)."""
+"""Special points of a periodic motion along a parameter, by test functions of its multipliers (Kuznetsov 2004, 5.2)."""
 
 from __future__ import annotations
 
