@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from hypothesis.internal.conjecture import providers
+from hypothesis.internal.constants_ast import Constants
 
 from tests import tiers
 from tests.leftovers import pytest_sessionfinish, pytest_sessionstart  # noqa: F401
@@ -16,6 +18,8 @@ from tests.leftovers import pytest_sessionfinish, pytest_sessionstart  # noqa: F
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
 
+# Numbers in the text of whatever modules a process has loaded would be tried as examples: other ones in each.
+providers._get_local_constants = Constants
 # Every run has the same examples, on every machine; no deadlines, since machines differ in speed.
 settings.register_profile("same", deadline=None, derandomize=True, database=None, max_examples=20)
 # `python -m tests.stress`: other examples for every seed.

@@ -54,6 +54,7 @@ MIN_TURN_BUDGET, TURN_BUDGET_RATIO = (
     4,
 )  # steps of a turn that a point may cost at least, and times those of the point before it
 MAX_HALVINGS = 8  # of an interval in which a fold is not found at once
+EDGE_TOLERANCE = 1e-9  # of the span, by which a cycle may lie beyond it
 KINKED_FOLD_CHANGE = 1e-7  # of the span, by which the value turns back on both sides of a fold found by bisection
 FOLD_SLACK = 1e-3  # of a step: how far outside of it its fold may seem to be
 LEAST_EXPONENT_RATIO = (
@@ -328,6 +329,12 @@ class _BranchPath:
     def _take(self, sought: _PendingPoint, point: ContinuationPoint) -> None:
         """Add a point of the window to the branch."""
         here = self.points[-1]
+        end = min(max(point.nu, 0.0), 1.0)
+        if abs(point.nu - end) > EDGE_TOLERANCE:  # corrected beyond the span, where it was not expected
+            guess = TurnGuess(point.turn.xi, end, (0.0, 1.0), self.backward)
+            search = TurnSearch(self.tracer, guess, PREDICTED_TOLERANCE * sought.step**2)
+            self.window, self.near = [_PendingPoint(search, sought.step, 0, sought.expected, True)], []
+            return
         self.step = sought.step * _growth(here, point, sought)
         self.points.append(point)
         self.backward = self.tracer.backward(point.turn, self.backward)

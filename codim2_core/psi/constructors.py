@@ -17,9 +17,14 @@ from .kernel import Each
 from .typed import custom_kernel
 
 
-@cache
 def constant() -> Psi:
     """``Psi = 1``: ``e_Psi`` is the point of the projected hemisphere itself."""
+    return _constant()
+
+
+@cache
+def _constant() -> Psi:
+    """Return the one that is asked for in every frame."""
     return make("constant")
 
 

@@ -5,6 +5,7 @@ Run ``python -m tests.benchmarks general [--quick]``.
 
 from __future__ import annotations
 
+import random
 import statistics
 import subprocess
 import sys
@@ -31,6 +32,41 @@ def as_text(system: c2.ELinear) -> c2.System:
     a, b, d, f1, f2 = system.at(()).plane
     values = {"a": a, "b": b, "d": d, "f1": f1, "f2": f2}
     return c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values)
+
+
+def as_general(system: c2.ELinear) -> c2.System:
+    """The same with a term that is 0: no closed form is known of it."""
+    a, b, d, f1, f2 = system.at(()).plane
+    values = {"a": a, "b": b, "d": d, "f1": f1, "f2": f2, "k": 0.0}
+    return c2.System(U=("a*c - b*s + f1 + k*c*s", "b*c + d*s + f2"), parameters=values)
+
+
+def closed_forms(count: int) -> str:
+    """What closed forms save: random systems of Case III along f1, and the same by the general path."""
+    rng = random.Random(35)
+    ways: dict[str, list[float]] = {"equilibria": [], "with cycles": []}
+    alike = 0
+    for _ in range(count):
+        a, b, d, f1, f2 = (rng.uniform(*span) for span in ((0.3, 2), (1.5, 3), (-2, -0.3), (-1, 1), (-1, 1)))
+        system, found = c2.ELinear(a, b, d, (f1, f2)), []
+        for name, cycles in (("equilibria", False), ("with cycles", True)):
+            spent = []
+            for one in (system, as_general(system)):
+                start = time.perf_counter()
+                found.append(c2.branches(one, c2.psi.hill(3), "f1", (-1.5, 1.5), with_cycles=cycles))
+                spent.append(time.perf_counter() - start)
+            ways[name].append(spent[1] / spent[0])
+        alike += [one.kind for one in found[2].special] == [one.kind for one in found[3].special]
+    rows = [
+        f"| {name} | {statistics.median(ratios):.1f} | {min(ratios):.1f} to {max(ratios):.1f} |"
+        for name, ratios in ways.items()
+    ]
+    head = [
+        "",
+        f"| `branches`, {count} systems, {alike} told alike | general path over closed forms | |",
+        "|---|---|---|",
+    ]
+    return "\n".join(head + rows)
 
 
 def redraw(system: c2.ELinear | c2.System, psi: c2.Psi, repeats: int = 60) -> list[float]:
@@ -65,8 +101,8 @@ def compile_seconds(expression: str) -> float:
     return float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
 
 
-def report() -> str:
-    """Return both tables as Markdown."""
+def report(quick: bool = False) -> str:
+    """Return the tables as Markdown."""
     lines = [
         "| e-linear, built in and as text | built-in redraw, ms | typed redraw, ms | ratio | ratio of its stepping |",
         "|---|---|---|---|---|",
@@ -84,4 +120,4 @@ def report() -> str:
     lines += ["", "| compilation, once for each system | s |", "|---|---|"]
     for name, expression in COMPILED.items():
         lines.append(f"| {name} | {statistics.median(compile_seconds(expression) for _ in range(3)):.2f} |")
-    return "\n".join(lines)
+    return "\n".join(lines) + closed_forms(6 if quick else 40)

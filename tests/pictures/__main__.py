@@ -14,6 +14,8 @@ from pathlib import Path
 
 from codim2_app.view.markup import stylesheet
 
+from codim2_core.jit import policy
+
 from .pictures import pictures
 from .test_pictures import KEPT, same
 
@@ -58,6 +60,7 @@ def changes(before: str, made: str) -> str:
 
 def main() -> None:
     """Write the page, and what has changed if it is accepted."""
+    policy.choose_way(policy.COMPILE)  # as the tests do
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--accept", action="store_true", help="keep the pictures as they are now")
     accept = parser.parse_args().accept

