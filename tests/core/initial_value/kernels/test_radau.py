@@ -12,6 +12,7 @@ from codim2_core.initial_value.motion_steps import numbers_of_tableau, rate_at
 
 from .placing import CURVED, TANH, motion_of
 
+TABLE = tableau_of(numbers_of_tableau())
 STATES = [(0.4, 0.3, 0.7, -0.2), (-0.02, 0.01, 1.3, 0.5)]
 
 
@@ -19,23 +20,22 @@ STATES = [(0.4, 0.3, 0.7, -0.2), (-0.02, 0.01, 1.3, 0.5)]
 @pytest.mark.parametrize("eps", [0.3, 1e-3])
 def test_its_stages_solve_the_collocation_and_its_end_is_as_near_as_it_says(y, eps):
     rate = lambda state: rate_at(field(CURVED), TANH, eps, None, state)
-    table = tableau_of(numbers_of_tableau())  # here, where tests compile: as Python it is another type
     told = []
     for rtol in (1e-3, 1e-6):
         for h in math.hypot(y[0], y[1], eps) * np.array([0.03, 0.3, 1.0, 4.0, 30.0]):
             state, work, clock = np.array(y), workspace(4, 0.0), np.zeros(4)
             motion = motion_of(CURVED, TANH, eps, rtol)
             radau.linearise(motion, state, h, clock, work)
-            accepted, _ = radau.attempt(motion, table, state, h, 0.0, False, clock, work)
+            accepted, _ = radau.attempt(motion, TABLE, state, h, 0.0, False, clock, work)
             told.append(bool(accepted))
             if not accepted:
                 continue
             Z, end, polynomial = work.Z.copy(), np.empty(4), np.empty((4, 7))
-            increments = h * table.A @ np.array([rate(np.array(y) + stage) for stage in Z])
+            increments = h * TABLE.A @ np.array([rate(np.array(y) + stage) for stage in Z])
             np.testing.assert_allclose(Z / work.size, increments / work.size, atol=3e-2 * rtol)
-            radau.keep(table, state, work, polynomial, end)
+            radau.keep(TABLE, state, work, polynomial, end)
             np.testing.assert_array_equal(state, end)
-            for node, stage in zip(table.nodes, Z, strict=True):
+            for node, stage in zip(TABLE.nodes, Z, strict=True):
                 np.testing.assert_allclose(polynomial @ node ** np.arange(1, 8), stage, atol=1e-12)
             small, exact = np.array(y), 4000  # by the classical method
             for _ in range(exact):
