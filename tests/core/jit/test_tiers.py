@@ -8,6 +8,8 @@ import pytest
 from numba.core.caching import NullCache
 
 import codim2_core as c2
+from codim2_core.initial_value.kernels.stages import tableau_of
+from codim2_core.initial_value.motion_steps import numbers_of_tableau
 from codim2_core.jit import call_at, call_field, carray, interpreted, kernel, policy, right_hand_sides
 from codim2_core.jit.interpreted import THREE_POINTERS
 from tests.core.jit.fresh import computed
@@ -242,3 +244,12 @@ def test_a_right_hand_side_keeps_its_address_when_it_is_compiled(monkeypatch):
     out, numbers = np.zeros(2), np.array([3.0])
     THREE_POINTERS(later.address)(S.ctypes.data, out.ctypes.data, numbers.ctypes.data)
     assert out.tolist() == [6.0, 9.0]
+
+
+def test_what_is_named_stays_named():
+    """A kernel's named tuple was a plain one as Python: another type to the kernel that is given it."""
+    numbers = numbers_of_tableau()
+    compiled, found = tableau_of(numbers), interpreted.run(tableau_of, (numbers,), math.inf, lambda: math.inf)
+    assert type(found) is type(compiled)
+    for one, other in zip(found, compiled, strict=True):
+        np.testing.assert_array_equal(one, other)
