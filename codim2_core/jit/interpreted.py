@@ -83,8 +83,8 @@ def run(kernel: Any, given: Iterable[Any], due: float, look: Callable[[], float]
 
 def _plain(value: Any) -> Any:
     if isinstance(value, tuple):
-        plain = map(_plain, value)
-        return value._make(plain) if hasattr(value, "_make") else tuple(plain)  # a named one stays so
+        make = getattr(value, "_make", tuple)  # a named one stays so
+        return make(map(_plain, value))
     return value.item() if isinstance(value, np.generic) else value
 
 
