@@ -23,9 +23,9 @@ RESULTS = {
     "trajectories": lambda: c2.trajectories(SADDLE, c2.psi.constant(), [(0.1, 0.2), (1.2, 0.3)], t_max=5),
     "separatrices": lambda: c2.separatrices(SADDLE, c2.psi.constant()),
     "limit cycles": lambda: c2.limit_cycles(CYCLE.system, CYCLE.psi),
-    "simulation": lambda: c2.simulate(c2.ELinear(-1, 1, -1), c2.psi.constant(), 0.1, (0.5, 0.2), (0, 3)),
+    "simulation": lambda: c2.simulate(c2.ELinear(-1, 1, -1), c2.psi.constant(), (0.5, 0.2), (0, 3), eps=0.1),
     "periodic motion": lambda: c2.periodic_motion(PUSHED, (0.3, 0.0, 0.0, -0.1, 0.0, 0.0), np.pi),
-    "curve": lambda: saddle_node(-2, 0.5, -1),
+    "curve": lambda: saddle_node(c2.ELinear(-2, 0.5, -1)),
     "branches": lambda: c2.branches(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
 }
 
@@ -102,9 +102,9 @@ CHARTS = {
     "curve": (RESULTS["curve"], lambda r: [(b[:, 0], b[:, 1]) for b in r.branches], ("f₁", "f₂")),
     "linearisation": (lambda: linearisation_path(SADDLE, c2.psi.constant(), "f1", (-0.3, 0.3)),
                       lambda r: [(r.values, r.trace)], ("f1", "tr J")),
-    "slow portrait": (lambda: c2.slow_portrait(LINE, c2.psi.constant(), (-0.5, 0.6)),
+    "slow portrait": (lambda: c2.slow_portrait(LINE, c2.psi.constant(), "z1", (-0.5, 0.6)),
                       lambda r: [(b.z, b.e[:, 0]) for b in r.branches], ("z", "c")),
-    "slow portrait, steep": (lambda: c2.slow_portrait(STEEP, c2.psi.constant(), (-0.5, 0.6)),
+    "slow portrait, steep": (lambda: c2.slow_portrait(STEEP, c2.psi.constant(), "z1", (-0.5, 0.6)),
                              lambda r: [(b.z, b.e[:, 1]) for b in r.branches], ("z", "s")),
     "psi": (lambda: c2.psi.tanh(), lambda r: [(np.linspace(0, 4, 161), r(np.linspace(0, 4, 161)))], ("s", "Ψ")),
 }  # fmt: skip
