@@ -26,6 +26,8 @@ def spinning_annulus(eta: float = 0.5, mu: float = 0.2, g: float = GRAVITY) -> S
         Acceleration of gravity, m/s².
     """
     check_physics({"g": g}, {"eta": eta, "mu": mu})
+    if not eta < 1.0:
+        raise ValueError(f"eta is {eta:g}; give a number below 1.")
     outer = force("c**2", "(1 - c**2)", "") | torque("(1 - s**2)", "s**2", "_s")
     inner = force("c**2", "eta**2*(1 - c**2)", "_i") | torque("(1 - s**2)", "eta**2*s**2", "_si")
     return System(

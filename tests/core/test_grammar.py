@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
+from codim2_core.equality import equal_values
 from tests.core.test_arguments import GOOD, SLOW
 
 SADDLE = c2.ELinear(-2.0, 0.3, -1.0, (-0.5, 0.0))
@@ -64,15 +65,16 @@ def test_an_earlier_spelling_is_read_with_a_warning(what):
     assert found == now()
 
 
-@pytest.mark.parametrize("function", [f for f in GOOD if f not in SLOW], ids=lambda f: f.__name__)
+NAMED = [f for f, given in GOOD.items() if given.get("psi") == c2.psi.tanh() and f not in SLOW]
+
+
+@pytest.mark.parametrize("function", NAMED, ids=lambda f: f.__name__)
 def test_the_name_of_a_psi_stands_for_it(function):
     given = GOOD[function]
-    if given.get("psi") != c2.psi.tanh():
-        pytest.skip("no Psi to name")
-    assert function(**{**given, "psi": "tanh"}) == function(**given)
+    assert equal_values(function(**{**given, "psi": "tanh"}), function(**given))
 
 
-@pytest.mark.parametrize("name", ["case1-cm4", "ball-sticks", "case3-n2"])
+@pytest.mark.parametrize("name", ["case1-cm4", "ball-stick", "case3-n2"])
 def test_the_name_of_a_preset_stands_for_its_system_psi_and_z(name):
     preset = c2.presets[name]
     whole = preset.system, preset.psi, preset.z
@@ -101,7 +103,7 @@ def test_a_name_that_nothing_has_is_told_with_those_like_it():
 def test_results_that_hold_others_say_their_kinds_and_sentences():
     found = c2.critical_sets("case3-n2")
     assert found.kinds == tuple(one.kind for one in found)
-    assert c2.approach_outcomes("case1-cm4").sentences == tuple(o.sentence for o in c2.approach_outcomes("case1-cm4"))
+    assert c2.certificates("case1-cm4").sentences[0] == c2.certificates("case1-cm4")[0].sentence
 
 
 @pytest.mark.parametrize("function", [f for f in GOOD if f not in SLOW], ids=lambda f: f.__name__)
@@ -130,15 +132,16 @@ def test_times_that_are_asked_for_are_those_of_the_result(way):
     np.testing.assert_array_equal(run.states, whole.dense(asked))
     assert (run.success, run.message) == (True, run.reason)
     assert len(run.to_frame()) == 7
-    assert (run.phases, run.drawn()) == (whole.phases, whole.drawn())
+    assert run.phases == whole.phases
+    np.testing.assert_array_equal(run.drawn().times, whole.drawn().times)
 
 
 def test_times_beyond_where_a_motion_stops_are_left_out():
     stop = c2.Event(lambda t, q: q[2] - 0.9, terminal=True)
     run = c2.simulate_nonsmooth(BALL, STATE, (0.0, 1.0), events=stop, times=[0.01, 0.9])
     assert run.times.tolist() == [0.01]
-    unknown = c2.simulate_nonsmooth(c2.System(U=("c", "s - 1/2")), (0.0, 0.0), (0.0, 1.0))
-    assert not unknown.success
+    short = c2.simulate(BALL, ONE, STATE, (0.0, 1.0), eps=1e-3, max_steps=3)
+    assert (short.success, short.message) == (False, short.reason)
 
 
 def test_parameters_are_a_mapping_that_is_not_changed():
