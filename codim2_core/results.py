@@ -70,6 +70,21 @@ class Pictured(Result):
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the picture into Matplotlib axes, and return them.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Left out, a figure is made.
+
+        Raises
+        ------
+        ValueError
+            Matplotlib, or the app, which draws, is not installed.
+        """
+        return drawing.plot(self, ax)
+
     def save(self, path: str | Path) -> None:
         """Write the picture that a notebook shows.
 

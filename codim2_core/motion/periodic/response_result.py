@@ -9,14 +9,14 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Array, Complex
-from ...results import Result, column_rows, result_rows
+from ...results import Pictured, column_rows, result_rows
 from ...tables import paragraphs
 from ...words import say
 from .response_points import ResponsePoint, ResponseRow
 
 
 @dataclass(frozen=True, eq=False)
-class ResponseCurve(Result):
+class ResponseCurve(Pictured):
     """Periodic motions along one parameter, in order along their curve; arrays are read-only.
 
     Attributes
