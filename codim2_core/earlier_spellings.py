@@ -17,33 +17,35 @@ Reading = Callable[[Given, Named], tuple[Given, Named] | None]
 
 def _eps_in_third_place(given: Given, named: Named) -> tuple[Given, Named] | None:
     """``simulate(system, psi, eps, state0, t_span)``."""
-    if len(given) < 3 or "eps" in named or not isinstance(given[2], Real):
+    if not 2 < len(given) < 6 or "eps" in named or not isinstance(given[2], Real):
         return None
     return (*given[:2], *given[3:]), {**named, "eps": given[2]}
 
 
 def _number_of_axis(given: Given, named: Named) -> tuple[Given, Named] | None:
     """``slow_portrait(system, psi, span, z, axis, count)``."""
-    if isinstance(named.get("along"), str) or (len(given) > 2 and isinstance(given[2], str)):
+    if "along" in named or not ("span" in named or 2 < len(given) < 7) or any(isinstance(v, str) for v in given[2:3]):
         return None
     named = {**named, **dict(zip(("span", "z", "axis", "count"), given[2:], strict=False))}
-    return given[:2], {"along": f"z{named.pop('axis', 0) + 1}", **named} if "span" in named else named
+    return given[:2], {"along": f"z{named.pop('axis', 0) + 1}", **named}
 
 
 def _spans_in_order(given: Given, named: Named) -> tuple[Given, Named] | None:
     """``delays(system, psi, z, spans)``."""
-    named = {**named, **({"spans": given[3]} if len(given) > 3 and not isinstance(given[3], Mapping) else {})}
+    if len(given) == 4 and np.ndim(given[3]) == 2:
+        given, named = given[:3], {**named, "spans": given[3]}
     if "spans" not in named:
         return None
+    named = dict(named)
     spans = named.pop("spans")
     if np.ndim(spans) == 2:
         spans = {f"z{i + 1}": tuple(span) for i, span in enumerate(spans)}
-    return given[:3], {**named, "ranges": spans}
+    return given, {**named, "ranges": spans}
 
 
 def _across_and_up(given: Given, named: Named) -> tuple[Given, Named] | None:
     """``atlas(system, psi, across, up, ranges, z, with_cycles)``."""
-    if not {"across", "up"} & named.keys() and not (len(given) > 3 and isinstance(given[2], str)):
+    if not {"across", "up"} & named.keys() and not (3 < len(given) < 8 and isinstance(given[2], str)):
         return None
     named = {**named, **dict(zip(("across", "up", "ranges", "z", "with_cycles"), given[2:], strict=False))}
     across, up, ranges = named.pop("across", None), named.pop("up", None), named.pop("ranges", None)
@@ -54,7 +56,7 @@ def _across_and_up(given: Given, named: Named) -> tuple[Given, Named] | None:
 
 def _three_numbers(given: Given, named: Named) -> tuple[Given, Named] | None:
     """``saddle_node(a, b, d)``, ``hopf(a, b, d, psi)``."""
-    if len(given) > 2 and all(isinstance(one, Real) for one in given[:3]):
+    if 2 < len(given) < 5 and all(isinstance(one, Real) for one in given[:3]):
         return (ELinear(*given[:3]), *given[3:]), named
     if not given and {"a", "b", "d"} <= named.keys():
         named = dict(named)

@@ -130,12 +130,12 @@ class OfOneKind(Result):
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """The kind of each, where they have one."""
+        """Kinds, where they have one."""
         return tuple(one.kind for one in self)
 
     @property
     def sentences(self) -> tuple[str, ...]:
-        """What is said of each, where something is."""
+        """Sentences about each, where there are some."""
         return tuple(one.sentence for one in self)
 
 

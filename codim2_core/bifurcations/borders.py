@@ -44,6 +44,15 @@ def saddle_node(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifurcatio
     ------
     ValueError
         z does not fit the system.
+
+    Examples
+    --------
+    An astroid:
+
+    >>> from codim2_core import ELinear, bifurcations
+    >>> curve = bifurcations.saddle_node(ELinear(-2, 0, -1))
+    >>> len(curve.special), {one.type for one in curve.special}
+    (4, {'pitchfork'})
     """
     a, b, d = matrix(system, z)
     plane = Geometry(a, b, d)
@@ -106,6 +115,15 @@ def critical_boundary(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifu
     ------
     ValueError
         z does not fit the system.
+
+    Examples
+    --------
+    It meets the axes at a and d:
+
+    >>> from codim2_core import ELinear, bifurcations
+    >>> curve = bifurcations.critical_boundary(ELinear(-2, 0, -1))
+    >>> abs(curve.branches[0]).max(axis=0).round(3).tolist()
+    [2.0, 1.0]
     """
     a, b, d = matrix(system, z)
     plane = Geometry(a, b, d)

@@ -60,6 +60,12 @@ def cycle_folds(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> 
     ------
     ValueError
         z does not fit the system, or psi is not a Psi.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations
+    >>> len(bifurcations.cycle_folds("case1-cm4").branches)
+    0
     """
     a, b, d = matrix(system, z)
     label = "sec:case3"

@@ -79,6 +79,13 @@ def closed_equator(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifurca
     ------
     ValueError
         z does not fit the system.
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, bifurcations
+    >>> curve = bifurcations.closed_equator(ELinear(-1, 2, 1))
+    >>> curve.name
+    'closed equator: reversible'
     """
     a, b, d = matrix(system, z)
     label = "thm:geneps0"
@@ -134,6 +141,12 @@ def heteroclinic(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) ->
     ------
     ValueError
         z does not fit the system, or psi is not a Psi.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations
+    >>> bifurcations.heteroclinic("case1-cm4").name
+    'heteroclinic: none'
     """
     a, b, d = matrix(system, z)
     if not isinstance(psi, Psi):

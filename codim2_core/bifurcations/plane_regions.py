@@ -91,6 +91,12 @@ def regions(system: ELinear | Coefficients, z: ArrayLike = ()) -> Regions:
     ------
     ValueError
         z does not fit the system.
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, bifurcations
+    >>> sorted(one.name for one in bifurcations.regions(ELinear(-2, 0, -1)))
+    ['CM2', 'CM2', 'CM4', 'NCM2']
     """
     a, b, d = matrix(system, z)
     plane = Geometry(a, b, d)

@@ -223,6 +223,13 @@ def hopf(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> Bifurca
     ------
     ValueError
         z does not fit the system, or psi is not a Psi.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations
+    >>> curve = bifurcations.hopf("case3-n2")
+    >>> curve.name, bifurcations.hopf("case1-cm4").name
+    ('Hopf', 'Hopf: none')
     """
     a, b, d = matrix(system, z)
     _check_smooth(psi)
@@ -322,6 +329,12 @@ def node_focus(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> B
     ------
     ValueError
         z does not fit the system, or psi is not a Psi.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations
+    >>> bifurcations.node_focus("case3-n2").name
+    'node-focus'
     """
     a, b, d = matrix(system, z)
     _check_smooth(psi)

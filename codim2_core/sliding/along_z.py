@@ -87,6 +87,13 @@ def slow_portrait(
     ------
     ValueError
         There is no slow variable `along`, the span is empty, or `count` is below 2.
+
+    Examples
+    --------
+    >>> from codim2_core import slow_portrait
+    >>> found = slow_portrait("ball_in_pool", "constant", along="z1", span=(-10, 10))
+    >>> [(one.kind, round(one.high, 6)) for one in found.intervals]
+    [('crossing', -6.867), ('sliding', 6.867), ('crossing', 10.0)]
     """
     if count < 2:
         raise ValueError(f"count is {count}; give at least 2 values of z, the ends of the span.")

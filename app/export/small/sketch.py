@@ -1,4 +1,4 @@
-"""What small pictures of results show, as numbers: `svg` and Matplotlib draw the same."""
+"""Small pictures of results as numbers, which `svg` and Matplotlib draw alike."""
 
 from __future__ import annotations
 

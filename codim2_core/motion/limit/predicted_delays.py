@@ -80,6 +80,8 @@ def delays(
     formulas = field(system)
     start = np.array(slow_values(z, formulas.m))
     bounds = np.full((formulas.m, 2), (-math.inf, math.inf))
+    if ranges is not None and not isinstance(ranges, Mapping):
+        raise ValueError(f'ranges is {short_repr(ranges)}; give them by name, such as {{"z1": (-1, 1)}}.')
     for name, span in (ranges or {}).items():
         bounds[slow_axis("ranges", name, formulas.m)] = pair(f"ranges[{name!r}]", span)
     if not ((bounds[:, 0] < bounds[:, 1]) & (bounds[:, 0] <= start) & (start <= bounds[:, 1])).all():
