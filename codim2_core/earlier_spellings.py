@@ -11,7 +11,8 @@ import numpy as np
 
 from .systems.elinear import ELinear
 
-Given, Named = tuple[Any, ...], dict[str, Any]
+Given = tuple[Any, ...]
+Named = dict[str, Any]
 Reading = Callable[[Given, Named], tuple[Given, Named] | None]
 
 

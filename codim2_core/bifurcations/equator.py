@@ -11,7 +11,7 @@ picture by pi), so half of the plane is enough.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -54,7 +54,7 @@ FAILED = np.full(2, math.nan)
 _NONE = say("no cycles at all")
 
 
-def coefficients_at(a: float, b: float, d: float, f: Array) -> Coefficients:
+def coefficients_at(a: float, b: float, d: float, f: Sequence[float] | Array) -> Coefficients:
     """Coefficients with numbers only."""
     return Coefficients(a, b, d, float(f[0]), float(f[1]), np.zeros((0, 2)), np.zeros(0))
 

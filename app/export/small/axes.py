@@ -33,8 +33,9 @@ def plot(result: Any, ax: Any = None) -> Any:
         Matplotlib is not installed.
     """
     try:
-        import matplotlib as mpl
         from matplotlib import pyplot
+        from matplotlib.patches import PathPatch
+        from matplotlib.path import Path
     except ImportError:
         raise ValueError("plot draws with Matplotlib, which is missing: pip install matplotlib.") from None
     shown: Sketch = sketch(result)
@@ -51,8 +52,8 @@ def plot(result: Any, ax: Any = None) -> Any:
             axes.legend(frameon=False)
     elif isinstance(shown, RegionChart):
         for name, polygons in shown.areas:
-            path = mpl.path.Path.make_compound_path(*(mpl.path.Path(np.asarray(p), closed=False) for p in polygons))
-            axes.add_patch(mpl.patches.PathPatch(
+            path = Path.make_compound_path(*(Path(np.asarray(p), closed=False) for p in polygons))
+            axes.add_patch(PathPatch(
                 path, fc=colour[region_colour(name, colour)], ec=colour["soft"], lw=0.6, alpha=0.6, label=name
             ))  # fmt: skip
         axes.set(xlim=shown.spans[0], ylim=shown.spans[1], xlabel=shown.across, ylabel=shown.up)
