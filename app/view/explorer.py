@@ -45,6 +45,11 @@ from .warmup import is_ready
 COMPILING = say("compiling")
 
 
+def is_marimo(comm: Any) -> bool:
+    """Whether a comm is marimo's, whose pages drop messages: they are told of parameters only."""
+    return type(comm).__module__.partition(".")[0] == "marimo"
+
+
 def _is_static(doc: Any, comm: Any) -> bool:
     """Whether nothing will answer: a file that is saved (with a comm of no kernel), or a widget."""
     return getattr(doc, "session_context", None) is None and (comm is None or type(comm) is Comm)
@@ -73,6 +78,7 @@ class ExplorerView(JSComponent):
     offered = param.String("")
     first = param.Bytes(b"")
     markup = param.String("")
+    latest = param.Bytes(b"")  # the last frame, where a page is told of parameters only
 
     _esm = script()
 
@@ -271,6 +277,8 @@ class ExplorerView(JSComponent):
         super()._send_msg(data)
         for ref, (model, _) in self._models.items():
             known = pn.state._views.get(ref)  # noqa: SLF001 (Panel has no public way)
+            if known is not None and is_marimo(known[3]):
+                self.latest = data["frame"]
             if model.document is not None and (known is None or known[2] is not model.document):
                 model.document.callbacks.send_event(ESMEvent(model=model, data=data))
 

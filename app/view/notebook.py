@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from numbers import Real
 from typing import Any
@@ -153,9 +154,14 @@ def _clean(state: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _bring_resources() -> None:
-    """Publish BokehJS and Panel for a front end of ipywidgets, once a kernel; other pages ask for them themselves."""
+    """Publish BokehJS and Panel for a front end of ipywidgets, once a kernel; other pages ask for them themselves.
+
+    marimo takes them from here instead of a public host.
+    """
     import panel as pn
 
+    if "marimo" in sys.modules:
+        pn.config.inline = True
     if running_kernel() is not None and pn.config.comms != "default" and not getattr(pn.extension, "_loaded", False):
         pn.extension(inline=True)
 

@@ -197,11 +197,13 @@ def test_what_is_not_on_disk_is_loaded_once_another_process_has_compiled_it(begu
     assert policy.is_left()  # to it: kernels run as Python
     assert warmup.is_ready(begin_with.psi, begin_with.system)
     assert not warmup.is_ready(begin_with.psi, begin_with.system, moving=True)  # sketched, as that is faster
-    assert warmup.outcome == ""
+    wait_until(lambda: warmup.outcome)
+    assert warmup.outcome == "ready"  # the first scene is drawn, as Python
+    assert warmup.done == (0, 4)
+    assert not warmup.wait()  # what pictures need is known to be missing
     on_disk.set()
     wait_until(lambda: warmup.done == (4, 4))
-    warmup.wait()
-    assert warmup.outcome == "ready"
+    assert warmup.wait()
     assert set(ways) == {policy.LOAD}
     warmup._threads[c2.psi.constant()].join()
     assert not policy.is_left()
