@@ -30,6 +30,9 @@ from codim2_core.scene.launched_orbits import LaunchedOrbits
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
 from ..draw.still import page_of, still
+from ..export.figure import figure
+from ..export.printing import pdf, png
+from ..export.view import View
 from ..frame.document_callbacks import next_tick_scheduler
 from ..frame.frame_contents import make_frame
 from ..phrases import say
@@ -208,18 +211,23 @@ class ExplorerView(JSComponent):
         return True
 
     def save(self, filename: Any, title: str | None = None, *arguments: Any, **options: Any) -> None:
-        """Save the picture of the present state, which needs neither Python nor scripts: as a page or as SVG.
+        """Save the picture of the present state, which needs neither Python nor scripts: as a page or as a figure.
 
         Parameters
         ----------
         filename : str or path
-            Ends in ``.html`` or ``.svg``; what else Panel saves, and all of its options, are as in any component.
+            Ends in ``.html`` or ``.svg``, or, as `codim2 figure` draws it (extra ``figures``), in ``.png`` or ``.pdf``.
+            What else Panel saves, and all of its options, are as in any component.
         title : str, optional
             Of the page.
         """
         kind = Path(filename).suffix if isinstance(filename, (str, PathLike)) else ""
-        if arguments or options or kind not in (".html", ".svg"):
+        if arguments or options or kind not in (".html", ".svg", ".png", ".pdf"):
             super().save(filename, title, *arguments, **options)
+            return
+        if kind in (".png", ".pdf"):
+            drawn = figure(View(self.frames.values, system=self._system))
+            Path(filename).write_bytes(png(drawn) if kind == ".png" else pdf(drawn))
             return
         svg, sentence, _ = self.still()
         text = svg if kind == ".svg" else page_of(svg, sentence, title or sentence.partition(". ")[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Mapping
 from numbers import Real
@@ -156,10 +157,13 @@ def _clean(state: Mapping[str, Any]) -> dict[str, Any]:
 def _bring_resources() -> None:
     """Publish BokehJS and Panel for a front end of ipywidgets, once a kernel; other pages ask for them themselves.
 
-    marimo takes them from here instead of a public host.
+    marimo takes them from here instead of a public host, and Voila's pages, which run no script of a cell, are of
+    ipywidgets.
     """
     import panel as pn
 
+    if os.environ.get("SERVER_SOFTWARE", "").startswith("voila"):
+        pn.config.comms = "ipywidgets"
     if "marimo" in sys.modules:
         pn.config.inline = True
     if running_kernel() is not None and pn.config.comms != "default" and not getattr(pn.extension, "_loaded", False):
