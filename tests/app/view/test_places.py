@@ -10,7 +10,7 @@ from codim2_app.draw.gallery import HOOKS
 from codim2_app.draw.packing import unpack
 from codim2_app.server.cli import main
 from panel.io.model import add_to_doc
-from pyviz_comms import Comm
+from panel.io.save import Comm
 
 from tests.core.jit.fresh import computed
 
