@@ -162,10 +162,11 @@ def _bring_resources() -> None:
     """
     import panel as pn
 
+    config: Any = pn.config  # its attributes are made at run time
     if os.environ.get("SERVER_SOFTWARE", "").startswith("voila"):
-        pn.config.comms = "ipywidgets"
+        config.comms = "ipywidgets"
     if "marimo" in sys.modules:
-        pn.config.inline = True
+        config.inline = True
     if running_kernel() is not None and pn.config.comms != "default" and not getattr(pn.extension, "_loaded", False):
         pn.extension(inline=True)
 
