@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..systems.elinear import ELinear
 from .ball import Ball
-from .example import GRAVITY, Example
+from .example import GRAVITY, Example, check_physics
 
 
 def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRAVITY) -> ELinear:
@@ -25,6 +25,7 @@ def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRA
     g : float
         Acceleration of gravity, m/s².
     """
+    check_physics({"m": m, "g": g}, {"mu": mu, "K": K})
     drag = ("-K/m*z1", "-K/m*z2")
     return ELinear(
         "-7/2*mu*g",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..systems.elinear import ELinear
 from .ball import Ball
-from .example import GRAVITY, Example
+from .example import GRAVITY, Example, check_physics
 
 
 def ball_on_turntable(mu: float = 0.2, Omega: float = 3.0, g: float = GRAVITY) -> ELinear:
@@ -27,6 +27,7 @@ def ball_on_turntable(mu: float = 0.2, Omega: float = 3.0, g: float = GRAVITY) -
     g : float
         Acceleration of gravity, m/s².
     """
+    check_physics({"g": g}, {"mu": mu})
     return ELinear(
         "-7/2*mu*g",
         0.0,

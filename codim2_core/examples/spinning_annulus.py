@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..systems.typed import System
-from .example import GRAVITY, Example
+from .example import GRAVITY, Example, check_physics
 from .spinning_disc import force, torque
 
 
@@ -25,6 +25,9 @@ def spinning_annulus(eta: float = 0.5, mu: float = 0.2, g: float = GRAVITY) -> S
     g : float
         Acceleration of gravity, m/s².
     """
+    check_physics({"g": g}, {"eta": eta, "mu": mu})
+    if not eta < 1.0:
+        raise ValueError(f"eta is {eta:g}; give a number below 1.")
     outer = force("c**2", "(1 - c**2)", "") | torque("(1 - s**2)", "s**2", "_s")
     inner = force("c**2", "eta**2*(1 - c**2)", "_i") | torque("(1 - s**2)", "eta**2*s**2", "_si")
     return System(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..systems.elinear import ELinear
-from .example import GRAVITY, Example
+from .example import GRAVITY, Example, check_physics
 
 
 def tilting_block(
@@ -31,6 +31,7 @@ def tilting_block(
     g : float
         Acceleration of gravity, m/s².
     """
+    check_physics({"mu1": mu1, "mu2": mu2, "g": g})
     return ELinear(
         "-mu1*g*cos(z)",
         0.0,

@@ -77,7 +77,7 @@ preset = c2.presets["case1-cm4"]
 assert c2.classify(preset.system, preset.psi).name == "CM4"
 assert len(c2.trajectories(preset.system, preset.psi, [(0.3, 0.2), (1.4, 0.3)])) == 2
 assert c2.Scene(preset.system, preset.psi, preset.z)["name"].name == "CM4"
-assert c2.simulate(preset.system, preset.psi, 0.01, (0.3, 0.2), (0, 0.5)).states.size
+assert c2.simulate(preset.system, preset.psi, (0.3, 0.2), (0, 0.5), eps=0.01).states.size
 print(*sorted(one.name for one in distributions()))
 """
 

@@ -127,7 +127,7 @@ def _warm_regularised() -> None:
     from codim2_core.motion.regularised import simulate  # late: it brings SciPy along
 
     for events in _EVENTS:
-        simulate(_PUSHED, hill(3.0), 0.01, _STARTS, (0.0, 0.2), events=events)
+        simulate(_PUSHED, hill(3.0), _STARTS, (0.0, 0.2), eps=0.01, events=events)
 
 
 def _warm_nonsmooth() -> None:
