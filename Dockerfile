@@ -44,7 +44,7 @@ RUN pip install --no-cache-dir --require-hashes -r requirements.txt \
 USER codim2
 EXPOSE 5006
 HEALTHCHECK --interval=15s --timeout=5s --start-period=20s \
-    CMD python -c "import urllib.request as u; u.urlopen('http://127.0.0.1:5006/health', timeout=4)"
-# The name that visitors type must be allowed to open websockets: set CODIM2_ORIGINS=explorer.example.org
-ENV CODIM2_ADDRESS=0.0.0.0 CODIM2_PORT=5006 CODIM2_DOCS=/srv/codim2/site
+    CMD python -c "import urllib.request as u; u.urlopen('http://127.0.0.1:${CODIM2_PORT:-${PORT:-5006}}/health', timeout=4)"
+# Hosts that give a port say so in PORT. The name that visitors type must be allowed to open websockets: set CODIM2_ORIGINS=explorer.example.org
+ENV CODIM2_ADDRESS=0.0.0.0 CODIM2_DOCS=/srv/codim2/site
 CMD ["codim2", "serve"]

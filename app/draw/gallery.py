@@ -1,13 +1,17 @@
-"""The strip of small portraits below the picture: what else there is to see, each with a few words to enter by."""
+"""The strip of small portraits below the picture: what else there is to see, each with a few words to enter by.
+
+They are drawings of fixed numbers, kept as a file: no page waits for the kernels that drew them.
+"""
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import cache
+from pathlib import Path
 
 from codim2_core.figures.presets import presets
-from codim2_core.orbits.trajectories import is_warm
 
-from .thumbnails import thumbnail
+#: One drawing a line, in the order of `HOOKS`; ``python -m tests.pictures --accept`` draws it again.
+STRIP = Path(__file__).parents[1] / "static" / "gallery.html"
 
 #: Presets of the strip, and what is said of each.
 HOOKS = {
@@ -21,29 +25,13 @@ HOOKS = {
     "spinning-disc": "A spinning disc",
 }
 FIRST_PRESET = "case1-cm4"  # the one whose portrait the page opens with
-STRIP_SEEDS = 14  # starting points of a small portrait of the strip
 
 
+@cache
 def gallery() -> list[dict[str, str]]:
-    """Return key, title, hook and drawing of each; the drawing is empty until its kernels are compiled."""
+    """Return key, title, hook and drawing of each."""
+    drawings = STRIP.read_text(encoding="utf-8").splitlines()
     return [
-        {"key": key, "title": presets[key].title, "hook": hook, "drawn": _draw_thumbnail(key)}
-        for key, hook in HOOKS.items()
+        {"key": key, "title": presets[key].title, "hook": hook, "drawn": drawn}
+        for (key, hook), drawn in zip(HOOKS.items(), drawings, strict=True)
     ]
-
-
-def _draw_thumbnail(key: str) -> str:
-    preset = presets[key]
-    return _small(key) if is_warm(preset.psi, preset.system) else ""
-
-
-@lru_cache(maxsize=len(HOOKS))
-def _small(key: str) -> str:
-    preset = presets[key]
-    return thumbnail(preset.system, preset.psi, preset.z, STRIP_SEEDS)
-
-
-def draw_all() -> None:
-    """Draw all small portraits, compiling what they need."""
-    for key in HOOKS:
-        _small(key)

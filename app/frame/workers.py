@@ -9,9 +9,10 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
-from contextlib import suppress
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.forkserver import ensure_running
 from pathlib import Path
@@ -23,6 +24,8 @@ from ..phrases import say
 #: Seconds of its own time after which a worker is stopped, whatever it is doing; and how many times that by the clock,
 #: where it gets little of a busy machine.
 MAX_WORK_SECONDS, MAX_CLOCK_RATIO = 60.0, 5.0
+#: How many times as long a worker may take that runs kernels as Python.
+EARLY_RATIO = 3.0
 #: Processes that answer visitors go first: they have three times the share of a worker where processors are short. At
 #: 10 it was ten times, and work of two seconds was stopped after 60 on a busy machine.
 NICE = 5
@@ -67,8 +70,9 @@ class Stoppable(Future[Any]):
             return not self.stopped
 
 
-def _open_forkserver() -> None:
-    """Start the process from which workers are forked; it imports from where this one does.
+@contextmanager
+def _safe_imports() -> Iterator[None]:
+    """Let a process that is begun now import from where this one does.
 
     Of its own it would look in the working folder first, and import what lies there: a copy of the sources, whose
     kernels nobody has compiled, or anybody's numpy.py.
@@ -77,13 +81,28 @@ def _open_forkserver() -> None:
     kept = {name: os.environ.get(name) for name in wanted}
     os.environ.update(wanted)
     try:
-        ensure_running()
+        yield
     finally:
         for name, value in kept.items():
             if value is None:
                 del os.environ[name]
             else:
                 os.environ[name] = value
+
+
+@dataclass
+class _Worker:
+    """A process and the pipe to it, or none yet."""
+
+    process: Any = None
+    pipe: Connection | None = None
+
+    def end(self) -> None:
+        """End it, which is idle: it does when nobody can speak to it."""
+        if self.process is not None:
+            assert self.pipe is not None
+            self.pipe.close()
+            self.process.join(1.0)
 
 
 class Workers(Executor):
@@ -99,8 +118,10 @@ class Workers(Executor):
     preload : sequence of str
         Modules that a worker finds imported. They are imported once, in a process of its own from which the workers
         are forked (where there is no fork, by none).
-    first : callable, optional
-        Called before the first process is started, by a thread that may wait.
+    is_ready : callable, optional
+        Whether that process can be begun, asked by a thread that may wait. Until then another one does all work.
+    begin : callable, optional
+        Called in that other process; it must be picklable.
     most_grown : int
         Bytes by which a process may have grown when it is done with a work, or another one takes its place.
     most_asked : int
@@ -112,7 +133,8 @@ class Workers(Executor):
         count: int,
         seconds: float = MAX_WORK_SECONDS,
         preload: Sequence[str] = (),
-        first: Callable[[], None] = lambda: None,
+        is_ready: Callable[[], bool] = lambda: True,
+        begin: Callable[[], None] | None = None,
         most_grown: int = MAX_GROWTH_BYTES,
         most_asked: int = MAX_WORK_BYTES,
     ) -> None:
@@ -120,8 +142,10 @@ class Workers(Executor):
         self._context: Any = multiprocessing.get_context("forkserver" if "forkserver" in known else "spawn")
         if "forkserver" in known:
             self._context.set_forkserver_preload(list(preload))
-        self.seconds, self._first, self._bounds = seconds, first, (most_grown, most_asked)
-        self._once, self._opened = threading.Lock(), False
+        self.seconds, self._bounds = seconds, (most_grown, most_asked)
+        self._is_ready, self._begin = is_ready, begin
+        self._once = threading.Lock()
+        self._early, self._early_work = _Worker(), threading.Lock()
         self._tasks: SimpleQueue[tuple[Stoppable, bytes] | None] = SimpleQueue()
         self._count = count
         self._threads: list[threading.Thread] = []
@@ -161,52 +185,59 @@ class Workers(Executor):
                 thread.join()
 
     def _serve(self) -> None:
-        """Hand one work after the other to a process of this thread's own."""
-        pipe: Connection | None = None
-        process: Any = None
+        """Hand one work after the other to a process of this thread's own, or at first to the one of all."""
+        own = _Worker()
         while (task := self._tasks.get()) is not None:
-            pipe, process = self._serve_one(*task, pipe, process)
+            if self._is_ready():
+                self._end_early()
+                own = self._serve_one(*task, own)
+            else:
+                with self._early_work:
+                    self._early = self._serve_one(*task, self._early, early=True)
             del task  # while it waits for the next, it holds nobody who waited for this one
-        if process is not None:
-            assert pipe is not None
-            pipe.close()  # an idle worker ends when nobody can speak to it
-            process.join(1.0)
+        own.end()
+        self._end_early()
 
-    def _serve_one(
-        self, future: Stoppable, call: bytes, pipe: Connection | None, process: Any
-    ) -> tuple[Connection | None, Any]:
-        """Hand one work to a process, a new one if there is none; return it, and the pipe to it."""
+    def _end_early(self) -> None:
+        """End the process that works at first, unless it is at work: who waits for it ends it then."""
+        if self._early.process is not None and self._early_work.acquire(blocking=False):
+            self._early.end()
+            self._early = _Worker()
+            self._early_work.release()
+
+    def _serve_one(self, future: Stoppable, call: bytes, worker: _Worker, early: bool = False) -> _Worker:
+        """Hand one work to a process, a new one if there is none; return it."""
         if future.set_running_or_notify_cancel():
             try:
-                if process is None or not process.is_alive():
-                    pipe, process = self._start()
-                assert pipe is not None
-                result = self._run(future, call, pipe, process)
+                if worker.process is None or not worker.process.is_alive():
+                    worker = self._start(early)
+                result = self._run(future, call, worker, self.seconds * (EARLY_RATIO if early else 1.0))
             except BaseException as error:
                 future.set_exception(error.with_traceback(None))  # which would hold the future
             else:
                 future.set_result(result)
-        return pipe, process
+        return worker
 
-    def _start(self) -> tuple[Connection, Any]:
-        with self._once:
-            if not self._opened:
-                self._first()
-                if self._context.get_start_method() == "forkserver":
-                    _open_forkserver()
-                self._opened = True
-        ours, theirs = self._context.Pipe()
-        process = self._context.Process(target=_work, args=(theirs, *self._bounds), daemon=True, name="codim2-worker")
-        process.start()
+    def _start(self, early: bool) -> _Worker:
+        context = multiprocessing.get_context("spawn") if early else self._context
+        with self._once, _safe_imports():
+            if context.get_start_method() == "forkserver":
+                ensure_running()
+            ours, theirs = context.Pipe()
+            given = theirs, *self._bounds, self._begin if early else None
+            process = context.Process(target=_work, args=given, daemon=True, name="codim2-worker")
+            process.start()
         theirs.close()
-        return ours, process
+        return _Worker(process, ours)
 
-    def _run(self, future: Stoppable, call: bytes, pipe: Connection, process: Any) -> Any:
+    def _run(self, future: Stoppable, call: bytes, worker: _Worker, seconds: float) -> Any:
+        process, pipe = worker.process, worker.pipe
+        assert pipe is not None
         if not future.in_process(process):
             raise CancelledError
         try:
             pipe.send_bytes(call)
-            there = _await_answer(pipe, process, self.seconds)
+            there = _await_answer(pipe, process, seconds)
             answer = pipe.recv_bytes() if pipe in there else None
         except (OSError, EOFError):  # it died in mid-sentence
             there, answer = [process.sentinel], None
@@ -219,7 +250,7 @@ class Workers(Executor):
                 raise CancelledError
             if there:
                 raise Stopped(f"a worker ended with status {process.exitcode} before its work was done.")
-            raise TimeoutError(say("stopped after", seconds=self.seconds))
+            raise TimeoutError(say("stopped after", seconds=seconds))
         good, result, last = pickle.loads(answer)
         if last:
             process.join()
@@ -249,7 +280,7 @@ def _own_time(pid: int) -> float:
         return time.monotonic()
 
 
-def _work(pipe: Connection, most_grown: int, most_asked: int) -> None:
+def _work(pipe: Connection, most_grown: int, most_asked: int, begin: Callable[[], None] | None) -> None:
     """Do one work after the other, as a worker, until nobody can speak to it or it has grown too large."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C in a terminal reaches all; the server ends its workers
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
@@ -257,6 +288,8 @@ def _work(pipe: Connection, most_grown: int, most_asked: int) -> None:
         os.nice(max(0, NICE - os.nice(0)))
     threading.Thread(target=_end_with_parent, daemon=True).start()
     _bound_memory(most_asked)
+    if begin is not None:
+        begin()
     before, last = memory_in_use(), False
     while not last:
         try:

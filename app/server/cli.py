@@ -82,27 +82,30 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"codim2: {sentence}", file=sys.stderr)
     docs_folder.serve_folder(chosen.docs)
     if chosen.docs is not None and docs_folder.site() is None:
-        print(f"codim2: {chosen.docs} holds no site; build it: codim2 docs {chosen.docs}", file=sys.stderr)
-        return 1
+        return _refuse(f"{chosen.docs} holds no site; build it: codim2 docs {chosen.docs}")
     log_to_stderr(chosen.log_json, chosen.log_level)
     try:
         _try_to_listen(chosen.address, chosen.port)
     except OSError as error:
-        print(f"codim2: cannot listen on {chosen.address}:{chosen.port}: {error.strerror}. Give another --port.")
-        return 1
+        other = "--address" if isinstance(error, socket.gaierror) else "--port"
+        return _refuse(f"cannot listen on {chosen.address}:{chosen.port}: {error.strerror}. Give another {other}.")
     if chosen.dask and chosen.processes > 1:
-        print("codim2: --dask goes with one process; give no --processes.")
-        return 1
+        return _refuse("--dask goes with one process; give no --processes.")
     stop_when_asked()
     try:
         _serve(chosen)
     except ClusterError as error:
-        print(f"codim2: {error}")
-        return 1
+        return _refuse(str(error))
     except KeyboardInterrupt:
         print("codim2: stopped", flush=True)
         os._exit(0)  # workers end with their server, and there is nothing to save: an orderly exit waits for both
     return 0
+
+
+def _refuse(why: str) -> int:
+    """Say why nothing is served; return the exit status."""
+    print(f"codim2: {why}", file=sys.stderr)
+    return 1
 
 
 def _run_into_pipe(chosen: argparse.Namespace) -> int:
@@ -202,7 +205,7 @@ def _offer_lessons(folder: Path) -> bool:
     try:
         found, errors = from_folder(folder)
     except ValueError as error:
-        print(f"codim2: {error}")
+        _refuse(str(error))
         return False
     for error in errors:
         print(f"codim2: left out: {error}")

@@ -15,7 +15,7 @@ from numba.core import caching
 from numba.core import config as numba_config
 
 import codim2_core
-from codim2_core.jit import numba_kernels
+from codim2_core.jit import numba_kernels, policy
 
 from ..view.compiling import once
 
@@ -77,6 +77,14 @@ def prepare() -> str:
     if isinstance(found, AsGiven) and not next(Path(config.CACHE_DIR).rglob("*.nbi"), None):
         return UNCACHED.format(why=f"{config.CACHE_DIR} cannot be written")
     return ""
+
+
+def begin_early() -> None:
+    """Let kernels of a worker be loaded as they appear on disk, and run as Python until then."""
+    from ..view.compiling.process import CompilerProcess  # late: it imports kernels
+
+    prepare()
+    policy.leave_to(CompilerProcess().is_at_work)
 
 
 @cache

@@ -32,6 +32,7 @@ from ..view.markup import edition
 from .engine_files import EngineFiles, served_panels
 from .first_page import Page
 from .headers import embedders, transform
+from .kernel_cache import begin_early
 from .live import MOST_SENT, LiveConnection, LivePages
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
@@ -140,7 +141,7 @@ def make_server(
     stand_back()
     if executor is None:
         at_once = workers or max(1, processors() // processes)
-        executor = Workers(at_once, preload=PRELOAD, first=warmup.wait)
+        executor = Workers(at_once, preload=PRELOAD, is_ready=warmup.wait, begin=begin_early)
     turns = WorkQueue(executor, at_once)
     serve_with(turns)
     warmup_now = processes == 1

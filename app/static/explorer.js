@@ -338,17 +338,23 @@ export function begin(line, root, plot, place) {
   first?.remove()
 }
 
+/** @param {any} sent a buffer, or what is around it */
+const bytesOf = (sent) => sent && (sent instanceof ArrayBuffer ? sent : sent.buffer ?? sent)
+
 /** In a cell of a notebook, or wherever Panel shows it. */
 export function render({model, view, el}) {
   const holder = document.createElement("div")
   holder.innerHTML = model.markup
-  const root = /** @type {HTMLElement} */ (holder.querySelector(".codim2")), {first} = model
+  const root = /** @type {HTMLElement} */ (holder.querySelector(".codim2"))
   root.classList.add("notebook")
   keepKeys(root)
   root.querySelector(".bokeh").append(model.get_child("picture"))
   begin({
-    config: model.config, offered: JSON.parse(model.offered), first: first && (first instanceof ArrayBuffer ? first : first.buffer ?? first),
-    send: (message) => model.send_msg(message), hear: (heard) => model.on("msg:custom", (event) => heard(event.data ?? event)),
+    config: model.config, offered: JSON.parse(model.offered), first: bytesOf(model.first), send: (message) => model.send_msg(message),
+    hear: (heard) => {
+      model.on("msg:custom", (event) => heard(event.data ?? event))
+      model.on("latest", () => heard({frame: bytesOf(model.latest)}))
+    },
     lost: (tell) => view.model.document?.on_event("connection_lost", tell),
   }, root, view.model.data.picture, el)
 }
@@ -401,9 +407,7 @@ export async function openHere() {
   const opening = openWorkerLine(callWorker(new URL("worker.js", location.href), search, !saved), saved, tell)
   try {
     if (!saved) {
-      const thumbnails = /** @type {NodeListOf<HTMLElement>} */ (first.querySelectorAll(".gallery [data-preset]"))
       first.innerHTML = (await opening).markup
-      for (const one of thumbnails) first.querySelector(`.gallery [data-preset=${one.dataset.preset}]`)?.replaceWith(one)
       first.inert = false
     }
     await openIn(first, opening)

@@ -22,11 +22,8 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 from bokeh.settings import settings as bokeh_settings
 
 import codim2_core
-from codim2_core.figures.presets import presets
-from codim2_core.orbits.trajectories import warm
 
 from ..draw.bundle import bundle
-from ..draw.gallery import HOOKS, draw_all
 from ..view.first_markup import MARKUP, NOTICE, TITLE, policy
 from ..view.markup import SCRIPT_FOLDER, edition, export_script, markup_of_frame, page_frame, script
 from ..view.opening import link_of, opening_messages
@@ -114,9 +111,6 @@ def offline_script(files: Mapping[str, bytes]) -> bytes:
 
 def page() -> str:
     """Return the page, with the picture of the first setting and all that its script needs to begin with it."""
-    for preset in map(presets.__getitem__, HOOKS):  # the strip shows what is compiled
-        warm(preset.psi, preset.system)
-    draw_all()
     link = link_of({})
     frames = Frames(link.state)
     opening, first = opening_messages(frames, link, edition(), worker=True)

@@ -30,6 +30,9 @@ from codim2_core.scene.launched_orbits import LaunchedOrbits
 from ..draw.figure import make_figure
 from ..draw.packing import pack, unpack
 from ..draw.still import page_of, still
+from ..export.figure import figure
+from ..export.printing import pdf, png
+from ..export.view import View
 from ..frame.document_callbacks import next_tick_scheduler
 from ..frame.frame_contents import make_frame
 from ..phrases import say
@@ -43,6 +46,11 @@ from .shared import SHARED_CONTROLS, declare, join
 from .warmup import is_ready
 
 COMPILING = say("compiling")
+
+
+def is_marimo(comm: Any) -> bool:
+    """Whether a comm is marimo's, whose pages drop messages: they are told of parameters only."""
+    return type(comm).__module__.partition(".")[0] == "marimo"
 
 
 def _is_static(doc: Any, comm: Any) -> bool:
@@ -73,6 +81,7 @@ class ExplorerView(JSComponent):
     offered = param.String("")
     first = param.Bytes(b"")
     markup = param.String("")
+    latest = param.Bytes(b"")  # the last frame, where a page is told of parameters only
 
     _esm = script()
 
@@ -202,18 +211,23 @@ class ExplorerView(JSComponent):
         return True
 
     def save(self, filename: Any, title: str | None = None, *arguments: Any, **options: Any) -> None:
-        """Save the picture of the present state, which needs neither Python nor scripts: as a page or as SVG.
+        """Save the picture of the present state, which needs neither Python nor scripts: as a page or as a figure.
 
         Parameters
         ----------
         filename : str or path
-            Ends in ``.html`` or ``.svg``; what else Panel saves, and all of its options, are as in any component.
+            Ends in ``.html`` or ``.svg``, or, as `codim2 figure` draws it (extra ``figures``), in ``.png`` or ``.pdf``.
+            What else Panel saves, and all of its options, are as in any component.
         title : str, optional
             Of the page.
         """
         kind = Path(filename).suffix if isinstance(filename, (str, PathLike)) else ""
-        if arguments or options or kind not in (".html", ".svg"):
+        if arguments or options or kind not in (".html", ".svg", ".png", ".pdf"):
             super().save(filename, title, *arguments, **options)
+            return
+        if kind in (".png", ".pdf"):
+            drawn = figure(View(self.frames.values, system=self._system))
+            Path(filename).write_bytes(png(drawn) if kind == ".png" else pdf(drawn))
             return
         svg, sentence, _ = self.still()
         text = svg if kind == ".svg" else page_of(svg, sentence, title or sentence.partition(". ")[0])
@@ -271,6 +285,8 @@ class ExplorerView(JSComponent):
         super()._send_msg(data)
         for ref, (model, _) in self._models.items():
             known = pn.state._views.get(ref)  # noqa: SLF001 (Panel has no public way)
+            if known is not None and is_marimo(known[3]):
+                self.latest = data["frame"]
             if model.document is not None and (known is None or known[2] is not model.document):
                 model.document.callbacks.send_event(ESMEvent(model=model, data=data))
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Mapping
 from numbers import Real
 from typing import Any
@@ -153,9 +155,18 @@ def _clean(state: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _bring_resources() -> None:
-    """Publish BokehJS and Panel for a front end of ipywidgets, once a kernel; other pages ask for them themselves."""
+    """Publish BokehJS and Panel for a front end of ipywidgets, once a kernel; other pages ask for them themselves.
+
+    marimo takes them from here instead of a public host, and Voila's pages, which run no script of a cell, are of
+    ipywidgets.
+    """
     import panel as pn
 
+    config: Any = pn.config  # its attributes are made at run time
+    if os.environ.get("SERVER_SOFTWARE", "").startswith("voila"):
+        config.comms = "ipywidgets"
+    if "marimo" in sys.modules:
+        config.inline = True
     if running_kernel() is not None and pn.config.comms != "default" and not getattr(pn.extension, "_loaded", False):
         pn.extension(inline=True)
 

@@ -76,13 +76,21 @@ def _take_step(make_: Callable[[], object]) -> None:
         except policy.NotCompiledError:
             if ended:
                 break
-            if not outcome:
-                _cold.set()
             if not _compiler.is_at_work():
                 _compiler.start()
+            _draw_as_python()
             time.sleep(LOOK_SECONDS)
     with policy.in_thread(policy.COMPILE), alone():
         make_()
+
+
+def _draw_as_python() -> None:
+    """Compute the first scene as Python, once, if its kernels are among those that are missing."""
+    global outcome
+    if not outcome:
+        _cold.set()
+        steps.draw_first_scene()
+        outcome = "ready"
 
 
 def _load_all(told: steps.Told, patience: float) -> None:
@@ -137,12 +145,15 @@ def start(told: steps.Told = steps.tell_nobody, patience: float = 0.0) -> None:
             _start_thread(constant(), _load_all, told, patience)
 
 
-def wait() -> None:
-    """Wait until the kernels that pictures need are there: whoever loads them then finds them in the cache."""
-    with _lock:
-        thread = _threads.get(constant())
-    if thread is not None:
-        _pictures.wait()
+def wait() -> bool:
+    """Wait until the kernels that pictures need are there, or are known to be missing; say whether they are there.
+
+    Whoever loads them then finds them in the cache.
+    """
+    while not _pictures.wait(LOOK_SECONDS):
+        if _compiler.is_at_work():
+            return False
+    return True
 
 
 def _start_thread(key: Hashable, target: Callable[..., None], *arguments: Any) -> None:

@@ -1,5 +1,6 @@
 """`codim2 serve` in its own process, for tests that talk to it; and a folder of files."""
 
+import json
 import os
 import subprocess
 import sys
@@ -10,6 +11,8 @@ from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from threading import Thread
 from urllib.request import urlopen
+
+from codim2_app.view.compiling import steps
 
 from tests.work import PATIENCE, wait_until
 
@@ -71,7 +74,8 @@ def files_of(folder):
 def is_ready(shown):
     try:
         with urlopen(f"http://{shown}/ready", timeout=PATIENCE) as answer:
-            return b'"ready"' in answer.read()
+            found = json.loads(answer.read())
+            return found["status"] == "ready" and found["compiled"][0] >= steps.FIRST_PRIORITY
     except OSError:  # not yet, or 503: not ready
         time.sleep(0.2)
         return False

@@ -9,6 +9,7 @@ from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import pytest
+import yaml
 
 import codim2_core
 
@@ -79,6 +80,42 @@ def test_every_dependency_has_a_least_version():
     project = PROJECT["project"]
     for one in [*project["dependencies"], *(d for extra in project["optional-dependencies"].values() for d in extra)]:
         assert re.fullmatch(r"[\w-]+>=\d+(\.\d+)*(,<[\d.]+)?", one), one
+
+
+def test_the_core_alone_asks_for_what_it_imports_and_else_is_the_same_project():
+    core = tomllib.loads((ROOT / ".github" / "core" / "pyproject.toml").read_text("utf-8"))
+    project, whole = core["project"], PROJECT["project"]
+    asked = [*project["dependencies"], *project["optional-dependencies"]["frames"]]
+    assert set(asked) <= set(whole["dependencies"])
+    assert {one.split(">=")[0] for one in asked} == imported("codim2_core")
+    for name in ("dynamic", "requires-python", "license", "authors"):
+        assert project[name] == whole[name]
+    setuptools, other = core["tool"]["setuptools"], PROJECT["tool"]["setuptools"]
+    assert setuptools["package-data"]["codim2_core"] == other["package-data"]["codim2_core"]
+    assert setuptools["dynamic"] == other["dynamic"]
+
+
+def test_what_is_cited_is_this_program():
+    cited = yaml.safe_load((ROOT / ".github" / "CITATION.cff").read_text("utf-8"))
+    page = (ROOT / "app" / "docs" / "text" / "citing.md").read_text("utf-8")
+    assert (cited["cff-version"], cited["type"]) == ("1.2.0", "software")
+    assert cited["version"] == codim2_core.__version__
+    assert cited["license"] == PROJECT["project"]["license"]
+    (paper,) = cited["references"]
+    for title in (cited["title"], paper["title"]):
+        assert f"{{{title}}}" in page
+    assert [one["family-names"] for one in paper["authors"]] == re.findall(r"(\w+), \w\.", page)
+
+
+def test_what_a_language_model_is_pointed_to_is_there():
+    text = (ROOT / ".github" / "llms.txt").read_text("utf-8")
+    assert re.match(r"# codim2\n\n> ", text)  # as llmstxt.org asks
+    links = re.findall(r"\]\(([^)]+)\)", text)
+    assert len(links) > 5
+    for link in links:
+        assert (ROOT / ".github" / link).is_file(), link
+    listed = text.split("codim2_core/__init__.py): ")[1].split("\n-")[0]
+    assert set(re.findall(r"\w+", listed)) <= set(codim2_core.__all__)
 
 
 def test_the_version_stands_in_one_place():

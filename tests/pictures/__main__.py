@@ -16,8 +16,8 @@ from codim2_app.view.markup import stylesheet
 
 from codim2_core.jit import policy
 
-from .pictures import pictures
-from .test_pictures import KEPT, same
+from .pictures import kept_file, pictures
+from .test_pictures import same
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "build" / "pictures.html"
@@ -67,7 +67,7 @@ def main() -> None:
     figures = []
 
     def add(name: str, made: str, drawn: str = "") -> None:
-        kept = KEPT / name
+        kept = kept_file(name)
         before = kept.read_text() if kept.is_file() else ""
         changed = not same(made, before)
         if changed and accept:

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+from codim2_app.draw.gallery import HOOKS, STRIP
 from codim2_app.draw.overlay import elements
 from codim2_app.draw.svg import draw, small
+from codim2_app.draw.thumbnails import thumbnail as drawn
 from codim2_app.state.links import read_link
 from codim2_app.view.refresh import Frames
 
@@ -23,12 +26,25 @@ LAYERS = [
     "inside", "outside", "continuations", "separatrices", "cycles", "rho", "theta", "lines", "equator", "critical",
 ]  # fmt: skip
 
+STRIP_SEEDS = 14
+
+
+def kept_file(name: str) -> Path:
+    """Return where a picture is kept: beside the tests, but for the strip, which the page has."""
+    return STRIP if name == STRIP.name else Path(__file__).parent / "kept" / name
+
 
 def thumbnail(key: str) -> str:
     """Return the small portrait of a preset."""
     preset = presets[key]
     scene = Scene(preset.system, preset.psi, preset.z, count=16, view=2.1, pixel=1 / 28)
     return small(scene, 1.5).replace("><", ">\n<") + "\n"
+
+
+def strip() -> str:
+    """Return the small portraits of the page's strip, one a line; fewer starting points than in the others."""
+    shown = (presets[key] for key in HOOKS)
+    return "".join(f"{drawn(preset.system, preset.psi, preset.z, STRIP_SEEDS)}\n" for preset in shown)
 
 
 def portrait(key: str) -> str:
@@ -61,6 +77,7 @@ def pictures() -> Mapping[str, Callable[[], str]]:
         found[f"small-{key}.svg"] = lambda key=key: thumbnail(key)
     for key in WHOLE:
         found[f"portrait-{key}.svg"] = lambda key=key: portrait(key)
+    found[STRIP.name] = strip
     found["overlay-case1-cm4.json"] = lambda: overlay("case1-cm4")
     for name in DRAWN:
         found[f"panel-{name}.json"] = lambda name=name: columns(name)

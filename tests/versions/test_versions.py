@@ -64,3 +64,30 @@ def test_the_wheel_holds_what_is_tracked(tmp_path):
     (wheel,) = tmp_path.glob("codim2-*.whl")
     held = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
     assert held == {re.sub(r"^app/", "codim2_app/", name) for name in tracked("app", "codim2_core")}
+
+
+#: Classifies, follows, draws and simulates, and says which distributions there are.
+ALONE = """
+import importlib, pkgutil, sys
+from importlib.metadata import distributions
+import codim2_core as c2
+for module in pkgutil.walk_packages(c2.__path__, "codim2_core."):
+    importlib.import_module(module.name)
+preset = c2.presets["case1-cm4"]
+assert c2.classify(preset.system, preset.psi).name == "CM4"
+assert len(c2.trajectories(preset.system, preset.psi, [(0.3, 0.2), (1.4, 0.3)])) == 2
+assert c2.Scene(preset.system, preset.psi, preset.z)["name"].name == "CM4"
+assert c2.simulate(preset.system, preset.psi, (0.3, 0.2), (0, 0.5), eps=0.01).states.size
+print(*sorted(one.name for one in distributions()))
+"""
+
+
+def test_the_core_is_installed_alone(tmp_path):
+    folder = source(tmp_path / "source")
+    shutil.copytree(ROOT / ".github" / "core", folder / ".github" / "core", ignore=shutil.ignore_patterns("build"))
+    python = pip(tmp_path / "env", "install", str(folder / ".github" / "core"))
+    done = subprocess.run(
+        [str(python), "-P", "-c", ALONE], cwd=tmp_path, capture_output=True, text=True, check=True,
+        env={**os.environ, "PYTHONPATH": "", "NUMBA_CACHE_DIR": str(tmp_path)},
+    )  # fmt: skip
+    assert set(done.stdout.split()) - {"pip", "setuptools"} == {"codim2-core", "llvmlite", "numba", "numpy", "scipy"}

@@ -12,7 +12,7 @@ import sys
 import tempfile
 import zlib
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache, wraps
 from pathlib import Path
 from typing import Any
@@ -31,10 +31,23 @@ config: Any = numba_config  # its names are made at run time
 
 
 def lock_path() -> Path:
-    """Return the file that stands for the folder of compiled kernels, and is held by whoever compiles into it."""
+    """Return the file that stands for the folder of compiled kernels, and is held by whoever compiles into it.
+
+    It is in that folder if one is named and can be written, and goes with it; else in the machine's temporary one.
+    """
     user = os.getuid() if hasattr(os, "getuid") else 0
     folder = f"{config.CACHE_DIR} {codim2_core.__file__} {sys.version}"
-    return Path(tempfile.gettempdir()) / f"codim2-{user}-{hashlib.sha256(folder.encode()).hexdigest()[:16]}.lock"
+    name = f"codim2-{user}-{hashlib.sha256(folder.encode()).hexdigest()[:16]}.lock"
+    return Path(_own_folder() or tempfile.gettempdir()) / name
+
+
+def _own_folder() -> str:
+    """Return the folder of kernels that is named, made if it is not there; "" if nothing can be written there."""
+    if config.CACHE_DIR:
+        with suppress(OSError):
+            os.makedirs(config.CACHE_DIR, exist_ok=True)
+            return config.CACHE_DIR if os.access(config.CACHE_DIR, os.W_OK) else ""
+    return ""
 
 
 @contextmanager
@@ -43,18 +56,14 @@ def alone() -> Iterator[None]:
 
     Within it nothing waits for another thread of this process that wants it too.
     """
-    try:
-        import fcntl
+    with ExitStack() as held:
+        with suppress(ImportError, OSError):  # Windows; no folder for such files; a file system without locks
+            import fcntl
 
-        held = os.open(lock_path(), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
-    except (ImportError, OSError):  # Windows; a machine without a folder for such files
+            file = os.open(lock_path(), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+            held.callback(os.close, file)
+            fcntl.flock(file, fcntl.LOCK_EX)
         yield
-        return
-    try:
-        fcntl.flock(held, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(held)
 
 
 @cache
@@ -117,7 +126,7 @@ def try_lock(exclusive: bool) -> int | None:
         return None
     try:
         fcntl.flock(held, (fcntl.LOCK_EX if exclusive else fcntl.LOCK_SH) | fcntl.LOCK_NB)
-    except OSError:
+    except OSError as error:
         os.close(held)
-        return BUSY
+        return BUSY if isinstance(error, BlockingIOError) else None
     return held

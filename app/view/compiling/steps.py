@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
 
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.figures.presets import presets
+from codim2_core.initial_value.events import Event
 from codim2_core.orbits.trajectories import warm
 from codim2_core.portrait.approach_outcomes import approach_outcomes
 from codim2_core.psi import FAMILIES, hill, make
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 
-from ...draw.gallery import draw_all
 from ...draw.lines.arrowheads import arrowheads
 from ...draw.lines.spacing import evenly
 from ...frame.scenes import make_scene
@@ -26,6 +26,9 @@ from .once import alone
 #: Is told what has been compiled, in how many seconds, and how many steps are done of how many.
 Told = Callable[[str, float, int, int], None]
 
+#: What general systems need kernels for, in several steps: none takes more memory than a server has to spare.
+GENERAL_LAYERS = ("equator", "critical", "nullclines_inside", "nullclines_outside", "cycles", "separatrices")
+
 
 def kernel_steps() -> list[tuple[str, Callable[[], object]]]:
     """Return what is compiled beforehand, by what it is called, in the order in which it is asked for."""
@@ -33,16 +36,18 @@ def kernel_steps() -> list[tuple[str, Callable[[], object]]]:
     first, *others = ((f"trajectories for Ψ = {family.title}", partial(warm, make(family.name))) for family in families)
     last = [
         ("approach outcomes", _warm_outcomes),
-        ("kernels of general systems", warm_general),
+        ("kernels of general systems", partial(warm_general, GENERAL_LAYERS[:2])),
+        ("nullclines of general systems", partial(warm_general, GENERAL_LAYERS[2:4])),
+        ("cycles of general systems", partial(warm_general, GENERAL_LAYERS[4:])),
         ("branches of cycles", _warm_branches),
         ("names of many systems", _warm_names),
-        ("motions in time", _warm_motions),
-        ("the gallery", draw_all),
+        ("motions for ε > 0", _warm_regularised),
+        ("motions in the limit", _warm_nonsmooth),
     ]
     return [("arrowheads", _warm_arrowheads), first, ("limit cycles", _warm_cycles), *others, *last]
 
 
-#: Of `kernel_steps`, those after which the first scene is drawn, and those that pictures need: all but the last.
+#: Of `kernel_steps`, those after which the first scene is drawn, and those that pictures need: all but the last two.
 FIRST_PRIORITY, PICTURES = 3, -2
 
 
@@ -109,23 +114,31 @@ def _warm_arrowheads() -> None:
     evenly(*one)
 
 
-def warm_general() -> None:
+def warm_general(layers: Sequence[str] = GENERAL_LAYERS) -> None:
     """Compile, or load, what searches a general system: once for all of them."""
     example = presets["nonunique-sliding"]
     scene = Scene(example.system, example.psi, example.z)
-    for layer in ("equator", "critical", "nullclines_inside", "nullclines_outside", "cycles", "separatrices"):
+    for layer in layers:
         scene[layer]
 
 
-def _warm_motions() -> None:
-    """Compile, or load, what follows motions, also in the limit: once for all systems, but for their formulas."""
-    from codim2_core.initial_value.events import Event
-    from codim2_core.motion.nonsmooth import simulate_nonsmooth  # late: both bring SciPy along
-    from codim2_core.motion.regularised import simulate
+def _warm_regularised() -> None:
+    """Compile, or load, what follows motions for ε > 0: once for all systems, but for their formulas."""
+    from codim2_core.motion.regularised import simulate  # late: it brings SciPy along
 
-    pushed = ELinear(-1.0, 0.3, -2.0, f=("1.3*sin(z1)", "0.4*cos(2*z1)"), B=((0.0, 0.0),), g=(1.0,))
-    several = [(0.3, 0.2, 0.0)] * 8  # so many are compiled at once
-    never = Event(lambda t, state: 1.0)  # noqa: ARG005 (an event is of both)
-    for events in ((never,), ()):  # step by step, and whole: it slips, slides and leaves
-        simulate_nonsmooth(pushed, several, (0.0, 3.0), hill(3.0), events=events)
-        simulate(pushed, hill(3.0), several, (0.0, 0.2), eps=0.01, events=events)
+    for events in _EVENTS:
+        simulate(_PUSHED, hill(3.0), _STARTS, (0.0, 0.2), eps=0.01, events=events)
+
+
+def _warm_nonsmooth() -> None:
+    """Compile, or load, what follows motions in the limit, in the same way."""
+    from codim2_core.motion.nonsmooth import simulate_nonsmooth  # late, too
+
+    for events in _EVENTS:  # it slips, slides and leaves
+        simulate_nonsmooth(_PUSHED, _STARTS, (0.0, 3.0), hill(3.0), events=events)
+
+
+_PUSHED = ELinear(-1.0, 0.3, -2.0, f=("1.3*sin(z1)", "0.4*cos(2*z1)"), B=((0.0, 0.0),), g=(1.0,))
+_STARTS = [(0.3, 0.2, 0.0)] * 8  # so many are compiled at once
+#: Step by step, and whole.
+_EVENTS = ((Event(lambda t, state: 1.0),), ())  # noqa: ARG005 (an event is of both)

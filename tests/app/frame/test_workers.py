@@ -139,15 +139,32 @@ def test_nothing_runs_for_ever(tmp_path):
             future.result(PATIENCE)
 
 
+def remember():
+    sys.set_int_max_str_digits(5000)
+
+
+def test_until_workers_can_be_forked_one_process_does_the_work_of_all():
+    ready = []
+    with Workers(2, seconds=300.0, is_ready=lambda: bool(ready), begin=remember) as workers:
+        early = [workers.submit(os.getpid) for _ in range(4)]
+        digits = workers.submit(sys.get_int_max_str_digits)
+        assert len({one.result(PATIENCE) for one in early}) == 1
+        assert digits.result(PATIENCE) == 5000
+        ready.append(1)
+        assert workers.submit(sys.get_int_max_str_digits).result(PATIENCE) != 5000
+        assert wait_until(lambda: not Path(f"/proc/{early[0].result()}").exists())
+
+
 SHADOWED = """
 import os, sys
 sys.path.insert(0, {repository!r})
 from codim2_app.frame.workers import Workers
 
 if __name__ == "__main__":
-    workers = Workers(1, preload=("colorsys", "codim2_core"))
-    print(workers.submit(os.getpid).result(300) != os.getpid())
-    workers.shutdown()
+    for ready in (True, False):
+        workers = Workers(1, preload=("colorsys", "codim2_core"), is_ready=lambda: ready)
+        print(workers.submit(os.getpid).result(300) != os.getpid())
+        workers.shutdown()
 """
 
 
@@ -161,7 +178,7 @@ def test_what_lies_in_the_folder_of_the_server_is_not_imported_by_its_workers(tm
     for name in ("colorsys.py", "codim2_core/__init__.py"):
         (here / name).write_text(f"open({str(here / 'imported')!r}, 'a').write('{name} ')\n")
     done = subprocess.run([sys.executable, str(script)], cwd=here, capture_output=True, text=True, check=True)
-    assert done.stdout == "True\n"
+    assert done.stdout == "True\nTrue\n"
     assert not (here / "imported").exists()
 
 

@@ -1,3 +1,5 @@
+import re
+
 import pytest
 from codim2_app.lessons import library
 from codim2_app.server.cli import main, parser
@@ -21,7 +23,7 @@ def test_a_taken_port_is_said_with_the_remedy(capsys):
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         assert main(["serve", "--address", "127.0.0.1", "--port", str(taken.getsockname()[1])]) == 1
-    assert "Give another --port" in capsys.readouterr().out
+    assert "Give another --port" in capsys.readouterr().err
 
 
 @pytest.fixture
@@ -47,4 +49,16 @@ def test_lessons_of_a_lecturer_and_what_is_wrong_with_one(tmp_path, capsys):
         assert "left out: bad.md, line 1: 'summary' is missing." in said
         assert "1 lesson from" in said
         assert main(["serve", *address, "--lessons", str(tmp_path / "none")]) == 1
-        assert "is no folder" in capsys.readouterr().out
+        assert "is no folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [(("--address", "300.1.1.1"), r"cannot listen on 300\.1\.1\.1:0: .+\. Give another --address\.\n"),
+     (("--dask", "tcp://localhost:1", "--processes", "2"), r"--dask goes with one process; give no --processes\.\n")],
+)  # fmt: skip
+def test_why_nothing_is_served_is_an_error(given, said, capsys):
+    assert main(["serve", "--port", "0", *given]) == 1
+    found = capsys.readouterr()
+    assert found.out == ""
+    assert re.fullmatch(f"codim2: {said}", found.err)

@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 from codim2_app.server import kernel_cache
+from codim2_app.view.compiling import once
 from numba.core import caching
 
 import codim2_core
+from tests.core.jit.fresh import computed
 
 
 @pytest.fixture
@@ -87,3 +89,20 @@ def test_locators_that_a_host_names_are_left(prepared, monkeypatch, tmp_path):
 def _beneath(folder):
     """The folder below a cache in which Numba keeps the kernels of the package psi."""
     return caching.UserProvidedCacheLocator(codim2_core.psi.make, codim2_core.psi.make.__code__.co_filename)._cache_path
+
+
+EARLY = """
+from codim2_app.server.kernel_cache import begin_early
+begin_early()
+import codim2_core as c2
+from codim2_core.jit import tiers
+tiers.SECONDS_PER_BYTE = 0.0  # nothing is rented: a kernel that is left to nobody is compiled at once
+found = len(c2.trajectories(c2.ELinear(-2.0, 0.0, -1.0, (-0.5, 0.0)), c2.psi.constant(), [(0.3, 0.2)]))
+"""
+
+
+def test_an_early_worker_leaves_compiling_to_the_process_that_does_it(tmp_path, monkeypatch):
+    monkeypatch.setattr(kernel_cache.config, "CACHE_DIR", str(tmp_path))
+    held = once.try_lock(exclusive=True)
+    assert computed(tmp_path, EARLY) == (1, [])
+    os.close(held)

@@ -3,6 +3,7 @@
 import argparse
 import json
 import logging
+import re
 import sys
 from pathlib import Path
 
@@ -31,6 +32,14 @@ def test_variables_are_defaults_and_flags_come_first():
 def test_hosting_services_say_the_port_and_pages_addresses_are_hosts():
     assert read(PORT="8080").port == 8080
     assert read(PORT="8080", CODIM2_PORT="81").port == 81
+
+
+def test_the_image_leaves_the_port_to_its_host():
+    text = (Path(__file__).parents[3] / "Dockerfile").read_text()
+    given = dict(one.split("=", 1) for line in re.findall(r"^ENV (CODIM2_.*)", text, re.M) for one in line.split())
+    assert given["CODIM2_ADDRESS"] == "0.0.0.0"
+    assert read(**given, PORT="8080").port == 8080
+    assert read(**given).port == 5006
     assert read(["--allow-origin", "https://c.org:8443/x"], CODIM2_ORIGINS="http://a.org").allow_origin == [
         "a.org", "c.org:8443",
     ]  # fmt: skip

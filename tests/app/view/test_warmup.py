@@ -1,5 +1,7 @@
 """What is compiled beforehand: step by step, told, and by one process at a time."""
 
+import errno
+import os
 import subprocess
 import sys
 import threading
@@ -51,6 +53,30 @@ def test_one_process_at_a_time_compiles(folder):
         raise ZeroDivisionError
     assert asked() == "free"
     assert lock_path().parent == folder
+
+
+def test_the_files_that_are_locked_go_with_the_folder_of_kernels(folder, monkeypatch):
+    """Else each folder that was ever named leaves three of them in the machine's temporary one."""
+    kernels = folder / "kernels"
+    monkeypatch.setattr(once.config, "CACHE_DIR", str(kernels))
+    with alone(), hold_name("one kernel"):
+        os.close(once.try_lock(exclusive=True))
+    assert {path.suffix for path in kernels.iterdir()} == {".lock", ".kernels", ".compiler"}
+    assert list(folder.iterdir()) == [kernels]
+    monkeypatch.setattr(once.config, "CACHE_DIR", "/proc/none")  # where nothing can be written
+    assert lock_path().parent == folder
+
+
+def test_a_file_system_without_locks_is_none_where_others_are_at_work(folder, monkeypatch):
+    def refused(*_):
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr("fcntl.flock", refused)
+    assert once.try_lock(exclusive=True) is None
+    done = []
+    with alone():
+        done.append(1)
+    assert done == [1]
 
 
 def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
@@ -197,11 +223,13 @@ def test_what_is_not_on_disk_is_loaded_once_another_process_has_compiled_it(begu
     assert policy.is_left()  # to it: kernels run as Python
     assert warmup.is_ready(begin_with.psi, begin_with.system)
     assert not warmup.is_ready(begin_with.psi, begin_with.system, moving=True)  # sketched, as that is faster
-    assert warmup.outcome == ""
+    wait_until(lambda: warmup.outcome)
+    assert warmup.outcome == "ready"  # the first scene is drawn, as Python
+    assert warmup.done == (0, 4)
+    assert not warmup.wait()  # what pictures need is known to be missing
     on_disk.set()
     wait_until(lambda: warmup.done == (4, 4))
-    warmup.wait()
-    assert warmup.outcome == "ready"
+    assert warmup.wait()
     assert set(ways) == {policy.LOAD}
     warmup._threads[c2.psi.constant()].join()
     assert not policy.is_left()
