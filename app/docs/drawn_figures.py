@@ -8,17 +8,20 @@ from types import MappingProxyType
 import numpy as np
 
 import codim2_core as c2
-from codim2_core.diagrams.eigenvalue_path import linearisation_path
+from codim2_core.diagrams.eigenvalue_path import LinearisationPath, linearisation_path
 from codim2_core.figures.examples import Z_CRIT
 
+from ..export.figure import Style, figure
 from ..export.small.chart import chart
-from ..export.small.results import svg
+from ..export.view import view_of
 from ..panels.filippov import vectors
 from ..panels.solid import stack_of_discs
 from .sketch import LYING, SPACE, Sketch
 
 #: A system whose limit vectors have two candidates of the Filippov convention, v₁₃ = (0, 0, 1) and v₂₄ = (0, 0, −1).
 SADDLE_OF_VECTORS = c2.System(U=("-c", "-s"), W=("c**2 - s**2",))
+#: Portraits with a node, a saddle, and two nodes beside a saddle.
+THREE = ("case1-cm2", "case2-saddle", "nonunique-sliding")
 _SPAN = np.linspace(-1.0, 1.0, 201)
 
 
@@ -92,7 +95,7 @@ def _limit_vectors(drawn: Sketch, axes: tuple[int, ...]) -> Sketch:
         candidate = np.array([0.0, 0.0, value])[list(axes)]
         drawn.line(ends, "soft", 1.0, (4, 3))
         for end, index in zip(ends, name, strict=True):
-            if np.any(end[:-1]):  # else it is seen as the candidate is
+            if np.abs(end[:-1]).max() > 1e-6:  # else it is seen as the candidate is
                 drawn.arrow(origin, end, "rho", 2.0).text(end, f"v{index}")
         drawn.arrow(origin, candidate, "crit", 2.8).text(candidate, f"v{name}", off=(4, 18))
     return drawn
@@ -143,7 +146,7 @@ def hemisphere() -> str:
     """Draw the hemisphere with both charts, fig:insert_sphere: a place of the scaling chart and its image."""
     drawn = _dome(Sketch(1.6, SPACE))
     square = [(-1.2, -1.2, 1), (1.2, -1.2, 1), (1.2, 1.2, 1), (-1.2, 1.2, 1), (-1.2, -1.2, 1)]
-    drawn.line(square, "rho").text((1.2, -1.2, 1), "κ₂: ε̄ = 1", "end", (0, -6))
+    drawn.line(square, "rho").text((-1.2, -1.2, 1), "κ₂: ε̄ = 1", off=(0, 22))
     for place in ((0.7, -0.5), (-0.6, -0.9), (-0.3, 0.8)):
         p = c2.hemisphere.disc_from_scaling(np.array(place))
         image = (*p, c2.hemisphere.height(p))
@@ -183,6 +186,12 @@ def entry_chart(key: str) -> str:
     return drawn.svg()
 
 
+def scaling_chart(key: str) -> str:
+    """Draw the inside of the disc alone, fig:eps1_combi."""
+    view = view_of(f"preset={key}&layers=inside,separatrices,equator,critical")
+    return figure(view, Style(size=90.0, legend=False))
+
+
 def limit_plane(key: str) -> str:
     """Draw the curve of limit vectors, and the combination on Σ, fig:whylinear."""
     preset = c2.presets[key]
@@ -206,9 +215,23 @@ def ellipse(key: str) -> str:
 
 
 def trace_and_determinant() -> str:
-    """Draw tr J over the parameter n, fig:bads (a)."""
+    """Draw the path of (det J, tr J) as n grows, and the parabola where a node becomes a focus, fig:bads (a)."""
+    found = _linearised()
+    det = np.linspace(0.0, 1.1 * float(found.determinant.max()), 60)
+    kinds = [(found.kind[i], found.determinant[i : j + 1], found.trace[i : j + 1]) for i, j in found.pieces]
+    return chart([*kinds, ("Δ = 0", det, 2 * np.sqrt(det)), ("Δ = 0", det, -2 * np.sqrt(det))], "det J", "tr J")
+
+
+def eigenvalues() -> str:
+    """Draw the eigenvalues of J over n, fig:bads (b)."""
+    found = _linearised()
+    parts = (("real parts", found.eigenvalues.real), ("imaginary parts", found.eigenvalues.imag))
+    return chart([(name, found.values, part[:, k]) for name, part in parts for k in (0, 1)], "n", "")
+
+
+def _linearised() -> LinearisationPath:
     preset = c2.presets["case3-n1"]
-    return svg(linearisation_path(preset.system, preset.psi, "n", [1 + k / 20 for k in range(61)]))
+    return linearisation_path(preset.system, preset.psi, "n", [1 + k / 20 for k in range(61)])
 
 
 def regularisations() -> str:
@@ -241,7 +264,7 @@ def along_z(key: str, span: tuple[float, float], marked: Mapping[str, float] = M
         drawn.line(path, "crit", 2.4, () if branch["stable"] else (5, 4))
     for name, value in marked.items():
         level = height((value - span[0]) / (span[1] - span[0]))
-        drawn.ring(level, "theta", 2.0).text((1.0, 0.0, level), name, off=(4, 4))
+        drawn.ring(level, "theta", 2.0).text((1.0, 0.0, level), name, off=(18, 18))
     return drawn.svg()
 
 
@@ -253,10 +276,11 @@ DRAWN: Mapping[str, Callable[[], str]] = MappingProxyType(
         "filippov-line": filippov_line, "filippov-space": filippov_space,
         "filippov-xz": lambda: filippov_onto(0), "filippov-yz": lambda: filippov_onto(1),
         "straight": straightened, "component": component, "hemisphere": hemisphere, "side": up_the_side,
-        **{f"entry-{key}": lambda key=key: entry_chart(key) for key in ("case1-cm2", "case2-saddle", "nonunique-sliding")},
+        **{f"entry-{key}": lambda key=key: entry_chart(key) for key in THREE},
+        **{f"inside-{key}": lambda key=key: scaling_chart(key) for key in THREE},
         **{key: lambda key=key: limit_plane(key) for key in ("whylinear-slide", "whylinear-cross")},
         **{key: lambda key=key: ellipse(key) for key in ("ellipse-in", "ellipse-out")},
-        "trace": trace_and_determinant, "psi-n": regularisations,
+        "trace": trace_and_determinant, "eigenvalues": eigenvalues, "psi-n": regularisations,
         "stack-nonunique": lambda: along_z("nonunique-sliding", (-1.2, 1.2)),
         "stack-ball": lambda: along_z("ball-slip", (-10.0, 10.0), {"z = z_crit": Z_CRIT, "z = −z_crit": -Z_CRIT}),
     }

@@ -15,11 +15,11 @@ its figures is drawn here again, from the numbers that the paper prints, or from
 beside this page. A title opens the figure in the explorer, where every number in it can be moved.
 """
 
-#: Label of each figure, what is to be seen in ours, and its parts: a drawing, a preset, or "drawing > preset" that it opens.
+#: Label of each figure, what is to be seen in ours, and its parts: a preset, a drawing, or "drawing>what it opens".
 FIGURES: tuple[tuple[str, str, str], ...] = (
     ("fig:friction", "The friction on a block in a line, and on one in the plane. At the green point it jumps; only in the "
      "plane has the jump codimension 2. On the right are the vectors U of the system with a = d = −1.",
-     "coulomb-line coulomb-plane>case1-cm0"),
+     "coulomb-line coulomb-plane>a=-1&b=0&d=-1&f1=0&f2=0"),
     ("fig:codim1vcodim2", "Where two sets of codimension 1 meet, motions come along these. An isolated set of codimension 2 is "
      "reached from all directions; on the right, motions of the system of Figure 24(c).",
      "codimension-one codimension-two>case1-cm4"),
@@ -36,7 +36,7 @@ FIGURES: tuple[tuple[str, str, str], ...] = (
      "In (c) the odd directions have λ_θ > 0 where they repel; the paper's caption has a slip there.",
      "entry-case1-cm2>case1-cm2 entry-case2-saddle>case2-saddle entry-nonunique-sliding>nonunique-sliding"),
     ("fig:eps1_combi", "The scaling chart: the inside of each disc, with a node, a saddle, and two nodes beside a saddle.",
-     "case1-cm2 case2-saddle nonunique-sliding"),
+     "inside-case1-cm2>case1-cm2 inside-case2-saddle>case2-saddle inside-nonunique-sliding>nonunique-sliding"),
     ("fig:epsboth", "Both charts together, after the blowup: the same three portraits with their outsides.",
      "case1-cm2 case2-saddle nonunique-sliding"),
     ("fig:epsboth_3D", "The same along z; critical sets are red, limit directions blue. Two pairs of limit directions end at "
@@ -47,7 +47,7 @@ FIGURES: tuple[tuple[str, str, str], ...] = (
     ("fig:ellipse", "There is a critical set while f is inside the ellipse |A⁻¹h| = 1.", "ellipse-in>ellipse-in ellipse-out>ellipse-out"),
     ("fig:sketches", "The five portraits of Case I.", "case1-cm0 case1-cm2 case1-cm4 case1-ncm2 case1-ncm4"),
     ("fig:3cases", "The three portraits of Case II.", "case2-saddle case2-ncm2 case2-ncm4"),
-    ("fig:bads", "Case III: tr J passes through zero as n grows, and the regularisations that do it.", "trace>case3-n1 psi-n>case3-n3"),
+    ("fig:bads", "Case III as n grows: tr J passes through zero, the eigenvalues cross the imaginary axis, and the regularisations that do it.", "trace>case3-n1 eigenvalues>case3-n1 psi-n>case3-n3"),
     ("fig:bad_sketches", "Case III for n = 1, …, 4. At n = 284/129 a limit cycle is born. For n = 4 the critical set is an unstable "
      "node, as the caption says (the paper's text has a slip).", "case3-n1 case3-n2 case3-n3 case3-n4"),
     ("fig:transcrit", "A critical set reaches the equator: before, at, after.", "transcritical-before transcritical-at transcritical-after"),
@@ -85,21 +85,24 @@ def write_figures(folder: Path, explorer: str, pictures: bool) -> None:
 
 def _section(label: str, seen: str, parts: str, explorer: str, pictures: bool) -> str:
     printed, title = PRINTED[label]
-    cards = "\n".join(_card(part, title, explorer, pictures) for part in parts.split())
-    return f'\n## {printed}: {title}\n\n{seen}\n\n```{{raw}} html\n<div class="gallery">\n{cards}\n</div>\n```\n'
+    named = parts.split()
+    letters = [f"({chr(ord('a') + k)}) " for k in range(len(named))] if len(named) > 1 else [""]
+    cards = "\n".join(_card(*one, title, explorer, pictures) for one in zip(named, letters, strict=True))
+    return f'\n## {printed}: {title}\n\n{seen}\n\n```{{raw}} html\n<div class="gallery figures">\n{cards}\n</div>\n```\n'
 
 
-def _card(part: str, title: str, explorer: str, pictures: bool) -> str:
-    drawing, _, key = part.partition(">")
-    key = key or (drawing if drawing in presets else "")
-    said = escape(presets[key].title if key else title)
+def _card(part: str, letter: str, title: str, explorer: str, pictures: bool) -> str:
+    drawing, _, opened = part.partition(">")
+    opened = opened or (drawing if drawing in presets else "")
+    said = escape(presets[opened].title if opened in presets else title)
     if not pictures:
         shown = ""
     elif part in presets:
         shown = "".join(_image(f"portraits/{part}-{theme}", said, f"only-{theme}") for theme in ("light", "dark"))
     else:
         shown = _image(f"paper/{drawing}", said, "drawn")
-    caption = f'<a class="live" href="{explorer}?preset={key}">{said}</a>' if key else said
+    query = escape(f"preset={opened}" if opened in presets else opened)
+    caption = f'{letter}<a class="live" href="{explorer}?{query}">{said}</a>' if opened else letter
     return f"<figure>{shown}<figcaption>{caption}</figcaption></figure>"
 
 

@@ -17,6 +17,8 @@ import codim2_core
 from codim2_core.paper import PRINTED
 
 _LABEL = re.compile(r"\b(" + "|".join(map(re.escape, sorted(PRINTED, key=len, reverse=True))) + r")\b")
+#: An equation's label that a first line could do without.
+_EQUATION = re.compile(r"(?:,? \(?eq:[\w:]+(?: with eq:\w+)?\)?)(?=[.,;]|$)")
 _CODE = re.compile(r"(`+[^`]*`+)")
 
 #: Topics of the core: title, what is found there, and its pages, each a function (or a class) with what it returns.
@@ -141,7 +143,7 @@ def _first_line(value: Any) -> str:
     if not (inspect.isroutine(value) or inspect.isclass(value) or inspect.ismodule(value)):
         return _summary(value)
     text = (inspect.getdoc(value) or "").split("\n\n")[0].replace("\n", " ")
-    return _print_label_line(re.sub(r",? \(?eq:[\w:]+(,? (?:with )?eq:\w+)*\)?", "", text))
+    return _print_label_line(_EQUATION.sub("", text))
 
 
 def _summary(value: Any) -> str:
