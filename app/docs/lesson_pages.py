@@ -23,8 +23,8 @@ _HEAD = re.compile(r"\A---\n.*?\n---\n", re.DOTALL)
 _QUESTION = re.compile(r"^```question\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 LESSONS = """# Lessons
 
-A course through the paper in its order and beyond it. Read it here, or take it in the explorer: there its numbers can be
-dragged, and its questions are judged by the system on your own sliders.
+A course through the paper in its order and beyond it. Read it here, or take it in the explorer: there its numbers can
+be dragged, and its questions are judged by the system on your own sliders.
 
 | | lesson | what it is about |
 |---|---|---|

@@ -9,14 +9,17 @@ import ast
 import io
 import json
 import re
+import tempfile
 from collections.abc import Iterator
-from contextlib import redirect_stdout
+from contextlib import chdir, redirect_stdout
 from pathlib import Path
 from typing import Any
 
 NOTEBOOK_FOLDER = Path(__file__).parents[1] / "notebooks"
 _BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-NOTEBOOK_NOTE = "\n```{{tip}}\nThis page is a notebook. `codim2 notebooks` copies it (`{name}`), to run and to change.\n```\n"
+NOTEBOOK_NOTE = (
+    "\n```{{tip}}\nThis page is a notebook. `codim2 notebooks` copies it (`{name}`), to run and to change.\n```\n"
+)
 
 
 def notebook_page(path: Path) -> str:
@@ -30,11 +33,6 @@ def notebook_page(path: Path) -> str:
     return "\n\n".join(parts) + "\n"
 
 
-def code_of(page: str) -> list[str]:
-    """Return the blocks of Python code of a page."""
-    return _BLOCK.findall(page)
-
-
 def run_page(page: str, name: str) -> str:
     """Return a page with what each of its blocks gives below it; they are run in order, with the same names.
 
@@ -46,7 +44,8 @@ def run_page(page: str, name: str) -> str:
         Of the page, for tracebacks.
     """
     names: dict[str, Any] = {"__name__": name}
-    return _BLOCK.sub(lambda block: block[0] + "\n" + "".join(_outputs(block[1], names, name)), page)
+    with tempfile.TemporaryDirectory() as scratch, chdir(scratch):  # files that it writes are nobody's
+        return _BLOCK.sub(lambda block: block[0] + "\n" + "".join(_outputs(block[1], names, name)), page)
 
 
 def _outputs(code: str, names: dict[str, Any], name: str) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""A film of a sweep, or of play: the figure while one slider moves there and back, as an animated GIF or WebP, or as MP4.
+"""A film of a sweep, or of play: the figure while one slider moves there and back, as GIF, WebP or MP4.
 
 Each picture is the figure for print, drawn by Typst as a PNG is; Pillow, which Bokeh needs anyhow, puts them together.
 """
@@ -146,7 +146,7 @@ def _encode_mp4(shown: Sequence[Image.Image]) -> bytes:
     """Return pictures as an MP4 film that every player reads: H.264, of an even number of pixels."""
     program = shutil.which("ffmpeg")
     if program is None:
-        raise ValueError("MP4 is made by ffmpeg, which is not on the path; install it, or give a name in .gif or .webp.")
+        raise ValueError("ffmpeg, which makes MP4, is not on the path; install it, or give a name in .gif or .webp.")
     wide, tall = shown[0].size
     with tempfile.TemporaryDirectory() as folder:
         made = Path(folder, "film.mp4")

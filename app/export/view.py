@@ -129,7 +129,12 @@ def view_of(text: str) -> View:
 
 
 def typed_view(
-    U: Sequence[str], W: Sequence[str], where: Sequence[str], parameters: Mapping[str, float], z: Sequence[float], psi: Psi
+    U: Sequence[str],
+    W: Sequence[str],
+    where: Sequence[str],
+    parameters: Mapping[str, float],
+    z: Sequence[float],
+    psi: Psi,
 ) -> View:
     """Return the view of typed equations, as the explorer opens with them.
 

@@ -66,7 +66,8 @@ def latex(view: View) -> str:
         parts.append(_tabular(head, sets, "lllrrll"))
     caption = in_latex(scene["classification"].sentence)
     body = "\n\n\\medskip\n".join(parts)
-    return f"% needs \\usepackage{{booktabs}}\n{about}\\begin{{table}}\n\\centering\n{body}\n\\caption{{{caption}}}\n\\end{{table}}\n"
+    about = f"% needs \\usepackage{{booktabs}}\n{about}"
+    return f"{about}\\begin{{table}}\n\\centering\n{body}\n\\caption{{{caption}}}\n\\end{{table}}\n"
 
 
 def _critical_rows(scene: Scene) -> list[list[str]]:
@@ -91,6 +92,6 @@ def _critical_rows(scene: Scene) -> list[list[str]]:
 def _tabular(head: Sequence[str], rows: Sequence[Sequence[str]], columns: str) -> str:
     lines = [" & ".join(row) + r" \\" for row in rows]
     return "\n".join(
-        [f"\\begin{{tabular}}{{{columns}}}", r"\toprule", " & ".join(head) + r" \\", r"\midrule", *lines, r"\bottomrule",
-         r"\end{tabular}"]
+        [f"\\begin{{tabular}}{{{columns}}}", r"\toprule", " & ".join(head) + r" \\", r"\midrule", *lines,
+         r"\bottomrule", r"\end{tabular}"]
     )  # fmt: skip

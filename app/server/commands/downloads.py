@@ -23,7 +23,9 @@ PIPE = Path("-")
 def _add_view(command: Any) -> None:
     """Add what is drawn: a view by name, or typed equations."""
     command.add_argument("view", nargs="*", metavar="PRESET|LINK|NAME=VALUE", help=VIEW_HELP)
-    command.add_argument("-U", metavar="'U1; U2'", help="a system of your own: the rates of x and y, in c, s, x, y, z, t")
+    command.add_argument(
+        "-U", metavar="'U1; U2'", help="a system of your own: the rates of x and y, in c, s, x, y, z, t"
+    )
     command.add_argument("-W", default="", metavar="'W1; …'", help="its slow rates")
     command.add_argument("--where", default="", metavar="'NAME(z) = …; …'", help="definitions that its formulas use")
     command.add_argument("-z", default="", metavar="Z1,…", help="where on Σ it is drawn; default 0")

@@ -15,7 +15,8 @@ import codim2_core as c2
 
 TIKZ = shutil.which("kpsewhich") and subprocess.run(["kpsewhich", "tikz.sty"], capture_output=True, check=False).stdout
 COMMANDS = {
-    "begin", "end", "centering", "toprule", "midrule", "bottomrule", "caption", "medskip", "theta", "lambda", "rho", "det", "mathrm", "pm", "cdot",
+    "begin", "end", "centering", "toprule", "midrule", "bottomrule", "caption", "medskip",
+    "theta", "lambda", "rho", "det", "mathrm", "pm", "cdot",
     "Sigma", "Psi", "Theta", "dots", "varepsilon",
 }  # fmt: skip
 

@@ -25,7 +25,18 @@ def test_a_figure_of_a_preset_and_of_a_link(tmp_path):
 
 def test_a_figure_of_typed_equations_is_that_of_the_explorer(tmp_path):
     out = tmp_path / "fig.svg"
-    typed = ["-U", "-mu*c*w(z) + pull;-s", "-W", "c - 1/4", "--where", "w(z) = 1 + z^2", "mu=1/2", "pull=-.3", "-z", "-.2"]
+    typed = [
+        "-U",
+        "-mu*c*w(z) + pull;-s",
+        "-W",
+        "c - 1/4",
+        "--where",
+        "w(z) = 1 + z^2",
+        "mu=1/2",
+        "pull=-.3",
+        "-z",
+        "-.2",
+    ]
     assert main(["figure", *typed, "--psi", "hill:3", "-o", str(out)]) == 0
     texts = {"U1": "-mu*c*w(z) + pull", "U2": "-s", "W": "c - 1/4", "where": "w(z) = 1 + z^2"}
     query = {"system": "own", "texts": json.dumps(texts), "parameters": json.dumps({"mu": 0.5, "pull": -0.3})}
