@@ -64,7 +64,7 @@ def codimension_two() -> str:
     preset = c2.presets["case1-cm4"]
     drawn = Sketch(1.5)
     for theta in 2.0 * np.pi * (np.arange(16) + 0.5) / 16:
-        start = (1.35 * np.cos(theta), 1.35 * np.sin(theta))
+        start = (1.35 * float(np.cos(theta)), 1.35 * float(np.sin(theta)))
         path = c2.simulate_nonsmooth(preset.system, state0=start, t_span=(0.0, 3.0)).states[:, :2]
         middle = int(np.argmin(np.abs(np.hypot(*path.T) - 0.7)))
         drawn.line(path, "orbit", 1.2).arrow(path[max(0, middle - 1)], path[middle], "orbit", 1.2)
@@ -216,7 +216,7 @@ def ellipse(key: str) -> str:
 
 def trace_and_determinant() -> str:
     """Draw the path of (det J, tr J) as n grows, and the parabola where a node becomes a focus, fig:bads (a)."""
-    found = _linearised()
+    found = _eigenvalue_path()
     det = np.linspace(0.0, 1.1 * float(found.determinant.max()), 60)
     kinds = [(found.kind[i], found.determinant[i : j + 1], found.trace[i : j + 1]) for i, j in found.pieces]
     return chart([*kinds, ("Δ = 0", det, 2 * np.sqrt(det)), ("Δ = 0", det, -2 * np.sqrt(det))], "det J", "tr J")
@@ -224,12 +224,12 @@ def trace_and_determinant() -> str:
 
 def eigenvalues() -> str:
     """Draw the eigenvalues of J over n, fig:bads (b)."""
-    found = _linearised()
+    found = _eigenvalue_path()
     parts = (("real parts", found.eigenvalues.real), ("imaginary parts", found.eigenvalues.imag))
     return chart([(name, found.values, part[:, k]) for name, part in parts for k in (0, 1)], "n", "")
 
 
-def _linearised() -> LinearisationPath:
+def _eigenvalue_path() -> LinearisationPath:
     preset = c2.presets["case3-n1"]
     return linearisation_path(preset.system, preset.psi, "n", [1 + k / 20 for k in range(61)])
 

@@ -52,13 +52,13 @@ def write_lessons(folder: Path, explorer: str, pictures: bool) -> None:
     rows = []
     for number, (key, lesson) in enumerate(built_in().items(), 1):
         text = (LESSON_FOLDER / f"{key}.md").read_text(encoding="utf-8")
-        (folder / f"lesson-{key}.md").write_text(_page(text, key, lesson, explorer, pictures), encoding="utf-8")
+        (folder / f"lesson-{key}.md").write_text(_lesson_page(text, key, lesson, explorer, pictures), encoding="utf-8")
         rows.append(f"| {number} | [{lesson.title}](lesson-{key}.md) | {lesson.summary} |")
     pages = "\n".join(f"lesson-{key}" for key in built_in())
     (folder / "lessons.md").write_text(LESSONS.format(rows="\n".join(rows), pages=pages), encoding="utf-8")
 
 
-def _page(text: str, key: str, lesson: Lesson, explorer: str, pictures: bool) -> str:
+def _lesson_page(text: str, key: str, lesson: Lesson, explorer: str, pictures: bool) -> str:
     opened = f"{explorer}?panel=lessons&amp;lesson={key}"
     scene = make_scene({**first_values(), **lesson.values})
 

@@ -112,7 +112,7 @@ def _write_topic(
     rows = []
     for names in pages:
         page = f"api-{prefix}{names[0].lower()}"
-        (folder / f"{page}.rst").write_text("\n".join(_page(module, names)), encoding="utf-8")
+        (folder / f"{page}.rst").write_text("\n".join(_function_page(module, names)), encoding="utf-8")
         rows.append((page, names[0], _first_line(getattr(module, names[0]))))
     parts = [f"{title}\n{'=' * 2 * len(title)}\n\n{about}\n", f".. currentmodule:: {module.__name__}\n"]
     parts += [f":doc:`{name} <{page}>`\n   {line}\n" for page, name, line in rows]
@@ -122,7 +122,7 @@ def _write_topic(
     (folder / f"reference-{key}.rst").write_text("\n".join(parts), encoding="utf-8")
 
 
-def _page(module: ModuleType, names: list[str]) -> Iterator[str]:
+def _function_page(module: ModuleType, names: list[str]) -> Iterator[str]:
     yield f"{names[0]}\n{'=' * len(names[0])}\n\n.. currentmodule:: {module.__name__}\n"
     yield from _entries(module, names)
 

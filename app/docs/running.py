@@ -59,10 +59,10 @@ def _outputs(code: str, names: dict[str, Any], name: str) -> Iterator[str]:
     if text := printed.getvalue():
         yield f"\n```text\n{text.rstrip()}\n```\n"
     if value is not None:
-        yield _shown(value)
+        yield _show_value(value)
 
 
-def _shown(value: Any) -> str:
+def _show_value(value: Any) -> str:
     """Return a value as a notebook shows it; of a live explorer its picture."""
     value = getattr(value, "scene", value)
     html = value._repr_html_() if hasattr(value, "_repr_html_") else None

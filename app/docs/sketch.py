@@ -22,7 +22,7 @@ LYING = np.array([[-0.30, -0.45], [0.20, 0.85], [1.0, -0.12]])
 
 
 class Sketch:
-    """What is drawn, from back to front.
+    """A drawing that grows from back to front.
 
     Parameters
     ----------

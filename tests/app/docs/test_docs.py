@@ -151,7 +151,7 @@ def test_every_lesson_is_a_page_that_opens_it_in_the_explorer(built):
 
 def test_a_fact_of_a_lesson_is_that_of_its_portrait():
     text = (lesson_pages.LESSON_FOLDER / "01-friction.md").read_text(encoding="utf-8")
-    page = lesson_pages._page(text, "01-friction", built_in()["01-friction"], "../", pictures=False)
+    page = lesson_pages._lesson_page(text, "01-friction", built_in()["01-friction"], "../", pictures=False)
     assert "Their number is now\n**0**." in page
 
 

@@ -8,6 +8,7 @@ import pytest
 from codim2_app.docs import drawn_figures, running
 from codim2_app.docs.build import TEXT_FOLDER
 from codim2_app.docs.sketch import SIDE, Sketch
+from codim2_app.lessons.reading import read_lesson
 
 import codim2_core as c2
 from codim2_core.figures.examples import Z_CRIT
@@ -34,6 +35,13 @@ def test_what_a_block_gives_stands_below_it_and_names_live_on(tmp_path, monkeypa
     assert not (tmp_path / "kept").exists()
     with pytest.raises(NameError, match="unknown"):
         running.run_page("```python\nunknown()\n```\n", "b.md")
+
+
+def test_the_lesson_that_is_printed_is_one(tmp_path):
+    text = (TEXT_FOLDER / "howto-lesson.md").read_text(encoding="utf-8")
+    (tmp_path / "own.md").write_text(re.findall(r"````text\n(.*?)````", text, re.DOTALL)[0], encoding="utf-8")
+    found = read_lesson(tmp_path / "own.md")
+    assert (found.title, len(found.questions)) == ("A push too hard", 1)
 
 
 def test_a_result_is_shown_as_a_notebook_shows_it():
