@@ -144,7 +144,7 @@ def _dome(drawn: Sketch) -> Sketch:
 
 def hemisphere() -> str:
     """Draw the hemisphere with both charts, fig:insert_sphere: a place of the scaling chart and its image."""
-    drawn = _dome(Sketch(1.6, SPACE))
+    drawn = _dome(Sketch(1.85, SPACE))
     square = [(-1.2, -1.2, 1), (1.2, -1.2, 1), (1.2, 1.2, 1), (-1.2, 1.2, 1), (-1.2, -1.2, 1)]
     drawn.line(square, "rho").text((-1.2, -1.2, 1), "κ₂: ε̄ = 1", off=(0, 22))
     for place in ((0.7, -0.5), (-0.6, -0.9), (-0.3, 0.8)):
