@@ -13,7 +13,7 @@ from codim2_app.lessons.reading import read_lesson
 import codim2_core as c2
 from codim2_core.figures.examples import Z_CRIT
 
-PAGES = [page for page in sorted(TEXT_FOLDER.glob("*.md")) if "```python" in page.read_text(encoding="utf-8")]
+PAGES = [page for page in sorted(TEXT_FOLDER.glob("*.md")) if "\n```python\n" in page.read_text(encoding="utf-8")]
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
