@@ -114,7 +114,7 @@ def _marks(columns: Any, told: tuple[str, ...], label: str, size: int) -> Any:
     colours, fills = _mark_colours(columns)
     names = ("label", *told)
     values = (columns["x"], columns["y"], *(columns[name] for name in names), columns["shape"], colours, fills)
-    points = hv.Points(values, kdims=AXIS_LABELS, vdims=[*names, "marker", "colour", "fill"], label=label)
+    points: Any = hv.Points(values, kdims=AXIS_LABELS, vdims=[*names, "marker", "colour", "fill"], label=label)
     if "bokeh" in hv.Store.renderers:
         points = points.opts(marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"), size=size,
                              line_width=2, tools=["hover"], backend="bokeh")  # fmt: skip
@@ -122,11 +122,11 @@ def _marks(columns: Any, told: tuple[str, ...], label: str, size: int) -> Any:
 
         def draw_each(plot: Any, _element: Any) -> None:
             """Give each point its own mark: Matplotlib's scatter has one for all."""
-            from matplotlib.markers import MarkerStyle
-
-            styles = [MarkerStyle(MARKERS[name]) for name in columns["shape"]]
             artist = plot.handles["artist"]
-            artist.set_paths([style.get_path().transformed(style.get_transform()) for style in styles])
+            samples = [artist.axes.scatter([], [], marker=MARKERS[name]) for name in columns["shape"]]
+            artist.set_paths([sample.get_paths()[0] for sample in samples])
+            for sample in samples:
+                sample.remove()
             artist.set(edgecolors=colours, facecolors=fills, linewidths=2 * POINT)
 
         points = points.opts(s=(size * POINT) ** 2, hooks=[draw_each], backend="matplotlib")
