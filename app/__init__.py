@@ -1,7 +1,8 @@
 """Web explorer of the dynamics near an isolated codimension-2 discontinuity set.
 
 ``explorer()`` is the live widget of a notebook, ``holoviews(scene)`` the same picture as HoloViews elements,
-``svg(result)`` a small picture of a scene or another result, ``tables(scene)`` all that is drawn as pandas data frames.
+``svg(result)`` a small picture of a scene or another result, ``plot(result, ax)`` the same in Matplotlib,
+``tables(scene)`` all that is drawn as pandas data frames.
 They are imported when they are first used, so that importing this package costs nothing.
 """
 
@@ -11,32 +12,28 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .draw.overlay import holoviews
+    from .export.small.axes import plot
     from .export.small.results import svg
     from .export.tables import data_frames as tables
     from .view.notebook import explorer
 
-__all__ = ["explorer", "holoviews", "svg", "tables"]
+__all__ = ["explorer", "holoviews", "plot", "svg", "tables"]
+
+_HOMES = {
+    "explorer": ("view.notebook", "explorer"),
+    "holoviews": ("draw.overlay", "holoviews"),
+    "plot": ("export.small.axes", "plot"),
+    "svg": ("export.small.results", "svg"),
+    "tables": ("export.tables", "data_frames"),
+}
 
 
 def __getattr__(name: str) -> Any:
-    if name == "explorer":
-        from .view.notebook import explorer
+    from importlib import import_module
 
-        return explorer
-    if name == "holoviews":
-        from .draw.overlay import holoviews
-
-        return holoviews
-    if name == "svg":
-        from .export.small.results import svg
-
-        return svg
-    if name == "tables":
-        from .export.tables import data_frames
-
-        return data_frames
     if name == "__version__":
-        from codim2_core import __version__
-
-        return __version__
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        return import_module("codim2_core").__version__
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    module, own = _HOMES[name]
+    return getattr(import_module(f".{module}", __name__), own)

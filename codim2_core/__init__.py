@@ -185,9 +185,10 @@ if not TYPE_CHECKING:
             found = import_module(f".{_MODULES[name]}", __name__)
         elif name in _HOME:
             from .arguments import checked_functions
+            from .figures.named import named_setting
 
             one = {name: getattr(import_module(f".{_HOME[name]}", __name__), name)}
-            found = (one | checked_functions(__name__, one, one))[name]
+            found = (one | checked_functions(__name__, one, one, named_setting))[name]
         else:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         return globals().setdefault(name, found)  # one object, whichever thread was first: pickle compares

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from .earlier_spellings import earlier_spelling
 from .psi.constructors import from_text
 from .psi.function import Psi
 from .systems.coefficients import Coefficients
@@ -32,6 +33,7 @@ _SHORT = reprlib.Repr()
 _SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
 
 Check = Callable[[str, Any], Any]
+Setting = Callable[[str], Mapping[str, Any]]
 
 
 def short_repr(value: object) -> str:
@@ -253,8 +255,11 @@ def _check(owner: str, parameter: inspect.Parameter) -> Check:
     return BY_ANNOTATION[annotation]
 
 
-def with_checks(function: Callable[..., Any], module: str) -> Callable[..., Any]:
-    """Return a function that checks what it is given, under the name by which a module offers it."""
+def with_checks(function: Callable[..., Any], module: str, named_setting: Setting | None = None) -> Callable[..., Any]:
+    """Return a function that checks what it is given, under the name by which a module offers it.
+
+    A system that is text is looked up by `named_setting`, and what else it names stands for what is not given.
+    """
     signature = inspect.signature(function)
     parameters = signature.parameters
     checks = {name: _check(function.__name__, parameter) for name, parameter in parameters.items()}
@@ -267,8 +272,17 @@ def with_checks(function: Callable[..., Any], module: str) -> Callable[..., Any]
     may = [frozenset(parameters) - {name for name, *_ in in_order[:n]} for n in range(len(in_order) + 1)]
     must = [{name for name in names if defaults[name] is inspect.Parameter.empty} for names in may]
 
+    earlier = earlier_spelling(function.__name__)
+    by_name = named_setting if next(iter(parameters), "") == "system" else None
+
     @wraps(function)
     def door(*given: Any, **named: Any) -> Any:
+        if earlier is not None and (now := earlier(given, named)) is not None:
+            given, named = now
+        if by_name is not None and isinstance(asked := given[0] if given else named.get("system"), str):
+            setting = {name: value for name, value in by_name(asked).items() if name in parameters}
+            there = dict(zip((name for name, *_ in in_order), given, strict=False))
+            given, named = (), {**setting, **there, **named, "system": setting["system"]}
         n, names = len(given), named.keys()
         if n >= len(may) or not must[n] <= names <= may[n]:
             try:
@@ -289,7 +303,9 @@ def with_checks(function: Callable[..., Any], module: str) -> Callable[..., Any]
     return door
 
 
-def checked_functions(module: str, names: Mapping[str, Any], public: Iterable[str]) -> dict[str, Any]:
+def checked_functions(
+    module: str, names: Mapping[str, Any], public: Iterable[str], named_setting: Setting | None = None
+) -> dict[str, Any]:
     """Return the public functions among some names, each with its checks; for ``globals().update(...)``."""
     found = {name: names[name] for name in public}
-    return {name: with_checks(one, module) for name, one in found.items() if inspect.isfunction(one)}
+    return {name: with_checks(one, module, named_setting) for name, one in found.items() if inspect.isfunction(one)}

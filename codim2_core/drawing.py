@@ -9,7 +9,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import Any
 
-#: The package that draws: ``holoviews(scene)`` is an overlay, ``svg(result)`` a small picture.
+#: The package that draws: ``holoviews(scene)`` is an overlay, ``svg(result)`` a small picture,
+#: ``plot(result, ax)`` the same in Matplotlib.
 DRAWER = "codim2_app"
 
 
@@ -26,6 +27,21 @@ def overlay(scene: Any) -> Any:
     except ImportError:
         raise ValueError(f"Scene.plot is drawn by {DRAWER}, which is missing: pip install codim2.") from None
     return drawer.holoviews(scene)
+
+
+def plot(result: Any, ax: Any) -> Any:
+    """Draw a small picture of a result into Matplotlib axes, and return them.
+
+    Raises
+    ------
+    ValueError
+        Matplotlib or the app is not there.
+    """
+    try:
+        drawer = import_module(DRAWER)
+    except ImportError:
+        raise ValueError(f"plot is drawn by {DRAWER}, which is missing: pip install codim2.") from None
+    return drawer.plot(result, ax)
 
 
 def svg(result: Any) -> str | None:

@@ -14,6 +14,7 @@ from . import drawing
 from .equality import ByValue
 from .tables import frame, html_table, write_csv
 
+LONGEST_PART, LONGEST_SENTENCE = 90, 300  # characters of a value within a line
 MAX_COLUMNS = 4  # numbers of an array or a tuple that a row of `to_frame` holds: a place, or z'
 
 
@@ -21,6 +22,16 @@ class Result(ByValue):
     """A result: a frozen dataclass whose fields say all that it is, and by which it is compared."""
 
     __slots__ = ()
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if "__repr__" not in cls.__dict__ and not issubclass(cls, tuple):
+            cls.__repr__ = Result.__repr__  # else a dataclass writes one of its own, with every number of an array
+
+    def __repr__(self) -> str:
+        shown = ((one.name, getattr(self, one.name)) for one in fields(cast("Any", self)) if one.repr)
+        said = (f"{name}={text}" for name, value in shown if (text := one_line(value)))
+        return f"{type(self).__name__}({', '.join(said)})"
 
     def _records(self) -> Iterator[dict[str, Any]]:
         yield record(self)
@@ -59,6 +70,21 @@ class Pictured(Result):
     def _repr_svg_(self) -> str | None:
         return drawing.svg(self)
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the picture into Matplotlib axes, and return them.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Left out, a figure is made.
+
+        Raises
+        ------
+        ValueError
+            Matplotlib, or the app, which draws, is not installed.
+        """
+        return drawing.plot(self, ax)
+
     def save(self, path: str | Path) -> None:
         """Write the picture that a notebook shows.
 
@@ -94,11 +120,30 @@ class Tabled(Result):
         return result_rows([self])
 
 
+class OfOneKind(Result):
+    """A result that holds others, one after the other."""
+
+    __slots__ = ()
+
+    def __iter__(self) -> Iterator[Any]:
+        raise NotImplementedError
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Kinds, where they have one."""
+        return tuple(one.kind for one in self)
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """Sentences about each, where there are some."""
+        return tuple(one.sentence for one in self)
+
+
 Kind = TypeVar("Kind", bound=Result)
 Row = TypeVar("Row", bound=Tabled)
 
 
-class Several(Result, Generic[Kind]):
+class Several(OfOneKind, Generic[Kind]):
     """A result that holds others of one kind, in the field that `_held_` names; it iterates over them."""
 
     __slots__ = ()
@@ -118,7 +163,7 @@ class Several(Result, Generic[Kind]):
         return map(record, self)
 
 
-class Results(tuple[Row, ...], Result):
+class Results(tuple[Row, ...], OfOneKind):
     """Several results of one kind, in order: a tuple that a notebook shows as one table."""
 
     __slots__ = ()
@@ -150,6 +195,24 @@ def short_numbers(value: Any) -> list[Any] | None:
         return value.tolist() if value.ndim == 1 and len(value) <= MAX_COLUMNS else None
     short = isinstance(value, tuple) and len(value) <= MAX_COLUMNS
     return list(value) if short and all(isinstance(one, int | float) for one in value) else None
+
+
+def one_line(value: Any) -> str:
+    """Return a value as a terminal shows it within a line: numbers to six digits, of long arrays their shape."""
+    if isinstance(value, Enum):
+        return value.name
+    if isinstance(value, np.ndarray):
+        short = value.size <= MAX_COLUMNS
+        return one_line(value.tolist()) if short else f"<array of shape {value.shape}>"
+    if isinstance(value, tuple | list):
+        inner = [one_line(one) for one in value[: MAX_COLUMNS + 1]]
+        if len(value) > MAX_COLUMNS or sum(map(len, inner)) > LONGEST_PART:
+            return f"<{len(value)} of them>"
+        return f"({', '.join(inner)}{',' * (len(inner) == 1)})"
+    if isinstance(value, float | complex) and not isinstance(value, bool | int):
+        return f"{value:.6g}"
+    text, most = repr(value), LONGEST_SENTENCE if isinstance(value, str) else LONGEST_PART
+    return text if len(text) <= most else f"{text[:most]}…"
 
 
 def column_rows(columns: Mapping[str, Any]) -> Iterator[dict[str, Any]]:

@@ -37,7 +37,7 @@ def system_words(view: View) -> str:
         said = f"x′ = {_text(system.U[0])}, y′ = {_text(system.U[1])}{slow}"
     else:
         return "the layer problem at one z"
-    named = ", ".join(f"{plain_symbol(name)} = {plain(value)}" for name, value in system.parameters)
+    named = ", ".join(f"{plain_symbol(name)} = {plain(value)}" for name, value in system.parameters.items())
     return said + (f"; {named}" if named else "")
 
 

@@ -21,6 +21,7 @@ from ..state.launches import TYPED, read_launches, selected_place
 from .figure import MM, PX, TITLE, Style, figure
 from .printing import DPI, png
 from .small.chart import Frame, line_chart
+from .small.sketch import LineChart
 from .view import View
 
 if TYPE_CHECKING:
@@ -108,7 +109,7 @@ def scenery(view: View, style: Style) -> Scenery:
     names, time = (("x/ε", "y/ε"), "τ = t/ε") if orbit.fast else (("x", "y"), "t")
     lines = [(name, orbit.time, values) for name, values in zip(names, orbit.xy.T, strict=True)]
     colours = paper() if style.theme == "paper" else themes()[style.theme]
-    over_time, frame = line_chart(lines, time, "", colours)
+    over_time, frame = line_chart(LineChart(lines, time, ""), colours)
     beside = _open_png(png(over_time, CHART))
     drawn = Image.new("RGB", (portrait.width + beside.width, max(portrait.height, beside.height)), colours["page"])
     corner = portrait.width, (drawn.height - beside.height) // 2

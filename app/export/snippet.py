@@ -54,7 +54,7 @@ def _system(view: View, system: Any) -> str:
     choice = view.values["system"]
     if view.system is None and choice in catalogue and hasattr(c2.examples, choice):
         ranges = catalogue[choice].ranges
-        given = ", ".join(f"{name}={value!r}" for name, value in system.parameters if name in ranges)
+        given = ", ".join(f"{name}={value!r}" for name, value in system.parameters.items() if name in ranges)
         return f"c2.examples.{choice}({given})"
     parameters = f"parameters={dict(system.parameters)!r}" if getattr(system, "parameters", ()) else ""
     if isinstance(system, ELinear):

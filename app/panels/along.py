@@ -82,7 +82,7 @@ def line(
     system: System_, psi: Psi, others: tuple[float, ...], axis: int, spans: tuple[tuple[float, float], ...]
 ) -> dict[str, Any]:
     """Return what the browser draws along one slow variable."""
-    found = slow_portrait(system, psi, spans[axis], others, axis)
+    found = slow_portrait(system, psi, f"z{axis + 1}", spans[axis], others)
     return {"control": SLOW_CONTROLS[axis], "m": system.m, "span": list(spans[axis]), **slow_columns(found, axis)}
 
 
@@ -125,7 +125,7 @@ def ahead_of(system: System_, psi: Psi, z: tuple[float, ...], spans: tuple[tuple
             "flow": [short(column) for column in one.flow.T],
             "reason": one.reason,
         }
-        for one in delays(system, psi, z, spans)
+        for one in delays(system, psi, z, {f"z{i + 1}": span for i, span in enumerate(spans)})
     ]
     return {"found": found}
 

@@ -90,7 +90,7 @@ def regularised_motion(
     fast = radius < 1.0
     unit = eps if fast else 1.0
     start = scaling_from_disc(seed) if fast else np.array(seed) * ((radius - 1.0) / radius)
-    run = simulate(system, psi, eps, (*(unit * start).tolist(), *z), (0.0, unit * lasts), rtol=RTOL)
+    run = simulate(system, psi, (*(unit * start).tolist(), *z), (0.0, unit * lasts), eps=eps, rtol=RTOL)
     drawn = run.drawn()
     x, y = drawn.states[:, 0] / unit, drawn.states[:, 1] / unit
     rho = np.hypot(x, y)

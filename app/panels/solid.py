@@ -76,7 +76,7 @@ def stack_of_discs(
         [share(z), round(float(theta), 4), int(rho < 0.0), int(turn < 0.0)]
         for z, theta, rho, turn in zip(*columns, strict=True)
     ]
-    portrait = slow_portrait(system, psi, span, others, axis)
+    portrait = slow_portrait(system, psi, f"z{axis + 1}", span, others)
     sets = [
         {
             "points": [[*_short_list(p), share(z)] for z, p in zip(branch.z, branch.p, strict=True)],

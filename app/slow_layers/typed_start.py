@@ -98,7 +98,7 @@ def motion_from_start(
     }
     if not eps:
         return {"orbit": {**orbit, "ball": _rolling(ball, limit, parameters)}}
-    run = simulate(system, psi, eps, start, (0.0, t_end), rtol=RTOL)
+    run = simulate(system, psi, start, (0.0, t_end), eps=eps, rtol=RTOL)
     together = agreement(system, psi, run, limit)
     told = {"agreement": together.sentence, "same": together.same, "ball": _rolling(ball, run, parameters)}
     return {"orbit": orbit, "orbit_motion": {"index": TYPED, "eps": eps, **curves(run), **told}}

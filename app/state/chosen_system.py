@@ -300,7 +300,7 @@ def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingPro
     ranges = parameter_ranges(choice, texts)
     parameters = [
         {"name": name, "symbol": plain_symbol(name), "range": list(ranges.get(name, PARAMETER_RANGE)), "value": value}
-        for name, value in system.parameters
+        for name, value in system.parameters.items()
     ]
     symbols = slow_symbols(choice, system)
     slow = [{"symbol": s, "range": list(r)} for s, r in zip(symbols, slow_ranges(choice, system.m), strict=True)]

@@ -22,7 +22,7 @@ def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
     system = scene.system
     if not isinstance(system, (ELinear, System)):
         return said
-    own = () if values["system"] == NORMAL and not given else [name for name, _ in system.parameters]
+    own = () if values["system"] == NORMAL and not given else [*system.parameters]
     boxes = [] if given else list(texts_of(values["system"], {}))
     for key, asked, there in (("no such parameter", "parameters", own), ("no such box", "texts", boxes)):
         unknown = [name[:20] for name in values[asked] if name not in there]

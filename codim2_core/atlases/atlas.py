@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -49,10 +49,9 @@ DEFAULT_HALF_RANGE = (
 def atlas(
     system: Any,
     psi: Psi,
-    across: str,
-    up: str,
-    ranges: Any = None,
+    ranges: Mapping[str, tuple[float, float] | None] | Sequence[str],
     z: ArrayLike = (),
+    *,
     with_cycles: bool = False,
 ) -> Atlas:
     """All curves over two parameters on which the portrait changes, where they meet, and the regions between.
@@ -69,11 +68,10 @@ def atlas(
     ----------
     system : ELinear, System, Coefficients or Frozen
     psi : Psi
-    across, up : str
-        What is varied: two of a, b, d, f1, f2 as far as they are numbers, the system's own parameters, z1 to zm (z is
-        z1), and the parameter of Psi, such as n.
-    ranges : ((low, high), (low, high)), optional
-        Of `across`, then of `up`. Left out: about the present values.
+    ranges : mapping, or two names
+        What is varied, across and then up, and how far, such as ``{"f1": (-2, 2), "f2": (-2, 2)}``: two of a, b, d,
+        f1, f2 as far as they are numbers, the system's own parameters, z1 to zm (z is z1), and the parameter of Psi,
+        such as n. Two names, or None for a range: about the present values.
     z : (m,) floats
     with_cycles : bool
         Also what limit cycles are born from and die in, which takes some seconds: see `with_folds_of_cycles` and
@@ -92,18 +90,18 @@ def atlas(
     Examples
     --------
     >>> import codim2_core as c2
-    >>> found = c2.atlas(c2.ELinear(-2, 0, -1), c2.psi.constant(), across="f1", up="f2")
+    >>> found = c2.atlas(c2.ELinear(-2, 0, -1), c2.psi.constant(), ("f1", "f2"))
     >>> sorted({curve.kind for curve in found.curves})
     ['saddle-node', 'transcritical']
     >>> sorted({region.name for region in found.regions})
     ['CM2, stable node', 'CM4, stable node', 'NCM2']
     """
-    found = with_regions(system, psi, curves_over(system, psi, across, up, ranges, z), z)
+    found = with_regions(system, psi, curves_over(system, psi, *_names_and_ranges(ranges), z), z)
     return with_bifurcations_of_cycles(system, psi, found, z) if with_cycles else found
 
 
 def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None, z: ArrayLike = ()) -> Atlas:
-    """Curves and points of an atlas, without its regions: all arguments are those of `atlas`."""
+    """Curves and points of an atlas, without its regions: of two names, and the range of each."""
     return _curves_over(family_over(system, psi, z, across, up, ranges))
 
 
@@ -188,16 +186,25 @@ def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, range
     """Check what `atlas` is given, and return what all of it is computed from."""
     slow = tuple(np.ravel(np.asarray(z, float)).tolist())
     system = in_axes_of(system, across, up)
-    for what, name in (("across", across), ("up", up)):
-        check_name(system, psi, slow, what, name)
+    for name in (across, up):
+        check_name(system, psi, slow, "ranges", name)
     there = names_of(system, psi, slow)
     first, second = ("z1" if name == "z" and "z" not in there else name for name in (across, up))
     both = first, second
     if both[0] == both[1]:
-        raise ValueError(f"across and up are both {both[0]!r}; choose two different names.")
+        raise ValueError(f"ranges are both of {both[0]!r}; choose two different names.")
     family = PlaneFamily(system, psi, slow, both, _ranges(system, psi, slow, both, ranges))
     _check_somewhere(family)
     return family
+
+
+def _names_and_ranges(ranges: object) -> tuple[str, str, object]:
+    """Return the two names that an atlas is over, and their ranges, as they are given."""
+    if isinstance(ranges, Mapping | Sequence) and not isinstance(ranges, str | bytes) and len(ranges) == 2:
+        across, up = ranges
+        if isinstance(across, str) and isinstance(up, str):
+            return across, up, tuple(ranges.values()) if isinstance(ranges, Mapping) else None
+    raise ValueError(f'ranges are {short_repr(ranges)}; give two, such as {{"f1": (-2, 2), "f2": (-2, 2)}}.')
 
 
 def _check_somewhere(family: PlaneFamily) -> None:
@@ -217,11 +224,9 @@ def _check_somewhere(family: PlaneFamily) -> None:
 
 def _ranges(system: Any, psi: Psi, z: Sequence[float], names: Sequence[str], given: Any) -> Ranges:
     found = []
-    if given is not None and (not isinstance(given, Sequence | np.ndarray) or len(given) != 2):
-        raise ValueError(f"ranges are {short_repr(given)}; give ((low, high), (low, high)), or leave them out.")
     for i, name in enumerate(names):
         least, most = limits(system, psi, name)
-        if given is None:
+        if given is None or given[i] is None:
             value = value_of(system, psi, z, name)
             reach = max(DEFAULT_HALF_RANGE, abs(value))
             found.append((max(value - reach, least), min(value + reach, most)))

@@ -231,7 +231,7 @@ def _formula_rows(system: Any, names: Sequence[str]) -> list[Expression]:
     given = getattr(system, "given_matrix", None)  # of e-linear systems only
     if given is None:
         return rows_of(system, kept)[:2]
-    own = [(name, value) for name, value in system.parameters if name not in kept]
+    own = [(name, value) for name, value in system.parameters.items() if name not in kept]
 
     def as_expression(value: Any, name: str = "") -> Expression:
         if name in kept:

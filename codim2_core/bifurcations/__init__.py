@@ -9,6 +9,7 @@ followed by continuation, which takes seconds where the others take milliseconds
 from __future__ import annotations
 
 from ..arguments import checked_functions
+from ..figures.named import named_setting
 from .borders import critical_boundary, saddle_node
 from .curve import BifurcationCurve, SpecialPoint
 from .cycles import cycle_folds
@@ -34,4 +35,4 @@ __all__ = [
     "saddle_node",
 ]
 
-globals().update(checked_functions(__name__, globals(), __all__))
+globals().update(checked_functions(__name__, globals(), __all__, named_setting))

@@ -5,7 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
 from ..words import say
 from .curve import BifurcationCurve, SpecialPoint, matrix, plain_point, read_only_lines
 from .geometry import Geometry
@@ -19,14 +22,16 @@ _CUSP = {
 }
 
 
-def saddle_node(a: float, b: float, d: float) -> BifurcationCurve:
+def saddle_node(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
     """Saddle-nodes of equator equilibria, where Theta has a double zero (fig:SNBIF, eq:tangencies).
 
     ``f1 = b sin(theta) - (a - d) cos(theta)^3``, ``f2 = (a - d) sin(theta)^3 - b cos(theta)``; an astroid when b = 0.
 
     Parameters
     ----------
-    a, b, d : float
+    system : ELinear, or Coefficients
+        Its f does not matter.
+    z : (m,) floats
 
     Returns
     -------
@@ -38,9 +43,18 @@ def saddle_node(a: float, b: float, d: float) -> BifurcationCurve:
     Raises
     ------
     ValueError
-        A coefficient is not a finite number.
+        z does not fit the system.
+
+    Examples
+    --------
+    An astroid:
+
+    >>> from codim2_core import ELinear, bifurcations
+    >>> curve = bifurcations.saddle_node(ELinear(-2, 0, -1))
+    >>> len(curve.special), {one.type for one in curve.special}
+    (4, {'pitchfork'})
     """
-    a, b, d = matrix(a, b, d)
+    a, b, d = matrix(system, z)
     plane = Geometry(a, b, d)
     label = "fig:SNBIF, eq:tangencies"
     sentence = say("directions meet")
@@ -79,14 +93,16 @@ def saddle_node(a: float, b: float, d: float) -> BifurcationCurve:
     )
 
 
-def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
+def critical_boundary(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
     """Ellipse |A^-1 f| = 1, on which the critical set reaches the equator (fig:ellipse, fig:transcrit).
 
     It is the image of the unit circle under -A.
 
     Parameters
     ----------
-    a, b, d : float
+    system : ELinear, or Coefficients
+        Its f does not matter.
+    z : (m,) floats
 
     Returns
     -------
@@ -98,9 +114,18 @@ def critical_boundary(a: float, b: float, d: float) -> BifurcationCurve:
     Raises
     ------
     ValueError
-        A coefficient is not a finite number.
+        z does not fit the system.
+
+    Examples
+    --------
+    It meets the axes at a and d:
+
+    >>> from codim2_core import ELinear, bifurcations
+    >>> curve = bifurcations.critical_boundary(ELinear(-2, 0, -1))
+    >>> abs(curve.branches[0]).max(axis=0).round(3).tolist()
+    [2.0, 1.0]
     """
-    a, b, d = matrix(a, b, d)
+    a, b, d = matrix(system, z)
     plane = Geometry(a, b, d)
     label = "fig:ellipse, fig:transcrit"
     if plane.determinant_sign == 0:

@@ -8,10 +8,12 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..paper import cite
 from ..results import Pictured, Tabled, result_rows
+from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 from ..tables import paragraphs, point
 
@@ -85,9 +87,9 @@ class BifurcationCurve(Pictured):
         return len(self.branches)
 
 
-def matrix(a: object, b: object, d: object) -> tuple[float, float, float]:
-    """Numbers a, b, d, checked as `ELinear` checks them (ValueError)."""
-    found = ELinear(a, b, d).at()
+def matrix(system: ELinear | Coefficients, z: ArrayLike) -> tuple[float, float, float]:
+    """Return a, b, d of a system at z."""
+    found = system.at(z)
     return found.a, found.b, found.d
 
 

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..continuation.branches import folds_along
 from ..continuation.parameter_family import AffineCoefficients
@@ -14,6 +15,8 @@ from ..continuation.turn_columns import AMPLITUDE, HEIGHT
 from ..cycles.global_section import Section
 from ..layer_problem.critical import critical_sets
 from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, matrix, plain_point, read_only_lines
 from .equator import coefficients_at, neutral_loop
@@ -32,7 +35,7 @@ CUSP = say("cusp of cycles")
 RESONANT = say("fold ends, neutral loop")
 
 
-def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
+def cycle_folds(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
     """Folds of limit cycles in (f1, f2): a stable and an unstable cycle meet and vanish (sec:case3).
 
     Curves are begun at the generalised Hopf points of `hopf`, and at the folds found on some lines across the disc of
@@ -40,8 +43,10 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
 
     Parameters
     ----------
-    a, b, d : float
+    system : ELinear, or Coefficients
+        Its f does not matter.
     psi : Psi
+    z : (m,) floats
 
     Returns
     -------
@@ -54,11 +59,17 @@ def cycle_folds(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     Raises
     ------
     ValueError
-        A coefficient is not a finite number, or psi is not a Psi.
+        z does not fit the system, or psi is not a Psi.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations
+    >>> len(bifurcations.cycle_folds("case1-cm4").branches)
+    0
     """
-    a, b, d = matrix(a, b, d)
+    a, b, d = matrix(system, z)
     label = "sec:case3"
-    curve = hopf(a, b, d, psi)
+    curve = hopf(system, psi, z)
     if psi.saturation < math.inf or not curve.branches:
         sentence = curve.sentence if psi.saturation == math.inf else say("folds need R3")
         return BifurcationCurve("fold of cycles", "folds of cycles: none", label, (), sentence=sentence)

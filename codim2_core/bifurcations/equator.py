@@ -14,6 +14,7 @@ import math
 from collections.abc import Callable, Iterator
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..curves.arclength import StepBounds, trace_curve, zero_between
 from ..curves.newton import finite_differences, newton
@@ -24,6 +25,7 @@ from ..layer_problem.linearisation import determinant_sign
 from ..numerics.root_between import root_between
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, matrix, plain_point, read_only_lines
 from .geometry import Geometry
@@ -57,14 +59,16 @@ def coefficients_at(a: float, b: float, d: float, f: Array) -> Coefficients:
     return Coefficients(a, b, d, float(f[0]), float(f[1]), np.zeros((0, 2)), np.zeros(0))
 
 
-def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
+def closed_equator(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
     """Return the curve on which the closed equator changes stability and emits a limit cycle (thm:geneps0(c)).
 
     The exponent, d times the integral of cos^2/|Theta| plus a times that of sin^2/|Theta|, is zero.
 
     Parameters
     ----------
-    a, b, d : float
+    system : ELinear, or Coefficients
+        Its f does not matter.
+    z : (m,) floats
 
     Returns
     -------
@@ -74,9 +78,16 @@ def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
     Raises
     ------
     ValueError
-        A coefficient is not a finite number.
+        z does not fit the system.
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, bifurcations
+    >>> curve = bifurcations.closed_equator(ELinear(-1, 2, 1))
+    >>> curve.name
+    'closed equator: reversible'
     """
-    a, b, d = matrix(a, b, d)
+    a, b, d = matrix(system, z)
     label = "thm:geneps0"
     if not a * d < 0.0 or determinant_sign(a, b, d) <= 0:
         return BifurcationCurve("equator", "closed equator: none", label, (), sentence=_NONE)
@@ -105,7 +116,7 @@ def closed_equator(a: float, b: float, d: float) -> BifurcationCurve:
     return BifurcationCurve("equator", name, label, read_only_lines(branches), (), (), sentence)
 
 
-def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
+def heteroclinic(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
     """Heteroclinic cycles through the equator: loops of two half-saddles, from which limit cycles are born (sec:case3).
 
     A homoclinic orbit proper is not possible: the one critical set of an e-linear system lies inside every cycle
@@ -114,8 +125,10 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
 
     Parameters
     ----------
-    a, b, d : float
+    system : ELinear, or Coefficients
+        Its f does not matter.
     psi : Psi
+    z : (m,) floats
 
     Returns
     -------
@@ -127,9 +140,15 @@ def heteroclinic(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     Raises
     ------
     ValueError
-        A coefficient is not a finite number, or psi is not a Psi.
+        z does not fit the system, or psi is not a Psi.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations
+    >>> bifurcations.heteroclinic("case1-cm4").name
+    'heteroclinic: none'
     """
-    a, b, d = matrix(a, b, d)
+    a, b, d = matrix(system, z)
     if not isinstance(psi, Psi):
         raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
     label = "sec:case3"
@@ -176,8 +195,10 @@ def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | No
 
     Parameters
     ----------
-    a, b, d : float
+    system : ELinear, or Coefficients
+        Its f does not matter.
     psi : Psi
+    z : (m,) floats
     f : ndarray (2,)
         Where to begin.
 

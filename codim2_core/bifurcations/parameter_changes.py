@@ -60,6 +60,12 @@ def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> Results[P
     -------
     Results of ParameterChange
         A tuple.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations, presets
+    >>> [one.type for one in bifurcations.hill_changes(presets["case3-n2"].system)]
+    ['node-focus', 'Hopf', 'node-focus']
     """
     return parameter_changes(system, hill(2.0), z)
 
@@ -89,6 +95,13 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
     ------
     ValueError
         z does not fit the system, or Psi has no parameter.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations
+    >>> changes = bifurcations.parameter_changes("case3-n2")
+    >>> [round(one.n*129, 9) for one in changes if one.type == "Hopf"]
+    [284.0]
     """
     shape = with_parameter(psi, psi.parameter).record.parameter
     assert shape is not None

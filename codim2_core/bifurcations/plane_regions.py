@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..layer_problem.location import Existence, locate
 from ..layer_problem.problem import LayerProblem
@@ -18,6 +19,7 @@ from ..portrait.classify import Classification, classify, portrait_name
 from ..psi.constructors import constant
 from ..results import Pictured, Results, Tabled
 from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
 from ..tables import point
 from .arrangement import arrangement, face_borders
 from .curve import Array, matrix, read_only_lines
@@ -67,7 +69,7 @@ class Regions(Results[Region], Pictured):
     __slots__ = ()
 
 
-def regions(a: float, b: float, d: float) -> Regions:
+def regions(system: ELinear | Coefficients, z: ArrayLike = ()) -> Regions:
     """All regions of the plane (f1, f2) between the saddle-node curve and the ellipse, each classified inside.
 
     Regions that touch in a point only are separate. Slivers with a mean width below 1e-6 of the coefficients are
@@ -75,7 +77,9 @@ def regions(a: float, b: float, d: float) -> Regions:
 
     Parameters
     ----------
-    a, b, d : float
+    system : ELinear, or Coefficients
+        Its f does not matter.
+    z : (m,) floats
 
     Returns
     -------
@@ -86,9 +90,15 @@ def regions(a: float, b: float, d: float) -> Regions:
     Raises
     ------
     ValueError
-        A coefficient is not a finite number.
+        z does not fit the system.
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, bifurcations
+    >>> sorted(one.name for one in bifurcations.regions(ELinear(-2, 0, -1)))
+    ['CM2', 'CM2', 'CM4', 'NCM2']
     """
-    a, b, d = matrix(a, b, d)
+    a, b, d = matrix(system, z)
     plane = Geometry(a, b, d)
     if plane.size == 0.0:
         found = [_region(plane, [], np.zeros((1, 2)), (1.0, 0.0), bounded=False)]

@@ -17,13 +17,15 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..layer_problem.linearisation import determinant_sign
 from ..layer_problem.lyapunov import first_lyapunov
 from ..numerics.root_between import root_between
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
+from ..systems.coefficients import Coefficients
+from ..systems.elinear import ELinear
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, matrix, plain_point, read_only_lines
 
@@ -200,13 +202,15 @@ def _circles(level: _TraceLevel, m: Array, function: Callable[[Array], Array]) -
     return [v * ring for v in roots(function, [m[solid]], [values[solid]]).zeros[0].tolist()]
 
 
-def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
+def hopf(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
     """Hopf curve of the layer problem in (f1, f2): tr J = 0 with det J > 0; Case III only (sec:case3).
 
     Parameters
     ----------
-    a, b, d : float
+    system : ELinear, or Coefficients
+        Its f does not matter.
     psi : Psi
+    z : (m,) floats
 
     Returns
     -------
@@ -218,9 +222,16 @@ def hopf(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     Raises
     ------
     ValueError
-        A coefficient is not a finite number, or psi is not a Psi.
+        z does not fit the system, or psi is not a Psi.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations
+    >>> curve = bifurcations.hopf("case3-n2")
+    >>> curve.name, bifurcations.hopf("case1-cm4").name
+    ('Hopf', 'Hopf: none')
     """
-    a, b, d = matrix(a, b, d)
+    a, b, d = matrix(system, z)
     _check_smooth(psi)
     label = "sec:case3"
     if a == d == 0.0 and b != 0.0:
@@ -297,15 +308,17 @@ def _bautin(level: _TraceLevel, e: Array, values: Array) -> list[SpecialPoint]:
     return found
 
 
-def node_focus(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
+def node_focus(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
     """Node-focus curve in (f1, f2): the discriminant tr(J)^2 - 4 det J = 0 with det J > 0 (fig:bads).
 
     It is no bifurcation (both sides are topologically the same), but the picture changes its looks.
 
     Parameters
     ----------
-    a, b, d : float
+    system : ELinear, or Coefficients
+        Its f does not matter.
     psi : Psi
+    z : (m,) floats
 
     Returns
     -------
@@ -315,9 +328,15 @@ def node_focus(a: float, b: float, d: float, psi: Psi) -> BifurcationCurve:
     Raises
     ------
     ValueError
-        A coefficient is not a finite number, or psi is not a Psi.
+        z does not fit the system, or psi is not a Psi.
+
+    Examples
+    --------
+    >>> from codim2_core import bifurcations
+    >>> bifurcations.node_focus("case3-n2").name
+    'node-focus'
     """
-    a, b, d = matrix(a, b, d)
+    a, b, d = matrix(system, z)
     _check_smooth(psi)
     label = "fig:bads"
     if determinant_sign(a, b, d) <= 0:

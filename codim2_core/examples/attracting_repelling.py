@@ -7,7 +7,14 @@ from .example import Example
 
 
 def attracting_repelling() -> System:
-    """Attracting and repelling directions, sec:mateslidecross, eq:ex4p5: some approaches cross, others slide."""
+    """Attracting and repelling directions, sec:mateslidecross, eq:ex4p5: some approaches cross, others slide.
+
+    Examples
+    --------
+    >>> from codim2_core import classify, examples, psi
+    >>> classify(examples.attracting_repelling(), psi.constant(), 0.0).name
+    '2 critical sets, 6 limit directions'
+    """
     return System(U=("2*c**2 - c - 1/2", "-s"), W=("-z",))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..systems.elinear import ELinear
 from .ball import Ball
-from .example import GRAVITY, Example
+from .example import GRAVITY, Example, check_physics
 
 
 def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRAVITY) -> ELinear:
@@ -24,7 +24,17 @@ def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRA
         the speed with which it was pushed.
     g : float
         Acceleration of gravity, m/s².
+
+    Examples
+    --------
+    Without drag it slips for 2 v0/(7 mu g), and then rolls:
+
+    >>> from codim2_core import examples, simulate_nonsmooth
+    >>> run = simulate_nonsmooth(examples.ball_in_pool(K=0, mu=0.25, g=8), (1, 0, 1, 0), (0, 1))
+    >>> [(phase.kind, round(phase.t_end, 6)) for phase in run.phases]
+    [('slip', 0.142857), ('slide', 1.0)]
     """
+    check_physics({"m": m, "g": g}, {"mu": mu, "K": K})
     drag = ("-K/m*z1", "-K/m*z2")
     return ELinear(
         "-7/2*mu*g",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..systems.elinear import ELinear
 from .ball import Ball
-from .example import GRAVITY, Example
+from .example import GRAVITY, Example, check_physics
 
 
 def ball_on_turntable(mu: float = 0.2, Omega: float = 3.0, g: float = GRAVITY) -> ELinear:
@@ -26,7 +26,16 @@ def ball_on_turntable(mu: float = 0.2, Omega: float = 3.0, g: float = GRAVITY) -
         Rate of the turntable, rad/s.
     g : float
         Acceleration of gravity, m/s².
+
+    Examples
+    --------
+    It rolls round at 2/7 of the turntable's rate:
+
+    >>> from codim2_core import examples, sliding_flow
+    >>> sliding_flow(examples.ball_on_turntable(Omega=3.5), (0.2, 0, 0, 0)).round(9).tolist()
+    [0.0, 0.2, 0.2, 0.0]
     """
+    check_physics({"g": g}, {"mu": mu})
     return ELinear(
         "-7/2*mu*g",
         0.0,

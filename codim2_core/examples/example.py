@@ -4,12 +4,28 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from numbers import Real
+from types import MappingProxyType
 
+from ..systems.bounds import MAX_NUMBER
 from ..systems.elinear import ELinear
 from ..systems.typed import System
 from .ball import Ball
 
 GRAVITY = 9.81  # m/s²
+
+
+def check_physics(above: Mapping[str, float], least: Mapping[str, float] = MappingProxyType({})) -> None:
+    """Refuse what no mechanism has: values that must be above 0, and values that must be at least 0.
+
+    What is no number, or too large, the system refuses.
+    """
+    for name, value in above.items():
+        if isinstance(value, Real) and -MAX_NUMBER <= value <= 0.0:
+            raise ValueError(f"{name} is {value:g}; give a number above 0.")
+    for name, value in least.items():
+        if isinstance(value, Real) and -MAX_NUMBER <= value < 0.0:
+            raise ValueError(f"{name} is {value:g}; give a number of at least 0.")
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,16 @@ from .example import Example
 
 
 def nonunique_sliding() -> System:
-    """Sliding that depends on the direction of approach, sec:nonunique, eq:exmult: two stable critical sets."""
+    """Sliding that depends on the direction of approach, sec:nonunique, eq:exmult: two stable critical sets.
+
+    Examples
+    --------
+    At z = 0 two critical sets attract:
+
+    >>> from codim2_core import critical_sets, examples, psi
+    >>> critical_sets(examples.nonunique_sliding(), psi.constant(), 0.0).kinds
+    ('stable node', 'saddle', 'stable node')
+    """
     return System(
         U=("-c*(c - chi(z)/2)*(c + chi(z)/2)", "-s/2"),
         W=("-2*c + 1/4",),

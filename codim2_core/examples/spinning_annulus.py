@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from numbers import Real
+
+from ..systems.bounds import MAX_NUMBER
 from ..systems.typed import System
-from .example import GRAVITY, Example
+from .example import GRAVITY, Example, check_physics
 from .spinning_disc import force, torque
 
 
@@ -24,7 +27,18 @@ def spinning_annulus(eta: float = 0.5, mu: float = 0.2, g: float = GRAVITY) -> S
         Coulomb friction.
     g : float
         Acceleration of gravity, m/s².
+
+    Examples
+    --------
+    >>> import math
+    >>> from codim2_core import equator_equilibria, examples
+    >>> theta = equator_equilibria(examples.spinning_annulus(eta=0.5)).theta
+    >>> round(1.0/math.tan(theta[1]), 6)
+    0.774469
     """
+    check_physics({"g": g}, {"eta": eta, "mu": mu})
+    if isinstance(eta, Real) and 1.0 <= eta <= MAX_NUMBER:
+        raise ValueError(f"eta is {eta:g}; give a number below 1.")
     outer = force("c**2", "(1 - c**2)", "") | torque("(1 - s**2)", "s**2", "_s")
     inner = force("c**2", "eta**2*(1 - c**2)", "_i") | torque("(1 - s**2)", "eta**2*s**2", "_si")
     return System(

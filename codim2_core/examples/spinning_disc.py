@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..systems.typed import System
-from .example import GRAVITY, Example
+from .example import GRAVITY, Example, check_physics
 
 
 def ratio(v2: str, w2: str, mark: str) -> dict[str, str]:
@@ -70,6 +70,7 @@ def spinning_disc(k: float = math.sqrt(0.5), mu: float = 0.2, g: float = GRAVITY
     >>> round(1.0 / math.tan(directions[1]), 6)
     0.653002
     """
+    check_physics({"k": k, "g": g}, {"mu": mu})
     return System(
         U=("-mu*g*c*F", "-mu*g/k**2*s*T_s"),
         definitions=force("c**2", "(1 - c**2)", "") | torque("(1 - s**2)", "s**2", "_s"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..systems.elinear import ELinear
-from .example import GRAVITY, Example
+from .example import GRAVITY, Example, check_physics
 
 
 def tilting_block(
@@ -30,7 +30,16 @@ def tilting_block(
         Rate of tilting, rad/s.
     g : float
         Acceleration of gravity, m/s².
+
+    Examples
+    --------
+    It sticks at an angle of 0.3, and slips at 0.6:
+
+    >>> from codim2_core import critical_sets, examples, psi
+    >>> [len(critical_sets(examples.tilting_block(), psi.constant(), z)) for z in (0.3, 0.6)]
+    [1, 0]
     """
+    check_physics({"mu1": mu1, "mu2": mu2, "g": g})
     return ELinear(
         "-mu1*g*cos(z)",
         0.0,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from ..mechanics.contact import contact
 from ..systems.elinear import ELinear
 from ..systems.typed import System
-from .example import Example
+from .example import Example, check_physics
 
 
 def towed_wheel(
@@ -53,6 +53,7 @@ def towed_wheel(
     >>> [phase.kind for phase in run.phases], abs(float(run.states[-1, 2])) < 1e-3
     (['slide'], True)
     """
+    check_physics({"l": l, "r": r, "j": j}, {"k": k, "b": b, "f": f})
     return contact(
         M=((1, "-a*cos(psi)", 0), ("-a*cos(psi)", "a**2 + r**2", 0), (0, 0, "j")),
         J=(("sin(psi)", 0, -1), ("cos(psi)", "-l", 0)),

@@ -27,6 +27,12 @@ def unit_vector_control(K: float = 2.0, k: float = 1.0, w1: float = 0.6, w2: flo
         Constant part of the disturbance.
     h : float
         How it grows with q.
+
+    Examples
+    --------
+    >>> from codim2_core import examples
+    >>> print(examples.unit_vector_control().at(examples.catalogue["unit_vector_control"].z).m)
+    2
     """
     return System(
         U=("w1 + h*z1 - K*c", "w2 + h*z2 - K*s"),

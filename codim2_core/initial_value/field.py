@@ -144,7 +144,7 @@ def _constant(value: float) -> Expression:
 
 def _system_rows(system: Formulas, kept: Sequence[str] = ()) -> list[Expression]:
     rows = [*system.U, *(system.W or [_constant(0.0)] * system.m)]
-    return _with_parameters(rows, [pair for pair in system.parameters if pair[0] not in kept])
+    return _with_parameters(rows, [pair for pair in system.parameters.items() if pair[0] not in kept])
 
 
 def _with_parameters(rows: Sequence[Expression], parameters: Sequence[tuple[str, float]]) -> list[Expression]:
@@ -158,7 +158,7 @@ def _with_parameters(rows: Sequence[Expression], parameters: Sequence[tuple[str,
 
 
 def _elinear_rows(system: ELinear, kept: Sequence[str] = ()) -> list[Expression]:
-    values = [pair for pair in system.parameters if pair[0] not in kept]
+    values = [pair for pair in system.parameters.items() if pair[0] not in kept]
 
     def as_expression(value: Any, name: str = "") -> Expression:
         if name in kept:

@@ -88,6 +88,16 @@ def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
     ------
     ValueError
         If z does not fit the system or a coefficient is not finite.
+
+    Examples
+    --------
+    Where A turns all directions alike, a closed orbit is the equator itself; its exponent is 2 pi a/b:
+
+    >>> import math
+    >>> from codim2_core import ELinear, equator_cycle
+    >>> found = equator_cycle(ELinear(-1, 2, -1))
+    >>> round(found.exponent/math.pi, 12)
+    -1.0
     """
     at = system.at(z)
     q = at.normal_form

@@ -121,6 +121,15 @@ def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> CriticalSet
     CriticalSets
         A tuple of CriticalSet, without zeros on |e| = 1, and empty when det A = 0, within the rounding of the
         coefficients; `classify` names these.
+
+    Examples
+    --------
+    The critical set of an e-linear system is -A^-1 f:
+
+    >>> from codim2_core import ELinear, critical_sets, psi
+    >>> [C] = critical_sets(ELinear(-2, 0, -1, (-0.5, 0)), psi.constant())
+    >>> C.e.tolist(), C.kind
+    ([-0.25, 0.0], 'stable node')
     """
     at = system.at(z)
     return sets_at(at, psi, None if at.affine is None else locate(at))

@@ -227,6 +227,15 @@ def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
     ------
     ValueError
         If z does not fit the system or a coefficient is not finite.
+
+    Examples
+    --------
+    Without f they are the eigendirections of A, both ways:
+
+    >>> from codim2_core import ELinear, equator_equilibria
+    >>> found = equator_equilibria(ELinear(-2, 0, -1))
+    >>> found.theta.round(6).tolist(), found.lambda_rho.tolist()
+    ([0.0, 1.570796, 3.141593, 4.712389], [-2.0, -1.0, -2.0, -1.0])
     """
     at = system.at(z)
     return equilibria_at(at, None if at.affine is None else locate(at))

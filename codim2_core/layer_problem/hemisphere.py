@@ -27,7 +27,14 @@ __all__ = [
 
 
 def disc_from_scaling(x2: ArrayLike) -> Array:
-    """``p = x2/sqrt(1 + |x2|^2)``: from the scaling chart kappa_2, eq:scalingchart, to the disc. Shapes (..., 2)."""
+    """``p = x2/sqrt(1 + |x2|^2)``: from the scaling chart kappa_2, eq:scalingchart, to the disc. Shapes (..., 2).
+
+    Examples
+    --------
+    >>> from codim2_core import hemisphere
+    >>> hemisphere.disc_from_scaling((3.0, 4.0)).round(6).tolist()
+    [0.588348, 0.784465]
+    """
     x2 = np.asarray(x2, float)
     return x2 / np.hypot(1.0, np.hypot(x2[..., :1], x2[..., 1:]))
 
@@ -39,6 +46,12 @@ def scaling_from_disc(p: ArrayLike) -> Array:
     ------
     ValueError
         A point has |p| >= 1: the equator lies at infinity in kappa_2.
+
+    Examples
+    --------
+    >>> from codim2_core import hemisphere
+    >>> hemisphere.scaling_from_disc((0.6, 0.0)).round(12).tolist()
+    [0.75, 0.0]
     """
     p = np.asarray(p, float)
     ebar = height(p)
@@ -48,7 +61,14 @@ def scaling_from_disc(p: ArrayLike) -> Array:
 
 
 def height(p: ArrayLike) -> Array:
-    """``ebar = sqrt(1 - |p|^2)`` above each point of the closed disc; (...,) for p of shape (..., 2)."""
+    """``ebar = sqrt(1 - |p|^2)`` above each point of the closed disc; (...,) for p of shape (..., 2).
+
+    Examples
+    --------
+    >>> from codim2_core import hemisphere
+    >>> round(float(hemisphere.height((0.6, 0.0))), 12)
+    0.8
+    """
     p = np.asarray(p, float)
     r = np.hypot(p[..., 0], p[..., 1])
     return np.sqrt(np.maximum((1.0 - r) * (1.0 + r), 0.0))
@@ -68,6 +88,13 @@ def entry_from_scaling(x2: ArrayLike, rho_2: float = 0.0) -> tuple[Array, Array,
     Returns
     -------
     rho, epsilon_1, theta : (...,)
+
+    Examples
+    --------
+    >>> from codim2_core import hemisphere
+    >>> _, epsilon_1, theta = hemisphere.entry_from_scaling((0.0, 2.0))
+    >>> round(float(epsilon_1)**2, 12), round(float(theta), 6)
+    (0.2, 1.570796)
     """
     x2 = np.asarray(x2, float)
     epsilon_1 = 1.0 / np.hypot(1.0, np.hypot(x2[..., 0], x2[..., 1]))
@@ -78,6 +105,12 @@ def disc_from_entry(epsilon_1: ArrayLike, theta: ArrayLike) -> Array:
     """``p = xi (cos theta, sin theta)``, ``xi = sqrt(1 - epsilon_1^2)``: from kappa_1, eq:entrychart, to the disc.
 
     The paper prints xi = (1 - epsilon_1)^(1/2) at eq:xi; the square is missing there.
+
+    Examples
+    --------
+    >>> from codim2_core import hemisphere
+    >>> hemisphere.disc_from_entry(0.75, 0.0).round(6).tolist()
+    [0.661438, 0.0]
     """
     epsilon_1, theta = np.asarray(epsilon_1, float), np.asarray(theta, float)
     if not ((epsilon_1 >= 0.0) & (epsilon_1 <= 1.0)).all():
@@ -87,7 +120,16 @@ def disc_from_entry(epsilon_1: ArrayLike, theta: ArrayLike) -> Array:
 
 
 def e_psi(psi: Psi, p: ArrayLike) -> Array:
-    """``e_Psi`` at points of the closed disc, eq:ePsi with |(x, y, eps)| = 1. Shapes (..., 2)."""
+    """``e_Psi`` at points of the closed disc, eq:ePsi with |(x, y, eps)| = 1. Shapes (..., 2).
+
+    Examples
+    --------
+    With Psi = 1 it is p itself:
+
+    >>> from codim2_core import ELinear, hemisphere, psi
+    >>> hemisphere.e_psi(psi.constant(), (0.3, 0.4)).round(12).tolist()
+    [0.3, 0.4]
+    """
     p = np.asarray(p, float)
     q = p[..., 0] ** 2 + p[..., 1] ** 2
     h2 = np.maximum(1.0 - q, 0.0)
@@ -101,6 +143,15 @@ def flow(coefficients: FrozenSystem, psi: Psi, p: ArrayLike) -> Array:
     """``p' = U - p (p.U)``, U at e_Psi(p): the layer problem eq:LP on the disc, in the time T (dT = dt/rho).
 
     One smooth field on the closed disc: charts kappa_1 and kappa_2 together. Shapes (..., 2).
+
+    Examples
+    --------
+    It is zero on the critical set:
+
+    >>> from codim2_core import ELinear, hemisphere, psi
+    >>> at = ELinear(-2, 0, -1, (-0.5, 0)).at()
+    >>> bool(abs(hemisphere.flow(at, psi.constant(), (-0.25, 0.0))).max() < 1e-15)
+    True
     """
     p = np.asarray(p, float)
     U = coefficients.U(e_psi(psi, p))
@@ -108,7 +159,15 @@ def flow(coefficients: FrozenSystem, psi: Psi, p: ArrayLike) -> Array:
 
 
 def outside_flow(coefficients: FrozenSystem, theta: ArrayLike) -> tuple[Array, Array]:
-    """``(rho'/rho, theta')`` outside, eq:polar_gen_odes_desing: lambda_rho(theta) and Theta(theta), each (...,)."""
+    """``(rho'/rho, theta')`` outside, eq:polar_gen_odes_desing: lambda_rho(theta) and Theta(theta), each (...,).
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, hemisphere, psi
+    >>> at = ELinear(-2, 0, -1, (-0.5, 0)).at()
+    >>> [float(rate) for rate in hemisphere.outside_flow(at, 0.0)]
+    [-2.5, 0.0]
+    """
     theta = np.asarray(theta, float)
     c, s = np.cos(theta), np.sin(theta)
     U = coefficients.U(np.stack([c, s], axis=-1))

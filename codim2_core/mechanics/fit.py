@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -56,9 +56,9 @@ class Fit:
     direction_interval: Interval
     stop: float | None
     error: float
-    times: Array
-    velocities: Array
-    _course: Slipping
+    times: Array = field(repr=False)
+    velocities: Array = field(repr=False)
+    _course: Slipping = field(repr=False)
 
     def at(self, times: ArrayLike) -> Array:
         """Return the slip (..., 2) of the motion that was found; 0 once it has stopped."""

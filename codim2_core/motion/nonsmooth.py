@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import overload
@@ -24,7 +24,7 @@ from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
+from .argument_checks import checked_span, checked_states, checked_times, checked_tolerances, with_time
 from .backward_run import Past
 from .limit.compiled_run_phases import PhaseBuilder
 from .limit.hybrid_run import AtEventError, HybridRun, StopError
@@ -49,6 +49,7 @@ def simulate_nonsmooth(  # pyright: ignore[reportOverlappingOverload] (rows are 
     rtol: float = ...,
     atol: float = ...,
     events: Events = ...,
+    times: ArrayLike | None = ...,
     max_steps: int = ...,
 ) -> tuple[Simulation, ...]: ...
 
@@ -63,6 +64,7 @@ def simulate_nonsmooth(
     rtol: float = ...,
     atol: float = ...,
     events: Events = ...,
+    times: ArrayLike | None = ...,
     max_steps: int = ...,
 ) -> Simulation: ...
 
@@ -76,6 +78,7 @@ def simulate_nonsmooth(
     rtol: float = 1e-10,
     atol: float = 1e-12,
     events: Events = (),
+    times: ArrayLike | None = None,
     max_steps: int = MAX_STEPS,
 ) -> Simulation | tuple[Simulation, ...]:
     """Follow one motion of eq:vf itself, as the limit eps -> 0 of the regularised system.
@@ -109,6 +112,8 @@ def simulate_nonsmooth(
         Error allowed in a step: rtol rho for x and y, rtol |z| + atol for z. rtol from 1e-13 to 0.01.
     events : sequence of Event, or of callables (t, state) to float
         As in `simulate`. An event that is zero over a while, as x is while sliding, counts where it becomes zero.
+    times : (k,) floats, optional
+        Within the span: those of the result, as far as the motion comes; left out, the ends of the steps.
     max_steps : int
         Steps and phases before the motion is given up, with a status that says so.
 
@@ -130,6 +135,7 @@ def simulate_nonsmooth(
     [('slip', 0.142857143), ('slide', 1.0)]
     """
     t_start, t_end = checked_span(t_span)
+    when = checked_times(times, (t_start, t_end))
     checked_tolerances(rtol, atol, max_steps)
     formulas = field(system)
     watched = checked_events(events)
@@ -139,11 +145,12 @@ def simulate_nonsmooth(
             first[:2] = 0.0
     asked = _NonsmoothRun(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps)
     if t_end < t_start:
-        pasts = tuple(_past(asked, first) for first in states)
-        return pasts[0] if np.ndim(state0) < 2 else pasts
-    many = functions_of(formulas, constant(), are_many(len(states), max_steps)).is_compiled
-    runs = _run_motions(asked, states) if many else map(asked.one, states)
-    return next(iter(runs)) if np.ndim(state0) < 2 else tuple(runs)
+        runs: Iterable[Simulation] = (_past(asked, first) for first in states)
+    else:
+        many = functions_of(formulas, constant(), are_many(len(states), max_steps)).is_compiled
+        runs = _run_motions(asked, states) if many else map(asked.one, states)
+    found = tuple(run.sample(when) for run in runs)
+    return found[0] if np.ndim(state0) < 2 else found
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,7 +22,7 @@ from ..numerics.growth import BlowUpError
 from ..numerics.radau import Step, TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
+from .argument_checks import checked_span, checked_states, checked_times, checked_tolerances, with_time
 from .backward_run import Past
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation
@@ -40,13 +40,14 @@ MANY_MOTIONS = 8  # motions at once, of `MAX_STEPS`, for which the formulas of a
 def simulate(  # pyright: ignore[reportOverlappingOverload] (rows are told from a row by their own entries)
     system: AnySystem,
     psi: Psi,
-    eps: float,
     state0: Sequence[Sequence[float]],
     t_span: ArrayLike,
     *,
+    eps: float,
     rtol: float = ...,
     atol: float = ...,
     events: Events = ...,
+    times: ArrayLike | None = ...,
     max_steps: int = ...,
 ) -> tuple[Simulation, ...]: ...
 
@@ -55,13 +56,14 @@ def simulate(  # pyright: ignore[reportOverlappingOverload] (rows are told from 
 def simulate(
     system: AnySystem,
     psi: Psi,
-    eps: float,
     state0: ArrayLike,
     t_span: ArrayLike,
     *,
+    eps: float,
     rtol: float = ...,
     atol: float = ...,
     events: Events = ...,
+    times: ArrayLike | None = ...,
     max_steps: int = ...,
 ) -> Simulation: ...
 
@@ -69,13 +71,14 @@ def simulate(
 def simulate(
     system: AnySystem,
     psi: Psi,
-    eps: float,
     state0: ArrayLike,
     t_span: ArrayLike,
     *,
+    eps: float,
     rtol: float = 1e-8,
     atol: float = 1e-10,
     events: Events = (),
+    times: ArrayLike | None = None,
     max_steps: int = MAX_STEPS,
 ) -> Simulation | tuple[Simulation, ...]:
     """Follow one motion of the regularised system: eq:vf with e replaced by e_Psi, eq:ePsi.
@@ -84,18 +87,20 @@ def simulate(
     ----------
     system : ELinear, System, or one of them frozen at a z
     psi : Psi
-    eps : float
-        1e-14 <= eps <= 1e6.
     state0 : (2 + m,), or (k, 2 + m)
         (x, y, z1, ..., zm); x = y = 0 is allowed. Rows are as many motions, followed compiled on all cores.
     t_span : (t_start, t_end)
         In the time t of eq:vf. If it decreases, what is returned is the past of state0: the motion that begins at
         t_end, runs forward like any other, and comes to state0 at t_start.
+    eps : float
+        1e-14 <= eps <= 1e6.
     rtol, atol : float
         Error allowed in a step: rtol rho for x and y, rho = sqrt(x^2 + y^2 + eps^2), and rtol |z| + atol for z.
         rtol from 1e-13 to 0.01.
     events : sequence of Event, or of callables (t, state) to float
         Their zeros are found in the dense output, also several in one step; an `Event` may be terminal.
+    times : (k,) floats, optional
+        Within the span: those of the result, as far as the motion comes; left out, the ends of the steps.
     max_steps : int
         Steps tried before the motion is given up, with a status that says so.
 
@@ -115,23 +120,25 @@ def simulate(
     Examples
     --------
     >>> from codim2_core import examples, psi
-    >>> run = simulate(examples.ball_in_pool(K=0.0), psi.constant(), 1e-6, (1.0, 0.0, 1.0, 0.0), (0.0, 0.5))
+    >>> run = simulate(examples.ball_in_pool(K=0.0), psi.constant(), (1.0, 0.0, 1.0, 0.0), (0.0, 0.5), eps=1e-6)
     >>> [phase.kind for phase in run.phases]
     ['slip', 'slide']
 
     Where it came from:
 
-    >>> past = simulate(examples.ball_in_pool(K=0.0), psi.constant(), 1e-6, (0.5, 0.0, 1.0, 0.0), (0.0, -0.1))
+    >>> past = simulate(examples.ball_in_pool(K=0.0), psi.constant(), (0.5, 0.0, 1.0, 0.0), (0.0, -0.1), eps=1e-6)
     >>> past.states[-1].tolist(), past.states[0].round(6).tolist()
     ([0.5, 0.0, 1.0, 0.0], [1.1867, 0.0, 1.1962, 0.0])
     """
     if not SMALLEST_EPS <= eps <= LARGEST_EPS:
         raise ValueError(f"eps is {eps!r}; allowed is {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
     span = checked_span(t_span)
+    when = checked_times(times, span)
     checked_tolerances(rtol, atol, max_steps)
     asked = _RegularisedRun(system, field(system), psi, float(eps), span, rtol, atol, checked_events(events), max_steps)
     states = checked_states(with_time(state0, system, span[0]), asked.formulas.m)
     runs = asked.runs(states) if span[0] < span[1] else _pasts(asked, states)
+    runs = tuple(run.sample(when) for run in runs)
     return runs[0] if np.ndim(state0) < 2 else runs
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
+from ..arrays import Array, read_only
 from ..expressions.names import SLOW_NAMES
 from ..numerics.dense import Dense
 from ..results import Pictured, Tabled, column_rows, result_rows
@@ -155,8 +155,8 @@ class Simulation(Pictured):
     Attributes
     ----------
     times : ndarray (k,)
-        Ends of the steps, from t_start on, never decreasing. Near Sigma two may be equal: steps of length eps can be
-        shorter than the spacing of doubles.
+        Those that were asked for; else the ends of the steps, from t_start on, never decreasing. Near Sigma two may be
+        equal: steps of length eps can be shorter than the spacing of doubles.
     states : ndarray (k, 2 + m)
         (x, y, z1, ..., zm).
     phases : tuple of Phase
@@ -179,10 +179,11 @@ class Simulation(Pictured):
     events: tuple[Array, ...]
     _phases: Callable[[], tuple[Phase, ...]] = field(repr=False, compare=False)
     _variation: Callable[[tuple[str, ...]], Variation] = field(repr=False, compare=False)
+    _asked: Array | None = field(default=None, repr=False)
 
     def __repr__(self) -> str:
         phases = ", ".join(f"{one.kind} from {one.t_start:.6g}" for one in self.phases[:MAX_ROWS])
-        span = f"{self.times[0]:.6g} to {self.times[-1]:.6g}"
+        span = f"{self.motion.times[0]:.6g} to {self.motion.times[-1]:.6g}"
         return f"<motion for eps = {self.eps:g} from t = {span}: {phases}. {self.reason}>"
 
     def _tables_(self) -> str:
@@ -190,13 +191,34 @@ class Simulation(Pictured):
 
     @property
     def times(self) -> Array:
-        """Ends of the steps."""
-        return self.motion.times
+        """Times that were asked for, or the ends of the steps."""
+        return self.motion.times if self._asked is None else self._asked
 
     @property
     def states(self) -> Array:
         """States there."""
-        return self.motion.states
+        return self.motion.states if self._asked is None else self._sampled
+
+    @cached_property
+    def _sampled(self) -> Array:
+        return read_only(self.motion(self.times))
+
+    @property
+    def success(self) -> bool:
+        """Whether it came to the end of its span, or to a terminal event: as SciPy's `solve_ivp` says it."""
+        return self.status in (SimulationStatus.T_END, SimulationStatus.EVENT)
+
+    @property
+    def message(self) -> str:
+        """The reason, by the name that SciPy's results have for it."""
+        return self.reason
+
+    def sample(self, times: Array | None) -> Simulation:
+        """Return the motion with these of its times; None is the ends of its steps."""
+        if times is None:
+            return self
+        covered = (times >= self.motion.times[0]) & (times <= self.motion.times[-1])
+        return replace(self, _asked=read_only(times[covered]))
 
     @cached_property
     def phases(self) -> tuple[Phase, ...]:
@@ -256,7 +278,7 @@ class Simulation(Pictured):
         Parameters
         ----------
         t : float or (...,)
-            Between ``times[0]`` and ``times[-1]``.
+            Within the span of the motion.
 
         Returns
         -------
@@ -291,7 +313,7 @@ class Simulation(Pictured):
         Parameters
         ----------
         t : (k,), optional
-            Times between ``times[0]`` and ``times[-1]``; left out, the ends of the steps.
+            Times within its span; left out, `times`.
 
         Raises
         ------

@@ -147,6 +147,12 @@ def nullclines(system: AnySystem, psi: Psi, z: ArrayLike = (), *, view: float = 
     -------
     Nullclines
         A tuple of NullclineBranch.
+
+    Examples
+    --------
+    >>> from codim2_core import nullclines
+    >>> sorted(set(nullclines("case1-cm4").kinds))
+    ['U1', 'U2', 'rho', 'theta']
     """
     if not view > 1.0:
         raise ValueError(f"view is {view}; give a half-width greater than 1 (the equator).")

@@ -122,6 +122,15 @@ def trajectories(
     ------
     ValueError
         An argument is invalid; the message says which, and what is allowed.
+
+    Examples
+    --------
+    One comes to the critical set, the other from outside to Sigma, along the limit direction Q2:
+
+    >>> from codim2_core import trajectories
+    >>> found = trajectories("case1-cm4", seeds=[(0.3, 0.4), (1.5, 0.2)], t_max=40.0)
+    >>> [line[-1].round(4).tolist() for line in found.points]
+    [[-0.25, 0.0], [-0.5, 0.866]]
     """
     options = stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
     at = system.at(z)

@@ -86,6 +86,12 @@ def approach_outcomes(
     Returns
     -------
     Outcomes
+
+    Examples
+    --------
+    >>> from codim2_core import approach_outcomes
+    >>> [(one.label, one.verdict) for one in approach_outcomes("case1-cm4")]
+    [('Q2', 'slide'), ('Q4', 'slide'), ('Q1', 'slide'), ('Q3', 'slide')]
     """
     return compared_outcomes(LayerProblem(system.at(z), psi), compare)
 

@@ -105,6 +105,13 @@ def basins(
     ------
     ValueError
         n is not 32 times a power of two, or the box is no box.
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, basins, psi
+    >>> found = basins(ELinear(1.0, 0.3, -1.2, (0.2, 0.45)), psi.constant(), n=64)
+    >>> found.destinations
+    ('Q3', 'Q1')
     """
     return basins_of(LayerProblem(system.at(z), psi).give(cycles_of, cycles), n, box)
 

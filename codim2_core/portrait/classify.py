@@ -193,5 +193,12 @@ def classify(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Classification:
     Returns
     -------
     Classification
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, classify, psi
+    >>> found = classify(ELinear(-2, 0, -1, (-0.5, 0)), psi.hill(3))
+    >>> found.case, found.name, found.degeneracies
+    ('I', 'CM4', ())
     """
     return portrait(LayerProblem(system.at(z), psi))

@@ -56,6 +56,13 @@ def separatrices(
     Returns
     -------
     Separatrices
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, psi, separatrices
+    >>> found = separatrices(ELinear(1.0, 0.3, -1.2, (0.2, 0.45)), psi.constant())
+    >>> [(one.direction, one.end) for one in found if one.origin == "C"]
+    [('unstable', 'Q3'), ('unstable', 'Q1'), ('stable', 'Q4'), ('stable', 'Q2')]
     """
     problem = LayerProblem(system.at(z), psi).give(cycles_of, cycles)
     return separatrices_of(problem, t_max=t_max, rtol=rtol, view=view, pixel=pixel, tolerance=tolerance)

@@ -18,7 +18,14 @@ from .typed import custom_kernel
 
 
 def constant() -> Psi:
-    """``Psi = 1``: ``e_Psi`` is the point of the projected hemisphere itself."""
+    """``Psi = 1``: ``e_Psi`` is the point of the projected hemisphere itself.
+
+    Examples
+    --------
+    >>> from codim2_core import psi
+    >>> round(float(psi.constant().modulus(1.0))**2, 12)
+    0.5
+    """
     return _constant()
 
 
@@ -29,17 +36,41 @@ def _constant() -> Psi:
 
 
 def rational() -> Psi:
-    """``Psi = 1/(1 + s)``."""
+    """``Psi = 1/(1 + s)``.
+
+    Examples
+    --------
+    >>> from codim2_core import psi
+    >>> psi.rational()(1.0)
+    0.5
+    """
     return make("rational")
 
 
 def exponential() -> Psi:
-    """``Psi = exp(-s)``."""
+    """``Psi = exp(-s)``.
+
+    Examples
+    --------
+    >>> from codim2_core import psi
+    >>> psi.exponential().derivative(0.0)
+    -1.0
+    """
     return make("exponential")
 
 
 def tanh() -> Psi:
-    """``Psi = s/sinh(sqrt s)^2``, for which ``|e_Psi| = tanh zeta``, fig:component."""
+    """``Psi = s/sinh(sqrt s)^2``, for which ``|e_Psi| = tanh zeta``, fig:component.
+
+    Examples
+    --------
+    The modulus of e_Psi is a hyperbolic tangent:
+
+    >>> import math
+    >>> from codim2_core import psi
+    >>> bool(abs(psi.tanh().modulus(0.7) - math.tanh(0.7)) < 1e-15)
+    True
+    """
     return make("tanh")
 
 
@@ -55,6 +86,12 @@ def hill(n: float) -> Psi:
     ------
     ValueError
         n is no number or out of range.
+
+    Examples
+    --------
+    >>> from codim2_core import psi
+    >>> psi.hill(2)(0.25)
+    0.75
     """
     return _member(family_of_name("hill"), n)
 
@@ -73,6 +110,12 @@ def custom(text: str) -> Psi:
     ValueError
         The text cannot be read, or Psi is unusable: not positive and finite for all s >= 0, or ``|e_Psi|`` does not
         rise from 0 to 1 (then no inverse exists, lem:ePsi(c)).
+
+    Examples
+    --------
+    >>> from codim2_core import psi
+    >>> psi.custom("1/(1 + s)**2")(1.0)
+    0.25
     """
     expression = parse(text, ("s",))
     return Psi(TYPED.name, 0.0, expression.text, expression, custom_kernel(expression), TYPED)
@@ -89,6 +132,12 @@ def from_text(text: str) -> Psi:
     ------
     ValueError
         It is none of these.
+
+    Examples
+    --------
+    >>> from codim2_core import psi
+    >>> psi.from_text("hill:3") == psi.hill(3)
+    True
     """
     if not isinstance(text, str):
         raise ValueError(f"text is {reprlib.repr(text)}; give text such as 'hill:3' or '1/(1 + s)'.")
@@ -119,6 +168,12 @@ def make(family: str, parameter: float | str | None = None, text: str = "") -> P
     ------
     ValueError
         No such family, or the parameter or the text is refused.
+
+    Examples
+    --------
+    >>> from codim2_core import psi
+    >>> psi.make("hill", 3.0) == psi.hill(3)
+    True
     """
     record = family_of_name(family)
     if record.typed:

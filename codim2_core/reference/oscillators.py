@@ -65,7 +65,7 @@ def _driven_round() -> Sequence[float]:
 _FIRST, _, _THIRD, _ = round_multipliers(_S, _W, _R)
 _POLYNOMIAL = "exp(2πλ/ω), λ⁴ + sλ³ + 2(1+ω²)λ² + s(1+ω²)λ + (1−ω²)² = 0, s = S/(Rω)"
 DRIVEN_ROUND = ReferenceMotion(
-    "driven-round", "A mass is driven round",
+    "circular-forcing", "A mass is driven round",
     "q̈ + q = F exp(iωt) − S q̇/|q̇| in the plane, F = 1, S = 0.5, ω = 2: it goes round on a circle, and never sticks.",
     "derived in `reference.oscillators`", (
         closed_form("radius", "1", _R, "√(F² − S²)/|1 − ω²|"),
@@ -76,7 +76,7 @@ DRIVEN_ROUND = ReferenceMotion(
     ), _driven_round,
 )  # fmt: skip
 
-DEN_HARTOG = (("den-hartog-above", 1.5, 0.3), ("den-hartog-below", 0.8, 0.5), ("den-hartog-fast", 2.5, 0.4))
+DEN_HARTOG = (("den-hartog", 1.5, 0.3), ("den-hartog-below", 0.8, 0.5), ("den-hartog-fast", 2.5, 0.4))
 
 
 def _amplitude(w: float, S: float) -> float:
@@ -116,7 +116,7 @@ def _stick_slip() -> Sequence[float]:
 
 
 LEINE = ReferenceMotion(
-    "stick-slip", "A block on a belt sticks and slips",
+    "leine-block", "A block on a belt sticks and slips",
     "Leine's block, m = k = F_s = 1, friction F_s/(1 + 3 |v_rel|), on a belt of speed 0.2: a cycle with a stick.",
     "R. I. Leine, D. H. van Campen, A. de Kraker, L. van den Steen, Nonlinear Dynamics 16 (1998) 41-54: the model", (
         ExactValue("time of slip", "1", 4.29599952548, 2e-12, _STICK_SLIP),
@@ -133,7 +133,7 @@ def _regularised_stick_slip() -> Sequence[float]:
 
 _RUNGE_KUTTA = "explicit Runge–Kutta of order 8 to 3e-14"
 REGULARISED = ReferenceMotion(
-    "stick-slip-regularised", "The same block, regularised",
+    "leine-block-regularised", "The same block, regularised",
     "Leine's block with Ψ = 1: v_rel/√(v_rel² + ε²) for its sign, which shortens the period by 2 % at ε = 0.001.",
     "computed here", (
         ExactValue("period for ε = 0.001", "1", 11.77007956586, 1e-11, _RUNGE_KUTTA),

@@ -35,7 +35,7 @@ def _known_ratio(name: str, value: float) -> ExactValue:
 
 
 DISC = ReferenceMotion(
-    "disc", "A disc stops sliding and spinning at once",
+    "spinning-disc", "A disc stops sliding and spinning at once",
     "A uniform disc slides and spins on a table: whatever its start, v/(Rω) tends to one number as it stops.", FARKAS,
     (_known_ratio("v/(Rω)", 0.6530017892056),), partial(_terminal_ratios, spinning_disc, (math.sqrt(0.5),)),
 )  # fmt: skip

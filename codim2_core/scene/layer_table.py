@@ -9,6 +9,7 @@ from types import MappingProxyType
 from typing import Any
 
 from ..bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
+from ..bifurcations.equator import coefficients_at
 from ..cycles.limit_cycles import closed_orbits, cycles_of
 from ..layer_problem.eigendirections import find_eigendirections
 from ..layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
@@ -81,7 +82,10 @@ def _matrix(setting: SceneSetting) -> tuple[float, float, float] | None:
 def _atlas_curves(setting: SceneSetting) -> tuple[BifurcationCurve, BifurcationCurve] | None:
     """Return the saddle-node curve and the ellipse |A^-1 f| = 1 of the plane (f1, f2)."""
     matrix = _matrix(setting)
-    return None if matrix is None else (saddle_node(*matrix), critical_boundary(*matrix))
+    if matrix is None:
+        return None
+    system = coefficients_at(*matrix, (0.0, 0.0))
+    return saddle_node(system), critical_boundary(system)
 
 
 def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
@@ -92,7 +96,7 @@ def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
 @lru_cache(maxsize=64)
 def regions_of(matrix: tuple[float, float, float]) -> tuple[Region, ...]:
     """Return the regions of a plane: the same for all who open one address, of whose first picture they take half."""
-    return regions(*matrix)
+    return regions(coefficients_at(*matrix, (0.0, 0.0)))
 
 
 def _launched_layer(setting: SceneSetting) -> LaunchedOrbits:

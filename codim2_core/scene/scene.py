@@ -19,6 +19,7 @@ from .. import drawing
 from ..arguments import number, whole_number
 from ..arguments import psi as checked_psi
 from ..equality import equal_values
+from ..figures.named import named_setting
 from ..layer_problem.problem import CachedFunction, LayerProblem, Result
 from ..orbits.options import LEAST_PIXEL, stepping
 from ..orbits.seeds import checked_seeds
@@ -68,7 +69,7 @@ class Scene(Mapping[str, Any]):
 
     Parameters
     ----------
-    system : ELinear or System, or either frozen at a z
+    system : ELinear or System, or either frozen at a z; or the name of a preset or an example
         Layers of the theory of e-linear systems (`ELINEAR_ONLY`) are None for another; `has` says so beforehand.
     psi : Psi, optional
         Default Psi = 1.
@@ -108,9 +109,9 @@ class Scene(Mapping[str, Any]):
 
     def __init__(
         self,
-        system: AnySystem,
+        system: AnySystem | str,
         psi: Psi | str | None = None,
-        z: ArrayLike = (),
+        z: ArrayLike | None = None,
         *,
         seeds: ArrayLike | None = None,
         count: int = 64,
@@ -125,8 +126,13 @@ class Scene(Mapping[str, Any]):
         cut: float = 0.0,
         _memory: Memory | None = None,
     ) -> None:
+        if isinstance(system, str):
+            setting = named_setting(system)
+            system, psi = setting["system"], setting.get("psi") if psi is None else psi
+            z = setting.get("z") if z is None else z
         if not isinstance(system, SYSTEM_KINDS):
             raise ValueError(f"system is {system!r}; give an ELinear or a System.")
+        z = () if z is None else z
         psi = constructors.constant() if psi is None else checked_psi("psi", psi)
         view, pixel, count = number("view", view), number("pixel", pixel), whole_number("count", count, MOST_SEEDS)
         if not view > 1.0:

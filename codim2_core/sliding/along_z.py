@@ -18,7 +18,7 @@ from ..curves.assignment import assign
 from ..layer_problem.critical import CriticalSet, critical_sets
 from ..numerics.root_between import root_between
 from ..psi.function import Psi
-from ..systems.bounds import slow_values
+from ..systems.bounds import slow_axis, slow_values
 from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
 from ..systems.typed import System
@@ -56,9 +56,10 @@ class _Line:
 def slow_portrait(
     system: ELinear | System,
     psi: Psi,
+    along: str,
     span: tuple[float, float],
     z: ArrayLike = (),
-    axis: int = 0,
+    *,
     count: int = 81,
 ) -> SlowPortrait:
     """Sliding, crossing and unstable intervals of one slow variable, with the slow flow and its equilibria, eq:RPCM.
@@ -69,11 +70,11 @@ def slow_portrait(
         With m >= 1 slow variables.
     psi : Psi
         Decides stability where that depends on it; the slow flow itself does not.
+    along : str
+        Which slow variable is varied, "z1" to "zm".
     span : (low, high)
     z : (m,) floats
-        The other slow variables; entry `axis` is not used. Left out, they are 0.
-    axis : int
-        Which slow variable is varied, from 0.
+        The other slow variables; that of `along` is not used. Left out, they are 0.
     count : int
         Values of z, at least 2, on which changes are looked for, and again where there are critical sets; two changes
         within one step that undo one another are missed.
@@ -85,12 +86,18 @@ def slow_portrait(
     Raises
     ------
     ValueError
-        There is no slow variable `axis`, the span is empty, or `count` is below 2.
+        There is no slow variable `along`, the span is empty, or `count` is below 2.
+
+    Examples
+    --------
+    >>> from codim2_core import slow_portrait
+    >>> found = slow_portrait("ball_in_pool", "constant", along="z1", span=(-10, 10))
+    >>> [(one.kind, round(one.high, 6)) for one in found.intervals]
+    [('crossing', -6.867), ('sliding', 6.867), ('crossing', 10.0)]
     """
     if count < 2:
         raise ValueError(f"count is {count}; give at least 2 values of z, the ends of the span.")
-    if not 0 <= axis < system.m:
-        raise ValueError(f"axis is {axis}, but the system has m = {system.m} slow variable(s); give 0 … m - 1.")
+    axis = slow_axis("along", along, system.m)
     low, high = (float(v) for v in span)
     if not (np.isfinite([low, high]).all() and low < high):
         raise ValueError(f"span is {span}; give (low, high) with low < high.")

@@ -91,6 +91,13 @@ def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
     For each direction n of R^m the extreme candidate solves a semi-infinite linear programme, whose dual is
     ``min over lambda in R^2 of max over theta of n.W + lambda.U``; it is solved by exchange: a linear programme over a
     few directions, to which the maxima of that function are added until none exceeds the face.
+
+    Examples
+    --------
+    >>> from codim2_core import ELinear, filippov_sliding
+    >>> found = filippov_sliding(ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),)), (0.0,))
+    >>> found.unique, [v.round(9).tolist() for v in found.vertices]
+    (True, [[-0.25]])
     """
     at = system.at(z)
     field = _Field(at)

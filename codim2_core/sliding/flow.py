@@ -30,6 +30,14 @@ def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | 
     ndarray (m,), or (k, m) for a general system, or None
         A general system has a row for each critical set, in the order of `critical_sets`: where rows differ, sliding
         is not unique (sec:nonunique). None where there is no critical set: nothing slides there.
+
+    Examples
+    --------
+    It is -B A^-1 f + g:
+
+    >>> from codim2_core import ELinear, sliding_flow
+    >>> sliding_flow(ELinear(-2, 0, -1, (-0.5, 0), B=((4, 0),), g=(0.5,)), (0.0,)).tolist()
+    [-0.5]
     """
     at = system.at(z)
     points = locate(at).e if at.affine is not None else disc_zeros(at.key).e

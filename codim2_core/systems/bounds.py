@@ -29,6 +29,16 @@ def slow_names(m: int, rows: str) -> str:
     return f"{rows} has 1 row: use z" if m == 1 else f"{rows} has {m} rows: use z1 to z{m}"
 
 
+def slow_axis(what: str, name: object, m: int) -> int:
+    """Return which of m slow variables is named, from 0: z1 to zm (z is z1)."""
+    names = [f"z{i + 1}" for i in range(m)]
+    if name == "z" and m:
+        return 0
+    if name not in names:
+        raise ValueError(f"{what} is {reprlib.repr(name)}; this system has {', '.join(names) or 'no slow variable'}.")
+    return names.index(str(name))
+
+
 def slow_values(z: ArrayLike, m: int, needed: bool = True) -> tuple[float, ...]:
     """Check z: m finite numbers (a lone number will do for m = 1; none if no coefficient reads z)."""
     values: tuple[float, ...]

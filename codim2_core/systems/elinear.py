@@ -10,8 +10,9 @@ import math
 import reprlib
 from collections.abc import Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
@@ -22,7 +23,9 @@ from ..expressions.names import MOST_SLOW_VARIABLES
 from .bounds import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
 from .coefficients import Coefficients
 from .equations import Equations, equations_text, linear_rows, negative, with_left_sides
+from .equations_latex import equations_latex
 from .normal_form import in_normal_form, rotate_f
+from .parameters import Parameters
 
 Coefficient = float | Expression
 #: Names that text may use of slow variables.
@@ -107,6 +110,7 @@ class ELinear:
     frozen: ClassVar[bool] = False
     clock: ClassVar[str] = ""
     typed: ClassVar[None] = None
+    meanings: ClassVar[Mapping[str, Expression]] = MappingProxyType({})
 
     def __post_init__(self) -> None:
         parameters = {name: _parameter_value(value, name) for name, value in dict(self.parameters).items()}
@@ -136,7 +140,7 @@ class ELinear:
         fix(self, "f", f)
         fix(self, "B", B)
         fix(self, "g", g)
-        fix(self, "parameters", tuple(parameters.items()))
+        fix(self, "parameters", Parameters(parameters))
         if self.given_matrix is not None:
             fix(self, "given_matrix", tuple(
                 tuple(entry(v, f"A[{i + 1},{j + 1}]") for j, v in enumerate(row))
@@ -172,7 +176,7 @@ class ELinear:
         rows = A.tolist() if isinstance(A, np.ndarray) else A
         if isinstance(rows, str) or not hasattr(rows, "__len__") or len(rows) != 2:  # type: ignore[arg-type]
             raise ValueError(f"A is {A!r}; give a matrix of shape (2, 2).")
-        return cls(0.0, 0.0, 0.0, f, B, g, tuple((parameters or {}).items()), given_matrix=rows)
+        return cls(0.0, 0.0, 0.0, f, B, g, parameters or {}, given_matrix=rows)
 
     @cached_property
     def expressions(self) -> tuple[tuple[str, Expression], ...]:
@@ -194,7 +198,17 @@ class ELinear:
         matrix = self.given_matrix or ((self.a, negative(self.b)), (self.b, self.d))
         B, g = self.B or ((0.0, 0.0),) * self.m, self.g or (0.0,) * self.m
         rows = [(*row, constant) for row, constant in zip((*matrix, *B), (*self.f, *g), strict=True)]
-        return with_left_sides(linear_rows(rows, tuple(dict(self.parameters)), self.m))
+        return with_left_sides(linear_rows(rows, tuple(self.parameters), self.m))
+
+    def _repr_latex_(self) -> str:
+        return equations_latex(self)
+
+    def __repr__(self) -> str:
+        defaults = {"f": (0.0, 0.0), "B": None, "g": None, "parameters": {}, "given_matrix": None}
+        shown = {one.name: getattr(self, one.name) for one in fields(self)}
+        told = {name: value for name, value in shown.items() if name not in defaults or value != defaults[name]}
+        given = (f"{name}={_coefficient_text(value)}" for name, value in told.items())
+        return f"ELinear({', '.join(given)})"
 
     def __str__(self) -> str:
         return equations_text(self.equations, self.parameters)
@@ -238,9 +252,9 @@ class ELinear:
         if changes.keys() <= parameters.keys():  # no text is read again, and what is known of it stays
             changed = copy(self)
             parameters |= {name: _parameter_value(value, name) for name, value in changes.items()}
-            object.__setattr__(changed, "parameters", tuple(parameters.items()))
+            object.__setattr__(changed, "parameters", Parameters(parameters))
             return changed
-        fields: dict[str, Any] = {}
+        changed_fields: dict[str, Any] = {}
         f = list(self.f)
         for name, value in changes.items():
             if name in parameters:
@@ -248,11 +262,11 @@ class ELinear:
             elif name in ("f1", "f2"):
                 f[int(name[1]) - 1] = value
             elif name in ("a", "b", "d", "f", "B", "g"):
-                fields[name] = value
+                changed_fields[name] = value
             else:
                 allowed = ", ".join(["a", "b", "d", "f", "f1", "f2", "B", "g", *parameters])
                 raise ValueError(f"{name!r} is no coefficient of this system; it has {allowed}.")
-        return replace(self, **{"f": tuple(f), "parameters": tuple(parameters.items()), **fields})
+        return replace(self, **{"f": tuple(f), "parameters": parameters, **changed_fields})
 
     def rotated(self) -> ELinear:
         """Return a system made `from_matrix` as the a, b, d, f, B that it is in its normal form (lem:normalform).
@@ -285,7 +299,7 @@ class ELinear:
         if self.given_matrix is None:  # else a, b, d belong to the rotated form
             held |= {"a": self.a, "b": self.b, "d": self.d}
         numbers = [name for name in Coefficients.variable if isinstance(held.get(name), float)]
-        return (*numbers, *dict(self.parameters))
+        return (*numbers, *self.parameters)
 
     def varied(self, name: str, value: float) -> ELinear:
         """Return the same system with one of `variable` changed."""
@@ -359,6 +373,15 @@ class ELinear:
             )
         B.flags.writeable = g.flags.writeable = False
         return Coefficients(a, b, d, f1, f2, B, g, phi, given)
+
+
+def _coefficient_text(value: Any) -> str:
+    """Return a coefficient as it was given, however deep in tuples."""
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_coefficient_text, value))}{',' * (len(value) == 1)})"
+    if isinstance(value, Expression):
+        return repr(value.text)
+    return repr(value).removesuffix(".0") if isinstance(value, float) else repr(value)
 
 
 def _real_number(value: object, what: str) -> float:

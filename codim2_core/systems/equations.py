@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..expressions.expression import Expression, parse
@@ -36,10 +36,10 @@ def negative(value: Any) -> Any:
     return parse("-B_", ("B_", *value.names)).substitute("B_", value) if isinstance(value, Expression) else -value
 
 
-def equations_text(equations: Equations, parameters: Sequence[tuple[str, float]]) -> str:
+def equations_text(equations: Equations, parameters: Mapping[str, float]) -> str:
     """Return equations as lines of text, and the values of their parameters."""
     lines = [f"{left}′ = {_without_brackets(right.text)}" for left, right in equations]
-    return "\n".join([*lines, ", ".join(f"{name} = {value:g}" for name, value in parameters)]).rstrip()
+    return "\n".join([*lines, ", ".join(f"{name} = {value:g}" for name, value in parameters.items())]).rstrip()
 
 
 def _without_brackets(text: str) -> str:

@@ -12,9 +12,12 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..expressions.expression import Expression
 from ..expressions.names import SLOW_NAMES
 from .bounds import slow_values
 from .equations import Equations, equations_text, with_left_sides
+from .equations_latex import equations_latex
+from .parameters import Parameters
 from .reading import parameter
 from .typed_at_z import Frozen
 from .typed_formulas import Formulas
@@ -78,10 +81,10 @@ class System(Formulas):
                 raise ValueError(f"{name!r} is no parameter of this system; it has {allowed}.")
         if fields:
             fields = dict(zip("UW", self.without_clock, strict=True)) | fields
-            return replace(self, **{"parameters": tuple(parameters.items()), **fields})
+            return replace(self, **{"parameters": parameters, **fields})
         copy = object.__new__(System)  # only numbers change: nothing is read again
         copy.__dict__.update(self.__dict__)
-        copy.__dict__["parameters"] = tuple(parameters.items())
+        copy.__dict__["parameters"] = Parameters(parameters)
         return copy
 
     @property
@@ -89,6 +92,15 @@ class System(Formulas):
         """Left and right sides of eq:vf, ("x", ...), ("y", ...), ("z1", ...): what is typed in t is written in t."""
         U, W = self.without_clock
         return with_left_sides((*U, *W))
+
+    @property
+    def meanings(self) -> dict[str, Expression]:
+        """The definitions as formulas, by name."""
+        given = {"parameters": self.parameters, "definitions": dict(self.definitions)}
+        return {name: System(U=(name, "0"), **given).without_clock[0][0] for name in given["definitions"]}
+
+    def _repr_latex_(self) -> str:
+        return equations_latex(self)
 
     def __str__(self) -> str:
         return equations_text(self.equations, self.parameters)
@@ -101,7 +113,7 @@ class System(Formulas):
     @property
     def variable(self) -> tuple[str, ...]:
         """Names of what `varied` changes: the parameters."""
-        return tuple(dict(self.parameters))
+        return tuple(self.parameters)
 
     def varied(self, name: str, value: float) -> System:
         """Return the same system with one of `variable` changed."""
@@ -109,7 +121,7 @@ class System(Formulas):
 
     def value_of(self, name: str) -> float:
         """Present value of one of `variable`."""
-        return dict(self.parameters)[name]
+        return self.parameters[name]
 
     def at(self, z: ArrayLike = ()) -> Frozen:
         """Freeze at z.

@@ -9,6 +9,7 @@ from typing import Any
 from ..expressions.expression import Expression, parse
 from ..expressions.names import MOST_SLOW_VARIABLES, SLOW_NAMES, TIME, number_names
 from .bounds import slow_names
+from .parameters import Parameters
 from .reading import continuous, mapping, parameter, parse_formula, short_repr, texts
 from .reading import definitions as read_definitions
 
@@ -63,7 +64,7 @@ class Formulas:
             )
         parameters = {name: parameter(name, value) for name, value in given.items()}
         definitions = read_definitions(meanings, tuple(parameters))
-        fix(self, "parameters", tuple(parameters.items()))
+        fix(self, "parameters", Parameters(parameters))
         fix(self, "definitions", tuple((name, text) for name, text, _, _ in definitions))
         U = texts(self.U, "U")
         if len(U) != 2:

@@ -57,6 +57,12 @@ def certificates(
     ------
     ValueError
         z does not fit the system, or psi is not a Psi.
+
+    Examples
+    --------
+    >>> from codim2_core import certificates
+    >>> {one.theorem: one.verdict.name for one in certificates("case1-cm4")}["thm:geneps0(a)"]
+    'HOLDS'
     """
     if not isinstance(psi, Psi):
         raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")

@@ -17,7 +17,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 OWN = {"codim2_core", "codim2_app", "tests"}
 # Run as programs, needed by a library that is imported, or asked for by pytest.importorskip.
 COMMANDS = {
-    "mujoco", "matplotlib", "pyright", "pytest-xdist", "ruff", "pre-commit", "import-linter", "ipywidgets",
+    "mujoco", "pyright", "pytest-xdist", "ruff", "pre-commit", "import-linter", "ipywidgets",
     "jupyter-bokeh",
 }  # fmt: skip
 # Left out of the extras: the notebook tests are skipped where JupyterLab, which brings them, is missing; CI has it.

@@ -97,7 +97,7 @@ def report(quick: bool = False) -> str:
         cost, along = timed(lambda: equilibrium_branches(ring, c2.psi.constant(), "eta", (0.5, 1.5)), 1)
         count = len(along.special)
         lines.append(f"| the same of the spinning annulus, eta through 1: {count} special values | {cost:.0f} | |")
-        cost, curve = timed(lambda: c2.bifurcations.cycle_folds(1.0, 1.3, -1.2, psi), 1)
+        cost, curve = timed(lambda: c2.bifurcations.cycle_folds(c2.ELinear(1.0, 1.3, -1.2), psi), 1)
         lines.append(f"| folds of cycles in (f1, f2): {len(curve)} curves | {cost:.0f} | |")
     lines += ["", "| branches of cycles | ms of the processor | error of the period |"]
     lines += ["|---|---|---|", *branch_rows(max(repeats // 3, 1), quick)]

@@ -94,11 +94,11 @@ def regularised(name: str, eps: float, turns: int) -> tuple[str, list[float]]:
     motion = MOTIONS[name]
     field = njit(error_model="numpy")(motion.field(sqrt=math.sqrt, sin=math.sin, cos=math.cos, pack=np.array))
     system, shape, start, span = motion.system, psi.constant(), motion.start, (0.0, motion.t_end)
-    simulate(system, shape, eps, [start] * 8, span)  # compiles
+    simulate(system, shape, [start] * 8, span, eps=eps)  # compiles
     field(0.0, np.array(start), eps)
 
     def ours(tolerance: float) -> Array:
-        return simulate(system, shape, eps, start, span, rtol=tolerance, atol=tolerance, max_steps=10**6).states[-1]
+        return simulate(system, shape, start, span, eps=eps, rtol=tolerance, atol=tolerance, max_steps=10**6).states[-1]
 
     # DOP853 would take steps of length eps
     methods = [one for one in METHODS if one != "DOP853" or eps >= 1e-4 or name == "so(2,1)"]
@@ -268,7 +268,7 @@ def many(count: int) -> str:
 
         def run(some: Array, eps: float = eps) -> object:
             if eps:
-                return simulate(system, shape, eps, some, span, rtol=1e-6, atol=1e-8)
+                return simulate(system, shape, some, span, eps=eps, rtol=1e-6, atol=1e-8)
             return simulate_nonsmooth(system, some, span, shape, rtol=1e-6, atol=1e-8)
 
         run(states[:20])

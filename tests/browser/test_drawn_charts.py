@@ -172,7 +172,7 @@ def test_slow_flow_in_the_plane_of_two_slow_variables(open_page):
 def test_a_typed_start_over_time(opened, setting):
     page = opened("orbits", launch="0.6, 0.8, 0.3", t_end=3.0, log_eps=-1.0, orbit_eps="show")
     page.page.wait_for_selector(".phases li")
-    run = c2.simulate(system(setting), PSI, 0.1, (0.6, 0.8, 0.3), (0.0, 3.0))
+    run = c2.simulate(system(setting), PSI, (0.6, 0.8, 0.3), (0.0, 3.0), eps=0.1)
     limit = c2.simulate_nonsmooth(system(setting), (0.6, 0.8, 0.3), (0.0, 3.0), psi=PSI)
     plane, _, radius, slow = plots(page, ".orbit-time .series")
     assert (plane.title, radius.title, slow.title, slow.word) == ("x y", "r = |p|, outside 1 + ρ", "z", "t")
@@ -198,7 +198,7 @@ def test_an_orbit_over_time(opened, setting, seed):
     plane, angle, radius, slow = plots(page, ".orbit-time .series")
     assert (plane.title, slow.word) == (("x/ε y/ε", "t/ε") if r < 1.0 else ("x y", "t"))
     (broken,) = [points for points, _ in slow.lines("broken")]
-    motion = c2.simulate(system(setting), PSI, eps, (*state, 0.0), (0.0, unit * broken[-1, 0]))
+    motion = c2.simulate(system(setting), PSI, (*state, 0.0), (0.0, unit * broken[-1, 0]), eps=eps)
 
     def states(t):
         return np.array([motion.dense(v)[:2] / unit for v in np.clip(unit * t, 0.0, motion.times[-1])])

@@ -98,7 +98,7 @@ def test_limit_directions_along_z_in_space(painted, setting):
 def test_the_slow_flow_along_z_in_space(painted, setting):
     _, drawn = painted(solid="stack")
     turns = [it["all"][0] for it in drawn if it["name"] == "rotate"]
-    found = slow_portrait(system(setting), PSI, (-4.0, 4.0))
+    found = slow_portrait(system(setting), PSI, "z1", (-4.0, 4.0))
     assert turns
     assert len(turns) == len([branch for branch in found.branches if len(branch.z) > 4])
     for turn, branch in zip(turns, found.branches, strict=False):

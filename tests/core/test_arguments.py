@@ -16,15 +16,15 @@ SYSTEM = c2.ELinear("-2 + 0*z", 0.0, -1.0, (-0.5, 0.0), [[1, 0]], ("-z",))
 PSI = c2.psi.tanh()
 AT = SYSTEM.at(0.1)
 PLANE = {"system": SYSTEM, "psi": PSI, "z": 0.1}
-ABD = {"a": -2.0, "b": 0.3, "d": -1.0}
-BAD_ABD = {"a": 172.0, "b": 186.0, "d": -200.0}
+MATRIX = {"system": c2.ELinear(-2.0, 0.3, -1.0)}
+BAD_MATRIX = {"system": c2.ELinear(172.0, 186.0, -200.0)}
 DRIVEN = c2.System(U=("-z1 - f1*c + cos(2*z3)", "-z2 - f1*s + sin(2*z3)"), W=("x", "y", "1"), parameters={"f1": 0.5})
 MOTION = {"system": SYSTEM, "psi": PSI, "state0": (1.0, 0.2, 0.1), "t_span": (0.0, 0.3)}
 
 #: For each public function, arguments with which it is quick: what is not there keeps its default.
 GOOD = {
     c2.approach_outcomes: PLANE,
-    c2.atlas: {**PLANE, "across": "f1", "up": "f2", "ranges": ((-2, 2), (-2, 2))},
+    c2.atlas: {**PLANE, "ranges": {"f1": (-2, 2), "f2": (-2, 2)}},
     c2.basins: {**PLANE, "n": 32},
     c2.branches: {**PLANE, "along": "f1", "span": (-0.6, -0.4)},
     c2.census: {"psi": PSI, "count": 1000},
@@ -32,7 +32,7 @@ GOOD = {
     c2.classify: PLANE,
     c2.compare_laws: {"system": SYSTEM, "laws": {"tanh": (PSI, 1e-3)}, "z": 0.1},
     c2.critical_sets: PLANE,
-    c2.delays: {**PLANE, "spans": [(-1.0, 1.0)]},
+    c2.delays: {**PLANE, "ranges": {"z1": (-1.0, 1.0)}},
     c2.equator_cycle: {"system": SYSTEM, "z": 0.1},
     c2.equator_equilibria: {"system": SYSTEM, "z": 0.1},
     c2.filippov_sliding: {"system": SYSTEM, "z": 0.1},
@@ -45,7 +45,7 @@ GOOD = {
     c2.simulate: {**MOTION, "eps": 1e-3},
     c2.simulate_nonsmooth: MOTION,
     c2.sliding_flow: {"system": SYSTEM, "z": 0.1},
-    c2.slow_portrait: {**PLANE, "span": (-1.0, 1.0), "count": 11},
+    c2.slow_portrait: {**PLANE, "along": "z1", "span": (-1.0, 1.0), "count": 11},
     c2.trajectories: {**PLANE, "seeds": [(0.2, 0.3)]},
     c2.psi.constant: {},
     c2.psi.custom: {"text": "1/(1+s)"},
@@ -59,16 +59,16 @@ GOOD = {
     c2.psi.register: {"family": None},
     c2.psi.tanh: {},
     c2.psi.unregister: {"name": "nothing"},
-    c2.bifurcations.closed_equator: ABD,
-    c2.bifurcations.critical_boundary: ABD,
-    c2.bifurcations.cycle_folds: {**BAD_ABD, "psi": PSI},
-    c2.bifurcations.heteroclinic: {**BAD_ABD, "psi": PSI},
+    c2.bifurcations.closed_equator: MATRIX,
+    c2.bifurcations.critical_boundary: MATRIX,
+    c2.bifurcations.cycle_folds: {**BAD_MATRIX, "psi": PSI},
+    c2.bifurcations.heteroclinic: {**BAD_MATRIX, "psi": PSI},
     c2.bifurcations.hill_changes: {"system": SYSTEM, "z": 0.1},
-    c2.bifurcations.hopf: {**BAD_ABD, "psi": PSI},
-    c2.bifurcations.node_focus: {**BAD_ABD, "psi": PSI},
+    c2.bifurcations.hopf: {**BAD_MATRIX, "psi": PSI},
+    c2.bifurcations.node_focus: {**BAD_MATRIX, "psi": PSI},
     c2.bifurcations.parameter_changes: {**PLANE, "psi": c2.psi.hill(2)},
-    c2.bifurcations.regions: ABD,
-    c2.bifurcations.saddle_node: ABD,
+    c2.bifurcations.regions: MATRIX,
+    c2.bifurcations.saddle_node: MATRIX,
     c2.examples.register: {"example": None},
     c2.examples.unregister: {"key": "nothing"},
     **{example.make: {} for example in c2.examples.catalogue.values()},
@@ -222,12 +222,12 @@ SIZES = {
     "scene, pixel": lambda v: c2.Scene(PLAIN, c2.psi.tanh(), pixel=v)["separatrices"],
     "scene, view": lambda v: c2.Scene(PLAIN, c2.psi.tanh(), view=v)["nullclines_outside"],
     "scene, count": lambda v: c2.Scene(PLAIN, c2.psi.tanh(), count=v)["inside"],
-    "simulate, eps": lambda v: c2.simulate(PLAIN, c2.psi.tanh(), v, (0.1, 0.2), (0.0, 1.0)),
-    "simulate, time": lambda v: c2.simulate(PLAIN, c2.psi.tanh(), 1e-3, (0.1, 0.2), (0.0, v)),
+    "simulate, eps": lambda v: c2.simulate(PLAIN, c2.psi.tanh(), (0.1, 0.2), (0.0, 1.0), eps=v),
+    "simulate, time": lambda v: c2.simulate(PLAIN, c2.psi.tanh(), (0.1, 0.2), (0.0, v), eps=1e-3),
     "simulate_nonsmooth, time": lambda v: c2.simulate_nonsmooth(PLAIN, (0.1, 0.2), (0.0, v)),
     "hill": lambda v: c2.limit_cycles(c2.presets["case3-n2"].system, c2.psi.hill(v)),
     "basins": lambda v: c2.basins(PLAIN, c2.psi.tanh(), n=v),
-    "slow_portrait": lambda v: c2.slow_portrait(c2.examples.nonunique_sliding(), c2.psi.tanh(), (-v, v)),
+    "slow_portrait": lambda v: c2.slow_portrait(c2.examples.nonunique_sliding(), c2.psi.tanh(), "z1", (-v, v)),
     "psi": c2.psi.tanh(),
     "psi.modulus": c2.psi.tanh().modulus,
     "psi.radius": c2.psi.tanh().radius,

@@ -15,12 +15,12 @@ RESULTS = {
     "limit cycles": lambda system, psi: c2.limit_cycles(system, psi),
     "outcomes": lambda system, psi: c2.approach_outcomes(system, psi),
     "basins": lambda system, psi: c2.basins(system, psi, n=32),
-    "simulate": lambda system, psi: c2.simulate(TYPED, psi, 1e-3, (1.0, 1.0, 0.0), (0.0, 2.0)),
+    "simulate": lambda system, psi: c2.simulate(TYPED, psi, (1.0, 1.0, 0.0), (0.0, 2.0), eps=1e-3),
     "simulate_nonsmooth": lambda system, psi: c2.simulate_nonsmooth(TYPED, (1.0, 1.0, 0.0), (0.0, 2.0)),
     "variation": lambda system, psi: c2.simulate_nonsmooth(TYPED, (1.0, 1.0, 0.0), (0.0, 1.0)).variation("mu"),
-    "slow portrait": lambda system, psi: c2.slow_portrait(TYPED, psi, (-1.0, 1.0)),
+    "slow portrait": lambda system, psi: c2.slow_portrait(TYPED, psi, "z1", (-1.0, 1.0)),
     "branches": lambda system, psi: c2.branches(TYPED, psi, along="mu", span=(-1.0, 1.0)),
-    "atlas": lambda system, psi: c2.atlas(system, psi, across="f1", up="f2"),
+    "atlas": lambda system, psi: c2.atlas(system, psi, ("f1", "f2")),
 }  # fmt: skip
 
 

@@ -21,7 +21,7 @@ RESULTS = {
     "critical sets": lambda: [c2.critical_sets(*one) for one in (SADDLE, TYPED)],
     "limit directions": lambda: [c2.equator_equilibria(one[0], one[2]) for one in (SADDLE, TYPED)],
     "sliding flow": lambda: [c2.sliding_flow(one[0], one[2]) for one in (SADDLE, TYPED)],
-    "along Sigma": lambda: c2.slow_portrait(TYPED[0], ONE, (-1.0, 1.0), count=5),
+    "along Sigma": lambda: c2.slow_portrait(TYPED[0], ONE, "z1", (-1.0, 1.0), count=5),
     "over Sigma": lambda: slow_plane(BALL, ONE, ((-1.0, 1.0), (-1.0, 1.0)), count=3),
     "limit directions along z": lambda: directions_along(SADDLE[0], (-1.0, 1.0), count=3),
     "Filippov": lambda: [c2.filippov_sliding(one[0], one[2]) for one in (SADDLE, TYPED)],
@@ -32,8 +32,8 @@ RESULTS = {
     "outcomes": lambda: c2.approach_outcomes(*SADDLE),
     "basins": lambda: c2.basins(*SADDLE, n=32),
     "limit cycles": lambda: c2.limit_cycles(*THREE),
-    "a motion": lambda: c2.simulate(*SADDLE[:2], 0.1, (1.0, 0.5, 0.2), (0.0, 1.0)),
-    "motions": lambda: c2.simulate(*SADDLE[:2], 0.1, [(1.0, 0.5, 0.2)] * 2, (0.0, 1.0)),
+    "a motion": lambda: c2.simulate(*SADDLE[:2], (1.0, 0.5, 0.2), (0.0, 1.0), eps=0.1),
+    "motions": lambda: c2.simulate(*SADDLE[:2], [(1.0, 0.5, 0.2)] * 2, (0.0, 1.0), eps=0.1),
     "a nonsmooth motion": lambda: c2.simulate_nonsmooth(BALL, (0.5, 0.1, 0.2, 0.1), (0.0, 1.0)),
 }
 

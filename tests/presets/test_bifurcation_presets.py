@@ -30,7 +30,11 @@ def test_a_walk_is_one_slider_across_the_curve(kind):
     assert plane(before) == plane(at) == plane(after)
     assert (before.f1 - at.f1) * (after.f1 - at.f1) < 0
     a, b, d = at.a, at.b, at.d
-    curve = bifurcations.critical_boundary(a, b, d) if kind == "transcritical" else bifurcations.saddle_node(a, b, d)
+    curve = (
+        bifurcations.critical_boundary(c2.ELinear(a, b, d))
+        if kind == "transcritical"
+        else bifurcations.saddle_node(c2.ELinear(a, b, d))
+    )
     distance = min(np.hypot(*(branch - (at.f1, at.f2)).T).min() for branch in curve.branches)
     assert distance < 1e-12
     if kind == "pitchfork":

@@ -22,7 +22,7 @@ def test_motion(stratum, change):
     largest = max(map(abs, plane)) or 1.0
     for state in ((0.4, -0.2, 0.0, 0.1), (0.0, 0.0, 1.0, 0.0)):
         found = simulate(
-            system(plane), stratum.psi or FAMILIES[k % 3], EPS[k % 5], state, (0.0, 2.0 / largest),
+            system(plane), stratum.psi or FAMILIES[k % 3], state, (0.0, 2.0 / largest), eps=EPS[k % 5],
             rtol=1e-6, atol=1e-8, max_steps=MOST_STEPS,
         )  # fmt: skip
         assert np.isfinite(found.states).all()

@@ -97,7 +97,7 @@ def branches_and_cycles(rng: random.Random) -> tuple[str, list[str]]:
 def atlas_and_portraits(rng: random.Random) -> tuple[str, list[str]]:
     """The names of regions, and what stands still at random places and along the edges."""
     system, family = general(rng), rng.choice(FAMILIES)
-    found, said = c2.atlas(system, family, "p", "z1", ((-2, 2), (-2, 2)), (0.0,)), []
+    found, said = c2.atlas(system, family, {"p": (-2, 2), "z1": (-2, 2)}, (0.0,)), []
     places = [(rng.uniform(-2, 2), rng.uniform(-2, 2)) for _ in range(30)]
     for side in (-1.998, 1.998):
         places += [(side, rng.uniform(-2, 2)) for _ in range(5)] + [(rng.uniform(-2, 2), side) for _ in range(5)]
@@ -124,7 +124,7 @@ def limit_and_eps(rng: random.Random) -> tuple[str, list[str]]:
     limit = c2.simulate_nonsmooth(system, start, (0.0, 1.5), psi=family)
     said: list[str] = []
     for eps in (1e-6, 1e-8, 1e-10):
-        run = c2.simulate(system, family, eps, start, (0.0, 1.5))
+        run = c2.simulate(system, family, start, (0.0, 1.5), eps=eps)
         found = agreement(system, family, run, limit)
         said = [] if found.same or any("may decide" in phase.reason for phase in run.phases) else [found.sentence]
         if not said:

@@ -25,7 +25,7 @@ class Told:
         self.phase = run.phases[k] if k < len(run.phases) else None
         self.before = run.phases[k - 1] if k else None
         end = run.times[-1]
-        self.other = c2.simulate(system, self.psi, EPS, start, (0.0, end)) if run.eps == 0.0 and end > 0.0 else run
+        self.other = c2.simulate(system, self.psi, start, (0.0, end), eps=EPS) if run.eps == 0.0 and end > 0.0 else run
 
     def state(self, share):
         """Return the state of the regularised motion at a share of the phase."""
@@ -65,7 +65,7 @@ def slides(told, fields):
     if told.other.times[-1] < t:  # it went around a cycle for too long: from beside C, for a while in the fast time
         z = told.run.dense(t)[2:]
         (C,) = c2.critical_sets(told.system, told.psi, tuple(z))
-        beside = c2.simulate(told.system, told.psi, EPS, (*(1.01 * EPS * C.x2), *z), (0.0, EPS))
+        beside = c2.simulate(told.system, told.psi, (*(1.01 * EPS * C.x2), *z), (0.0, EPS), eps=EPS)
         assert math.dist(beside.states[-1, :2] / EPS, C.x2) < 1e-2 * np.hypot(*C.x2)
         return
     here = tuple(told.other.dense(t)[2:].tolist())
@@ -80,7 +80,7 @@ def leaves(told, fields):
     if told.other.times[-1] < told.phase.t_end:  # it went around a cycle for too long: from beside, it turns there
         z = told.run.dense(0.5 * (told.phase.t_start + told.phase.t_end))[2:]
         start = (50 * EPS * math.cos(theta + 0.3), 50 * EPS * math.sin(theta + 0.3), *z)
-        x, y = c2.simulate(told.system, told.psi, EPS, start, (0.0, 0.1)).states[-1, :2]
+        x, y = c2.simulate(told.system, told.psi, start, (0.0, 0.1), eps=EPS).states[-1, :2]
         assert math.cos(math.atan2(y, x) - theta) > 0.99
         return
     x, y = told.state(0.3)[:2]
@@ -145,7 +145,7 @@ def nothing_attracts(told, _):
     assert not any(C.kind.startswith("stable") for C in told.sets())
     near = [1e-3 * np.array([math.cos(t), math.sin(t)]) for t in (0.2, 1.9, 3.5, 5.1)]
     for start in near:
-        run = c2.simulate(told.system, told.psi, EPS, (*start, *told.z()), (0.0, 3.0))
+        run = c2.simulate(told.system, told.psi, (*start, *told.z()), (0.0, 3.0), eps=EPS)
         assert np.hypot(*run.states[-1, :2]) > 1e3 * EPS
 
 
@@ -154,7 +154,7 @@ def ways_out(told, fields):
     angles = set()
     for t in np.linspace(0.1, 6.2, 24):
         p = 1e-4 * np.array([math.cos(t), math.sin(t)])
-        run = c2.simulate(told.system, told.psi, EPS, (*p, *told.z()), (0.0, 8.0))
+        run = c2.simulate(told.system, told.psi, (*p, *told.z()), (0.0, 8.0), eps=EPS)
         angles.add(round(float(np.arctan2(*run.states[-1, 1::-1])) % math.tau, 2) % 6.28)
     assert len(angles) == int(fields.get("count", 1))
 
@@ -164,7 +164,9 @@ def at_phase_of(told, _):
     start = np.array([0.0, 0.0, *told.z()])
     C = told.sets()
     start[:2] = 0.0 if not C or np.hypot(*C[0].p) > 1e-6 else 1e-9
-    ends = [c2.simulate(told.system, told.psi, eps, start * eps / EPS, (0.0, 20.0)).states[-1] for eps in (1e-6, 2e-6)]
+    ends = [
+        c2.simulate(told.system, told.psi, start * eps / EPS, (0.0, 20.0), eps=eps).states[-1] for eps in (1e-6, 2e-6)
+    ]
     assert not math.cos(math.atan2(*ends[0][1::-1]) - math.atan2(*ends[1][1::-1])) > 0.999
 
 

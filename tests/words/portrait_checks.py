@@ -64,7 +64,7 @@ class Portrait:
         limit = c2.simulate_nonsmooth(system, start, (0.0, 1e6 * EPS / self.size), psi=self.psi)
         came = limit.phases[0].t_end
         end = 1.2 * came + 4e4 * EPS / self.size
-        motion = c2.simulate(system, self.psi, EPS, start, (0.0, end), max_steps=400_000)
+        motion = c2.simulate(system, self.psi, start, (0.0, end), eps=EPS, max_steps=400_000)
         late = motion.times >= 1.2 * came + 0.4 * (motion.times[-1] - 1.2 * came)
         return float(np.hypot(*motion.states[late, :2].T).max()) / EPS
 

@@ -95,7 +95,7 @@ CHECKS = {
 def test_each_point_is_what_it_is_called_and_every_sentence_is_said():
     seen = set()
     for system, names, ranges in PLANES.values():
-        for point in c2.atlas(system, PSI, *names, ranges).points:
+        for point in c2.atlas(system, PSI, dict(zip(names, ranges, strict=True))).points:
             at = system.evolve(**dict(zip(names, map(float, point.place), strict=True)))
             for key, fields in recognise(point.sentence):
                 CHECKS[key](at, fields)

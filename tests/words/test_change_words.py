@@ -89,7 +89,7 @@ def typed(first, second):
     return System((first, second), parameters={"k": 0.1})
 
 
-(CUSP, *_) = bifurcations.saddle_node(-1, 0.2, -1.5).special
+(CUSP, *_) = bifurcations.saddle_node(ELinear(-1, 0.2, -1.5)).special
 #: A change of each kind: what is said, then the system, Ψ, the parameter and its span.
 ALONG = {
     "meet at": (ELinear(-1, 1, -1, (0.3, 0)), ONE, "f1", (0.5, 1.5)),

@@ -99,7 +99,7 @@ def test_of_the_limit(name):
 @pytest.mark.parametrize("name", ["across in a line", "fold", "ball", "one way out", "off the equator", "blows up"])
 def test_of_the_regularised_motion(name):
     system, family, start, t = CASES[name]
-    run = c2.simulate(system, family or CONSTANT, 1e-5, start, (0.0, t))
+    run = c2.simulate(system, family or CONSTANT, start, (0.0, t), eps=1e-5)
     hold(system, family, tuple(map(float, start)), run, t)
 
 

@@ -130,11 +130,11 @@ def test_on_the_curves_in_the_plane_of_f(matrix):
         hold_curve(curve, Plane(*matrix, family))
         for family in (ONE, HILL)
         for curve in (
-            bifurcations.saddle_node(*matrix),
-            bifurcations.critical_boundary(*matrix),
-            bifurcations.closed_equator(*matrix),
-            bifurcations.hopf(*matrix, family),
-            bifurcations.node_focus(*matrix, family),
+            bifurcations.saddle_node(ELinear(*matrix)),
+            bifurcations.critical_boundary(ELinear(*matrix)),
+            bifurcations.closed_equator(ELinear(*matrix)),
+            bifurcations.hopf(ELinear(*matrix), family),
+            bifurcations.node_focus(ELinear(*matrix), family),
         )
     )
 

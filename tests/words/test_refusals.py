@@ -82,7 +82,7 @@ REFUSED = [
     (own(U1="+".join("abdghijklmnopq")), "text:U1", "use at most 12"),
     (own(W="1e400"), "text:W", "number"),
     (own(U1="T*c"), "text:U1", "is the time"),
-    ({"system": "ball_in_pool", "parameters": {"m": 0}}, "parameters", "−∞ at z = (4, 0)"),
+    ({"system": "ball_in_pool", "parameters": {"m": 0}}, "parameters", "m is 0; give a number above 0"),
 ]  # fmt: skip
 BARE = {"layers": [], "trajectories": 0, "panel": "psi"}
 _PYTHON = re.compile(r"\bnan\b|\binf\b|\bNone\b|Traceback|Error\b|\(-?[\d.]+,\)|\[[\d.∞-]|array\(")

@@ -13,8 +13,8 @@ import numpy as np
 from ...draw.still import fill_colours
 from ...draw.theme import themes
 from ...draw.vector.parts import Placement, stroke, words
+from .sketch import COLOURS, LineChart, RegionChart, region_colour
 
-COLOURS = ("rho", "theta", "separatrix", "continuation", "node-focus", "soft")
 CHART_WIDTH, CHART_HEIGHT, LEFT_MARGIN, BOTTOM = 360.0, 220.0, 44.0, 34.0
 SQUARE, EDGE, NAME_ROOM = 360.0, 'stroke="var(--soft)" stroke-width="0.8"', 60.0
 MAX_CHART_POINTS = 3000  # of all lines together
@@ -36,25 +36,16 @@ class Frame:
         return float((x - left) * across + u), float((y - low) * up + v)
 
 
-def chart(lines: Sequence[tuple[str, Any, Any]], across: str, up: str) -> str:
-    """Return lines over a parameter or time, as `line_chart` does."""
-    return line_chart(lines, across, up)[0]
-
-
-def line_chart(
-    lines: Sequence[tuple[str, Any, Any]], across: str, up: str, colours: Mapping[str, str] | None = None
-) -> tuple[str, Frame]:
-    """Return lines over a parameter or time, with the ends of both axes and a word for each kind, and where values are.
+def line_chart(shown: LineChart, colours: Mapping[str, str] | None = None) -> tuple[str, Frame]:
+    """Return lines with the ends of both axes and a word for each kind, and where values are.
 
     Parameters
     ----------
-    lines : sequence of (name, x, y)
-        Those of one name have one colour.
-    across, up : str
-        Names of the axes.
+    shown : LineChart
     colours : mapping, optional
         By name; by default those of the light theme.
     """
+    lines, across, up = shown.lines, shown.across, shown.up
     kept = [
         (name, thin_out(np.column_stack([x, y]), max(2, MAX_CHART_POINTS // len(lines))))
         for name, x, y in lines
@@ -94,19 +85,9 @@ def line_chart(
     return close_svg("".join(parts), CHART_WIDTH, foot + 8, CHART_WIDTH, foot + 8, colours), frame
 
 
-def regions(
-    areas: Sequence[tuple[str, Sequence[Any]]], spans: Sequence[tuple[float, float]], across: str, up: str
-) -> str:
-    """Return regions of a plane in the colours of the atlas, each with its name where there is room.
-
-    Parameters
-    ----------
-    areas : sequence of (name, polygons)
-        Holes are polygons that run the other way.
-    spans : (low, high) of both axes
-    across, up : str
-        Names of the axes.
-    """
+def regions(shown: RegionChart) -> str:
+    """Return regions of a plane in the colours of the atlas, each with its name where there is room."""
+    areas, spans, across, up = shown.areas, shown.spans, shown.across, shown.up
     (left, right), (low, high) = spans
     wide, tall = SQUARE - LEFT_MARGIN - 8, SQUARE - LEFT_MARGIN - 8
     scale, place = (wide / (right - left), -tall / (high - low)), Placement(side=SQUARE, unit=1.0, decimals=1)
@@ -115,8 +96,7 @@ def regions(
     parts, names = [], []
     for name, polygons in areas:
         placed = [np.round((thin_out(one, each) - (left, low)) * scale + (LEFT_MARGIN, floor), 1) for one in polygons]
-        colour = name.partition(";")[0].partition(",")[0].lower()
-        fill = f"r-{colour}" if f"r-{colour}" in themes()["light"] else "r-other"
+        fill = region_colour(name, themes()["light"])
         path = place.path(placed).replace("M", "ZM")[1:] + "Z"
         parts.append(f'<path d="{path}" fill="var(--{fill})" fill-opacity=".45" fill-rule="evenodd" {EDGE}/>')
         x, y, room = _widest_middle(placed)

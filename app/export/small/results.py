@@ -1,4 +1,4 @@
-"""Small pictures of results, which a notebook shows: `svg` draws what the core has computed, by its type."""
+"""Small pictures of results, which a notebook shows: what each shows, by its type, and the picture as SVG."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ from codim2_core.cycles.limit_cycles import LimitCycles
 from codim2_core.diagrams.eigenvalue_path import LinearisationPath
 from codim2_core.diagrams.result import Branches
 from codim2_core.figures.preset import Preset
+from codim2_core.motion.periodic.response_result import ResponseCurve
 from codim2_core.motion.periodic.result import PeriodicMotion
 from codim2_core.motion.result import Simulation
 from codim2_core.nullcline.nullclines import Nullclines
@@ -33,7 +34,8 @@ from ...draw.layers import layers_in_paint_order
 from ...draw.packing import Polylines, pack
 from ...draw.svg import content
 from ...draw.vector.parts import Placement, rim, stroke, words
-from .chart import chart, close_svg, regions, thin_out
+from .chart import close_svg, line_chart, regions, thin_out
+from .sketch import BASIN_COLOURS, Cells, Curves, LineChart, RegionChart, Sketch
 
 #: px of the screen.
 SKETCH_SIDE = 360
@@ -42,12 +44,11 @@ MAX_SVG_BYTES = 45_000  # bytes
 SKETCHED = ((40, 1 / 90), (16, 1 / 50), (0, 1 / 50))
 #: Curves that are drawn, and points of all of them.
 PIECES, MAX_SKETCH_POINTS = 200, 4000
-#: Colours of basins; cells across a small picture of them.
-BASIN_COLOURS, MAX_BASIN_CELLS = ("basin-1", "basin-2", "basin-3", "basin-4"), 64
+#: Cells across a small picture of them.
+MAX_BASIN_CELLS = 64
 UNDECIDED_CELL = -1
 
 
-@singledispatch
 def svg(result: Any) -> str:
     """Return a small picture, under 50 kB.
 
@@ -56,10 +57,18 @@ def svg(result: Any) -> str:
     TypeError
         There is none of results of this type.
     """
-    raise TypeError(f"there is no picture of a {type(result).__name__}.")
+    if isinstance(result, Scene):
+        return portrait(result)
+    if isinstance(result, Preset):
+        return portrait(Scene(result.system, result.psi, result.z))
+    shown = sketch(result)
+    if isinstance(shown, LineChart):
+        return line_chart(shown)[0]
+    if isinstance(shown, RegionChart):
+        return regions(shown)
+    return _cells_svg(shown) if isinstance(shown, Cells) else _hemisphere_svg(shown)
 
 
-@svg.register
 def portrait(result: Scene) -> str:
     """Return a scene with the layers that the explorer shows at first."""
     made = ""
@@ -89,114 +98,133 @@ def portrait(result: Scene) -> str:
     return close_svg(made, 1000, 1000, SKETCH_SIDE, SKETCH_SIDE)
 
 
-@svg.register
-def _preset(result: Preset) -> str:
-    return portrait(Scene(result.system, result.psi, result.z))
+@singledispatch
+def sketch(result: Any) -> Sketch:
+    """Return what the picture of a result shows.
+
+    Raises
+    ------
+    TypeError
+        There is none of results of this type.
+    """
+    raise TypeError(f"there is no picture of a {type(result).__name__}.")
 
 
-@svg.register
-def _trajectories(result: Trajectories) -> str:
-    return _draw_curves(result.points, "orbit")
+@sketch.register
+def _trajectories(result: Trajectories) -> Sketch:
+    return _curves(result.points, "orbit")
 
 
-@svg.register
-def _cycles(result: LimitCycles) -> str:
-    return _draw_curves([cycle.points for cycle in result.cycles], "cycle")
+@sketch.register
+def _cycles(result: LimitCycles) -> Sketch:
+    return _curves([cycle.points for cycle in result.cycles], "cycle")
 
 
-@svg.register
-def _separatrices(result: Separatrices) -> str:
-    return _draw_curves([branch.points for branch in result.branches], "separatrix")
+@sketch.register
+def _separatrices(result: Separatrices) -> Sketch:
+    return _curves([branch.points for branch in result.branches], "separatrix")
 
 
-@svg.register
-def _simulation(result: Simulation) -> str:
+@sketch.register
+def _simulation(result: Simulation) -> Sketch:
     return _over_time(result, [False] * result.states.shape[1])
 
 
-@svg.register
-def _periodic(result: PeriodicMotion) -> str:
+@sketch.register
+def _periodic(result: PeriodicMotion) -> Sketch:
     run = result.run
     clock = run.states[:1, 2:] + np.outer((run.times - run.times[0]) / result.period, result.advance)
     even = (result.advance != 0.0) & np.isclose(run.states[:, 2:], clock).all(axis=0)
     return _over_time(run, [False, False, *even])
 
 
-def _over_time(run: Simulation, left_out: Sequence[bool]) -> str:
+def _over_time(run: Simulation, left_out: Sequence[bool]) -> LineChart:
     names = ("x", "y", *(f"z{i + 1}" for i in range(run.states.shape[1] - 2)))
-    return chart([(n, run.times, run.states[:, i]) for i, n in enumerate(names) if not left_out[i]], "t", "")
+    return LineChart([(n, run.times, run.states[:, i]) for i, n in enumerate(names) if not left_out[i]], "t", "")
 
 
-@svg.register
-def _curve(result: BifurcationCurve) -> str:
-    return chart([(result.name, branch[:, 0], branch[:, 1]) for branch in result.branches], "f₁", "f₂")
+@sketch.register
+def _response(result: ResponseCurve) -> Sketch:
+    swings, what = (result.amplitude, "z₁") if result.amplitude.shape[1] else (result.velocity_amplitude, "x")
+    lines = [
+        ("stable" if result.stable[part][0] else "unstable", result.values[part], swings[part, 0])
+        for part in _runs(result.stable)
+    ]
+    return LineChart(lines, result.along, f"amplitude of {what}")
 
 
-@svg.register
-def _draw_branches(result: Branches) -> str:
-    return chart([(branch.kind, branch.value, branch.theta) for branch in result.limit_directions], result.along, "θ")
+@sketch.register
+def _curve(result: BifurcationCurve) -> Sketch:
+    return LineChart([(result.name, branch[:, 0], branch[:, 1]) for branch in result.branches], "f₁", "f₂")
 
 
-@svg.register
-def _linearisation(result: LinearisationPath) -> str:
+@sketch.register
+def _draw_branches(result: Branches) -> Sketch:
+    return LineChart(
+        [(branch.kind, branch.value, branch.theta) for branch in result.limit_directions], result.along, "θ"
+    )
+
+
+@sketch.register
+def _linearisation(result: LinearisationPath) -> Sketch:
     pieces = [(result.kind[i], slice(i, j + 1)) for i, j in result.pieces if result.exists[i]]
-    return chart([(kind, result.values[part], result.trace[part]) for kind, part in pieces], result.name, "tr J")
+    return LineChart([(kind, result.values[part], result.trace[part]) for kind, part in pieces], result.name, "tr J")
 
 
-@svg.register
-def _cycle_branches(result: CycleBranches) -> str:
+@sketch.register
+def _cycle_branches(result: CycleBranches) -> Sketch:
     pieces = [(branch, part) for branch in result for part in _runs(branch.stable)]
     lines = [("stable" if b.stable[part][0] else "unstable", b.value[part], b.amplitude[part]) for b, part in pieces]
-    return chart(lines, result.name, "size")
+    return LineChart(lines, result.name, "size")
 
 
-@svg.register
-def _slow_portrait(result: SlowPortrait) -> str:
+@sketch.register
+def _slow_portrait(result: SlowPortrait) -> Sketch:
     widths = np.ptp(np.concatenate([branch.e for branch in result.branches]), axis=0) if result.branches else (1, 0)
     i = int(widths[1] > widths[0])
-    return chart([(branch.kind, branch.z, branch.e[:, i]) for branch in result.branches], "z", "cs"[i])
+    return LineChart([(branch.kind, branch.z, branch.e[:, i]) for branch in result.branches], "z", "cs"[i])
 
 
-@svg.register
-def _psi(result: Psi) -> str:
+@sketch.register
+def _psi(result: Psi) -> Sketch:
     s = np.linspace(0.0, 4.0, 161)
-    return chart([("Ψ", s, result(s))], "s", "Ψ")
+    return LineChart([("Ψ", s, result(s))], "s", "Ψ")
 
 
-@svg.register
-def _atlas(result: Atlas) -> str:
-    return regions([(one.name, one.boundary) for one in result.regions], result.ranges, *result.names)
+@sketch.register
+def _atlas(result: Atlas) -> Sketch:
+    return RegionChart([(one.name, one.boundary) for one in result.regions], result.ranges, *result.names)
 
 
-@svg.register
-def _regions(result: Regions) -> str:
+@sketch.register
+def _regions(result: Regions) -> Sketch:
     every = np.concatenate([ring for region in result for ring in region.boundary] or [np.ones((1, 2))])
     size = 1.3 * float(np.abs(every).max())
     span = (-size, size)
     frame = np.array([(-size, -size), (size, -size), (size, size), (-size, size)])
     areas = [(one.name, one.boundary if one.bounded else (frame, *one.boundary)) for one in result]
-    return regions(areas, (span, span), "f₁", "f₂")
+    return RegionChart(areas, (span, span), "f₁", "f₂")
 
 
-@svg.register
-def _nullclines(result: Nullclines) -> str:
+@sketch.register
+def _nullclines(result: Nullclines) -> Sketch:
     named = {"rho": "rho", "theta": "theta", "U1": "soft", "U2": "soft"}
-    return _hemisphere_svg([(named[branch.kind], branch.points) for branch in result])
+    return Curves([(named[branch.kind], branch.points) for branch in result])
 
 
-@svg.register
-def _launched_svg(result: LaunchedOrbits) -> str:
+@sketch.register
+def _launched(result: LaunchedOrbits) -> Sketch:
     halves = (result.orbits.backward.points, result.orbits.forward.points)
-    seeds = "".join(
-        f'<circle cx="{x}" cy="{y}" r="11" fill="var(--orbit)"/>'
-        for x, y in Placement().points([line[0] for line in halves[1]]).tolist()
-    )
-    return _hemisphere_svg([("orbit", line) for half in halves for line in half], seeds)
+    return Curves([("orbit", line) for half in halves for line in half], [line[0] for line in halves[1]])
 
 
-@svg.register
-def _draw_basins(result: Basins) -> str:
-    cells, (left, right, bottom, top) = result.cells, result.box
+@sketch.register
+def _basins(result: Basins) -> Sketch:
+    return Cells(result.cells, result.box, result.destinations)
+
+
+def _cells_svg(shown: Cells) -> str:
+    cells, (left, right, bottom, top) = shown.cells, shown.box
     while len(cells) > MAX_BASIN_CELLS:  # each of four stands for all: the picture is small
         cells = cells[::2, ::2]
     place = Placement((left, right, bottom, top), decimals=1)
@@ -206,7 +234,7 @@ def _draw_basins(result: Basins) -> str:
         for part in _runs(line):
             x, y, wide = part.start * side, place.side - (row + 1) * side, (part.stop - part.start) * side
             paths.setdefault(int(line[part.start]), []).append(f"M{x:.0f} {y:.0f}h{wide:.0f}v{side:.1f}h-{wide:.0f}Z")
-    colours = {i: BASIN_COLOURS[i % len(BASIN_COLOURS)] for i in range(len(result.destinations))} | {
+    colours = {i: BASIN_COLOURS[i % len(BASIN_COLOURS)] for i in range(len(shown.names))} | {
         UNDECIDED_CELL: "undecided"
     }
     areas = [
@@ -215,7 +243,7 @@ def _draw_basins(result: Basins) -> str:
         if which in colours
     ]
     circle = f"{rim(place)} {stroke('ink', 2, (), place)}/>"
-    names = [(name, colours[i]) for i, name in enumerate(result.destinations)]
+    names = [(name, colours[i]) for i, name in enumerate(shown.names)]
     said = "".join(
         words(20, 50 + 44 * i, name, 36.0).replace("--ink", f"--{colour}") for i, (name, colour) in enumerate(names)
     )
@@ -228,17 +256,19 @@ def _runs(values: Any) -> list[slice]:
     return [slice(first, last) for first, last in pairwise(ends) if first < last]
 
 
-def _draw_curves(pieces: Sequence[Any], colour: str) -> str:
-    return _hemisphere_svg([(colour, piece) for piece in pieces])
+def _curves(pieces: Sequence[Any], colour: str) -> Curves:
+    return Curves([(colour, piece) for piece in pieces])
 
 
-def _hemisphere_svg(pieces: Sequence[tuple[str, Any]], over: str = "") -> str:
-    """Return curves of the picture over the hemisphere, each in a colour, the first `PIECES` of them."""
-    place = Placement()
+def _hemisphere_svg(shown: Curves) -> str:
+    """Return the first `PIECES` of some curves."""
+    place, pieces = Placement(), shown.pieces
     each = MAX_SKETCH_POINTS // min(max(1, len(pieces)), PIECES)
     lines = ""
     for colour in dict.fromkeys(colour for colour, _ in pieces):
         kept = [thin_out(np.asarray(piece), each) for own, piece in pieces[:PIECES] if own == colour]
         lines += f'<path d="{place.path(map(place.points, kept))}" {stroke(colour, 1.4, (), place)}/>'
     circle = f"{rim(place)} {stroke('ink', 2, (), place)}/>"
+    dots = (f'<circle cx="{x}" cy="{y}" r="11" fill="var(--orbit)"/>' for x, y in place.points(shown.places).tolist())
+    over = "".join(dots) if len(shown.places) else ""
     return close_svg(lines + circle + over, 1000, 1000, SKETCH_SIDE, SKETCH_SIDE)

@@ -5,20 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from codim2_core.expressions.latex import LETTER_COMMANDS
 from codim2_core.scene import Scene
 from codim2_core.words import subscript
 
 from ..describe import facts
 from ..view import View
 
-_GREEK = {
-    "α": "alpha", "β": "beta", "γ": "gamma", "δ": "delta", "ε": "varepsilon", "θ": "theta", "λ": "lambda",
-    "μ": "mu", "ν": "nu", "π": "pi", "ρ": "rho", "σ": "sigma", "τ": "tau", "φ": "varphi", "χ": "chi", "ψ": "psi",
-    "ω": "omega", "Δ": "Delta", "Θ": "Theta", "Σ": "Sigma", "Φ": "Phi", "Ψ": "Psi", "Ω": "Omega",
-}  # fmt: skip
 #: Letters of the explorer's words as LaTeX writes them.
 LATEX_SIGNS = {
-    **{letter: rf"$\{name}$" for letter, name in _GREEK.items()},
+    **{letter: f"${command}$" for letter, command in LETTER_COMMANDS.items()},
     **{subscript(k): f"$_{k}$" for k in range(10)},
     **dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", (f"$^{{{k}}}$" for k in (*range(10), "-")), strict=True)),
     "−": "$-$", "·": r"$\cdot$", "×": r"$\times$", "′": "$'$", "≤": r"$\le$", "≥": r"$\ge$", "≠": r"$\ne$",

@@ -94,9 +94,8 @@ def _curves_of_psi(draft: FrameContext, size: float) -> None:
     scene = draft.scene
     at = scene.coefficients
     assert isinstance(at, Coefficients)  # the system has a, b, d
-    a, b, d = at.plane[:3]
     psi = scene.psi
-    found = draft.slow("curves of psi", scene.key("matrix", "psi"), _hopf_and_node_focus, a, b, d, psi)
+    found = draft.slow("curves of psi", scene.key("matrix", "psi"), _hopf_and_node_focus, at, psi)
     if found is None:
         return
     draft.header["curves_of_psi"] = {"size": size, "points": special_points(found)}
@@ -117,7 +116,7 @@ def _curves_of_cycles(draft: FrameContext, size: float) -> None:
         draft.header["cycles_possible"] = possible
     if not possible or draft.values["cycle_curves"] == "hide" or not draft.ready:
         return
-    found = draft.slow("curves of cycles", draft.scene.key("matrix", "psi"), _cycle_curves, a, b, d, psi)
+    found = draft.slow("curves of cycles", draft.scene.key("matrix", "psi"), _cycle_curves, at, psi)
     if found is None:
         return
     draft.header["curves_of_cycles"] = {"size": size, "points": special_points(found)}
@@ -125,15 +124,15 @@ def _curves_of_cycles(draft: FrameContext, size: float) -> None:
         draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
 
 
-def _hopf_and_node_focus(a: float, b: float, d: float, psi: Psi) -> tuple[BifurcationCurve, ...]:
-    return bifurcations.hopf(a, b, d, psi), bifurcations.node_focus(a, b, d, psi)
+def _hopf_and_node_focus(at: Coefficients, psi: Psi) -> tuple[BifurcationCurve, ...]:
+    return bifurcations.hopf(at, psi), bifurcations.node_focus(at, psi)
 
 
-def _cycle_curves(a: float, b: float, d: float, psi: Psi) -> tuple[BifurcationCurve, ...]:
+def _cycle_curves(at: Coefficients, psi: Psi) -> tuple[BifurcationCurve, ...]:
     return (
-        bifurcations.cycle_folds(a, b, d, psi),
-        bifurcations.heteroclinic(a, b, d, psi),
-        bifurcations.closed_equator(a, b, d),
+        bifurcations.cycle_folds(at, psi),
+        bifurcations.heteroclinic(at, psi),
+        bifurcations.closed_equator(at),
     )
 
 

@@ -128,4 +128,4 @@ def _warm_motions() -> None:
     never = Event(lambda t, state: 1.0)  # noqa: ARG005 (an event is of both)
     for events in ((never,), ()):  # step by step, and whole: it slips, slides and leaves
         simulate_nonsmooth(pushed, several, (0.0, 3.0), hill(3.0), events=events)
-        simulate(pushed, hill(3.0), 0.01, several, (0.0, 0.2), events=events)
+        simulate(pushed, hill(3.0), several, (0.0, 0.2), eps=0.01, events=events)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ...arguments import pair, short_repr
 from ...arrays import Array
 from ...initial_value.field import Field, field
 from ...layer_problem.critical import CriticalSet, critical_sets
@@ -15,7 +17,7 @@ from ...numerics.dense import dense, gather_steps
 from ...numerics.radau import Step, truncate_step
 from ...psi.function import Psi
 from ...results import Results
-from ...systems.bounds import slow_values
+from ...systems.bounds import slow_axis, slow_values
 from ...systems.elinear import ELinear
 from ...systems.typed import System
 from ..delay import Delay, delay
@@ -31,7 +33,12 @@ MAX_SLIDE_STEPS = 4000  # steps of a slide
 MAX_TIME_FACTOR = 100.0  # times as long as the ranges would take at the first rate is a motion followed
 
 
-def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLike = ()) -> Results[Delay]:
+def delays(
+    system: ELinear | System,
+    psi: Psi,
+    z: ArrayLike = (),
+    ranges: Mapping[str, tuple[float, float]] | None = None,
+) -> Results[Delay]:
     """Return where motions on an attracting critical set at z lose its stability, and where they leave it.
 
     Each is followed with the slow flow, eq:RPCM, from z through a Hopf bifurcation (tr J = 0 < det J), or through an
@@ -46,8 +53,8 @@ def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLi
     psi : Psi
     z : (m,) floats
         Where the motions come to Sigma.
-    spans : (k, 2) floats, k <= m
-        (low, high) of z1, z2, ..., within which they are followed; those that are left out have no bounds.
+    ranges : mapping, optional
+        Such as ``{"z1": (low, high)}``: within these they are followed; slow variables left out have no bounds.
 
     Returns
     -------
@@ -66,26 +73,25 @@ def delays(system: ELinear | System, psi: Psi, z: ArrayLike = (), spans: ArrayLi
 
     >>> from codim2_core import System, delays, psi
     >>> turning = System(U=("z*c - s", "c + z*s"), W=("1",))
-    >>> [delay] = delays(turning, psi.constant(), (-0.6,), [(-1, 1)])
+    >>> [delay] = delays(turning, psi.constant(), (-0.6,), {"z1": (-1, 1)})
     >>> print(f"leaves at z = {delay.z_out[0]:.6f}, {delay.z_out[0] - delay.z_hopf[0]:.6f} past the Hopf point")
     leaves at z = 0.600000, 0.600000 past the Hopf point
     """
     formulas = field(system)
     start = np.array(slow_values(z, formulas.m))
-    ranges = np.full((formulas.m, 2), (-math.inf, math.inf))
-    given = np.array(spans, float).reshape(-1, 2) if np.size(spans) % 2 == 0 else np.zeros((0, 1))
-    if given.shape[1] != 2 or len(given) > formulas.m:
+    bounds = np.full((formulas.m, 2), (-math.inf, math.inf))
+    if ranges is not None and not isinstance(ranges, Mapping):
+        raise ValueError(f'ranges is {short_repr(ranges)}; give them by name, such as {{"z1": (-1, 1)}}.')
+    for name, span in (ranges or {}).items():
+        bounds[slow_axis("ranges", name, formulas.m)] = pair(f"ranges[{name!r}]", span)
+    if not ((bounds[:, 0] < bounds[:, 1]) & (bounds[:, 0] <= start) & (start <= bounds[:, 1])).all():
         raise ValueError(
-            f"spans is {spans}; give (low, high) for each of the m = {formulas.m} slow variables, or fewer."
-        )
-    ranges[: len(given)] = given
-    if not ((ranges[:, 0] < ranges[:, 1]) & (ranges[:, 0] <= start) & (start <= ranges[:, 1])).all():
-        raise ValueError(
-            f"spans is {spans} and z is {start.tolist()}; give (low, high) with low <= z <= high for each z."
+            f"ranges is {short_repr(ranges)} and z is {start.tolist()}; "
+            "give (low, high) with low <= z <= high for each z."
         )
     sets = critical_sets(system, psi, start)
     names = ["C"] if len(sets) == 1 else [f"C{i + 1}" for i in range(len(sets))]
-    found = [_predict_delay(formulas, psi, C, name, start, ranges) for C, name in zip(sets, names, strict=True)]
+    found = [_predict_delay(formulas, psi, C, name, start, bounds) for C, name in zip(sets, names, strict=True)]
     return Results(one for one in found if one is not None)
 
 

@@ -46,7 +46,7 @@ def response_curve(
     along: str,
     span: tuple[float, float],
     psi: Psi | None = None,
-    eps: float = 0.0,
+    eps: float | None = None,
     *,
     advance: ArrayLike | None = None,
     rtol: float = 1e-9,
@@ -92,7 +92,7 @@ def response_curve(
     ... )
     >>> found = response_curve(mass, (0.0, -0.5, -0.3, 0.05, 0.0), lambda w: 2.0*math.pi/w, "w", (1.8, 2.2))
     >>> radius = [math.hypot(*state[2:4]) for state in found.state0]
-    >>> bool(max(abs(r - math.sqrt(0.75)/(w*w - 1.0)) for r, w in zip(radius, found.value)) < 1e-8)
+    >>> bool(max(abs(r - math.sqrt(0.75)/(w*w - 1.0)) for r, w in zip(radius, found.values)) < 1e-8)
     True
     """
     check_name(system, psi or constant(), (0.0,) * system.m, "along", along)
@@ -109,6 +109,7 @@ def response_curve(
         except TypeError as error:
             raise ValueError(f"period is {short_repr(period)}; give a number, or a function of {along}.") from error
 
+    eps = eps or 0.0
     found = periodic_motion(
         system, state0, period_of(value), psi, eps, advance=advance, rtol=rtol, atol=atol, max_steps=max_steps
     )
@@ -116,7 +117,7 @@ def response_curve(
         raise ValueError(f"no periodic motion to begin with: {found.reason}")
     moved = None if callable(period) and advance is None else found.advance
     family = MotionFamily(
-        shooting(system, psi, float(eps), found.state0, found.period, moved, atol / rtol, max_steps), along,
+        shooting(system, psi, eps, found.state0, found.period, moved, atol / rtol, max_steps), along,
         (low, high), period_of, moved, rtol,
     )  # fmt: skip
     return _trace_both_ways(family, found.state0, found.period, value)

@@ -9,25 +9,28 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Array, Complex
-from ...results import Result, column_rows, result_rows
+from ...results import Pictured, column_rows, result_rows
 from ...tables import paragraphs
 from ...words import say
 from .response_points import ResponsePoint, ResponseRow
 
 
 @dataclass(frozen=True, eq=False)
-class ResponseCurve(Result):
+class ResponseCurve(Pictured):
     """Periodic motions along one parameter, in order along their curve; arrays are read-only.
 
     Attributes
     ----------
     along : str
     span : (float, float)
-    value, period : ndarray (k,)
+    values, period : ndarray (k,)
+        Of the parameter.
     state0 : ndarray (k, 2 + m)
         Their starts.
-    amplitude : ndarray (k, 2 + m)
-        Half of what lies between the extremes of x, y, z1, ..., zm.
+    amplitude : ndarray (k, m)
+        Half of max - min of z1, ..., zm over a period.
+    velocity_amplitude : ndarray (k, 2)
+        The same of x and y.
     multipliers : ndarray (k, q) of complex
         As `PeriodicMotion.multipliers`.
     stable : ndarray (k,) of bool
@@ -43,10 +46,11 @@ class ResponseCurve(Result):
 
     along: str
     span: tuple[float, float]
-    value: Array = field(repr=False)
+    values: Array = field(repr=False)
     period: Array = field(repr=False)
     state0: Array = field(repr=False)
     amplitude: Array = field(repr=False)
+    velocity_amplitude: Array = field(repr=False)
     multipliers: Complex = field(repr=False)
     stable: Array = field(repr=False)
     phases: tuple[str, ...] = field(repr=False)
@@ -63,9 +67,10 @@ class ResponseCurve(Result):
         values = np.full((len(rows), most), np.nan, complex)
         for i, row in enumerate(rows):
             values[i, : len(row.multipliers)] = row.multipliers
+        swings = np.array([row.swings for row in rows])
         arrays = (
             np.array([row.value for row in rows]), np.array([row.period for row in rows]),
-            np.array([row.state for row in rows]), np.array([row.swings for row in rows]), values,
+            np.array([row.state for row in rows]), swings[:, 2:].copy(), swings[:, :2].copy(), values,
             np.array([bool((np.abs(row.multipliers) < 1.0).all()) for row in rows]),
         )  # fmt: skip
         for array in arrays:
@@ -73,23 +78,24 @@ class ResponseCurve(Result):
         return cls(along, span, *arrays, tuple(", ".join(row.phases) for row in rows), tuple(special), ends)
 
     def __len__(self) -> int:
-        return len(self.value)
+        return len(self.values)
 
     def crossings(self, value: float) -> int:
         """Return how many of its motions have a value of the parameter: how often the curve passes it."""
-        side = self.value - value
+        side = self.values - value
         return int(np.count_nonzero(side[1:] * side[:-1] < 0.0) + np.count_nonzero(side == 0.0))
 
     def _records(self) -> Iterator[dict[str, Any]]:
         names = ["x", "y", *(f"z{i}" for i in range(1, self.state0.shape[1] - 1))]
-        columns: dict[str, Any] = {self.along: self.value, "period": self.period, "stable": self.stable}
-        columns |= {f"amplitude_{name}": row for name, row in zip(names, self.amplitude.T, strict=True)}
+        columns: dict[str, Any] = {self.along: self.values, "period": self.period, "stable": self.stable}
+        swings = (*self.velocity_amplitude.T, *self.amplitude.T)
+        columns |= {f"amplitude_{name}": row for name, row in zip(names, swings, strict=True)}
         columns |= {f"start_{name}": row for name, row in zip(names, self.state0.T, strict=True)}
         columns["largest_multiplier"] = np.nanmax(np.abs(self.multipliers), axis=1, initial=0.0)
         return column_rows(columns | {"phases": self.phases})
 
     def _tables_(self) -> str:
         told = say(
-            "response", name=self.along, low=float(self.value.min()), high=float(self.value.max()), count=len(self)
+            "response", name=self.along, low=float(self.values.min()), high=float(self.values.max()), count=len(self)
         )
         return result_rows(self.special) + paragraphs([told])

@@ -78,6 +78,16 @@ class PeriodicMotion(Pictured):
         """Whether it repeats itself."""
         return self.status in (PeriodicStatus.FOUND, PeriodicStatus.NOT_ISOLATED)
 
+    @property
+    def success(self) -> bool:
+        """The same, by the name that SciPy's results have for it."""
+        return self.found
+
+    @property
+    def message(self) -> str:
+        """The reason, by that name."""
+        return self.reason
+
     def _tables_(self) -> str:
         rows = [
             (table_number(one.real), table_number(one.imag), table_number(abs(one)), f"{error:.1e}")

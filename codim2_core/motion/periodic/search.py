@@ -44,7 +44,7 @@ def periodic_motion(
     state0: ArrayLike,
     period: float,
     psi: Psi | None = None,
-    eps: float = 0.0,
+    eps: float | None = None,
     *,
     advance: ArrayLike | None = None,
     rtol: float = 1e-9,
@@ -66,8 +66,8 @@ def periodic_motion(
         Of a forced motion its period, a multiple of that of the forcing; else near it, within a factor of 3.
     psi : Psi, optional
         The regularisation. In the limit it may be left out, as in `simulate_nonsmooth`.
-    eps : float
-        0, the default, for the limit eps -> 0; else 1e-14 <= eps <= 1e6.
+    eps : float, optional
+        Left out, or 0, for the limit eps -> 0; else 1e-14 <= eps <= 1e6.
     advance : (m,), optional
         How far each slow variable is on after a period, as 2 pi for an angle. Left out, a clock is on by its rate times
         the period, and all others are where they were.
@@ -104,6 +104,7 @@ def periodic_motion(
     checked_tolerances(rtol, atol, max_steps)
     formulas = field(system)
     start = checked_state(with_time(state0, system, 0.0), formulas.m)
+    eps = eps or 0.0
     if eps != 0.0 and not SMALLEST_EPS <= eps <= LARGEST_EPS:
         raise ValueError(f"eps is {eps!r}; give 0 for the limit, or {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
     if eps > 0.0 and psi is None:

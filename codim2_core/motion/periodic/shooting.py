@@ -92,7 +92,7 @@ class Shooting:
         if self.eps == 0.0:
             return simulate_nonsmooth(self.system, state, (0.0, period), self.psi, **options)
         assert self.psi is not None
-        return simulate(self.system, self.psi, self.eps, state, (0.0, period), **options)
+        return simulate(self.system, self.psi, state, (0.0, period), eps=self.eps, **options)
 
     def shot(self, state: Array, period: float, rtol: float) -> Shot:
         """Follow a motion over a period, and differentiate it.

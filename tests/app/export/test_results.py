@@ -1,12 +1,17 @@
 """Results show themselves: small pictures that hold what was computed, and the overlay of a scene."""
 
 import re
+import sys
 
 import holoviews as hv
 import numpy as np
 import pytest
 from codim2_app import svg
-from codim2_app.export.small import results
+from codim2_app.export.small.chart import line_chart
+from codim2_app.export.small.results import sketch
+from codim2_app.export.small.sketch import Curves, LineChart, RegionChart
+from matplotlib import pyplot
+from matplotlib.figure import Figure
 
 import codim2_core as c2
 from codim2_core import drawing
@@ -23,9 +28,9 @@ RESULTS = {
     "trajectories": lambda: c2.trajectories(SADDLE, c2.psi.constant(), [(0.1, 0.2), (1.2, 0.3)], t_max=5),
     "separatrices": lambda: c2.separatrices(SADDLE, c2.psi.constant()),
     "limit cycles": lambda: c2.limit_cycles(CYCLE.system, CYCLE.psi),
-    "simulation": lambda: c2.simulate(c2.ELinear(-1, 1, -1), c2.psi.constant(), 0.1, (0.5, 0.2), (0, 3)),
+    "simulation": lambda: c2.simulate(c2.ELinear(-1, 1, -1), c2.psi.constant(), (0.5, 0.2), (0, 3), eps=0.1),
     "periodic motion": lambda: c2.periodic_motion(PUSHED, (0.3, 0.0, 0.0, -0.1, 0.0, 0.0), np.pi),
-    "curve": lambda: saddle_node(-2, 0.5, -1),
+    "curve": lambda: saddle_node(c2.ELinear(-2, 0.5, -1)),
     "branches": lambda: c2.branches(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
 }
 
@@ -93,6 +98,7 @@ def test_basins_are_drawn_where_they_are():
 
 LINE = c2.ELinear(-1, 0, -1, ("z", "0.25*z"), B=((0, 0),), g=(0.25,))
 STEEP = c2.ELinear(-1, 0, -1, ("0.25*z", "z"), B=((0, 0),), g=(0.25,))
+ROUND = c2.System(U=("-z1 - S*c + cos(2*z3)", "-z2 - S*s + sin(2*z3)"), W=("x", "y", "1"), parameters={"S": 0.5})
 CHARTS = {
     "branches": (lambda: c2.branches(SADDLE, c2.psi.constant(), "f1", (-1, 1)),
                 lambda r: [(b.value, b.theta) for b in r.limit_directions], ("f1", "θ")),
@@ -102,29 +108,31 @@ CHARTS = {
     "curve": (RESULTS["curve"], lambda r: [(b[:, 0], b[:, 1]) for b in r.branches], ("f₁", "f₂")),
     "linearisation": (lambda: linearisation_path(SADDLE, c2.psi.constant(), "f1", (-0.3, 0.3)),
                       lambda r: [(r.values, r.trace)], ("f1", "tr J")),
-    "slow portrait": (lambda: c2.slow_portrait(LINE, c2.psi.constant(), (-0.5, 0.6)),
+    "slow portrait": (lambda: c2.slow_portrait(LINE, c2.psi.constant(), "z1", (-0.5, 0.6)),
                       lambda r: [(b.z, b.e[:, 0]) for b in r.branches], ("z", "c")),
-    "slow portrait, steep": (lambda: c2.slow_portrait(STEEP, c2.psi.constant(), (-0.5, 0.6)),
+    "slow portrait, steep": (lambda: c2.slow_portrait(STEEP, c2.psi.constant(), "z1", (-0.5, 0.6)),
                              lambda r: [(b.z, b.e[:, 1]) for b in r.branches], ("z", "s")),
+    "response curve": (
+        lambda: c2.response_curve(ROUND, (0.0, -0.55, -0.28, 0.07, 0.0), np.pi, along="S", span=(0.49, 0.51)),
+        lambda r: [(r.values, r.amplitude[:, 0])], ("S", "amplitude of z₁")),
     "psi": (lambda: c2.psi.tanh(), lambda r: [(np.linspace(0, 4, 161), r(np.linspace(0, 4, 161)))], ("s", "Ψ")),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("name", CHARTS)
-def test_charts_have_the_parameter_across_and_the_number_up(monkeypatch, name):
+def test_charts_have_the_parameter_across_and_the_number_up(name):
     make, columns, axes = CHARTS[name]
-    result, drawn, own = make(), [], results.chart
-    monkeypatch.setattr(results, "chart", lambda *given: drawn.append(given) or own(*given))
-    svg(result)
-    ((lines, *named),) = drawn
-    assert tuple(named) == axes
+    result = make()
+    shown = sketch(result)
+    assert (shown.across, shown.up) == axes
     wanted = [np.column_stack(pair) for pair in columns(result)]
-    found = np.concatenate([np.column_stack([x, y]) for _, x, y in lines])
+    found = np.concatenate([np.column_stack([x, y]) for _, x, y in shown.lines])
     np.testing.assert_allclose(found[np.lexsort(found.T)], (every := np.concatenate(wanted))[np.lexsort(every.T)])
 
 
 def test_a_chart_has_its_axes_right_and_up():
-    shown = results.chart([("rises", np.array([1.0, 2.0, 4.0]), np.array([-3.0, -2.5, 5.0]))], "across", "up")
+    line = ("rises", np.array([1.0, 2.0, 4.0]), np.array([-3.0, -2.5, 5.0]))
+    shown, _ = line_chart(LineChart([line], "across", "up"))
     points = re.search(r'<path d="M([-\d. L]+)"', shown)[1]
     (x0, y0), (x1, y1), (x2, y2) = (map(float, pair.split()) for pair in points.split("L"))
     assert (x1 - x0) / (x2 - x0) == pytest.approx(1 / 3, abs=2e-3)
@@ -136,3 +144,49 @@ def test_a_chart_has_its_axes_right_and_up():
     }
     assert at["1"][0] < at["4"][0]
     assert at["5"][1] < at["−3"][1]
+
+
+PLOTTED = {
+    **{name: make for name, (make, *_) in CHARTS.items() if name != "psi"},
+    **{name: RESULTS[name] for name in ("trajectories", "separatrices", "limit cycles")},
+    "nullclines": lambda: c2.nullclines(SADDLE, c2.psi.constant()),
+    "atlas": lambda: c2.atlas(SADDLE, c2.psi.constant(), ("f1", "f2")),
+    "regions": lambda: c2.bifurcations.regions(c2.ELinear(-2, 0.5, -1)),
+    "basins": lambda: c2.basins(SADDLE, c2.psi.constant(), n=32),
+}
+
+
+@pytest.mark.parametrize("name", PLOTTED)
+def test_matplotlib_draws_what_the_notebook_shows(name):
+    """Every number of the picture is in the axes that were given; without axes there are new ones."""
+    result, shown = PLOTTED[name](), sketch(PLOTTED[name]())
+    axes = Figure().add_subplot()
+    assert result.plot(axes) is axes
+    lines = [line.get_xydata() for line in axes.lines]
+    if isinstance(shown, LineChart):
+        assert (axes.get_xlabel(), axes.get_ylabel()) == (shown.across, shown.up)
+        for line, (_, x, y) in zip(lines, shown.lines, strict=True):
+            np.testing.assert_array_equal(line, np.column_stack([x, y]))
+    elif isinstance(shown, Curves):
+        for line, (_, points) in zip(lines, shown.pieces, strict=False):
+            np.testing.assert_array_equal(line, points)
+    elif isinstance(shown, RegionChart):
+        assert [patch.get_label() for patch in axes.patches] == [name for name, _ in shown.areas]
+        assert (axes.get_xlim(), axes.get_ylim()) == tuple(shown.spans)
+    else:
+        (image,) = axes.images
+        np.testing.assert_array_equal(image.get_array().data, shown.cells)
+        assert [text.get_text() for text in axes.get_legend().texts] == list(shown.names)
+
+
+def test_without_axes_a_figure_is_made():
+    pyplot.switch_backend("agg")
+    axes = RESULTS["curve"]().plot()
+    assert len(axes.lines) == 4
+    pyplot.close(axes.figure)
+
+
+def test_without_matplotlib_it_is_said(monkeypatch):
+    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    with pytest.raises(ValueError, match="pip install matplotlib"):
+        RESULTS["curve"]().plot()

@@ -39,7 +39,7 @@ RESULTS = {
     "certificates": lambda: c2.certificates(FOUR, ONE),
     "classify": lambda: c2.classify(FOUR, ONE),
     "critical_sets": lambda: c2.critical_sets(TWO, ONE, 0.0),
-    "delays": lambda: c2.delays(TURNING, ONE, (-0.6,), [(-1, 1)]),
+    "delays": lambda: c2.delays(TURNING, ONE, (-0.6,), {"z1": (-1, 1)}),
     "equator_cycle": lambda: c2.equator_cycle(SPIRAL),
     "equator_equilibria": lambda: c2.equator_equilibria(FOUR),
     "filippov_sliding": lambda: c2.filippov_sliding(TWO, 0.0),
@@ -48,9 +48,9 @@ RESULTS = {
     "periodic_motion": lambda: c2.periodic_motion(RING, (0.9, 0.1), 6.0),
     "response_curve": lambda: c2.response_curve(DRIVEN, (0.0, -0.55, -0.28, 0.07, 0.0), np.pi, "S", (0.49, 0.51)),
     "separatrices": lambda: c2.separatrices(SADDLE, ONE),
-    "simulate": lambda: c2.simulate(SPIRAL, ONE, 0.1, (0.5, 0.2), (0, 3)),
+    "simulate": lambda: c2.simulate(SPIRAL, ONE, (0.5, 0.2), (0, 3), eps=0.1),
     "simulate_nonsmooth": lambda: c2.simulate_nonsmooth(FOUR, (0.5, 0.2, 0.0), (0, 3)),
-    "slow_portrait": lambda: c2.slow_portrait(UNSTEADY, ONE, (-2, 2)),
+    "slow_portrait": lambda: c2.slow_portrait(UNSTEADY, ONE, "z1", (-2, 2)),
     "variation": lambda: c2.simulate_nonsmooth(FOUR, (0.5, 0.2, 0.0), (0, 3)).variation("a"),
     "trajectories": lambda: c2.trajectories(FOUR, ONE, [(0.1, 0.2), (1.2, 0.3)]),
     "scene": lambda: c2.Scene(FOUR),
@@ -58,13 +58,13 @@ RESULTS = {
     "preset": lambda: CYCLE,
     "psi": lambda: c2.psi.hill(3),
     "psi.check": lambda: c2.psi.hill(3).check(),
-    "bifurcations.closed_equator": lambda: bifurcations.closed_equator(-1, 2, 1),
-    "bifurcations.critical_boundary": lambda: bifurcations.critical_boundary(-2, 0.5, -1),
+    "bifurcations.closed_equator": lambda: bifurcations.closed_equator(c2.ELinear(-1, 2, 1)),
+    "bifurcations.critical_boundary": lambda: bifurcations.critical_boundary(c2.ELinear(-2, 0.5, -1)),
     "bifurcations.hill_changes": lambda: bifurcations.hill_changes(CYCLE.system),
-    "bifurcations.hopf": lambda: bifurcations.hopf(CYCLE.a, CYCLE.b, CYCLE.d, CYCLE.psi),
-    "bifurcations.regions": lambda: bifurcations.regions(-2, 0.5, -1),
-    "bifurcations.saddle_node": lambda: bifurcations.saddle_node(-2, 0.5, -1),
-    "atlas": lambda: c2.atlas(SADDLE, ONE, "f1", "f2", ((-2, 2), (-2, 2))),
+    "bifurcations.hopf": lambda: bifurcations.hopf(c2.ELinear(CYCLE.a, CYCLE.b, CYCLE.d), CYCLE.psi),
+    "bifurcations.regions": lambda: bifurcations.regions(c2.ELinear(-2, 0.5, -1)),
+    "bifurcations.saddle_node": lambda: bifurcations.saddle_node(c2.ELinear(-2, 0.5, -1)),
+    "atlas": lambda: c2.atlas(SADDLE, ONE, {"f1": (-2, 2), "f2": (-2, 2)}),
     "continue_cycles": lambda: continue_cycles(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
     "linearisation_path": lambda: linearisation_path(CYCLE.system, CYCLE.psi, "n", np.linspace(1.0, 4.0, 31)),
 }
@@ -152,7 +152,7 @@ def test_numbers_are_those_of_the_result():
     assert rows == [
         [name, *map(table_number, row)] for name, row in zip(("x", "y", "z1"), moved.last.tolist(), strict=True)
     ]
-    along = c2.slow_portrait(UNSTEADY, ONE, (-2, 2))
+    along = c2.slow_portrait(UNSTEADY, ONE, "z1", (-2, 2))
     rows = cells(along._repr_html_())
     assert [row[0] for row in rows if row[0] == "equator"] == [p.kind for p in along.points if p.kind == "equator"]
     assert [table_number(one.low) for one in along.intervals] == [row[0] for row in rows[1 : 1 + len(along.intervals)]]

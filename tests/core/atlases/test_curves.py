@@ -23,7 +23,7 @@ def over_f(a, b, d, psi):
     """The e-linear system typed as a general one, over the plane of f."""
     reach = 1.3 * (abs(a) + abs(b) + abs(d)) + 0.1
     system = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters={"a": a, "b": b, "d": d, "f1": 0, "f2": 0})
-    return c2.atlas(system, psi, "f1", "f2", ((-reach, reach), (-reach, reach)))
+    return c2.atlas(system, psi, {"f1": (-reach, reach), "f2": (-reach, reach)})
 
 
 def of_kind(found, *kinds):
@@ -73,9 +73,9 @@ def test_e_linear_systems_typed_as_general_ones_agree_with_the_closed_forms(a, b
     found = over_f(a, b, d, psi)
     assert max(gaps(found, a, b, d, psi).values()) < 1e-9
     for kind, curve in (
-        ("saddle-node", c2.bifurcations.saddle_node(a, b, d)),
-        ("transcritical", c2.bifurcations.critical_boundary(a, b, d)),
-        ("Hopf", c2.bifurcations.hopf(a, b, d, psi)),
+        ("saddle-node", c2.bifurcations.saddle_node(c2.ELinear(a, b, d))),
+        ("transcritical", c2.bifurcations.critical_boundary(c2.ELinear(a, b, d))),
+        ("Hopf", c2.bifurcations.hopf(c2.ELinear(a, b, d), psi)),
     ):
         assert length(one.points for one in of_kind(found, kind)) == pytest.approx(length(curve.branches), rel=0.02), (
             kind
@@ -91,7 +91,7 @@ def test_a_matrix_in_its_own_axes_has_the_same_curves_and_its_own_places():
     (a11, a12), (a21, a22) = A.tolist()
     entries = [[f"{a11!r} + k", a12], [a21, f"{a22!r} + k"]]
     given_ = c2.ELinear.from_matrix(entries, f.tolist(), parameters={"k": 0.0})
-    found = c2.atlas(given_, c2.psi.tanh(), "k", "f1", ((-1, 1), (-2, 2)))
+    found = c2.atlas(given_, c2.psi.tanh(), {"k": (-1, 1), "f1": (-2, 2)})
     assert found.curves
     for one in of_kind(found, "saddle-node", "transcritical"):
         for (k, f1), place in list(zip(one.points, one.places, strict=True))[::7]:
@@ -102,7 +102,7 @@ def test_a_matrix_in_its_own_axes_has_the_same_curves_and_its_own_places():
 @pytest.mark.parametrize("psi", PSIS, ids=lambda psi: psi.family)
 def test_fold_hopf_and_node_focus_of_a_system_that_is_known(psi):
     """U = (s, mu + k s + c^2 + c s): fold mu = 0, Hopf mu = -k^2, and tr J = k + c, det DU = -2c on critical sets."""
-    found = c2.atlas(TAKENS, psi, "mu", "k", ((-1.5, 0.5), (-1.5, 1.5)))
+    found = c2.atlas(TAKENS, psi, {"mu": (-1.5, 0.5), "k": (-1.5, 1.5)})
     (fold,), (hopf,) = of_kind(found, "fold of critical sets"), of_kind(found, "Hopf")
     assert np.abs(fold.points[:, 0]).max() < 1e-12
     assert sorted(fold.points[[0, -1], 1]) == pytest.approx([-1.5, 1.5], abs=1e-9)
@@ -119,7 +119,7 @@ def test_fold_hopf_and_node_focus_of_a_system_that_is_known(psi):
 
 
 def test_its_points_of_codimension_two():
-    found = c2.atlas(TAKENS, c2.psi.tanh(), "mu", "k", ((-1.5, 0.5), (-1.5, 1.5)))
+    found = c2.atlas(TAKENS, c2.psi.tanh(), {"mu": (-1.5, 0.5), "k": (-1.5, 1.5)})
     (takens,) = [point for point in found.points if point.kind == "Bogdanov–Takens"]
     assert np.abs(takens.place).max() < 1e-10
     corners = [point.place for point in found.points if point.kind == "saddle-node on the equator"]
@@ -141,8 +141,8 @@ def test_cusps_of_limit_directions_are_where_the_paper_has_them():
 
 def test_first_lyapunov_coefficients_and_where_they_vanish():
     a, b, d, psi = 172.0, 186.0, -200.0, c2.psi.hill(2)
-    curve = c2.bifurcations.hopf(a, b, d, psi)
-    found = c2.atlas(c2.ELinear(a, b, d, (-86, -93)), psi, "f1", "f2", ((-300, 300), (-300, 300)))
+    curve = c2.bifurcations.hopf(c2.ELinear(a, b, d), psi)
+    found = c2.atlas(c2.ELinear(a, b, d, (-86, -93)), psi, {"f1": (-300, 300), "f2": (-300, 300)})
     for one in of_kind(found, "Hopf"):
         A = np.array([[a, -b], [b, d]])
         for place, number in list(zip(one.points, one.numbers, strict=True))[2:-2:5]:
@@ -172,14 +172,14 @@ def test_the_curve_of_a_neutral_equator():
     ends = [end for one in curves for end in one.points[[0, -1]]]
     assert all(min(math.dist(end, place) for place in corners + doubles) < 1e-9 for end in ends)
     assert {min(math.dist(end, place) for place in doubles) < 1e-9 for end in ends} == {True, False}
-    for line in c2.bifurcations.closed_equator(a, b, d).branches:
+    for line in c2.bifurcations.closed_equator(c2.ELinear(a, b, d)).branches:
         for f in line[::6]:
             assert min(np.hypot(*(one.points - f).T).min() for one in curves) < 0.2
 
 
 def test_pitchforks_of_the_spinning_disc():
     """The radii of gyration 1/2 and sqrt(2/3) of the literature, whatever mu."""
-    found = c2.atlas(c2.examples.spinning_disc(), c2.psi.constant(), "k", "mu", ((0.3, 1), (0.05, 1)))
+    found = c2.atlas(c2.examples.spinning_disc(), c2.psi.constant(), {"k": (0.3, 1), "mu": (0.05, 1)})
     assert {one.kind for one in found.curves} == {"pitchfork"}
     values = sorted(float(one.points[0, 0]) for one in found.curves)
     assert values == pytest.approx([0.5, math.sqrt(2.0 / 3.0)], abs=1e-9)
@@ -189,7 +189,7 @@ def test_pitchforks_of_the_spinning_disc():
 def test_a_system_quadratic_in_e():
     system = c2.System(U=("mu*c**2 - c + s/3 - 0.2", "-s + k*c*s + 0.3*c"), parameters={"mu": 1.0, "k": 1.0})
     psi = c2.psi.rational()
-    found = c2.atlas(system, psi, "mu", "k", ((-3, 3), (-3, 3)))
+    found = c2.atlas(system, psi, {"mu": (-3, 3), "k": (-3, 3)})
     for one in of_kind(found, "transcritical"):
         for (mu, k), (c, s) in zip(one.points[::6], one.places[::6], strict=True):
             assert np.abs(system.evolve(mu=mu, k=k).at().U((c, s))).max() < 1e-12
@@ -220,7 +220,7 @@ def test_a_system_quadratic_in_e():
 def test_where_a_symmetry_splits_a_critical_set_into_three():
     """U is odd in c: critical sets with c = 0 lie at s = 1/5, and split where mu + k/5 = 0."""
     system = c2.System(U=("c*(mu + k*s - c**2)", "1/5 - s + c**2/3"), parameters={"mu": 0.5, "k": 0.3})
-    found = c2.atlas(system, c2.psi.tanh(), "mu", "k", ((-1, 1), (-2, 2)))
+    found = c2.atlas(system, c2.psi.tanh(), {"mu": (-1, 1), "k": (-2, 2)})
     (curve,) = of_kind(found, "pitchfork of critical sets")
     assert np.abs(curve.points @ (1.0, 0.2)).max() < 1e-9
     assert np.abs(np.ptp(curve.points, axis=0) - (0.8, 4.0)).max() < 1e-9

@@ -13,7 +13,7 @@ ONE = c2.psi.constant()
 @pytest.mark.parametrize("low", [0, -1.3])
 def test_a_line_on_which_u_is_zero_is_named_and_has_no_points(low):
     system = c2.System(U=("mu*(c**2 - c)", "mu*(s*c + k)"), parameters={"mu": 0.5, "k": 0.1})
-    found = c2.atlas(system, ONE, "mu", "k", ((low, 1), (-1, 1)))
+    found = c2.atlas(system, ONE, {"mu": (low, 1), "k": (-1, 1)})
     ((name, value),) = found.degenerate
     assert name == "mu"
     assert abs(value) < 1e-12
@@ -25,7 +25,7 @@ def test_a_line_on_which_u_is_zero_is_named_and_has_no_points(low):
 
 def test_so_is_one_on_which_every_direction_is_a_limit_direction():
     system = c2.System(U=("-c*(1 + c*s) + k*s", "-s*(1 + c*s) + k*k*c + k*mu"), parameters={"mu": 0.5, "k": 0.1})
-    found = c2.atlas(system, ONE, "mu", "k", ((0, 1), (-1, 1.5)))
+    found = c2.atlas(system, ONE, {"mu": (0, 1), "k": (-1, 1.5)})
     ((name, value),) = found.degenerate
     assert (name, value) == ("k", pytest.approx(0.0, abs=1e-12))
     assert c2.equator_equilibria(system.evolve(k=0.0)).all_directions
@@ -34,21 +34,21 @@ def test_so_is_one_on_which_every_direction_is_a_limit_direction():
 def test_a_region_is_named_beside_the_line_of_its_symmetry():
     """On k = 0 foci are nodes, for no curve's sake: the discriminant is -k^2."""
     system = c2.System(U=("-mu*c*(1 + c^2/2) - k*s", "-mu*s*(1 + c^2/2) + k*c"), parameters={"mu": 0.5, "k": 0.3})
-    found = c2.atlas(system, ONE, "mu", "k", ((0.1, 1), (-1, 1)))
+    found = c2.atlas(system, ONE, {"mu": (0.1, 1), "k": (-1, 1)})
     assert not found.looked.unlike
     assert all("focus" in region.name for region in found.regions)
 
 
 def test_none_is_said_to_be_missing_for_a_symmetry_alone():
     """Beside a pitchfork Theta and Theta' change their signs in many cells that hold no zero of both."""
-    found = c2.atlas(c2.examples.spinning_disc(), ONE, "k", "mu", ((0.3, 1), (0.05, 1)))
+    found = c2.atlas(c2.examples.spinning_disc(), ONE, {"k": (0.3, 1), "mu": (0.05, 1)})
     assert found.unfinished == ()
     assert [one.kind for one in found.curves] == ["pitchfork"] * 2
 
 
 def test_what_happens_at_a_corner_of_u_is_seen_to_be_missing():
     system = c2.System(U=("-c", "mu - abs(s - k)"), parameters={"mu": 0.1, "k": 0.1})
-    found = c2.atlas(system, ONE, "mu", "k", ((-0.5, 0.5), (-0.5, 0.5)))  # two critical sets are born at mu = 0
+    found = c2.atlas(system, ONE, {"mu": (-0.5, 0.5), "k": (-0.5, 0.5)})  # two critical sets are born at mu = 0
     assert found.looked.unlike
     classes = classes_over(system, ONE, (), ("mu", "k"), found.ranges)
     for place in found.looked.unlike:
@@ -58,14 +58,14 @@ def test_what_happens_at_a_corner_of_u_is_seen_to_be_missing():
 
 def test_where_equations_have_no_value_is_a_region_of_its_own():
     system = c2.System(U=("c**2 - mu", "-s + log(k)"), parameters={"mu": 0.5, "k": 0.3})
-    found = c2.atlas(system, ONE, "mu", "k", ((-2, 2), (-1, 1)))
+    found = c2.atlas(system, ONE, {"mu": (-2, 2), "k": (-1, 1)})
     (border,) = [one for one in found.curves if one.kind == "undefined"]
     assert np.abs(border.points[:, 1]).max() < 1e-9
     assert found.regions[0].name == "undefined"
     assert found.regions[0].area == pytest.approx(4.0, abs=1e-9)
     nowhere = system.evolve(U=("c**2 - mu", "-s + log(k - 9)"))
     with pytest.raises(ValueError, match="finite"):
-        c2.atlas(nowhere, ONE, "mu", "k", ((-2, 2), (-1, 1)))
+        c2.atlas(nowhere, ONE, {"mu": (-2, 2), "k": (-1, 1)})
 
 
 def test_a_curve_along_an_edge_is_found_from_the_portraits_beside_it():
@@ -75,7 +75,7 @@ def test_a_curve_along_an_edge_is_found_from_the_portraits_beside_it():
         W=(),
         parameters={"p": 0.0},
     )
-    found = c2.atlas(system, c2.psi.hill(2.0), "p", "n", ((-2, 2), (1.2, 6)))
+    found = c2.atlas(system, c2.psi.hill(2.0), {"p": (-2, 2), "n": (1.2, 6)})
     assert not found.looked.unlike
     edge = [one for one in found.curves if one.kind == "saddle-node" and one.points[:, 0].max() < -1.9]
     assert len(edge) == 1

@@ -26,7 +26,7 @@ RING = np.stack([np.cos(TURN), np.sin(TURN)], axis=-1)
 @pytest.mark.parametrize("plane", PLANES)
 def test_every_place_is_in_the_region_of_its_class(plane):
     system, psi, names, ranges, z = PLANES[plane]
-    found = c2.atlas(system, psi, *names, ranges, z)
+    found = c2.atlas(system, psi, dict(zip(names, ranges, strict=True)), z)
     widths = np.array([high - low for low, high in ranges])
     assert sum(region.area for region in found.regions) == pytest.approx(float(np.prod(widths)), rel=1e-9)
     classes = classes_over(system, psi, z, names, ranges)
@@ -50,7 +50,7 @@ def test_every_place_is_in_the_region_of_its_class(plane):
 def test_regions_of_a_few_parts_in_a_million_are_there():
     """A Hopf and a node-focus curve within 1/300 of the plane: held against the critical sets in the regions."""
     system, psi, names, ranges, _ = PLANES["f, with thin regions"]
-    found = c2.atlas(system, psi, *names, ranges)
+    found = c2.atlas(system, psi, dict(zip(names, ranges, strict=True)))
     assert len(found.regions) == 23
     for region in found.regions:
         there = system.evolve(**dict(zip(names, region.sample, strict=True)))
@@ -79,7 +79,7 @@ def test_a_lobe_that_is_pinched_at_a_tip_is_a_region_of_its_own():
         W=("1",),
         parameters={"p": 0.0},
     )
-    found = c2.atlas(system, c2.psi.constant(), "p", "z1", ((-2, 2), (-2, 2)), z=(0.0,))
+    found = c2.atlas(system, c2.psi.constant(), {"p": (-2, 2), "z1": (-2, 2)}, z=(0.0,))
     tip = next(point.place for point in found.points if point.kind == "fold on the equator" and point.place[0] > 1.0)
     for place in ((1.0676, 0.1858), (tip[0] - 0.004, tip[1] - 0.012)):
         (region,) = [one for one in found.regions if inside_polygons(np.array([place]), one.boundary)[0]]

@@ -18,7 +18,7 @@ matrices = st.tuples(coefficient, coefficient, coefficient)
 @given(matrices, st.floats(0.0, 1.0))
 def test_across_the_saddle_node_curve_the_number_of_directions_changes_by_two(abd, u):
     a, b, d = abd
-    curve = bifurcations.saddle_node(*abd)
+    curve = bifurcations.saddle_node(ELinear(*abd))
     branch = curve.branches[int(u * (len(curve) - 1e-9))]
     assume(len(branch) > 3)
     i = 1 + int(u * (len(branch) - 4))
@@ -35,7 +35,7 @@ def test_across_the_saddle_node_curve_the_number_of_directions_changes_by_two(ab
 @given(matrices)
 def test_cusps_are_triple_zeros(abd):
     a, b, d = abd
-    for point in bifurcations.saddle_node(*abd).special:
+    for point in bifurcations.saddle_node(ELinear(*abd)).special:
         if point.type not in ("cusp", "pitchfork"):
             continue
         # Theta, Theta' and Theta'' vanish at the angle that the three equations give
@@ -48,7 +48,7 @@ def test_cusps_are_triple_zeros(abd):
 
 
 def test_pitchforks_of_the_astroid_are_where_d2_says():
-    curve = bifurcations.saddle_node(-1, 0, -1.5)
+    curve = bifurcations.saddle_node(ELinear(-1, 0, -1.5))
     assert {p.type for p in curve.special} == {"pitchfork"}
     places = sorted(np.round(p.place, 12).tolist() for p in curve.special)
     assert places == [[-0.5, 0.0], [0.0, -0.5], [0.0, 0.5], [0.5, 0.0]]
@@ -67,7 +67,7 @@ def test_pitchforks_of_the_astroid_are_where_d2_says():
     ],
 )  # fmt: skip
 def test_special_points_by_b_over_k(abd, types):
-    curve = bifurcations.saddle_node(*abd)
+    curve = bifurcations.saddle_node(ELinear(*abd))
     assert sorted(p.type for p in curve.special) == sorted(types)
     for p in curve.special:
         if p.type == "double saddle-node":
@@ -80,18 +80,18 @@ def test_special_points_by_b_over_k(abd, types):
 
 
 def test_degenerate_curves_are_named():
-    circle = bifurcations.saddle_node(-1, 0.5, -1)
+    circle = bifurcations.saddle_node(ELinear(-1, 0.5, -1))
     np.testing.assert_allclose(np.hypot(*circle.branches[0].T), 0.5, rtol=1e-14)
     assert "circle" in circle.name
-    assert bifurcations.saddle_node(2, 0, 2).branches[0].tolist() == [[0.0, 0.0]]
-    segment = bifurcations.critical_boundary(1, 2, -4)
+    assert bifurcations.saddle_node(ELinear(2, 0, 2)).branches[0].tolist() == [[0.0, 0.0]]
+    segment = bifurcations.critical_boundary(ELinear(1, 2, -4))
     assert "segment" in segment.name
     ends = segment.branches[0]
     A = np.array([[1.0, -2.0], [2.0, -4.0]])
     assert np.hypot(*ends[1]) == pytest.approx(np.linalg.norm(A, 2))
     assert np.linalg.matrix_rank(np.column_stack([A, ends[1]]), tol=1e-12) == 1
-    assert bifurcations.critical_boundary(0, 0, 0).branches[0].tolist() == [[0.0, 0.0]]
-    assert "also" in bifurcations.critical_boundary(0, 1, 0).name
+    assert bifurcations.critical_boundary(ELinear(0, 0, 0)).branches[0].tolist() == [[0.0, 0.0]]
+    assert "also" in bifurcations.critical_boundary(ELinear(0, 1, 0)).name
 
 
 @settings(max_examples=20)
@@ -100,7 +100,7 @@ def test_ellipse_is_where_the_critical_set_leaves(abd):
     assume(determinant_sign(*abd) != 0)
     A = np.array([[abd[0], -abd[1]], [abd[1], abd[2]]])
     assume(np.linalg.cond(A) < 1e6)
-    (branch,) = bifurcations.critical_boundary(*abd).branches
+    (branch,) = bifurcations.critical_boundary(ELinear(*abd)).branches
     np.testing.assert_allclose(np.hypot(*np.linalg.solve(A, branch.T)), 1.0, rtol=1e-9)
     for f in branch[::90]:
         counts = [len(critical_sets(ELinear(*abd, tuple(f * r)), psi.constant())) for r in (1 - 1e-7, 1 + 1e-7)]

@@ -22,12 +22,12 @@ def system(f):
 
 @pytest.fixture(scope="module")
 def folds():
-    return bifurcations.cycle_folds(*ABD, psi.hill(3))
+    return bifurcations.cycle_folds(ELinear(*ABD), psi.hill(3))
 
 
 @pytest.fixture(scope="module")
 def loop_curve():
-    return bifurcations.heteroclinic(*ABD, psi.hill(3))
+    return bifurcations.heteroclinic(ELinear(*ABD), psi.hill(3))
 
 
 def corners():
@@ -40,7 +40,7 @@ def from_nearest(point, places):
 
 
 def test_closed_equator_has_exponent_zero():
-    curve = bifurcations.closed_equator(*ABD)
+    curve = bifurcations.closed_equator(ELinear(*ABD))
     assert curve.kind == "equator"
     assert len(curve) == 2
     assert np.allclose(curve.branches[0], -curve.branches[1])
@@ -62,7 +62,7 @@ def test_closed_equator_has_exponent_zero():
 @pytest.mark.parametrize("abd", [(0.0466, 2.228, -0.8324), (-0.585, -2.4198, 2.807)])
 def test_a_curve_beside_the_border_of_closed_equators_is_found(abd):
     """It lies between the rays on which changes of sign were looked for once."""
-    curve = bifurcations.closed_equator(*abd)
+    curve = bifurcations.closed_equator(ELinear(*abd))
     assert len(curve) == 2
     for line in curve.branches:
         way = np.diff(line, axis=0)
@@ -78,19 +78,19 @@ def test_a_curve_beside_the_border_of_closed_equators_is_found(abd):
 
 
 def test_equator_of_reversible_systems_and_none():
-    flat = bifurcations.closed_equator(1.0, 3.0, -1.0)
+    flat = bifurcations.closed_equator(ELinear(1.0, 3.0, -1.0))
     assert "reversible" in flat.sentence
     for line in flat.branches:
         assert np.allclose(abs(line[:, 0]), abs(line[:, 1]))
     for curve in (
-        bifurcations.closed_equator(-1, 1, -2),
-        bifurcations.heteroclinic(-1, 1, -2, psi.tanh()),
-        bifurcations.cycle_folds(-1, 1, -2, psi.tanh()),
+        bifurcations.closed_equator(ELinear(-1, 1, -2)),
+        bifurcations.heteroclinic(ELinear(-1, 1, -2), psi.tanh()),
+        bifurcations.cycle_folds(ELinear(-1, 1, -2), psi.tanh()),
     ):
         assert len(curve) == 0
         assert "Case III" in curve.sentence
     with pytest.raises(ValueError, match="psi"):
-        bifurcations.heteroclinic(1, 1.3, -1.2, 3.0)
+        bifurcations.heteroclinic(ELinear(1, 1.3, -1.2), 3.0)
 
 
 def test_loops_close_on_their_curve(loop_curve):
@@ -119,7 +119,7 @@ def test_branches_of_cycles_end_on_the_curve_of_loops(loop_curve):
 
 def test_folds_from_generalised_hopf_points(folds):
     p = psi.hill(3)
-    points = [np.array(s.place) for s in bifurcations.hopf(*ABD, p).special if s.type == "generalised Hopf"]
+    points = [np.array(s.place) for s in bifurcations.hopf(ELinear(*ABD), p).special if s.type == "generalised Hopf"]
     ends = [end for line in folds.branches for end in (line[0], line[-1])]
     for point in points:
         assert from_nearest(point, ends) < 1e-9
@@ -143,7 +143,7 @@ def test_on_the_curve_a_branch_of_cycles_turns_round(folds):
 def test_cusps_of_cycles_are_named_where_the_folds_turn_back():
     """Inside the tongue beside a cusp there are three cycles, and one outside it."""
     abd, p = (0.12726841122583082, -1.18719452785014, -0.5793015965026732), psi.hill(3)
-    curve = bifurcations.cycle_folds(*abd, p)
+    curve = bifurcations.cycle_folds(ELinear(*abd), p)
     cusps = [np.array(s.place) for s in curve.special if s.type == "cusp of cycles"]
     assert len(cusps) == 4
     assert "cusp" in next(s.sentence for s in curve.special if s.type == "cusp of cycles")
@@ -161,7 +161,7 @@ def test_cusps_of_cycles_are_named_where_the_folds_turn_back():
 def test_two_cycles_meet_on_a_fold_however_narrow_the_strip_is_in_which_they_are_two():
     """Here it is narrower than 1e-5: the outer one ends in a connection of saddles, the inner one at C."""
     p = psi.hill(3)
-    curve = bifurcations.cycle_folds(1.0, 1.5, -2.0, p)
+    curve = bifurcations.cycle_folds(ELinear(1.0, 1.5, -2.0), p)
     line, i = curve.branches[0], int(np.argmin(abs(curve.values[0] - 0.05)))
     along = line[i + 1] - line[i - 1]
     across = np.array([along[1], -along[0]]) / np.hypot(*along)
@@ -172,7 +172,7 @@ def test_two_cycles_meet_on_a_fold_however_narrow_the_strip_is_in_which_they_are
 def test_two_cusps_that_one_step_passes_are_both_named():
     """The curve turns back at its cusps and nowhere else: two close ones leave the sign of the bend as it was."""
     a, b, d = 0.3053288537408046, 0.6464953582754809, -0.33297978971701897
-    curve = bifurcations.cycle_folds(a, b, d, psi.hill(2))
+    curve = bifurcations.cycle_folds(ELinear(a, b, d), psi.hill(2))
     cusps = [np.array(s.place) for s in curve.special if s.type == "cusp of cycles"]
     assert len(cusps) == 6
     assert len(curve.branches) == 2  # from one generalised Hopf point to the other, cut nowhere

@@ -61,7 +61,7 @@ def normal_form_coefficient(A, f, regularisation_mp, x0):
 def test_first_lyapunov_coefficient_is_that_of_the_planar_normal_form(family):
     a, b, d = 1.0, 1.5, -1.2
     A = np.array([[a, -b], [b, d]])
-    curve = bifurcations.hopf(a, b, d, family)
+    curve = bifurcations.hopf(ELinear(a, b, d), family)
     for branch, values in zip(curve.branches, curve.values, strict=True):
         for i in (60, 150):
             f = branch[i]
@@ -84,10 +84,10 @@ def test_a_critical_set_at_the_origin_has_its_coefficient_whatever_psi(regularis
 
 
 def test_where_there_is_no_hopf_curve_it_says_why():
-    assert not bifurcations.hopf(-1, 1, -2, psi.hill(4)).branches
-    assert "Case III" in bifurcations.hopf(1, 0.1, -1, psi.constant()).sentence
-    assert "everywhere" in bifurcations.hopf(0, 1, 0, psi.constant()).name
-    reversible = bifurcations.hopf(1, 2, -1, psi.constant())
+    assert not bifurcations.hopf(ELinear(-1, 1, -2), psi.hill(4)).branches
+    assert "Case III" in bifurcations.hopf(ELinear(1, 0.1, -1), psi.constant()).sentence
+    assert "everywhere" in bifurcations.hopf(ELinear(0, 1, 0), psi.constant()).name
+    reversible = bifurcations.hopf(ELinear(1, 2, -1), psi.constant())
     assert "reversible" in reversible.sentence
     assert all((v == 0.0).all() for v in reversible.values)
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from codim2_core import presets
+from codim2_core import ELinear, presets
 from codim2_core.bifurcations import node_focus
 from codim2_core.layer_problem.critical import critical_sets
 
@@ -13,7 +13,7 @@ def test_it_does_not_jump_where_both_eigenvalues_agree_on_a_whole_circle(key):
     p = presets[key]
     assert 4.0 * (p.a * p.d + p.b * p.b) == (p.a + p.d) ** 2
     A = np.array([[p.a, -p.b], [p.b, p.d]])
-    curves = node_focus(p.a, p.b, p.d, p.psi).branches
+    curves = node_focus(ELinear(p.a, p.b, p.d), p.psi).branches
     for curve in curves:
         e = -np.linalg.solve(A, curve.T).T
         assert np.hypot(*np.diff(e, axis=0).T).max() < 0.05

@@ -47,7 +47,7 @@ TYPICAL = [
 
 @pytest.mark.parametrize("abd", TYPICAL)
 def test_regions_agree_with_classification_of_random_points(abd):
-    found = bifurcations.regions(*abd)
+    found = bifurcations.regions(ELinear(*abd))
     rng = np.random.default_rng(7)
     extent = 1.2 * max((float(abs(loop).max()) for r in found for loop in r.boundary), default=1.0)
     hit = set()
@@ -74,7 +74,7 @@ def test_regions_of_random_matrices(abd, seed):
     size = max(map(abs, abd))
     # Below 1e-6 of the rest a or d counts as 0 and the sliver |A^-1 f| < 1 is no region: a point inside may lie on it.
     assume(all(v == 0.0 or abs(v) > 2e-6 * size for v in (abd[0], abd[2])))
-    found = bifurcations.regions(*abd)
+    found = bifurcations.regions(ELinear(*abd))
     extent = 1.2 * max((float(abs(loop).max()) for r in found for loop in r.boundary), default=1.0)
     system = ELinear(*abd)
     for r in found:
@@ -91,7 +91,7 @@ def test_close_to_degenerate_matrices_nothing_is_classified_wrongly(small):
     first = [(small, 1, -1), (1, 1, -small), (small, 3, -small), (small, 3, small), (-1, 0.5 + small, -2)]
     second = [(-1, 1.5 - small, -2), (-2, small, -1), (-2, 0, -1 - small), (1, 1 + small, -1), (-1, small, -1)]
     for abd in first + second:
-        found = bifurcations.regions(*abd)
+        found = bifurcations.regions(ELinear(*abd))
         border = np.concatenate([loop for r in found for loop in r.boundary])
         extent = 1.2 * float(abs(border).max())
         points = np.random.default_rng(3).uniform(-extent, extent, (25, 2))
@@ -100,4 +100,4 @@ def test_close_to_degenerate_matrices_nothing_is_classified_wrongly(small):
 
 
 def test_the_pinched_annulus_of_cusps_on_the_ellipse_is_two_regions():
-    assert sorted(r.name for r in bifurcations.regions(-2, 0, -1)) == ["CM2", "CM2", "CM4", "NCM2"]
+    assert sorted(r.name for r in bifurcations.regions(ELinear(-2, 0, -1))) == ["CM2", "CM2", "CM4", "NCM2"]

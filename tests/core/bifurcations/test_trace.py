@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core import bifurcations, psi
+from codim2_core import ELinear, bifurcations, psi
 from tests.core.polylines import away
 
 
@@ -47,7 +47,7 @@ def farthest(a, b, d, p, curve, which, moduli):
 def test_where_a_and_minus_d_are_close_no_arc_is_lost(which):
     """The trace changes sign at |e| = 0.920, where a gap of moduli narrower than a step was joined across."""
     plane = 0.768175071389422, -1.4846474812043078, -0.7712348432735607
-    curve = (bifurcations.hopf, bifurcations.node_focus)[which](*plane, psi.hill(6))
+    curve = (bifurcations.hopf, bifurcations.node_focus)[which](ELinear(*plane), psi.hill(6))
     assert farthest(*plane, psi.hill(6), curve, which, [0.3, 0.6, 0.8, 0.9, 0.92, 0.95, 0.99]) < 1e-3
 
 
@@ -64,7 +64,7 @@ def test_curves_pass_every_sign_change(a, exponent, more, swapped, p, which):
     d = -a * (1.0 + 10.0**exponent)
     b = math.sqrt(-a * d) * (1.01 + more)
     a, d = (d, a) if swapped else (a, d)
-    curve = (bifurcations.hopf, bifurcations.node_focus)[which](a, b, d, p)
+    curve = (bifurcations.hopf, bifurcations.node_focus)[which](ELinear(a, b, d), p)
     assert farthest(a, b, d, p, curve, which, np.linspace(0.05, 0.99, 8)) < 1e-3
     A = np.array([[a, -b], [b, d]])
     for line in curve.branches:

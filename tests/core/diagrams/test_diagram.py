@@ -67,7 +67,7 @@ def test_all_directions_exchange_cusp_and_neutral_equator() -> None:
     # through the end of the saddle-node curve
     D = equilibrium_branches(c2.ELinear(-1, 0, -1.5, f=(-0.5, 0)), c2.psi.constant(), "b", (-1, 1))
     assert_allclose(found(D, "pitchfork"), [0], rtol=0.0, atol=1e-9)
-    cusp = c2.bifurcations.saddle_node(-1, 0.2, -1.5).special[0]
+    cusp = c2.bifurcations.saddle_node(c2.ELinear(-1, 0.2, -1.5)).special[0]
     assert cusp.type == "cusp"
     f1, f2 = cusp.place
     D = equilibrium_branches(

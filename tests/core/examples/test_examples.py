@@ -77,7 +77,7 @@ def test_the_catalogue_gives_every_parameter_a_range_around_its_default(example)
     system = example.make()
     assert len(example.z) == system.m == len(example.slow)
     assert set(example.ranges) == set(dict(system.parameters))
-    for name, value in system.parameters:
+    for name, value in system.parameters.items():
         low, high = example.ranges[name]
         assert low <= value <= high
     for value, (_, low, high) in zip(example.z, example.slow, strict=True):

@@ -27,7 +27,7 @@ def test_it_is_the_same_motion_in_all_ways(monkeypatch, psi, eps):
     for way in WAYS:
         with monkeypatch.context() as only:
             follow(only, way)
-            found.append(simulate(BALL, psi, eps, state0, span, rtol=rtol))
+            found.append(simulate(BALL, psi, state0, span, eps=eps, rtol=rtol))
     own, *others = found
     assert own.invariant < 1e-12
     for other in others:
@@ -57,7 +57,9 @@ def test_what_python_raises_in_a_formula_comes_out(monkeypatch):
 )
 def test_a_slide_takes_few_steps_whatever_eps_and_tolerance(psi, eps):
     for rtol, most in ((1e-3, 80), (1e-6, 120), (1e-9, 260)):
-        run = simulate(BALL, psi, eps, [(-1.0, 0.3, 10.0, 0.0)] * regularised.MANY_MOTIONS, (0.0, 3.0), rtol=rtol)[0]
+        run = simulate(BALL, psi, [(-1.0, 0.3, 10.0, 0.0)] * regularised.MANY_MOTIONS, (0.0, 3.0), eps=eps, rtol=rtol)[
+            0
+        ]
         assert len(run.times) < most, (rtol, len(run.times))
         assert run.evaluations < 24 * most
 
@@ -67,7 +69,7 @@ def test_the_tenth_slide_takes_as_few_steps_as_the_first():
     pushed = ELinear(-1.0, 0.3, -2.0, f=("1.3*sin(z1)", "0.4*cos(2*z1)"), B=((0.0, 0.0),), g=(1.0,))
     ends = Event(lambda t, state: t - 37.0, terminal=True)
     for eps, rtol in ((1e-5, 1e-6), (1e-4, 1e-8)):
-        run = simulate(pushed, families.tanh(), eps, (0.3, 0.2, 0.0), (0.0, 1e5), rtol=rtol, events=ends)
+        run = simulate(pushed, families.tanh(), (0.3, 0.2, 0.0), (0.0, 1e5), eps=eps, rtol=rtol, events=ends)
         assert run.status is SimulationStatus.EVENT
         assert sum(phase.kind == "slide" for phase in run.phases) >= 10
         per_turn = np.histogram(run.times, 2.0 * np.pi * np.arange(6))[0]
@@ -78,7 +80,7 @@ def test_the_tenth_slide_takes_as_few_steps_as_the_first():
 def test_dense_output_of_all_steps_joins_and_solves_the_equations(eps):
     """Between the ends of steps, explicit or not, the slope of the curve is the rate at it."""
     psi, states = families.rational(), [(-1.0, 0.3, 10.0, 0.0)] * regularised.MANY_MOTIONS
-    motion = simulate(BALL, psi, eps, states, (0.0, 3.0), rtol=1e-9)[0].motion
+    motion = simulate(BALL, psi, states, (0.0, 3.0), eps=eps, rtol=1e-9)[0].motion
     rate = lambda state: rate_at(field(BALL), psi, eps, None, state)
     powers = np.arange(1, motion.polynomials.shape[2] + 1)
     for i, (h, coefficients) in enumerate(zip(motion.lengths, motion.polynomials, strict=True)):
@@ -98,7 +100,7 @@ def test_as_many_slow_variables_as_there_may_be(monkeypatch, way):
     system = System(U=("-c", "-s"), W=tuple(f"-{i}*{name}/8 + c" for i, name in enumerate(names, 1)))
     few = way == "as Python"  # a step of 18 numbers takes most of a second then
     end, rtol = (0.02, 1e-3) if few else (1.0, 1e-9)
-    run = simulate(system, families.constant(), 1e-3, (0.0, 0.0, *[1.0] * 16), (0.0, end), rtol=rtol)
+    run = simulate(system, families.constant(), (0.0, 0.0, *[1.0] * 16), (0.0, end), eps=1e-3, rtol=rtol)
     np.testing.assert_allclose(run.states[-1, 2:], np.exp(-np.arange(1, 17) * end / 8), rtol=1e-4 if few else 1e-7)
 
 
@@ -108,7 +110,7 @@ def test_a_system_that_is_asked_for_long_is_compiled(monkeypatch):
     runs = []
     for is_compiled in (False, True):
         assert functions_of(field(system), families.tanh()).is_compiled is is_compiled
-        runs.append(simulate(system, families.tanh(), 1e-4, (0.5, 0.0, 0.0), (0.0, 20.0)))
+        runs.append(simulate(system, families.tanh(), (0.5, 0.0, 0.0), (0.0, 20.0), eps=1e-4))
     for run in runs:
         assert run.status is SimulationStatus.T_END
         assert run.times[-1] == 20.0
@@ -120,10 +122,10 @@ def test_a_system_that_is_asked_for_long_is_compiled(monkeypatch):
 @pytest.mark.parametrize("count", [1, 3, 20])
 def test_as_many_motions_as_states(count):
     states = np.random.default_rng(0).uniform(-1.0, 1.0, (count, 4))
-    runs = simulate(BALL, families.constant(), 1e-4, states, (0.0, 1.0))
+    runs = simulate(BALL, families.constant(), states, (0.0, 1.0), eps=1e-4)
     assert isinstance(runs, tuple)
     assert len(runs) == count
     for state, run in list(zip(states, runs, strict=True))[:5]:
         np.testing.assert_array_equal(run.states[0], state)
-        alone = simulate(BALL, families.constant(), 1e-4, state, (0.0, 1.0))
+        alone = simulate(BALL, families.constant(), state, (0.0, 1.0), eps=1e-4)
         np.testing.assert_allclose(run.states[-1], alone.states[-1], rtol=0.0, atol=1e-8)

@@ -14,7 +14,7 @@ TURNS = System(U=("-z1", "-z2"), W=("x", "y"))  # x'' = -x whatever e
 def motion(which, system, state0, t, **options):
     if which == "limit":
         return simulate_nonsmooth(system, state0, (0.0, t), families.constant(), **options)
-    return simulate(system, families.constant(), 1e-6, state0, (0.0, t), **options)
+    return simulate(system, families.constant(), state0, (0.0, t), eps=1e-6, **options)
 
 
 @pytest.mark.parametrize("which", ["smooth", "limit"])
@@ -87,13 +87,15 @@ def test_functions_that_are_no_events_say_so(which, events, message):
 
 
 def test_one_event_alone_and_arrays_of_one_number_are_taken():
-    run = simulate(TURNS, families.constant(), 1e-3, (1.0, 0.1, 0.0, 0.3), (0.0, 3.0), events=lambda t, q: q[2:3] - 0.5)
+    run = simulate(
+        TURNS, families.constant(), (1.0, 0.1, 0.0, 0.3), (0.0, 3.0), eps=1e-3, events=lambda t, q: q[2:3] - 0.5
+    )
     assert len(run.events) == 1
     assert len(run.events[0]) == 2
 
 
 def test_a_corner_is_found():
-    run = simulate(TURNS, families.constant(), 1e-3, (1.0, 0.1, 0.0, 0.3), (0.0, 3.0),
+    run = simulate(TURNS, families.constant(), (1.0, 0.1, 0.0, 0.3), (0.0, 3.0), eps=1e-3,
                    events=lambda t, q: abs(q[2] - 0.5) - 0.25)  # fmt: skip
     expected = sorted([math.asin(0.25), math.asin(0.75), math.pi - math.asin(0.75), math.pi - math.asin(0.25)])
     np.testing.assert_allclose(run.events[0], expected, atol=1e-5)

@@ -17,7 +17,9 @@ EQUATOR_EXIT = ELinear(-1.0, 0.0, -1.0, ("z", 0.0), g=(1.0,))
 def measured(system, psi, state0, t, eps):
     limit = simulate_nonsmooth(system, state0, (0.0, t), psi, rtol=1e-12, atol=1e-14)
     errors = [
-        np.abs(simulate(system, psi, e, state0, (0.0, t), rtol=1e-12, atol=1e-14).states[-1] - limit.states[-1]).max()
+        np.abs(
+            simulate(system, psi, state0, (0.0, t), eps=e, rtol=1e-12, atol=1e-14).states[-1] - limit.states[-1]
+        ).max()
         for e in eps
     ]
     return np.diff(np.log10(errors)) / np.diff(np.log10(eps)), limit
@@ -79,9 +81,9 @@ def test_only_the_time_that_both_were_followed_is_compared():
     limit = simulate_nonsmooth(system, start, (0.0, 2.0), PSI)
     assert len(limit.phases) > 1
     early = 0.3 * limit.phases[0].t_end
-    assert agreement(system, PSI, simulate(system, PSI, 1e-2, start, (0.0, early)), limit).same
+    assert agreement(system, PSI, simulate(system, PSI, start, (0.0, early), eps=1e-2), limit).same
     other = simulate_nonsmooth(system, start, (0.0, early), PSI)
-    assert agreement(system, PSI, simulate(system, PSI, 1e-2, start, (0.0, 2.0)), other).same
+    assert agreement(system, PSI, simulate(system, PSI, start, (0.0, 2.0), eps=1e-2), other).same
 
 
 def simulated(phases, end=1.0, eps=0.01):
@@ -108,7 +110,7 @@ def test_where_phases_differ_the_earlier_time_is_told():
     assert (same.same, same.order) == (True, 1.0)
     assert "O(ε)." in same.sentence
     limit = simulate_nonsmooth(EQUATOR_EXIT, (0.1, 0.0, 0.4), (0.0, 1.6), RATIONAL)
-    run = simulate(EQUATOR_EXIT, RATIONAL, 1e-5, (0.1, 0.0, 0.4), (0.0, 1.6))
+    run = simulate(EQUATOR_EXIT, RATIONAL, (0.1, 0.0, 0.4), (0.0, 1.6), eps=1e-5)
     assert "O(ε^0.889)" in agreement(EQUATOR_EXIT, RATIONAL, run, limit).sentence
 
 

@@ -104,7 +104,7 @@ def test_a_set_that_moves_is_left_at_the_buffer_point(w, step):
 def left_at(system, eps, start, far, end):
     """When |e - e_C| of the regularised motion passes `far` for the last time before the end."""
     x0, z0, place = start
-    run = simulate(system, PSI, eps, (eps * x0, 0.0, z0), (0.0, end), rtol=1e-11, atol=1e-14)
+    run = simulate(system, PSI, (eps * x0, 0.0, z0), (0.0, end), eps=eps, rtol=1e-11, atol=1e-14)
     t = np.linspace(0.0, run.times[-1], 8001)
     x = run.dense(t)
     e = x[:, :2] / np.hypot(np.hypot(x[:, 0], x[:, 1]), eps)[:, None]
@@ -157,7 +157,7 @@ def test_ahead_of_a_motion_that_comes_at_z_lies_the_delay_of_the_motion_itself()
     """Two slow variables, a set that moves; the motion from Sigma at z is another way to it."""
     system = System(U=("z*(c - 0.2*z2) - 0.4*s", "0.4*(c - 0.2*z2) + z*s"), W=("1 + 0.2*z2", "-0.3*z"))
     start = (-0.6, 0.5)
-    [ahead] = delays(system, PSI, start, [(-1.0, 2.0), (-1.0, 1.0)])
+    [ahead] = delays(system, PSI, start, {"z1": (-1.0, 2.0), "z2": (-1.0, 1.0)})
     run = simulate_nonsmooth(system, (0.0, 0.0, *start), (0.0, 3.0), PSI)
     assert run.phases[0].kind == "slide"
     told = run.phases[1].delay
@@ -167,12 +167,12 @@ def test_ahead_of_a_motion_that_comes_at_z_lies_the_delay_of_the_motion_itself()
 
 
 @pytest.mark.parametrize(
-    ("start", "spans", "left"),
-    [(-0.6, [(-1, 1)], 0.6), (-0.6, [(-1, 0.4)], None), (-0.6, [(-1, -0.1)], "none"), (0.3, [(-1, 1)], "none")],
+    ("start", "span", "left"),
+    [(-0.6, (-1, 1), 0.6), (-0.6, (-1, 0.4), None), (-0.6, (-1, -0.1), "none"), (0.3, (-1, 1), "none")],
 )
-def test_ahead_it_is_looked_as_far_as_the_ranges(start, spans, left):
+def test_ahead_it_is_looked_as_far_as_the_ranges(start, span, left):
     """As far as z = 0.4 it is not left; before z = 0 there is no Hopf point, and after it no set that attracts."""
-    found = delays(turning(0.5), PSI, (start,), spans)
+    found = delays(turning(0.5), PSI, (start,), {"z1": span})
     if left == "none":
         assert found == ()
         return

@@ -26,7 +26,7 @@ def off(run, drawn, eps):
 @pytest.mark.parametrize("turns", [2, 88])
 def test_an_orbit_that_turns_often_is_round(turns):
     eps = 0.01
-    run = c2.simulate(TURNING, psi.constant(), eps, (0.002, 0.0), (0.0, 0.01 * 2.0 * np.pi * turns))
+    run = c2.simulate(TURNING, psi.constant(), (0.002, 0.0), (0.0, 0.01 * 2.0 * np.pi * turns), eps=eps)
     drawn = run.drawn()
     assert off(run, drawn, eps) < 1.5 * CHORD_TOLERANCE
     radius = np.hypot(*drawn.points[len(drawn.points) // 2 :].T)

@@ -59,16 +59,16 @@ def test_of_a_general_system():
     assert repelled == pytest.approx(-attracted, rel=1e-8)
     assert attracted < -0.05
     # for this eps doubles still tell on which side it is: the distance falls to exp(attracted/(0.74 eps)) only
-    run = c2.simulate(GENERAL, CONSTANT, 0.005, (0.2724, 0.00313, 0.08977), (0.0, 3.5), rtol=1e-12)
+    run = c2.simulate(GENERAL, CONSTANT, (0.2724, 0.00313, 0.08977), (0.0, 3.5), eps=0.005, rtol=1e-12)
     assert np.hypot(*(run.states[-1, :2] / math.hypot(*run.states[-1, :2], 0.005) - onward.p(3.5))) < 0.1
 
 
 def test_delays_tell_it_too():
     for system, name in ((TRANSCRITICAL, "transcritical"), (PITCHFORK, "pitchfork")):
-        delay = next(iter(c2.delays(system, CONSTANT, (-0.3,), [(-1.0, 2.0)])))
+        delay = next(iter(c2.delays(system, CONSTANT, (-0.3,), {"z1": (-1.0, 2.0)})))
         assert (delay.bifurcation, delay.buffer) == (name, None)
         assert [delay.z_hopf[0], delay.z_out[0]] == pytest.approx([0.5, 1.3], abs=1e-9)
-    (delay,) = c2.delays(PITCHFORK, CONSTANT, (-0.3,), [(-1.0, 1.0)])
+    (delay,) = c2.delays(PITCHFORK, CONSTANT, (-0.3,), {"z1": (-1.0, 1.0)})
     assert delay.t_out is None
     assert "(pitchfork)" in delay.reason
 
@@ -98,7 +98,7 @@ HOPF = c2.System(U=("z*c - s", "c + z*s"), W=("1",))
 @pytest.mark.parametrize("eps", [1e-3, 1e-6])
 def test_for_positive_eps_it_is_said_that_errors_decide_and_since_when(system, start, turns, eps):
     """By then the distance is e^(-125) and less of what it was."""
-    run = c2.simulate(system, CONSTANT, eps, start, (0.0, 0.95))
+    run = c2.simulate(system, CONSTANT, start, (0.0, 0.95), eps=eps)
     before, after = [phase for phase in run.phases if phase.kind == "slide"][:2]
     assert before.t_end == after.t_start == pytest.approx(turns, abs=20.0 * eps)
     assert "may decide" in after.reason
@@ -110,7 +110,7 @@ def test_for_positive_eps_it_is_said_that_errors_decide_and_since_when(system, s
 @pytest.mark.parametrize(("system", "sign"), [(TRANSCRITICAL, 1), (PITCHFORK, 1), (PITCHFORK, -1)])
 def test_where_they_do_not_the_side_is_kept(system, sign, rtol):
     """At eps = 1/50 the distance falls to e^(-6) of what it was: x = 0 is invariant, and x keeps its sign."""
-    run = c2.simulate(system, CONSTANT, 0.02, (0.02 * sign, 0.0, 0.0), (0.0, 1.4), rtol=rtol)
+    run = c2.simulate(system, CONSTANT, (0.02 * sign, 0.0, 0.0), (0.0, 1.4), eps=0.02, rtol=rtol)
     assert not any("decided" in phase.reason for phase in run.phases)
     assert (sign * run.states[:, 0] > 0.0).all()
     assert sign * run.states[-1, 0] > 0.02

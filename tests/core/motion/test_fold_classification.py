@@ -28,7 +28,7 @@ def test_motions_for_eps_come_to_leave_at_the_folded_node():
     system = parabola(0.25, -2.0)
     late = []
     for eps in (1e-4, 1e-5, 1e-6):
-        run = simulate(system, PSI, eps, (0.0, 0.0, -0.09, -0.6), (0.0, 1.0))
+        run = simulate(system, PSI, (0.0, 0.0, -0.09, -0.6), (0.0, 1.0), eps=eps)
         late.append(next(phase.t_start for phase in run.phases if phase.kind == "slip") - 0.6)
     assert all(after < 0.5 * before for before, after in pairwise(late))
     assert 0.0 < late[-1] < 0.03
@@ -42,7 +42,7 @@ def test_at_a_canard_point_what_follows_is_left_to_terms_of_order_eps():
         assert run.times[-1] == pytest.approx(1.0, abs=1e-6)
         assert "canard point" in run.reason
     leaves, stays = (
-        [simulate(canard(more), PSI, eps, (0.0, 0.0, -0.25), (0.0, 1.5)) for eps in (1e-3, 1e-4, 1e-5)]
+        [simulate(canard(more), PSI, (0.0, 0.0, -0.25), (0.0, 1.5), eps=eps) for eps in (1e-3, 1e-4, 1e-5)]
         for more in (" + 10*x", " - 10*x")
     )
     assert all(run.phases[-1].kind == "slip" and run.phases[-1].t_start < 1.05 for run in leaves)

@@ -14,7 +14,7 @@ START = (1.0, 0.2, 1.0, 0.5)
 @pytest.mark.parametrize("eps", [0.0, 1e-3])
 def test_a_row_is_a_time_with_its_state_and_phase(eps):
     span = (0.0, 0.6)
-    run = simulate(BALL, psi.constant(), eps, START, span) if eps else simulate_nonsmooth(BALL, START, span)
+    run = simulate(BALL, psi.constant(), START, span, eps=eps) if eps else simulate_nonsmooth(BALL, START, span)
     frame = run.to_frame()
     assert list(frame.columns) == ["t", "x", "y", "z1", "z2", "phase", "onto"]
     np.testing.assert_array_equal(frame["t"], run.times)

@@ -15,7 +15,7 @@ ALL = ("smooth", "limit")
 def motion(which, system, state0, t, **options):
     if which == "limit":
         return simulate_nonsmooth(system, state0, (0.0, t), families.constant(), **options)
-    return simulate(system, families.constant(), 1e-4, state0, (0.0, t), **options)
+    return simulate(system, families.constant(), state0, (0.0, t), eps=1e-4, **options)
 
 
 @pytest.mark.parametrize("which", ALL)
@@ -79,6 +79,6 @@ def test_a_motion_in_an_invariant_line_stays_in_it():
         assert np.abs(across).max() < 1e-12
         if turn == 0.0:
             assert not across.any()
-        run = simulate(system, families.constant(), 1e-6, (0.3 * k, 0.3 * n, 0.0), (0.0, 60.0))
+        run = simulate(system, families.constant(), (0.3 * k, 0.3 * n, 0.0), (0.0, 60.0), eps=1e-6)
         assert [phase.kind for phase in run.phases] == [phase.kind for phase in limit.phases]
         np.testing.assert_allclose(run.states[-1], limit.states[-1], atol=1e-3)

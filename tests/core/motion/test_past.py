@@ -13,8 +13,8 @@ CROSSING = c2.ELinear(-1.0, 0.3, -0.7, (2.0, 0.4), [[1.0, 0.0]], [0.2])
 
 
 def to_and_fro(system, state, t, eps, **options):
-    there = c2.simulate(system, PSI, eps, state, (0.0, t), **options)
-    return there, c2.simulate(system, PSI, eps, there.states[-1], (t, 0.0), **options)
+    there = c2.simulate(system, PSI, state, (0.0, t), eps=eps, **options)
+    return there, c2.simulate(system, PSI, there.states[-1], (t, 0.0), eps=eps, **options)
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,7 @@ def test_a_past_against_another_method():
         return [*at.U(e), *at.W(e)]
 
     other = solve_ivp(rate, (1.0, 0.2), state, method="DOP853", rtol=1e-12, atol=1e-12).y[:, -1]
-    past = c2.simulate(TURNING, PSI, eps, state, (1.0, 0.2), rtol=1e-11)
+    past = c2.simulate(TURNING, PSI, state, (1.0, 0.2), eps=eps, rtol=1e-11)
     assert past.states[0] == pytest.approx(other, abs=1e-8)
 
 
@@ -75,9 +75,9 @@ def test_events_of_a_past_are_those_of_the_motion():
         assert past.events[0] == pytest.approx(there.events[0], abs=1e-5)
         assert len(there.events[0]) or direction
     stopped = c2.simulate(
-        TURNING, PSI, 0.5, there.states[-1], (3.0, 0.0), events=(c2.Event(height, 0, terminal=True),), rtol=1e-11
+        TURNING, PSI, there.states[-1], (3.0, 0.0), eps=0.5, events=(c2.Event(height, 0, terminal=True),), rtol=1e-11
     )
-    free = c2.simulate(TURNING, PSI, 0.5, there.states[-1], (3.0, 0.0), events=(height,), rtol=1e-11)
+    free = c2.simulate(TURNING, PSI, there.states[-1], (3.0, 0.0), eps=0.5, events=(height,), rtol=1e-11)
     assert stopped.status is c2.SimulationStatus.EVENT
     assert stopped.times[0] == pytest.approx(free.events[0][-1], abs=1e-9)
     assert stopped.events[0].tolist() == pytest.approx([stopped.times[0]])
@@ -85,7 +85,7 @@ def test_events_of_a_past_are_those_of_the_motion():
 
 def test_a_span_of_no_time_is_refused():
     with pytest.raises(ValueError, match="give two different finite times"):
-        c2.simulate(TURNING, PSI, 0.3, (1.0, 0.0, 0.0), (1.0, 1.0))
+        c2.simulate(TURNING, PSI, (1.0, 0.0, 0.0), (1.0, 1.0), eps=0.3)
 
 
 def test_the_past_of_a_slip_is_the_slip():

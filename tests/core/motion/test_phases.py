@@ -50,7 +50,7 @@ def test_random_systems_have_the_phases_of_the_limit(block):
         if limit.times[-1] <= 0.0:
             assert limit.status is SimulationStatus.NOT_UNIQUE
             continue
-        run = simulate(system, psi, eps, state0, (0.0, limit.times[-1]), max_steps=2000)
+        run = simulate(system, psi, state0, (0.0, limit.times[-1]), eps=eps, max_steps=2000)
         if run.status is SimulationStatus.STEP_LIMIT:  # around a cycle once in a time of order eps
             assert any("cycle" in (phase.onto or "") for phase in limit.phases)
             circling += 1
@@ -65,7 +65,7 @@ def test_random_systems_have_the_phases_of_the_limit(block):
 
 @pytest.mark.parametrize(("a", "b"), [(-0.2, 1.0), (-0.05, 2.0), (-0.5, -3.0)])
 def test_a_spiral_arrives_once(a, b):
-    run = simulate(ELinear(a, b, a), families.constant(), 1e-4, (0.3, 0.0), (0.0, 0.3 / abs(a) + 1.0))
+    run = simulate(ELinear(a, b, a), families.constant(), (0.3, 0.0), (0.0, 0.3 / abs(a) + 1.0), eps=1e-4)
     assert named(run) == [("slip", None), ("slide", "C")]
     assert run.phases[1].t_start == pytest.approx(0.3 / abs(a), rel=0.05)
 
@@ -75,7 +75,7 @@ def test_a_cycle_that_is_followed_is_named():
     (cycle,) = limit_cycles(system, psi)
     eps = 1e-3
     p = cycle.points[0]
-    run = simulate(system, psi, eps, eps * p / np.sqrt(1.0 - p @ p), (0.0, 12.0 * eps * cycle.period))
+    run = simulate(system, psi, eps * p / np.sqrt(1.0 - p @ p), (0.0, 12.0 * eps * cycle.period), eps=eps)
     assert named(run) == [("slide", "cycle 1")]
 
 
@@ -84,7 +84,7 @@ def test_the_middle_of_the_hemisphere_decides_a_start_on_sigma():
     start, psi = (0.0, 0.0, 0.9, 0.0), families.hill(2)
     limit = simulate_nonsmooth(system, start, (0.0, 12.0), psi)
     assert named(limit) == [("slip", None)]
-    run = simulate(system, psi, 1e-8, start, (0.0, 12.0))
+    run = simulate(system, psi, start, (0.0, 12.0), eps=1e-8)
     np.testing.assert_allclose(run.states[-1], limit.states[-1], atol=1e-4)
     assert limit.states[-1, 3] == pytest.approx(-16.95, abs=0.01)
 
@@ -112,7 +112,7 @@ def test_phases_carry_their_place():
     drawn = limit.drawn()
     np.testing.assert_allclose(drawn.points[-1], slide.p(2.0), rtol=0.0, atol=1e-12)
     assert (np.diff(drawn.times) >= 0.0).all()
-    smooth = simulate(system, psi, 1e-4, (0.25, 0.3, 0.0), (0.0, 2.0))
+    smooth = simulate(system, psi, (0.25, 0.3, 0.0), (0.0, 2.0), eps=1e-4)
     np.testing.assert_allclose(smooth.drawn().points[-1], drawn.points[-1], atol=1e-3)
 
 

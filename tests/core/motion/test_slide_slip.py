@@ -39,7 +39,7 @@ def test_a_slip_does_not_step_over_sigma_where_the_field_is_the_same_on_both_sid
         for count in (1, 8):
             states = [(x, 0.0, 0.5)] * count
             if eps:
-                run = c2.simulate(system, CONSTANT, eps, states, (0.0, 0.48))[0]
+                run = c2.simulate(system, CONSTANT, states, (0.0, 0.48), eps=eps)[0]
             else:
                 run = c2.simulate_nonsmooth(system, states, (0.0, 0.48), CONSTANT)[0]
             assert [phase.kind for phase in run.phases] == ["slip", "slide"], (x, count)

@@ -43,4 +43,4 @@ def test_a_motion_and_its_limit_are_the_same_in_another_unit_of_time(monkeypatch
     own, other = (simulate_nonsmooth(system(k), state0, (0.0, t / k), psi) for k in (1.0, K))
     assert own.phases[-1].reason.startswith(end)
     same(own, other)
-    same(*(simulate(system(k), psi, 1e-4, state0, (0.0, t / k)) for k in (1.0, K)))
+    same(*(simulate(system(k), psi, state0, (0.0, t / k), eps=1e-4) for k in (1.0, K)))

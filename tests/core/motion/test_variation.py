@@ -75,7 +75,7 @@ def test_the_limit_is_differentiated_through_all_phases(name):
 )
 def test_regularised_it_carries_its_own_rate_along(name, family, eps):
     system, state0, t_end, _ = MOTIONS[name]
-    run = simulate(system, family, eps, state0, (0.0, t_end), rtol=1e-10, atol=1e-11)
+    run = simulate(system, family, state0, (0.0, t_end), eps=eps, rtol=1e-10, atol=1e-11)
     found = run.variation()
     assert found.reason == ""
     np.testing.assert_allclose(found.last @ first_rate(run), found.rate, rtol=1e-7, atol=1e-7)
@@ -87,9 +87,9 @@ def test_regularised_motions_are_differentiated(eps):
     start, family = np.array(state0), psi.hill(2)
 
     def end(first, given=system):
-        return simulate(given, family, eps, first, (0.0, t_end), rtol=1e-13, atol=1e-13).states[-1]
+        return simulate(given, family, first, (0.0, t_end), eps=eps, rtol=1e-13, atol=1e-13).states[-1]
 
-    found = simulate(system, family, eps, start, (0.0, t_end), rtol=1e-12, atol=1e-12).variation(*names)
+    found = simulate(system, family, start, (0.0, t_end), eps=eps, rtol=1e-12, atol=1e-12).variation(*names)
     aside = np.array([0.7, -0.5, 0.4, 0.3])
     by = difference(lambda h: end(start + h * aside), 0.0, 1e-5)
     np.testing.assert_allclose(found.last[:, :4] @ aside, by, rtol=0.0, atol=1e-8)
@@ -103,7 +103,9 @@ def test_derivatives_of_the_limit_are_the_limit_of_derivatives():
     last = limit(system, state0, t_end).variation(*names).last
     off = [
         np.abs(
-            simulate(system, psi.constant(), eps, state0, (0.0, t_end), rtol=1e-11, atol=1e-12).variation(*names).last
+            simulate(system, psi.constant(), state0, (0.0, t_end), eps=eps, rtol=1e-11, atol=1e-12)
+            .variation(*names)
+            .last
             - last
         ).max()
         for eps in (1e-2, 1e-4, 1e-6, 1e-8)
@@ -114,7 +116,7 @@ def test_derivatives_of_the_limit_are_the_limit_of_derivatives():
 def test_exponents_of_a_linear_motion_are_its_eigenvalues():
     # Far inside e is (x, y)/eps: x' = -2 x/eps and so on, with Psi = 1 and |x| << eps.
     system = ELinear(-2.0, 0.0, -1.0, (0.0, 0.0))
-    run = simulate(system, psi.constant(), 1.0, (1e-9, 1e-9), (0.0, 2.0), rtol=1e-12, atol=1e-13)
+    run = simulate(system, psi.constant(), (1e-9, 1e-9), (0.0, 2.0), eps=1.0, rtol=1e-12, atol=1e-13)
     np.testing.assert_allclose(run.variation().exponents, [-1.0, -2.0], rtol=1e-9)
     limit_run = simulate_nonsmooth(POOL, SLIDING[1], (0.0, 2.0))
     exponents = limit_run.variation().exponents
@@ -196,7 +198,7 @@ def test_where_it_is_not_known_is_said():
 
 def test_a_slope_that_is_not_finite_ends_what_is_known():
     system = System(U=("-1 + 0*c", "-s"), W=("sqrt(z)",))  # its derivative at z = 0 is infinite
-    run = simulate(system, psi.constant(), 0.1, (1.0, 0.2, 0.0), (0.0, 0.5))
+    run = simulate(system, psi.constant(), (1.0, 0.2, 0.0), (0.0, 0.5), eps=0.1)
     found = run.variation()
     assert found.reason == "The derivatives are unknown after t = 0, where those of a formula are not finite."
     assert found.times.tolist() == [0.0]

@@ -24,7 +24,7 @@ def test_a_disc_at_rest_does_not_turn_in_the_picture():
 
     system = c2.examples.spinning_disc()
     for run in (
-        c2.simulate(system, c2.psi.constant(), 0.01, (1.0, 0.4), (0.0, 1.0), rtol=RTOL),
+        c2.simulate(system, c2.psi.constant(), (1.0, 0.4), (0.0, 1.0), eps=0.01, rtol=RTOL),
         c2.simulate_nonsmooth(system, (1.0, 0.4), (0.0, 1.0), psi=c2.psi.constant(), rtol=RTOL),
     ):
         angle = np.array(curves(run)["states"][2])

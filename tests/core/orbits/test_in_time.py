@@ -48,10 +48,10 @@ def test_on_the_hemisphere_it_is_the_motion_of_the_regularised_system_in_units_o
     found = in_time(system, family, seed, (-3.0, 6.0))
     ahead = found.time >= 0.0
     x2 = found.xy[found.time == 0.0][0]
-    run = simulate(system, family, eps, eps * x2, (0.0, eps * found.time[-1]), rtol=1e-10)
+    run = simulate(system, family, eps * x2, (0.0, eps * found.time[-1]), eps=eps, rtol=1e-10)
     np.testing.assert_allclose(found.xy[ahead], run.dense(eps * found.time[ahead])[:, :2] / eps, atol=2e-5)
     first = found.time[0]
-    again = simulate(system, family, eps, eps * found.xy[0], (0.0, -eps * first), rtol=1e-10)
+    again = simulate(system, family, eps * found.xy[0], (0.0, -eps * first), eps=eps, rtol=1e-10)
     np.testing.assert_allclose(again.states[-1, :2] / eps, x2, atol=1e-4)
 
 

@@ -135,7 +135,7 @@ def test_outside_the_motion_is_that_of_the_nonsmooth_system():
 
 
 def test_what_needs_R3_says_so():
-    found = c2.bifurcations.cycle_folds(172.0, 186.0, -200.0, IPC)
+    found = c2.bifurcations.cycle_folds(c2.ELinear(172.0, 186.0, -200.0), IPC)
     assert not found.branches
     assert "R3" in found.sentence
     assert not c2.limit_cycles(CHATTERING, CLAMP, prove=True).proved
@@ -156,7 +156,7 @@ def test_a_simulation_creeps_as_told():
     block = c2.ELinear(-2.0, 0.0, -2.0, (1.0, 0.0))
     for name, slip in (("drake", 1.0 / math.sqrt(3.0)), ("sap", 0.5), ("ipc", 1.0 - math.sqrt(0.5))):
         law = c2.psi.engine(name)
-        run = c2.simulate(block, law, 1e-3, [0.4, 0.1], (0.0, 2.0))
+        run = c2.simulate(block, law, [0.4, 0.1], (0.0, 2.0), eps=1e-3)
         (C,) = c2.critical_sets(block, law)
         assert C.creep(1e-3) == pytest.approx(1e-3 * slip, rel=1e-12)
         np.testing.assert_allclose(run.states[-1, :2], [1e-3 * slip, 0.0], atol=1e-9)

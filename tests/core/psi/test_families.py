@@ -20,7 +20,7 @@ CASE3 = c2.ELinear(172, 186, -200, f=(-86, -93))
 
 def at_hopf(psi):
     """Case III with f on the Hopf curve of this Psi."""
-    (curve, *_) = c2.bifurcations.hopf(CASE3.a, CASE3.b, CASE3.d, psi).branches
+    (curve, *_) = c2.bifurcations.hopf(c2.ELinear(CASE3.a, CASE3.b, CASE3.d), psi).branches
     return c2.ELinear(CASE3.a, CASE3.b, CASE3.d, f=tuple(curve[len(curve) // 3]))
 
 

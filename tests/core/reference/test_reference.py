@@ -48,7 +48,7 @@ def centre_of_rotation(c, R=1.0):
 
 
 @pytest.mark.parametrize(("key", "i", "k2", "eta"), [
-    ("disc", 0, 0.5, 0.0), ("gyration", 0, 0.36, 0.0), ("gyration", 1, 0.5625, 0.0), ("washer", 0, 0.545, 0.3),
+    ("spinning-disc", 0, 0.5, 0.0), ("gyration", 0, 0.36, 0.0), ("gyration", 1, 0.5625, 0.0), ("washer", 0, 0.545, 0.3),
     ("washer", 1, 0.625, 0.5), ("washer", 2, 0.82, 0.8),
 ])  # fmt: skip
 def test_a_disc_stops_where_both_fall_alike(key, i, k2, eta):
@@ -78,7 +78,7 @@ def test_a_puck_across_a_ramp_by_quadrature():
 def test_multipliers_of_a_mass_that_is_driven_round_by_differences():
     """The map over one period of the forcing, followed by SciPy, in central differences about the known motion."""
     F, S, w = 1.0, 0.5, 2.0
-    R = value("driven-round")
+    R = value("circular-forcing")
 
     def rate(t, s):
         speed = math.hypot(s[0], s[1])
@@ -136,7 +136,7 @@ def test_stick_and_slip_by_scipy():
         rate, (0.0, 20.0), [1.0, v], method="DOP853", rtol=1e-13, atol=1e-15, events=caught, first_step=1e-4
     )
     slip, stick = run.t[-1], (1.0 - run.y[0, -1]) / v
-    assert (slip, stick, slip + stick) == pytest.approx([value("stick-slip", i) for i in range(3)], abs=3e-12)
+    assert (slip, stick, slip + stick) == pytest.approx([value("leine-block", i) for i in range(3)], abs=3e-12)
 
 
 @pytest.mark.parametrize(("i", "eps"), [(0, 1e-3), (1, 1e-2)])
@@ -150,7 +150,7 @@ def test_the_regularised_block_by_scipy(i, eps):
 
     through.direction = 1
     run = solve_ivp(rate, (0.0, 40.0), [1.0, 0.0], method="Radau", rtol=1e-10, atol=1e-12, events=through, max_step=0.1)
-    assert np.diff(run.t_events[0])[-1] == pytest.approx(value("stick-slip-regularised", i), abs=1e-8)
+    assert np.diff(run.t_events[0])[-1] == pytest.approx(value("leine-block-regularised", i), abs=1e-8)
 
 
 def test_another_solver_is_scored():

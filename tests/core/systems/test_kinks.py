@@ -43,7 +43,7 @@ def test_a_kinked_law_goes_through_every_public_function(system):
     limit = c2.simulate_nonsmooth(system, (1.0, 0.5), (0.0, 2.0), psi=HILL)
     assert limit.phases[0].kind == "slip"
     assert finite(limit.states)
-    near = c2.simulate(system, HILL, 1e-5, (1.0, 0.5), (0.0, 2.0))
+    near = c2.simulate(system, HILL, (1.0, 0.5), (0.0, 2.0), eps=1e-5)
     np.testing.assert_allclose(near.states[-1], limit.states[-1], atol=1e-3)
     for points in c2.trajectories(system, HILL, [(0.3, 0.4), (1.2, 0.5)]).points:
         assert finite(points)

@@ -52,7 +52,7 @@ def test_a_portrait_is_that_of_an_instant():
 def test_a_motion_begins_at_the_time_of_its_span(start):
     timed = System(U=("cos(t)", "-s/2 + t"))
     for run in (
-        simulate(timed, psi.constant(), 1e-3, (1.0, 2.0), (start, start + 0.7)),
+        simulate(timed, psi.constant(), (1.0, 2.0), (start, start + 0.7), eps=1e-3),
         simulate_nonsmooth(timed, (1.0, 2.0), (start, start + 0.7)),
     ):
         np.testing.assert_allclose(run.states[:, 2], run.times, atol=1e-12)

@@ -89,7 +89,7 @@ def test_a_locked_matrix_has_no_pad_and_no_atlas():
 def test_columns_are_the_regions_of_the_core(frames, matrix):
     a, b, d = matrix
     header, blocks = unpack(frames.answer({"all": True, "set": {"a": a, "b": b, "d": d}}))
-    columns, expected = header["regions"], bifurcations.regions(a, b, d)
+    columns, expected = header["regions"], bifurcations.regions(c2.ELinear(a, b, d))
     assert columns["name"] == [region.name for region in expected]
     assert columns["bounded"] == [region.bounded for region in expected]
     assert columns["loops"] == [len(region.boundary) for region in expected]
@@ -112,8 +112,8 @@ def test_curves_are_those_of_the_core(frames, matrix):
     a, b, d = matrix
     header, blocks, _ = atlas_of(frames, a=a + 0.0, b=b, d=d - 1e-3)
     d = d - 1e-3
-    for name, curve in (("saddle_node", bifurcations.saddle_node(a, b, d)),
-                        ("transcritical", bifurcations.critical_boundary(a, b, d))):  # fmt: skip
+    for name, curve in (("saddle_node", bifurcations.saddle_node(c2.ELinear(a, b, d))),
+                        ("transcritical", bifurcations.critical_boundary(c2.ELinear(a, b, d)))):  # fmt: skip
         for few, many in zip(lines(blocks, name, header["atlas_size"]), curve.branches, strict=True):
             assert furthest(many, few) < 0.002 * header["atlas_size"]
 
@@ -154,7 +154,7 @@ def test_equations_typed_whole_have_their_curves_first_and_then_their_regions():
     (first, _), (last, curves) = maps[0], maps[-1]
     assert first["name"] == [] or len(maps) == 1  # the regions may be there before the browser asks again
     system = c2.System(U=("2*c^2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})
-    whole = c2.atlas(system, c2.psi.constant(), "mu", "k", ((-1, 1), (-1, 1)))
+    whole = c2.atlas(system, c2.psi.constant(), {"mu": (-1, 1), "k": (-1, 1)})
     assert first["curve"] == last["curve"] == [one.kind for one in whole.curves]
     for line, one in zip(curves, whole.curves, strict=True):
         assert furthest(one.points, line) < 2e-3

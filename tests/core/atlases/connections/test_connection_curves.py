@@ -75,7 +75,7 @@ def test_heteroclinic_cycles_of_an_e_linear_system_are_those_of_its_own_method()
     values = {"a": 1, "b": 1.3, "d": -1.2, "f1": 0, "f2": 0}
     typed = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters=values)
     psi = c2.psi.hill(3)
-    known = c2.bifurcations.heteroclinic(1, 1.3, -1.2, psi)
+    known = c2.bifurcations.heteroclinic(c2.ELinear(1, 1.3, -1.2), psi)
     found, curves = connections(typed, psi, "f1", "f2", ((-1.5, 1.5), (-1.5, 1.5)))
     assert [curve.kind for curve in curves] == ["heteroclinic cycle"] * 2
     for curve in curves:

@@ -49,7 +49,7 @@ def test_a_system_that_turns_has_its_fold_where_a_root_is_double(psi):
 def test_folds_of_an_e_linear_system_are_those_of_its_own_method():
     typed = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters={"a": 1, "b": 2, "d": -0.5, "f1": 0, "f2": 0})
     psi = c2.psi.hill(2)
-    known = c2.bifurcations.cycle_folds(1, 2, -0.5, psi).branches
+    known = c2.bifurcations.cycle_folds(c2.ELinear(1, 2, -0.5), psi).branches
     # beside two of the four generalised Hopf points
     (curve,) = folds(typed, psi, "f1", "f2", ((0.05, 0.9), (1.3, 2.0)))
     (branch,) = [line for line in known if line[0][1] > 0.0]
@@ -80,12 +80,12 @@ def test_lines_find_what_no_generalised_hopf_point_begins():
 @pytest.mark.slow
 @pytest.mark.usefixtures("no_lines")
 def test_regions_are_not_cut_and_what_stops_within_is_told(monkeypatch):
-    found = c2.atlas(RADIAL, c2.psi.tanh(), "mu", "k", RANGES)
+    found = c2.atlas(RADIAL, c2.psi.tanh(), dict(zip(("mu", "k"), RANGES, strict=True)))
     assert all(one.kind != "fold of cycles" for one in found.curves)
     more = with_folds_of_cycles(RADIAL, c2.psi.tanh(), found)
     assert more.regions is found.regions
     assert more.points == found.points
-    whole = c2.atlas(RADIAL, c2.psi.tanh(), "mu", "k", RANGES, with_cycles=True)
+    whole = c2.atlas(RADIAL, c2.psi.tanh(), dict(zip(("mu", "k"), RANGES, strict=True)), with_cycles=True)
     assert [one.kind for one in whole.curves] == [one.kind for one in more.curves]
     monkeypatch.setattr(cycle_curves, "MAX_POINT_SIZE", 0.0)  # as if it had not come to the critical set
     told = with_folds_of_cycles(RADIAL, c2.psi.tanh(), found).points
