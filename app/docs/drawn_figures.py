@@ -12,11 +12,12 @@ from codim2_core.diagrams.eigenvalue_path import LinearisationPath, linearisatio
 from codim2_core.figures.examples import Z_CRIT
 
 from ..export.figure import Style, figure
-from ..export.small.chart import chart
+from ..export.small.chart import line_chart
+from ..export.small.sketch import LineChart
 from ..export.view import view_of
 from ..panels.filippov import vectors
 from ..panels.solid import stack_of_discs
-from .sketch import LYING, SPACE, Sketch
+from .drawing import LYING, SPACE, Drawing
 
 #: A system whose limit vectors have two candidates of the Filippov convention, v₁₃ = (0, 0, 1) and v₂₄ = (0, 0, −1).
 SADDLE_OF_VECTORS = c2.System(U=("-c", "-s"), W=("c**2 - s**2",))
@@ -27,7 +28,7 @@ _SPAN = np.linspace(-1.0, 1.0, 201)
 
 def coulomb_line() -> str:
     """Draw friction with one degree of freedom, fig:friction (a)."""
-    drawn = Sketch(1.5).arrow((-1.4, 0), (1.4, 0), "soft", 1.0).arrow((0, -1.3), (0, 1.3), "soft", 1.0)
+    drawn = Drawing(1.5).arrow((-1.4, 0), (1.4, 0), "soft", 1.0).arrow((0, -1.3), (0, 1.3), "soft", 1.0)
     drawn.line([(-1.3, 0.7), (0, 0.7)], "rho", 2.4).line([(0, -0.7), (1.3, -0.7)], "rho", 2.4).dot((0, 0), "attr", 6)
     drawn.text((1.4, 0), "v", off=(-4, -8)).text((0, 1.3), "F").text((-1.3, 0.7), "F = µN")
     return drawn.text((0.4, -0.7), "F = −µN", off=(6, 16)).svg()
@@ -36,7 +37,7 @@ def coulomb_line() -> str:
 def coulomb_plane() -> str:
     """Draw friction with two degrees of freedom, fig:friction (b): the vectors U of the system U = −e."""
     at = c2.ELinear(-1.0, 0.0, -1.0).at()
-    drawn = Sketch(1.5).arrow((-1.4, 0), (1.4, 0), "soft", 1.0).arrow((0, -1.4), (0, 1.4), "soft", 1.0)
+    drawn = Drawing(1.5).arrow((-1.4, 0), (1.4, 0), "soft", 1.0).arrow((0, -1.4), (0, 1.4), "soft", 1.0)
     for radius, count in ((0.65, 8), (1.25, 14)):
         for theta in 2.0 * np.pi * (np.arange(count) + 0.5) / count:
             e = np.array([np.cos(theta), np.sin(theta)])
@@ -46,7 +47,7 @@ def coulomb_plane() -> str:
 
 def codimension_one_twice() -> str:
     """Draw two discontinuity sets of codimension 1 that meet, fig:codim1vcodim2 (a)."""
-    drawn = Sketch(1.5).line([(-1.4, 0), (1.4, 0)], "rho", 2.4).line([(0, -1.4), (0, 1.4)], "rho", 2.4)
+    drawn = Drawing(1.5).line([(-1.4, 0), (1.4, 0)], "rho", 2.4).line([(0, -1.4), (0, 1.4)], "rho", 2.4)
     for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
         field = np.array([-0.6 * x, -0.35 * y]) if x * y > 0 else np.array([-0.35 * x, -0.6 * y])
         for start in ((1.2, 0.5), (0.5, 1.2), (1.1, 1.1)):
@@ -62,7 +63,7 @@ def codimension_one_twice() -> str:
 def codimension_two() -> str:
     """Draw motions that reach an isolated set of codimension 2, fig:codim1vcodim2 (b)."""
     preset = c2.presets["case1-cm4"]
-    drawn = Sketch(1.5)
+    drawn = Drawing(1.5)
     for theta in 2.0 * np.pi * (np.arange(16) + 0.5) / 16:
         start = (1.35 * float(np.cos(theta)), 1.35 * float(np.sin(theta)))
         path = c2.simulate_nonsmooth(preset.system, state0=start, t_span=(0.0, 3.0)).states[:, :2]
@@ -73,7 +74,7 @@ def codimension_two() -> str:
 
 def filippov_line() -> str:
     """Draw sliding and crossing at a set of codimension 1, fig:generic_nonuniqueness_of_sliding (a)."""
-    drawn = Sketch(1.6)
+    drawn = Drawing(1.6)
     for x, above, below, said in ((-1.1, -1, 1, "stable"), (0.0, 1, -1, "unstable"), (1.1, -1, -1, "crossing")):
         drawn.line([(x - 0.45, 0), (x + 0.45, 0)], "attr", 2.6)
         for k in (-0.25, 0.15):
@@ -86,7 +87,7 @@ def filippov_line() -> str:
     return drawn.text((-0.55, 1.2), "sliding", "middle", (0, 0)).text((-1.6, 0), "Σ", off=(2, -8)).svg()
 
 
-def _limit_vectors(drawn: Sketch, axes: tuple[int, ...]) -> Sketch:
+def _limit_vectors(drawn: Drawing, axes: tuple[int, ...]) -> Drawing:
     """Draw the limit vectors v₁, …, v₄ and both candidates on some of the axes (x, y, z), the last of which is Σ."""
     found = vectors(SADDLE_OF_VECTORS, c2.psi.constant(), (0.0,))
     origin = np.zeros(len(axes))
@@ -103,7 +104,7 @@ def _limit_vectors(drawn: Sketch, axes: tuple[int, ...]) -> Sketch:
 
 def filippov_space() -> str:
     """Draw limit vectors with their two candidates, fig:generic_nonuniqueness_of_sliding (b)."""
-    drawn = Sketch(1.7, LYING).arrow((0, 0, -1.5), (0, 0, 1.5), "attr", 2.0)
+    drawn = Drawing(1.7, LYING).arrow((0, 0, -1.5), (0, 0, 1.5), "attr", 2.0)
     drawn.line(vectors(SADDLE_OF_VECTORS, c2.psi.constant(), (0.0,))["curve"], "rho", 1.0)
     return _limit_vectors(drawn, (0, 1, 2)).text((0, 0, -1.5), "Σ").svg()
 
@@ -111,14 +112,14 @@ def filippov_space() -> str:
 def filippov_onto(axis: int) -> str:
     """Draw their projection onto the plane of z and x or y, fig:generic_nonuniqueness_of_sliding (c) and (d)."""
     flat = np.array([[0.0, 1.0], [1.0, 0.0]])  # z lies
-    drawn = Sketch(1.7, flat).arrow((0, -1.5), (0, 1.5), "attr", 2.0).arrow((-1.4, 0), (1.4, 0), "soft", 1.0)
+    drawn = Drawing(1.7, flat).arrow((0, -1.5), (0, 1.5), "attr", 2.0).arrow((-1.4, 0), (1.4, 0), "soft", 1.0)
     drawn.text((0, 1.5), "z, Σ", "end", (0, 18)).text((1.4, 0), "xy"[axis])
     return _limit_vectors(drawn, (axis, 2)).svg()
 
 
 def straightened() -> str:
     """Draw Σ, the straight one, and the direction e, fig:straight."""
-    drawn = Sketch(1.5, SPACE).line([(0, 0, -1.2), (0, 0, 1.3)], "attr", 2.4).text((0, 0, 1.3), "Σ: x = y = 0")
+    drawn = Drawing(1.5, SPACE).line([(0, 0, -1.2), (0, 0, 1.3)], "attr", 2.4).text((0, 0, 1.3), "Σ: x = y = 0")
     drawn.arrow((0, 0, 0), (1.5, 0, 0), "soft", 1.0).arrow((0, 0, 0), (0, 1.5, 0), "soft", 1.0).ring(0.0, "rho")
     theta = 0.9
     e = (np.cos(theta), np.sin(theta), 0.0)
@@ -131,10 +132,10 @@ def component() -> str:
     """Draw L_Ψ(l; ε) for Ψ = s/sinh²√s, fig:component."""
     psi = c2.psi.tanh()
     lines = [(f"ε = {eps:g}", _SPAN, np.sign(_SPAN) * psi.modulus(np.abs(_SPAN) / eps)) for eps in (0.5, 0.15, 0.03)]
-    return chart(lines, "l", "L")
+    return line_chart(LineChart(lines, "l", "L"))[0]
 
 
-def _dome(drawn: Sketch) -> Sketch:
+def _dome(drawn: Drawing) -> Drawing:
     drawn.ring(0.0, "ink", 1.8)
     t = np.linspace(0.0, np.pi, 61)
     for phi in np.pi * np.arange(4) / 4:
@@ -144,7 +145,7 @@ def _dome(drawn: Sketch) -> Sketch:
 
 def hemisphere() -> str:
     """Draw the hemisphere with both charts, fig:insert_sphere: a place of the scaling chart and its image."""
-    drawn = _dome(Sketch(1.85, SPACE))
+    drawn = _dome(Drawing(1.85, SPACE))
     square = [(-1.2, -1.2, 1), (1.2, -1.2, 1), (1.2, 1.2, 1), (-1.2, 1.2, 1), (-1.2, -1.2, 1)]
     drawn.line(square, "rho").text((-1.2, -1.2, 1), "κ₂: ε̄ = 1", off=(0, 22))
     for place in ((0.7, -0.5), (-0.6, -0.9), (-0.3, 0.8)):
@@ -160,14 +161,14 @@ def up_the_side() -> str:
     run = c2.simulate(preset.system, psi=preset.psi, eps=eps, state0=(0.7, -0.35), t_span=(0.0, 3.0))
     lifted = np.column_stack([run.states[:, :2], np.full(len(run.times), eps)])
     r = np.linalg.norm(lifted, axis=1, keepdims=True)
-    drawn = _dome(Sketch(1.9, SPACE)).line((1.0 + r) * lifted / r, "crit", 2.0)
+    drawn = _dome(Drawing(1.9, SPACE)).line((1.0 + r) * lifted / r, "crit", 2.0)
     return drawn.dot((1.0 + r[0]) * lifted[0] / r[0], "crit").text((0, 0, 1), "ε̄", off=(8, -6)).svg()
 
 
 def entry_chart(key: str) -> str:
     """Draw limit directions with the arrows of the entry chart at ε₁ = 0, fig:eps0: along ρ and along θ."""
     preset = c2.presets[key]
-    drawn, t = Sketch(1.9), np.linspace(0.0, 2.0 * np.pi, 181)
+    drawn, t = Drawing(1.9), np.linspace(0.0, 2.0 * np.pi, 181)
     drawn.line(np.column_stack([np.cos(t), np.sin(t)]), "ink", 1.8)
     found = c2.equator_equilibria(preset.system, preset.z)
     for number, (theta, radial, angular) in enumerate(
@@ -197,7 +198,7 @@ def limit_plane(key: str) -> str:
     preset = c2.presets[key]
     found = vectors(preset.system, preset.psi, preset.z or (0.0,))
     reach = 1.15 * float(np.abs(found["plane"]).max())
-    drawn = Sketch(reach, SPACE).line([*found["plane"], found["plane"][0]], "soft", 1.0, (4, 3))
+    drawn = Drawing(reach, SPACE).line([*found["plane"], found["plane"][0]], "soft", 1.0, (4, 3))
     drawn.line([(0, 0, -0.8 * reach), (0, 0, 0.9 * reach)], "attr", 2.0).text((0, 0, 0.9 * reach), "Σ")
     for end in found["curve"][::12]:
         drawn.line([(0, 0, 0), end], "line", 1.0)
@@ -208,7 +209,7 @@ def ellipse(key: str) -> str:
     """Draw the ellipse |A⁻¹h| = 1 and the force, fig:ellipse."""
     preset = c2.presets[key]
     boundary = c2.bifurcations.critical_boundary(preset.a, preset.b, preset.d)
-    drawn = Sketch(2.6).arrow((-2.5, 0), (2.5, 0), "soft", 1.0).arrow((0, -2.5), (0, 2.5), "soft", 1.0)
+    drawn = Drawing(2.6).arrow((-2.5, 0), (2.5, 0), "soft", 1.0).arrow((0, -2.5), (0, 2.5), "soft", 1.0)
     for branch in boundary.branches:
         drawn.line(branch, "rho", 2.0)
     return drawn.arrow((0, 0), (preset.f1, preset.f2), "crit", 2.2).text((preset.f1, preset.f2), "f").svg()
@@ -219,14 +220,16 @@ def trace_and_determinant() -> str:
     found = _eigenvalue_path()
     det = np.linspace(0.0, 1.1 * float(found.determinant.max()), 60)
     kinds = [(found.kind[i], found.determinant[i : j + 1], found.trace[i : j + 1]) for i, j in found.pieces]
-    return chart([*kinds, ("Δ = 0", det, 2 * np.sqrt(det)), ("Δ = 0", det, -2 * np.sqrt(det))], "det J", "tr J")
+    return line_chart(
+        LineChart([*kinds, ("Δ = 0", det, 2 * np.sqrt(det)), ("Δ = 0", det, -2 * np.sqrt(det))], "det J", "tr J")
+    )[0]
 
 
 def eigenvalues() -> str:
     """Draw the eigenvalues of J over n, fig:bads (b)."""
     found = _eigenvalue_path()
     parts = (("real parts", found.eigenvalues.real), ("imaginary parts", found.eigenvalues.imag))
-    return chart([(name, found.values, part[:, k]) for name, part in parts for k in (0, 1)], "n", "")
+    return line_chart(LineChart([(name, found.values, part[:, k]) for name, part in parts for k in (0, 1)], "n", ""))[0]
 
 
 def _eigenvalue_path() -> LinearisationPath:
@@ -237,7 +240,7 @@ def _eigenvalue_path() -> LinearisationPath:
 def regularisations() -> str:
     """Draw Ψ(s; n) for n = 1, …, 4, fig:bads (c)."""
     s = np.linspace(0.0, 1.0, 101)
-    return chart([(f"n = {n}", s, c2.psi.hill(n)(s)) for n in (1, 2, 3, 4)], "s", "Ψ")
+    return line_chart(LineChart([(f"n = {n}", s, c2.psi.hill(n)(s)) for n in (1, 2, 3, 4)], "s", "Ψ"))[0]
 
 
 def along_z(key: str, span: tuple[float, float], marked: Mapping[str, float] = MappingProxyType({})) -> str:
@@ -248,7 +251,7 @@ def along_z(key: str, span: tuple[float, float], marked: Mapping[str, float] = M
     preset = c2.presets[key]
     m = preset.system.m
     found = stack_of_discs(preset.system, preset.psi, (0.0,) * m, 0, span)
-    drawn = Sketch(1.75, SPACE)
+    drawn = Drawing(1.75, SPACE)
 
     def height(share: float) -> float:
         return 2.4 * share - 1.2

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from codim2_app.docs import drawn_figures, running
 from codim2_app.docs.build import TEXT_FOLDER
-from codim2_app.docs.sketch import SIDE, Sketch
+from codim2_app.docs.drawing import SIDE, Drawing
 from codim2_app.lessons.reading import read_lesson
 
 import codim2_core as c2
@@ -99,6 +99,6 @@ def test_the_arrows_of_figure_8_have_the_signs_of_the_core():
 
 
 def test_a_sketch_places_what_it_draws():
-    svg = Sketch(2.0).line([(-2, 0), (2, 0)]).dot((1, 1)).svg()
+    svg = Drawing(2.0).line([(-2, 0), (2, 0)]).dot((1, 1)).svg()
     assert [points.tolist() for points in path_points(svg, "#1c2430")] == [[[0.0, 180.0], [360.0, 180.0]]]
     assert 'cx="270.0" cy="90.0"' in svg

@@ -21,7 +21,7 @@ SPACE = np.array([[0.87, -0.21], [0.50, 0.37], [0.0, 0.91]])
 LYING = np.array([[-0.30, -0.45], [0.20, 0.85], [1.0, -0.12]])
 
 
-class Sketch:
+class Drawing:
     """A drawing that grows from back to front.
 
     Parameters
@@ -41,13 +41,13 @@ class Sketch:
         """Return places of the figure's axes as points of the drawing."""
         return self.place.points(np.asarray(values, float).reshape(-1, len(self.axes)) @ self.axes)
 
-    def line(self, values: Any, colour: str = "ink", width: float = 1.4, dashes: Sequence[float] = ()) -> Sketch:
+    def line(self, values: Any, colour: str = "ink", width: float = 1.4, dashes: Sequence[float] = ()) -> Drawing:
         """Draw a curve."""
         path = self.place.path([self.points(values)])
         self.parts.append(f'<path d="{path}" {stroke(colour, width, dashes, self.place)}/>')
         return self
 
-    def arrow(self, start: Any, end: Any, colour: str = "ink", width: float = 1.6) -> Sketch:
+    def arrow(self, start: Any, end: Any, colour: str = "ink", width: float = 1.6) -> Drawing:
         """Draw an arrow that ends at `end`."""
         ends = self.points([start, end])
         (u, v), (u1, v1) = ends.tolist()
@@ -58,19 +58,19 @@ class Sketch:
             self.parts.append(arrows(tip, [angle], HEAD, colour, self.place))
         return self
 
-    def dot(self, at: Any, colour: str = "ink", size: float = 4.0) -> Sketch:
+    def dot(self, at: Any, colour: str = "ink", size: float = 4.0) -> Drawing:
         """Draw a dot."""
         [[u, v]] = self.points(at).tolist()
         self.parts.append(f'<circle cx="{u}" cy="{v}" r="{size}" fill="var(--{colour})"/>')
         return self
 
-    def text(self, at: Any, said: str, anchor: str = "start", off: tuple[float, float] = (6.0, -6.0)) -> Sketch:
+    def text(self, at: Any, said: str, anchor: str = "start", off: tuple[float, float] = (6.0, -6.0)) -> Drawing:
         """Write a word beside a place."""
         [[u, v]] = self.points(at).tolist()
         self.parts.append(words(u + off[0], v + off[1], escape(said), TEXT, anchor))
         return self
 
-    def ring(self, height: float, colour: str = "soft", width: float = 1.0, dashes: Sequence[float] = ()) -> Sketch:
+    def ring(self, height: float, colour: str = "soft", width: float = 1.0, dashes: Sequence[float] = ()) -> Drawing:
         """Draw the unit circle at a height."""
         t = np.linspace(0.0, 2.0 * np.pi, 121)
         return self.line(np.column_stack([np.cos(t), np.sin(t), np.full_like(t, height)]), colour, width, dashes)
