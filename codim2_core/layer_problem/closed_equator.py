@@ -12,6 +12,7 @@ from ..numerics.line_pair import line_pair
 from ..numerics.trigonometric import tangential_zeros
 from ..numerics.trigonometric_exact import to_integers
 from ..results import Result
+from ..systems.kinds import AnySystem
 from ..tables import html_table, paragraphs, table_number
 from ..words import say
 from .equator_zeros import equator_as_orbit
