@@ -70,7 +70,7 @@ RESULTS = {
 }
 PICTURED = {
     "atlas", "basins", "basins, nearer", "branches", "continue_cycles", "launched", "limit_cycles",
-    "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "scene", "separatrices",
+    "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "response_curve", "scene", "separatrices",
     "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories", "bifurcations.closed_equator",
     "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",
 }  # fmt: skip
