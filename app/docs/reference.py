@@ -47,7 +47,8 @@ TOPICS: dict[str, tuple[str, str, tuple[str, ...]]] = {
         "Motions for ε > 0 and in the limit ε → 0, and motions that repeat themselves.",
         (
             "simulate Simulation SimulationStatus Phase Variation", "simulate_nonsmooth", "Event",
-            "periodic_motion PeriodicMotion PeriodicStatus", "response_curve ResponseCurve", "delays Delay",
+            "periodic_motion PeriodicMotion PeriodicStatus", "response_curve ResponseCurve",
+            "lyapunov_exponents LyapunovExponents", "delays Delay",
         ),
     ),
     "sliding": (
