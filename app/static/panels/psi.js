@@ -3,7 +3,7 @@
 
 import {Chart} from "../chart/chart.js"
 import {register} from "../widgets/panels.js"
-import {claimNumber, escape, plain} from "../words.js"
+import {escape, minus, plain} from "../words.js"
 
 const SHOWN = [[1, "s3"], [0.3, "s1"], [0.1, "s0"]] // ε, and the class of its curve
 
@@ -12,7 +12,7 @@ class PsiCurves {
     box.innerHTML = `<svg class="series psi-curves" role="img" aria-label="Ψ, and the smooth step that it makes"></svg>
       <p class="pad-key psi-key"></p>
       <h3>The same system under the friction of physics engines</h3><table class="engines"></table>
-      <p class="note">The slip at rest is ε|x₂|, at the ε of “Orbits over time”. Click a law to draw it.</p>`
+      <p class="note">The slip is ε|x₂|: that at which it creeps where it sticks, and the largest of a chatter. ε is that of “Orbits”. Click a law to draw it.</p>`
     this.box = box
     this.tools = tools
     this.engines = []
@@ -28,10 +28,11 @@ class PsiCurves {
   }
 
   tell(eps) {
-    const speed = (value) => value === null ? "" : claimNumber(eps * value)
+    const told = (value) => value === null ? "" : minus(plain(Number(value.toPrecision(3))))
+    const speeds = (...values) => values.filter((value) => value !== null).map((value) => told(eps * value)).join(", ")
     const rows = this.engines.map(([names, law, verdict, trace, creep, chatter], i) => `<tr><th scope="row"><button data-row="${i}" title="Draw Ψ(s) = ${escape(law)}">${escape(names)}</button></th>
-      <td class="${escape(verdict.split(" ")[0])}">${escape(verdict)}</td><td>${trace === null ? "" : claimNumber(trace)}</td><td>${speed(creep)}</td><td>${speed(chatter)}</td></tr>`)
-    this.box.querySelector(".engines").innerHTML = `<thead><tr><th>engine</th><th>contact</th><th>tr J</th><th>slip at rest</th><th>slip, chattering</th></tr></thead><tbody>${rows.join("")}</tbody>`
+      <td class="${escape(verdict.split(" ")[0])}">${escape(verdict)}</td><td>${told(trace)}</td><td>${speeds(creep, chatter)}</td></tr>`)
+    this.box.querySelector(".engines").innerHTML = `<thead><tr><th>engine</th><th>contact</th><th>tr J</th><th>slip</th></tr></thead><tbody>${rows.join("")}</tbody>`
   }
 
   apply({header}) {
