@@ -39,6 +39,20 @@ SENTENCES: dict[str, Sentence] = {
         "{C} reaches the equator (Figure 19), so sliding ends and the motion leaves along θ = {theta:.4g}.",
         "a critical set comes to the equator",
     ),
+    "static holds": Sentence(
+        "Static friction holds the contact at rest: it needs {share:.4g} times the kinetic friction, of {reach:.4g}.",
+        "on Σ, static above kinetic friction",
+    ),
+    "static lets go": Sentence(
+        "Rest needs {reach:.4g} times the kinetic friction, as much as static friction has: it slips along "
+        "θ = {theta:.4g}.",
+        "at rest by static friction, |e| = S₀/S",
+    ),
+    "static unknown": Sentence(
+        "It is unknown whether static friction holds, since friction may feed a slip: the symmetric part of the "
+        "derivative of U by e is not negative definite.",
+        "on Σ, static above kinetic friction, no dissipation",
+    ),
     "cycle shrinks": Sentence(
         "The limit cycle shrinks onto {C} in a Hopf bifurcation, and the motion slides on {C}.",
         "a Hopf bifurcation, passed backwards",
