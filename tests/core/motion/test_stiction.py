@@ -186,3 +186,46 @@ def test_many_motions_at_once_are_those_one_by_one():
     for start, run in zip(starts, many, strict=True):
         one = c2.simulate_nonsmooth(block_on_belt(), start, (0.0, 15.0), stiction=1.4)
         assert run == one
+
+
+@pytest.mark.parametrize("in_a_line", [True, False])
+def test_derivatives_are_those_of_differences(in_a_line):
+    """Past several rests, by the start and by numbers of the system: a change of the start changes when it lets go."""
+    if in_a_line:
+        start, t_end, ratio = np.array([-0.4, 0.0, 0.2]), 12.0, 1.5
+        system, names = block_on_belt(), ("S", "v")
+    else:
+        start, t_end, ratio = np.array([0.05, 0.1, 0.1, -0.15]), 12.0, 1.5
+        system, names = plate_on_belt().system, ()
+    axes = [0, 2] if in_a_line else range(len(start))
+
+    def follow(state, system=system):
+        return c2.simulate_nonsmooth(system, state, (0.0, t_end), psi.constant(), stiction=ratio, rtol=1e-12, atol=1e-14)
+
+    run = follow(start)
+    assert [phase.kind for phase in run.phases].count("slide") >= 2
+    assert run.phases[-1].kind == "slip"
+    found = run.variation(*names)
+    assert not found.reason
+    for i in axes:
+        step = 1e-6 * np.eye(len(start))[i]
+        by_differences = (follow(start + step).states[-1] - follow(start - step).states[-1]) / 2e-6
+        assert found.last[:, i] == pytest.approx(by_differences, abs=2e-6), i
+    for k, name in enumerate(names, len(start)):
+        own, h = {"S": KINETIC, "v": V}, 1e-6
+        other = []
+        for sign in (1, -1):
+            varied = own | {name: own[name] + sign * h}
+            other.append(follow(start, block_on_belt(varied["v"], varied["S"])).states[-1])
+        assert found.last[:, k] == pytest.approx((other[0] - other[1]) / (2.0 * h), abs=2e-6), name
+
+
+def test_a_periodic_motion_sticks_and_slips():
+    """It forgets its start as it sticks: no multiplier is left."""
+    ratio = 1.5
+    period = sum(times_on_belt(V, KINETIC, ratio * KINETIC))
+    found = c2.periodic_motion(block_on_belt(), (-0.05, 0.0, 0.8), 1.02 * period, stiction=ratio)
+    assert found.period == pytest.approx(period, rel=1e-9)
+    assert np.abs(found.multipliers).max(initial=0.0) < 1e-6
+    with pytest.raises(ValueError, match="known in the limit alone"):
+        c2.periodic_motion(block_on_belt(), (0.0, 0.0, 0.0), period, psi.constant(), 1e-3, stiction=ratio)
