@@ -37,7 +37,7 @@ def _power_general(a, b, c, d):
     """Return [a, b] ** [c, d] where the base is positive; everything elsewhere."""
     if not a > 0.0:
         if a == 0.0 and c == d and c > 0.0:
-            return outwards(0.0, math.pow(b, c))
+            return 0.0, outwards(0.0, math.pow(b, c))[1] if b > 0.0 else 0.0
         return -math.inf, math.inf
     if c == d:
         p, q = math.pow(a, c), math.pow(b, c)
@@ -49,10 +49,12 @@ def _power_general(a, b, c, d):
 
 @inlined_kernel
 def _write_linear(k, u, v, w):
-    """Write -u, u + v or u - v."""
+    """Write -u, u + v or u - v; a zero that is added changes nothing, and is not rounded."""
     for j in (0, 2, 4):
         if k == NEG:
             w[j], w[j + 1] = -u[j + 1], -u[j]
+        elif v[j] == v[j + 1] == 0.0:
+            w[j], w[j + 1] = u[j], u[j + 1]
         elif k == ADD:
             w[j], w[j + 1] = outwards(u[j] + v[j], u[j + 1] + v[j + 1])
         else:
