@@ -201,7 +201,7 @@ class _NonsmoothRun:
         try:
             course.run()
         except AtEventError:
-            status = SimulationStatus.EVENT
+            status, detail = SimulationStatus.EVENT, watch.reason
         except StopError as stop:
             status, detail = SimulationStatus.NOT_UNIQUE, str(stop)
         except BlowUpError as error:
