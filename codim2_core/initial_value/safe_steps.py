@@ -35,7 +35,7 @@ def _stays_positive(values: Array) -> NDArray[np.bool_]:
 
 
 def dissipation(D: Array) -> Array:
-    """Return the least rate (...) at which friction takes energy from a slip, for D_e U (..., 2, 2): of -(D + D^T)/2."""
+    """Return the least rate (...) at which friction takes energy from slips: of -(D + D^T)/2, D = D_e U (..., 2, 2)."""
     a, d, b = D[..., 0, 0], D[..., 1, 1], 0.5 * (D[..., 0, 1] + D[..., 1, 0])
     return -0.5 * (a + d) - np.hypot(0.5 * (a - d), b)
 

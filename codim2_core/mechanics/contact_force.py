@@ -1,11 +1,11 @@
 """Whether a contact presses, opens or jams: the normal force at a state, and what it makes of itself.
 
-A normal force N is held by the row Jn of a constraint. With the friction that it brings, it gives the normal
-acceleration ``-b + p N``, where b is how much the bodies approach without it, and ``p = Jn M^-1 (Jn^T - J^T mu e)``. So
-N = b/p while b > 0 and p > 0; the contact opens where b falls through 0. Where friction makes p <= 0, Painlevé's paradox,
-a normal force presses the bodies together: with b > 0 no normal force holds them apart, and the contact jams; with
-b <= 0 both N = 0 and N = b/p do, and the motion is not unique. In three dimensions p depends on the direction of the
-slip (M. Cheesman, S. J. Hogan, K. U. Kristiansen, 2021).
+The normal force N of a constraint with the row Jn gives, with the friction that it brings, the normal acceleration
+``-b + p N``: b is how much the bodies approach without it, ``p = Jn M^-1 (Jn^T - J^T mu e)``. So N = b/p while b > 0
+and p > 0; the contact opens where b falls through 0. Where friction makes p <= 0, Painlevé's paradox, a normal force
+presses the bodies together: with b > 0 no normal force holds them apart, and the contact jams; with b <= 0 both N = 0
+and N = b/p do, and the motion is not unique. In three dimensions p depends on the direction of the slip (M. Cheesman,
+S. J. Hogan, K. U. Kristiansen, 2021).
 """
 
 from __future__ import annotations
@@ -14,6 +14,13 @@ import math
 from dataclasses import dataclass
 
 from ..words import say
+
+_SENTENCES = {
+    "presses": "contact presses",
+    "opens": "contact opens",
+    "jams": "contact jams",
+    "not unique": "contact not unique",
+}
 
 
 @dataclass(frozen=True)
@@ -46,4 +53,4 @@ class ContactForce:
     @property
     def sentence(self) -> str:
         """Return what happens to the contact, and why."""
-        return say(f"contact {self.kind}", approach=self.approach, gain=self.gain)
+        return say(_SENTENCES[self.kind])

@@ -7,7 +7,7 @@ loses that to stick-slip where mu'(v) N outweighs the damping.
 
 from __future__ import annotations
 
-from typing import Any
+import math
 
 from .formula_reading import as_text
 
@@ -41,7 +41,7 @@ def stribeck(
     Raises
     ------
     ValueError
-        What is given is no number and no text, or speed or exponent is not positive.
+        What is given is no finite number and no text, or speed or exponent is not positive.
 
     Examples
     --------
@@ -57,9 +57,10 @@ def stribeck(
     """
     given = {"static": static, "kinetic": kinetic, "speed": speed, "exponent": exponent, "viscous": viscous}
     texts = {name: as_text(value, name) for name, value in given.items()}
-    for name in ("speed", "exponent"):
-        if not isinstance(given[name], str) and not float(texts[name]) > 0.0:
-            raise ValueError(f"{name} is {texts[name]}; give a positive number, or text.")
+    for name in (name for name, value in given.items() if not isinstance(value, str)):
+        value, positive = float(texts[name]), name in ("speed", "exponent")
+        if not (0.0 if positive else -math.inf) < value < math.inf:
+            raise ValueError(f"{name} is {value:g}; give a {'positive' if positive else 'finite'} number, or text.")
     power = f"({exponent})/2" if isinstance(exponent, str) else repr(float(exponent) / 2.0)
     falls = f"exp(-((x**2 + y**2)/({texts['speed']})**2)**({power}))"
     found = f"({texts['kinetic']}) + (({texts['static']}) - ({texts['kinetic']}))*{falls}"

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 from ..initial_value.events import Event
 from ..mechanics.mechanism import Mechanism
 from ..words import say
+from .argument_checks import checked_state
 
 __all__ = ["contact_events"]
 
@@ -32,7 +33,7 @@ def contact_events(mechanism: Mechanism, state0: ArrayLike) -> tuple[Event, ...]
     Raises
     ------
     ValueError
-        The contact does not press at state0.
+        The contact does not press at state0, or that has the wrong length.
 
     Examples
     --------
@@ -44,13 +45,13 @@ def contact_events(mechanism: Mechanism, state0: ArrayLike) -> tuple[Event, ...]
     ...                   rates={"q": "vx"})
     >>> start = block.state(vx=3, vy=0, q=0)
     >>> run = simulate_nonsmooth(block.system, start, (0, 9), events=contact_events(block, start))
-    >>> round(run.states[-1, 2], 9)
+    >>> round(float(run.states[-1, 2]), 9)
     2.5
     >>> run.reason
     'It stopped at a terminal event. The contact opens: no normal force is needed to keep the bodies apart.'
     """
     force = mechanism.contact_force
-    begins = force(state0)
+    begins = force(checked_state(state0, len(mechanism.slow)))
     if begins.kind != "presses":
         raise ValueError(f"state0 is where the contact does not press; start where it does. {begins.sentence}")
     opens = Event(lambda t, state: force(state).approach, -1, True, say("contact opens"))  # noqa: ARG005

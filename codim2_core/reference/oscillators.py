@@ -131,7 +131,7 @@ _BELT, _KINETIC, _STATIC = 0.3, 0.5, 0.75
 
 def _static_above_kinetic() -> Sequence[float]:
     block = System(U=("-z1 - S*c", "-s"), W=("x + v",), parameters={"S": _KINETIC, "v": _BELT})
-    run = follow(block, (0.0, 0.0, 0.0), 9.0, stiction=_STATIC / _KINETIC)
+    run = follow(block, (0.0, 0.0, 0.0), 12.0, stiction=_STATIC / _KINETIC)
     slip, stick = run.phases[1:3]
     return slip.t_end - slip.t_start, stick.t_end - stick.t_start, float(run.dense(stick.t_start)[2])
 
@@ -163,4 +163,11 @@ REGULARISED = ReferenceMotion(
     ), _regularised_stick_slip,
 )  # fmt: skip
 
-OSCILLATING = (DECAYS, DRIVEN_ROUND, *(_den_hartog(*one) for one in DEN_HARTOG), LEINE, STATIC_ABOVE_KINETIC, REGULARISED)
+OSCILLATING = (
+    DECAYS,
+    DRIVEN_ROUND,
+    *(_den_hartog(*one) for one in DEN_HARTOG),
+    LEINE,
+    STATIC_ABOVE_KINETIC,
+    REGULARISED,
+)

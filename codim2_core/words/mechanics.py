@@ -27,9 +27,7 @@ SENTENCES: dict[str, Sentence] = {
         "The contact opens: sticking would need a normal force of {normal:.4g}.", "N is not positive"
     ),
     "contact presses": Sentence("The contact presses.", "N > 0, and more of it parts the bodies"),
-    "contact opens": Sentence(
-        "The contact opens: no normal force is needed to keep the bodies apart.", "N falls to 0"
-    ),
+    "contact opens": Sentence("The contact opens: no normal force is needed to keep the bodies apart.", "N falls to 0"),
     "contact jams": Sentence(
         "The contact jams (Painlevé): with its friction a normal force presses the bodies together, and none holds "
         "them apart.",

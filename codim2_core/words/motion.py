@@ -40,17 +40,15 @@ SENTENCES: dict[str, Sentence] = {
         "a critical set comes to the equator",
     ),
     "static holds": Sentence(
-        "Static friction holds the contact at rest: it needs {share:.4g} times the kinetic friction, of {reach:.4g}.",
+        "Static friction holds the contact: rest needs {share:.4g} times the kinetic friction, and {reach:.4g} is available.",
         "on Σ, static above kinetic friction",
     ),
-    "static lets go": Sentence(
-        "Rest needs {reach:.4g} times the kinetic friction, as much as static friction has: it slips along "
-        "θ = {theta:.4g}.",
+    "static gives way": Sentence(
+        "Rest needs more than {reach:.4g} times the kinetic friction, so the contact slips along θ = {theta:.4g}.",
         "at rest by static friction, |e| = S₀/S",
     ),
     "static unknown": Sentence(
-        "It is unknown whether static friction holds, since friction may feed a slip: the symmetric part of the "
-        "derivative of U by e is not negative definite.",
+        "It is unknown whether static friction holds: D + Dᵀ is not negative definite for the derivative D of U by e.",
         "on Σ, static above kinetic friction, no dissipation",
     ),
     "cycle shrinks": Sentence(

@@ -8,8 +8,8 @@ follows where it lets go is told where friction takes energy from every slip, D 
 * Rest attracts however friction builds up: by a law e_Psi with slopes P, positive definite, the eigenvalues of D P are
   those of ``P^(1/2) D P^(1/2)``, whose symmetric part is negative definite too.
 * It lets go in one direction. A limit direction is ``D (e - e*) = l e`` with l = lambda_rho, so
-  ``e(l) = (D - l)^-1 D e*``, and ``d|e|^2/dl = 2 e.(D - l)^-1 e < 0`` from |e*| > 1 at l = 0 to 0: |e| = 1 for one l > 0.
-  It attracts, since ``lambda_theta = t.D t - l < 0`` for t across.
+  ``e(l) = (D - l)^-1 D e*``, and ``d|e|^2/dl = 2 e.(D - l)^-1 e < 0``: |e| falls from |e*| > 1 at l = 0 to 0, and is 1
+  for one l > 0. It attracts, since ``lambda_theta = t.D t - l < 0`` for t across.
 """
 
 from __future__ import annotations
@@ -57,7 +57,8 @@ def _rest(formulas: Field, line: InvariantLine | None, z: Array) -> tuple[Array,
     if np.linalg.det(D) == 0.0:
         return None
     U = np.array(formulas.value(0.0, 0.0, 0.0, 0.0, *z.tolist())[:2])
-    return -np.linalg.solve(D, U), float(dissipation(D))
+    rest: Array = np.asarray(-np.linalg.solve(D, U), np.float64)
+    return rest, float(dissipation(D))
 
 
 def hold(formulas: Field, line: InvariantLine | None, z: Array, reach: float) -> Decision | None:
@@ -97,4 +98,4 @@ def let_go(system: AnySystem, line: InvariantLine | None, e: Array, z: Array, re
         theta = float(equator.theta[int(np.argmax(equator.lambda_rho))])
     else:
         theta = math.atan2(e[1], e[0])
-    return Decision("leave", say("static lets go", reach=reach, theta=theta), theta=theta)
+    return Decision("leave", say("static gives way", reach=reach, theta=theta), theta=theta)

@@ -93,9 +93,7 @@ class Shooting:
         """Follow a motion over a period."""
         options = {"rtol": rtol, "atol": rtol * self.floor, "max_steps": self.max_steps}
         if self.eps == 0.0:
-            return simulate_nonsmooth(
-                self.system, state, (0.0, period), self.psi, stiction=self.stiction, **options
-            )
+            return simulate_nonsmooth(self.system, state, (0.0, period), self.psi, stiction=self.stiction, **options)
         assert self.psi is not None
         return simulate(self.system, self.psi, state, (0.0, period), eps=self.eps, **options)
 

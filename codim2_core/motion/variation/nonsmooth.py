@@ -243,7 +243,7 @@ class _Course:
         """D_z e (k, 2, m + q) of the critical set: ``D_e U de + D_z U dz = 0``."""
         De, Dz = D[:, :2, :2], D[:, :2, 4:]
         if self.n is None:
-            return -np.linalg.solve(De, Dz)
+            return np.asarray(-np.linalg.solve(De, Dz), np.float64)
         return -self.n[:, None] * ((self.n @ Dz) / (self.n @ De @ self.n)[:, None])[:, None]
 
     @cached_property

@@ -1,4 +1,4 @@
-"""Contacts that open or jam: a rod in three dimensions against its equations of motion, Painlevé's paradox by its formula."""
+"""Contacts that open or jam: a rod in three dimensions by its equations of motion, Painlevé's paradox by a formula."""
 
 import math
 

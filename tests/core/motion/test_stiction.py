@@ -13,6 +13,7 @@ from scipy.optimize import brentq
 import codim2_core as c2
 from codim2_core import psi
 from codim2_core.mechanics import Mechanism
+from codim2_core.words import recognise
 
 V, KINETIC = 0.3, 0.5
 
@@ -23,7 +24,7 @@ def block_on_belt(v=V, kinetic=KINETIC):
 
 
 def times_on_belt(v, kinetic, static):
-    """It slips on a circle about z1 = kinetic until its speed is the belt's again, and sticks until the force is static."""
+    """It slips on a circle about z1 = kinetic until it moves with the belt, and sticks until the force is static."""
     rise = static - kinetic
     return 2.0 * (math.pi - math.atan(rise / v)), 2.0 * rise / v
 
@@ -39,7 +40,16 @@ def test_a_block_on_a_belt_sticks_and_slips_as_the_textbooks_say(v, kinetic, rat
     for phase, time in zip(rest[:-1], expected, strict=False):
         assert phase.t_end - phase.t_start == pytest.approx(time, rel=1e-8)
     assert [phase.kind for phase in rest[:2]] == ["slip", "slide"]
-    slip = rest[0]
+    slip, again = rest[:2]
+    (_, (key, told)) = recognise(first.reason)
+    assert key == "static holds"
+    assert float(told["share"]) == pytest.approx(0.0, abs=1e-12)
+    ((key, told),) = recognise(slip.reason)
+    assert (key, float(told["reach"])) == ("static gives way", pytest.approx(ratio, rel=1e-3))
+    assert abs(math.remainder(float(told["theta"].replace("−", "-")) - math.pi, math.tau)) < 1e-3
+    *_, (key, told) = recognise(again.reason)
+    assert key == "static holds"
+    assert float(told["share"]) == pytest.approx(abs(2.0 - ratio), rel=1e-3, abs=1e-9)
     longest = kinetic + math.hypot(v, (ratio - 1.0) * kinetic)
     t = np.linspace(slip.t_start, slip.t_end, 2001)
     assert run.dense(t)[:, 2].max() == pytest.approx(longest, rel=1e-5)
@@ -111,7 +121,7 @@ def follow_by_scipy(ratio, start, t_end):
             for lo, hi, here, next_ in zip(angles, angles[1:], across, across[1:], strict=False) if here * next_ < 0.0
         ]  # fmt: skip
         (way,) = [a for a in ways if float(np.dot(*pull(a))) > 0.0]
-        e, rate = pull(way)
+        _, rate = pull(way)
         moment = 1e-7
 
         def slip(_, s):
@@ -165,7 +175,7 @@ def test_friction_that_feeds_a_slip_is_left_unknown():
     assert np.linalg.eigvalsh(np.array(A) + np.array(A).T)[-1] > 0.0
     run = c2.simulate_nonsmooth(system, (0.0, 0.0, 0.5), (0.0, 2.0), psi.constant(), stiction=1.5)
     assert run.status is c2.SimulationStatus.NOT_UNIQUE
-    assert "static friction" in run.reason
+    assert [key for key, _ in recognise(run.reason)] == ["not unique", "static unknown"]
 
 
 @pytest.mark.parametrize("ratio", [0.99, math.inf, math.nan, "much", None])
@@ -200,7 +210,9 @@ def test_derivatives_are_those_of_differences(in_a_line):
     axes = [0, 2] if in_a_line else range(len(start))
 
     def follow(state, system=system):
-        return c2.simulate_nonsmooth(system, state, (0.0, t_end), psi.constant(), stiction=ratio, rtol=1e-12, atol=1e-14)
+        return c2.simulate_nonsmooth(
+            system, state, (0.0, t_end), psi.constant(), stiction=ratio, rtol=1e-12, atol=1e-14
+        )
 
     run = follow(start)
     assert [phase.kind for phase in run.phases].count("slide") >= 2
