@@ -27,6 +27,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.delay import Delay
     from .motion.limit.predicted_delays import delays
     from .motion.nonsmooth import simulate_nonsmooth
+    from .motion.periodic.lyapunov import LyapunovExponents, lyapunov_exponents
     from .motion.periodic.response import response_curve
     from .motion.periodic.response_result import ResponseCurve
     from .motion.periodic.result import PeriodicMotion, PeriodicStatus
@@ -77,6 +78,7 @@ __all__ = [
     "LawVerdicts",
     "LimitCycle",
     "LimitCycles",
+    "LyapunovExponents",
     "NullclineBranch",
     "PeriodicMotion",
     "PeriodicStatus",
@@ -111,6 +113,7 @@ __all__ = [
     "filippov_sliding",
     "hemisphere",
     "limit_cycles",
+    "lyapunov_exponents",
     "mechanics",
     "nullclines",
     "periodic_motion",
@@ -151,6 +154,7 @@ _HOMES = {
     "motion.delay": "Delay",
     "motion.limit.predicted_delays": "delays",
     "motion.nonsmooth": "simulate_nonsmooth",
+    "motion.periodic.lyapunov": "LyapunovExponents lyapunov_exponents",
     "motion.periodic.response": "response_curve",
     "motion.periodic.response_result": "ResponseCurve",
     "motion.periodic.result": "PeriodicMotion PeriodicStatus",

@@ -18,7 +18,18 @@ LONGEST_PART, LONGEST_SENTENCE = 90, 300  # characters of a value within a line
 MAX_COLUMNS = 4  # numbers of an array or a tuple that a row of `to_frame` holds: a place, or z'
 
 
-class Result(ByValue):
+class Listed:
+    """An object of which `dir`, and so the Tab key, lists what is for users; `_internal_` names what the core asks."""
+
+    __slots__ = ()
+
+    _internal_: ClassVar[frozenset[str]] = frozenset()
+
+    def __dir__(self) -> Iterable[str]:
+        return [name for name in super().__dir__() if name not in self._internal_]
+
+
+class Result(Listed, ByValue):
     """A result: a frozen dataclass whose fields say all that it is, and by which it is compared."""
 
     __slots__ = ()

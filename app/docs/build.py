@@ -12,14 +12,12 @@ import sys
 import tempfile
 import warnings
 from collections.abc import Mapping
-from html import escape
 from pathlib import Path
 from typing import Any
 
 from codim2_core import __version__
 
-from ..lessons.library import built_in
-from . import gallery, mathematics, reference, validation
+from . import gallery, lesson_pages, mathematics, paper_figures, reference, running, validation
 
 TEXT_FOLDER = Path(__file__).parent / "text"
 _COLOUR = re.compile(r"\x1b\[[0-9;]*m")
@@ -126,38 +124,23 @@ def _accessible(page: str) -> str:
 
 def _write_sources(source: Path, portraits: bool, live: str) -> None:
     shutil.copytree(TEXT_FOLDER, source)
+    explorer = live or "../"
     if portraits:
         gallery.write_gallery(source, live)
         static = source / "_static"
         shutil.move(source / "portraits", static / "portraits")
     else:
         (source / "gallery.md").write_text(gallery.GALLERY_HEAD.format(click=""), encoding="utf-8")
-    (source / "lessons.md").write_text(_lessons(live or "../"), encoding="utf-8")
+    for notebook in running.NOTEBOOK_FOLDER.glob("*.ipynb"):
+        (source / f"notebook-{notebook.stem}.md").write_text(running.notebook_page(notebook), encoding="utf-8")
+    if portraits:
+        for page in source.glob("*.md"):
+            text = page.read_text(encoding="utf-8")
+            page.write_text(running.run_page(text, page.name), encoding="utf-8")
+    lesson_pages.write_lessons(source, explorer, portraits)
+    paper_figures.write_figures(source, explorer, portraits)
     reference.write_reference(source)
     validation.write_validation(source)
-
-
-LESSONS = """# Lessons
-
-A course in the explorer, through the paper in its order and beyond it: text with numbers that can be dragged, and
-questions that are judged by the system on your own sliders. A click opens a lesson in the explorer.
-
-```{raw} html
-<ol>
-%s
-</ol>
-```
-"""
-
-
-def _lessons(explorer: str) -> str:
-    """Return the page of lessons: the course, each with a link that opens it in the explorer of an address."""
-    rows = (
-        f'<li><a href="{explorer}?panel=lessons&amp;lesson={key}" class="live">{escape(one.title)}</a>: '
-        f"{escape(one.summary)}</li>"
-        for key, one in built_in().items()
-    )
-    return LESSONS % "\n".join(rows)
 
 
 def main(target: Path, live: str = "") -> int:

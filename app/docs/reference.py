@@ -1,10 +1,13 @@
-"""The public names of both packages as pages for Sphinx's autodoc, and docstrings with the paper's printed labels."""
+"""The public names of both packages by topic, a page a function with its results, for Sphinx's autodoc.
+
+Docstrings are printed with the paper's labels as the paper prints them.
+"""
 
 from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -14,50 +17,134 @@ import codim2_core
 from codim2_core.paper import PRINTED
 
 _LABEL = re.compile(r"\b(" + "|".join(map(re.escape, sorted(PRINTED, key=len, reverse=True))) + r")\b")
+#: An equation's label that a first line could do without.
+_EQUATION = re.compile(r"(?:,? \(?eq:[\w:]+(?: with eq:\w+)?\)?)(?=[.,;]|$)")
 _CODE = re.compile(r"(`+[^`]*`+)")
 
-#: Sub-modules of the core that are public, and what each is for.
+#: Topics of the core: title, what is found there, and its pages, each a function (or a class) with what it returns.
+TOPICS: dict[str, tuple[str, str, tuple[str, ...]]] = {
+    "systems": (
+        "Systems",
+        "What is studied: the paper's normal form, a system of your own formulas, the paper's figures.",
+        ("ELinear", "System Frozen", "Coefficients", "Psi", "presets Preset"),
+    ),
+    "portraits": (
+        "Portraits",
+        "All that one phase portrait has: its name, what stands still, its curves and orbits.",
+        (
+            "classify Classification Degeneracy", "equator_equilibria EquatorEquilibria", "equator_cycle EquatorCycle",
+            "critical_sets CriticalSet", "nullclines NullclineBranch", "trajectories Trajectories",
+            "separatrices Separatrices Separatrix", "approach_outcomes", "basins Basins", "Scene",
+        ),
+    ),
+    "cycles": (
+        "Limit cycles",
+        "Limit cycles of the layer problem, proofs of their number, and what a law of friction changes.",
+        ("limit_cycles LimitCycles LimitCycle", "compare_laws LawVerdicts LawVerdict"),
+    ),
+    "motions": (
+        "Motions in time",
+        "Motions for ε > 0 and in the limit ε → 0, and motions that repeat themselves.",
+        (
+            "simulate Simulation SimulationStatus Phase Variation", "simulate_nonsmooth", "Event",
+            "periodic_motion PeriodicMotion PeriodicStatus", "response_curve ResponseCurve",
+            "lyapunov_exponents LyapunovExponents", "delays Delay",
+        ),
+    ),
+    "sliding": (
+        "Sliding along Σ",
+        "The slow flow on critical sets, and the candidates of the Filippov convention.",
+        ("sliding_flow", "slow_portrait SlowPortrait", "filippov_sliding FilippovSliding"),
+    ),
+    "parameters": (
+        "Over parameters",
+        "What changes along one parameter and over two.",
+        ("branches Branches", "atlas Atlas AtlasCurve AtlasPoint AtlasRegion"),
+    ),
+    "counting": (
+        "Counting and checking",
+        "Censuses of random systems, and the paper's claims evaluated on one system.",
+        ("census Census", "certificates"),
+    ),
+}  # fmt: skip
+
+#: Sub-modules of the core that are public, and what each is for; each is a topic too.
 MODULES = {
-    "psi": "Regularisation functions",
+    "psi": "Regularisation functions Ψ",
     "bifurcations": "Bifurcations in the plane (f₁, f₂)",
     "examples": "Example systems",
-    "hemisphere": "Charts of the hemisphere",
     "mechanics": "From a mechanism to its system",
+    "hemisphere": "Charts of the hemisphere",
     "reference": "Motions whose values are known",
 }
 
 
 def write_reference(folder: Path) -> None:
     """Write the pages of the reference into a folder of sources."""
-    core = [name for name in codim2_core.__all__ if not inspect.ismodule(getattr(codim2_core, name))]
+    for key, (title, about, pages) in TOPICS.items():
+        _write_topic(folder, key, title, about, codim2_core, [page.split() for page in pages])
+    for key, title in MODULES.items():
+        module = getattr(codim2_core, key)
+        own = sorted((name for name in module.__all__ if name not in codim2_core.__all__), key=str.lower)
+        about = f"``codim2_core.{key}``: {_first_line(module)}"
+        _write_topic(folder, key, title, about, module, *_split_functions(module, own), prefix=f"{key}-")
     app = import_module(__name__.partition(".")[0])  # its face imports what is asked for: no circle
-    pages = {
-        "core": _page("codim2_core", "Names of `codim2_core`", _public_members(codim2_core, core)),
-        "app": _page("codim2_app", "Names of `codim2_app`", _public_members(app, app.__all__)),
-    }
-    for name, title in MODULES.items():
-        module = getattr(codim2_core, name)
-        own = [one for one in module.__all__ if one not in codim2_core.__all__]
-        pages[name] = _page(module.__name__, f"{title}: `codim2_core.{name}`", _public_members(module, own))
-    for name, text in pages.items():
-        (folder / f"api-{name}.rst").write_text(text, encoding="utf-8")
+    about = "What ``codim2_app`` adds in a notebook: the live page, pictures and tables."
+    _write_topic(folder, "app", "In a notebook", about, app, [[name] for name in app.__all__], prefix="app-")
 
 
-def _public_members(module: ModuleType, names: Iterable[str]) -> list[tuple[str, Any]]:
-    return sorted(((name, getattr(module, name)) for name in names), key=lambda one: one[0].lower())
+def _split_functions(module: ModuleType, names: Iterable[str]) -> tuple[list[list[str]], list[str]]:
+    """Return the functions of a module, which have a page each, and its other names, which stay together."""
+    functions = [name for name in names if inspect.isroutine(getattr(module, name))]
+    return [[name] for name in functions], [name for name in names if name not in functions]
 
 
-def _page(module: str, title: str, names: list[tuple[str, Any]]) -> str:
-    title = title.replace("`", "``")
-    parts = [f"{title}\n{'=' * len(title)}\n\n.. currentmodule:: {module}\n"]
-    for name, value in names:
+def _write_topic(
+    folder: Path,
+    key: str,
+    title: str,
+    about: str,
+    module: ModuleType,
+    pages: list[list[str]],
+    others: Iterable[str] = (),
+    prefix: str = "",
+) -> None:
+    """Write the page of a topic, which lists its own, and these."""
+    rows = []
+    for names in pages:
+        page = f"api-{prefix}{names[0].lower()}"
+        (folder / f"{page}.rst").write_text("\n".join(_function_page(module, names)), encoding="utf-8")
+        rows.append((page, names[0], _first_line(getattr(module, names[0]))))
+    parts = [f"{title}\n{'=' * 2 * len(title)}\n\n{about}\n", f".. currentmodule:: {module.__name__}\n"]
+    parts += [f":doc:`{name} <{page}>`\n   {line}\n" for page, name, line in rows]
+    parts += _entries(module, others)
+    hidden = "\n".join(f"   {page}" for page, *_ in rows)
+    parts.append(f".. toctree::\n   :hidden:\n\n{hidden}\n")
+    (folder / f"reference-{key}.rst").write_text("\n".join(parts), encoding="utf-8")
+
+
+def _function_page(module: ModuleType, names: list[str]) -> Iterator[str]:
+    yield f"{names[0]}\n{'=' * len(names[0])}\n\n.. currentmodule:: {module.__name__}\n"
+    yield from _entries(module, names)
+
+
+def _entries(module: ModuleType, names: Iterable[str]) -> Iterator[str]:
+    for name in names:
+        value = getattr(module, name)
         if inspect.isclass(value):
-            parts.append(f".. autoclass:: {name}\n   :members:\n")
+            yield f".. autoclass:: {name}\n   :members:\n"
         elif callable(value):
-            parts.append(f".. autofunction:: {name}\n")
+            yield f".. autofunction:: {name}\n"
         else:
-            parts.append(f".. py:data:: {name}\n\n   {_summary(value)}\n")
-    return "\n".join(parts)
+            yield f".. py:data:: {name}\n\n   {_summary(value)}\n"
+
+
+def _first_line(value: Any) -> str:
+    """Return the first line of what a docstring says, with the paper's labels in print; of a value, what it is."""
+    if not (inspect.isroutine(value) or inspect.isclass(value) or inspect.ismodule(value)):
+        return _summary(value)
+    text = (inspect.getdoc(value) or "").split("\n\n")[0].replace("\n", " ")
+    return _print_label_line(_EQUATION.sub("", text))
 
 
 def _summary(value: Any) -> str:
@@ -68,7 +155,11 @@ def _summary(value: Any) -> str:
 
 def print_labels(_app: Any, _what: str, _name: str, _value: Any, _options: Any, lines: list[str]) -> None:
     """Put what the paper's labels are called in print into a docstring, whose |p| is a modulus; called by autodoc."""
-    lines[:] = [_escape_bars(_LABEL.sub(lambda found: PRINTED[found[1]][0], line)) for line in lines]
+    lines[:] = map(_print_label_line, lines)
+
+
+def _print_label_line(line: str) -> str:
+    return _escape_bars(_LABEL.sub(lambda found: PRINTED[found[1]][0], line))
 
 
 def _escape_bars(line: str) -> str:

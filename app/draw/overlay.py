@@ -14,8 +14,9 @@ from .layers import layers_in_paint_order
 from .theme import HALF_VIEW, themes
 
 AXIS_LABELS = ["x̄", "ȳ"]
-#: What Bokeh's names of styles are called there.
-MATPLOTLIB = {"color": "color", "line_width": "linewidth", "line_color": "edgecolors", "fill_color": "color"}
+#: Points of print to a px of the screen; Bokeh's marks as Matplotlib names them.
+POINT = 0.75
+MARKERS = {"circle": "o", "square": "s", "diamond": "D", "triangle": "^", "x": "x", "circle_dot": "o", "hex": "h"}
 
 
 def elements(scene: Scene) -> dict[str, Any]:
@@ -39,7 +40,7 @@ def elements(scene: Scene) -> dict[str, Any]:
             parts = [part for part in layer.parts if part.colour == colour]
             label = layer.name if len(colours) == 1 else parts[0].name
             pieces = [piece for part in parts for piece in _split_pieces(*part.pieces(scene[part.scene]))]
-            made[label] = _paths(pieces, label, _light(colour), parts[0].width)
+            made[label] = _paths(pieces, label, colour, parts[0].width)
     made["equator"] = _equator_circle(scene)
     made["critical"] = _critical_points(scene)
     return made
@@ -90,34 +91,46 @@ def _light(name: str) -> str:
 
 
 def _circle() -> Any:
-    return _apply_style(hv.Ellipse(0, 0, 2, label="hemisphere"), color=_light("ink"), line_width=2)
+    return _style_curves(hv.Ellipse(0, 0, 2, label="hemisphere"), "ink", 2)
 
 
 def _paths(pieces: list[Any], label: str, colour: str, width: float) -> Any:
     path = hv.Path([np.asarray(piece) for piece in pieces], kdims=AXIS_LABELS, label=label)
-    return _apply_style(path, color=colour, line_width=width)
+    return _style_curves(path, colour, width)
 
 
 def _equator_circle(scene: Scene) -> Any:
     q = glyphs.equator_columns(scene["equator"])
-    colours, fills = _mark_colours(q)
-    columns = (q["x"], q["y"], q["label"], q["type"], q["theta"], q["lambda_rho"], q["lambda_theta"],
-               q["shape"], colours, fills)  # fmt: skip
-    names = ["label", "type", "theta", "lambda_rho", "lambda_theta", "marker", "colour", "fill"]
-    points = hv.Points(columns, kdims=AXIS_LABELS, vdims=names, label="equator")
-    return _apply_style(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
-                   size=11, line_width=2, tools=["hover"])  # fmt: skip
+    return _marks(q, ("type", "theta", "lambda_rho", "lambda_theta"), "equator", 11)
 
 
 def _critical_points(scene: Scene) -> Any:
     c = glyphs.critical_columns(scene["critical"])
-    colours, fills = _mark_colours(c)
-    columns = (c["x"], c["y"], c["label"], c["kind"], c["trace"], c["determinant"], c["discriminant"],
-               c["shape"], colours, fills)  # fmt: skip
-    names = ["label", "kind", "trace", "determinant", "discriminant", "marker", "colour", "fill"]
-    points = hv.Points(columns, kdims=AXIS_LABELS, vdims=names, label="critical")
-    return _apply_style(points, marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"),
-                   size=12, line_width=2, tools=["hover"])  # fmt: skip
+    return _marks(c, ("kind", "trace", "determinant", "discriminant"), "critical", 12)
+
+
+def _marks(columns: Any, told: tuple[str, ...], label: str, size: int) -> Any:
+    """Return marks of their own shape, colour and fill, with what is told of them, for each backend that is loaded."""
+    colours, fills = _mark_colours(columns)
+    names = ("label", *told)
+    values = (columns["x"], columns["y"], *(columns[name] for name in names), columns["shape"], colours, fills)
+    points: Any = hv.Points(values, kdims=AXIS_LABELS, vdims=[*names, "marker", "colour", "fill"], label=label)
+    if "bokeh" in hv.Store.renderers:
+        points = points.opts(marker=hv.dim("marker"), line_color=hv.dim("colour"), fill_color=hv.dim("fill"), size=size,
+                             line_width=2, tools=["hover"], backend="bokeh")  # fmt: skip
+    if "matplotlib" in hv.Store.renderers:
+
+        def draw_each(plot: Any, _element: Any) -> None:
+            """Give each point its own mark: Matplotlib's scatter has one for all."""
+            artist = plot.handles["artist"]
+            samples = [artist.axes.scatter([], [], marker=MARKERS[name]) for name in columns["shape"]]
+            artist.set_paths([sample.get_paths()[0] for sample in samples])
+            for sample in samples:
+                sample.remove()
+            artist.set(edgecolors=colours, facecolors=fills, linewidths=2 * POINT)
+
+        points = points.opts(s=(size * POINT) ** 2, hooks=[draw_each], backend="matplotlib")
+    return points
 
 
 def _mark_colours(columns: Any) -> tuple[list[str], list[str]]:
@@ -126,11 +139,10 @@ def _mark_colours(columns: Any) -> tuple[list[str], list[str]]:
     return colours, [c if filled else _light("page") for c, filled in zip(colours, columns["filled"], strict=True)]
 
 
-def _apply_style(element: Any, **bokeh: Any) -> Any:
-    """Style an element for each backend that is loaded; Matplotlib has one marker for all points of an element."""
+def _style_curves(element: Any, colour: str, width: float) -> Any:
+    """Style curves for each backend that is loaded: widths are px of a screen, or points of print."""
     if "bokeh" in hv.Store.renderers:
-        element = element.opts(**bokeh, backend="bokeh")
+        element = element.opts(color=_light(colour), line_width=width, backend="bokeh")
     if "matplotlib" in hv.Store.renderers:
-        given = {MATPLOTLIB[name]: value for name, value in bokeh.items() if name in MATPLOTLIB}
-        element = element.opts(**given, **({"s": bokeh["size"] ** 2} if "size" in bokeh else {}), backend="matplotlib")
+        element = element.opts(color=_light(colour), linewidth=POINT * width, backend="matplotlib")
     return element

@@ -1,4 +1,4 @@
-"""A film of a sweep, or of play: the figure while one slider moves there and back, as an animated GIF or WebP.
+"""A film of a sweep, or of play: the figure while one slider moves there and back, as GIF, WebP or MP4.
 
 Each picture is the figure for print, drawn by Typst as a PNG is; Pillow, which Bokeh needs anyhow, puts them together.
 """
@@ -6,7 +6,11 @@ Each picture is the figure for print, drawn by Typst as a PNG is; Pillow, which 
 from __future__ import annotations
 
 import io
+import shutil
+import subprocess
+import tempfile
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .figure import Style, figure
@@ -19,7 +23,7 @@ from .view import View
 if TYPE_CHECKING:
     from PIL import Image
 
-FILM_KINDS = {".gif": "GIF", ".webp": "WEBP"}
+FILM_KINDS = {".gif": "GIF", ".webp": "WEBP", ".mp4": "MP4"}
 #: Positions of the slider; milliseconds that each is seen; at the ends it rests so many times longer.
 POSITIONS, MOST_POSITIONS, PACE, REST = 41, 121, 60, 8
 #: Width of the picture in mm, and dots to those of the screen: 567 px.
@@ -43,7 +47,7 @@ def film(
     view : View
     slider : str
         ``NAME`` or ``NAME=LOW,HIGH``, or `play.PLAY`: then the chosen launched orbit is run along.
-    kind : {".gif", ".webp"}
+    kind : {".gif", ".webp", ".mp4"}
     style : Style
     positions : int
         Pictures that are drawn, 2 to 121; 0 for as many as `count_of` says.
@@ -111,19 +115,50 @@ def encode_film(pictures: Sequence[bytes], kind: str = ".gif", play: bool = Fals
     from PIL import Image  # late: it is compiled code, which a page without a server does not have
 
     shown = [Image.open(io.BytesIO(one)).convert("RGB") for one in pictures]
+    if kind == ".mp4":
+        return _encode_mp4([one for i in _order(len(shown), play) for one in [shown[i]] * _rest(i, len(shown))])
     if kind == ".gif":  # by what they cover of all colours: a small mark keeps its own, which the median cut mixes
         palette = _reduce_palette(shown[0])
         shown = [
             one.quantize(palette=palette, dither=Image.Dither.NONE) if play else _reduce_palette(one) for one in shown
         ]
-    order = [*range(len(shown)), *(() if play else range(len(shown) - 2, 0, -1))]
-    durations = [PACE * (REST if i in (0, len(shown) - 1) else 1) for i in order]
+    order = _order(len(shown), play)
+    durations = [PACE * _rest(i, len(shown)) for i in order]
     film = io.BytesIO()
     first, *others = (shown[i] for i in order)
     first.save(film, FILM_KINDS[kind], save_all=True, append_images=others, duration=durations, loop=0)
     if film.tell() > MAX_FILM_BYTES:
         raise ValueError(f"The film would hold {film.tell() / 1e6:.0f} MB; show fewer layers, or fewer positions.")
     return film.getvalue()
+
+
+def _order(count: int, play: bool) -> list[int]:
+    """Return in which order pictures are seen: there and back, of play there alone."""
+    return [*range(count), *(() if play else range(count - 2, 0, -1))]
+
+
+def _rest(i: int, count: int) -> int:
+    """Return how many times `PACE` a picture is seen."""
+    return REST if i in (0, count - 1) else 1
+
+
+def _encode_mp4(shown: Sequence[Image.Image]) -> bytes:
+    """Return pictures as an MP4 film that every player reads: H.264, of an even number of pixels."""
+    program = shutil.which("ffmpeg")
+    if program is None:
+        raise ValueError("ffmpeg, which makes MP4, is not on the path; install it, or give a name in .gif or .webp.")
+    wide, tall = shown[0].size
+    with tempfile.TemporaryDirectory() as folder:
+        made = Path(folder, "film.mp4")
+        run = subprocess.run(
+            [program, "-v", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{wide}x{tall}",
+             "-r", f"{1000 / PACE:.6g}", "-i", "-", "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264",
+             "-pix_fmt", "yuv420p", "-movflags", "+faststart", str(made)],
+            input=b"".join(one.tobytes() for one in shown), capture_output=True, check=False,
+        )  # fmt: skip
+        if run.returncode:
+            raise ValueError(f"ffmpeg made no film: {run.stderr.decode(errors='replace').strip()[-200:]}")
+        return made.read_bytes()
 
 
 def _reduce_palette(shown: Image.Image) -> Image.Image:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
 from codim2_core.figures.presets import presets
+from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
 
 from ..draw.packing import Rectangle, pack
@@ -18,7 +19,9 @@ from ..frame.scenes import make_scene
 from ..frame.window import Window, resample_for_window
 from ..slow_layers import basins, outcomes
 from ..state.choices import OWN_AXIS as OWN
-from ..state.chosen_system import System_, parameters_of
+from ..state.choices import SLOW_CONTROLS
+from ..state.chosen_system import OWN_SYSTEM, System_, build, parameters_of
+from ..state.controls import first_values
 from ..state.links import Link, PageView, compress_query, read_link, write_link
 
 #: Of the whole picture's width: curves of a figure are sampled within a quarter of it.
@@ -123,6 +126,49 @@ def view_of(text: str) -> View:
     if link.errors:
         raise ValueError(" ".join(map(str, link.errors)))
     return View.from_link(link)
+
+
+def typed_view(
+    U: Sequence[str],
+    W: Sequence[str],
+    where: Sequence[str],
+    parameters: Mapping[str, float],
+    z: Sequence[float],
+    psi: Psi,
+) -> View:
+    """Return the view of typed equations, as the explorer opens with them.
+
+    Parameters
+    ----------
+    U, W : sequences of str
+        The two fast rates, and the slow ones.
+    where : sequence of str
+        Definitions that they use, ``NAME(z) = …``.
+    parameters : mapping of str to float
+        Values by name; 1 where there is none.
+    z : sequence of float
+    psi : Psi
+
+    Raises
+    ------
+    ValueError
+        A formula or a value cannot be used.
+    """
+    if len(U) != 2:
+        raise ValueError(f"U has {len(U)} formula(s); give two, for the rates of x and y: 'U1; U2'.")
+    texts = {"U1": U[0], "U2": U[1], "W": "\n".join(W), "where": "\n".join(where)}
+    found = dict(build(OWN_SYSTEM, texts, {}).parameters)  # says what is wrong with a formula
+    if odd := [name for name in parameters if name not in found]:
+        raise ValueError(f"{odd[0]!r} is in no formula; there are {', '.join(found) or 'no parameters'}.")
+    if len(z) > len(W):
+        raise ValueError(f"z has {len(z)} value(s), but there are {len(W)} slow rates.")
+    values: dict[str, Any] = {"system": OWN_SYSTEM, "texts": texts, "parameters": dict(parameters), "psi": psi.family}
+    values |= dict(zip(SLOW_CONTROLS, z, strict=False))
+    if psi.record.typed:
+        values["psi_text"] = psi.text
+    elif psi.record.parameter:
+        values[psi.record.parameter.name] = psi.parameter
+    return View({**first_values(), "preset": "", **values})
 
 
 def suffix_of(path: Path, allowed: tuple[str, ...]) -> str:

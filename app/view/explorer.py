@@ -42,7 +42,7 @@ from .answers import AnswerQueue
 from .cell import Cell, running_kernel
 from .markup import SCRIPT_FOLDER, digest, edition, explorer_html, first_words, offered_text, script, settings
 from .refresh import Frames
-from .shared import SHARED_CONTROLS, declare, join
+from .shared import SHARED_CONTROLS, ControlTypes, declare, join
 from .warmup import is_ready
 
 COMPILING = say("compiling")
@@ -58,7 +58,7 @@ def _is_static(doc: Any, comm: Any) -> bool:
     return getattr(doc, "session_context", None) is None and (comm is None or type(comm) is Comm)
 
 
-class ExplorerView(JSComponent):
+class ExplorerView(JSComponent, ControlTypes):
     """The live explorer.
 
     Parameters

@@ -14,6 +14,55 @@ from ..state.controls import CONTROL_NAMES, ExplorerState
 SHARED_CONTROLS = tuple(name for name in CONTROL_NAMES if name not in ("orbits", "beside"))
 
 
+class ControlTypes:
+    """Types of the parameters that `declare` makes, for those who read types: ``view.f1 = 0.5``."""
+
+    a: float
+    b: float
+    d: float
+    f1: float
+    f2: float
+    system: str
+    texts: dict[str, Any]
+    parameters: dict[str, Any]
+    z: float
+    z2: float
+    z3: float
+    z4: float
+    k1: float
+    k2: float
+    B1: float
+    B2: float
+    g0: float
+    psi: str
+    n: float
+    psi_text: str
+    trajectories: int
+    layers: list[str]
+    preset: str
+    panel: str
+    along: str
+    zoom: int
+    across: str
+    cycle_curves: str
+    census: str
+    census_size: int
+    atlas_zoom: int
+    up: str
+    solid: str
+    drift: str
+    log_eps: float
+    launch: str
+    orbit: int
+    pinned: str
+    orbit_eps: str
+    lesson: str
+    quiz: str
+    t_end: float
+    cut: float
+    ranges: dict[str, Any]
+
+
 def declare(view: type[param.Parameterized]) -> None:
     """Give a class of views a parameter for each shared value; a widget or another reference may be its value."""
     for name in SHARED_CONTROLS:

@@ -16,6 +16,7 @@ from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
 from ..systems.affine import in_axes_of
+from ..systems.kinds import AnySystem
 from .codim_two_points import crossings, each_once
 from .connections.connection_curves import KINDS, connection_curves
 from .curve_numbers import curve_numbers, places
@@ -47,7 +48,7 @@ DEFAULT_HALF_RANGE = (
 
 
 def atlas(
-    system: Any,
+    system: AnySystem,
     psi: Psi,
     ranges: Mapping[str, tuple[float, float] | None] | Sequence[str],
     z: ArrayLike = (),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,6 +12,7 @@ from ..numerics.line_pair import line_pair
 from ..numerics.trigonometric import tangential_zeros
 from ..numerics.trigonometric_exact import to_integers
 from ..results import Result
+from ..systems.kinds import AnySystem
 from ..tables import html_table, paragraphs, table_number
 from ..words import say
 from .equator_zeros import equator_as_orbit
@@ -65,7 +65,7 @@ class EquatorCycle(Result):
         return say("closed orbit", turn=turn, outside=outside, inside=inside)
 
 
-def equator_cycle(system: Any, z: ArrayLike = ()) -> EquatorCycle | None:
+def equator_cycle(system: AnySystem, z: ArrayLike = ()) -> EquatorCycle | None:
     """Find the closed orbit on the equator, or None if the equator has equilibria (thm:geneps0(c)).
 
     lambda_rho = (d cos^2 + a sin^2) - Theta', and Theta'/|Theta| integrates to 0 over a turn: the exponent is

@@ -29,6 +29,7 @@ from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
 from ..results import Result, column_rows
 from ..systems.coefficients import Affine, Coefficients
 from ..systems.frozen import FrozenSystem
+from ..systems.kinds import AnySystem
 from ..tables import html_table, paragraphs, table_number
 from ..words import say
 from .closed_equator import EquatorCycle, equator_cycle
@@ -210,7 +211,7 @@ def arcs_of(arcs: NDArray[np.float64]) -> list[str]:
     return [say("arc of directions", first=float(first), last=float(last)) for first, last in arcs]
 
 
-def equator_equilibria(system: Any, z: ArrayLike = ()) -> EquatorEquilibria:
+def equator_equilibria(system: AnySystem, z: ArrayLike = ()) -> EquatorEquilibria:
     """Equilibria on the equator at z (eq:equator_zeros), with multiplicity; of an e-linear system at most 4.
 
     Parameters

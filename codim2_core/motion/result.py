@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -57,6 +57,8 @@ class Phase(Tabled):
     """
 
     _head_ = ("phase", "from t", "to t", "on", "why it began")
+
+    _internal_: ClassVar[frozenset[str]] = frozenset({"told_later", "with_place"})
 
     kind: str
     t_start: float
@@ -170,6 +172,8 @@ class Simulation(Pictured):
     events : tuple of ndarray
         Times of each event.
     """
+
+    _internal_: ClassVar[frozenset[str]] = frozenset({"motion", "sample"})
 
     motion: Dense = field(repr=False)
     status: SimulationStatus

@@ -108,14 +108,14 @@ _SAP = (
 ENGINES = {
     engine.name: engine
     for engine in (
-        Engine("mujoco", "MuJoCo, elliptic cones", CLAMP, _MUJOCO, _mujoco_eps),
+        Engine("mujoco", "MuJoCo", CLAMP, _MUJOCO, _mujoco_eps),
         Engine(
-            "genesis", "Genesis, rigid solver, elliptic cones as MuJoCo's", CLAMP,
+            "genesis", "Genesis", CLAMP,
             "Genesis-Embodied-AI/genesis-world #3051 (bit-identical to MuJoCo in compatibility mode)", _mujoco_eps,
         ),
-        Engine("sap", "Drake, SAP", CLAMP, _SAP, _sap_eps),
+        Engine("sap", "Drake SAP", CLAMP, _SAP, _sap_eps),
         Engine(
-            "drake", "Drake, Similar and Lagged", "1",
+            "drake", "Drake", "1",
             "drake, SapHuntCrossleyConstraint: f(s) = s/sqrt(1 + s^2) with the stiction tolerance", _drake_eps,
         ),
         Engine(
@@ -124,7 +124,7 @@ ENGINES = {
             _ipc_eps,
         ),
         Engine(
-            "newton", "Newton, SolverVBD", QUADRATIC,
+            "newton", "Newton VBD", QUADRATIC,
             "newton-physics/newton, particle_vbd_kernels.compute_friction with friction_epsilon; #3943", _newton_eps,
         ),
     )

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, overload
+from typing import Any, ClassVar, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from .. import drawing
 from ..arrays import Array
 from ..expressions.expression import Expression
+from ..results import Listed
 from ..tables import paragraphs
 from . import kernel as arithmetic
 from .condition import PsiCheck
@@ -36,7 +37,7 @@ MAX_FLOAT = np.finfo(float).max
 
 
 @dataclass(frozen=True)
-class Psi:
+class Psi(Listed):
     """A regularisation function, def:Psi. Made by `constant`, `rational`, ..., `custom`; equal if the formula is.
 
     Attributes
@@ -52,6 +53,10 @@ class Psi:
     record : Family
         What is known of the whole family.
     """
+
+    _internal_: ClassVar[frozenset[str]] = frozenset(
+        {"complement", "expression", "jacobian_factors", "kernel", "record", "steepness", "words"}
+    )
 
     family: str
     parameter: float

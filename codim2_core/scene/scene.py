@@ -25,6 +25,7 @@ from ..orbits.options import LEAST_PIXEL, stepping
 from ..orbits.seeds import checked_seeds
 from ..psi import constructors
 from ..psi.function import Psi
+from ..results import Listed
 from ..systems.bounds import slow_values
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import SYSTEM_KINDS, AnySystem
@@ -62,7 +63,7 @@ class _Problem(LayerProblem):
         return result
 
 
-class Scene(Mapping[str, Any]):
+class Scene(Listed, Mapping[str, Any]):
     """Everything drawn for one system at one z, by name; layers are computed when first asked for.
 
     ``scene["critical_sets"]`` is what ``critical_sets`` returns, and so for the other public functions.
@@ -106,6 +107,8 @@ class Scene(Mapping[str, Any]):
     >>> scene.evolve(f1=-1.5)["classification"].name
     'CM2'
     """
+
+    _internal_ = frozenset({"ask_before", "give", "key", "problem", "results", "runs"})
 
     def __init__(
         self,

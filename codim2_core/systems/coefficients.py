@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import join_columns
 from ..equality import ByValue
+from ..results import Listed
 
 Affine = tuple[float, float, float, float, float, float]
 
@@ -25,7 +26,7 @@ def _speed(plane: tuple[float, ...]) -> float:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Coefficients(ByValue):
+class Coefficients(Listed, ByValue):
     """The e-linear system at one z: plain numbers, all that the hemisphere at that z depends on.
 
     Attributes
@@ -50,6 +51,30 @@ class Coefficients(ByValue):
     rotation: float = 0.0
     given: Affine | None = None
 
+    _internal_: ClassVar[frozenset[str]] = frozenset(
+        {
+            "affine",
+            "as_given",
+            "by_rotation_near",
+            "clock",
+            "frozen",
+            "given",
+            "key",
+            "moves_with_z",
+            "normal_form",
+            "numbers",
+            "plane",
+            "reads_position",
+            "size",
+            "slow_key",
+            "speed",
+            "turn",
+            "typed",
+            "value_of",
+            "varied",
+            "z",
+        }
+    )
     frozen: ClassVar[bool] = True
     clock: ClassVar[str] = ""
     moves_with_z: ClassVar[bool] = False

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike
 
 from ..expressions.expression import Expression, parse
 from ..expressions.names import MOST_SLOW_VARIABLES
+from ..results import Listed
 from .bounds import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
 from .coefficients import Coefficients
 from .equations import Equations, equations_text, linear_rows, negative, with_left_sides
@@ -78,7 +79,7 @@ def _grid(values: Any, what: str, shape_text: str, columns: int | None) -> tuple
 
 
 @dataclass(frozen=True)
-class ELinear:
+class ELinear(Listed):
     """The normal form of the e-linear system, eq:ode_normal_form with eq:matrix_normal_form.
 
     Parameters
@@ -107,6 +108,9 @@ class ELinear:
     parameters: Any = ()
     given_matrix: Any = None  # the raw entries ((a11, a12), (a21, a22)) when made by `from_matrix`
 
+    _internal_: ClassVar[frozenset[str]] = frozenset(
+        {"clock", "expressions", "frozen", "meanings", "moves_with_z", "typed", "value_of", "varied"}
+    )
     frozen: ClassVar[bool] = False
     clock: ClassVar[str] = ""
     typed: ClassVar[None] = None

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from ..expressions.expression import Expression
 from ..expressions.names import SLOW_NAMES
+from ..results import Listed
 from .bounds import slow_values
 from .equations import Equations, equations_text, with_left_sides
 from .equations_latex import equations_latex
@@ -23,7 +24,7 @@ from .typed_at_z import Frozen
 from .typed_formulas import Formulas
 
 
-class System(Formulas):
+class System(Listed, Formulas):
     """A system ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)`` with ``e = (c, s) = (x, y)/|(x, y)|``, eq:vf.
 
     Parameters
@@ -65,6 +66,20 @@ class System(Formulas):
     (1, 'z1', [0.5, 0.3])
     """
 
+    _internal_: ClassVar[frozenset[str]] = frozenset(
+        {
+            "frozen",
+            "jacobian",
+            "meanings",
+            "moves_with_z",
+            "numbers",
+            "reads_position",
+            "typed",
+            "value_of",
+            "varied",
+            "without_clock",
+        }
+    )
     frozen: ClassVar[bool] = False
 
     def evolve(self, **changes: Any) -> System:

@@ -15,6 +15,7 @@ from ..arrays import Array
 from ..expressions.arrays import program
 from ..expressions.expression import Expression
 from ..expressions.names import FAST_NAMES, SLOW_NAMES, number_names
+from ..results import Listed
 from .bounds import MAX_NUMBER, MIN_NUMBER, at_place
 from .coefficients import Affine, Coefficients
 from .elinear import ELinear
@@ -27,7 +28,7 @@ _PROBES = np.concatenate([r * np.stack([np.cos(_SIZE_ANGLES), np.sin(_SIZE_ANGLE
 
 
 @dataclass(frozen=True)
-class Frozen:
+class Frozen(Listed):
     """A general system at one z: all that the hemisphere there depends on. Made by `System.at`.
 
     Attributes
@@ -39,6 +40,25 @@ class Frozen:
     system: Formulas
     z: tuple[float, ...]
 
+    _internal_: ClassVar[frozenset[str]] = frozenset(
+        {
+            "affine",
+            "as_given",
+            "clock",
+            "frozen",
+            "key",
+            "moves_with_z",
+            "normal_form",
+            "numbers",
+            "reads_position",
+            "size",
+            "slow_key",
+            "speed",
+            "turn",
+            "typed",
+            "value_of",
+        }
+    )
     frozen: ClassVar[bool] = True
     clock: ClassVar[str] = ""
     moves_with_z: ClassVar[bool] = False

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..cycles.limit_cycles import LimitCycle
 from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
 from ..psi.function import Psi
@@ -34,7 +35,7 @@ MOST_CONDITION = 1e12
 
 
 def certificates(
-    system: AnySystem, psi: Psi, z: ArrayLike = (), cycles: Iterable[Any] | None = None
+    system: AnySystem, psi: Psi, z: ArrayLike = (), cycles: Iterable[LimitCycle] | None = None
 ) -> Results[Certificate]:
     """Evaluate all numbered claims of the paper on a system, or say why one does not apply to it.
 
@@ -73,7 +74,7 @@ def certificates(
 
 
 def certificates_of(
-    problem: LayerProblem, cycles: Iterable[Any] | None = None, system: Any = None, z: tuple[float, ...] = ()
+    problem: LayerProblem, cycles: Iterable[LimitCycle] | None = None, system: Any = None, z: tuple[float, ...] = ()
 ) -> Results[Certificate]:
     """Evaluate the claims on a layer problem, with the parameters of `certificates`."""
     facts = Facts(problem, system, z)
@@ -297,7 +298,7 @@ def _index(facts: Facts) -> Certificate:
     return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), say("none is missing"))
 
 
-def _limit_cycles(facts: Facts, cycles: Iterable[Any] | None) -> Certificate:
+def _limit_cycles(facts: Facts, cycles: Iterable[LimitCycle] | None) -> Certificate:
     theorem = "prop:LC"
     statement = say("mean over a cycle")
     found = () if cycles is None else tuple(cycles)

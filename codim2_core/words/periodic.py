@@ -50,6 +50,7 @@ SENTENCES: dict[str, Sentence] = {
     "comes to rest": Sentence(
         "No periodic motion was found: the search led to an equilibrium. Start further from it.", "an equilibrium"
     ),
+    "exponents": Sentence("{count} periods were counted, {time:.6g} units of time.", "Lyapunov exponents"),
     "response": Sentence("{count} motions, for {name} from {low:.6g} to {high:.6g}.", "a response curve"),
     "response folds": Sentence(
         "{name} = {value:.6g}: the curve turns, and two periodic motions meet and vanish.", "a multiplier +1, a turn"

@@ -13,7 +13,10 @@ from tests.browser.test_accessible import COLOURS, SERIOUS, STATES, axe
 
 __all__ = ["axe"]
 
-PAGES = ("", "lessons.html", "theory-near.html", "api-core.html", "hosting.html")
+PAGES = (
+    "", "tutorial.html", "lessons.html", "lesson-09-ball.html", "theory-near.html", "paper-figures.html",
+    "api-classify.html", "reference-psi.html", "hosting.html",
+)  # fmt: skip
 FITS = "() => document.documentElement.scrollWidth <= innerWidth + 1"
 
 
@@ -55,7 +58,7 @@ def test_it_is_searched_and_found_from_the_explorer(address, chromium):
     assert site.title().startswith("codim2")
     site.goto(f"{address}/docs/search.html?q=basins")
     site.locator("#search-results li a", has_text="basins").first.wait_for()
-    site.goto(f"{address}/docs/lessons.html")
+    site.goto(f"{address}/docs/lesson-09-ball.html")
     site.locator("a.live").first.click()
     site.wait_for_selector(".codim2[data-settled=true]")
     assert site.locator(".panel-lessons").is_visible()

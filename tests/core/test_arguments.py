@@ -39,6 +39,8 @@ GOOD = {
     c2.equator_equilibria: {"system": SYSTEM, "z": 0.1},
     c2.filippov_sliding: {"system": SYSTEM, "z": 0.1},
     c2.limit_cycles: PLANE,
+    c2.lyapunov_exponents: {"system": DRIVEN, "psi": PSI, "state0": (0.0, -0.55, -0.28, 0.07, 0.0), "period": np.pi,
+                            "count": 16, "transient": 0},
     c2.nullclines: PLANE,
     c2.response_curve: {"system": DRIVEN, "state0": (0.0, -0.55, -0.28, 0.07, 0.0), "period": np.pi,
                         "along": "f1", "span": (0.49, 0.51), "psi": PSI},
@@ -97,6 +99,7 @@ LONG = {
     c2.census: ("10**9",),
     c2.periodic_motion: ("10**9", "10**30"),
     c2.response_curve: ("10**9", "10**30"),
+    c2.lyapunov_exponents: ("10**9", "10**30"),
 }  # right: minutes, and eight seconds each
 LONGEST = 240.0  # seconds: where nothing is compiled yet, kernels are, in turn with other processes
 

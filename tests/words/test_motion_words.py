@@ -121,6 +121,7 @@ PERIODIC = {
     "free": ("repeats", "periodic stable", "periodic unstable", "start is lost", "no periodic motion", "no derivative",
              "motion ends early", "comes to rest"),
     "forced": ("repeats sooner", "periodic undecided", "periodic beside a line", "not isolated"),
+    "lyapunov": ("exponents",),
     "response": ("response", "response folds", "branches off", "doubles", "becomes a torus", "sticks change",
                  "passages change"),
 }  # fmt: skip

@@ -1,4 +1,4 @@
-"""A LaTeX table of the limit directions and critical sets of a view, for any document class and no further package."""
+"""A LaTeX table of the limit directions and critical sets of a view, for any document class, with rules of booktabs."""
 
 from __future__ import annotations
 
@@ -62,6 +62,7 @@ def latex(view: View) -> str:
         parts.append(_tabular(head, sets, "lllrrll"))
     caption = in_latex(scene["classification"].sentence)
     body = "\n\n\\medskip\n".join(parts)
+    about = f"% needs \\usepackage{{booktabs}}\n{about}"
     return f"{about}\\begin{{table}}\n\\centering\n{body}\n\\caption{{{caption}}}\n\\end{{table}}\n"
 
 
@@ -87,6 +88,6 @@ def _critical_rows(scene: Scene) -> list[list[str]]:
 def _tabular(head: Sequence[str], rows: Sequence[Sequence[str]], columns: str) -> str:
     lines = [" & ".join(row) + r" \\" for row in rows]
     return "\n".join(
-        [f"\\begin{{tabular}}{{{columns}}}", r"\hline", " & ".join(head) + r" \\", r"\hline", *lines, r"\hline",
-         r"\end{tabular}"]
+        [f"\\begin{{tabular}}{{{columns}}}", r"\toprule", " & ".join(head) + r" \\", r"\midrule", *lines,
+         r"\bottomrule", r"\end{tabular}"]
     )  # fmt: skip

@@ -9,11 +9,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from ...docs.running import NOTEBOOK_FOLDER
 from ...static_site.pyodide import VERSION
 
 #: Where a site has its explorer without a server.
 LIVE = "explorer-files/"
-NOTEBOOKS = Path(__file__).parents[2] / "notebooks"
 
 
 def add_notebooks(commands: Any) -> None:
@@ -72,7 +72,7 @@ def notebooks(chosen: argparse.Namespace) -> int:
     """Copy the notebooks into a folder, and say how they are opened."""
     try:
         chosen.folder.mkdir(parents=True, exist_ok=True)
-        for notebook in sorted(NOTEBOOKS.glob("*.ipynb")):
+        for notebook in sorted(NOTEBOOK_FOLDER.glob("*.ipynb")):
             place = chosen.folder / notebook.name
             if place.exists():
                 print(f"{place} is there already, and kept")

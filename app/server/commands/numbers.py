@@ -18,12 +18,17 @@ def number(text: str) -> float:
         raise argparse.ArgumentTypeError(f"{text!r} given; give a number such as -0.5, 1e-3 or 2/3.") from None
 
 
+#: Options whose value is a formula, which may begin with a minus sign.
+FORMULA_OPTIONS = ("-U", "-W")
+
+
 def join_negative_numbers(words: Sequence[str]) -> list[str]:
-    """Join an option and the negative number after it, which argparse takes for an option: "-d", "-1e-3"."""
+    """Join an option and its negative number or formula, which argparse takes for an option: "-d", "-1e-3"."""
     joined: list[str] = []
     for word in words:
         negative = re.match(r"[-−][.\d]", word)
-        if negative and joined and joined[-1].startswith("-") and "=" not in joined[-1]:
+        formula = bool(joined) and joined[-1] in FORMULA_OPTIONS
+        if formula or (negative and joined and joined[-1].startswith("-") and "=" not in joined[-1]):
             joined[-1] += f"={word}"
         else:
             joined.append(word)

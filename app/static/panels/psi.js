@@ -1,20 +1,44 @@
-// The panel "Ψ" (fig:component): Ψ(s), and the smooth step L_Ψ(l; ε) = l/√(l² + ε²Ψ(l²/ε²)) along a line through 0.
+// The panel "Ψ" (fig:component): Ψ(s), and the smooth step L_Ψ(l; ε) = l/√(l² + ε²Ψ(l²/ε²)) along a line through 0. Below
+// it what the friction of physics engines makes of the present system; a click takes an engine's law.
 
 import {Chart} from "../chart/chart.js"
 import {register} from "../widgets/panels.js"
-import {escape, plain} from "../words.js"
+import {claimNumber, escape, plain} from "../words.js"
 
 const SHOWN = [[1, "s3"], [0.3, "s1"], [0.1, "s0"]] // ε, and the class of its curve
 
 class PsiCurves {
-  constructor(box) {
+  constructor(box, tools) {
     box.innerHTML = `<svg class="series psi-curves" role="img" aria-label="Ψ, and the smooth step that it makes"></svg>
-      <p class="pad-key psi-key"></p>`
+      <p class="pad-key psi-key"></p>
+      <h3>The same system under the friction of physics engines</h3><table class="engines"></table>
+      <p class="note">The slip at rest is ε|x₂|, at the ε of “Orbits over time”. Click a law to draw it.</p>`
     this.box = box
+    this.tools = tools
+    this.engines = []
+    box.querySelector(".engines").addEventListener("click", (event) => {
+      const row = event.target.closest("button")
+      if (row) this.take(this.engines[row.dataset.row][1])
+    })
     this.chart = new Chart(box.querySelector(".psi-curves"), {aspect: (width) => Math.min(0.98 * width, 560)})
   }
 
+  take(law) {
+    this.tools.move(law === "1" ? {psi: "constant"} : {psi: "custom", psi_text: law})
+  }
+
+  tell(eps) {
+    const speed = (value) => value === null ? "" : claimNumber(eps * value)
+    const rows = this.engines.map(([names, law, verdict, trace, creep, chatter], i) => `<tr><th scope="row"><button data-row="${i}" title="Draw Ψ(s) = ${escape(law)}">${escape(names)}</button></th>
+      <td class="${escape(verdict.split(" ")[0])}">${escape(verdict)}</td><td>${trace === null ? "" : claimNumber(trace)}</td><td>${speed(creep)}</td><td>${speed(chatter)}</td></tr>`)
+    this.box.querySelector(".engines").innerHTML = `<thead><tr><th>engine</th><th>contact</th><th>tr J</th><th>slip at rest</th><th>slip, chattering</th></tr></thead><tbody>${rows.join("")}</tbody>`
+  }
+
   apply({header}) {
+    if (header.engines) {
+      this.engines = header.engines
+      if (this.values) this.tell(10 ** this.values.log_eps)
+    }
     if (!header.psi_curves) return
     this.data = header.psi_curves
     if (!this.box.hidden) this.draw(this.values)
@@ -22,6 +46,7 @@ class PsiCurves {
 
   draw(values) {
     this.values = values
+    if (values && this.engines.length) this.tell(10 ** values.log_eps)
     if (!this.data || !values) return
     const {s, psi, text} = this.data, eps = 10 ** values.log_eps
     const at = Array.from({length: 121}, (_, i) => (i - 60) / 60)
@@ -51,4 +76,4 @@ class PsiCurves {
   }
 }
 
-register("psi", (box) => new PsiCurves(box))
+register("psi", (box, tools) => new PsiCurves(box, tools))

@@ -2,14 +2,17 @@
 
 import inspect
 import re
+import shutil
+from collections import Counter
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
 
 import codim2_app
 import pytest
-from codim2_app.docs import gallery
-from codim2_app.docs.build import _lessons as lessons_page
+from codim2_app.docs import drawn_figures, gallery, lesson_pages, paper_figures
+from codim2_app.docs.build import TEXT_FOLDER
 from codim2_app.docs.docs_folder import serve_folder, site
+from codim2_app.export.view import view_of
 from codim2_app.lessons.library import built_in
 from codim2_app.server.cli import main
 
@@ -49,7 +52,17 @@ def built(tmp_path_factory):
 def test_it_builds_without_a_warning(built):
     _, warned, pages = built
     assert warned == []
-    names = ("index", "lessons", "gallery", "theory-on", "hosting", "changelog")
+    names = (
+        "index",
+        "tutorial",
+        "howto-figure",
+        "lessons",
+        "gallery",
+        "theory-on",
+        "paper-figures",
+        "hosting",
+        "changelog",
+    )
     assert {f"{name}.html" for name in names} < pages.keys()
 
 
@@ -80,23 +93,39 @@ def test_no_page_fetches_from_another_host(built):
         assert not re.search(r"url\(['\"]?(https?:)?//|@import", sheet.read_text(encoding="utf-8")), sheet
 
 
-def test_every_public_name_is_described(built):
+def test_every_public_name_is_described_once(built):
     _, _, pages = built
-    described = {name.rpartition(".")[2] for name in pages["api-core.html"].ids if name.startswith("codim2_core")}
+    found = [id for name, page in pages.items() if name.startswith(("api-", "reference-")) for id in page.ids]
+    described = Counter(name for name in found if name.startswith(("codim2_core.", "codim2_app.")))
+    assert {name for name, count in described.items() if count > 1} == set()
+    last = {name.rpartition(".")[2] for name in described}
     modules = {name for name in c2.__all__ if inspect.ismodule(getattr(c2, name))}
-    assert set(c2.__all__) - described <= modules
-    assert {f"codim2_app.{name}" for name in codim2_app.__all__} <= pages["api-app.html"].ids
+    assert set(c2.__all__) - modules <= last
+    assert {f"codim2_app.{name}" for name in codim2_app.__all__} <= described.keys()
     for name in modules:
-        module = getattr(c2, name)
-        own = {one.rpartition(".")[2] for one in pages[f"api-{name}.html"].ids}
-        assert set(module.__all__) - own <= set(c2.__all__), name
+        assert set(getattr(c2, name).__all__) <= last, name
+        assert f"reference-{name}.html" in pages
+
+
+def test_a_function_has_a_page_with_its_results_and_no_page_is_long(built):
+    _, _, pages = built
+    assert {"codim2_core.classify", "codim2_core.Classification", "codim2_core.Degeneracy"} <= pages[
+        "api-classify.html"
+    ].ids
+    assert "codim2_core.atlas" not in pages["api-classify.html"].ids
+    names = [name for name in pages if name.startswith("api-")]
+    assert len(names) == len({name.lower() for name in names}) > 60  # one file each where names have no case
+    for name in names:
+        assert len([one for one in pages[name].ids if one.count(".") == 1]) <= 6, name
 
 
 def test_labels_are_told_as_they_are_printed(built):
     _, _, pages = built
-    for name in ("api-core.html", "api-bifurcations.html"):
-        assert not re.search(r"\b(fig|thm|sec|tab):[a-zA-Z]", pages[name].text), name
-    assert "Theorem 3.1" in pages["api-core.html"].text
+    told = {name: page.text for name, page in pages.items() if name.startswith(("api-", "reference-"))}
+    for name, text in told.items():
+        assert not re.search(r"\b(fig|thm|sec|tab):[a-zA-Z]", text), name
+    assert "Theorem 3.1" in told["api-equator_cycle.html"]
+    assert "Theorem 3.1" in told["reference-portraits.html"]
 
 
 def test_formulas_are_mathematics_and_none_is_left_over(built):
@@ -108,9 +137,37 @@ def test_formulas_are_mathematics_and_none_is_left_over(built):
         assert "\\frac" not in body
 
 
-def test_lessons_open_in_the_explorer(built):
+def test_every_lesson_is_a_page_that_opens_it_in_the_explorer(built):
     _, _, pages = built
-    assert re.findall(r"lesson=([\w-]+)", pages["lessons.html"].text) == list(built_in())
+    assert [link for link in pages["lessons.html"].links if link in {f"lesson-{key}.html" for key in built_in()}]
+    for key, lesson in built_in().items():
+        page = pages[f"lesson-{key}.html"]
+        assert f"../?panel=lessons&lesson={key}" in page.links
+        assert page.text.count("Answer it in the explorer") == len(lesson.questions)
+        assert not re.search(r"\((portrait|set|drag|fact|lesson):|```", page.text), key
+        for portrait in re.findall(r"preset=([\w-]+)", " ".join(page.links)):
+            assert portrait in c2.presets
+
+
+def test_a_fact_of_a_lesson_is_that_of_its_portrait():
+    text = (lesson_pages.LESSON_FOLDER / "01-friction.md").read_text(encoding="utf-8")
+    page = lesson_pages._lesson_page(text, "01-friction", built_in()["01-friction"], "../", pictures=False)
+    assert "Their number is now\n**0**." in page
+
+
+def test_each_figure_of_the_paper_is_there_with_what_opens_it(built):
+    _, _, pages = built
+    page = pages["paper-figures.html"]
+    headings = re.findall(r"<h2>(Figure \d+)", page.text)
+    assert headings == [f"Figure {k}" for k in range(1, 25)]
+    opened = [query.partition("?")[2] for query in page.links if query.startswith("../?")]
+    assert len(opened) > 40
+    for query in set(opened):
+        view_of(query.removeprefix("preset=") if query.startswith("preset=") else query)
+    text = (TEXT_FOLDER / "paper-figures.md").read_text(encoding="utf-8")
+    fences = re.findall(r"```figures\n(.*?)```", text, re.DOTALL)
+    parts = [part.partition(">")[0] for fence in fences for part in fence.split()]
+    assert set(parts) - set(c2.presets) == drawn_figures.DRAWN.keys() - set(c2.presets)
 
 
 def test_the_gallery_has_every_portrait_light_and_dark(tmp_path, monkeypatch):
@@ -141,7 +198,11 @@ def test_with_an_explorer_of_files_pictures_move_and_all_links_lead_to_it(tmp_pa
     assert re.findall(r'data-codim2="preset=([^"]+)"', live) == list(c2.presets)
     assert live.count('href="explorer-files/?preset=') == still.count('href="../?preset=') == len(c2.presets)
     assert '<script type="module" src="explorer-files/figures.js"></script>' in live
-    assert 'href="explorer-files/?panel=lessons' in lessons_page("explorer-files/")
+    shutil.copy(TEXT_FOLDER / "paper-figures.md", tmp_path)
+    for write in (lesson_pages.write_lessons, paper_figures.write_figures):
+        write(tmp_path, "explorer-files/", pictures=False)
+    assert 'href="explorer-files/?panel=lessons' in (tmp_path / "lesson-01-friction.md").read_text(encoding="utf-8")
+    assert 'href="explorer-files/?preset=' in (tmp_path / "paper-figures.md").read_text(encoding="utf-8")
 
 
 def test_a_folder_of_something_else_is_left_alone(tmp_path, capsys):

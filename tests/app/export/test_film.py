@@ -1,6 +1,8 @@
 """A film shows the figure at each position of a slider, there and back, and is bounded."""
 
 import io
+import shutil
+import subprocess
 
 import numpy as np
 import pytest
@@ -40,6 +42,22 @@ def test_it_goes_there_and_back_and_rests_at_the_ends(kind):
     assert [colours[int(np.argmax(one))] for one in seen] == [colours[i] for i in (0, 1, 2, 1)]
     durations = [frame.info["duration"] for frame in frames(made)] if kind == ".gif" else None
     assert durations in (None, [480, 60, 480, 60])
+
+
+@pytest.mark.skipif(shutil.which("ffmpeg") is None, reason="no ffmpeg here")
+def test_as_mp4_it_goes_the_same_way_at_the_same_pace(tmp_path):
+    colours = [(250, 10, 10), (10, 250, 10), (10, 10, 250)]
+    (tmp_path / "film.mp4").write_bytes(encode_film(solid(*colours), ".mp4"))
+    command = ["ffmpeg", "-v", "error", "-i", str(tmp_path / "film.mp4"), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
+    raw = subprocess.run(command, capture_output=True, check=True).stdout
+    seen = np.frombuffer(raw, np.uint8).reshape(-1, 30, 40, 3)[:, 15, 20]
+    assert np.argmax(seen, axis=1).tolist() == [0] * 8 + [1] + [2] * 8 + [1]
+
+
+def test_without_ffmpeg_it_is_said_what_to_do(monkeypatch):
+    monkeypatch.setenv("PATH", "")
+    with pytest.raises(ValueError, match=r"ffmpeg.*\.gif"):
+        encode_film(solid("red", "blue"), ".mp4")
 
 
 def test_each_picture_is_the_figure_there():
@@ -86,7 +104,7 @@ def test_every_picture_is_told_and_the_present_value_is_among_them(monkeypatch):
     ("given", "says"),
     [
         ({"slider": "nothing"}, "no slider"), ({"slider": "f1=1,-1"}, "range"),
-        ({"slider": "f1", "kind": ".mp4"}, r"\.gif, \.webp"), ({"slider": "f1", "positions": 1}, "2 to 121"),
+        ({"slider": "f1", "kind": ".mov"}, r"\.gif, \.webp"), ({"slider": "f1", "positions": 1}, "2 to 121"),
         ({"slider": "f1", "positions": 10**6}, "2 to 121"),
     ],
 )  # fmt: skip
@@ -106,7 +124,7 @@ def test_the_command_writes_it_and_says_what_is_wrong(tmp_path, capsys, monkeypa
     command = ["film", "case1-cm4", "--slider", "f1=-1,1", "--positions", "3", "-o", str(output)]
     assert main(command) == 0
     assert len(frames(output.read_bytes())) == 4
-    assert main([*command[:-1], str(tmp_path / "sweep.mp4")]) == 2
+    assert main([*command[:-1], str(tmp_path / "sweep.mov")]) == 2
     assert ".gif" in capsys.readouterr().err
     assert POSITIONS <= 121
 

@@ -15,7 +15,8 @@ import codim2_core as c2
 
 TIKZ = shutil.which("kpsewhich") and subprocess.run(["kpsewhich", "tikz.sty"], capture_output=True, check=False).stdout
 COMMANDS = {
-    "begin", "end", "centering", "hline", "caption", "medskip", "theta", "lambda", "rho", "det", "mathrm", "pm", "cdot",
+    "begin", "end", "centering", "toprule", "midrule", "bottomrule", "caption", "medskip",
+    "theta", "lambda", "rho", "det", "mathrm", "pm", "cdot",
     "Sigma", "Psi", "Theta", "dots", "varepsilon",
 }  # fmt: skip
 
@@ -59,7 +60,7 @@ def test_words_and_numbers_in_latex():
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no LaTeX here")
 def test_latex_reads_all_of_them(tmp_path):
     whole = "\n\\clearpage\n".join(latex(view_of(key)) for key in c2.presets)
-    text = f"\\documentclass{{article}}\n\\begin{{document}}\n{whole}\n\\end{{document}}\n"
+    text = f"\\documentclass{{article}}\n\\usepackage{{booktabs}}\n\\begin{{document}}\n{whole}\n\\end{{document}}\n"
     (tmp_path / "tables.tex").write_text(text)
     run = subprocess.run(
         ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "tables.tex"],

@@ -46,6 +46,9 @@ RESULTS = {
     "limit_cycles": lambda: c2.limit_cycles(CYCLE.system, CYCLE.psi),
     "nullclines": lambda: c2.nullclines(FOUR, ONE),
     "periodic_motion": lambda: c2.periodic_motion(RING, (0.9, 0.1), 6.0),
+    "lyapunov_exponents": lambda: c2.lyapunov_exponents(
+        DRIVEN, (0.0, -0.55, -0.28, 0.07, 0.0), np.pi, count=16, transient=0
+    ),
     "response_curve": lambda: c2.response_curve(DRIVEN, (0.0, -0.55, -0.28, 0.07, 0.0), np.pi, "S", (0.49, 0.51)),
     "separatrices": lambda: c2.separatrices(SADDLE, ONE),
     "simulate": lambda: c2.simulate(SPIRAL, ONE, (0.5, 0.2), (0, 3), eps=0.1),
@@ -70,7 +73,7 @@ RESULTS = {
 }
 PICTURED = {
     "atlas", "basins", "basins, nearer", "branches", "continue_cycles", "launched", "limit_cycles",
-    "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "scene", "separatrices",
+    "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "response_curve", "scene", "separatrices",
     "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories", "bifurcations.closed_equator",
     "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",
 }  # fmt: skip

@@ -71,6 +71,20 @@ def test_planes_of_another_psi_have_the_families_beside_it():
     assert found["determinant"][1] == pytest.approx(C.determinant, rel=1e-7)
 
 
+def test_the_panel_of_psi_says_what_each_engine_makes_of_the_system():
+    """The same contact sticks under two laws and chatters under the third, whatever Psi is drawn."""
+    frames, header = opened("psi", a=200.0, b=200.0, d=-172.0, f1=-100.0, f2=-100.0)
+    system = c2.ELinear(200, 200, -172, (-100, -100))
+    laws = {name: (c2.psi.engine(name), 1.0) for name in ("mujoco", "drake", "ipc")}
+    found = c2.compare_laws(system, laws)
+    assert [row[2:] for row in header["engines"]] == [[v.verdict, v.trace, v.creep, v.chatter] for v in found]
+    assert [row[2] for row in header["engines"]] == ["chatters", "sticks", "sticks"]
+    assert header["engines"][0][:2] == ["MuJoCo, Genesis, Drake SAP", "max(1 - s, 0)"]
+    assert "engines" not in ask(frames, psi="rational")
+    ask(frames, f1=-80.0)
+    assert settled(frames, rest=True)["engines"]
+
+
 def test_theorems_are_evaluated_with_their_numbers():
     frames, header = opened("theorems")
     rows = {row[0]: row for row in header["theorems"]}

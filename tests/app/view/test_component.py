@@ -1,10 +1,13 @@
 """The explorer as a Panel component: its values are parameters, its layout is Panel's."""
 
+from typing import get_origin, get_type_hints
+
 import panel as pn
 import pytest
 from bokeh.document import Document
 from codim2_app import explorer
-from codim2_app.view.shared import SHARED_CONTROLS
+from codim2_app.state.controls import ExplorerState
+from codim2_app.view.shared import SHARED_CONTROLS, ControlTypes
 
 
 def test_a_value_is_watched_and_set_as_any_parameter():
@@ -79,3 +82,11 @@ def test_its_style_sheets_come_after_its_own():
 def test_a_template_s_dark_theme_is_its_first(monkeypatch):
     monkeypatch.setattr(type(pn.config), "theme", "dark")
     assert explorer().config["dark"] is True
+
+
+def test_the_types_of_the_parameters_are_those_of_the_controls():
+    """A checker of types reads them: an assignment of text to f1 is an error, of a number none."""
+    told = get_type_hints(ControlTypes)
+    assert tuple(told) == SHARED_CONTROLS
+    for name, kind in told.items():
+        assert isinstance(getattr(ExplorerState(), name), get_origin(kind) or kind), name

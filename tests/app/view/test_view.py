@@ -9,10 +9,15 @@ import holoviews as hv
 import holoviews.plotting.bokeh
 import holoviews.plotting.mpl
 import pytest
+from codim2_app.draw.glyphs import critical_columns, equator_columns
 from codim2_app.draw.layers import LAYERS
+from codim2_app.draw.theme import themes
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.glossary import GLOSSARY, PAPER
 from codim2_app.view.markup import explorer_html, page_config
+from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.colors import to_hex
+from matplotlib.markers import MarkerStyle
 
 import codim2_core as c2
 from tests.app.server.test_first_page import talk
@@ -69,6 +74,27 @@ def test_both_backends_of_holoviews_draw_equal_axes_with_the_papers_names():
     figure = hv.render(overlay, backend="bokeh")
     assert figure.match_aspect
     assert figure.xaxis[0].axis_label == axes.get_xlabel()
+
+
+@pytest.mark.filterwarnings("ignore:No data for colormapping")
+def test_matplotlib_draws_each_mark_and_curve_as_the_page_does():
+    scene = c2.Scene(c2.ELinear(1, 0.3, -1, (0.2, 0.1)), count=12)  # a saddle, whose marks have three shapes
+    (axes,) = hv.render(codim2_app.holoviews(scene), backend="matplotlib").axes
+    equator, critical = (c for c in axes.collections if isinstance(c, PathCollection))
+    columns = equator_columns(scene["equator"]), critical_columns(scene["critical"])
+    for drawn, told in zip((equator, critical), columns, strict=True):
+        corners = [len(path.vertices) for path in drawn.get_paths()]
+        expected = {"circle": "o", "diamond": "D", "triangle": "^", "x": "x"}
+        assert corners == [len(MarkerStyle(expected[name]).get_path().vertices) for name in told["shape"]]
+        filled = [bool((face != 1.0).any()) for face in drawn.get_facecolors()]
+        assert filled == [bool(one) for one in told["filled"]]
+    assert len(set(columns[0]["shape"])) > 1
+    lines = {to_hex(c.get_color()[0]): c.get_linewidth()[0] for c in axes.collections if isinstance(c, LineCollection)}
+    parts = [part for layer in LAYERS.values() if not layer.hidden for part in layer.parts]
+    widths = {themes()["light"][part.colour]: 0.75 * part.width for part in parts}  # px as points of print
+    widths[themes()["light"]["ink"]] = 1.5  # the circle
+    assert len(lines) > 4
+    assert lines == {colour: pytest.approx(widths[colour]) for colour in lines}
 
 
 def test_marks_and_layers_are_explained_beside_the_picture():

@@ -70,7 +70,7 @@ const HANDS = {
     ["late", ["orbit", "orbit_motion"]], ["frame", {unable: {orbit: "No time passes."}}], [".hide", "click"], [".hide@2", "click"], [".remove@1", "click"], [".orbit-name", "change"], [".clear", "click"],
   ],
   planes: [["frame", {critical: {label: ["C"], kind: ["saddle"], trace: [0.4], determinant: [-1.5], x2: [[0.5, 0.2]]}}], ["frame", {critical: {label: ["C"], kind: ["stable focus"], trace: [-0.5], determinant: [2], x2: [[-1.5, 0.4]]}}], ["frame", {critical: {label: [], kind: [], trace: [], determinant: [], x2: []}}], ["frame", {system: {}, critical: {label: ["C"], kind: ["unstable node"], trace: [3], determinant: [2], x2: [[0, 3]]}}]],
-  psi: [["values", {log_eps: -1.2}], [".psi-curves", "pointermove", {clientX: 100, clientY: 60}]],
+  psi: [["values", {log_eps: -1.2}], [".psi-curves", "pointermove", {clientX: 100, clientY: 60}], ["frame", {engines: [["One, Two", "max(1 - s, 0)", "chatters", 28, null, 1.79], ["Three", "1", "sticks or chatters", null, 0.5, null]]}], [".engines button", "click"], [".engines button@1", "click"], [".engines", "click"]],
   solid: [
     [".solid", "keydown", {key: "ArrowRight"}], [20], [".solid", "keydown", {key: "ArrowUp"}], [20], [".solid", "pointerdown", {clientX: 10, clientY: 20}], [".solid", "pointermove", {clientX: 40, clientY: -12}], [".solid", "pointerup"],
     [20], ["[data-view]@2", "click"], ["late", ["stack"]], ["frame", {unable: {stack: "No z.", filippov: "No z."}}],

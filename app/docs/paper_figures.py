@@ -1,0 +1,69 @@
+"""The page that goes through the paper figure by figure: ours, drawn from numbers, and the link that opens each.
+
+In its text a heading is the paper's label. A fence ``figures`` lists the parts of a figure, one a line: a preset, or
+a drawing (`drawn_figures`) with what it opens, "drawing>preset" or "drawing>query of a link".
+"""
+
+from __future__ import annotations
+
+import re
+from html import escape
+from pathlib import Path
+
+from codim2_core.figures.presets import presets
+from codim2_core.paper import PRINTED
+
+_FIGURES = re.compile(r"^## (fig:\w+)$(.*?)^```figures\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+
+
+def write_figures(folder: Path, explorer: str, pictures: bool) -> None:
+    """Complete the page in a folder of sources, and write its drawings.
+
+    Parameters
+    ----------
+    folder : Path
+    explorer : str
+        The address of the explorer, as seen from the site.
+    pictures : bool
+        Whether anything is drawn.
+    """
+    if pictures:
+        from .drawn_figures import DRAWN  # most of its time is the import of what it draws
+
+        drawings = folder / "_static" / "paper"
+        drawings.mkdir()
+        for name, draw in DRAWN.items():
+            (drawings / f"{name}.svg").write_text(draw(), encoding="utf-8")
+    page = folder / "paper-figures.md"
+
+    def section(match: re.Match[str]) -> str:
+        label, seen, parts = match.groups()
+        printed, title = PRINTED[label]
+        return f"## {printed}: {title}\n{seen}{_cards(parts.split(), title, explorer, pictures)}"
+
+    page.write_text(_FIGURES.sub(section, page.read_text(encoding="utf-8")), encoding="utf-8")
+
+
+def _cards(parts: list[str], title: str, explorer: str, pictures: bool) -> str:
+    letters = [f"({chr(ord('a') + k)}) " for k in range(len(parts))] if len(parts) > 1 else [""]
+    cards = "\n".join(_card(*one, title, explorer, pictures) for one in zip(parts, letters, strict=True))
+    return f'```{{raw}} html\n<div class="gallery figures">\n{cards}\n</div>\n```'
+
+
+def _card(part: str, letter: str, title: str, explorer: str, pictures: bool) -> str:
+    drawing, _, opened = part.partition(">")
+    opened = opened or (drawing if drawing in presets else "")
+    said = escape(presets[opened].title if opened in presets else title)
+    if not pictures:
+        shown = ""
+    elif part in presets:
+        shown = "".join(_image(f"portraits/{part}-{theme}", said, f"only-{theme}") for theme in ("light", "dark"))
+    else:
+        shown = _image(f"paper/{drawing}", said, "drawn")
+    query = escape(f"preset={opened}" if opened in presets else opened)
+    caption = f'{letter}<a class="live" href="{explorer}?{query}">{said}</a>' if opened else letter
+    return f"<figure>{shown}<figcaption>{caption}</figcaption></figure>"
+
+
+def _image(path: str, said: str, kind: str) -> str:
+    return f'<img class="{kind}" src="_static/{path}.svg" alt="{said}" loading="lazy">'
