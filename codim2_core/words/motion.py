@@ -40,7 +40,8 @@ SENTENCES: dict[str, Sentence] = {
         "a critical set comes to the equator",
     ),
     "static holds": Sentence(
-        "Static friction holds the contact: rest needs {share:.4g} times the kinetic friction, and {reach:.4g} is available.",
+        "Static friction holds the contact: rest needs {share:.4g} times the kinetic friction, and {reach:.4g} is "
+        "available.",
         "on Σ, static above kinetic friction",
     ),
     "static gives way": Sentence(
