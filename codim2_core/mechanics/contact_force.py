@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from ..words import say
 
-_SENTENCES = {
+SENTENCE_OF_KIND = {
     "presses": "contact presses",
     "opens": "contact opens",
     "jams": "contact jams",
@@ -53,4 +53,4 @@ class ContactForce:
     @property
     def sentence(self) -> str:
         """Return what happens to the contact, and why."""
-        return say(_SENTENCES[self.kind])
+        return say(SENTENCE_OF_KIND[self.kind])

@@ -43,9 +43,11 @@ class Mechanism(Parts):
         All but friction and the normal force; velocities that are no derivatives of positions may bring gyroscopic
         terms, which belong here.
     mu : number, text, or (2, 2)
-        Coulomb's coefficient; a matrix where it depends on direction: the friction is -N mu e.
+        Coulomb's coefficient; a matrix where it depends on direction: the friction is -N mu e. It may fall with the
+        speed (`stribeck`); static friction above it is for `simulate_nonsmooth`.
     normal : number, text, or (n,)
-        The normal force N; or the row Jn of a constraint Jn v = 0 that N holds, so that friction may change it.
+        The normal force N, which may vary with the state; or the row Jn of a constraint Jn v = 0 that N holds, so that
+        friction may change it. `contact_events` stop a motion where the contact opens or jams.
     velocities : (n,) names
     slow : names, optional
         What z1, z2, ... are: positions, and all velocities but the two (three with a constraint) that are eliminated.
