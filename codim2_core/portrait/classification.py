@@ -134,7 +134,7 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
     elif any(neutral):
         first = say("some arrive" if arriving else "some leave", count=count, moving=arriving or leaving)
     else:
-        first = say("all arrive" if arriving else "all leave", count=count)
+        first = say("all arrive" if arriving else "all leave", which="both" if count == 2 else f"all {count}")
     if not equator.proven:
         first = f"{first} {say('directions unproved')}"
     if not any(neutral):

@@ -26,8 +26,8 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "one arrives": Sentence("Trajectories reach Σ along the only limit direction.", "one zero, λ with index ρ < 0"),
     "one leaves": Sentence("Trajectories leave Σ along the only limit direction.", "one zero, λ with index ρ > 0"),
-    "all arrive": Sentence("Trajectories reach Σ along all {count} limit directions.", "all radially attracting"),
-    "all leave": Sentence("Trajectories leave Σ along all {count} limit directions.", "all radially repelling"),
+    "all arrive": Sentence("Trajectories reach Σ along {which} limit directions.", "all radially attracting"),
+    "all leave": Sentence("Trajectories leave Σ along {which} limit directions.", "all radially repelling"),
     "both": Sentence(
         "Of {count} limit directions, trajectories reach Σ along {arriving} and leave it along {leaving}.", "both kinds"
     ),

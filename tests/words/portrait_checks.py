@@ -80,14 +80,20 @@ def radial(portrait, sign):
     return int((np.sign(portrait.equator.lambda_rho) == sign).sum())
 
 
-def all_arrive(portrait, _):
+def every(portrait):
+    return "both" if len(portrait.equator) == 2 else f"all {len(portrait.equator)}"
+
+
+def all_arrive(portrait, fields):
+    assert fields.get("which") in (every(portrait), None if len(portrait.equator) == 1 else "")
     for i in range(len(portrait.equator)):
         assert portrait.ray(i) @ portrait.at.U(portrait.ray(i)) < 0.0
         if portrait.equator.lambda_theta[i] < -1e-3 * portrait.size:
             assert portrait.arrives(float(portrait.equator.theta[i]) + 1e-3)
 
 
-def all_leave(portrait, _):
+def all_leave(portrait, fields):
+    assert fields.get("which") in (every(portrait), None if len(portrait.equator) == 1 else "")
     for i in range(len(portrait.equator)):
         assert portrait.ray(i) @ portrait.at.U(portrait.ray(i)) > 0.0
     assert not any(portrait.arrives(angle) for angle in (0.3, 2.0, 4.1))
