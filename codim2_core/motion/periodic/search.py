@@ -113,8 +113,6 @@ def periodic_motion(
         raise ValueError(f"eps is {eps!r}; give 0 for the limit, or {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
     if eps > 0.0 and psi is None:
         raise ValueError("psi is None; give the regularisation, or leave out eps for the limit eps -> 0.")
-    if checked_stiction(stiction, formulas) > 1.0 and eps > 0.0:
-        raise ValueError(f"stiction is {stiction:g} and eps is {eps:g}; leave one out: it is known in the limit alone.")
     asked = shooting(system, psi, float(eps), start, float(period), advance, atol / rtol, max_steps, stiction)
     return _search(asked, start, rtol)
 
@@ -125,6 +123,8 @@ def shooting(
 ) -> Shooting:  # fmt: skip
     """Return the boundary value problem of a periodic motion; refuse formulas that do not repeat themselves."""
     formulas = field(system)
+    if checked_stiction(stiction, formulas) > 1.0 and eps > 0.0:
+        raise ValueError(f"stiction is {stiction:g} and eps is {eps:g}; leave one out: it is known in the limit alone.")
     rates = np.array([row.constant or 0.0 for row in formulas.rows[2:]])
     moved = _advance(advance, rates, period)
     if not _repeats(formulas, start[None], moved):

@@ -241,3 +241,20 @@ def test_a_periodic_motion_sticks_and_slips():
     assert np.abs(found.multipliers).max(initial=0.0) < 1e-6
     with pytest.raises(ValueError, match="known in the limit alone"):
         c2.periodic_motion(block_on_belt(), (0.0, 0.0, 0.0), period, psi.constant(), 1e-3, stiction=ratio)
+
+
+def test_a_response_curve_along_the_speed_of_the_belt():
+    ratio = 1.5
+    period = sum(times_on_belt(V, KINETIC, ratio * KINETIC))
+    found = c2.response_curve(block_on_belt(), (-0.05, 0.0, 0.8), period, "v", (0.2, 0.5), stiction=ratio)
+    assert (found.values.min(), found.values.max()) == pytest.approx((0.2, 0.5))
+    expected = [sum(times_on_belt(v, KINETIC, ratio * KINETIC)) for v in found.values]
+    assert found.period == pytest.approx(expected, rel=1e-9)
+    swings = [math.hypot(v, (ratio - 1.0) * KINETIC) for v in found.values]
+    assert found.amplitude[:, 0] == pytest.approx(swings, rel=1e-6)
+
+
+def test_exponents_of_a_block_that_forgets_as_it_sticks():
+    found = c2.lyapunov_exponents(block_on_belt(), (-0.05, 0.0, 0.8), 10.0, stiction=1.5, count=16, transient=2)
+    assert found.values[0] == pytest.approx(0.0, abs=1e-6)
+    assert (found.values[1:] == -np.inf).all()
