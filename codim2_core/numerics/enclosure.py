@@ -22,7 +22,7 @@ from ..expressions.opcodes import (
     VAR,
 )
 from ..jit import inlined_kernel, kernel
-from .intervals import LOG, divide, modulus, multiply, outwards, power, range_of, slope_of
+from .intervals import LOG, add, divide, modulus, multiply, outwards, power, range_of, slope_of
 
 
 @kernel
@@ -49,16 +49,14 @@ def _power_general(a, b, c, d):
 
 @inlined_kernel
 def _write_linear(k, u, v, w):
-    """Write -u, u + v or u - v; a zero that is added changes nothing, and is not rounded."""
+    """Write -u, u + v or u - v."""
     for j in (0, 2, 4):
         if k == NEG:
             w[j], w[j + 1] = -u[j + 1], -u[j]
-        elif v[j] == v[j + 1] == 0.0:
-            w[j], w[j + 1] = u[j], u[j + 1]
         elif k == ADD:
-            w[j], w[j + 1] = outwards(u[j] + v[j], u[j + 1] + v[j + 1])
+            w[j], w[j + 1] = add(u[j], u[j + 1], v[j], v[j + 1])
         else:
-            w[j], w[j + 1] = outwards(u[j] - v[j + 1], u[j + 1] - v[j])
+            w[j], w[j + 1] = add(u[j], u[j + 1], -v[j + 1], -v[j])
 
 
 @inlined_kernel
@@ -68,7 +66,7 @@ def _product(u, v, w):
     for j in (2, 4):
         a, b = multiply(u[j], u[j + 1], v[0], v[1])
         c, d = multiply(u[0], u[1], v[j], v[j + 1])
-        w[j], w[j + 1] = outwards(a + c, b + d)
+        w[j], w[j + 1] = add(a, b, c, d)
 
 
 @inlined_kernel
@@ -77,7 +75,7 @@ def _quotient(u, v, w):
     w[0], w[1] = divide(u[0], u[1], v[0], v[1])
     for j in (2, 4):
         a, b = multiply(w[0], w[1], v[j], v[j + 1])
-        a, b = outwards(u[j] - b, u[j + 1] - a)
+        a, b = add(u[j], u[j + 1], -b, -a)
         w[j], w[j + 1] = divide(a, b, v[0], v[1])
 
 
@@ -93,7 +91,7 @@ def _norm(u, v, w):
     for j in (2, 4):
         a, b = multiply(p, q, u[j], u[j + 1])
         c, d = multiply(lo, hi, v[j], v[j + 1])
-        w[j], w[j + 1] = outwards(a + c, b + d)
+        w[j], w[j + 1] = add(a, b, c, d)
 
 
 @inlined_kernel

@@ -34,6 +34,14 @@ def outwards(lo, hi):
 
 
 @kernel
+def add(a, b, c, d):
+    """Return [a, b] + [c, d]; a zero changes nothing, and is not rounded."""
+    if c == d == 0.0:
+        return a, b
+    return (c, d) if a == b == 0.0 else outwards(a + c, b + d)
+
+
+@kernel
 def multiply(a, b, c, d):
     """Return [a, b] [c, d]."""
     if (a == 0.0 and b == 0.0) or (c == 0.0 and d == 0.0):
