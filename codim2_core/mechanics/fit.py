@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
+from ..results import Result
 from ..systems.bounds import slow_values
 from ..systems.elinear import ELinear
+from ..systems.parameters import Parameters
 from ..systems.reading import short_repr
 from ..systems.typed import System
+from ..tables import html_table, paragraphs, table_number
 from ..words import say
 from .measurement import read_measurement
 from .slip_phase import Slipping, TooLongError, integrate_slip
@@ -24,7 +26,7 @@ Interval = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False)
-class Fit:
+class Fit(Result):
     """A system estimated from a measured slip: each value with its 95 % confidence interval.
 
     Intervals are those of least squares: for errors that are independent and normal, of one size, and small.
@@ -58,11 +60,23 @@ class Fit:
     error: float
     times: Array = field(repr=False)
     velocities: Array = field(repr=False)
-    _course: Slipping = field(repr=False)
+    _course: Slipping = field(repr=False, compare=False)
 
     def at(self, times: ArrayLike) -> Array:
         """Return the slip (..., 2) of the motion that was found; 0 once it has stopped."""
         return self._course.at(np.asarray(times, float))
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        for name, value in self.values.items():
+            low, high = self.intervals[name]
+            yield {"parameter": name, "value": value, "low": low, "high": high}
+
+    def _tables_(self) -> str:
+        rows = [
+            (row["parameter"], *(table_number(row[name]) for name in ("value", "low", "high")))
+            for row in self._records()
+        ]
+        return html_table(("parameter", "value", "from", "to"), rows) + paragraphs([self.sentence])
 
     def drawn(self, count: int = 200) -> tuple[Array, Array]:
         """Return what was measured, and the motion that was found, as points (1 + |v|) e of the portrait's picture."""
@@ -177,8 +191,8 @@ def fit(
     values = dict(zip(searched, map(float, found.x[:-2]), strict=True))
     return Fit(
         system=system.evolve(**values),
-        values=MappingProxyType(values),
-        intervals=MappingProxyType({name: (x - h, x + h) for (name, x), h in zip(values.items(), map(float, half))}),  # noqa: B905 (the start comes after)
+        values=Parameters(values),
+        intervals=Parameters({name: (x - h, x + h) for (name, x), h in zip(values.items(), map(float, half))}),  # noqa: B905 (the start comes after)
         start=found.x[-2:],
         direction=last.direction,
         direction_interval=(last.direction - blur, last.direction + blur),

@@ -1,19 +1,22 @@
-"""Parameters of a system: a mapping of names to numbers that nobody changes."""
+"""A mapping of names to numbers that nobody changes, as the parameters of a system."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import TypeVar
+
+Value = TypeVar("Value")
 
 
-class Parameters(Mapping[str, float]):
-    """Names and their numbers, in the order in which they were given; read-only, so that a system is a value."""
+class Parameters(Mapping[str, Value]):
+    """Names and their numbers, in the order in which they were given; read-only, so that what holds them is a value."""
 
     __slots__ = ("_values",)
 
-    def __init__(self, values: Mapping[str, float]) -> None:
+    def __init__(self, values: Mapping[str, Value]) -> None:
         self._values = dict(values)
 
-    def __getitem__(self, name: str) -> float:
+    def __getitem__(self, name: str) -> Value:
         return self._values[name]
 
     def __iter__(self) -> Iterator[str]:

@@ -1,5 +1,7 @@
 """One grammar for all public functions: names for systems and Psi, what calls were spelt like before, and results."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -107,10 +109,12 @@ def test_results_that_hold_others_say_their_kinds_and_sentences():
 
 
 @pytest.mark.parametrize("function", [f for f in GOOD if f not in SLOW], ids=lambda f: f.__name__)
-def test_a_result_is_printed_within_some_lines(function):
+def test_a_result_is_printed_within_some_lines_and_pickled(function):
     if "register" in function.__name__:
         return
-    assert repr(function(**GOOD[function])).count("\n") < 5
+    found = function(**GOOD[function])
+    assert repr(found).count("\n") < 5
+    assert equal_values(pickle.loads(pickle.dumps(found)), found)
 
 
 @pytest.mark.parametrize("way", ["regularised", "limit", "past", "several"])

@@ -78,7 +78,7 @@ def requests(asked: list[Any]) -> None:
 
 def frames(state: ExplorerState, errors: Any = ()) -> Frames:
     """A session whose slow work is never done."""
-    made = Frames(state, None, lambda psi, system: psi.expression is None and system.typed is None, errors, Budget())
+    made = Frames(state, None, lambda psi, system, _: psi.expression is None and system.typed is None, errors, Budget())
     made.jobs = Jobs(NOBODY)
     return made
 

@@ -37,7 +37,7 @@ def sample(branches, count):
 @pytest.mark.parametrize("abd", MATRICES)
 def test_hopf_and_node_focus_points(abd, family):
     for curve, name in ((bifurcations.hopf, "trace"), (bifurcations.node_focus, "discriminant")):
-        for f1, f2 in sample(curve(*abd, family).branches, 4):
+        for f1, f2 in sample(curve(ELinear(*abd), family).branches, 4):
             found = critical_sets(ELinear(*abd, (f1, f2)), family)
             # next to the equator the place itself is known to no more digits than 1 - |e| has
             if not found or np.hypot(*found[0].e) > 1 - 1e-3 or np.hypot(*found[0].e) < 1e-3:
@@ -66,7 +66,7 @@ def border(q):
 @pytest.mark.parametrize("abd", [*MATRICES, (-1.0, 0.0, -1.5), (-2.0, 0.3, -1.0), (3.0, 1.0, 3.0), (1.0, 0.3, -2.0)])
 def test_saddle_node_and_transcritical_points(abd):
     for curve, zero in ((bifurcations.saddle_node, fold), (bifurcations.critical_boundary, border)):
-        found = curve(*abd)
+        found = curve(ELinear(*abd))
         special = [s.place for s in found.special]
         size = max(map(abs, abd))
         for f in sample(found.branches, 40):

@@ -1,6 +1,7 @@
 """Parameters from a measured slip: what was put in is found, within the intervals as often as they say."""
 
 import math
+import pickle
 import re
 
 import numpy as np
@@ -139,3 +140,16 @@ def test_a_file_that_is_none_is_told(text, said, tmp_path):
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
     with pytest.raises(ValueError, match=re.escape(said)):
         fit(block(0.2), path)
+
+
+def test_a_fit_is_a_table_of_its_parameters():
+    found = fit(c2.ELinear("-mu", 0.0, "-mu", parameters={"mu": 3.0}), np.linspace(0.0, 0.1, 5),
+                np.linspace((1.0, 0.5), (0.8, 0.41), 5))  # fmt: skip
+    (row,) = found.to_frame().to_dict("records")
+    assert (row["parameter"], row["value"], (row["low"], row["high"])) == (
+        "mu",
+        found.values["mu"],
+        found.intervals["mu"],
+    )
+    assert found.sentence in found._repr_html_()
+    assert pickle.loads(pickle.dumps(found)) == found

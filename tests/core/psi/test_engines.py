@@ -210,3 +210,41 @@ def test_a_block_on_a_ramp_creeps_in_mujoco_as_predicted(angle, impratio, mass, 
         "mujoco", friction=mu * normal, normal=normal, inverse_mass=1.0 / mass, impratio=impratio, solref=(time, 1.0)
     )
     assert float(data.qvel[0]) == pytest.approx(C.creep(eps), rel=1e-2)
+
+
+PINCHED = """
+<mujoco>
+  <option timestep="0.002" cone="elliptic" impratio="{impratio}" gravity="0 0 -9.81" integrator="implicitfast"/>
+  <worldbody>
+    <body pos="0 0 1">
+      <joint type="slide" axis="1 0 0"/> <joint type="slide" axis="0 1 0"/> <joint type="slide" axis="0 0 1"/>
+      <geom type="sphere" size="0.1" mass="{mass}" friction="0.8" solref="0.02 1"/>
+    </body>
+    <body pos="0 0.2 1" gravcomp="1"> <joint type="slide" axis="0 1 0"/>
+      <geom type="box" size="2 0.1 2" mass="{finger}" friction="0.8" solref="0.02 1"/> </body>
+    <body pos="0 -0.2 1" gravcomp="1"> <joint type="slide" axis="0 1 0"/>
+      <geom type="box" size="2 0.1 2" mass="{finger}" friction="0.8" solref="0.02 1"/> </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+@pytest.mark.parametrize("mass", [0.5, 2.0])
+@pytest.mark.parametrize("grip", [20.0, 60.0])
+@pytest.mark.parametrize("impratio", [1.0, 10.0])
+def test_an_object_between_two_fingers_creeps_down_in_mujoco_as_predicted(mass, grip, impratio):
+    """Two contacts share its weight, each with the friction 0.8 grip: v' = g - 2 (0.8 grip/mass) e."""
+    mujoco = pytest.importorskip("mujoco")
+    g, mu, finger = 9.81, 0.8, 3.0
+    model = mujoco.MjModel.from_xml_string(PINCHED.format(impratio=impratio, mass=mass, finger=finger))
+    data = mujoco.MjData(model)
+    data.qfrc_applied[3:] = -grip, grip
+    while data.time < 1.5:
+        mujoco.mj_step(model, data)
+    strength = 2.0 * mu * grip / mass
+    (C,) = c2.critical_sets(c2.ELinear(-strength, 0.0, -strength, (g, 0.0)), c2.psi.engine("mujoco"))
+    eps = c2.psi.engine_eps(
+        "mujoco", friction=mu * grip, normal=grip, inverse_mass=1.0 / mass + 1.0 / finger, impratio=impratio,
+        solref=(0.02, 1.0),
+    )  # fmt: skip
+    assert -float(data.qvel[2]) == pytest.approx(C.creep(eps), rel=1e-2)
