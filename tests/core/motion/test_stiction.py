@@ -56,7 +56,7 @@ def test_a_block_on_a_belt_sticks_and_slips_as_the_textbooks_say(v, kinetic, rat
 
 
 def test_without_it_the_block_sticks_once():
-    """Kinetic friction alone: it leaves with no speed, touches the belt once a swing (rounding decides how), and goes on."""
+    """Kinetic friction alone: it leaves with no speed, and touches the belt once a swing; rounding decides how."""
     plain = c2.simulate_nonsmooth(block_on_belt(), (0.0, 0.0, 0.0), (0.0, 40.0))
     same = c2.simulate_nonsmooth(block_on_belt(), (0.0, 0.0, 0.0), (0.0, 40.0), stiction=1.0)
     assert plain == same
