@@ -23,6 +23,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .layer_problem import hemisphere
     from .layer_problem.critical import CriticalSet, critical_sets
     from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+    from .motion.contact_events import contact_events
     from .motion.delay import Delay
     from .motion.limit.predicted_delays import delays
     from .motion.nonsmooth import simulate_nonsmooth
@@ -103,6 +104,7 @@ __all__ = [
     "certificates",
     "classify",
     "compare_laws",
+    "contact_events",
     "critical_sets",
     "delays",
     "equator_cycle",
@@ -148,6 +150,7 @@ _HOMES = {
     "initial_value.events": "Event",
     "layer_problem.critical": "CriticalSet critical_sets",
     "layer_problem.equator": "EquatorCycle EquatorEquilibria equator_cycle equator_equilibria",
+    "motion.contact_events": "contact_events",
     "motion.delay": "Delay",
     "motion.limit.predicted_delays": "delays",
     "motion.nonsmooth": "simulate_nonsmooth",

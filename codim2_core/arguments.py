@@ -210,6 +210,13 @@ def executor(name: str, value: Any) -> Any:
     raise ValueError(f"{name} is {short_repr(value)}; give an executor of concurrent.futures.")
 
 
+def mechanism(name: str, value: Any) -> Any:
+    """Check a mechanism."""
+    if hasattr(value, "contact_force"):
+        return value
+    raise ValueError(f"{name} is {short_repr(value)}; give a mechanics.Mechanism.")
+
+
 def number_or_function(name: str, value: Any) -> Any:
     """Check a number, or a function of one."""
     return value if callable(value) else number(name, value)
@@ -242,6 +249,7 @@ BY_ANNOTATION: Mapping[str, Check] = {
     "float": number, "bool": truth, "str": text, "ArrayLike": numbers,
     "float | Callable[[float], float]": number_or_function,
     "str | Path": file, "ArrayLike | str | Path": numbers_or_file, "tuple[float, float]": pair,
+    "Mechanism": mechanism,
     "ELinear | Coefficients": e_linear, "AnySystem": system, "ELinear | System": system, "Any": system,
 }  # fmt: skip
 

@@ -46,7 +46,7 @@ TOPICS: dict[str, tuple[str, str, tuple[str, ...]]] = {
         "Motions in time",
         "Motions for ε > 0 and in the limit ε → 0, and motions that repeat themselves.",
         (
-            "simulate Simulation SimulationStatus Phase Variation", "simulate_nonsmooth", "Event",
+            "simulate Simulation SimulationStatus Phase Variation", "simulate_nonsmooth", "Event", "contact_events",
             "periodic_motion PeriodicMotion PeriodicStatus", "response_curve ResponseCurve",
             "lyapunov_exponents LyapunovExponents", "delays Delay",
         ),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 
@@ -66,12 +65,6 @@ class DecidedMotion:
     evaluations: int
 
 
-@lru_cache(maxsize=256)
-def _is_affine(field: Field) -> bool:
-    """Whether U is affine in e for what its formulas say."""
-    return not any({"c", "s"} & set(row.derivative(name).names) for row in field.rows[:2] for name in ("c", "s"))
-
-
 def run_hybrid(
     field: Field,
     psi: Psi | None,
@@ -98,7 +91,7 @@ def run_hybrid(
     own = constant() if psi is None else psi
     outside, inside = functions_of(field, constant(), many=True), functions_of(field, own, many=True)
     addresses = np.array([*outside.addresses, *(one.address for one in flow()), inside.addresses[2]], np.int64)
-    numbers = np.array([rtol, floor, *span, own.parameter, _is_affine(field), psi is not None], float)
+    numbers = np.array([rtol, floor, *span, own.parameter, field.is_affine, psi is not None], float)
     along = line_directions(lines)
 
     def part(cut: slice) -> list[DecidedMotion]:

@@ -31,11 +31,14 @@ class Event:
         +1 counts rising zeros only, -1 falling ones, 0 both.
     terminal : bool
         Whether the motion stops there.
+    reason : str
+        Sentence that the status of a motion that stops there ends with.
     """
 
     function: Callable[[float, Array], float]
     direction: int = 0
     terminal: bool = False
+    reason: str = ""
 
     def __post_init__(self) -> None:
         """Check what can be checked before a motion."""
@@ -53,7 +56,7 @@ class Event:
 
 def reverse_event(event: Event) -> Event:
     """Return the same event for a motion that runs backwards in time, by the time -t."""
-    return Event(lambda t, state: event.function(-t, state), -event.direction, event.terminal)
+    return Event(lambda t, state: event.function(-t, state), -event.direction, event.terminal, event.reason)
 
 
 Events = Sequence[Event | Callable[[float, Array], float]]
@@ -86,6 +89,7 @@ class EventWatch:
     def __init__(self, events: Sequence[Event], t: float, state: Array) -> None:
         self.events = events
         self.times: list[list[float]] = [[] for _ in events]
+        self.reason = ""  # why it has stopped
         self.before = [self.value(i, t, state) for i in range(len(events))]
 
     def value(self, i: int, t: float, state: Array) -> float:
@@ -120,6 +124,8 @@ class EventWatch:
                 self.times[i].append(step.start + u * step.h)
         if end is None:
             return None
+        last = [self.events[i].reason for u, i in zeros if u == end and self.events[i].terminal]
+        self.reason = " ".join(filter(None, last))
         return step if end == 1.0 else truncate_step(step, end)
 
     def zeros(self, i: int, step: Step) -> list[tuple[float, bool]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -53,6 +53,11 @@ class Field:
     def __reduce__(self) -> tuple[Any, ...]:
         """Be pickled by the formulas, of which the functions are made again."""
         return _make_field, (self.rows, self.m)
+
+    @cached_property
+    def is_affine(self) -> bool:
+        """Whether U is affine in e for what its formulas say."""
+        return not any({"c", "s"} & set(row.derivative(name).names) for row in self.rows[:2] for name in ("c", "s"))
 
     def jacobian(self, c: float, s: float, x: float, y: float, z: Sequence[float]) -> Array:
         """``D (U, W)`` by (c, s, x, y, z), of shape (2 + m, 4 + m).

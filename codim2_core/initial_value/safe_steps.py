@@ -34,6 +34,12 @@ def _stays_positive(values: Array) -> NDArray[np.bool_]:
     return of[:, 0] > sizes.sum(axis=1) + LEFT_OUT * sizes[:, -2:].sum(axis=1)  # not for NaN
 
 
+def dissipation(D: Array) -> Array:
+    """Return the least rate (...) at which friction takes energy from slips: of -(D + D^T)/2, D = D_e U (..., 2, 2)."""
+    a, d, b = D[..., 0, 0], D[..., 1, 1], 0.5 * (D[..., 0, 1] + D[..., 1, 0])
+    return -0.5 * (a + d) - np.hypot(0.5 * (a - d), b)
+
+
 @dataclass(frozen=True)
 class StepRequirements:
     """Requirements on the steps of a slide.
@@ -45,22 +51,27 @@ class StepRequirements:
         Of det D_e U where the slide begins.
     n : ndarray (2,) or None
         Along the invariant line that the motion stays in.
+    reach : float
+        |e| up to which it slides: above 1 at rest by static friction, while D_e U is dissipative.
     """
 
     psi: Psi
     sign: float
     n: Array | None
+    reach: float = 1.0
 
     def steps(self, e: Array, D: Array) -> list[bool]:
         """Tell for k steps, with e (k, 5, 2) and D_e U (k, 5, 2, 2) at their `SAFE_NODES`."""
         r = np.hypot(e[..., 0], e[..., 1])
         gap = (1.0 - r) * (1.0 + r)
-        safe = _stays_positive(gap)
+        safe = _stays_positive((self.reach - r) * (self.reach + r))
         margin = FOLD_MARGIN * np.abs(D).max(axis=(2, 3))
         if self.n is not None:
             return (safe & _stays_positive(-np.einsum("i,kdij,j->kd", self.n, D, self.n) - margin)).tolist()
         margin *= margin / FOLD_MARGIN
         safe &= _stays_positive(self.sign * (D[..., 0, 0] * D[..., 1, 1] - D[..., 0, 1] * D[..., 1, 0]) - margin)
+        if self.reach > 1.0:
+            return (safe & _stays_positive(dissipation(D))).tolist()
         if not safe.any():
             return safe.tolist()
         n = np.where(r[..., None] > 0.0, e / np.where(r > 0.0, r, 1.0)[..., None], (1.0, 0.0))

@@ -85,10 +85,10 @@ class SlowManifold:
         self.move(z)
 
 
-def complement(e: Array) -> float:
-    """``1 - |e|^2``."""
+def complement(e: Array, reach: float = 1.0) -> float:
+    """``1 - |e|^2``, or what is left to another reach."""
     r = math.hypot(e[0], e[1])
-    return (1.0 - r) * (1.0 + r)
+    return (reach - r) * (reach + r)
 
 
 def determinant(sheet: SlowManifold, e: Array, z: Array) -> float:

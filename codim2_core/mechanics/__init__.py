@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from ..arguments import checked_functions
 from .contact import contact
+from .contact_force import ContactForce
 from .fit import Fit, fit
+from .friction_law import stribeck
 from .grip import Grip
 from .mechanism import Mechanism
 
-__all__ = ["Fit", "Grip", "Mechanism", "contact", "fit"]
+__all__ = ["ContactForce", "Fit", "Grip", "Mechanism", "contact", "fit", "stribeck"]
 
 globals().update(checked_functions(__name__, globals(), ["fit"]))

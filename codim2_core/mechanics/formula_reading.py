@@ -65,17 +65,23 @@ def parameters(values: Any, taken: Sequence[str]) -> dict[str, float]:
     return found
 
 
+def as_text(value: Any, what: str, names: Sequence[str] = ()) -> str:
+    """Return a number, or text, as text."""
+    if isinstance(value, Expression):
+        return value.text
+    if isinstance(value, str):
+        return value
+    try:
+        return repr(float(value))
+    except (TypeError, ValueError, OverflowError):
+        known = f" in {', '.join(names)}" if names else ""
+        raise ValueError(f"{what} is {short_repr(value)}; give a number, or text{known}.") from None
+
+
 def formula(value: Any, what: str, names: Sequence[str]) -> Expression:
     """Read a number, or text in the names."""
-    if isinstance(value, Expression):
-        value = value.text
-    if not isinstance(value, str):
-        try:
-            value = repr(float(value))
-        except (TypeError, ValueError, OverflowError):
-            raise ValueError(f"{what} is {short_repr(value)}; give a number, or text in {', '.join(names)}.") from None
     try:
-        return parse(value, tuple(names))
+        return parse(as_text(value, what, names), tuple(names))
     except ExpressionError as error:
         raise ExpressionError(f"{what}: {error}", error.text, error.column) from error
 

@@ -60,7 +60,7 @@ class Grip:
         """Return the verdict for an engineer."""
         needed = float(np.hypot(*self.needed))
         if not self.normal > 0.0:
-            return say("contact opens", normal=self.normal)
+            return say("cannot stick, opens", normal=self.normal)
         there = needed / self.share if 0.0 < self.share < np.inf else self.normal * float(np.linalg.norm(self.mu, 2))
         if not self.sticks:
             return say("grip lost", needed=needed, there=0.0 if self.share == np.inf else there)

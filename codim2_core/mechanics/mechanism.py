@@ -7,6 +7,7 @@ velocities as the slip determines are no variables of their own: the others, and
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,6 +23,7 @@ from ..systems.elinear import ELinear
 from ..systems.typed import System
 from ..words import say
 from .algebra import Algebra, MatrixRow
+from .contact_force import ContactForce
 from .formula_reading import ZERO
 from .grip import Grip
 from .parts import Parts
@@ -41,9 +43,11 @@ class Mechanism(Parts):
         All but friction and the normal force; velocities that are no derivatives of positions may bring gyroscopic
         terms, which belong here.
     mu : number, text, or (2, 2)
-        Coulomb's coefficient; a matrix where it depends on direction: the friction is -N mu e.
+        Coulomb's coefficient; a matrix where it depends on direction: the friction is -N mu e. It may fall with the
+        speed (`stribeck`); static friction above it is for `simulate_nonsmooth`.
     normal : number, text, or (n,)
-        The normal force N; or the row Jn of a constraint Jn v = 0 that N holds, so that friction may change it.
+        The normal force N, which may vary with the state; or the row Jn of a constraint Jn v = 0 that N holds, so that
+        friction may change it. `contact_events` stop a motion where the contact opens or jams.
     velocities : (n,) names
     slow : names, optional
         What z1, z2, ... are: positions, and all velocities but the two (three with a constraint) that are eliminated.
@@ -136,18 +140,21 @@ class Mechanism(Parts):
         return tuple(algebra.negative(algebra.dot(self._enter_row(row), e)) for row in self.mu)
 
     @cached_property
-    def _normal(self) -> int:
+    def _normal_parts(self) -> tuple[int, int]:
+        """Return b and p of `ContactForce`: N and 1 where N is given."""
         algebra = self._algebra
         if not self.has_constraint:
-            return algebra.enter(self.normal, self._meanings)
+            return algebra.enter(self.normal, self._meanings), algebra.number(1.0)
         free, first, second, own = self._responses
         across = self._enter_row(self.normal)
         # Jn v' + Jn' v = 0 with v' = M^-1 (Q + N (Jn^T - J^T mu e))
         pull = algebra.dot((algebra.dot(across, first), algebra.dot(across, second)), self._coulomb)
         pull = algebra.plus(algebra.dot(across, own), pull)
-        return algebra.negative(
-            algebra.divide(algebra.plus(algebra.dot(across, free), self._jacobian_rate(self.normal)), pull)
-        )
+        return algebra.negative(algebra.plus(algebra.dot(across, free), self._jacobian_rate(self.normal))), pull
+
+    @cached_property
+    def _normal(self) -> int:
+        return self._algebra.divide(*self._normal_parts)
 
     def _speeds(self, forces: MatrixRow) -> dict[str, int]:
         """Return how all names move under a friction of two components, and the normal force of a constraint."""
@@ -267,6 +274,35 @@ class Mechanism(Parts):
         found = np.linalg.solve(slopes, -free)
         normal = float(found[2]) if self.has_constraint else float(at(self._algebra.formula(self._normal)))
         return Grip(found[:2], normal, mu, held=self.has_constraint)
+
+    @cached_property
+    def _contact_formulas(self) -> tuple[Expression, Expression]:
+        approach, gain = (self._algebra.formula(entry) for entry in self._normal_parts)
+        return approach, gain
+
+    def contact_force(self, state: ArrayLike) -> ContactForce:
+        """Return the normal force at a state, and whether the contact presses, opens or jams.
+
+        Parameters
+        ----------
+        state : (2 + m,)
+            (x, y, z1, ..., zm). At x = y = 0 friction is what sticking needs, see `grip`.
+
+        Raises
+        ------
+        ValueError
+            The state has the wrong length; or at x = y = 0 as `grip`.
+        """
+        found = np.asarray(state, float)
+        if found.shape != (2 + len(self.slow),):
+            raise ValueError(f"the state has shape {found.shape}; give (x, y, z1, ..., zm) with m = {len(self.slow)}.")
+        x, y, *z = found.tolist()
+        known = {**self.parameters, "x": x, "y": y, **dict(zip(SLOW_NAMES, z, strict=False))}
+        if any(word in ("c", "s") for row in self._contact_formulas for word in row.names):
+            r = math.hypot(x, y)
+            known["c"], known["s"] = (x / r, y / r) if r > 0.0 else self.grip(z).e.tolist()
+        values = (float(row.evaluate({word: known[word] for word in row.names})) for row in self._contact_formulas)
+        return ContactForce(*values)
 
 
 def _as_normal_form(

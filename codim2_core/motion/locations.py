@@ -106,10 +106,11 @@ class OnSet:
     def at(self, t: Array) -> tuple[Array, Array]:
         """Return e and p."""
         formulas, z = field(self.system), self.motion(t)[:, 2:]
+        reach = max(1.0, float(np.hypot(*self.e.T).max(initial=0.0)))  # above 1 at rest by static friction
         found = np.stack([np.interp(t, self.times, column) for column in self.e.T], axis=-1)
         for i, guess in enumerate(found):
             e = solve_critical(formulas, guess, z[i])
-            if e is not None and math.hypot(e[0], e[1]) <= 1.0:
+            if e is not None and math.hypot(e[0], e[1]) <= reach:
                 found[i] = e
         return found, np.array([in_disc(self.psi, e) for e in found]).reshape(-1, 2)
 

@@ -28,6 +28,7 @@ from .argument_checks import checked_span, checked_states, checked_times, checke
 from .backward_run import Past
 from .limit.compiled_run_phases import PhaseBuilder
 from .limit.hybrid_run import AtEventError, HybridRun, StopError
+from .limit.stiction import checked_stiction
 from .locations import OfState
 from .regularised import MAX_STEPS, are_many
 from .result import Phase, Simulation, SimulationStatus, simulation
@@ -50,6 +51,7 @@ def simulate_nonsmooth(  # pyright: ignore[reportOverlappingOverload] (rows are 
     atol: float = ...,
     events: Events = ...,
     times: ArrayLike | None = ...,
+    stiction: float = ...,
     max_steps: int = ...,
 ) -> tuple[Simulation, ...]: ...
 
@@ -65,6 +67,7 @@ def simulate_nonsmooth(
     atol: float = ...,
     events: Events = ...,
     times: ArrayLike | None = ...,
+    stiction: float = ...,
     max_steps: int = ...,
 ) -> Simulation: ...
 
@@ -79,6 +82,7 @@ def simulate_nonsmooth(
     atol: float = 1e-12,
     events: Events = (),
     times: ArrayLike | None = None,
+    stiction: float = 1.0,
     max_steps: int = MAX_STEPS,
 ) -> Simulation | tuple[Simulation, ...]:
     """Follow one motion of eq:vf itself, as the limit eps -> 0 of the regularised system.
@@ -114,6 +118,11 @@ def simulate_nonsmooth(
         As in `simulate`. An event that is zero over a while, as x is while sliding, counts where it becomes zero.
     times : (k,) floats, optional
         Within the span: those of the result, as far as the motion comes; left out, the ends of the steps.
+    stiction : float
+        Static over kinetic friction, S_0/S: above 1, a contact at rest holds while the friction that rest needs is at
+        most that many times the kinetic one, |e| <= S_0/S, whatever Psi is, and then slips in the one direction that
+        there is (`limit.stiction`). So it also sticks where it would pass Sigma with |e| < S_0/S. U must be affine in
+        e; where friction feeds a slip (D_e U plus its transpose is not negative definite) what follows is not known.
     max_steps : int
         Steps and phases before the motion is given up, with a status that says so.
 
@@ -133,21 +142,31 @@ def simulate_nonsmooth(
     >>> run = simulate_nonsmooth(examples.ball_in_pool(K=0.0, mu=0.25, g=8.0), (1.0, 0.0, 1.0, 0.0), (0.0, 1.0))
     >>> [(phase.kind, round(phase.t_end, 9)) for phase in run.phases]
     [('slip', 0.142857143), ('slide', 1.0)]
+
+    A block of mass 1 on a spring of stiffness 1 and a belt of speed 0.3; kinetic friction 0.5, static friction 0.75.
+    It sticks until the spring pulls with 0.75, and slips for 2 (pi - arctan(0.25/0.3)):
+
+    >>> from codim2_core import System
+    >>> block = System(U=("-z1 - 0.5*c", "-s"), W=("x + 0.3",))
+    >>> run = simulate_nonsmooth(block, (0.0, 0.0, 0.0), (0.0, 8.0), stiction=1.5)
+    >>> [(phase.kind, round(phase.t_end - phase.t_start, 9)) for phase in run.phases]
+    [('slide', 2.5), ('slip', 4.893708755), ('slide', 0.606291245)]
     """
     t_start, t_end = checked_span(t_span)
     when = checked_times(times, (t_start, t_end))
     checked_tolerances(rtol, atol, max_steps)
     formulas = field(system)
+    reach = checked_stiction(stiction, formulas)
     watched = checked_events(events)
     states = checked_states(with_time(state0, system, t_start), formulas.m)
     for first in states:
         if math.hypot(first[0], first[1]) < ON_SIGMA:
             first[:2] = 0.0
-    asked = _NonsmoothRun(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps)
+    asked = _NonsmoothRun(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps, reach)
     if t_end < t_start:
         runs: Iterable[Simulation] = (_past(asked, first) for first in states)
     else:
-        many = functions_of(formulas, constant(), are_many(len(states), max_steps)).is_compiled
+        many = reach == 1.0 and functions_of(formulas, constant(), are_many(len(states), max_steps)).is_compiled
         runs = _run_motions(asked, states) if many else map(asked.one, states)
     found = tuple(run.sample(when) for run in runs)
     return found[0] if np.ndim(state0) < 2 else found
@@ -165,6 +184,7 @@ class _NonsmoothRun:
     rtol: float
     atol: float
     max_steps: int
+    stiction: float
 
     def one(self, first: Array, begun: PhaseBuilder | None = None) -> Simulation:
         """Follow one motion from a state, or from where it was handed over, phase by phase."""
@@ -173,7 +193,7 @@ class _NonsmoothRun:
         watch = EventWatch(self.watched, t_start, first)
         course = HybridRun(
             self.system, self.psi, self.formulas, line, watch, t_start, first, t_end, self.rtol, self.atol,
-            self.max_steps,
+            self.max_steps, self.stiction,
         )  # fmt: skip
         if begun is not None:
             course.go_on(begun)
@@ -181,7 +201,7 @@ class _NonsmoothRun:
         try:
             course.run()
         except AtEventError:
-            status = SimulationStatus.EVENT
+            status, detail = SimulationStatus.EVENT, watch.reason
         except StopError as stop:
             status, detail = SimulationStatus.NOT_UNIQUE, str(stop)
         except BlowUpError as error:

@@ -181,7 +181,7 @@ class _RegularisedRun:
                 ended = _cut_at_event(part, watch, len(first))
                 parts.append(part if ended is None else ended)
                 if ended is not None:
-                    status = SimulationStatus.EVENT
+                    status, detail = SimulationStatus.EVENT, watch.reason
                     break
         except TooManyStepsError as error:
             status, detail = self.end(motion.code, error, first)

@@ -22,7 +22,7 @@ from ..expressions.opcodes import (
     VAR,
 )
 from ..jit import inlined_kernel, kernel
-from .intervals import LOG, divide, modulus, multiply, outwards, power, range_of, slope_of
+from .intervals import LOG, add, divide, modulus, multiply, outwards, power, range_of, slope_of
 
 
 @kernel
@@ -37,7 +37,7 @@ def _power_general(a, b, c, d):
     """Return [a, b] ** [c, d] where the base is positive; everything elsewhere."""
     if not a > 0.0:
         if a == 0.0 and c == d and c > 0.0:
-            return outwards(0.0, math.pow(b, c))
+            return 0.0, outwards(0.0, math.pow(b, c))[1] if b > 0.0 else 0.0
         return -math.inf, math.inf
     if c == d:
         p, q = math.pow(a, c), math.pow(b, c)
@@ -54,9 +54,9 @@ def _write_linear(k, u, v, w):
         if k == NEG:
             w[j], w[j + 1] = -u[j + 1], -u[j]
         elif k == ADD:
-            w[j], w[j + 1] = outwards(u[j] + v[j], u[j + 1] + v[j + 1])
+            w[j], w[j + 1] = add(u[j], u[j + 1], v[j], v[j + 1])
         else:
-            w[j], w[j + 1] = outwards(u[j] - v[j + 1], u[j + 1] - v[j])
+            w[j], w[j + 1] = add(u[j], u[j + 1], -v[j + 1], -v[j])
 
 
 @inlined_kernel
@@ -66,7 +66,7 @@ def _product(u, v, w):
     for j in (2, 4):
         a, b = multiply(u[j], u[j + 1], v[0], v[1])
         c, d = multiply(u[0], u[1], v[j], v[j + 1])
-        w[j], w[j + 1] = outwards(a + c, b + d)
+        w[j], w[j + 1] = add(a, b, c, d)
 
 
 @inlined_kernel
@@ -75,7 +75,7 @@ def _quotient(u, v, w):
     w[0], w[1] = divide(u[0], u[1], v[0], v[1])
     for j in (2, 4):
         a, b = multiply(w[0], w[1], v[j], v[j + 1])
-        a, b = outwards(u[j] - b, u[j + 1] - a)
+        a, b = add(u[j], u[j + 1], -b, -a)
         w[j], w[j + 1] = divide(a, b, v[0], v[1])
 
 
@@ -91,7 +91,7 @@ def _norm(u, v, w):
     for j in (2, 4):
         a, b = multiply(p, q, u[j], u[j + 1])
         c, d = multiply(lo, hi, v[j], v[j + 1])
-        w[j], w[j + 1] = outwards(a + c, b + d)
+        w[j], w[j + 1] = add(a, b, c, d)
 
 
 @inlined_kernel

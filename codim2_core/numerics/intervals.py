@@ -34,6 +34,14 @@ def outwards(lo, hi):
 
 
 @kernel
+def add(a, b, c, d):
+    """Return [a, b] + [c, d]; a zero changes nothing, and is not rounded."""
+    if c == d == 0.0:
+        return a, b
+    return (c, d) if a == b == 0.0 else outwards(a + c, b + d)
+
+
+@kernel
 def multiply(a, b, c, d):
     """Return [a, b] [c, d]."""
     if (a == 0.0 and b == 0.0) or (c == 0.0 and d == 0.0):
@@ -49,6 +57,8 @@ def divide(a, b, c, d):
     """Return [a, b]/[c, d]; everything if the divisor may be zero."""
     if not (c > 0.0 or d < 0.0):
         return -math.inf, math.inf
+    if a == b == 0.0:
+        return 0.0, 0.0
     p, q, r, s = a / c, a / d, b / c, b / d
     if not math.isfinite(p + q + r + s):
         return -math.inf, math.inf
@@ -69,12 +79,12 @@ def power(a, b, n):
 @kernel
 def power_positive(a, b, n):
     """Return [a, b] ** n for a whole n > 0."""
-    if n == 1.0:
+    if n == 1.0 or a == b == 0.0:
         return a, b
     p, q = math.pow(a, n), math.pow(b, n)
     if n % 2.0 == 0.0:
         if a <= 0.0 <= b:
-            return outwards(0.0, max(p, q))
+            return 0.0, outwards(0.0, max(p, q))[1]
         return outwards(min(p, q), max(p, q))
     return outwards(p, q)
 

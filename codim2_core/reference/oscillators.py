@@ -126,6 +126,28 @@ LEINE = ReferenceMotion(
 )  # fmt: skip
 
 
+_BELT, _KINETIC, _STATIC = 0.3, 0.5, 0.75
+
+
+def _static_above_kinetic() -> Sequence[float]:
+    block = System(U=("-z1 - S*c", "-s"), W=("x + v",), parameters={"S": _KINETIC, "v": _BELT})
+    run = follow(block, (0.0, 0.0, 0.0), 12.0, stiction=_STATIC / _KINETIC)
+    slip, stick = run.phases[1:3]
+    return slip.t_end - slip.t_start, stick.t_end - stick.t_start, float(run.dense(stick.t_start)[2])
+
+
+STATIC_ABOVE_KINETIC = ReferenceMotion(
+    "static-kinetic", "A block on a belt, static friction above kinetic",
+    "Mass and spring 1 on a belt of speed 0.3, kinetic friction 0.5, static friction 0.75: it sticks and slips.",
+    "textbook; the slip is half a swing about q = 0.5, and more", (
+        closed_form("time of slip", "1", 2.0 * (math.pi - math.atan((_STATIC - _KINETIC) / _BELT)),
+                    "2 (π − arctan((F_s − F_k)/v))"),
+        closed_form("time of stick", "1", 2.0 * (_STATIC - _KINETIC) / _BELT, "2 (F_s − F_k)/v"),
+        closed_form("spring where it sticks", "1", 2.0 * _KINETIC - _STATIC, "2 F_k − F_s"),
+    ), _static_above_kinetic,
+)  # fmt: skip
+
+
 def _regularised_stick_slip() -> Sequence[float]:
     system, start = _stick_slip_system(), (0.05, 0.0, 1.0)
     return [periodic_motion(system, start, 11.5, constant(), eps, rtol=RTOL, atol=ATOL).period for eps in (1e-3, 1e-2)]
@@ -141,4 +163,11 @@ REGULARISED = ReferenceMotion(
     ), _regularised_stick_slip,
 )  # fmt: skip
 
-OSCILLATING = (DECAYS, DRIVEN_ROUND, *(_den_hartog(*one) for one in DEN_HARTOG), LEINE, REGULARISED)
+OSCILLATING = (
+    DECAYS,
+    DRIVEN_ROUND,
+    *(_den_hartog(*one) for one in DEN_HARTOG),
+    LEINE,
+    STATIC_ABOVE_KINETIC,
+    REGULARISED,
+)

@@ -24,9 +24,9 @@ from .record import ATOL, RTOL, ReferenceMotion, closed_form
 TEXTBOOK = "textbook; the closed form is derived in `reference.sliding`"
 
 
-def follow(system: AnySystem, state0: ArrayLike, t_end: float) -> Simulation:
+def follow(system: AnySystem, state0: ArrayLike, t_end: float, stiction: float = 1.0) -> Simulation:
     """Follow a motion in the limit eps -> 0, as closely as is sensible."""
-    return simulate_nonsmooth(system, state0, (0.0, t_end), rtol=RTOL, atol=ATOL)
+    return simulate_nonsmooth(system, state0, (0.0, t_end), rtol=RTOL, atol=ATOL, stiction=stiction)
 
 
 def incline(slope: float, mu: float) -> System:

@@ -23,8 +23,20 @@ SENTENCES: dict[str, Sentence] = {
         ),
         "no critical set inside",
     ),
-    "contact opens": Sentence(
+    "cannot stick, opens": Sentence(
         "The contact opens: sticking would need a normal force of {normal:.4g}.", "N is not positive"
+    ),
+    "contact presses": Sentence("The contact presses.", "N > 0, and more of it parts the bodies"),
+    "contact opens": Sentence("The contact opens: no normal force is needed to keep the bodies apart.", "N falls to 0"),
+    "contact jams": Sentence(
+        "The contact jams (Painlevé): with its friction a normal force presses the bodies together, and none holds "
+        "them apart.",
+        "a normal force with its friction gives no positive normal acceleration, and the bodies approach without it",
+    ),
+    "contact not unique": Sentence(
+        "The motion is not unique (Painlevé): with its friction a normal force presses the bodies together, and they "
+        "part without it.",
+        "a normal force with its friction gives no positive normal acceleration, and the bodies part without it",
     ),
     "fitted": Sentence(
         "{found}; it slips at {angle:.4g}° ({low:.4g} to {high:.4g}) at the end, and does not stop.",

@@ -39,6 +39,19 @@ SENTENCES: dict[str, Sentence] = {
         "{C} reaches the equator (Figure 19), so sliding ends and the motion leaves along θ = {theta:.4g}.",
         "a critical set comes to the equator",
     ),
+    "static holds": Sentence(
+        "Static friction holds the contact: rest needs {share:.4g} times the kinetic friction, and {reach:.4g} is "
+        "available.",
+        "on Σ, static above kinetic friction",
+    ),
+    "static gives way": Sentence(
+        "Rest needs more than {reach:.4g} times the kinetic friction, so the contact slips along θ = {theta:.4g}.",
+        "at rest by static friction, |e| = S₀/S",
+    ),
+    "static unknown": Sentence(
+        "It is unknown whether static friction holds: D + Dᵀ is not negative definite for the derivative D of U by e.",
+        "on Σ, static above kinetic friction, no dissipation",
+    ),
     "cycle shrinks": Sentence(
         "The limit cycle shrinks onto {C} in a Hopf bifurcation, and the motion slides on {C}.",
         "a Hopf bifurcation, passed backwards",

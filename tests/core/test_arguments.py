@@ -19,6 +19,7 @@ PLANE = {"system": SYSTEM, "psi": PSI, "z": 0.1}
 MATRIX = {"system": c2.ELinear(-2.0, 0.3, -1.0)}
 BAD_MATRIX = {"system": c2.ELinear(172.0, 186.0, -200.0)}
 DRIVEN = c2.System(U=("-z1 - f1*c + cos(2*z3)", "-z2 - f1*s + sin(2*z3)"), W=("x", "y", "1"), parameters={"f1": 0.5})
+BLOCK = c2.mechanics.Mechanism(np.eye(2), np.eye(2), (0, 0), 0.3, 1, ("vx", "vy"))
 MOTION = {"system": SYSTEM, "psi": PSI, "state0": (1.0, 0.2, 0.1), "t_span": (0.0, 0.3)}
 
 #: For each public function, arguments with which it is quick: what is not there keeps its default.
@@ -31,6 +32,7 @@ GOOD = {
     c2.certificates: PLANE,
     c2.classify: PLANE,
     c2.compare_laws: {"system": SYSTEM, "laws": {"tanh": (PSI, 1e-3)}, "z": 0.1},
+    c2.contact_events: {"mechanism": BLOCK, "state0": (1.0, 0.2)},
     c2.critical_sets: PLANE,
     c2.delays: {**PLANE, "ranges": {"z1": (-1.0, 1.0)}},
     c2.equator_cycle: {"system": SYSTEM, "z": 0.1},
@@ -77,6 +79,7 @@ GOOD = {
     c2.mechanics.contact: {
         "M": np.eye(2), "J": np.eye(2), "force": (0.3, 0), "mu": 0.2, "normal": 1.0, "velocities": ("u", "v"),
     },
+    c2.mechanics.stribeck: {"static": 0.6, "kinetic": 0.4, "speed": 0.05},
     c2.mechanics.fit: {
         "system": c2.ELinear("-mu", 0.0, "-mu", parameters={"mu": 3.0}),
         "times": np.linspace(0.0, 0.1, 5),

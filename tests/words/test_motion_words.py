@@ -29,6 +29,7 @@ ELSEWHERE = {
     "motion/test_exchange.py": ("transcritical", "pitchfork", "exchange, moving", "errors decide"),
     "motion/test_agreement.py": ("phases agree", "phases agree, less", "phases differ"),
     "initial_value/test_events.py": ("at an event",),
+    "motion/test_stiction.py": ("static holds", "static gives way", "static unknown"),
     "motion/test_slide_slip.py": ("cycle ends", "cycle ends at once", "cycle ends, not found",
                                   "cycle ends, not decided", "saddle reached"),
     "motion/test_variation.py": ("variation undefined", "variation on a cycle", "variation past an end",

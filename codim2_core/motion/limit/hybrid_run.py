@@ -35,6 +35,7 @@ from .sigma_decision import Decision, critical_name, decide_arrival, decide_from
 from .slide import Slide, slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import slip
+from .stiction import hold, let_go
 
 CLOSER_FACTOR = 1e-4  # a trajectory that turns before Sigma is followed this much closer, and asked again
 SAME_DIRECTION = 1e-12  # 1 - cos: directions that differ by a rounding of either
@@ -65,6 +66,7 @@ class HybridRun:
     rtol: float
     atol: float
     most: int
+    stiction: float = 1.0
     evaluations: int = 0
     taken: list[Step] = made_with(default_factory=list)
     parts: list[PendingPhase] = made_with(default_factory=list)
@@ -142,6 +144,9 @@ class HybridRun:
         """Decide what follows from a start on Sigma."""
         if self.line is not None:
             return self.in_line(0.0, say("starts in a line"))
+        held = hold(self.formulas, None, self.state[2:], self.stiction)
+        if held is not None:
+            return held
         decision = decide_start(self.system, self.psi, self.state[2:])
         if self.psi is not None:
             self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
@@ -151,6 +156,9 @@ class HybridRun:
         """Decide what follows on Sigma in an invariant line, where the layer problem is that of one variable."""
         assert self.line is not None
         z, n = self.state[2:], self.line.n
+        held = hold(self.formulas, self.line, z, self.stiction)
+        if held is not None:
+            return replace(held, reason=f"{reason} {held.reason}")
         onward = self.line.onward(q, z)
         if onward is None:
             if self.line.slope(q, z) >= 0.0:
@@ -190,6 +198,9 @@ class HybridRun:
             decision = decide_arrival(self.system, self.psi, z, part.theta)
             if decision.kind != "away":
                 self.add("slip", taken + part.taken, reason)
+                held = hold(self.formulas, None, z, self.stiction)
+                if held is not None:
+                    return held
                 self.ascent = Ascent(self.system, self.own, z, part.theta)
                 return self.crossed(decision)
             # It will turn away from Sigma: go on from where it was close, and look again from closer.
@@ -226,7 +237,7 @@ class HybridRun:
 
     def slid(self, e: Array, **how: Any) -> Slide:
         """Follow the slow flow from the critical set at e."""
-        options = {"rtol": self.rtol, "atol": self.atol, "most": self.left}
+        options = {"rtol": self.rtol, "atol": self.atol, "most": self.left, "reach": self.stiction}
         part = slide(self.formulas, self.own, e, self.t, self.state[2:], self.t_end, **options, **how)
         self.evaluations += part.evaluations
         return part
@@ -243,6 +254,10 @@ class HybridRun:
             return None
         if part.end == "left":
             return self.left_set(part.e, say("Hopf, left", C=C))
+        if part.end == "feeds":
+            return Decision("stop", say("static unknown"))
+        if part.end == "equator" and self.stiction > 1.0:
+            return let_go(self.system, self.line, part.e, self.state[2:], self.stiction)
         if part.end == "equator":
             theta = math.atan2(part.e[1], part.e[0])
             reason = say("ends at the equator", C=C, theta=theta)

@@ -19,7 +19,7 @@ from ...initial_value.field import Field
 from ...initial_value.kernels.motion import FIRST_STEP_SHARE
 from ...initial_value.line import InvariantLine
 from ...initial_value.motion_steps import MotionSteps
-from ...initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements
+from ...initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements, dissipation
 from ...initial_value.slow_manifold import SlowManifold, complement, determinant, trace
 from ...initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps, steps_of_z
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, truncate_step
@@ -45,7 +45,8 @@ class Slide:
     taken : list of Step
         Of the whole state, with x = y = 0.
     end : str
-        "time", "equator", "fold", "hopf", "cycle" (the limit cycle it slides on is there no longer), or "given up".
+        "time", "equator" (or the reach of static friction), "fold", "hopf", "cycle" (the limit cycle it slides on is
+        there no longer), "feeds" (static friction takes no longer energy from every slip), or "given up".
     e : ndarray (2,)
         Critical set at the end.
     places : list of ndarray (2,)
@@ -87,6 +88,7 @@ def slide(
     line: InvariantLine | None = None,
     delayed: bool = False,
     resting: bool = False,
+    reach: float = 1.0,
 ) -> Slide:
     """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
 
@@ -109,11 +111,13 @@ def slide(
         Go on where stability changes: for how long a motion follows is left to `delay`.
     resting : bool
         The set does not move: go on with it, also where it meets others.
+    reach : float
+        |e| up to which it slides; above 1 by static friction, see `stiction`.
     """
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
     manifold = SlowManifold(field, e, z)
-    gauges = _gauges(manifold, psi, on_cycle=lives is not None, line=line)
+    gauges = _gauges(manifold, psi, on_cycle=lives is not None, line=line, reach=reach)
     if delayed:
         del gauges["hopf"]
 
@@ -136,7 +140,7 @@ def slide(
     else:
         motion = SlowSteps(field, manifold.e, line, (t, t_end), z, rtol, floor, most, h, shortest)
         sign, n = math.copysign(1.0, determinant(manifold, manifold.e, z)), None if line is None else line.n
-        ahead = _steps_of_set(manifold, motion, StepRequirements(psi, sign, n) if lives is None else None)
+        ahead = _steps_of_set(manifold, motion, StepRequirements(psi, sign, n, reach) if lives is None else None)
     taken: list[Step] = []
     places = [manifold.e]
 
@@ -163,7 +167,7 @@ def slide(
     except StepsTooShortError as error:
         if taken and t_end - taken[-1].end <= shortest:  # the rounding of t_end is left
             return ended("time", places[-1])
-        end = _end_reason(manifold)
+        end = _end_reason(manifold, reach)
         return ended(end, manifold.e, error if end == "given up" else None)
     except TooManyStepsError as error:
         return ended("given up", places[-1], error)
@@ -258,22 +262,21 @@ def _search_slow_manifold(here: SlowManifold, z: Array) -> SlowManifold | None:
 
 
 def _gauges(
-    manifold: SlowManifold, psi: Psi, on_cycle: bool, line: InvariantLine | None
+    manifold: SlowManifold, psi: Psi, on_cycle: bool, line: InvariantLine | None, reach: float
 ) -> dict[str, Callable[[Array, Array], float]]:
     """Return what turns negative, as functions of e and z, where the sliding ends, by the name of the end."""
     found: dict[str, Callable[[Array, Array], float]] = {
-        "equator": lambda e, z: complement(e),  # noqa: ARG005 (all gauges are called alike)
+        "equator": lambda e, z: complement(e, reach),  # noqa: ARG005 (all gauges are called alike)
     }
     if line is not None:
         n = line.n
         return {**found, "fold": lambda e, z: -float(n @ _unit_slopes(manifold, e, z) @ n)}
     sign = math.copysign(1.0, determinant(manifold, manifold.e, manifold.z))
     turn = -1.0 if on_cycle else 1.0  # around a stable cycle C is unstable: tr J > 0
-    return {
-        **found,
-        "fold": lambda e, z: sign * float(np.linalg.det(_unit_slopes(manifold, e, z))),
-        "hopf": lambda e, z: -turn * trace(manifold, psi, e, z),
-    }
+    found["fold"] = lambda e, z: sign * float(np.linalg.det(_unit_slopes(manifold, e, z)))
+    if reach > 1.0:
+        return {**found, "feeds": lambda e, z: float(dissipation(_unit_slopes(manifold, e, z)))}
+    return {**found, "hopf": lambda e, z: -turn * trace(manifold, psi, e, z)}
 
 
 def _unit_slopes(manifold: SlowManifold, e: Array, z: Array) -> Array:
@@ -282,9 +285,9 @@ def _unit_slopes(manifold: SlowManifold, e: Array, z: Array) -> Array:
     return D / max(float(np.abs(D).max()), TINY)
 
 
-def _end_reason(manifold: SlowManifold) -> str:
+def _end_reason(manifold: SlowManifold, reach: float) -> str:
     """Say what ends the set where steps become too short to go on."""
-    if complement(manifold.e) < EQUATOR_GAP:
+    if complement(manifold.e, reach) < EQUATOR_GAP:
         return "equator"
     det = float(np.linalg.det(_unit_slopes(manifold, manifold.e, manifold.z)))
     return "fold" if abs(det) < AT_FOLD else "given up"

@@ -70,6 +70,7 @@ def lyapunov_exponents(
     transient: int = 50,
     rtol: float = 1e-8,
     atol: float = 1e-10,
+    stiction: float = 1.0,
     max_steps: int = MAX_STEPS,
 ) -> LyapunovExponents:
     """Lyapunov exponents of the motion from a state, followed over many periods, and its states at each of them.
@@ -81,7 +82,7 @@ def lyapunov_exponents(
         (x, y, z1, ..., zm).
     period : float
         Of the forcing, or of a system without one any time after which derivatives are made orthogonal again.
-    psi, eps, rtol, atol, max_steps
+    psi, eps, rtol, atol, stiction, max_steps
         As in `periodic_motion`.
     count : int
         Periods that are counted, at least 16.
@@ -113,7 +114,7 @@ def lyapunov_exponents(
     if count < BATCHES:
         raise ValueError(f"count is {count}; give at least {BATCHES} periods.")
     start = checked_state(with_time(state0, system, 0.0), formulas_of(system).m)
-    asked = shooting(system, psi, eps or 0.0, start, period, None, atol / rtol, max_steps)
+    asked = shooting(system, psi, eps or 0.0, start, period, None, atol / rtol, max_steps, stiction)
     free = np.ix_(asked.free, asked.free)
     basis = np.eye(int(asked.free.sum()))
     growth, section, state, why = [], [], start, ""

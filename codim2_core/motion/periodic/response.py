@@ -51,6 +51,7 @@ def response_curve(
     advance: ArrayLike | None = None,
     rtol: float = 1e-9,
     atol: float = 1e-11,
+    stiction: float = 1.0,
     max_steps: int = MAX_STEPS,
 ) -> ResponseCurve:
     """Follow a periodic motion along a parameter, both ways from where the system is, through folds.
@@ -66,7 +67,7 @@ def response_curve(
     along : str
         One of ``system.variable``; its present value lies in the span.
     span : (low, high)
-    psi, eps, advance, rtol, atol, max_steps
+    psi, eps, advance, rtol, atol, stiction, max_steps
         As in `periodic_motion`.
 
     Returns
@@ -111,13 +112,14 @@ def response_curve(
 
     eps = eps or 0.0
     found = periodic_motion(
-        system, state0, period_of(value), psi, eps, advance=advance, rtol=rtol, atol=atol, max_steps=max_steps
-    )
+        system, state0, period_of(value), psi, eps,
+        advance=advance, rtol=rtol, atol=atol, stiction=stiction, max_steps=max_steps,
+    )  # fmt: skip
     if not found.found:
         raise ValueError(f"no periodic motion to begin with: {found.reason}")
     moved = None if callable(period) and advance is None else found.advance
     family = MotionFamily(
-        shooting(system, psi, eps, found.state0, found.period, moved, atol / rtol, max_steps), along,
+        shooting(system, psi, eps, found.state0, found.period, moved, atol / rtol, max_steps, stiction), along,
         (low, high), period_of, moved, rtol,
     )  # fmt: skip
     return _trace_both_ways(family, found.state0, found.period, value)

@@ -13,6 +13,7 @@ from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
 from ..argument_checks import checked_state, checked_tolerances, with_time
+from ..limit.stiction import checked_stiction
 from ..regularised import LARGEST_EPS, MAX_STEPS, SMALLEST_EPS
 from ..result import Simulation
 from .multipliers import matching_distances, multipliers
@@ -49,6 +50,7 @@ def periodic_motion(
     advance: ArrayLike | None = None,
     rtol: float = 1e-9,
     atol: float = 1e-11,
+    stiction: float = 1.0,
     max_steps: int = MAX_STEPS,
 ) -> PeriodicMotion:
     """Find a motion that repeats itself, by Newton's method from a start near it, and say whether it is stable.
@@ -73,6 +75,8 @@ def periodic_motion(
         the period, and all others are where they were.
     rtol, atol : float
         As in `simulate`; at last it is followed with a hundredth of both.
+    stiction : float
+        Static over kinetic friction in the limit, as in `simulate_nonsmooth`.
     max_steps : int
         Steps of one motion.
 
@@ -109,16 +113,18 @@ def periodic_motion(
         raise ValueError(f"eps is {eps!r}; give 0 for the limit, or {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
     if eps > 0.0 and psi is None:
         raise ValueError("psi is None; give the regularisation, or leave out eps for the limit eps -> 0.")
-    asked = shooting(system, psi, float(eps), start, float(period), advance, atol / rtol, max_steps)
+    asked = shooting(system, psi, float(eps), start, float(period), advance, atol / rtol, max_steps, stiction)
     return _search(asked, start, rtol)
 
 
 def shooting(
     system: AnySystem, psi: Psi | None, eps: float, start: Array, period: float, advance: ArrayLike | None,
-    floor: float, max_steps: int,
+    floor: float, max_steps: int, stiction: float = 1.0,
 ) -> Shooting:  # fmt: skip
     """Return the boundary value problem of a periodic motion; refuse formulas that do not repeat themselves."""
     formulas = field(system)
+    if checked_stiction(stiction, formulas) > 1.0 and eps > 0.0:
+        raise ValueError(f"stiction is {stiction:g} and eps is {eps:g}; leave one out: it is known in the limit alone.")
     rates = np.array([row.constant or 0.0 for row in formulas.rows[2:]])
     moved = _advance(advance, rates, period)
     if not _repeats(formulas, start[None], moved):
@@ -126,7 +132,7 @@ def shooting(
             f"the formulas do not repeat themselves as z moves on by {moved.tolist()}; give a multiple of the "
             "forcing's period, or by how much z moves on as advance."
         )
-    return Shooting(system, psi, eps, formulas, rates != 0.0, moved, period, floor, max_steps)
+    return Shooting(system, psi, eps, formulas, rates != 0.0, moved, period, floor, max_steps, stiction)
 
 
 def _advance(given: ArrayLike | None, rates: Array, period: float) -> Array:

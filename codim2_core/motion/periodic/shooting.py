@@ -61,6 +61,8 @@ class Shooting:
     floor : float
         What small z are measured by.
     max_steps : int
+    stiction : float
+        Static over kinetic friction.
     names : tuple of str
         Numbers of the system by which motions are differentiated too.
     """
@@ -74,6 +76,7 @@ class Shooting:
     period: float
     floor: float
     max_steps: int
+    stiction: float = 1.0
     names: tuple[str, ...] = ()
 
     @property
@@ -90,7 +93,7 @@ class Shooting:
         """Follow a motion over a period."""
         options = {"rtol": rtol, "atol": rtol * self.floor, "max_steps": self.max_steps}
         if self.eps == 0.0:
-            return simulate_nonsmooth(self.system, state, (0.0, period), self.psi, **options)
+            return simulate_nonsmooth(self.system, state, (0.0, period), self.psi, stiction=self.stiction, **options)
         assert self.psi is not None
         return simulate(self.system, self.psi, state, (0.0, period), eps=self.eps, **options)
 

@@ -2,7 +2,8 @@
 
 A change of the start moves an arrival at Sigma by dt. What is known of the motion after it, at fixed times, is moved
 with it: z by dt (W- - W+), and (x, y), if the motion leaves at once, by -dt U+. Where a critical set leaves through the
-equator, both fields agree and the motion begins with no speed: nothing is added there.
+equator, both fields agree and the motion begins with no speed: nothing is added there. Where static friction lets go,
+|e(z)| is at its reach, which tells dt: ``e.D_z e (dz + dt W-) = 0``.
 """
 
 from __future__ import annotations
@@ -110,7 +111,7 @@ class _Leg:
     slides: tuple[Phase, ...]  # the phases of a slide; none for a slip
     from_sigma: bool
     to_sigma: bool
-    left: bool  # it leaves Sigma where a slide ended
+    left: bool  # it leaves Sigma with no speed, where a slide ended
 
 
 def _legs(motion: Dense, phases: Sequence[Phase]) -> Iterator[_Leg]:
@@ -118,11 +119,14 @@ def _legs(motion: Dense, phases: Sequence[Phase]) -> Iterator[_Leg]:
     on = (motion.states[:, :2] == 0.0).all(axis=1)
     sliding = on[:-1] & on[1:] & ~motion.polynomials[:, :2].any(axis=(1, 2))
     cuts = np.flatnonzero(on[1:-1] & ~(sliding[:-1] & sliding[1:])) + 1
+    behind: tuple[Phase, ...] = ()
     for first, last in pairwise([0, *cuts.tolist(), len(sliding)]):
         start, end = float(motion.times[first]), float(motion.times[last])
         slides = [p for p in phases if p.kind == "slide" and start <= p.t_start <= end and start < p.t_end <= end]
         own = tuple(slides) if sliding[first] else ()
-        yield _Leg(first, last, own, bool(on[first]), bool(on[last]), first > 0 and bool(sliding[first - 1]))
+        left = first > 0 and bool(sliding[first - 1]) and not any(map(_is_let_go, behind))
+        yield _Leg(first, last, own, bool(on[first]), bool(on[last]), left)
+        behind = own[-1:]
 
 
 @dataclass(frozen=True, eq=False)
@@ -151,7 +155,21 @@ class _Course:
             last = int(np.searchsorted(self.motion.times, phase.t_end, side="left"))
             reason = say("variation past an end", t=phase.t_end)
         slopes = lambda steps, u: self.slide_slopes(phase, steps, u)
-        return self.propagate(range(leg.first, last), slopes, before), reason
+        found = self.propagate(range(leg.first, last), slopes, before)
+        if following is not None and last == leg.last and _is_let_go(phase):
+            matrix = self.letting_go(phase, following)
+            for matrices in (found.fine, found.coarse):
+                matrices[-1] = matrix @ matrices[-1]
+        return found, reason
+
+    def letting_go(self, phase: Phase, following: _Leg) -> Array:
+        """Saltation matrix of the end of a slide where |e| is at the reach of static friction."""
+        t = phase.t_end
+        e, still, sooner = phase.e([t]), self.sliding_rate(phase, t), np.zeros(self.size)
+        sooner[2:] = e[0] @ self.set_slopes(self.slopes.at(e, self.motion(t)[None]))[0]
+        found = np.eye(self.size)
+        found[: len(still)] += np.outer(self.initial_rate(following) - still, sooner / (sooner[: len(still)] @ still))
+        return found
 
     def slip(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
         """Along a slip, from where it leaves Sigma to where it arrives."""
@@ -212,19 +230,21 @@ class _Course:
         return found if self.n is None else self.line_projector @ found @ self.line_projector
 
     def slide_slopes(self, phase: Phase, steps: StepIndices, u: Array) -> Array:
-        """Jacobian of the slow flow at fractions of steps; the critical set moves by ``D_e U de + D_z U dz = 0``."""
+        """Jacobian of the slow flow at fractions of steps."""
         times = self.motion.times[steps, None] + u * self.motion.lengths[steps, None]
         e = phase.e(np.clip(times.ravel(), phase.t_start, phase.t_end))
         D = self.slopes.at(e, states_along(self.motion, steps, u))
-        De, Dz = D[:, :, :2], D[:, :, 4:]
-        if self.n is None:
-            moved = -np.linalg.solve(De[:, :2], Dz[:, :2])
-        else:
-            moved = -self.n[:, None] * ((self.n @ Dz[:, :2]) / (self.n @ De[:, :2] @ self.n)[:, None])[:, None]
         slopes = np.zeros((len(e), 2 + self.slopes.m, self.size))
-        slopes[:, 2:, 2:] = Dz[:, 2:] + De[:, 2:] @ moved
+        slopes[:, 2:, 2:] = D[:, 2:, 4:] + D[:, 2:, :2] @ self.set_slopes(D)
         found = pad_jacobians(slopes, u.shape)
         return found if self.n is None else self.line_projector @ found @ self.line_projector
+
+    def set_slopes(self, D: Array) -> Array:
+        """D_z e (k, 2, m + q) of the critical set: ``D_e U de + D_z U dz = 0``."""
+        De, Dz = D[:, :2, :2], D[:, :2, 4:]
+        if self.n is None:
+            return np.asarray(-np.linalg.solve(De, Dz), np.float64)
+        return -self.n[:, None] * ((self.n @ Dz) / (self.n @ De @ self.n)[:, None])[:, None]
 
     @cached_property
     def line_projector(self) -> Array:
@@ -371,5 +391,10 @@ class _Course:
 
 
 def _at_equator(phase: Phase) -> bool:
-    """Whether the critical set has come to the equator at the end of a slide."""
+    """Whether the critical set has come to the equator, or to static friction's reach, at the end of a slide."""
     return bool(1.0 - np.hypot(*phase.e(phase.t_end)) < EQUATOR_DISTANCE)
+
+
+def _is_let_go(phase: Phase) -> bool:
+    """Whether a slide ends at the reach of static friction."""
+    return bool(np.hypot(*phase.e(phase.t_end)) > 1.0 + EQUATOR_DISTANCE)

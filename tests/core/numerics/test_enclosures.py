@@ -56,6 +56,18 @@ def test_every_operation_is_enclosed_and_differentiated(text):
     assert out[0, 1] - out[0, 0] < 3 * tight + 1e-12
 
 
+@pytest.mark.parametrize("text", ["((x**2 + y**2)/0.01)**0.75", "(x**2 + y**2)**1.5", "(x - y)**2.5/3", "x**3 + y"])
+def test_what_vanishes_on_sigma_is_enclosed_by_zero(text):
+    """Rounded outwards a zero would lie below 0, where a power has no value: nothing was known, and nothing found."""
+    found = []
+    for row in (f"5 - 6*c*(1 + {text})", "5 - 6*c"):
+        run = program(System(U=(row, "-s")).at().key)
+        out, work = np.empty((2, 6)), np.empty((len(run.op), 6))
+        enclose(*run.arrays, 0.8, 0.9, -0.1, 0.1, work, out)
+        found.append(out[0])
+    np.testing.assert_allclose(found[0], found[1], atol=1e-12)
+
+
 @pytest.mark.parametrize(
     ("U", "degree"),
     [(("c*s - 1", "(c + s)**3"), 3), (("c/2 + x*c**9", "exp(z)*s"), 9), (("c/s", "s"), None), (("exp(c)", "s"), None)],

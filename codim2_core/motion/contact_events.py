@@ -1,0 +1,59 @@
+"""Events that stop a mechanism's motion where its contact opens or jams."""
+
+from __future__ import annotations
+
+from numpy.typing import ArrayLike
+
+from ..initial_value.events import Event
+from ..mechanics.mechanism import Mechanism
+from ..words import say
+from .argument_checks import checked_state
+
+__all__ = ["contact_events"]
+
+
+def contact_events(mechanism: Mechanism, state0: ArrayLike) -> tuple[Event, ...]:
+    """Return the events that stop a motion where the normal force falls to 0, or Painlevé's paradox begins.
+
+    The system of a mechanism is that of a contact that presses: give them to `simulate` or `simulate_nonsmooth`, whose
+    status says what has happened.
+
+    Parameters
+    ----------
+    mechanism : Mechanism
+    state0 : (2 + m,)
+        Where the motion starts.
+
+    Returns
+    -------
+    tuple of Event
+        That the contact opens; and where the normal force is that of a constraint, that friction makes it press the
+        bodies together.
+
+    Raises
+    ------
+    ValueError
+        The contact does not press at state0, or that has the wrong length.
+
+    Examples
+    --------
+    A block that slides onto a slope which falls away, so that the normal force is 10 - 4 q after a way q:
+
+    >>> from codim2_core import contact_events, simulate_nonsmooth
+    >>> from codim2_core.mechanics import Mechanism
+    >>> block = Mechanism(((1, 0), (0, 1)), ((1, 0), (0, 1)), (0, 0), 0.1, "10 - 4*q", ("vx", "vy"), slow=("q",),
+    ...                   rates={"q": "vx"})
+    >>> start = block.state(vx=3, vy=0, q=0)
+    >>> run = simulate_nonsmooth(block.system, start, (0, 9), events=contact_events(block, start))
+    >>> round(float(run.states[-1, 2]), 9)
+    2.5
+    >>> run.reason
+    'It stopped at a terminal event. The contact opens: no normal force is needed to keep the bodies apart.'
+    """
+    force = mechanism.contact_force
+    begins = force(checked_state(state0, len(mechanism.slow)))
+    if begins.kind != "presses":
+        raise ValueError(f"state0 is where the contact does not press; start where it does. {begins.sentence}")
+    opens = Event(lambda t, state: force(state).approach, -1, True, say("contact opens"))  # noqa: ARG005
+    jams = Event(lambda t, state: force(state).gain, -1, True, say("contact jams"))  # noqa: ARG005
+    return (opens, jams) if mechanism.has_constraint else (opens,)

@@ -1,0 +1,147 @@
+"""Contacts that open or jam: a rod in three dimensions by its equations of motion, Painlevé's paradox by a formula."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+import codim2_core as c2
+from codim2_core import psi
+from codim2_core.mechanics import Mechanism
+from codim2_core.words import recognise
+
+G = 9.81
+
+
+def rod(mu):
+    """A rod of mass 1 and half length 1, its end on the ground, at height th of its angle and azimuth ps."""
+    return Mechanism(
+        M=((1, 0, 0, 0, 0), (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (0, 0, 0, "1/3", 0), (0, 0, 0, 0, "cos(th)**2/3")),
+        J=((1, 0, 0, "sin(th)*cos(ps)", "cos(th)*sin(ps)"), (0, 1, 0, "sin(th)*sin(ps)", "-cos(th)*cos(ps)")),
+        normal=(0, 0, 1, "-cos(th)", 0), mu=mu,
+        force=(0, 0, -G, "-cos(th)*sin(th)*wp**2/3", "2*cos(th)*sin(th)*wt*wp/3"),
+        velocities=("vx", "vy", "vz", "wt", "wp"), slow=("wt", "wp", "th", "ps"), rates={"th": "wt", "ps": "wp"},
+    )  # fmt: skip
+
+
+def rod_rates(mu, v, th, ps):
+    """Return the accelerations and the normal force of the slipping rod, by its equations of motion as numbers."""
+    c, s, cp, sp = math.cos(th), math.sin(th), math.cos(ps), math.sin(ps)
+    wt, wp = v[3:]
+    J = np.array([[1, 0, 0, s * cp, c * sp], [0, 1, 0, s * sp, -c * cp], [0, 0, 1, -c, 0]])
+    slip = J[:2] @ v
+    M = np.diag([1, 1, 1, 1 / 3, c * c / 3])
+    Q = np.array([0, 0, -G, -c * s * wp**2 / 3, 2 * c * s * wt * wp / 3])
+    push = J[2] - mu * slip / np.hypot(*slip) @ J[:2]
+    matrix = np.block([[M, -push[:, None]], [J[2], 0.0]])
+    found = np.linalg.solve(matrix, np.append(Q, -s * wt * wt))
+    return found[:5], float(found[5])
+
+
+@pytest.mark.parametrize("mu", [0.0001, 0.3])
+def test_a_rod_lifts_off_when_its_equations_of_motion_say_so(mu):
+    mechanism, turn = rod(mu), 0.9 * math.sqrt(G / math.sin(0.5))
+    v = np.array([0.7, 0.2, math.cos(0.5) * turn, turn, 0.4])
+    start = mechanism.state(**dict(zip(("vx", "vy", "vz", "wt", "wp"), v, strict=True)), th=0.5, ps=0.3)
+    run = c2.simulate_nonsmooth(
+        mechanism.system, start, (0.0, 2.0), psi.constant(), rtol=1e-11, events=c2.contact_events(mechanism, start)
+    )
+    assert run.status is c2.SimulationStatus.EVENT
+    assert [key for key, _ in recognise(run.reason)] == ["at an event", "contact opens"]
+
+    def rate(_, s):
+        return [*rod_rates(mu, s[:5], s[5], s[6])[0], s[3], s[4]]
+
+    def lifts(_, s):
+        return rod_rates(mu, s[:5], s[5], s[6])[1]
+
+    lifts.terminal = True
+    other = solve_ivp(rate, (0.0, 2.0), [*v, 0.5, 0.3], method="DOP853", rtol=1e-12, atol=1e-12, events=lifts)
+    assert run.times[-1] == pytest.approx(other.t[-1], abs=1e-8)
+    assert run.states[-1, 4:6] == pytest.approx(other.y[5:, -1], abs=1e-8)
+    assert mechanism.contact_force(run.states[-1]).approach == pytest.approx(0.0, abs=1e-7)
+    creeping = c2.simulate(
+        mechanism.system, psi.constant(), start, (0.0, 2.0), eps=1e-6, events=c2.contact_events(mechanism, start)
+    )
+    assert creeping.times[-1] == pytest.approx(run.times[-1], abs=1e-4)
+    assert creeping.reason == run.reason
+
+
+@settings(max_examples=20)
+@given(st.floats(0.1, 1.5), st.floats(0.0, 6.28), st.floats(0.0, 6.28), st.floats(0.1, 3.0), st.floats(-6.0, 6.0))
+def test_painleves_paradox_is_told_by_its_formula(th, ps, direction, mu, wt):
+    """p = 1 + 3 cos th (cos th + mu sin th cos(direction - ps)), b = g - sin th wt^2: four kinds by their signs."""
+    b = G - math.sin(th) * wt**2
+    p = 1.0 + 3.0 * math.cos(th) * (math.cos(th) + mu * math.sin(th) * math.cos(direction - ps))
+    found = rod(mu).contact_force((math.cos(direction), math.sin(direction), wt, 0.0, th, ps))
+    assert (found.approach, found.gain) == pytest.approx((b, p), rel=1e-9, abs=1e-9)
+    expected = {(True, True): "presses", (False, True): "opens", (True, False): "jams", (False, False): "not unique"}
+    assert found.kind == expected[b > 0.0, p > 0.0]
+    assert [key for key, _ in recognise(found.sentence)] == [f"contact {found.kind}"]
+    if p > 0.0:
+        assert found.normal == pytest.approx(max(b / p, 0.0))
+    else:
+        assert math.isnan(found.normal)
+
+
+def test_a_rod_of_little_friction_never_jams():
+    """Painlevé's rod: 4/3 is the least coefficient with which it can."""
+    for mu, can in ((1.33, False), (1.34, True)):
+        kinds = {rod(mu).contact_force((-1.0, 0.0, 0.0, 0.0, th, 0.0)).kind for th in np.linspace(0.05, 1.5, 60)}
+        assert ("jams" in kinds) == can
+
+
+@pytest.mark.parametrize(("th", "key"), [(1.1, "contact jams")])
+def test_a_start_where_the_contact_does_not_press_is_refused(th, key):
+    mechanism = rod(3.0)
+    start = (-1.0, 0.0, 0.0, 0.0, th, 0.0)
+    assert [one for one, _ in recognise(mechanism.contact_force(start).sentence)] == [key]
+    with pytest.raises(ValueError, match="does not press"):
+        c2.contact_events(mechanism, start)
+
+
+def block(normal, mu=0.2, **more):
+    return Mechanism(
+        M=np.eye(2), J=np.eye(2), force=("-q", 0), mu=mu, normal=normal, velocities=("vx", "vy"), slow=("q",),
+        rates={"q": "vx"}, **more,
+    )  # fmt: skip
+
+
+def test_a_normal_force_that_varies_with_place_and_speed():
+    """q'' = -q - mu N(q, v): by another integrator, to where N = 0, past a rest."""
+    mechanism = block("1 - q + 0.1*vx**2")
+    start = mechanism.state(vx=1.2, vy=0.0, q=0.0)
+    run = c2.simulate_nonsmooth(
+        mechanism.system, start, (0.0, 9.0), rtol=1e-11, events=c2.contact_events(mechanism, start)
+    )
+
+    def rate(_, s):
+        return [s[1], -s[0] - 0.2 * (1.0 - s[0] + 0.1 * s[1] ** 2)]
+
+    def lifts(_, s):
+        return 1.0 - s[0] + 0.1 * s[1] ** 2
+
+    lifts.terminal = True
+    other = solve_ivp(rate, (0.0, 9.0), [0.0, 1.2], method="DOP853", rtol=1e-12, atol=1e-12, events=lifts)
+    assert other.status == 1
+    assert run.times[-1] == pytest.approx(other.t[-1], abs=1e-8)
+    assert run.status is c2.SimulationStatus.EVENT
+
+
+def test_a_block_that_sticks_slips_and_opens():
+    """On a belt of speed 0.6 it slips where q = 3 (1 - q), then q = 0.75 + 0.3 sin 2t, until nothing presses: q = 1."""
+    mechanism = block("1 - q", mu=3.0, surface=(0.6, 0.0))
+    start = mechanism.state(vx=0.6, vy=0.0, q=0.0)
+    run = c2.simulate_nonsmooth(mechanism.system, start, (0.0, 9.0), events=c2.contact_events(mechanism, start))
+    assert [phase.kind for phase in run.phases] == ["slide", "slip"]
+    assert run.phases[0].t_end == pytest.approx(0.75 / 0.6, abs=1e-9)
+    assert run.times[-1] == pytest.approx(0.75 / 0.6 + math.asin(0.25 / 0.3) / 2.0, abs=1e-7)
+    assert [key for key, _ in recognise(run.reason)] == ["at an event", "contact opens"]
+
+
+def test_a_state_of_another_length_is_refused():
+    with pytest.raises(ValueError, match=r"shape \(2,\); give \(x, y, z1, ..., zm\) with m = 1"):
+        block(1).contact_force((1.0, 2.0))
