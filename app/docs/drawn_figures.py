@@ -208,7 +208,7 @@ def limit_plane(key: str) -> str:
 def ellipse(key: str) -> str:
     """Draw the ellipse |A⁻¹h| = 1 and the force, fig:ellipse."""
     preset = c2.presets[key]
-    boundary = c2.bifurcations.critical_boundary(preset.a, preset.b, preset.d)
+    boundary = c2.bifurcations.critical_boundary(c2.ELinear(preset.a, preset.b, preset.d))
     drawn = Drawing(2.6).arrow((-2.5, 0), (2.5, 0), "soft", 1.0).arrow((0, -2.5), (0, 2.5), "soft", 1.0)
     for branch in boundary.branches:
         drawn.line(branch, "rho", 2.0)
