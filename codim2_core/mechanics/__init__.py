@@ -7,7 +7,21 @@ from .contact import contact
 from .fit import Fit, fit
 from .grip import Grip
 from .mechanism import Mechanism
+from .several.contacts import Contacts, contacts
+from .several.result import ContactDecision, ContactMotion, ContactPhase, ContactStatus
 
-__all__ = ["Fit", "Grip", "Mechanism", "contact", "fit"]
+__all__ = [
+    "ContactDecision",
+    "ContactMotion",
+    "ContactPhase",
+    "ContactStatus",
+    "Contacts",
+    "Fit",
+    "Grip",
+    "Mechanism",
+    "contact",
+    "contacts",
+    "fit",
+]
 
 globals().update(checked_functions(__name__, globals(), ["fit"]))

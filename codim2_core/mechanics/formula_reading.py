@@ -68,6 +68,8 @@ def parameters(values: Any, taken: Sequence[str]) -> dict[str, float]:
 def formula(value: Any, what: str, names: Sequence[str]) -> Expression:
     """Read a number, or text in the names."""
     if isinstance(value, Expression):
+        if set(value.names) <= set(names):
+            return value
         value = value.text
     if not isinstance(value, str):
         try:

@@ -35,4 +35,26 @@ SENTENCES: dict[str, Sentence] = {
         "least squares, 95 % sure; the motion that fits comes to rest",
     ),
     "motion of a mechanism": Sentence("It {course}.", "a motion in an engineer's words, times in seconds"),
+    "contacts decided": Sentence(
+        "Of {of} contacts {count} stick: the acceleration is unique, and so is the friction at each of them.",
+        "which contacts stick at a state, the Delassus matrix regular",
+    ),
+    "contacts redundant": Sentence(
+        (
+            "Of {of} contacts {count} stick: the acceleration is unique, but the contacts are redundant, so Ψ decides "
+            "how they share the friction."
+        ),
+        "which contacts stick at a state, the Delassus matrix singular",
+    ),
+    "contacts start": Sentence("The motion starts.", "the first phase of a motion with several contacts"),
+    "contact arrives": Sentence("The slip of contact {which} ends: it sticks.", "a contact arrives at its set"),
+    "contact arrives, slips": Sentence(
+        "The slip of contact {which} ends, and a contact begins to slip.", "a contact arrives, and one goes on"
+    ),
+    "contact departs": Sentence(
+        "Contact {which} needs more friction than it has: it begins to slip.", "the force that holds it is at its bound"
+    ),
+    "contact opens in motion": Sentence("A contact loses its friction.", "mu N is not positive"),
+    "contact without friction": Sentence("Contact {which} has no friction from here.", "mu N is not positive"),
+    "contact steps": Sentence("It stops at t = {t:.6g}.", "a motion with several contacts, too many steps"),
 }

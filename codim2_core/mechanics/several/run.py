@@ -1,0 +1,296 @@
+"""Motions of a mechanism with several contacts: in the limit by events, for eps > 0 as the regularised system.
+
+In the limit each contact slips, e = x/|x|, or sticks, x = 0, and `decision` says what follows where one arrives at its
+set or the force that holds it comes to its bound. A contact arrives as its slip falls below `ARRIVED` of all slips,
+along a line: its time is that of the nearest approach to 0, and the velocities are projected onto its set.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...arrays import Array
+from ...numerics.radau import STEP_SAFETY, Step, TooManyStepsError, tableau, truncate_step
+from ...words import say
+from .collocation import Collocated, collocate
+from .decision import Decided, decide_contacts
+from .field import ContactField, Coulomb, Law, Local, held_rates, project_velocities
+
+FIRST_SHARE = 1e-3  # first step after an event, as a share of the span
+SHORTEST_SHARE = 1e-15  # of the span: shorter steps are given up
+MOST_GROWTH, LEAST_GROWTH = 6.0, 0.2  # of a step
+TO_ZERO = 0.9  # of the way to 0 that a slip may go in a step
+TURN = 0.5  # cosine of how far e may turn from stage to stage
+ARRIVED = 1e-9  # a slip that falls and is smaller is at its set; in units of velocities
+TOGETHER = 1e4  # slips so many times larger may arrive in the same moment
+AHEAD = 1e-3  # of a first step: how far ahead it is looked at what departs
+AT_BOUND = 1e-6  # 1 - |e|^2 of a contact about to slip
+HALVINGS = 50
+
+
+class NoFrictionError(Exception):
+    """The bound mu N of a contact is not positive; the contact's number."""
+
+
+@dataclass
+class ContactRun:
+    """A motion under way.
+
+    Attributes
+    ----------
+    e : ndarray (c, 2)
+        At the state, which matters where a contact is about to slip.
+    sticks : ndarray (c,)
+    growth : ndarray (c,)
+        Second derivative of the slip of a contact that has just begun to slip with no acceleration.
+    speed : float
+        The largest velocity so far.
+    starts : list of (t, sticks, sentence)
+        The phases.
+    """
+
+    field: ContactField
+    law: Law
+    t: float
+    Y: Array
+    t_end: float
+    rtol: float
+    atol: float
+    most: int
+    e: Array = field(init=False)
+    sticks: Array = field(init=False)
+    growth: Array = field(init=False)
+    speed: float = 0.0
+    steps: list[Step] = field(default_factory=list)
+    starts: list[tuple[float, tuple[bool, ...], str]] = field(default_factory=list)
+
+    def run(self) -> None:
+        """Go on to the end.
+
+        Raises
+        ------
+        TooManyStepsError, NoFrictionError
+        """
+        span = self.t_end - self.t
+        h = self.first = FIRST_SHARE * span
+        self._begin()
+        while self.t < self.t_end:
+            if len(self.steps) + len(self.starts) >= self.most or h < SHORTEST_SHARE * span:
+                raise TooManyStepsError(say("contact steps", t=self.t))
+            ends = self.t + h >= self.t_end
+            h = self.t_end - self.t if ends else h
+            h, ends = (bound, False) if (bound := self._longest()) < h else (h, ends)
+            scale = self.atol + self.rtol * np.abs(self.Y).max()
+            found = collocate(
+                self.field, self.law, self.t, self.Y, h, self.e, self.sticks, self._guess(h), np.full(len(self.Y), scale)
+            )
+            if found is None or self._turns(found):
+                h *= 0.3
+                continue
+            factor = STEP_SAFETY * max(found.error, 1e-10) ** (-1.0 / 6.0)
+            if found.error > 1.0:
+                h *= max(LEAST_GROWTH, factor)
+                continue
+            h = self._accept(found, ends, h * min(MOST_GROWTH, max(LEAST_GROWTH, factor)))
+
+    def _begin(self) -> None:
+        raise NotImplementedError
+
+    def _longest(self) -> float:
+        return np.inf
+
+    def _turns(self, found: Collocated) -> bool:
+        raise NotImplementedError
+
+    def _accept(self, found: Collocated, ends: bool, h: float) -> float:
+        raise NotImplementedError
+
+    def _take(self, step: Step, ends: bool) -> Local:
+        """Take a step, and return what holds at its end."""
+        self.steps.append(step)
+        self.t, self.Y = (self.t_end if ends else step.end), step.last
+        self.speed = max(self.speed, float(np.abs(step.first[: self.field.n]).max()))
+        here = self.field.at(self.Y)
+        if not (here.r > 0.0).all():
+            raise NoFrictionError(int(np.argmin(here.r > 0.0)) + 1)
+        return here
+
+    def _guess(self, h: float) -> Array:
+        """Return stages less Y: along Y', and where a contact departs with no acceleration, along its e."""
+        here, tau = self.field.at(self.Y), tableau().nodes * h
+        F = self.field.rate(here, self.e, self.sticks)
+        Z = tau[:, None] * F
+        departs = self.growth > 0.0
+        if departs.any():
+            rows = here.J[departs].reshape(-1, self.field.n)
+            inverse = np.linalg.solve(here.M, rows.T)
+            slip = (0.5 * self.growth[departs, None] * self.e[departs]).ravel()
+            moved = inverse @ np.linalg.lstsq(rows @ inverse, slip)[0]
+            Z[:, : self.field.n] += tau[:, None] ** 2 * moved
+        return Z
+
+
+class RegularisedRun(ContactRun):
+    """A motion for eps > 0."""
+
+    def _begin(self) -> None:
+        here = self.field.at(self.Y)
+        self.sticks, self.growth = np.zeros(len(here.r), bool), np.zeros(len(here.r))
+        self.e = self.law.e(here.x)
+
+    def _turns(self, found: Collocated) -> bool:  # noqa: ARG002 (e may turn as it likes where |e| < 1)
+        return False
+
+    def _accept(self, found: Collocated, ends: bool, h: float) -> float:
+        self.e = self.law.e(self._take(found.step, ends).x)
+        return h
+
+
+class NonsmoothRun(ContactRun):
+    """A motion in the limit."""
+
+    def _begin(self) -> None:
+        here = self.field.at(self.Y)
+        self.e, self.growth = self.law.e(here.x), np.zeros(len(here.r))
+        at_sets = ~here.x.any(axis=1)
+        self.sticks = at_sets
+        self._decide(at_sets)
+        self._note(say("contacts start"))
+
+    def _note(self, reason: str) -> None:
+        self.starts.append((self.t, tuple(self.sticks.tolist()), reason))
+
+    def _longest(self) -> float:
+        """Return how long a step may be, that no slip gets to 0 in it."""
+        here = self.field.at(self.Y)
+        F = self.field.rate(here, self.e, self.sticks)
+        size = np.hypot(*here.x.T)
+        change = ((here.J @ F[: self.field.n] + here.k) * self.e).sum(axis=1)
+        falls = ~self.sticks & (size > 0.0) & (change < 0.0) & (self.growth == 0.0)
+        return float((TO_ZERO * size[falls] / -change[falls]).min(initial=np.inf))
+
+    def _turns(self, found: Collocated) -> bool:
+        out = ~self.sticks
+        at = np.array([self.e, *(self.law.e(one.x) for one in found.stages)])[:, out]
+        return bool(((at[1:] * at[:-1]).sum(axis=2) < TURN).any())
+
+    def _margin(self, here: Local) -> float:
+        """Return the least 1 - |e|^2 of contacts that stick; below 0 where they cannot."""
+        if not self.sticks.any():
+            return 1.0
+        return float((1.0 - (self._holding(here) ** 2).sum(axis=1)).min())
+
+    def _slip_force(self, here: Local, e: Array, at_sets: Array) -> Array:
+        """Return the applied force with the friction of the contacts that slip."""
+        out = ~at_sets
+        return here.Q - np.einsum("cin,ci->n", here.J[out], here.r[out, None] * e[out])
+
+    def _holding(self, here: Local) -> Array:
+        """Return e of the contacts that stick, |e| > 1 where they cannot."""
+        e = np.where(self.sticks[:, None], 0.0, self.law.e(here.x))
+        Q = self._slip_force(here, e, self.sticks)
+        _, force = held_rates(here, self.sticks, Q)
+        smallest = force / here.r[self.sticks, None]
+        if len(force) * 2 <= self.field.n and not self._redundant(here):
+            return smallest
+        if (np.hypot(*smallest.T) < 1.0 - AT_BOUND).all():
+            return smallest
+        found = decide_contacts(here.M, Q, here.J[self.sticks], here.k[self.sticks], here.r[self.sticks])
+        return found.e if found.sticks.all() else np.where(found.sticks[:, None], found.e, 2.0 * found.e)
+
+    def _redundant(self, here: Local) -> bool:
+        held = here.J[self.sticks].reshape(-1, self.field.n)
+        return np.linalg.matrix_rank(held, 1e-10) < len(held)
+
+    def _accept(self, found: Collocated, ends: bool, h: float) -> float:
+        if self.sticks.any() and min(map(self._margin, found.stages)) < 0.0:
+            step = truncate_step(found.step, self._bound(found.step))
+            self._take(step, ends=False)
+            self.e = np.where(self.sticks[:, None], 0.0, self.law.e(self.field.at(self.Y).x))
+            self._decide(self.sticks.copy(), breaks=True)
+            return self.first
+        here = self._take(found.step, ends)
+        self.growth[:] = 0.0
+        self.e = np.where(self.sticks[:, None], 0.0, self.law.e(here.x))
+        if self.t < self.t_end and (arrived := self._arrived(here)) is not None:
+            return self._arrive(here, arrived)
+        return h
+
+    def _bound(self, step: Step) -> float:
+        """Return the fraction of a step at which a force that holds comes to its bound."""
+        nodes = tableau().nodes
+        k = next(i for i, u in enumerate(nodes) if self._margin(self.field.at(step.at(u))) < 0.0)
+        low, high = (nodes[k - 1] if k else 0.0), nodes[k]
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if self._margin(self.field.at(step.at(middle))) >= 0.0 else (low, middle)
+        return float(low)
+
+    def _arrived(self, here: Local) -> tuple[Array, float] | None:
+        """Return which contacts arrive at their sets, and in what time; None if none does."""
+        F = self.field.rate(here, self.e, self.sticks)
+        change, size = here.J @ F[: self.field.n] + here.k, np.hypot(*here.x.T)
+        falls = ((change * self.e).sum(axis=1) < 0.0) & ~self.sticks
+        near = ARRIVED * self.speed
+        first = falls & (size <= near)
+        if not first.any():
+            return None
+        ahead = lambda these: -float((here.x[these] * change[these]).sum() / (change[these] ** 2).sum())
+        dt = ahead(first)
+        left = np.hypot(*(here.x + dt * change).T)
+        together = falls & (size <= TOGETHER * near) & (left <= 0.1 * size)
+        return first | together, ahead(first | together)
+
+    def _arrive(self, here: Local, found: tuple[Array, float]) -> float:
+        arrived, dt = found
+        dt = min(max(dt, 0.0), self.t_end - self.t)
+        F = self.field.rate(here, self.e, self.sticks)
+        last = self.Y + dt * F
+        at_sets = arrived | self.sticks
+        last[: self.field.n] = project_velocities(self.field.at(last), last[: self.field.n], at_sets)
+        self._take(Step(self.t, dt, self.Y, last, (last - self.Y)[:, None]), ends=self.t + dt >= self.t_end)
+        before = self.sticks
+        self._decide(at_sets)
+        which = ", ".join(str(i + 1) for i in np.flatnonzero(arrived))
+        stays = bool(self.sticks[arrived].all())
+        frees = bool((before & ~self.sticks).any())
+        self._note(say("contact arrives" if stays and not frees else "contact arrives, slips", which=which))
+        return self.first
+
+    def _decide(self, at_sets: Array, breaks: bool = False) -> None:
+        """Decide which of the contacts at their sets stick from here on, and where the others go."""
+        here = self.field.at(self.Y)
+        if not (here.r > 0.0).all():
+            raise NoFrictionError(int(np.argmin(here.r > 0.0)) + 1)
+        self.growth = np.zeros(len(here.r))
+        found = self._decided(here, at_sets)
+        sticks, e, about = np.zeros_like(at_sets), self.e.copy(), np.zeros_like(at_sets)
+        sticks[at_sets], e[at_sets] = found.sticks, found.e
+        about[at_sets] = found.sticks & ((found.e**2).sum(axis=1) > 1.0 - AT_BOUND)
+        before, self.sticks = self.sticks, sticks
+        if about.any():
+            step = AHEAD * self.first
+            beside = np.where(sticks[:, None], 0.0, e)
+            soon = self.field.at(self.Y + step * self.field.rate(here, beside, sticks))
+            ahead = self._decided(soon, at_sets)
+            goes = np.zeros_like(at_sets)
+            goes[at_sets] = ~ahead.sticks
+            rates = np.zeros(len(goes))
+            rates[at_sets] = np.hypot(*ahead.rates.T)
+            departs = goes & sticks
+            e[departs] /= np.hypot(*e[departs].T)[:, None]
+            self.growth[departs] = rates[departs] / step
+            self.sticks = sticks & ~goes
+        self.e = np.where(self.sticks[:, None], 0.0, e)
+        if breaks:
+            which = ", ".join(str(i + 1) for i in np.flatnonzero(before & ~self.sticks))
+            if which:
+                self._note(say("contact departs", which=which))
+
+    def _decided(self, here: Local, at_sets: Array) -> Decided:
+        Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.e), at_sets)
+        return decide_contacts(here.M, Q, here.J[at_sets], here.k[at_sets], here.r[at_sets])
+
