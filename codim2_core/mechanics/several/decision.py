@@ -24,6 +24,7 @@ from ...arrays import Array
 SMALLEST_DELTA, DELTA_FACTOR = 1e-12, 0.1  # in units of the accelerations
 MAX_ITERATIONS = 60  # of Newton's method, for one delta
 STICKING_RATE = 1e-7  # x_i' below which it is 0, in units of the accelerations: more than delta^(2/3)
+AT_BOUND = 1e-6  # 1 - |e|^2 of a contact about to slip
 NEWTON_SHARE = 1e-4  # last correction of x_i, in units of delta
 NEWTON_ERROR = 1e-14  # and of u, where it is smooth, relative
 RANK_TOLERANCE = 1e-10
@@ -38,7 +39,7 @@ class Decided(NamedTuple):
     sticks: Array
 
 
-def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array) -> Decided:
+def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array, departing: bool = False) -> Decided:
     """Return what contacts at their sets do.
 
     Parameters
@@ -48,6 +49,8 @@ def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array) -> Decided
     J : (c, 2, n)
     k : (c, 2)
     r : (c,), positive
+    departing : bool
+        Whether a contact slips whose force is at its bound, however slow: a moment after a force came to its bound.
     """
     free = np.linalg.solve(M, Q)
     if not len(J):
@@ -61,6 +64,8 @@ def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array) -> Decided
         delta *= DELTA_FACTOR
     rates = J @ u + k
     sticks = np.hypot(*rates.T) < STICKING_RATE * unit
+    if departing:
+        sticks &= (force**2).sum(axis=1) < (1.0 - AT_BOUND) * r**2
     u = _smooth_minimum(M, Q, J, k, r, u, sticks)
     rates = np.where(sticks[:, None], 0.0, J @ u + k)
     size = np.hypot(*rates.T)[:, None]

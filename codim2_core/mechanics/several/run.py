@@ -16,7 +16,7 @@ from ...arrays import Array
 from ...numerics.radau import STEP_SAFETY, Step, TooManyStepsError, tableau, truncate_step
 from ...words import say
 from .collocation import Collocated, collocate
-from .decision import Decided, decide_contacts
+from .decision import AT_BOUND, Decided, decide_contacts
 from .field import ContactField, Coulomb, Law, Local, held_rates, project_velocities
 
 FIRST_SHARE = 1e-3  # first step after an event, as a share of the span
@@ -27,7 +27,6 @@ TURN = 0.5  # cosine of how far e may turn from stage to stage
 ARRIVED = 1e-9  # a slip that falls and is smaller is at its set; in units of velocities
 TOGETHER = 1e4  # slips so many times larger may arrive in the same moment
 AHEAD = 1e-3  # of a first step: how far ahead it is looked at what departs
-AT_BOUND = 1e-6  # 1 - |e|^2 of a contact about to slip
 HALVINGS = 50
 
 
@@ -44,8 +43,12 @@ class ContactRun:
     e : ndarray (c, 2)
         At the state, which matters where a contact is about to slip.
     sticks : ndarray (c,)
-    growth : ndarray (c,)
-        Second derivative of the slip of a contact that has just begun to slip with no acceleration.
+    rate : ndarray (N,)
+        Y' at the state.
+    departs : ndarray (c,)
+        Contacts that begin to slip here, and have no slip yet.
+    jerk : ndarray (n,)
+        What v'' gains as contacts begin to slip with no acceleration.
     speed : float
         The largest velocity so far.
     starts : list of (t, sticks, sentence)
@@ -62,7 +65,9 @@ class ContactRun:
     most: int
     e: Array = field(init=False)
     sticks: Array = field(init=False)
-    growth: Array = field(init=False)
+    rate: Array = field(init=False)
+    departs: Array = field(init=False)
+    jerk: Array = field(init=False)
     speed: float = 0.0
     steps: list[Step] = field(default_factory=list)
     starts: list[tuple[float, tuple[bool, ...], str]] = field(default_factory=list)
@@ -85,7 +90,8 @@ class ContactRun:
             h, ends = (bound, False) if (bound := self._longest()) < h else (h, ends)
             scale = self.atol + self.rtol * np.abs(self.Y).max()
             found = collocate(
-                self.field, self.law, self.t, self.Y, h, self.e, self.sticks, self._guess(h), np.full(len(self.Y), scale)
+                self.field, self.law, self.t, self.Y, h, self.rate, self.e, self.sticks, self._guess(h),
+                np.full(len(self.Y), scale),
             )
             if found is None or self._turns(found):
                 h *= 0.3
@@ -119,18 +125,17 @@ class ContactRun:
         return here
 
     def _guess(self, h: float) -> Array:
-        """Return stages less Y: along Y', and where a contact departs with no acceleration, along its e."""
-        here, tau = self.field.at(self.Y), tableau().nodes * h
-        F = self.field.rate(here, self.e, self.sticks)
-        Z = tau[:, None] * F
-        departs = self.growth > 0.0
-        if departs.any():
-            rows = here.J[departs].reshape(-1, self.field.n)
-            inverse = np.linalg.solve(here.M, rows.T)
-            slip = (0.5 * self.growth[departs, None] * self.e[departs]).ravel()
-            moved = inverse @ np.linalg.lstsq(rows @ inverse, slip)[0]
-            Z[:, : self.field.n] += tau[:, None] ** 2 * moved
+        """Return stages less Y: along Y', and along v'' where contacts depart with no acceleration."""
+        tau = tableau().nodes[:, None] * h
+        Z = tau * self.rate
+        Z[:, : self.field.n] += 0.5 * tau**2 * self.jerk
         return Z
+
+    def _go_on(self, here: Local) -> None:
+        """Set what holds at a state between events."""
+        self.e = np.where(self.sticks[:, None], 0.0, self.law.e(here.x))
+        self.rate = self.field.rate(here, self.e, self.sticks)
+        self.departs, self.jerk = np.zeros(len(here.r), bool), np.zeros(self.field.n)
 
 
 class RegularisedRun(ContactRun):
@@ -138,14 +143,14 @@ class RegularisedRun(ContactRun):
 
     def _begin(self) -> None:
         here = self.field.at(self.Y)
-        self.sticks, self.growth = np.zeros(len(here.r), bool), np.zeros(len(here.r))
-        self.e = self.law.e(here.x)
+        self.sticks = np.zeros(len(here.r), bool)
+        self._go_on(here)
 
     def _turns(self, found: Collocated) -> bool:  # noqa: ARG002 (e may turn as it likes where |e| < 1)
         return False
 
     def _accept(self, found: Collocated, ends: bool, h: float) -> float:
-        self.e = self.law.e(self._take(found.step, ends).x)
+        self._go_on(self._take(found.step, ends))
         return h
 
 
@@ -154,10 +159,8 @@ class NonsmoothRun(ContactRun):
 
     def _begin(self) -> None:
         here = self.field.at(self.Y)
-        self.e, self.growth = self.law.e(here.x), np.zeros(len(here.r))
-        at_sets = ~here.x.any(axis=1)
-        self.sticks = at_sets
-        self._decide(at_sets)
+        self.sticks = ~here.x.any(axis=1)
+        self._decide(self.sticks)
         self._note(say("contacts start"))
 
     def _note(self, reason: str) -> None:
@@ -166,10 +169,9 @@ class NonsmoothRun(ContactRun):
     def _longest(self) -> float:
         """Return how long a step may be, that no slip gets to 0 in it."""
         here = self.field.at(self.Y)
-        F = self.field.rate(here, self.e, self.sticks)
         size = np.hypot(*here.x.T)
-        change = ((here.J @ F[: self.field.n] + here.k) * self.e).sum(axis=1)
-        falls = ~self.sticks & (size > 0.0) & (change < 0.0) & (self.growth == 0.0)
+        change = ((here.J @ self.rate[: self.field.n] + here.k) * self.e).sum(axis=1)
+        falls = ~self.sticks & ~self.departs & (change < 0.0)
         return float((TO_ZERO * size[falls] / -change[falls]).min(initial=np.inf))
 
     def _turns(self, found: Collocated) -> bool:
@@ -209,12 +211,10 @@ class NonsmoothRun(ContactRun):
         if self.sticks.any() and min(map(self._margin, found.stages)) < 0.0:
             step = truncate_step(found.step, self._bound(found.step))
             self._take(step, ends=False)
-            self.e = np.where(self.sticks[:, None], 0.0, self.law.e(self.field.at(self.Y).x))
-            self._decide(self.sticks.copy(), breaks=True)
+            self._decide(self.sticks, breaks=True)
             return self.first
         here = self._take(found.step, ends)
-        self.growth[:] = 0.0
-        self.e = np.where(self.sticks[:, None], 0.0, self.law.e(here.x))
+        self._go_on(here)
         if self.t < self.t_end and (arrived := self._arrived(here)) is not None:
             return self._arrive(here, arrived)
         return h
@@ -231,8 +231,7 @@ class NonsmoothRun(ContactRun):
 
     def _arrived(self, here: Local) -> tuple[Array, float] | None:
         """Return which contacts arrive at their sets, and in what time; None if none does."""
-        F = self.field.rate(here, self.e, self.sticks)
-        change, size = here.J @ F[: self.field.n] + here.k, np.hypot(*here.x.T)
+        change, size = here.J @ self.rate[: self.field.n] + here.k, np.hypot(*here.x.T)
         falls = ((change * self.e).sum(axis=1) < 0.0) & ~self.sticks
         near = ARRIVED * self.speed
         first = falls & (size <= near)
@@ -247,10 +246,12 @@ class NonsmoothRun(ContactRun):
     def _arrive(self, here: Local, found: tuple[Array, float]) -> float:
         arrived, dt = found
         dt = min(max(dt, 0.0), self.t_end - self.t)
-        F = self.field.rate(here, self.e, self.sticks)
-        last = self.Y + dt * F
+        last = self.Y + dt * self.rate
         at_sets = arrived | self.sticks
         last[: self.field.n] = project_velocities(self.field.at(last), last[: self.field.n], at_sets)
+        # whose rows depend on those of contacts that stop has stopped too
+        arrived = arrived | (~at_sets & (np.hypot(*self.field.at(last).x.T) <= ARRIVED * self.speed))
+        at_sets = arrived | self.sticks
         self._take(Step(self.t, dt, self.Y, last, (last - self.Y)[:, None]), ends=self.t + dt >= self.t_end)
         before = self.sticks
         self._decide(at_sets)
@@ -265,32 +266,29 @@ class NonsmoothRun(ContactRun):
         here = self.field.at(self.Y)
         if not (here.r > 0.0).all():
             raise NoFrictionError(int(np.argmin(here.r > 0.0)) + 1)
-        self.growth = np.zeros(len(here.r))
-        found = self._decided(here, at_sets)
-        sticks, e, about = np.zeros_like(at_sets), self.e.copy(), np.zeros_like(at_sets)
-        sticks[at_sets], e[at_sets] = found.sticks, found.e
-        about[at_sets] = found.sticks & ((found.e**2).sum(axis=1) > 1.0 - AT_BOUND)
-        before, self.sticks = self.sticks, sticks
-        if about.any():
+        before, self.sticks = self.sticks, at_sets.copy()
+        self._go_on(here)
+        e, found = self.e.copy(), self._decided(here, at_sets)
+        e[at_sets] = np.where(found.sticks[:, None], 0.0, found.e)
+        self.sticks[at_sets] = found.sticks
+        self.rate = np.concatenate([found.u, here.rates])
+        if (found.sticks & ((found.e**2).sum(axis=1) > 1.0 - AT_BOUND)).any():
             step = AHEAD * self.first
-            beside = np.where(sticks[:, None], 0.0, e)
-            soon = self.field.at(self.Y + step * self.field.rate(here, beside, sticks))
-            ahead = self._decided(soon, at_sets)
+            soon = self.field.at(self.Y + step * self.rate)
+            held = self.field.rate(soon, e, self.sticks)[: self.field.n]
+            ahead = self._decided(soon, at_sets, departing=True)
             goes = np.zeros_like(at_sets)
-            goes[at_sets] = ~ahead.sticks
-            rates = np.zeros(len(goes))
-            rates[at_sets] = np.hypot(*ahead.rates.T)
-            departs = goes & sticks
-            e[departs] /= np.hypot(*e[departs].T)[:, None]
-            self.growth[departs] = rates[departs] / step
-            self.sticks = sticks & ~goes
-        self.e = np.where(self.sticks[:, None], 0.0, e)
+            goes[at_sets] = found.sticks & ~ahead.sticks
+            e[at_sets] = np.where((found.sticks & ~ahead.sticks)[:, None], ahead.e, e[at_sets])
+            self.sticks &= ~goes
+            self.jerk = (ahead.u - held) / step
+        self.e, self.departs = e, at_sets & ~self.sticks
         if breaks:
             which = ", ".join(str(i + 1) for i in np.flatnonzero(before & ~self.sticks))
             if which:
                 self._note(say("contact departs", which=which))
 
-    def _decided(self, here: Local, at_sets: Array) -> Decided:
+    def _decided(self, here: Local, at_sets: Array, departing: bool = False) -> Decided:
         Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.e), at_sets)
-        return decide_contacts(here.M, Q, here.J[at_sets], here.k[at_sets], here.r[at_sets])
+        return decide_contacts(here.M, Q, here.J[at_sets], here.k[at_sets], here.r[at_sets], departing)
 
