@@ -12,6 +12,7 @@ import numpy as np
 
 from ...arrays import Array
 from ...numerics.radau import Step, tableau
+from .decision import Flags
 from .field import ContactField, Law, Local
 
 MAX_NEWTON_ROUNDS = 12
@@ -34,7 +35,7 @@ def collocate(
     h: float,
     rate: Array,
     e: Array,
-    sticks: Array,
+    sticks: Flags,
     guess: Array,
     scale: Array,
 ) -> Collocated | None:
@@ -73,4 +74,3 @@ def collocate(
     error = max(float(np.sqrt(((one / scale) ** 2).mean())) for one in errors)
     step = Step(t, h, Y, Y + Z[-1], (table.fit @ Z).T)
     return Collocated(step, error, tuple(field.at(Y + z) for z in Z))
-

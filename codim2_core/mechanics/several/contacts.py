@@ -4,22 +4,23 @@ With velocities v, kinetic energy v·Mv/2, applied force Q and slips x_i = J_i v
 
     M v' = Q - sum mu_i N_i J_i^T e_i,    e_i = x_i/|x_i|.
 
-Each contact has its own set x_i = 0. At one, while the others slip, their e_j are smooth functions of the state, so that
-contact i sees a system of eq:vf with (x, y) = x_i, whose applied force is Q less their friction: `Contacts.at`. At
-several sets at once, x_i = eps x2_i makes of e_Psi a point on a product of hemispheres, on which (x2_i)' = J_i v' + k_i
-with v' linear in all e_j: a critical set solves the linear equations ``sum_j D_ij mu_j N_j e_j = J_i M^-1 Q + k_i`` of
-the Delassus matrix D = J M^-1 J^T, with every |e_i| < 1. It attracts: (x2)' is minus D times the gradient of the convex
-function ``sum mu_i N_i |x2_i|_Psi`` less a linear one, a gradient flow in the metric of D.
+Each contact has its own set x_i = 0. At one, while the others slip, their e_j are smooth functions of the state, so
+that contact i sees a system of eq:vf with (x, y) = x_i, whose applied force is Q less their friction: `Contacts.at`.
+At several sets at once, x_i = eps x2_i makes of e_Psi a point on a product of hemispheres, on which
+(x2_i)' = J_i v' + k_i with v' linear in all e_j: a critical set solves the linear equations
+``sum_j D_ij mu_j N_j e_j = J_i M^-1 Q + k_i`` of the Delassus matrix D = J M^-1 J^T, with every |e_i| < 1. It
+attracts: (x2)' is minus D times the gradient of a convex function, whose gradient by x2_i is mu_i N_i e_Psi(x2_i) less
+a constant.
 
-**Which contacts stick is unique** (`Contacts.decide`): v' minimises a strictly convex function (`decision`). Where M and
-J are numbers, w reads time alone, and mu N positions and time, the friction is the subdifferential of the convex
+**Which contacts stick is unique** (`Contacts.decide`): v' minimises a strictly convex function (`decision`). Where M
+and J are numbers, w reads time alone, and mu N positions and time, the friction is the subdifferential of the convex
 function ``sum mu_i N_i |x_i|`` of v: the inclusion is maximal monotone (Brezis 1973), one motion leaves every state
-forwards, and since ``|x|_eps - |x|`` is at most eps, the regularised motion for Psi = 1 comes to it within
-``sqrt(2 t eps sum mu_i N_i) exp(L t)`` in kinetic energy, L the Lipschitz constant of Q: for O(eps) it needs as much as
-one contact does. Where J reads positions the acceleration is unique at each state, but that a motion is has no proof here.
+forwards, and since ``sqrt(|x|^2 + eps^2) - |x|`` is at most eps, the regularised motion for Psi = 1 comes to it within
+``sqrt(2 t eps sum mu_i N_i) exp(L t)`` in the norm of the kinetic energy, L the Lipschitz constant of M^-1 Q in it.
+Where J reads positions the acceleration is unique at each state, but no proof is given here that the motion is.
 
 Not known: normal forces that read velocities or follow from constraints (Painleve). Redundant contacts, D singular as
-for three feet of a rigid plate: v' is unique, and the forces e that hold it are not; the limit picks some by Psi.
+for three feet of a rigid plate: v' is unique, the forces e that hold it are not, and the limit picks some by Psi.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ from ...words import say
 from .. import formula_reading
 from ..formula_reading import FormulaRow, Matrix
 from ..mechanism import Mechanism
-from .decision import decide_contacts
+from .decision import Flags, decide_contacts
 from .field import ContactField, Coulomb, Regularised
 from .parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus
@@ -121,7 +122,7 @@ class Contacts(Result):
         here = self._field.at(self._checked(state))
         if not (here.r > 0.0).all():
             raise ValueError(f"state: contact {int(np.argmin(here.r > 0.0)) + 1} has mu N = {here.r.min():.4g} there.")
-        at_sets = ~here.x.any(axis=1)
+        at_sets = np.hypot(*here.x.T) == 0.0
         e = np.zeros_like(here.x)
         e[~at_sets] = Coulomb().e(here.x[~at_sets])
         Q = here.Q - np.einsum("cin,ci->n", here.J[~at_sets], here.r[~at_sets, None] * e[~at_sets])
@@ -209,9 +210,7 @@ class Contacts(Result):
         )
         return ContactMotion(self.names, motion, phases, status, f"{status.value} {detail}".strip(), eps)
 
-    def _regularised_starts(
-        self, times: Array, states: Array, eps: float
-    ) -> list[tuple[float, tuple[bool, ...], str]]:
+    def _regularised_starts(self, times: Array, states: Array, eps: float) -> list[tuple[float, tuple[bool, ...], str]]:
         slips = self.slips(states)
         sticks = np.hypot(slips[..., 0], slips[..., 1]) <= STICKING_SLIPS * eps
         found = [(float(times[0]), tuple(sticks[0].tolist()), say("contacts start"))]
@@ -224,7 +223,7 @@ class Contacts(Result):
         return found
 
 
-def _kinds(sticks: Array) -> tuple[str, ...]:
+def _kinds(sticks: Flags) -> tuple[str, ...]:
     return tuple("stick" if one else "slip" for one in sticks.tolist())
 
 
@@ -235,9 +234,7 @@ def _checked_span(t_span: ArrayLike) -> tuple[float, float]:
     return float(given[0]), float(given[1])
 
 
-def contacts(
-    M: Any, contacts: Any, force: Any, velocities: Any, rates: Any = (), parameters: Any = ()
-) -> Contacts:
+def contacts(M: Any, contacts: Any, force: Any, velocities: Any, rates: Any = (), parameters: Any = ()) -> Contacts:
     """Return the mechanism with dry friction at several points of contact.
 
     Parameters

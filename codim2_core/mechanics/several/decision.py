@@ -1,16 +1,16 @@
 """Which of several contacts stick: the minimiser of a strictly convex function.
 
 With M positive definite and bounds r_i = mu_i N_i that read no velocity, the friction -J^T r e is minus the
-subdifferential of ``sum r_i |x_i|``, x_i = J_i v - w_i. Of contacts at their sets, x_i = 0, the accelerations u = v' are
-those of the one minimiser of (Moreau 1966, Gauss's principle with friction)
+subdifferential of ``sum r_i |x_i|``, x_i = J_i v - w_i. Of contacts at their sets, x_i = 0, the accelerations u = v'
+are those of the one minimiser of (Gauss's principle with friction, Moreau 1966)
 
     u·M u/2 - u·Q + sum r_i |J_i u + k_i|,    k_i = J_i' v - w_i',
 
-Q with the friction of the contacts that slip: a contact sticks if x_i' = J_i u + k_i = 0 there, and r_i e_i is the force
-that holds it, |e_i| <= 1; else it begins to slip along x_i'. The minimum is found as a limit of ``|x|`` replaced by
-``sqrt(x^2 + delta^2)``, delta -> 0, by the primal-dual Newton method of Andersen, Christiansen, Conn and Overton (2000),
-and then again where it is smooth. That limit is Psi = 1 itself: of the forces that hold redundant contacts, for which
-``J M^-1 J^T`` is singular, it picks those of the product of hemispheres, the largest ``sum r_i sqrt(1 - e_i^2)``.
+Q with the friction of the contacts that slip: a contact sticks if x_i' = J_i u + k_i = 0 there, and r_i e_i is the
+force that holds it, |e_i| <= 1; else it begins to slip along x_i'. The minimum is found as a limit of ``|x|`` replaced
+by ``sqrt(x^2 + delta^2)``, delta -> 0, by the primal-dual Newton method of Andersen, Christiansen, Conn and Overton
+(2000), and then again where it is smooth. That limit is Psi = 1 itself: of the forces that hold redundant contacts, for
+which ``J M^-1 J^T`` is singular, it picks those of the product of hemispheres, the largest ``sum r_i sqrt(1 - e_i^2)``.
 """
 
 from __future__ import annotations
@@ -18,8 +18,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...arrays import Array
+
+Flags = NDArray[np.bool_]
 
 SMALLEST_DELTA, DELTA_FACTOR = 1e-12, 0.1  # in units of the accelerations
 MAX_ITERATIONS = 60  # of Newton's method, for one delta
@@ -36,7 +39,7 @@ class Decided(NamedTuple):
     u: Array
     rates: Array
     e: Array
-    sticks: Array
+    sticks: Flags
 
 
 def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array, departing: bool = False) -> Decided:
@@ -52,7 +55,7 @@ def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array, departing:
     departing : bool
         Whether a contact slips whose force is at its bound, however slow: a moment after a force came to its bound.
     """
-    free = np.linalg.solve(M, Q)
+    free = np.asarray(np.linalg.solve(M, Q), np.float64)
     if not len(J):
         return Decided(free, np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0, bool))
     flat = J.reshape(-1, len(Q))
@@ -106,7 +109,7 @@ def _newton(
     return u, force
 
 
-def _smooth_minimum(M: Array, Q: Array, J: Array, k: Array, r: Array, u: Array, sticks: Array) -> Array:
+def _smooth_minimum(M: Array, Q: Array, J: Array, k: Array, r: Array, u: Array, sticks: Flags) -> Array:
     """Minimise where contacts that stick do so exactly, and the others slip."""
     held, own, out, most = J[sticks].reshape(-1, len(Q)), k[sticks].ravel(), J[~sticks], r[~sticks]
     basis = np.eye(len(Q))

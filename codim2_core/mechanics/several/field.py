@@ -11,7 +11,7 @@ from ...arrays import Array
 from ...expressions.expression import Expression
 from ...psi.function import Psi
 from ..formula_reading import FormulaRow, Matrix
-from .decision import RANK_TOLERANCE
+from .decision import RANK_TOLERANCE, Flags
 from .parts import ContactParts
 
 SMALLEST_ZETA = 1e-9  # in the chart kappa_2: nearer, e_Psi is as linear as it is there
@@ -132,12 +132,12 @@ class ContactField:
         r = np.array([value(rows).prod() for rows in self._bounds])
         return Local(value(self._M), value(self._force)[0], J, k, r, J @ v - surface, rates)
 
-    def rate(self, local: Local, e: Array, sticks: Array) -> Array:
+    def rate(self, local: Local, e: Array, sticks: Flags) -> Array:
         """Return Y' where these contacts stick, and friction is -r J^T e at the others."""
         Q = local.Q - np.einsum("cin,ci->n", local.J[~sticks], local.r[~sticks, None] * e[~sticks])
         return np.concatenate([held_rates(local, sticks, Q)[0], local.rates])
 
-    def smooth_slopes(self, Y: Array, e: Array, sticks: Array) -> tuple[Array, Array]:
+    def smooth_slopes(self, Y: Array, e: Array, sticks: Flags) -> tuple[Array, Array]:
         """Return the derivatives of Y' with e as it is, and of the slips, by Y."""
         here = self.at(Y)
         first = self.rate(here, e, sticks)
@@ -150,7 +150,7 @@ class ContactField:
             slip[:, :, j] = (other.x - here.x) / (beside[j] - Y[j])
         return rate, slip
 
-    def friction_slope(self, local: Local, gain: Array, sticks: Array, slip: Array) -> Array:
+    def friction_slope(self, local: Local, gain: Array, sticks: Flags, slip: Array) -> Array:
         """Return the derivative of Y' by Y through e, whose derivatives by the slips are `gain`."""
         found = np.zeros((len(self.words), len(self.words)))
         out = ~sticks
@@ -164,18 +164,18 @@ class ContactField:
         return found
 
 
-def held_rates(local: Local, sticks: Array, Q: Array) -> tuple[Array, Array]:
+def held_rates(local: Local, sticks: Flags, Q: Array) -> tuple[Array, Array]:
     """Return v' where contacts stick, and the forces (c, 2) that hold them: of redundant ones the smallest."""
-    free = np.linalg.solve(local.M, Q)
+    free = np.asarray(np.linalg.solve(local.M, Q), np.float64)
     if not sticks.any():
         return free, np.zeros((0, 2))
     held = local.J[sticks].reshape(-1, len(Q))
     back = np.linalg.solve(local.M, held.T)
     force = np.linalg.lstsq(held @ back, held @ free + local.k[sticks].ravel(), RANK_TOLERANCE)[0]
-    return free - back @ force, force.reshape(-1, 2)
+    return free - back @ force, np.asarray(force, np.float64).reshape(-1, 2)
 
 
-def project_velocities(local: Local, v: Array, at_sets: Array) -> Array:
+def project_velocities(local: Local, v: Array, at_sets: Flags) -> Array:
     """Return the velocities nearest in kinetic energy at which these contacts do not slip."""
     if not at_sets.any():
         return v

@@ -44,8 +44,8 @@ def read_contacts(given: Any, n: int, names: Sequence[str]) -> tuple[ContactPart
         for part, value in (("mu", mu), ("normal", normal)):
             if not isinstance(value, str) and hasattr(value, "__len__"):
                 raise ValueError(
-                    f"{what}: {part} is {short_repr(value)}; give a number, or text in {', '.join(names) or 'numbers'}: "
-                    "with a matrix, or the row of a constraint, which contacts stick is not known to be unique."
+                    f"{what}: {part} is {short_repr(value)}; give a number or text: with a matrix, "
+                    "or the row of a constraint, which contacts stick is not known to be unique."
                 )
         found.append(
             ContactParts(
@@ -81,7 +81,9 @@ def _with_friction(algebra: Algebra, applied: list[int], other: ContactParts, ve
     """Add the friction of a contact that slips to a force."""
     rows = [[algebra.enter(entry, {}) for entry in row] for row in other.J]
     v = [algebra.name(word) for word in velocities]
-    slip = [algebra.minus(algebra.dot(row, v), algebra.enter(w, {})) for row, w in zip(rows, other.surface, strict=True)]
+    slip = [
+        algebra.minus(algebra.dot(row, v), algebra.enter(w, {})) for row, w in zip(rows, other.surface, strict=True)
+    ]
     size = algebra.square_root(algebra.dot(slip, slip))
     most = algebra.times(algebra.enter(other.mu, {}), algebra.enter(other.normal, {}))
     pull = [algebra.times(most, algebra.divide(part, size)) for part in slip]

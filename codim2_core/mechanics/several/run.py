@@ -7,8 +7,8 @@ along a line: its time is that of the nearest approach to 0, and the velocities 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from dataclasses import field as made_with
 
 import numpy as np
 
@@ -16,8 +16,8 @@ from ...arrays import Array
 from ...numerics.radau import STEP_SAFETY, Step, TooManyStepsError, tableau, truncate_step
 from ...words import say
 from .collocation import Collocated, collocate
-from .decision import AT_BOUND, Decided, decide_contacts
-from .field import ContactField, Coulomb, Law, Local, held_rates, project_velocities
+from .decision import AT_BOUND, Decided, Flags, decide_contacts
+from .field import ContactField, Law, Local, held_rates, project_velocities
 
 FIRST_SHARE = 1e-3  # first step after an event, as a share of the span
 SHORTEST_SHARE = 1e-15  # of the span: shorter steps are given up
@@ -28,6 +28,8 @@ ARRIVED = 1e-9  # a slip that falls and is smaller is at its set; in units of ve
 TOGETHER = 1e4  # slips so many times larger may arrive in the same moment
 AHEAD = 1e-3  # of a first step: how far ahead it is looked at what departs
 HALVINGS = 50
+MARGIN_SAMPLES = 65  # places in a step at which the polynomial through margins is asked
+STICKING_SHARE = 1 / 64  # of the span: longest step while a contact sticks
 
 
 class NoFrictionError(Exception):
@@ -63,14 +65,14 @@ class ContactRun:
     rtol: float
     atol: float
     most: int
-    e: Array = field(init=False)
-    sticks: Array = field(init=False)
-    rate: Array = field(init=False)
-    departs: Array = field(init=False)
-    jerk: Array = field(init=False)
+    e: Array = made_with(init=False)
+    sticks: Flags = made_with(init=False)
+    rate: Array = made_with(init=False)
+    departs: Flags = made_with(init=False)
+    jerk: Array = made_with(init=False)
     speed: float = 0.0
-    steps: list[Step] = field(default_factory=list)
-    starts: list[tuple[float, tuple[bool, ...], str]] = field(default_factory=list)
+    steps: list[Step] = made_with(default_factory=list)
+    starts: list[tuple[float, tuple[bool, ...], str]] = made_with(default_factory=list)
 
     def run(self) -> None:
         """Go on to the end.
@@ -90,7 +92,15 @@ class ContactRun:
             h, ends = (bound, False) if (bound := self._longest()) < h else (h, ends)
             scale = self.atol + self.rtol * np.abs(self.Y).max()
             found = collocate(
-                self.field, self.law, self.t, self.Y, h, self.rate, self.e, self.sticks, self._guess(h),
+                self.field,
+                self.law,
+                self.t,
+                self.Y,
+                h,
+                self.rate,
+                self.e,
+                self.sticks,
+                self._guess(h),
                 np.full(len(self.Y), scale),
             )
             if found is None or self._turns(found):
@@ -159,7 +169,7 @@ class NonsmoothRun(ContactRun):
 
     def _begin(self) -> None:
         here = self.field.at(self.Y)
-        self.sticks = ~here.x.any(axis=1)
+        self.sticks = np.hypot(*here.x.T) == 0.0
         self._decide(self.sticks)
         self._note(say("contacts start"))
 
@@ -172,7 +182,8 @@ class NonsmoothRun(ContactRun):
         size = np.hypot(*here.x.T)
         change = ((here.J @ self.rate[: self.field.n] + here.k) * self.e).sum(axis=1)
         falls = ~self.sticks & ~self.departs & (change < 0.0)
-        return float((TO_ZERO * size[falls] / -change[falls]).min(initial=np.inf))
+        longest = STICKING_SHARE * (self.t_end - self.starts[0][0]) if self.sticks.any() else np.inf
+        return float((TO_ZERO * size[falls] / -change[falls]).min(initial=longest))
 
     def _turns(self, found: Collocated) -> bool:
         out = ~self.sticks
@@ -185,7 +196,7 @@ class NonsmoothRun(ContactRun):
             return 1.0
         return float((1.0 - (self._holding(here) ** 2).sum(axis=1)).min())
 
-    def _slip_force(self, here: Local, e: Array, at_sets: Array) -> Array:
+    def _slip_force(self, here: Local, e: Array, at_sets: Flags) -> Array:
         """Return the applied force with the friction of the contacts that slip."""
         out = ~at_sets
         return here.Q - np.einsum("cin,ci->n", here.J[out], here.r[out, None] * e[out])
@@ -208,28 +219,40 @@ class NonsmoothRun(ContactRun):
         return np.linalg.matrix_rank(held, 1e-10) < len(held)
 
     def _accept(self, found: Collocated, ends: bool, h: float) -> float:
-        if self.sticks.any() and min(map(self._margin, found.stages)) < 0.0:
-            step = truncate_step(found.step, self._bound(found.step))
-            self._take(step, ends=False)
+        if self.sticks.any() and (bound := self._bound(found)) is not None:
+            self._take(truncate_step(found.step, bound), ends=False)
             self._decide(self.sticks, breaks=True)
             return self.first
         here = self._take(found.step, ends)
         self._go_on(here)
         if self.t < self.t_end and (arrived := self._arrived(here)) is not None:
-            return self._arrive(here, arrived)
+            return self._arrive(arrived)
         return h
 
-    def _bound(self, step: Step) -> float:
-        """Return the fraction of a step at which a force that holds comes to its bound."""
-        nodes = tableau().nodes
-        k = next(i for i, u in enumerate(nodes) if self._margin(self.field.at(step.at(u))) < 0.0)
-        low, high = (nodes[k - 1] if k else 0.0), nodes[k]
+    def _bound(self, found: Collocated) -> float | None:
+        """Return the fraction of a step at which a force that holds comes to its bound; None if none does.
+
+        Asked are the stages, and the least of the polynomial through what they answer.
+        """
+        at = lambda u: self._margin(self.field.at(found.step.at(u)))
+        nodes = np.array([0.0, *tableau().nodes])
+        margins = np.array([self._margin(self.field.at(self.Y)), *map(self._margin, found.stages)])
+        fine = np.linspace(0.0, 1.0, MARGIN_SAMPLES)
+        least = float(fine[np.argmin(np.polynomial.Polynomial.fit(nodes, margins, len(nodes) - 1)(fine))])
+        places = sorted([*zip(nodes[1:].tolist(), margins[1:].tolist(), strict=True), (least, at(least))])
+        low = 0.0
+        for high, margin in places:
+            if high > 0.0 and margin < 0.0:
+                break
+            low = high
+        else:
+            return None
         for _ in range(HALVINGS):
             middle = 0.5 * (low + high)
-            low, high = (middle, high) if self._margin(self.field.at(step.at(middle))) >= 0.0 else (low, middle)
-        return float(low)
+            low, high = (middle, high) if at(middle) >= 0.0 else (low, middle)
+        return low
 
-    def _arrived(self, here: Local) -> tuple[Array, float] | None:
+    def _arrived(self, here: Local) -> tuple[Flags, float] | None:
         """Return which contacts arrive at their sets, and in what time; None if none does."""
         change, size = here.J @ self.rate[: self.field.n] + here.k, np.hypot(*here.x.T)
         falls = ((change * self.e).sum(axis=1) < 0.0) & ~self.sticks
@@ -243,7 +266,7 @@ class NonsmoothRun(ContactRun):
         together = falls & (size <= TOGETHER * near) & (left <= 0.1 * size)
         return first | together, ahead(first | together)
 
-    def _arrive(self, here: Local, found: tuple[Array, float]) -> float:
+    def _arrive(self, found: tuple[Flags, float]) -> float:
         arrived, dt = found
         dt = min(max(dt, 0.0), self.t_end - self.t)
         last = self.Y + dt * self.rate
@@ -261,7 +284,7 @@ class NonsmoothRun(ContactRun):
         self._note(say("contact arrives" if stays and not frees else "contact arrives, slips", which=which))
         return self.first
 
-    def _decide(self, at_sets: Array, breaks: bool = False) -> None:
+    def _decide(self, at_sets: Flags, breaks: bool = False) -> None:
         """Decide which of the contacts at their sets stick from here on, and where the others go."""
         here = self.field.at(self.Y)
         if not (here.r > 0.0).all():
@@ -288,7 +311,6 @@ class NonsmoothRun(ContactRun):
             if which:
                 self._note(say("contact departs", which=which))
 
-    def _decided(self, here: Local, at_sets: Array, departing: bool = False) -> Decided:
+    def _decided(self, here: Local, at_sets: Flags, departing: bool = False) -> Decided:
         Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.e), at_sets)
         return decide_contacts(here.M, Q, here.J[at_sets], here.k[at_sets], here.r[at_sets], departing)
-
