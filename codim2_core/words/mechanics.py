@@ -36,25 +36,27 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "motion of a mechanism": Sentence("It {course}.", "a motion in an engineer's words, times in seconds"),
     "contacts decided": Sentence(
-        "Of {of} contacts {count} stick: the acceleration is unique, and so is the friction at each of them.",
+        "{count} of {of} contacts stick. The acceleration is unique, and so is the friction at each of them.",
         "which contacts stick at a state, the Delassus matrix regular",
     ),
     "contacts redundant": Sentence(
         (
-            "Of {of} contacts {count} stick: the acceleration is unique, but the contacts are redundant, so Ψ decides "
+            "{count} of {of} contacts stick. The acceleration is unique, but the contacts are redundant, and Ψ decides "
             "how they share the friction."
         ),
         "which contacts stick at a state, the Delassus matrix singular",
     ),
     "contacts start": Sentence("The motion starts.", "the first phase of a motion with several contacts"),
-    "contact arrives": Sentence("The slip of contact {which} ends: it sticks.", "a contact arrives at its set"),
+    "contact arrives": Sentence("The slip ends at {where}.", "a contact arrives at its set, and sticks"),
     "contact arrives, slips": Sentence(
-        "The slip of contact {which} ends, and a contact begins to slip.", "a contact arrives, and one goes on"
+        "The slip ends at {where}, and a contact begins to slip.", "a contact arrives, and it or another slips"
     ),
     "contact departs": Sentence(
-        "Contact {which} needs more friction than it has: it begins to slip.", "the force that holds it is at its bound"
+        "Friction no longer holds {where}.", "the force that holds a contact is at its bound, and it begins to slip"
     ),
-    "contact opens in motion": Sentence("A contact loses its friction.", "mu N is not positive"),
-    "contact without friction": Sentence("Contact {which} has no friction from here.", "mu N is not positive"),
-    "contact steps": Sentence("It stops at t = {t:.6g}.", "a motion with several contacts, too many steps"),
+    "contact without friction": Sentence(
+        "It stopped where a contact has no friction.", "the status of a motion with several contacts"
+    ),
+    "contact, mu N": Sentence("The bound μN of contact {which} is not positive there.", "mu N <= 0 in a motion"),
+    "contact steps": Sentence("The last time is t = {t:.6g}.", "a motion with several contacts, too many steps"),
 }

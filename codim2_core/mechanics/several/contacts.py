@@ -48,7 +48,7 @@ from ..mechanism import Mechanism
 from .decision import Flags, decide_contacts
 from .field import ContactField, Coulomb, Regularised
 from .parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
-from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus
+from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus, contact_names
 from .run import ContactRun, NoFrictionError, NonsmoothRun, RegularisedRun
 
 STICKING_SLIPS = 10.0  # in eps: a contact that slips less sticks
@@ -200,7 +200,7 @@ class Contacts(Result):
         except TooManyStepsError as error:
             status, detail = ContactStatus.STEP_LIMIT, str(error)
         except NoFrictionError as error:
-            status, detail = ContactStatus.NO_FRICTION, say("contact without friction", which=int(error.args[0]))
+            status, detail = ContactStatus.NO_FRICTION, say("contact, mu N", which=int(error.args[0]))
         motion = dense(t, first, [gather_steps(run.steps, len(first))])
         starts = run.starts if eps == 0.0 else self._regularised_starts(motion.times, motion.states, eps)
         ends = [*(start for start, *_ in starts[1:]), float(motion.times[-1])]
@@ -216,10 +216,9 @@ class Contacts(Result):
         found = [(float(times[0]), tuple(sticks[0].tolist()), say("contacts start"))]
         for t, now in zip(times[1:].tolist(), map(tuple, sticks[1:].tolist()), strict=True):
             if now != found[-1][1]:
-                changed = [i for i, (one, other) in enumerate(zip(now, found[-1][1], strict=True)) if one != other]
-                which = ", ".join(str(i + 1) for i in changed)
-                key = "contact arrives" if all(now[i] for i in changed) else "contact departs"
-                found.append((t, now, say(key, which=which)))
+                changed = np.array(now) != np.array(found[-1][1])
+                key = "contact arrives" if np.array(now)[changed].all() else "contact departs"
+                found.append((t, now, say(key, where=contact_names(changed))))
         return found
 
 

@@ -8,7 +8,7 @@ from enum import Enum
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ...arrays import Array
 from ...numerics.dense import Dense
@@ -21,8 +21,14 @@ class ContactStatus(Enum):
     """The reason why a motion with several contacts ended; the value is the sentence shown."""
 
     T_END = say("end of span")
-    NO_FRICTION = say("contact opens in motion")
+    NO_FRICTION = say("contact without friction")
     STEP_LIMIT = say("step limit")
+
+
+def contact_names(which: NDArray[np.bool_]) -> str:
+    """Return "contact 2", or "contacts 1, 2 and 3"."""
+    *rest, last = (str(i + 1) for i in np.flatnonzero(which))
+    return f"contacts {', '.join(rest)} and {last}" if rest else f"contact {last}"
 
 
 @dataclass(frozen=True, eq=False)

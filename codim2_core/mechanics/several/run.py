@@ -18,6 +18,7 @@ from ...words import say
 from .collocation import Collocated, collocate
 from .decision import AT_BOUND, Decided, Flags, decide_contacts
 from .field import ContactField, Law, Local, held_rates, project_velocities
+from .result import contact_names
 
 FIRST_SHARE = 1e-3  # first step after an event, as a share of the span
 SHORTEST_SHARE = 1e-15  # of the span: shorter steps are given up
@@ -164,8 +165,17 @@ class RegularisedRun(ContactRun):
         return h
 
 
+@dataclass
 class NonsmoothRun(ContactRun):
-    """A motion in the limit."""
+    """A motion in the limit.
+
+    Attributes
+    ----------
+    grazes : bool
+        Whether a force that holds has just come to its bound and is about to fall again: for a step it is not asked.
+    """
+
+    grazes: bool = False
 
     def _begin(self) -> None:
         here = self.field.at(self.Y)
@@ -219,10 +229,16 @@ class NonsmoothRun(ContactRun):
         return np.linalg.matrix_rank(held, 1e-10) < len(held)
 
     def _accept(self, found: Collocated, ends: bool, h: float) -> float:
-        if self.sticks.any() and (bound := self._bound(found)) is not None:
+        if self.sticks.any() and not self.grazes and (bound := self._bound(found)) is not None:
             self._take(truncate_step(found.step, bound), ends=False)
-            self._decide(self.sticks, breaks=True)
+            before = self.sticks
+            self._decide(before)
+            free = before & ~self.sticks
+            self.grazes = not free.any()
+            if free.any():
+                self._note(say("contact departs", where=contact_names(free)))
             return self.first
+        self.grazes = False
         here = self._take(found.step, ends)
         self._go_on(here)
         if self.t < self.t_end and (arrived := self._arrived(here)) is not None:
@@ -278,18 +294,19 @@ class NonsmoothRun(ContactRun):
         self._take(Step(self.t, dt, self.Y, last, (last - self.Y)[:, None]), ends=self.t + dt >= self.t_end)
         before = self.sticks
         self._decide(at_sets)
-        which = ", ".join(str(i + 1) for i in np.flatnonzero(arrived))
         stays = bool(self.sticks[arrived].all())
         frees = bool((before & ~self.sticks).any())
-        self._note(say("contact arrives" if stays and not frees else "contact arrives, slips", which=which))
+        self._note(
+            say("contact arrives" if stays and not frees else "contact arrives, slips", where=contact_names(arrived))
+        )
         return self.first
 
-    def _decide(self, at_sets: Flags, breaks: bool = False) -> None:
+    def _decide(self, at_sets: Flags) -> None:
         """Decide which of the contacts at their sets stick from here on, and where the others go."""
         here = self.field.at(self.Y)
         if not (here.r > 0.0).all():
             raise NoFrictionError(int(np.argmin(here.r > 0.0)) + 1)
-        before, self.sticks = self.sticks, at_sets.copy()
+        self.sticks = at_sets.copy()
         self._go_on(here)
         e, found = self.e.copy(), self._decided(here, at_sets)
         e[at_sets] = np.where(found.sticks[:, None], 0.0, found.e)
@@ -306,10 +323,6 @@ class NonsmoothRun(ContactRun):
             self.sticks &= ~goes
             self.jerk = (ahead.u - held) / step
         self.e, self.departs = e, at_sets & ~self.sticks
-        if breaks:
-            which = ", ".join(str(i + 1) for i in np.flatnonzero(before & ~self.sticks))
-            if which:
-                self._note(say("contact departs", which=which))
 
     def _decided(self, here: Local, at_sets: Flags, departing: bool = False) -> Decided:
         Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.e), at_sets)

@@ -289,6 +289,6 @@ def test_a_contact_that_loses_its_load_ends_the_motion():
     one = contacts(EYE, [(EYE, 0.3, "1 - t")], ("2", 0), ("u", "v"), {"t": 1})
     run = one.simulate_nonsmooth((0.0, 0.0, 0.0), (0.0, 2.0))
     assert run.status.name == "NO_FRICTION"
-    assert run.reason.endswith("Contact 1 has no friction from here.")
+    assert run.reason.endswith("The bound μN of contact 1 is not positive there.")
     with pytest.raises(ValueError, match=r"state: contact 1 has mu N = -0\.3"):
         one.decide((0.0, 0.0, 2.0))
