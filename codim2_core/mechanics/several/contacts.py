@@ -45,9 +45,9 @@ from ...words import say
 from .. import formula_reading
 from ..formula_reading import FormulaRow, Matrix
 from ..mechanism import Mechanism
+from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
 from .field import ContactField, Coulomb, Regularised
-from .parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus, contact_names
 from .run import ContactRun, NoFrictionError, NonsmoothRun, RegularisedRun
 
@@ -264,7 +264,7 @@ def contacts(M: Any, contacts: Any, force: Any, velocities: Any, rates: Any = ()
 
     Examples
     --------
-    Two blocks of 1 kg on the ground, joined by a spring; the second is pulled along, and waits for the first:
+    Two blocks of 1 kg joined by a spring. The second is pulled; the first waits until the spring is long enough:
 
     >>> blocks = contacts(
     ...     M=((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)),
@@ -274,7 +274,7 @@ def contacts(M: Any, contacts: Any, force: Any, velocities: Any, rates: Any = ()
     ... )
     >>> blocks.decide((0, 0, 0, 0, 0)).kinds
     ('stick', 'slip')
-    >>> [phase.kinds for phase in blocks.simulate_nonsmooth((0, 0, 0, 0, 0), (0, 1)).phases]
+    >>> [phase.kinds for phase in blocks.simulate_nonsmooth((0, 0, 0, 0, 0), (0, 1.5)).phases]
     [('stick', 'slip'), ('slip', 'slip')]
     """
     words = formula_reading.velocities(velocities)

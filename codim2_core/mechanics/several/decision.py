@@ -1,4 +1,4 @@
-"""Which of several contacts stick: the minimiser of a strictly convex function.
+"""Decide which of several contacts stick: the minimiser of a strictly convex function.
 
 With M positive definite and bounds r_i = mu_i N_i that read no velocity, the friction -J^T r e is minus the
 subdifferential of ``sum r_i |x_i|``, x_i = J_i v - w_i. Of contacts at their sets, x_i = 0, the accelerations u = v'
@@ -63,7 +63,7 @@ def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array, departing:
     unit = float(np.max(np.hypot(*(J @ free + k).T)) + np.abs(pull).max() * r.max())
     u, force, delta = free, np.zeros_like(k), unit
     while delta > SMALLEST_DELTA * unit:
-        u, force = _newton(M, Q, J, k, r, u, force, delta)
+        u, force = _regularised_minimum(M, Q, J, k, r, u, force, delta)
         delta *= DELTA_FACTOR
     rates = J @ u + k
     sticks = np.hypot(*rates.T) < STICKING_RATE * unit
@@ -80,7 +80,7 @@ def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array, departing:
     return Decided(u, rates, e, sticks)
 
 
-def _newton(
+def _regularised_minimum(
     M: Array, Q: Array, J: Array, k: Array, r: Array, u: Array, force: Array, delta: float
 ) -> tuple[Array, Array]:
     """Solve ``M u + J^T force = Q``, ``sqrt(x^2 + delta^2) force = r x``, x = J u + k."""

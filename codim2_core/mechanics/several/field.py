@@ -11,15 +11,15 @@ from ...arrays import Array
 from ...expressions.expression import Expression
 from ...psi.function import Psi
 from ..formula_reading import FormulaRow, Matrix
+from .contact_parts import ContactParts
 from .decision import RANK_TOLERANCE, Flags
-from .parts import ContactParts
 
 SMALLEST_ZETA = 1e-9  # in the chart kappa_2: nearer, e_Psi is as linear as it is there
 DIFFERENCE = 1e-7  # step of a finite difference, in units of max(1, |Y|)
 
 
 class Local(NamedTuple):
-    """What the equations of motion are made of, at one state: J (c, 2, n), the slip x and k = J' v - w' (c, 2)."""
+    """The parts of the equations of motion at one state: J (c, 2, n), the slip x and k = J' v - w' (c, 2)."""
 
     M: Array
     Q: Array

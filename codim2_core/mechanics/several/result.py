@@ -111,7 +111,7 @@ class ContactMotion(Result):
 
 @dataclass(frozen=True, eq=False)
 class ContactDecision(Result):
-    """What the contacts of a mechanism do at a state, eps -> 0.
+    """Slip or stick at each contact of a mechanism at one state, eps -> 0.
 
     Attributes
     ----------

@@ -71,7 +71,7 @@ def mechanisms(
         applied = [algebra.enter(row, {}) for row in force]
         for other in (*contacts[:i], *contacts[i + 1 :]):
             applied = _with_friction(algebra, applied, other, velocities)
-        slow = (*_kept(own.J, velocities), *rates)
+        slow = (*_slow_velocities(own.J, velocities), *rates)
         rows = [algebra.formula(entry) for entry in applied]
         found.append(Mechanism(M, own.J, rows, own.mu, own.normal, velocities, slow, rates, own.surface, known))
     return tuple(found)
@@ -90,7 +90,7 @@ def _with_friction(algebra: Algebra, applied: list[int], other: ContactParts, ve
     return [algebra.minus(one, algebra.dot([row[j] for row in rows], pull)) for j, one in enumerate(applied)]
 
 
-def _kept(J: Matrix, velocities: Sequence[str]) -> tuple[str, ...]:
+def _slow_velocities(J: Matrix, velocities: Sequence[str]) -> tuple[str, ...]:
     """Return all velocities but two that the slip determines: where it can be, by a determinant that is a number."""
     algebra = Algebra()
     rows = [[algebra.enter(entry, {}) for entry in row] for row in J]
