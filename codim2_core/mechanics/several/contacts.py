@@ -35,6 +35,7 @@ from numpy.typing import ArrayLike
 
 from ...arrays import Array, read_only
 from ...expressions.expression import Expression
+from ...expressions.names import SLOW_NAMES
 from ...numerics.dense import dense, gather_steps
 from ...numerics.radau import TooManyStepsError
 from ...psi.function import Psi
@@ -279,7 +280,10 @@ def contacts(M: Any, contacts: Any, force: Any, velocities: Any, rates: Any = ()
     """
     words = formula_reading.velocities(velocities)
     given = formula_reading.mapping(rates, "rates")
-    positions = formula_reading.slow(tuple(given))
+    positions = formula_reading.words(tuple(given), "rates")
+    if len(words) - 2 + len(positions) > len(SLOW_NAMES):
+        most = len(SLOW_NAMES) + 2
+        raise ValueError(f"velocities and rates name {len(words) + len(positions)}; give at most {most} of both.")
     known = formula_reading.parameters(parameters, (*words, *positions))
     still, n = (*positions, *known), len(words)
     rows = formula_reading.row(force, "force", n, ("c", "s", "x", "y", *words, *still))
