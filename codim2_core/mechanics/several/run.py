@@ -91,18 +91,8 @@ class ContactRun:
             ends = self.t + h >= self.t_end
             h = self.t_end - self.t if ends else h
             h, ends = (bound, False) if (bound := self._longest()) < h else (h, ends)
-            scale = self.atol + self.rtol * np.abs(self.Y).max()
             found = collocate(
-                self.field,
-                self.law,
-                self.t,
-                self.Y,
-                h,
-                self.rate,
-                self.e,
-                self.sticks,
-                self._guess(h),
-                np.full(len(self.Y), scale),
+                self.field, self.law, self.t, self.Y, h, self.rate, self.e, self.sticks, self._guess(h), self.allowed
             )
             if found is None or self._turns(found):
                 h *= 0.3
@@ -112,6 +102,13 @@ class ContactRun:
                 h *= max(LEAST_GROWTH, factor)
                 continue
             h = self._accept(found, ends, h * min(MOST_GROWTH, max(LEAST_GROWTH, factor)))
+
+    @property
+    def allowed(self) -> Array:
+        """Error allowed in a step: of velocities by the largest, of positions by each."""
+        v, q = self.Y[: self.field.n], self.Y[self.field.n :]
+        most = max(self.speed, float(np.abs(v).max()))
+        return self.atol + self.rtol * np.concatenate([np.full(len(v), most), np.abs(q)])
 
     def _begin(self) -> None:
         raise NotImplementedError
@@ -127,7 +124,8 @@ class ContactRun:
 
     def _take(self, step: Step, ends: bool) -> Local:
         """Take a step, and return what holds at its end."""
-        self.steps.append(step)
+        if step.h > 0.0:
+            self.steps.append(step)
         self.t, self.Y = (self.t_end if ends else step.end), step.last
         self.speed = max(self.speed, float(np.abs(step.first[: self.field.n]).max()))
         here = self.field.at(self.Y)
@@ -272,7 +270,7 @@ class NonsmoothRun(ContactRun):
         """Return which contacts arrive at their sets, and in what time; None if none does."""
         change, size = here.J @ self.rate[: self.field.n] + here.k, np.hypot(*here.x.T)
         falls = ((change * self.e).sum(axis=1) < 0.0) & ~self.sticks
-        near = ARRIVED * self.speed
+        near = self._near_set
         first = falls & (size <= near)
         if not first.any():
             return None
@@ -282,6 +280,11 @@ class NonsmoothRun(ContactRun):
         together = falls & (size <= TOGETHER * near) & (left <= 0.1 * size)
         return first | together, ahead(first | together)
 
+    @property
+    def _near_set(self) -> float:
+        """Slip at which a contact that comes nearer is at its set."""
+        return ARRIVED * self.speed + float(self.allowed[0])
+
     def _arrive(self, found: tuple[Flags, float]) -> float:
         arrived, dt = found
         dt = min(max(dt, 0.0), self.t_end - self.t)
@@ -289,7 +292,7 @@ class NonsmoothRun(ContactRun):
         at_sets = arrived | self.sticks
         last[: self.field.n] = project_velocities(self.field.at(last), last[: self.field.n], at_sets)
         # whose rows depend on those of contacts that stop has stopped too
-        arrived = arrived | (~at_sets & (np.hypot(*self.field.at(last).x.T) <= ARRIVED * self.speed))
+        arrived = arrived | (~at_sets & (np.hypot(*self.field.at(last).x.T) <= self._near_set))
         at_sets = arrived | self.sticks
         self._take(Step(self.t, dt, self.Y, last, (last - self.Y)[:, None]), ends=self.t + dt >= self.t_end)
         before = self.sticks
