@@ -41,8 +41,14 @@ class Decided(NamedTuple):
     e: Array
     sticks: Flags
 
+    @property
+    def is_at_bound(self) -> bool:
+        """Whether a force that holds a contact is at its bound, or which contacts stick is not clear."""
+        size = (self.e**2).sum(axis=1)
+        return bool((self.sticks & (size > 1.0 - AT_BOUND)).any() or (size > 1.0 + AT_BOUND).any())
 
-def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array, departing: bool = False) -> Decided:
+
+def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array) -> Decided:
     """Return what contacts at their sets do.
 
     Parameters
@@ -52,8 +58,6 @@ def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array, departing:
     J : (c, 2, n)
     k : (c, 2)
     r : (c,), positive
-    departing : bool
-        Whether a contact slips whose force is at its bound, however slow: a moment after a force came to its bound.
     """
     free = np.asarray(np.linalg.solve(M, Q), np.float64)
     if not len(J):
@@ -67,8 +71,6 @@ def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array, departing:
         delta *= DELTA_FACTOR
     rates = J @ u + k
     sticks = np.hypot(*rates.T) < STICKING_RATE * unit
-    if departing:
-        sticks &= (force**2).sum(axis=1) < (1.0 - AT_BOUND) * r**2
     u = _smooth_minimum(M, Q, J, k, r, u, sticks)
     rates = np.where(sticks[:, None], 0.0, J @ u + k)
     size = np.hypot(*rates.T)[:, None]

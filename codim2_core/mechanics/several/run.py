@@ -27,7 +27,7 @@ TO_ZERO = 0.9  # of the way to 0 that a slip may go in a step
 TURN = 0.5  # cosine of how far e may turn from stage to stage
 ARRIVED = 1e-9  # a slip that falls and is smaller is at its set; in units of velocities
 TOGETHER = 1e4  # slips so many times larger may arrive in the same moment
-AHEAD = 1e-3  # of a first step: how far ahead it is looked at what departs
+AHEAD = (1e-3, 1e-2, 1e-1, 1.0)  # of a first step: how far ahead it is looked at what departs
 HALVINGS = 50
 MARGIN_SAMPLES = 65  # places in a step at which the polynomial through margins is asked
 STICKING_SHARE = 1 / 64  # of the span: longest step while a contact sticks
@@ -315,18 +315,24 @@ class NonsmoothRun(ContactRun):
         e[at_sets] = np.where(found.sticks[:, None], 0.0, found.e)
         self.sticks[at_sets] = found.sticks
         self.rate = np.concatenate([found.u, here.rates])
-        if (found.sticks & ((found.e**2).sum(axis=1) > 1.0 - AT_BOUND)).any():
-            step = AHEAD * self.first
-            soon = self.field.at(self.Y + step * self.rate)
-            held = self.field.rate(soon, e, self.sticks)[: self.field.n]
-            ahead = self._decided(soon, at_sets, departing=True)
-            goes = np.zeros_like(at_sets)
-            goes[at_sets] = found.sticks & ~ahead.sticks
-            e[at_sets] = np.where((found.sticks & ~ahead.sticks)[:, None], ahead.e, e[at_sets])
-            self.sticks &= ~goes
-            self.jerk = (ahead.u - held) / step
+        if found.is_at_bound:
+            self._look_ahead(at_sets, found, e)
         self.e, self.departs = e, at_sets & ~self.sticks
 
-    def _decided(self, here: Local, at_sets: Flags, departing: bool = False) -> Decided:
+    def _look_ahead(self, at_sets: Flags, found: Decided, e: Array) -> None:
+        """Free the contacts that slip a moment later, so late that it is clear which do; their e are put into e."""
+        for share in AHEAD:
+            step = share * self.first
+            soon = self.field.at(self.Y + step * self.rate)
+            ahead = self._decided(soon, at_sets)
+            if not ahead.is_at_bound:
+                goes = found.sticks & ~ahead.sticks
+                held = self.field.rate(soon, e, self.sticks)[: self.field.n]
+                e[at_sets] = np.where(goes[:, None], ahead.e, e[at_sets])
+                self.sticks[at_sets] = found.sticks & ahead.sticks
+                self.jerk = (ahead.u - held) / step
+                return
+
+    def _decided(self, here: Local, at_sets: Flags) -> Decided:
         Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.e), at_sets)
-        return decide_contacts(here.M, Q, here.J[at_sets], here.k[at_sets], here.r[at_sets], departing)
+        return decide_contacts(here.M, Q, here.J[at_sets], here.k[at_sets], here.r[at_sets])
