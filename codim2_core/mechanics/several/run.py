@@ -320,18 +320,26 @@ class NonsmoothRun(ContactRun):
         self.e, self.departs = e, at_sets & ~self.sticks
 
     def _look_ahead(self, at_sets: Flags, found: Decided, e: Array) -> None:
-        """Free the contacts that slip a moment later, so late that it is clear which do; their e are put into e."""
+        """Free the contacts that slip a moment later, so late that it is clear which do; their e are put into e.
+
+        A force that holds redundant contacts is found at its bound a little late: v' goes on from where it is by then.
+        """
         for share in AHEAD:
             step = share * self.first
-            soon = self.field.at(self.Y + step * self.rate)
-            ahead = self._decided(soon, at_sets)
-            if not ahead.is_at_bound:
-                goes = found.sticks & ~ahead.sticks
-                held = self.field.rate(soon, e, self.sticks)[: self.field.n]
-                e[at_sets] = np.where(goes[:, None], ahead.e, e[at_sets])
-                self.sticks[at_sets] = found.sticks & ahead.sticks
-                self.jerk = (ahead.u - held) / step
-                return
+            soon, later = (self.field.at(self.Y + k * step * self.rate) for k in (1.0, 2.0))
+            ahead, next_ahead = self._decided(soon, at_sets), self._decided(later, at_sets)
+            if ahead.is_at_bound or next_ahead.is_at_bound or (ahead.sticks != next_ahead.sticks).any():
+                continue
+            goes = found.sticks & ~ahead.sticks
+            gain = ahead.u - self.field.rate(soon, e, self.sticks)[: self.field.n]
+            next_gain = next_ahead.u - self.field.rate(later, e, self.sticks)[: self.field.n]
+            self.jerk = (next_gain - gain) / step
+            late = gain - step * self.jerk
+            if late @ self.jerk > 0.0:
+                self.rate[: self.field.n] += late
+            e[at_sets] = np.where(goes[:, None], ahead.e, e[at_sets])
+            self.sticks[at_sets] = found.sticks & ahead.sticks
+            return
 
     def _decided(self, here: Local, at_sets: Flags) -> Decided:
         Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.e), at_sets)
