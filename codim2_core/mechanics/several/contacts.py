@@ -49,8 +49,9 @@ from ..mechanism import Mechanism
 from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
 from .field import ContactField, Coulomb, Regularised
+from .nonsmooth_run import NonsmoothRun
 from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus, contact_names
-from .run import ContactRun, NoFrictionError, NonsmoothRun, RegularisedRun
+from .run import ContactRun, NoFrictionError, RegularisedRun
 
 STICKING_SLIPS = 10.0  # in eps: a contact that slips less sticks
 

@@ -30,6 +30,7 @@ STICKING_RATE = 1e-7  # x_i' below which it is 0, in units of the accelerations:
 AT_BOUND = 1e-6  # 1 - |e|^2 of a contact about to slip
 NEWTON_SHARE = 1e-4  # last correction of x_i, in units of delta
 NEWTON_ERROR = 1e-14  # and of u, where it is smooth, relative
+SMALLEST_RATE = 1e-30  # x_i' by which is divided
 RANK_TOLERANCE = 1e-10
 
 
@@ -122,7 +123,7 @@ def _smooth_minimum(M: Array, Q: Array, J: Array, k: Array, r: Array, u: Array, 
         u = u - np.linalg.lstsq(held, held @ u + own, rcond=RANK_TOLERANCE)[0]
     for _ in range(MAX_ITERATIONS):
         x = out @ u + k[~sticks]
-        size = np.hypot(*x.T)
+        size = np.maximum(np.hypot(*x.T), SMALLEST_RATE)
         e = x / size[:, None]
         gain = (most / size)[:, None, None] * (np.eye(2) - e[:, :, None] * e[:, None, :])
         flat = out.reshape(-1, len(Q))
