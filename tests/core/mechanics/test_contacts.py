@@ -292,3 +292,20 @@ def test_a_contact_that_loses_its_load_ends_the_motion():
     assert run.reason.endswith("The bound μN of contact 1 is not positive there.")
     with pytest.raises(ValueError, match=r"state: contact 1 has mu N = -0\.3"):
         one.decide((0.0, 0.0, 2.0))
+
+
+@pytest.mark.parametrize("seed", [3, 8])
+def test_a_shaken_plate_on_redundant_feet_is_the_limit_of_the_regularised_one(seed):
+    """It sticks, turns about a foot, slides on all and comes to rest, in every order."""
+    rng = np.random.default_rng(seed)
+    places, loads = rng.normal(size=(3, 2)).tolist(), rng.uniform(2.0, 12.0, 3).tolist()
+    Fx, Fy, torque = rng.uniform(5.0, 8.0, 3).tolist()
+    force = f"{Fx}*sin(2*t)", f"{Fy}*cos(2*t)", f"{torque}*cos(t)"
+    whole = plate([foot(*place, load) for place, load in zip(places, loads, strict=True)], force, rates={"t": 1})
+    start, times = (0.0, 0.0, 0.0, 0.0), np.linspace(0.0, 3.0, 200)
+    run = whole.simulate_nonsmooth(start, (0.0, 3.0))
+    assert run.status.name == "T_END"
+    assert len(run.phases) > 3
+    own = whole.simulate(psi.constant(), start, (0.0, 3.0), eps=1e-6)
+    assert np.abs(own.dense(times) - run.dense(times)).max() < 1e-4  # of slips that are 0.1 and more
+    assert max(np.abs(whole.slips(run.states)).max(axis=(1, 2))) > 0.1
