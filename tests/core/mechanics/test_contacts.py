@@ -301,7 +301,7 @@ def test_a_shaken_plate_on_redundant_feet_is_the_limit_of_the_regularised_one(se
     places, loads = rng.normal(size=(3, 2)).tolist(), rng.uniform(2.0, 12.0, 3).tolist()
     Fx, Fy, torque = rng.uniform(5.0, 8.0, 3).tolist()
     force = f"{Fx}*sin(2*t)", f"{Fy}*cos(2*t)", f"{torque}*cos(t)"
-    whole = plate([foot(*place, load) for place, load in zip(places, loads, strict=True)], force, rates={"t": 1})
+    whole = plate([foot(x, y, load) for (x, y), load in zip(places, loads, strict=True)], force, rates={"t": 1})
     start, times = (0.0, 0.0, 0.0, 0.0), np.linspace(0.0, 3.0, 200)
     run = whole.simulate_nonsmooth(start, (0.0, 3.0))
     assert run.status.name == "T_END"
