@@ -9,7 +9,23 @@ from .fit import Fit, fit
 from .friction_law import stribeck
 from .grip import Grip
 from .mechanism import Mechanism
+from .several.contacts import Contacts, contacts
+from .several.result import ContactDecision, ContactMotion, ContactPhase, ContactStatus
 
-__all__ = ["ContactForce", "Fit", "Grip", "Mechanism", "contact", "fit", "stribeck"]
+__all__ = [
+    "ContactDecision",
+    "ContactForce",
+    "ContactMotion",
+    "ContactPhase",
+    "ContactStatus",
+    "Contacts",
+    "Fit",
+    "Grip",
+    "Mechanism",
+    "contact",
+    "contacts",
+    "fit",
+    "stribeck",
+]
 
 globals().update(checked_functions(__name__, globals(), ["fit"]))

@@ -58,6 +58,10 @@ class Algebra:
         """Return u/v."""
         return self._build.apply("/", u, v)
 
+    def square_root(self, u: int) -> int:
+        """Return the square root of u."""
+        return self._build.apply("sqrt", u)
+
     def negative(self, u: int) -> int:
         """Return -u."""
         return self._build.apply("neg", u)

@@ -80,6 +80,8 @@ def as_text(value: Any, what: str, names: Sequence[str] = ()) -> str:
 
 def formula(value: Any, what: str, names: Sequence[str]) -> Expression:
     """Read a number, or text in the names."""
+    if isinstance(value, Expression) and set(value.names) <= set(names):
+        return value
     try:
         return parse(as_text(value, what, names), tuple(names))
     except ExpressionError as error:

@@ -2,14 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from numpy.typing import ArrayLike
 
+from ..arrays import Array
 from ..initial_value.events import Event
 from ..mechanics.mechanism import Mechanism
 from ..words import say
 from .argument_checks import checked_state
 
 __all__ = ["contact_events"]
+
+
+@dataclass(frozen=True)
+class _ForceNumber:
+    """A number of the contact force along a motion, by its name; it is pickled, as a function made here is not."""
+
+    mechanism: Mechanism
+    name: str
+
+    def __call__(self, t: float, state: Array) -> float:  # noqa: ARG002 (the mechanism has no clock)
+        return getattr(self.mechanism.contact_force(state), self.name)
 
 
 def contact_events(mechanism: Mechanism, state0: ArrayLike) -> tuple[Event, ...]:
@@ -50,10 +64,9 @@ def contact_events(mechanism: Mechanism, state0: ArrayLike) -> tuple[Event, ...]
     >>> run.reason
     'It stopped at a terminal event. The contact opens: no normal force is needed to keep the bodies apart.'
     """
-    force = mechanism.contact_force
-    begins = force(checked_state(state0, len(mechanism.slow)))
+    begins = mechanism.contact_force(checked_state(state0, len(mechanism.slow)))
     if begins.kind != "presses":
         raise ValueError(f"state0 is where the contact does not press; start where it does. {begins.sentence}")
-    opens = Event(lambda t, state: force(state).approach, -1, True, say("contact opens"))  # noqa: ARG005
-    jams = Event(lambda t, state: force(state).gain, -1, True, say("contact jams"))  # noqa: ARG005
+    opens = Event(_ForceNumber(mechanism, "approach"), -1, True, say("contact opens"))
+    jams = Event(_ForceNumber(mechanism, "gain"), -1, True, say("contact jams"))
     return (opens, jams) if mechanism.has_constraint else (opens,)

@@ -47,4 +47,28 @@ SENTENCES: dict[str, Sentence] = {
         "least squares, 95 % sure; the motion that fits comes to rest",
     ),
     "motion of a mechanism": Sentence("It {course}.", "a motion in an engineer's words, times in seconds"),
+    "contacts decided": Sentence(
+        "{count} of {of} contacts stick. The acceleration is unique, and so is the friction at each of them.",
+        "which contacts stick at a state, the Delassus matrix regular",
+    ),
+    "contacts redundant": Sentence(
+        (
+            "{count} of {of} contacts stick. The acceleration is unique, but the contacts are redundant, and Ψ decides "
+            "how they share the friction."
+        ),
+        "which contacts stick at a state, the Delassus matrix singular",
+    ),
+    "contacts start": Sentence("The motion starts.", "the first phase of a motion with several contacts"),
+    "contact arrives": Sentence("The slip ends at {where}.", "a contact arrives at its set, and sticks"),
+    "contact arrives, slips": Sentence(
+        "The slip ends at {where}, and a contact begins to slip.", "a contact arrives, and it or another slips"
+    ),
+    "contact departs": Sentence(
+        "Friction no longer holds {where}.", "the force that holds a contact is at its bound, and it begins to slip"
+    ),
+    "contact without friction": Sentence(
+        "It stopped where a contact has no friction.", "the status of a motion with several contacts"
+    ),
+    "contact, mu N": Sentence("The bound μN of contact {which} is not positive there.", "mu N <= 0 in a motion"),
+    "contact steps": Sentence("The last time is t = {t:.6g}.", "a motion with several contacts, too many steps"),
 }

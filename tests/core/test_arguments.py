@@ -80,6 +80,9 @@ GOOD = {
         "M": np.eye(2), "J": np.eye(2), "force": (0.3, 0), "mu": 0.2, "normal": 1.0, "velocities": ("u", "v"),
     },
     c2.mechanics.stribeck: {"static": 0.6, "kinetic": 0.4, "speed": 0.05},
+    c2.mechanics.contacts: {
+        "M": np.eye(2), "contacts": [(np.eye(2), 0.2, 1.0)], "force": (0.3, 0), "velocities": ("u", "v"),
+    },
     c2.mechanics.fit: {
         "system": c2.ELinear("-mu", 0.0, "-mu", parameters={"mu": 3.0}),
         "times": np.linspace(0.0, 0.1, 5),

@@ -24,6 +24,11 @@ RING = c2.System(U=("-y + x*(1 - x**2 - y**2)", "x + y*(1 - x**2 - y**2)"))
 TURNING = c2.System(U=("z*c - s", "c + z*s"), W=("1",))
 UNSTEADY = c2.ELinear(-1, 0, -1, ("z", 0), B=((0, 0),), g=(0.25,))
 
+BLOCKS = c2.mechanics.contacts(
+    np.eye(4).tolist(), [(((1, 0, 0, 0), (0, 1, 0, 0)), 0.3, 10), (((0, 0, 1, 0), (0, 0, 0, 1)), 0.3, 10)],
+    ("4*q", 0, "5 - 4*q", 0), ("u1", "v1", "u2", "v2"), {"q": "u2 - u1"},
+)  # fmt: skip
+
 #: What stands in a notebook's cell, and what must be read in it.
 #: A mass that is driven round.
 DRIVEN = c2.System(U=("-z1 - S*c + cos(2*z3)", "-z2 - S*s + sin(2*z3)"), W=("x", "y", "1"), parameters={"S": 0.5})
@@ -68,6 +73,9 @@ RESULTS = {
     "bifurcations.regions": lambda: bifurcations.regions(c2.ELinear(-2, 0.5, -1)),
     "bifurcations.saddle_node": lambda: bifurcations.saddle_node(c2.ELinear(-2, 0.5, -1)),
     "atlas": lambda: c2.atlas(SADDLE, ONE, {"f1": (-2, 2), "f2": (-2, 2)}),
+    "mechanics.contacts": lambda: BLOCKS,
+    "contacts at a state": lambda: BLOCKS.decide((0, 0, 0, 0, 0)),
+    "motion of contacts": lambda: BLOCKS.simulate_nonsmooth((0, 0, 0, 0, 0), (0, 2)),
     "continue_cycles": lambda: continue_cycles(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
     "linearisation_path": lambda: linearisation_path(CYCLE.system, CYCLE.psi, "n", np.linspace(1.0, 4.0, 31)),
 }

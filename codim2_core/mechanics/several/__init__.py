@@ -1,0 +1,1 @@
+"""Mechanisms with dry friction at several points of contact."""

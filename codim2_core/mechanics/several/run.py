@@ -1,0 +1,149 @@
+"""Motions of a mechanism with several contacts, step by step; for eps > 0 as the regularised system."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from dataclasses import field as made_with
+
+import numpy as np
+
+from ...arrays import Array
+from ...numerics.radau import STEP_SAFETY, Step, TooManyStepsError, tableau
+from ...words import say
+from .collocation import Collocated, collocate
+from .decision import Flags
+from .field import ContactField, Law, Local
+
+FIRST_SHARE = 1e-3  # first step after an event, as a share of the span
+SHORTEST_SHARE = 1e-15  # of the span: shorter steps are given up
+MOST_GROWTH, LEAST_GROWTH = 6.0, 0.2  # of a step
+
+
+class NoFrictionError(Exception):
+    """The bound mu N of a contact is not positive; the contact's number."""
+
+
+@dataclass
+class ContactRun:
+    """A motion under way.
+
+    Attributes
+    ----------
+    e : ndarray (c, 2)
+        At the state, which matters where a contact is about to slip.
+    sticks : ndarray (c,)
+    rate : ndarray (N,)
+        Y' at the state.
+    departs : ndarray (c,)
+        Contacts that begin to slip here, and have no slip yet.
+    jerk : ndarray (n,)
+        What v'' gains as contacts begin to slip with no acceleration.
+    speed : float
+        The largest velocity so far.
+    starts : list of (t, sticks, sentence)
+        The phases.
+    """
+
+    field: ContactField
+    law: Law
+    t: float
+    Y: Array
+    t_end: float
+    rtol: float
+    atol: float
+    most: int
+    e: Array = made_with(init=False)
+    sticks: Flags = made_with(init=False)
+    rate: Array = made_with(init=False)
+    departs: Flags = made_with(init=False)
+    jerk: Array = made_with(init=False)
+    speed: float = 0.0
+    steps: list[Step] = made_with(default_factory=list)
+    starts: list[tuple[float, tuple[bool, ...], str]] = made_with(default_factory=list)
+
+    def run(self) -> None:
+        """Go on to the end.
+
+        Raises
+        ------
+        TooManyStepsError, NoFrictionError
+        """
+        span = self.t_end - self.t
+        h = self.first = FIRST_SHARE * span
+        self._begin()
+        while self.t < self.t_end:
+            if len(self.steps) + len(self.starts) >= self.most or h < SHORTEST_SHARE * span:
+                raise TooManyStepsError(say("contact steps", t=self.t))
+            ends = self.t + h >= self.t_end
+            h = self.t_end - self.t if ends else h
+            h, ends = (bound, False) if (bound := self._longest()) < h else (h, ends)
+            found = collocate(
+                self.field, self.law, self.t, self.Y, h, self.rate, self.e, self.sticks, self._guess(h), self.allowed
+            )
+            if found is None or self._turns(found):
+                h *= 0.3
+                continue
+            factor = STEP_SAFETY * max(found.error, 1e-10) ** (-1.0 / 6.0)
+            if found.error > 1.0:
+                h *= max(LEAST_GROWTH, factor)
+                continue
+            h = self._accept(found, ends, h * min(MOST_GROWTH, max(LEAST_GROWTH, factor)))
+
+    @property
+    def allowed(self) -> Array:
+        """Error allowed in a step: of velocities by the largest, of positions by each."""
+        v, q = self.Y[: self.field.n], self.Y[self.field.n :]
+        most = max(self.speed, float(np.abs(v).max()))
+        return self.atol + self.rtol * np.concatenate([np.full(len(v), most), np.abs(q)])
+
+    def _begin(self) -> None:
+        raise NotImplementedError
+
+    def _longest(self) -> float:
+        return np.inf
+
+    def _turns(self, found: Collocated) -> bool:
+        raise NotImplementedError
+
+    def _accept(self, found: Collocated, ends: bool, h: float) -> float:
+        raise NotImplementedError
+
+    def _take(self, step: Step, ends: bool) -> Local:
+        """Take a step, and return what holds at its end."""
+        if step.h > 0.0:
+            self.steps.append(step)
+        self.t, self.Y = (self.t_end if ends else step.end), step.last
+        self.speed = max(self.speed, float(np.abs(step.first[: self.field.n]).max()))
+        here = self.field.at(self.Y)
+        if not (here.r > 0.0).all():
+            raise NoFrictionError(int(np.argmin(here.r > 0.0)) + 1)
+        return here
+
+    def _guess(self, h: float) -> Array:
+        """Return stages less Y: along Y', and along v'' where contacts depart with no acceleration."""
+        tau = tableau().nodes[:, None] * h
+        Z = tau * self.rate
+        Z[:, : self.field.n] += 0.5 * tau**2 * self.jerk
+        return Z
+
+    def _go_on(self, here: Local) -> None:
+        """Set what holds at a state between events."""
+        self.e = np.where(self.sticks[:, None], 0.0, self.law.e(here.x))
+        self.rate = self.field.rate(here, self.e, self.sticks)
+        self.departs, self.jerk = np.zeros(len(here.r), bool), np.zeros(self.field.n)
+
+
+class RegularisedRun(ContactRun):
+    """A motion for eps > 0."""
+
+    def _begin(self) -> None:
+        here = self.field.at(self.Y)
+        self.sticks = np.zeros(len(here.r), bool)
+        self._go_on(here)
+
+    def _turns(self, found: Collocated) -> bool:  # noqa: ARG002 (e may turn as it likes where |e| < 1)
+        return False
+
+    def _accept(self, found: Collocated, ends: bool, h: float) -> float:
+        self._go_on(self._take(found.step, ends))
+        return h
