@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..equality import ByValue
 from ..expressions.expression import Expression
 from ..expressions.names import SLOW_NAMES
 from ..systems.bounds import at_place, slow_values
@@ -30,7 +31,7 @@ from .parts import Parts
 
 
 @dataclass(frozen=True, eq=False)
-class Mechanism(Parts):
+class Mechanism(ByValue, Parts):
     """A mechanism with dry friction at one point of contact. Made by its parts; all are numbers, or text in names.
 
     Parameters
