@@ -133,7 +133,7 @@ SPIRAL = {"a": -0.0489, "b": -28.19, "d": -0.0108, "f1": -0.9785, "f2": 0.2402, 
 
 
 def test_outcomes_of_a_slow_spiral_are_computed_beside_the_frames_until_they_are_known_to_be_quick():
-    values = {**preset_values("case2-saddle"), "layers": ["equator", "outcomes"], "panel": "psi"}
+    values = {**preset_values("case2-saddle"), "layers": ["equator", "outcomes"], "panel": "planes"}
     frames, executor = budgeted(values)
     assert "picture" in header(frames, all=True)["late"]
     executor.run()
