@@ -49,7 +49,7 @@ def test_the_puck_slips_and_sticks_beside_the_sphere_and_a_dot_runs_on_it(open_p
 def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
     explorer = open_page(first_visit=True).open()
     invitation = explorer.find(".grab .invitation")
-    assert invitation.is_visible()
+    invitation.wait_for()  # the handle comes once the picture knows its own size
     mouse, start = explorer.page.mouse, explorer.find(".grab").bounding_box()
     x, y = middle(start)
     unit = explorer.ask("picture.pixel(1, 0).x - picture.pixel(0, 0).x")
