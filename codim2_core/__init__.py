@@ -15,6 +15,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .counting.table import Census
     from .cycles.friction_law_comparison import LawVerdict, LawVerdicts, compare_laws
     from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
+    from .cycles.proof.result import Proof
     from .diagrams.bifurcation_diagram import branches
     from .diagrams.result import Branches
     from .figures.preset import Preset
@@ -52,6 +53,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .systems.typed import System
     from .systems.typed_at_z import Frozen
     from .theorems.certificates import certificates
+    from .theorems.portrait_proof import prove_portrait
 
 __version__ = "0.1.0"
 
@@ -84,6 +86,7 @@ __all__ = [
     "PeriodicStatus",
     "Phase",
     "Preset",
+    "Proof",
     "Psi",
     "ResponseCurve",
     "Scene",
@@ -118,6 +121,7 @@ __all__ = [
     "nullclines",
     "periodic_motion",
     "presets",
+    "prove_portrait",
     "psi",
     "reference",
     "response_curve",
@@ -143,6 +147,7 @@ _HOMES = {
     "counting.table": "Census",
     "cycles.friction_law_comparison": "LawVerdict LawVerdicts compare_laws",
     "cycles.limit_cycles": "LimitCycle LimitCycles limit_cycles",
+    "cycles.proof.result": "Proof",
     "diagrams.bifurcation_diagram": "branches",
     "diagrams.result": "Branches",
     "figures.preset": "Preset",
@@ -179,6 +184,7 @@ _HOMES = {
     "systems.typed": "System",
     "systems.typed_at_z": "Frozen",
     "theorems.certificates": "certificates",
+    "theorems.portrait_proof": "prove_portrait",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 

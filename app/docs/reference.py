@@ -40,7 +40,7 @@ TOPICS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "cycles": (
         "Limit cycles",
         "Limit cycles of the layer problem, proofs of their number, and what a law of friction changes.",
-        ("limit_cycles LimitCycles LimitCycle", "compare_laws LawVerdicts LawVerdict"),
+        ("limit_cycles LimitCycles LimitCycle", "prove_portrait Proof", "compare_laws LawVerdicts LawVerdict"),
     ),
     "motions": (
         "Motions in time",

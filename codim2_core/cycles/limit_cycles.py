@@ -20,6 +20,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
+from ..expressions.arrays import polynomial_degree
+from ..expressions.polynomial import MAX_DEGREE
 from ..layer_problem.critical import CriticalSet, slow_flow_at
 from ..layer_problem.linearisation import matrix_determinant
 from ..layer_problem.location import Existence, Location, locate
@@ -181,10 +183,10 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool 
     psi : Psi
     z : (m,) floats
     prove : bool
-        Try to prove that there are just these: `LimitCycles.proved` says whether that was done. For e-linear systems,
-        with Psi constant, rational, exponential, tanh, or of the Hill family with n >= 1. A theorem costs nothing.
-        Certificates, as measured: without cycles 59 of 60 random systems are proved, half of them within 0.05 s; with
-        cycles 25 of 40, half within 0.35 s (`python -m tests.benchmarks.bench_proofs`).
+        Try to prove that there are just these: `LimitCycles.proved` says whether that was done. A theorem costs
+        nothing; else by a certificate, for the systems and Psi of `prove_portrait`. As measured on e-linear ones:
+        without cycles 59 of 60 random systems are proved, half of them within 0.05 s; with cycles 25 of 40, half
+        within 0.35 s (`python -m tests.benchmarks.bench_proofs`).
 
     Returns
     -------
@@ -209,21 +211,27 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool 
 
 
 @found_once()
-def proof_of(problem: LayerProblem) -> Proof:
-    """Prove how many limit cycles a layer problem has, as far as that can be done."""
-    from .proof.prove import prove_count
+def certificate_of(problem: LayerProblem) -> Proof:
+    """Look for a certificate of the portrait of a layer problem."""
+    from .proof.prove import prove_layer_problem  # on first use: it loads the checker, and what it needs of SciPy
 
-    found = closed_orbits(problem)
-    return prove_count(problem, [cycle.points for cycle in found.cycles], excluding_theorem(problem))
+    return prove_layer_problem(problem, closed_orbits(problem).cycles)
+
+
+def proof_of(problem: LayerProblem) -> Proof:
+    """Prove how many limit cycles a layer problem has, as far as that can be done: by a theorem, or a certificate."""
+    theorem = excluding_theorem(problem)
+    return certificate_of(problem) if theorem is None else Proof(True, (), theorem)
 
 
 def provable(problem: LayerProblem) -> str:
     """Say how the number of limit cycles may be proved: by a "theorem", by a "certificate", or "", not at all."""
-    if problem.at.normal_form is None:
-        return ""
     if excluding_theorem(problem) is not None:
         return "theorem"
-    return "certificate" if covers(problem.psi) else ""
+    if not covers(problem.psi):
+        return ""
+    degree = 1 if problem.at.affine is not None else polynomial_degree(problem.at.typed.U)
+    return "certificate" if degree is not None and degree <= MAX_DEGREE else ""
 
 
 @found_once("cycles")

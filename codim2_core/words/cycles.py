@@ -262,8 +262,20 @@ SENTENCES: dict[str, Sentence] = {
         ),
         "a certificate was accepted",
     ),
-    "proofs e-linear only": Sentence(
-        "The count is not proved: proofs exist for e-linear systems only.", "a proof for a typed system"
+    "nothing to surround": Sentence(
+        (
+            "It is proved that there is no limit cycle: it would surround a critical set that is no saddle, and there "
+            "is none."
+        ),
+        "a certificate was accepted, of critical sets",
+    ),
+    "portrait degenerate": Sentence(
+        "The count is not proved: a critical set is degenerate, or on the equator, or two are very close.",
+        "the checker refuses the critical sets",
+    ),
+    "proofs of polynomials only": Sentence(
+        "The count is not proved: proofs exist where U is a polynomial in c and s, of degree up to 16.",
+        "a proof for a typed system that is no polynomial",
     ),
     "proof not for this Psi": Sentence(
         (

@@ -45,6 +45,7 @@ GOOD = {
     c2.response_curve: {"system": DRIVEN, "state0": (0.0, -0.55, -0.28, 0.07, 0.0), "period": np.pi,
                         "along": "f1", "span": (0.49, 0.51), "psi": PSI},
     c2.periodic_motion: {"system": SYSTEM, "psi": PSI, "state0": (1.0, 0.2, 0.1), "period": 0.3},
+    c2.prove_portrait: PLANE,
     c2.separatrices: PLANE,
     c2.simulate: {**MOTION, "eps": 1e-3},
     c2.simulate_nonsmooth: MOTION,

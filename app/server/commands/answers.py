@@ -13,31 +13,38 @@ from codim2_core.paper import cite
 from codim2_core.psi import FAMILIES
 from codim2_core.words import subscript
 
+from .downloads import add_view, chosen_view
 from .numbers import number, six
 
 
 def add_classify(commands: Any) -> None:
     """Add `codim2 classify`."""
     command = commands.add_parser("classify", help="name the portrait of an e-linear system, and say what stands still")
-    _add_system(command)
+    _add_coefficients(command)
+    add_psi(command)
     command.add_argument("--json", action="store_true", help="as JSON")
     command.set_defaults(run=classify)
 
 
 def add_prove(commands: Any) -> None:
     """Add `codim2 prove`."""
-    command = commands.add_parser("prove", help="prove how many limit cycles an e-linear system has")
-    _add_system(command)
+    command = commands.add_parser(
+        "prove", help="prove a portrait: its limit directions, critical sets and limit cycles"
+    )
+    add_view(command)
+    _add_coefficients(command, required=False)
     command.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the certificate there")
     command.set_defaults(run=prove)
 
 
-def _add_system(command: Any) -> None:
+def _add_coefficients(command: Any, required: bool = True) -> None:
     for name in ("a", "b", "d"):
-        command.add_argument(f"-{name}", type=number, required=name != "b", default=0.0, help=f"{name} of A")
+        default = None if name == "a" else 0.0
+        command.add_argument(
+            f"-{name}", type=number, required=required and name != "b", default=default, help=f"{name} of A"
+        )
     for name in ("f1", "f2"):
         command.add_argument(f"--{name}", type=number, default=0.0)
-    add_psi(command)
 
 
 def add_psi(command: argparse.ArgumentParser) -> None:
@@ -105,20 +112,25 @@ def classify(chosen: argparse.Namespace) -> int:
 
 
 def prove(chosen: argparse.Namespace) -> int:
-    """Print how many limit cycles one system has, and whether that is proved: then the status is 0, else 1."""
+    """Print what is proved of a portrait; the status is 0 if it is how many limit cycles there are, else 1."""
     try:
-        psi = c2.psi.from_text(chosen.psi)
-        system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
-        found = c2.limit_cycles(system, psi, prove=True)
+        if chosen.a is None:
+            problem = chosen_view(chosen).scene().problem
+            system, psi = problem.at, problem.psi
+        else:
+            psi = c2.psi.from_text(chosen.psi)
+            system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
+        found, proved = c2.limit_cycles(system, psi), c2.prove_portrait(system, psi)
     except ValueError as error:
         print(f"codim2: {error}", file=sys.stderr)
         return 2
-    proved = found.proved
-    assert proved is not None
     print(f"Limit cycles: {len(found)}. {proved.reason}")
     for i, (cycle, alone) in enumerate(zip(found, proved.cycles, strict=True)):
         told = f"{cycle.kind}, period {six(cycle.period)}, multiplier {six(cycle.multiplier)}"
         print(f"  cycle {i + 1}: {told}{', proved' if alone else ''}")
+    directions, sets = proved.limit_directions, proved.critical_sets
+    print("Limit directions: " + ("not proved" if directions is None else f"{len(directions)}, proved"))
+    print("Critical sets: " + ("not proved" if sets is None else f"{', '.join(sets) or 'none'}; proved"))
     if chosen.output is not None and proved.certificate is None:
         print(f"codim2: {chosen.output} is not written: what is said above rests on no certificate.", file=sys.stderr)
         return 1

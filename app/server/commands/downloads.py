@@ -20,7 +20,7 @@ VIEW_HELP = (
 PIPE = Path("-")
 
 
-def _add_view(command: Any) -> None:
+def add_view(command: Any) -> None:
     """Add what is drawn: a view by name, or typed equations."""
     command.add_argument("view", nargs="*", metavar="PRESET|LINK|NAME=VALUE", help=VIEW_HELP)
     command.add_argument(
@@ -46,7 +46,7 @@ def _suffix(chosen: argparse.Namespace) -> str:
     return f".{chosen.format}" if chosen.output == PIPE else suffix_of(chosen.output, chosen.endings)
 
 
-def _view(chosen: argparse.Namespace) -> Any:
+def chosen_view(chosen: argparse.Namespace) -> Any:
     """Return the view that the words of a command name."""
     from ...export.view import typed_view, view_of
 
@@ -67,7 +67,7 @@ def _view(chosen: argparse.Namespace) -> Any:
 def add_figure(commands: Any) -> None:
     """Add `codim2 figure`."""
     command = commands.add_parser("figure", help="draw a preset or a link: SVG, PNG, PDF or TikZ")
-    _add_view(command)
+    add_view(command)
     _add_output(command, (".svg", ".png", ".pdf", ".tikz"), "ends in .svg, .png, .pdf or .tikz")
     command.add_argument("--size", type=float, default=120.0, metavar="MM", help="width of the picture; default 120")
     command.add_argument("--scale", type=float, default=3.0, help="of a PNG: 1 is 96 dots per inch; default 3")
@@ -82,7 +82,7 @@ def add_figure(commands: Any) -> None:
 def add_data(commands: Any) -> None:
     """Add `codim2 data`."""
     command = commands.add_parser("data", help="write what a preset or a link draws: data, Python code, a LaTeX table")
-    _add_view(command)
+    add_view(command)
     words = ".zip (CSV files), .json, .npz, .py (code that rebuilds the view) or .tex (equilibria and critical sets)"
     _add_output(command, (".zip", ".json", ".npz", ".py", ".tex"), f"ends in {words}")
     command.set_defaults(run=lambda chosen: _write_output(chosen.output, lambda: _data(chosen)))
@@ -91,13 +91,13 @@ def add_data(commands: Any) -> None:
 def _data(chosen: argparse.Namespace) -> bytes:
     from ...export.files import DATA
 
-    return DATA[_suffix(chosen)](_view(chosen))
+    return DATA[_suffix(chosen)](chosen_view(chosen))
 
 
 def add_live(commands: Any) -> None:
     """Add `codim2 live`."""
     command = commands.add_parser("live", help="write one HTML file that moves a slider or two with no server")
-    _add_view(command)
+    add_view(command)
     words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'; give it twice for two sliders"
     command.add_argument("--slider", action="append", required=True, metavar="NAME[=LOW,HIGH]", help=words)
     words = "where the file finds what `codim2 static` wrote: it then computes where it is seen"
@@ -111,7 +111,7 @@ def add_film(commands: Any) -> None:
     command = commands.add_parser(
         "film", help="write a film of a slider that moves, or of an orbit that is run along: GIF, WebP or MP4"
     )
-    _add_view(command)
+    add_view(command)
     words = "'f1', 'n', 'mu', …, or with a range: 'f1=-1,1'; with values where it goes slowly: 'f1=-1,1;0.5'"
     moves = command.add_mutually_exclusive_group(required=True)
     moves.add_argument("--slider", metavar="NAME[=LOW,HIGH]", help=words)
@@ -134,7 +134,7 @@ def _film(chosen: argparse.Namespace) -> bytes:
             print(f"\r{done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
 
     kind, style = _suffix(chosen), replace(STYLE, theme=chosen.theme)
-    return film(_view(chosen), PLAY if chosen.play else chosen.slider, kind, style, chosen.positions, progress)
+    return film(chosen_view(chosen), PLAY if chosen.play else chosen.slider, kind, style, chosen.positions, progress)
 
 
 def _live(chosen: argparse.Namespace) -> bytes:
@@ -142,7 +142,7 @@ def _live(chosen: argparse.Namespace) -> bytes:
     from ...export.live import live
 
     _suffix(chosen)
-    view = _view(chosen)
+    view = chosen_view(chosen)
     return figure_page(view, chosen.slider, chosen.explorer) if chosen.explorer else live(view, chosen.slider)
 
 
@@ -153,7 +153,7 @@ def _figure(chosen: argparse.Namespace) -> bytes:
 
     suffix = _suffix(chosen)
     style = Style(chosen.size, chosen.theme, chosen.legend, chosen.labels, chosen.ticks, chosen.title, chosen.caption)
-    svg = figure(_view(chosen), style)
+    svg = figure(chosen_view(chosen), style)
     made: dict[str, Callable[[], bytes]] = {
         ".svg": svg.encode, ".pdf": lambda: pdf(svg), ".tikz": lambda: tikz(svg).encode(),
         ".png": lambda: png(svg, chosen.scale),

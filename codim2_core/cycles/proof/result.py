@@ -1,11 +1,14 @@
-"""A proved count of limit cycles, and the certificate that shows it."""
+"""A proved portrait, and the certificate that shows it."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Protocol
 
+from ...arrays import Array
 from ...psi.function import Psi
+from ...results import Result
 
 __all__ = ["Proof", "covers"]
 
@@ -17,9 +20,18 @@ def covers(psi: Psi) -> bool:
     return psi.family in COVERED and (psi.family != "hill" or psi.parameter >= 1.0)
 
 
-@dataclass(frozen=True)
-class Proof:
-    """Whether the count of limit cycles stands proved; true in a condition exactly then.
+class FoundCycle(Protocol):
+    """A limit cycle, as far as a proof needs to know it (`LimitCycle`)."""
+
+    @property
+    def points(self) -> Array: ...
+    @property
+    def stable(self) -> bool: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Proof(Result):
+    """Whether the count of limit cycles stands proved, and what else does; true in a condition exactly then.
 
     Attributes
     ----------
@@ -31,15 +43,27 @@ class Proof:
         By what theorem, or certificate, or what is not decided and where.
     certificate : str or None
         JSON, to be checked by ``python check.py < FILE`` with `checker`; None where a theorem alone decides it.
+    limit_directions : tuple of (int, int), or None
+        The signs of lambda_rho and lambda_theta at each, in order along the equator; None where they are not shown, as
+        where one of these numbers is 0.
+    critical_sets : tuple of str, or None
+        The kind of each: "saddle", "stable node", "unstable focus", ...; None as before.
     """
 
     whole: bool
     cycles: tuple[bool, ...]
     reason: str
     certificate: str | None = field(default=None, repr=False)
+    limit_directions: tuple[tuple[int, int], ...] | None = None
+    critical_sets: tuple[str, ...] | None = None
 
     def __bool__(self) -> bool:
         return self.whole
+
+    @property
+    def portrait(self) -> bool:
+        """Whether the limit directions, the critical sets and the limit cycles stand proved, all of them."""
+        return self.whole and self.limit_directions is not None and self.critical_sets is not None
 
     @staticmethod
     def checker() -> str:

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.polynomial import chebyshev
+from numpy.polynomial.polynomial import polyval2d
 from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
 from ...arrays import Array
+from ...expressions.polynomial import Terms
 from ...layer_problem.problem import LayerProblem
 from ...psi.kernel import VECTOR
+from .result import FoundCycle
 
 CHART_SHRINKAGE = 1.0001  # the disc lies in the square of the chart
 MAX_ROUNDS = 40
@@ -59,13 +62,17 @@ class ProbePoints:
 
     def __init__(self, system: ScaledLayerProblem, place: Array, k: float, mu: float) -> None:
         self.place = place
-        x, y, w = lifted = system.chart @ np.vstack([place, np.ones(place.shape[1])])
-        beta = np.interp((x**2 + y**2) / w**2, system.m, system.beta)
-        u, v = system.A @ lifted[:2] + system.f[:, None] * w
-        V = np.linalg.solve(system.chart, np.array([w * u, w * v, beta * (x * u + y * v)]))
+        x, y, w = system.chart @ np.vstack([place, np.ones(place.shape[1])])
+        e = np.array([x, y]) / w
+        beta = np.interp((e**2).sum(axis=0), system.m, system.beta)
+        U, slopes = system.field(e), system.slopes(e)
+        along = (e * U).sum(axis=0)
+        V = np.linalg.solve(system.chart, w**2 * np.array([*U, beta * along]))
         self.H = V[:2] - place * V[2]
-        self.rest = k * (w * np.trace(system.A) + beta * (system.f @ lifted[:2]) - mu * V[2])
-        self.share = np.minimum(1.0, abs(k * system.trace) + (place**2).sum(axis=0))  # of the margin that is asked for
+        rest = system.degree * along - np.einsum("ip,jip,jp->p", e, slopes, e)
+        self.rest = k * (w * (slopes[0, 0] + slopes[1, 1] + beta * rest) - mu * V[2])
+        far = [abs(k * trace) + ((place - start[:, None]) ** 2).sum(axis=0) for start, trace in system.nearby]
+        self.share = np.minimum(1.0, np.min(far, axis=0))  # of the margin that is asked for
 
     def rows(self, degree: int) -> Array:
         """Return Phi, by its share of the margin, for each product of Chebyshev polynomials (n, m)."""
@@ -82,18 +89,63 @@ class ProbePoints:
 
 
 class ScaledLayerProblem:
-    """An e-linear layer problem, in units of its largest coefficient, in the chart with C at its middle."""
+    """A layer problem with polynomials for U, in units of their largest coefficient, in a chart.
 
-    def __init__(self, problem: LayerProblem) -> None:
-        assert problem.at.affine is not None
-        a, b, c, d, f, g = np.array(problem.at.affine, float) / max(map(abs, problem.at.affine))
-        self.A, self.f, self.kernel = np.array([[a, b], [c, d]]), np.array([f, g]), problem.psi.kernel
-        self.chart = chart_at(-np.linalg.solve(self.A, self.f))
+    Attributes
+    ----------
+    given : tuple of dict
+        U1 and U2 as they are: the coefficient of c^i s^j by (i, j).
+    degree : int
+    chart : ndarray (3, 3)
+        With the one critical set that a closed orbit may surround at its middle; if there are more, with the first of
+        those that the cycles surround, or the middle of the disc.
+    back : ndarray (2, 2)
+        The rotation to the axes of `given`.
+    critical, starts : list of ndarray (2,)
+        The critical sets in these axes, and in the chart.
+    """
+
+    def __init__(self, problem: LayerProblem, given: tuple[Terms, ...], cycles: Sequence[FoundCycle]) -> None:
+        self.given, self.kernel = given, problem.psi.kernel
+        c, s = math.cos(problem.at.turn), math.sin(problem.at.turn)
+        self.back = np.array([[c, s], [-s, c]])  # to the axes of a matrix as it was given
+        self.critical = [self.back @ C.e for C in problem.critical]
+        n = self.degree = max(sum(place) for U in given for place in U)
+        self.F = np.zeros((n + 1, n + 1, 2))
+        for k, U in enumerate(given):
+            for (i, j), v in U.items():
+                self.F[i, j, k] = v
+        self.F /= abs(self.F).max()
+        rising = np.arange(1.0, n + 1.0)[:, None]
+        self.DF = np.zeros((2, *self.F.shape))
+        self.DF[0, :-1], self.DF[1, :, :-1] = self.F[1:] * rising[:, None], self.F[:, 1:] * rising
+        around = [
+            e
+            for e, C in zip(self.critical, problem.critical, strict=True)
+            if C.index > 0 and (not cycles or _surrounds(cycles[0].points, C.p))
+        ]
+        self.chart = chart_at(around[0] if len(around) == 1 or (cycles and around) else np.zeros(2))
+        lifted = np.linalg.inv(self.chart) @ np.array([[*e, 1.0] for e in self.critical]).reshape(-1, 3).T
+        self.starts = list((lifted[:2] / lifted[2]).T)
         s = np.append(0.0, np.geomspace(1e-6, 1e9, 4000))
         with np.errstate(all="ignore"):
             value, slope = self.kernel.value(VECTOR, s), self.kernel.slope(VECTOR, s)
-        self.m, self.beta, self.trace = s / (s + value), 1.0 + slope, 0.0
-        self.trace = float(ProbePoints(self, np.zeros((2, 1)), 1.0, 0.0).rest[0])
+        self.m, self.beta = s / (s + value), 1.0 + slope
+        self.nearby = [(np.zeros(2), 1.0)]
+        self.nearby = [(at, float(ProbePoints(self, at[:, None], 1.0, 0.0).rest[0])) for at in self.starts]
+
+    def field(self, e: Array) -> Array:
+        """Return U at places (2, ...)."""
+        return polyval2d(e[0], e[1], self.F)
+
+    def slopes(self, e: Array) -> Array:
+        """Return D_e U at places (2, ...), first by c or s."""
+        return np.array([polyval2d(e[0], e[1], one) for one in self.DF])
+
+
+def _surrounds(loop: Array, place: Array) -> bool:
+    angle = np.unwrap(np.arctan2(*(np.vstack([loop, loop[:1]]) - place).T[::-1]))
+    return bool(abs(angle[-1] - angle[0]) > 1.0)
 
 
 def best_function(system: ScaledLayerProblem, degree: int, k: float, mu: float) -> tuple[float, Array]:
@@ -101,7 +153,10 @@ def best_function(system: ScaledLayerProblem, degree: int, k: float, mu: float) 
     every = ProbePoints(system, net().reshape(2, -1), k, mu)
     step = max(1, every.place.shape[1] // (5 * math.comb(degree + 2, 2)))
     first = ProbePoints(
-        system, np.hstack([np.zeros((2, 1)), every.place[:, ::step], net()[:, -1, :: RAY_COUNT // (8 * degree)]]), k, mu
+        system,
+        np.hstack([np.array(system.starts).T, every.place[:, ::step], net()[:, -1, :: RAY_COUNT // (8 * degree)]]),
+        k,
+        mu,
     )
     M, function = first.rows(degree), np.zeros((degree + 1, degree + 1))
     patch = np.stack(np.meshgrid(*[np.linspace(-1.0, 1.0, 5)] * 2)).reshape(2, 1, 25) * (3.0 / RAY_COUNT)
@@ -191,16 +246,14 @@ def loops(system: ScaledLayerProblem, cycle: Array, stable: bool) -> Iterator[Ar
         In e.
     stable : bool
     """
-    (a, b), (c, d) = system.A
-    weights, axes = np.linalg.eigh([[a, 0.5 * (b + c)], [0.5 * (b + c), d]])
-    first, second = math.sqrt(weights[1]), math.sqrt(-weights[0])
-    lift, center = np.linalg.inv(system.chart), system.chart[:2, 2] / system.chart[2, 2]
+    lift = np.linalg.inv(system.chart)
     x, y, w = lift @ np.vstack([cycle.T, np.ones(len(cycle))])
     line, forward = (x + 1j * y) / w, 1.0 if stable else -1.0  # the sense of time in which the cycle attracts
-    sense = forward if c > b else -forward
-    for u in (axes @ (s * first, r * second) for s in (1.0, -1.0) for r in (1.0, -1.0)):
-        ahead = lift @ [*(center + 1e-3 * u / math.hypot(*u)), 1.0]
-        way = complex(ahead[0], ahead[1]) / math.hypot(ahead[0], ahead[1])
+    sense = forward * np.sign(_turning(system, line).sum())
+    ways = np.exp(2j * math.pi * np.arange(64) / 64)
+    rays = ways[:, None] * np.linspace(abs(line).min(), 0.99, 24)
+    least = (forward * sense * _turning(system, rays.ravel())).reshape(rays.shape).min(axis=1)
+    for way in ways[np.argsort(-least)[:4]].tolist():
         turned = line / way
         crosses = (turned.imag[1:] * turned.imag[:-1] <= 0.0) & (turned.real[1:] > 0.0)
         if not crosses.any():
@@ -215,16 +268,31 @@ def loops(system: ScaledLayerProblem, cycle: Array, stable: bool) -> Iterator[Ar
                 yield np.array([X / W, Y / W]).T
 
 
+def _turning(system: ScaledLayerProblem, z: NDArray[np.complex128]) -> Array:
+    """Return how the field goes round the middle of the chart, as the sine of its angle to the ray."""
+    H = ProbePoints(system, np.array([z.real, z.imag]), 1.0, 0.0).H
+    return (z.real * H[1] - z.imag * H[0]) / (abs(z) * np.hypot(*H))
+
+
 def follow_rotated_field(
     system: ScaledLayerProblem, start: complex, way: complex, forward: float, sense: float, angle: float
 ) -> list[complex]:
     """Follow the turned field once round C, in the chart, in steps that turn less than the angle."""
     lift, turn = np.linalg.inv(system.chart).tolist(), complex(math.cos(angle), math.sin(angle))
-    N, (a, b, c, d), (f, g) = system.chart.tolist(), system.A.ravel().tolist(), system.f.tolist()
+    N, rows = system.chart.tolist(), np.moveaxis(system.F, 2, 0)[:, ::-1, ::-1].tolist()  # for Horner's rule
+
+    def value(U: list[list[float]], c: float, s: float) -> float:
+        total = 0.0
+        for row in U:
+            inner = 0.0
+            for v in row:
+                inner = inner * s + v
+            total = total * c + inner
+        return total
 
     def toward(z: complex) -> complex:
         x, y, w = (p * z.real + q * z.imag + r for p, q, r in N)
-        u, v = a * x + b * y + f * w, c * x + d * y + g * w
+        u, v = (w * value(U, x / w, y / w) for U in rows)
         beta = float(np.interp((x * x + y * y) / (w * w), system.m, system.beta))
         last = beta * (x * u + y * v)
         V = [p * w * u + q * w * v + r * last for p, q, r in lift]
@@ -250,25 +318,3 @@ def follow_rotated_field(
         places.append(there)
         here, h = after, min(1.5 * h, 0.2)
     return []
-
-
-def write_certificate(
-    problem: LayerProblem, system: ScaledLayerProblem, function: Array, k: float, mu: float, loop: Array
-) -> dict[str, Any]:
-    """Write a certificate: numbers as they were given, not rounded."""
-    a, b, d, e, f, g = problem.at.affine or (0.0,) * 6
-    edge = np.arange(-8, 9)
-    ways = np.array([(p, q) for p in edge for q in edge if max(abs(p), abs(q)) == 8])
-    x, y = np.multiply.outer(ways.T / 8.0, np.linspace(0.0, 1.0, 201))
-    signs = chebyshev.chebval2d(x, y, function) > 0.0
-    way = ways[np.argmin((signs[:, 1:] != signs[:, :-1]).sum(axis=1))]
-    return {
-        "A": [[a, b], [d, e]],
-        "f": [f, g],
-        "psi": [problem.psi.family, problem.psi.parameter],
-        "weight": [k, mu],
-        "chart": system.chart.tolist(),
-        "function": function.tolist(),
-        "way": way.tolist(),
-        "loop": loop.tolist(),
-    }

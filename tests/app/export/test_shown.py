@@ -50,6 +50,7 @@ RESULTS = {
     "filippov_sliding": lambda: c2.filippov_sliding(TWO, 0.0),
     "limit_cycles": lambda: c2.limit_cycles(CYCLE.system, CYCLE.psi),
     "nullclines": lambda: c2.nullclines(FOUR, ONE),
+    "prove_portrait": lambda: c2.prove_portrait(FOUR, ONE),
     "periodic_motion": lambda: c2.periodic_motion(RING, (0.9, 0.1), 6.0),
     "lyapunov_exponents": lambda: c2.lyapunov_exponents(
         DRIVEN, (0.0, -0.55, -0.28, 0.07, 0.0), np.pi, count=16, transient=0

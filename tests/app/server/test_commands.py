@@ -45,7 +45,7 @@ def test_prove_says_what_is_proved_and_writes_the_certificate(capsys, tmp_path):
     said = capsys.readouterr().out
     assert said.startswith("Limit cycles: 0. It is proved that there are no other limit cycles")
     assert f"check.py < {path}" in said
-    assert check(json.loads(path.read_text())) == (0, True)
+    assert check(json.loads(path.read_text()))["limit cycles"] == 0
     of_paper = ["-a", "172", "-b", "186", "-d", "-200", "--f1", "-86", "--f2", "-93"]
     assert main(["prove", *of_paper, "--psi", "1/(1+s)**2"]) == 1
     assert "The count is not proved" in capsys.readouterr().out
@@ -60,9 +60,27 @@ def test_numbers_are_read_as_on_the_page(words, capsys):
     assert "give a number such as" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (
+            ["nonunique-sliding"],
+            "Limit directions: 8, proved\nCritical sets: stable node, saddle, stable node; proved\n",
+        ),
+        (["-U", "s; c/2 - 5*c**3 - k*s", "k=.3"], "Critical sets: stable focus, saddle, stable focus; proved\n"),
+        (["saddle-node-at"], "Limit directions: not proved\nCritical sets: stable focus; proved\n"),
+    ],
+)
+def test_prove_takes_presets_and_typed_equations(words, said, capsys):
+    assert main(["prove", *words]) == 0
+    assert capsys.readouterr().out.endswith(said)
+    assert main(["prove", "no-such-preset"]) == 2
+
+
 def test_a_theorem_leaves_no_certificate_to_write(capsys, tmp_path):
     path = tmp_path / "certificate.json"
-    assert main(f"prove -a -1 -b 3 -d -1.5 --f1 .3 --f2 .1 -o {path}".split()) == 1
+    words = "prove -a -1 -b 3 -d -1.5 --f1 .3 --f2 .1 --psi 1/(1+s)**2 -o"
+    assert main([*words.split(), str(path)]) == 1
     assert str(path) in capsys.readouterr().err
     assert not path.exists()
 
