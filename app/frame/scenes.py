@@ -77,7 +77,7 @@ def position(values: Mapping[str, Any], m: int) -> tuple[float, ...]:
 def complete_changes(values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the changes with what another choice of system brings: its first place on Sigma, its own parameters.
 
-    The panel stays open unless it is the atlas and the new system has none; a second portrait unless it is of a contact.
+    The panel stays open unless it is the atlas and the new system has none; a second one unless it is of a contact.
     """
     wanted = dict(changes)
     choice = wanted.get("system")

@@ -285,8 +285,8 @@ def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingPro
     Of a typed one the texts may give ranges of parameters.
 
     The keys are ``equations`` (MathML), ``sentence``, ``label``, ``parameters`` and ``slow`` (lists of name, symbol,
-    range, value), ``coefficients``: whether the controls a, b, d, f, … belong to it, and ``contacts``: of a mechanism with
-    several contacts the choice at each, and its title.
+    range, value), ``coefficients``: whether the controls a, b, d, f, … belong to it, and ``contacts``: of a mechanism
+    with several the choice at each, and its title.
     """
     example = catalogue.get(choice)
     if choice == NORMAL:  # its coefficients have controls of their own

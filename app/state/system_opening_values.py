@@ -14,7 +14,7 @@ from .chosen_system import NORMAL, has_atlas, starting_launch, starting_z
 def opening_values(choice: str) -> dict[str, Any]:
     """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing.
 
-    And a panel that has something to show of it; of a mechanism with several contacts, the second portrait shows another.
+    And a panel that has something to show of it; of a mechanism with several contacts a second portrait, of another.
     """
     z = (*starting_z(choice), *(0.0,) * len(SLOW_CONTROLS))
     _, t_end = starting_launch(choice)

@@ -69,8 +69,8 @@ class Example:
     ball : Ball or None
         What its states say if it is a ball: then it is seen to roll.
     mechanism : callable or None
-        Of one with several contacts, the function that makes it, of the same parameters; `make` is its system at the set
-        of one of them, while the others slip.
+        Of one with several contacts, the function that makes it, of the same parameters; `make` is its system at the
+        set of one of them, while the others slip.
     """
 
     make: Callable[..., ELinear | System]

@@ -1,4 +1,4 @@
-"""The examples: a file and a line each, of a mechanism with several contacts for all. What offers them reads `catalogue`."""
+"""The examples: a file and a line each, with several contacts one file for all. What offers them reads `catalogue`."""
 
 from __future__ import annotations
 

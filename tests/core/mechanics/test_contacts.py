@@ -309,3 +309,21 @@ def test_a_shaken_plate_on_redundant_feet_is_the_limit_of_the_regularised_one(se
     own = whole.simulate(psi.constant(), start, (0.0, 3.0), eps=1e-6)
     assert np.abs(own.dense(times) - run.dense(times)).max() < 1e-4  # of slips that are 0.1 and more
     assert max(np.abs(whole.slips(run.states)).max(axis=(1, 2))) > 0.1
+
+
+def test_a_motion_has_the_times_that_were_asked_for_a_table_and_a_picture():
+    whole, times = plate([foot(0.0, 0.5, 5.0)], rates={"t": 1}), np.linspace(0.0, 1.0, 7)
+    plain = whole.simulate_nonsmooth((1.0, 0.2, 0.0, 0.0), (0.0, 1.0))
+    run = whole.simulate_nonsmooth((1.0, 0.2, 0.0, 0.0), (0.0, 1.0), times=times)
+    assert run.times.tolist() == times.tolist()
+    assert run.states.tolist() == plain.dense(times).tolist()
+    assert run.dense(0.37).tolist() == plain.dense(0.37).tolist()
+    own = whole.simulate(psi.constant(), (1.0, 0.2, 0.0, 0.0), (0.0, 1.0), eps=1e-2, times=times)
+    assert own.states[:, 3] == pytest.approx(times)
+    table = run.to_frame([0.25, 0.5])
+    assert table["u"].tolist() == plain.dense([0.25, 0.5])[:, 0].tolist()
+    assert set(table["contacts"]) <= {"slip", "stick"}
+    drawn = run._repr_svg_()
+    assert [f">{name}<" in drawn for name in ("u", "v", "w")] == [True] * 3
+    with pytest.raises(ValueError, match="give times from 0 to 1"):
+        whole.simulate_nonsmooth((1.0, 0.2, 0.0, 0.0), (0.0, 1.0), times=[0.0, 2.0])
