@@ -12,27 +12,17 @@ import codim2_core as c2
 from codim2_core import psi
 from codim2_core.mechanics import contact, contacts
 
+from .plates import INERTIA, MASS, MU, foot, plate, shaken_plate
+
 EYE = ((1, 0), (0, 1))
-PLATE_MASS, PLATE_INERTIA, RADIUS, MU, G = 2.0, 0.5, 0.7, 0.3, 9.81
+RADIUS, G = 0.7, 9.81
 DRIVEN = ("F*cos(2*t) + 0.3*v", "1")
-
-
-def foot(x, y, normal, mu=MU):
-    """Return a foot of a rigid plate at (x, y), velocities (u, v, w) in its own axes."""
-    return ((1, 0, -y), (0, 1, x)), mu, normal
-
-
-def plate(feet, force=(0, 0, 0), **more):
-    """Return a plate that slides on its feet: in its own axes, (u, v) turns with it."""
-    m, own = PLATE_MASS, ("{0}*w*v + ({1})", "-{0}*w*u + ({1})", "0*{0} + ({1})")
-    rows = [text.format(m, part) for text, part in zip(own, force, strict=True)]
-    return contacts(np.diag([m, m, PLATE_INERTIA]).tolist(), feet, rows, ("u", "v", "w"), **more)
 
 
 def three_feet():
     """Return a plate on three feet of equal load."""
     angles = 0.3 + np.arange(3) * math.tau / 3.0
-    load = PLATE_MASS * G / 3.0
+    load = MASS * G / 3.0
     return plate([foot(RADIUS * math.cos(a), RADIUS * math.sin(a), load) for a in angles.tolist()])
 
 
@@ -90,7 +80,7 @@ def test_a_plate_that_translates_is_a_point_mass_and_one_that_spins_stops_as_its
     assert run.phases[0].t_end == pytest.approx(1.0 / (MU * G), rel=1e-9)
     assert run.dense(0.1) == pytest.approx(np.array([0.6, 0.8, 0.0]) * (1.0 - 0.1 * MU * G), abs=1e-9)
     spun = whole.simulate_nonsmooth((0.0, 0.0, 3.0), (0.0, 1.0))
-    assert spun.phases[0].t_end == pytest.approx(3.0 * PLATE_INERTIA / (MU * PLATE_MASS * G * RADIUS), rel=1e-9)
+    assert spun.phases[0].t_end == pytest.approx(3.0 * INERTIA / (MU * MASS * G * RADIUS), rel=1e-9)
 
 
 def test_spin_and_slip_end_together_as_an_independent_quadrature_says():
@@ -102,9 +92,9 @@ def test_spin_and_slip_end_together_as_an_independent_quadrature_says():
     def rate(_t, state):
         u, v, w = state
         slip = np.array([u - w * place[1], v + w * place[0]])
-        pull = -MU * PLATE_MASS * G / 3.0 * slip / np.hypot(*slip)
-        turning = (place[0] * pull[1] - place[1] * pull[0]).sum() / PLATE_INERTIA
-        return [w * v + pull[0].sum() / PLATE_MASS, -w * u + pull[1].sum() / PLATE_MASS, turning]
+        pull = -MU * MASS * G / 3.0 * slip / np.hypot(*slip)
+        turning = (place[0] * pull[1] - place[1] * pull[0]).sum() / INERTIA
+        return [w * v + pull[0].sum() / MASS, -w * u + pull[1].sum() / MASS, turning]
 
     def stop(_t, state):
         return np.abs(state).max() - 1e-6
@@ -160,7 +150,7 @@ def test_the_regularised_motion_keeps_the_bound_of_the_theorem():
     for eps in (1e-2, 1e-3):
         own = whole.simulate(psi.constant(), start, (0.0, 1.0), eps=eps).dense(times)
         for t, apart in zip(times.tolist(), own - limit, strict=True):
-            bound = t * eps * MU * PLATE_MASS * G * math.exp(2.0 * constant * t)
+            bound = t * eps * MU * MASS * G * math.exp(2.0 * constant * t)
             assert kinetic(whole, apart) <= bound + 1e-15
 
 
@@ -220,7 +210,7 @@ def test_a_plate_turns_about_its_heavy_foot():
     whole = plate([foot(0.0, 0.0, heavy), foot(2.0, 0.0, light)], (0, 0, torque))
     found = whole.decide((0.0, 0.0, 0.0))
     assert found.kinds == ("stick", "slip")
-    assert found.acceleration == pytest.approx([0.0, 0.0, (torque - 2.0 * MU * light) / PLATE_INERTIA])
+    assert found.acceleration == pytest.approx([0.0, 0.0, (torque - 2.0 * MU * light) / INERTIA])
     assert found.e[0] == pytest.approx([0.0, -light / heavy])  # it holds what the light foot pushes sideways
 
 
@@ -298,10 +288,7 @@ def test_a_contact_that_loses_its_load_ends_the_motion():
 def test_a_shaken_plate_on_redundant_feet_is_the_limit_of_the_regularised_one(seed):
     """It sticks, turns about a foot, slides on all and comes to rest, in every order."""
     rng = np.random.default_rng(seed)
-    places, loads = rng.normal(size=(3, 2)).tolist(), rng.uniform(2.0, 12.0, 3).tolist()
-    Fx, Fy, torque = rng.uniform(5.0, 8.0, 3).tolist()
-    force = f"{Fx}*sin(2*t)", f"{Fy}*cos(2*t)", f"{torque}*cos(t)"
-    whole = plate([foot(x, y, load) for (x, y), load in zip(places, loads, strict=True)], force, rates={"t": 1})
+    whole = shaken_plate(rng.normal(size=(3, 2)), rng.uniform(2.0, 12.0, 3), rng.uniform(5.0, 8.0, 3))
     start, times = (0.0, 0.0, 0.0, 0.0), np.linspace(0.0, 3.0, 200)
     run = whole.simulate_nonsmooth(start, (0.0, 3.0))
     assert run.status.name == "T_END"
