@@ -145,6 +145,9 @@ class Contacts(Result):
     ) -> ContactMotion:  # fmt: skip
         """Follow the motion of the limit eps -> 0, through all combinations of slip and stick.
 
+        The regularised motion differs from it by O(eps) until a contact departs, and from then on, for Psi = 1, by
+        O(eps^(4/5)): where a force passes its bound, ``x' = r (alpha t + (eps/x)^2/2)``, whose length is that.
+
         Parameters
         ----------
         state0 : (N,)

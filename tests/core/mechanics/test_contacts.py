@@ -143,6 +143,24 @@ def test_the_regularised_motion_comes_to_the_limit_like_eps():
     assert errors[1] / errors[2] == pytest.approx(10.0, rel=0.1)
 
 
+def test_after_a_departure_the_regularised_motion_is_ahead_like_eps_to_four_fifths():
+    """The force passes its bound r as 1 + alpha t; there 1 - |e_Psi| = (eps/x)^2/2 for Psi = 1.
+
+    So the slip follows ``x' = r (alpha t + (eps/x)^2/2)``, in the limit ``r alpha t``. With x = A X, t = B T,
+    A = r alpha B^2 and B^5 = eps^2/(r^2 alpha^3) this is X' = T + 1/(2 X^2) without eps: X - T^2/2 comes to a number,
+    and A is of the order eps^(4/5): neither eps nor eps log(1/eps).
+    """
+    system, start, r, alpha = two_blocks(), (0.0,) * 5, 3.0, 4.0 / 3.0 * math.sin(2.0 * math.pi / 3.0)
+    inner = solve_ivp(lambda T, X: T + 0.5 / X**2, (-30.0, 30.0), [1.0 / math.sqrt(60.0)], "Radau", rtol=1e-10)
+    ahead, t, errors = inner.y[0, -1] - 450.0, math.pi / 3.0 + 0.03, []
+    for eps in (1e-6, 1e-7, 1e-8):
+        own = system.simulate(psi.constant(), start, (0.0, t), eps=eps).states[-1, 0]
+        errors.append(own - system.simulate_nonsmooth(start, (0.0, t)).states[-1, 0])
+        B = (eps**2 / (r**2 * alpha**3)) ** 0.2
+        assert errors[-1] == pytest.approx(ahead * r * alpha * B**2, rel=0.01)
+    assert np.diff(np.log10(errors)) == pytest.approx([-0.8, -0.8], abs=0.02)
+
+
 def test_the_regularised_motion_keeps_the_bound_of_the_theorem():
     """The gyroscopic force has the Lipschitz constant |(u, v)| sqrt(m/I) in the kinetic energy."""
     whole, start, times = three_feet(), (1.0, 0.2, 2.0), np.linspace(0.0, 1.0, 100)
@@ -284,11 +302,27 @@ def test_a_contact_that_loses_its_load_ends_the_motion():
         one.decide((0.0, 0.0, 2.0))
 
 
+def shaken(seed):
+    rng = np.random.default_rng(seed)
+    return shaken_plate(rng.normal(size=(3, 2)), rng.uniform(2.0, 12.0, 3), rng.uniform(5.0, 8.0, 3))
+
+
+@pytest.mark.parametrize(("seed", "rtol"), [(14, 1e-6), (15, 1e-6), (3, 1e-4), (7, 1e-4)])
+def test_contacts_that_stop_because_others_do_have_no_slip_left_however_loose_the_tolerance(seed, rtol):
+    """Three feet have six rows in three velocities: where two stop, so does the third."""
+    whole, start = shaken(seed), (0.0, 0.0, 0.0, 0.0)
+    run = whole.simulate_nonsmooth(start, (0.0, 3.0), rtol=rtol, atol=1e-2 * rtol, max_steps=2000)
+    assert run.status.name == "T_END"
+    for phase in run.phases:
+        still = np.array(phase.kinds) == "stick"
+        inside = (run.times >= phase.t_start) & (run.times < phase.t_end)
+        assert np.abs(whole.slips(run.states[inside])[:, still]).max(initial=0.0) < 1e-13
+
+
 @pytest.mark.parametrize("seed", [3, 8])
 def test_a_shaken_plate_on_redundant_feet_is_the_limit_of_the_regularised_one(seed):
     """It sticks, turns about a foot, slides on all and comes to rest, in every order."""
-    rng = np.random.default_rng(seed)
-    whole = shaken_plate(rng.normal(size=(3, 2)), rng.uniform(2.0, 12.0, 3), rng.uniform(5.0, 8.0, 3))
+    whole = shaken(seed)
     start, times = (0.0, 0.0, 0.0, 0.0), np.linspace(0.0, 3.0, 200)
     run = whole.simulate_nonsmooth(start, (0.0, 3.0))
     assert run.status.name == "T_END"
