@@ -327,7 +327,8 @@ def rest_sentence(choice: str, parameters: Mapping[str, float]) -> str:
     made = example.mechanism(**{name: value for name, value in parameters.items() if name in example.ranges})
     found = made.decide((0.0,) * len(made.names))
     names = (catalogue[key].title.rpartition(": ")[2] for key in keys)
-    told = (say("at rest, " + kind, contact=name) for kind, name in zip(found.kinds, names, strict=True))
+    keys_by_kind = {"stick": "at rest, stick", "slip": "at rest, slip"}
+    told = (say(keys_by_kind[kind], contact=name) for kind, name in zip(found.kinds, names, strict=True))
     return say("at rest", contacts=", ".join(told))
 
 
