@@ -23,8 +23,13 @@ def opening_values(choice: str) -> dict[str, Any]:
     motion = {"launch": opening_launch(choice), "t_end": t_end}
     axes = {"drift": "z", "across": across, "up": up, "along": across}
     panel = "atlas" if has_atlas(choice) else "numbers"
-    beside = next((f"system={key}" for key in keys_at_contacts(choice) if key != choice), "")
+    beside = next((portrait_of_system(key) for key in keys_at_contacts(choice) if key != choice), "")
     return {"texts": {}, "parameters": {}, **slow, **motion, **axes, "panel": panel, "beside": beside}
+
+
+def portrait_of_system(choice: str) -> str:
+    """Return the text of a second portrait that differs in the system alone."""
+    return f"system={choice}"
 
 
 def opening_launch(choice: str) -> str:
