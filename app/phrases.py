@@ -21,6 +21,9 @@ SENTENCES: dict[str, Sentence] = {
         "A fault of the program prevented this computation. The server’s log describes it.",
         "an exception of the program",
     ),
+    "at rest": Sentence("At rest under these forces: {contacts}.", "which contacts of a mechanism stick at rest"),
+    "at rest, stick": Sentence("{contact} sticks", "a part of the sentence above"),
+    "at rest, slip": Sentence("{contact} begins to slip", "a part of the sentence above"),
     "stopped": Sentence("This took too long and was stopped.", "work beside the frames"),
     "no scipy": Sentence(
         "SciPy computes this; a page without a server does not have it.", "a page that computes in the browser"

@@ -14,7 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from .arrays import Array
 from .earlier_spellings import earlier_spelling
 from .psi.constructors import from_text
 from .psi.function import Psi
@@ -321,3 +323,15 @@ def checked_functions(
     """Return the public functions among some names, each with its checks; for ``globals().update(...)``."""
     found = {name: names[name] for name in public}
     return {name: with_checks(one, module, named_setting) for name, one in found.items() if inspect.isfunction(one)}
+
+
+def checked_times(times: ArrayLike | None, span: tuple[float, float]) -> Array | None:
+    """Check the times at which states are asked for: (k,), ascending, or descending where the span is."""
+    if times is None:
+        return None
+    asked = np.array(times, float)
+    if asked.ndim != 1 or not len(asked) or not (np.diff(asked if span[0] < span[1] else -asked) > 0.0).all():
+        raise ValueError(f"times is {short_repr(times)}; give times in order from {span[0]:g} to {span[1]:g}.")
+    if not min(span) <= asked.min() <= asked.max() <= max(span):
+        raise ValueError(f"times are {short_repr(times)}; give times from {span[0]:g} to {span[1]:g}.")
+    return np.sort(asked)

@@ -21,11 +21,8 @@ def write_figures(folder: Path, explorer: str, pictures: bool) -> None:
 
     Parameters
     ----------
-    folder : Path
-    explorer : str
-        The address of the explorer, as seen from the site.
-    pictures : bool
-        Whether anything is drawn.
+    folder, explorer, pictures
+        As for `lesson_pages.write_lessons`.
     """
     if pictures:
         from .drawn_figures import DRAWN  # most of its time is the import of what it draws

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any
 
+from codim2_core.examples.offered import keys_at_contacts
 from codim2_core.layer_problem.direction_names import cut_that_keeps_names
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
@@ -16,7 +17,7 @@ from ..state.chosen_psi import build_psi
 from ..state.chosen_system import NORMAL, System_, TextError, build, parameters_of
 from ..state.cleaning import InputError
 from ..state.launches import read_launches
-from ..state.system_opening_values import opening_values
+from ..state.system_opening_values import opening_values, portrait_of_system
 from .budget import OmittedLayer, PendingLayer
 
 #: Text of f(z) = f + z k and of z' = B e + g. It never changes, so that nothing is parsed again on a tick:
@@ -77,7 +78,7 @@ def position(values: Mapping[str, Any], m: int) -> tuple[float, ...]:
 def complete_changes(values: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return the changes with what another choice of system brings: its first place on Sigma, its own parameters.
 
-    The panel stays open unless it is the atlas and the new system has none.
+    The panel stays open unless it is the atlas and the new system has none; a second one unless it is of a contact.
     """
     wanted = dict(changes)
     choice = wanted.get("system")
@@ -86,6 +87,8 @@ def complete_changes(values: Mapping[str, Any], changes: Mapping[str, Any]) -> d
     brought = opening_values(choice)
     if values["panel"] != "atlas":
         del brought["panel"]
+    if not brought["beside"] and values["beside"] not in map(portrait_of_system, keys_at_contacts(values["system"])):
+        del brought["beside"]
     return {**brought, **wanted}
 
 

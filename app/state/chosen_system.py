@@ -14,6 +14,7 @@ from types import MappingProxyType
 from typing import Any
 
 from codim2_core.examples import catalogue
+from codim2_core.examples.offered import keys_at_contacts
 from codim2_core.expressions.expression import ExpressionError, parse
 from codim2_core.expressions.names import FAST_NAMES, TIME
 from codim2_core.expressions.tape import CONSTANTS, FUNCTIONS
@@ -284,7 +285,8 @@ def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingPro
     Of a typed one the texts may give ranges of parameters.
 
     The keys are ``equations`` (MathML), ``sentence``, ``label``, ``parameters`` and ``slow`` (lists of name, symbol,
-    range, value), and ``coefficients``: whether the controls a, b, d, f, … belong to it.
+    range, value), ``coefficients``: whether the controls a, b, d, f, … belong to it, and ``contacts``: of a mechanism
+    with several the choice at each, and its title.
     """
     example = catalogue.get(choice)
     if choice == NORMAL:  # its coefficients have controls of their own
@@ -296,6 +298,7 @@ def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingPro
             "parameters": [],
             "slow": [],
             "coefficients": True,
+            "contacts": [],
         }
     ranges = parameter_ranges(choice, texts)
     parameters = [
@@ -312,7 +315,21 @@ def describe(choice: str, system: System_, texts: Mapping[str, str] = MappingPro
         "parameters": parameters,
         "slow": slow,
         "coefficients": choice == GIVEN and isinstance(system, ELinear),
+        "contacts": [[key, catalogue[key].title] for key in keys_at_contacts(choice)],
     }
+
+
+def rest_sentence(choice: str, parameters: Mapping[str, float]) -> str:
+    """Return which contacts of a mechanism stick at rest; "" of one contact, and where nothing can be said."""
+    example, keys = catalogue.get(choice), keys_at_contacts(choice)
+    if example is None or example.mechanism is None:
+        return ""
+    made = example.mechanism(**{name: value for name, value in parameters.items() if name in example.ranges})
+    found = made.decide((0.0,) * len(made.names))
+    names = (catalogue[key].title.rpartition(": ")[2] for key in keys)
+    keys_by_kind = {"stick": "at rest, stick", "slip": "at rest, slip"}
+    told = (say(keys_by_kind[kind], contact=name) for kind, name in zip(found.kinds, names, strict=True))
+    return say("at rest", contacts=", ".join(told))
 
 
 def slow_symbols(choice: str, system: System_) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from codim2_core.examples import catalogue
+from codim2_core.examples.offered import keys_at_contacts
 
 from .choices import OWN_AXIS, SLOW_CONTROLS
 from .chosen_system import NORMAL, has_atlas, starting_launch, starting_z
@@ -13,7 +14,7 @@ from .chosen_system import NORMAL, has_atlas, starting_launch, starting_z
 def opening_values(choice: str) -> dict[str, Any]:
     """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing.
 
-    And a panel that has something to show of it.
+    And a panel that has something to show of it; of a mechanism with several contacts a second portrait, of another.
     """
     z = (*starting_z(choice), *(0.0,) * len(SLOW_CONTROLS))
     _, t_end = starting_launch(choice)
@@ -22,7 +23,13 @@ def opening_values(choice: str) -> dict[str, Any]:
     motion = {"launch": opening_launch(choice), "t_end": t_end}
     axes = {"drift": "z", "across": across, "up": up, "along": across}
     panel = "atlas" if has_atlas(choice) else "numbers"
-    return {"texts": {}, "parameters": {}, **slow, **motion, **axes, "panel": panel}
+    beside = next((portrait_of_system(key) for key in keys_at_contacts(choice) if key != choice), "")
+    return {"texts": {}, "parameters": {}, **slow, **motion, **axes, "panel": panel, "beside": beside}
+
+
+def portrait_of_system(choice: str) -> str:
+    """Return the text of a second portrait that differs in the system alone."""
+    return f"system={choice}"
 
 
 def opening_launch(choice: str) -> str:

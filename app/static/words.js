@@ -120,6 +120,7 @@ export const SAYS = {
   gone: "does not exist at this setting.",
   ends: "v₁₃ combines the limit vectors v₁ and v₃, and v₂₄ combines v₂ and v₄.",
   secondPortrait: "Second portrait",
+  contacts: "Contacts of this mechanism",
   differsIn: "differs in",
   systemItself: "the system",
   itsParameters: "its parameters",

@@ -36,7 +36,7 @@ from ..frame.work_queue import FailedResult
 from ..panels import registry
 from ..panels.parameters.axes import opening_axes
 from ..state.choices import SLIDER_AXES
-from ..state.chosen_system import GIVEN, System_, describe
+from ..state.chosen_system import GIVEN, System_, describe, rest_sentence
 from ..state.cleaning import InputError, clean
 from ..state.compatible_changes import compatible_changes, culprit
 from ..state.controls import TYPED_IN, ExplorerState, first_values, preset_values
@@ -315,6 +315,10 @@ class Frames:
         if now.get("system") != key and isinstance(scene.system, ELinear | System):
             now["system"] = key
             header["system"] = describe(choice, scene.system, values["texts"])
+        own = (choice, tuple(values["parameters"].items()))
+        if now.get("at_rest") != own:
+            now["at_rest"] = own
+            header["at_rest"] = rest_sentence(choice, values["parameters"])
 
     def publish(self) -> None:
         """Let the state follow what has been drawn, as one change; its watchers run now.

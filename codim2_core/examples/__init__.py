@@ -13,9 +13,11 @@ from .attracting_repelling import attracting_repelling
 from .ball import Ball
 from .ball_in_pool import ball_in_pool
 from .ball_on_turntable import ball_on_turntable
+from .cart_on_two_wheels import cart_on_two_wheels
 from .example import GRAVITY, Example
 from .nonunique_sliding import nonunique_sliding
 from .offered import catalogue, register, unregister
+from .plate_on_three_feet import plate_on_three_feet
 from .spinning_annulus import spinning_annulus
 from .spinning_disc import spinning_disc
 from .tilting_block import tilting_block
@@ -29,8 +31,10 @@ __all__ = [
     "attracting_repelling",
     "ball_in_pool",
     "ball_on_turntable",
+    "cart_on_two_wheels",
     "catalogue",
     "nonunique_sliding",
+    "plate_on_three_feet",
     "register",
     "spinning_annulus",
     "spinning_disc",

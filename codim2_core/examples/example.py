@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import wraps
 from numbers import Real
 from types import MappingProxyType
+from typing import Any
 
+from ..mechanics.several.contacts import Contacts
 from ..systems.bounds import MAX_NUMBER
 from ..systems.elinear import ELinear
 from ..systems.typed import System
@@ -26,6 +29,17 @@ def check_physics(above: Mapping[str, float], least: Mapping[str, float] = Mappi
     for name, value in least.items():
         if isinstance(value, Real) and -MAX_NUMBER <= value < 0.0:
             raise ValueError(f"{name} is {value:g}; give a number of at least 0.")
+
+
+def _system_at_contact(mechanism: Callable[..., Contacts], i: int, key: str) -> Callable[..., ELinear | System]:
+    """Return the function of this name that makes the system at contact i."""
+
+    @wraps(mechanism)
+    def make(*values: float, **named: float) -> ELinear | System:
+        return mechanism(*values, **named).at(i)
+
+    make.__name__ = make.__qualname__ = key
+    return make
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +68,9 @@ class Example:
         For how long.
     ball : Ball or None
         What its states say if it is a ball: then it is seen to roll.
+    mechanism : callable or None
+        Of one with several contacts, the function that makes it, of the same parameters; `make` is its system at the
+        set of one of them, while the others slip.
     """
 
     make: Callable[..., ELinear | System]
@@ -67,6 +84,7 @@ class Example:
     launch: tuple[float, ...]
     t_end: float
     ball: Ball | None = None
+    mechanism: Callable[..., Contacts] | None = None
 
     @property
     def key(self) -> str:
@@ -92,3 +110,24 @@ class Example:
                 f"{self.key} starts at z with {m} values, and gives {len(self.slow)} slow variables and a state of "
                 f"{len(self.launch)} values; give {m} and {2 + m}."
             )
+
+
+def examples_at_contacts(
+    mechanism: Callable[..., Contacts], titles: Mapping[str, str], title: str, **shared: Any
+) -> tuple[Example, ...]:
+    """Return an example for each contact of a mechanism, in their order.
+
+    Parameters
+    ----------
+    mechanism : callable
+    titles : mapping of str to str
+        For each contact its key, and what it is called.
+    title : str
+        What people call the mechanism.
+    **shared
+        Fields of `Example` that all have in common.
+    """
+    return tuple(
+        Example(_system_at_contact(mechanism, i, key), f"{title}: {name}", mechanism=mechanism, **shared)
+        for i, (key, name) in enumerate(titles.items())
+    )

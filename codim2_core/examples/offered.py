@@ -1,4 +1,4 @@
-"""The examples: one file each, and one line each here. What offers them reads `catalogue`."""
+"""The examples: a file and a line each, with several contacts one file for all. What offers them reads `catalogue`."""
 
 from __future__ import annotations
 
@@ -20,10 +20,22 @@ EXAMPLE_NAMES = (
     "spinning_annulus",
     "towed_wheel",
 )
-LISTED: tuple[Example, ...] = tuple(import_module(f".{name}", __package__).EXAMPLE for name in EXAMPLE_NAMES)
+MECHANISM_NAMES = ("cart_on_two_wheels", "plate_on_three_feet")  # with several contacts: an example at each
+LISTED: tuple[Example, ...] = (
+    *(import_module(f".{name}", __package__).EXAMPLE for name in EXAMPLE_NAMES),
+    *(one for name in MECHANISM_NAMES for one in import_module(f".{name}", __package__).EXAMPLES),
+)
 
 _examples: dict[str, Example] = {example.key: example for example in LISTED}
 catalogue: Mapping[str, Example] = MappingProxyType(_examples)  # by key, in the order of menus; grows with `register`
+
+
+def keys_at_contacts(key: str) -> tuple[str, ...]:
+    """Return the keys of the examples at all contacts of the mechanism of one; () where it has one contact."""
+    found = catalogue.get(key)
+    if found is None or found.mechanism is None:
+        return ()
+    return tuple(other.key for other in catalogue.values() if other.mechanism is found.mechanism)
 
 
 def register(example: Example) -> Example:

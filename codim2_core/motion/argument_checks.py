@@ -7,7 +7,6 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import short_repr
 from ..arrays import Array
 from ..systems.kinds import AnySystem
 
@@ -21,18 +20,6 @@ def checked_span(t_span: ArrayLike) -> tuple[float, float]:
     if not (math.isfinite(t_start) and math.isfinite(t_end) and t_start != t_end):
         raise ValueError(f"t_span is ({t_start}, {t_end}); give two different finite times.")
     return t_start, t_end
-
-
-def checked_times(times: ArrayLike | None, span: tuple[float, float]) -> Array | None:
-    """Check the times at which states are asked for: (k,), ascending, or descending where the span is."""
-    if times is None:
-        return None
-    asked = np.array(times, float)
-    if asked.ndim != 1 or not len(asked) or not (np.diff(asked if span[0] < span[1] else -asked) > 0.0).all():
-        raise ValueError(f"times is {short_repr(times)}; give times in order from {span[0]:g} to {span[1]:g}.")
-    if not min(span) <= asked.min() <= asked.max() <= max(span):
-        raise ValueError(f"times are {short_repr(times)}; give times from {span[0]:g} to {span[1]:g}.")
-    return np.sort(asked)
 
 
 def checked_state(state0: ArrayLike, m: int) -> Array:

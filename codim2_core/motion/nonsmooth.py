@@ -11,6 +11,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked_times
 from ..arrays import Array
 from ..initial_value.compiled_hybrid import run_hybrid
 from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
@@ -24,7 +25,7 @@ from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .argument_checks import checked_span, checked_states, checked_times, checked_tolerances, with_time
+from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
 from .limit.compiled_run_phases import PhaseBuilder
 from .limit.hybrid_run import AtEventError, HybridRun, StopError

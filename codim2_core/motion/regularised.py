@@ -10,6 +10,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..arguments import checked_times
 from ..arrays import Array
 from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards, field
@@ -22,7 +23,7 @@ from ..numerics.growth import BlowUpError
 from ..numerics.radau import Step, TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
-from .argument_checks import checked_span, checked_states, checked_times, checked_tolerances, with_time
+from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation

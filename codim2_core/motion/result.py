@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, read_only
+from ..arrays import Array
 from ..expressions.names import SLOW_NAMES
-from ..numerics.dense import Dense
-from ..results import Pictured, Tabled, column_rows, result_rows
-from ..tables import MAX_ROWS, frame, paragraphs, table_number
+from ..numerics.dense import Dense, DenseMotion
+from ..results import Tabled, result_rows
+from ..tables import MAX_ROWS, paragraphs, table_number
 from ..words import say
 from .delay import Delay
 from .locations import NO_POINTS, Ascent, Location
@@ -151,7 +151,7 @@ class Phase(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class Simulation(Pictured):
+class Simulation(DenseMotion):
     """A motion; arrays are read-only.
 
     Attributes
@@ -175,7 +175,6 @@ class Simulation(Pictured):
 
     _internal_: ClassVar[frozenset[str]] = frozenset({"motion", "sample"})
 
-    motion: Dense = field(repr=False)
     status: SimulationStatus
     reason: str
     eps: float
@@ -183,7 +182,6 @@ class Simulation(Pictured):
     events: tuple[Array, ...]
     _phases: Callable[[], tuple[Phase, ...]] = field(repr=False, compare=False)
     _variation: Callable[[tuple[str, ...]], Variation] = field(repr=False, compare=False)
-    _asked: Array | None = field(default=None, repr=False)
 
     def __repr__(self) -> str:
         phases = ", ".join(f"{one.kind} from {one.t_start:.6g}" for one in self.phases[:MAX_ROWS])
@@ -194,20 +192,6 @@ class Simulation(Pictured):
         return result_rows(self.phases) + paragraphs([self.reason])
 
     @property
-    def times(self) -> Array:
-        """Times that were asked for, or the ends of the steps."""
-        return self.motion.times if self._asked is None else self._asked
-
-    @property
-    def states(self) -> Array:
-        """States there."""
-        return self.motion.states if self._asked is None else self._sampled
-
-    @cached_property
-    def _sampled(self) -> Array:
-        return read_only(self.motion(self.times))
-
-    @property
     def success(self) -> bool:
         """Whether it came to the end of its span, or to a terminal event: as SciPy's `solve_ivp` says it."""
         return self.status in (SimulationStatus.T_END, SimulationStatus.EVENT)
@@ -216,13 +200,6 @@ class Simulation(Pictured):
     def message(self) -> str:
         """The reason, by the name that SciPy's results have for it."""
         return self.reason
-
-    def sample(self, times: Array | None) -> Simulation:
-        """Return the motion with these of its times; None is the ends of its steps."""
-        if times is None:
-            return self
-        covered = (times >= self.motion.times[0]) & (times <= self.motion.times[-1])
-        return replace(self, _asked=read_only(times[covered]))
 
     @cached_property
     def phases(self) -> tuple[Phase, ...]:
@@ -276,25 +253,6 @@ class Simulation(Pictured):
         drift = np.abs(rho[near] * ebar[near] / self.eps - 1.0)
         return float(drift.max()) if near.any() else 0.0
 
-    def dense(self, t: ArrayLike) -> Array:
-        """State at any time, from the polynomials of the steps.
-
-        Parameters
-        ----------
-        t : float or (...,)
-            Within the span of the motion.
-
-        Returns
-        -------
-        ndarray (..., 2 + m)
-
-        Raises
-        ------
-        ValueError
-            t is outside the times covered, or not finite.
-        """
-        return self.motion(t)
-
     def phase_at(self, t: float) -> Phase | None:
         """Return the phase at time t, at a change of phases the later one; None if the motion stopped at once."""
         self.motion(t)  # raises where t is outside
@@ -307,27 +265,6 @@ class Simulation(Pictured):
         on a limit cycle is drawn by the orbit that winds onto it.
         """
         return drawn_curve(self.motion, self.phases, self.eps)
-
-    def _records(self) -> Iterator[dict[str, Any]]:
-        return column_rows(self._columns(self.times, self.states))
-
-    def to_frame(self, t: ArrayLike | None = None) -> Any:
-        """Return the motion as a pandas DataFrame: a row a time, columns t, x, y, z1, ..., zm, phase and onto.
-
-        Parameters
-        ----------
-        t : (k,), optional
-            Times within its span; left out, `times`.
-
-        Raises
-        ------
-        ValueError
-            A time is outside, t is no list of times, or pandas is not installed.
-        """
-        when = self.times if t is None else np.asarray(t, float)
-        if when.ndim != 1:
-            raise ValueError(f"t has shape {when.shape}; give a list of times.")
-        return frame(self._columns(when, self.states if t is None else self.dense(when)))
 
     def _columns(self, when: Array, states: Array) -> dict[str, Any]:
         named = dict(zip(("x", "y", *SLOW_NAMES), states.T, strict=False))

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
+from ..arrays import Array, read_only
 from ..equality import ByValue
+from ..results import Pictured, column_rows
+from ..tables import frame
 from .radau import STAGES, Step
 
 
@@ -76,6 +80,81 @@ class Dense(ByValue):
     def in_step(self, i: int, u: float) -> Array:
         """State (2 + m,) at the fraction u of step i."""
         return self.states[i] + self.polynomials[i] @ (u ** np.arange(1, self.polynomials.shape[2] + 1))
+
+
+@dataclass(frozen=True, eq=False)
+class DenseMotion(Pictured):
+    """A motion as a result: its states at the times that were asked for, at any other time, and as a table."""
+
+    _internal_: ClassVar[frozenset[str]] = frozenset({"motion", "sample"})
+
+    motion: Dense = field(repr=False)
+    _asked: Array | None = field(default=None, repr=False, kw_only=True)
+
+    @property
+    def times(self) -> Array:
+        """Times that were asked for, or the ends of the steps."""
+        return self.motion.times if self._asked is None else self._asked
+
+    @property
+    def states(self) -> Array:
+        """States there."""
+        return self.motion.states if self._asked is None else self._sampled
+
+    @cached_property
+    def _sampled(self) -> Array:
+        return read_only(self.motion(self.times))
+
+    def sample(self, times: Array | None) -> Self:
+        """Return the motion with these of its times; None is the ends of its steps."""
+        if times is None:
+            return self
+        covered = (times >= self.motion.times[0]) & (times <= self.motion.times[-1])
+        return replace(self, _asked=read_only(times[covered]))
+
+    def dense(self, t: ArrayLike) -> Array:
+        """State at any time, from the polynomials of the steps.
+
+        Parameters
+        ----------
+        t : float or (...,)
+            Within the span of the motion.
+
+        Returns
+        -------
+        ndarray (..., n)
+
+        Raises
+        ------
+        ValueError
+            t is outside the times covered, or not finite.
+        """
+        return self.motion(t)
+
+    def _columns(self, when: Array, states: Array) -> dict[str, Any]:
+        """Return the columns of a table of these times."""
+        raise NotImplementedError
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        return column_rows(self._columns(self.times, self.states))
+
+    def to_frame(self, t: ArrayLike | None = None) -> Any:
+        """Return the motion as a pandas DataFrame: a row a time, with the state and the phase.
+
+        Parameters
+        ----------
+        t : (k,), optional
+            Times within its span; left out, `times`.
+
+        Raises
+        ------
+        ValueError
+            A time is outside, t is no list of times, or pandas is not installed.
+        """
+        when = self.times if t is None else np.asarray(t, float)
+        if when.ndim != 1:
+            raise ValueError(f"t has shape {when.shape}; give a list of times.")
+        return frame(self._columns(when, self.states if t is None else self.dense(when)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,6 +16,13 @@ from ..equality import ByValue
 from ..results import Listed
 
 Affine = tuple[float, float, float, float, float, float]
+#: What the core alone asks of a system at one z, of either kind.
+INTERNAL_OF_FROZEN = frozenset(
+    {
+        "affine", "as_given", "clock", "frozen", "key", "moves_with_z", "normal_form", "numbers", "reads_position",
+        "size", "slow_key", "speed", "turn", "typed", "value_of",
+    }
+)  # fmt: skip
 
 
 @lru_cache(maxsize=16)
@@ -51,30 +58,7 @@ class Coefficients(Listed, ByValue):
     rotation: float = 0.0
     given: Affine | None = None
 
-    _internal_: ClassVar[frozenset[str]] = frozenset(
-        {
-            "affine",
-            "as_given",
-            "by_rotation_near",
-            "clock",
-            "frozen",
-            "given",
-            "key",
-            "moves_with_z",
-            "normal_form",
-            "numbers",
-            "plane",
-            "reads_position",
-            "size",
-            "slow_key",
-            "speed",
-            "turn",
-            "typed",
-            "value_of",
-            "varied",
-            "z",
-        }
-    )
+    _internal_: ClassVar[frozenset[str]] = INTERNAL_OF_FROZEN | {"by_rotation_near", "given", "plane", "varied", "z"}
     frozen: ClassVar[bool] = True
     clock: ClassVar[str] = ""
     moves_with_z: ClassVar[bool] = False

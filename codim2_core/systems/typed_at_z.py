@@ -17,7 +17,7 @@ from ..expressions.expression import Expression
 from ..expressions.names import FAST_NAMES, SLOW_NAMES, number_names
 from ..results import Listed
 from .bounds import MAX_NUMBER, MIN_NUMBER, at_place
-from .coefficients import Affine, Coefficients
+from .coefficients import INTERNAL_OF_FROZEN, Affine, Coefficients
 from .elinear import ELinear
 from .typed_formulas import Formulas
 
@@ -40,25 +40,7 @@ class Frozen(Listed):
     system: Formulas
     z: tuple[float, ...]
 
-    _internal_: ClassVar[frozenset[str]] = frozenset(
-        {
-            "affine",
-            "as_given",
-            "clock",
-            "frozen",
-            "key",
-            "moves_with_z",
-            "normal_form",
-            "numbers",
-            "reads_position",
-            "size",
-            "slow_key",
-            "speed",
-            "turn",
-            "typed",
-            "value_of",
-        }
-    )
+    _internal_: ClassVar[frozenset[str]] = INTERNAL_OF_FROZEN
     frozen: ClassVar[bool] = True
     clock: ClassVar[str] = ""
     moves_with_z: ClassVar[bool] = False

@@ -91,3 +91,25 @@ def test_before_and_after_and_the_papers_beside_ones_own(open_page):
     page.click(".reset").kept()
     assert own(page) == {}
     assert page.complaints == []
+
+
+def test_a_mechanism_opens_with_the_hemispheres_of_two_contacts_beside_each_other(open_page):
+    page = open_page(viewport=WIDE).open()
+    page.find(".system-box select").select_option("plate_at_foot_1")
+    page.settle()
+    until(second(page), "values.system === 'plate_at_foot_2' && values.z === 0.6")
+    assert page.find(".at-rest").text_content().endswith("foot 1 sticks, foot 2 sticks, foot 3 sticks.")
+    page.find(".second-what").select_option("plate_at_foot_3")
+    until(second(page), "values.system === 'plate_at_foot_3'")
+    page.type("slow-z", "0.9")
+    until(second(page), "values.z === 0.9 && values.system === 'plate_at_foot_3'")
+    box = page.page.locator("[data-control=parameter-F] .number")
+    box.fill("7")
+    box.press("Enter")
+    until(second(page), "values.parameters.F === 7")
+    page.until("root.querySelector('.at-rest').textContent.includes('begins to slip')")
+    page.page.reload()
+    until(second(page), "values.system === 'plate_at_foot_3' && values.parameters.F === 7")
+    page.find(".system-box select").select_option("ball_in_pool")
+    page.until("root.explorer.values.beside === '' && root.querySelector('.at-rest').hidden")
+    assert page.complaints == []

@@ -76,7 +76,7 @@ GOOD = {
     c2.bifurcations.saddle_node: MATRIX,
     c2.examples.register: {"example": None},
     c2.examples.unregister: {"key": "nothing"},
-    **{example.make: {} for example in c2.examples.catalogue.values()},
+    **{example.mechanism or example.make: {} for example in c2.examples.catalogue.values()},
     c2.mechanics.contact: {
         "M": np.eye(2), "J": np.eye(2), "force": (0.3, 0), "mu": 0.2, "normal": 1.0, "velocities": ("u", "v"),
     },

@@ -3,7 +3,8 @@
 Runs all tests that Hypothesis makes examples for, with the examples of one seed after the other, until the time is over
 or one fails. The seed is printed; what was found becomes an ``@example`` of its test.
 
-``--ways`` compares what can be had in two ways, of random systems: see `ways`.
+``--ways`` compares what can be had in two ways, of random systems: see `ways`. ``--contacts`` does so of random plates
+on several feet: see `contacts`.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ import subprocess
 import sys
 import time
 
-from .ways import compare
+from . import contacts
+from .ways import CHECKS, compare
 
 FOLDERS = ("tests/core", "tests/app", "tests/stress")
 
@@ -37,8 +39,11 @@ def main(words: list[str]) -> int:
     parser.add_argument("--seconds", type=float, default=600.0, help="as long as it may take (600)")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--ways", action="store_true", help="compare what can be had in two ways instead")
+    parser.add_argument("--contacts", action="store_true", help="compare motions of plates with another solver instead")
     options = parser.parse_args(words)
-    return (compare if options.ways else properties)(options.seconds, options.seed)
+    if options.ways or options.contacts:
+        return compare(options.seconds, options.seed, contacts.CHECKS if options.contacts else CHECKS)
+    return properties(options.seconds, options.seed)
 
 
 if __name__ == "__main__":

@@ -205,6 +205,7 @@ ELSEWHERE = {
         "values left out",
     ),
     "app/state/test_links.py": ("address changed", "address too long", "part of the picture", "views of a link"),
+    "app/view/test_refresh.py": ("at rest", "at rest, stick", "at rest, slip"),
     "app/view/test_refused.py": (
         "address names",
         "address of a later version",

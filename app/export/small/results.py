@@ -17,10 +17,12 @@ from codim2_core.cycles.limit_cycles import LimitCycles
 from codim2_core.diagrams.eigenvalue_path import LinearisationPath
 from codim2_core.diagrams.result import Branches
 from codim2_core.figures.preset import Preset
+from codim2_core.mechanics.several.result import ContactMotion
 from codim2_core.motion.periodic.response_result import ResponseCurve
 from codim2_core.motion.periodic.result import PeriodicMotion
 from codim2_core.motion.result import Simulation
 from codim2_core.nullcline.nullclines import Nullclines
+from codim2_core.numerics.dense import DenseMotion
 from codim2_core.orbits.trajectories import Trajectories
 from codim2_core.portrait.basins import Basins
 from codim2_core.portrait.separatrix import Separatrices
@@ -127,7 +129,13 @@ def _separatrices(result: Separatrices) -> Sketch:
 
 @sketch.register
 def _simulation(result: Simulation) -> Sketch:
-    return _over_time(result, [False] * result.states.shape[1])
+    return _over_time(result, _state_names(result), [False] * result.states.shape[1])
+
+
+@sketch.register
+def _contact_motion(result: ContactMotion) -> Sketch:
+    clocks = np.isclose(result.states - result.states[0], (result.times - result.times[0])[:, None]).all(axis=0)
+    return _over_time(result, result.names, clocks)
 
 
 @sketch.register
@@ -135,11 +143,14 @@ def _periodic(result: PeriodicMotion) -> Sketch:
     run = result.run
     clock = run.states[:1, 2:] + np.outer((run.times - run.times[0]) / result.period, result.advance)
     even = (result.advance != 0.0) & np.isclose(run.states[:, 2:], clock).all(axis=0)
-    return _over_time(run, [False, False, *even])
+    return _over_time(run, _state_names(run), [False, False, *even])
 
 
-def _over_time(run: Simulation, left_out: Sequence[bool]) -> LineChart:
-    names = ("x", "y", *(f"z{i + 1}" for i in range(run.states.shape[1] - 2)))
+def _state_names(run: Simulation) -> tuple[str, ...]:
+    return ("x", "y", *(f"z{i + 1}" for i in range(run.states.shape[1] - 2)))
+
+
+def _over_time(run: DenseMotion, names: Sequence[str], left_out: Sequence[bool]) -> LineChart:
     return LineChart([(n, run.times, run.states[:, i]) for i, n in enumerate(names) if not left_out[i]], "t", "")
 
 

@@ -45,13 +45,15 @@ export class Second {
     this.names = ""
     this.ready = false
     this.told = /** @type {Record<string, any>} */ ({}) // what the second has been told
+    this.contacts = /** @type {Record<string, string>} */ ({}) // of a mechanism with several: the system at each, and its title
     this.wide = matchMedia(WIDE)
     this.wide.addEventListener("change", () => this.sync())
     this.button.addEventListener("click", () => this.keep(this.page.values.beside ? {} : this.otherPsi()))
     this.find(".second-what").addEventListener("change", (event) => {
       const {value} = event.target
       event.target.value = ""
-      if (value) this.keep(value === "psi" ? this.otherPsi() : this.whole(value === "now" ? this.page.values : {...config.defaults, ...config.presets[value].values}))
+      if (value in this.contacts) this.keep({system: value})
+      else if (value) this.keep(value === "psi" ? this.otherPsi() : this.whole(value === "now" ? this.page.values : {...config.defaults, ...config.presets[value].values}))
     })
     this.find("details").addEventListener("toggle", () => this.list())
     this.find("details ul").addEventListener("change", (event) => this.share(event.target.value, event.target.checked))
@@ -154,9 +156,18 @@ export class Second {
     this.sync()
   }
 
-  /** A frame of the first: its name stands below its picture. */
-  applied({portrait}) {
+  /**
+   * A frame of the first: its name stands below its picture; at which contacts the second can be, in the list.
+   * @param {{portrait?: any, system?: any, at_rest?: string}} header
+   */
+  applied({portrait, system, at_rest}) {
     if (portrait) this.root.querySelector(".first-words").textContent = portrait.sentence
+    if (at_rest !== undefined) { this.find(".at-rest").textContent = at_rest; this.find(".at-rest").hidden = !at_rest }
+    if (!system) return
+    this.contacts = Object.fromEntries(system.contacts)
+    this.find(".second-contacts")?.remove()
+    const items = system.contacts.map(([key, title]) => `<option value="${key}">${escape(title)}</option>`)
+    if (items.length) this.find(".second-what").insertAdjacentHTML("beforeend", `<optgroup class="second-contacts" label="${SAYS.contacts}">${items.join("")}</optgroup>`)
   }
 }
 

@@ -157,10 +157,12 @@ class NonsmoothRun(ContactRun):
         dt = min(max(dt, 0.0), self.t_end - self.t)
         last = self.Y + dt * self.rate
         at_sets = arrived | self.sticks
-        last[: self.field.n] = project_velocities(self.field.at(last), last[: self.field.n], at_sets)
-        # whose rows depend on those of contacts that stop has stopped too
-        arrived = arrived | (~at_sets & (np.hypot(*self.field.at(last).x.T) <= self._near_set))
-        at_sets = arrived | self.sticks
+        stopped = at_sets
+        while stopped.any():  # whose rows depend on those of contacts that stop has stopped too
+            at_sets = at_sets | stopped
+            last[: self.field.n] = project_velocities(self.field.at(last), last[: self.field.n], at_sets)
+            stopped = ~at_sets & (np.hypot(*self.field.at(last).x.T) <= self._near_set)
+        arrived = at_sets & ~self.sticks
         self._take(Step(self.t, dt, self.Y, last, (last - self.Y)[:, None]), ends=self.t + dt >= self.t_end)
         before = self.sticks
         self._decide(at_sets)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import Enum
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...arrays import Array
-from ...numerics.dense import Dense
-from ...results import Result, Tabled, column_rows, result_rows
+from ...numerics.dense import DenseMotion
+from ...results import Result, Tabled, result_rows
 from ...tables import paragraphs, table_number
 from ...words import say
 
@@ -56,11 +55,14 @@ class ContactPhase(Tabled):
 
 
 @dataclass(frozen=True, eq=False)
-class ContactMotion(Result):
+class ContactMotion(DenseMotion):
     """A motion of a mechanism with several contacts; arrays are read-only.
 
     Attributes
     ----------
+    times : ndarray (k,)
+        Those that were asked for; else the ends of the steps.
+    states : ndarray (k, N)
     names : tuple of str
         Velocities, then positions: the columns of `states`.
     phases : tuple of ContactPhase
@@ -73,37 +75,16 @@ class ContactMotion(Result):
     """
 
     names: tuple[str, ...]
-    motion: Dense = field(repr=False)
     phases: tuple[ContactPhase, ...]
     status: ContactStatus
     reason: str
     eps: float
 
-    @property
-    def times(self) -> Array:
-        """Ends of the steps."""
-        return self.motion.times
-
-    @property
-    def states(self) -> Array:
-        """States there (k, N)."""
-        return self.motion.states
-
-    def dense(self, t: ArrayLike) -> Array:
-        """Return states (..., N) at any times (...,) within the span.
-
-        Raises
-        ------
-        ValueError
-            A time is outside.
-        """
-        return self.motion(t)
-
-    def _records(self) -> Iterator[dict[str, Any]]:
+    def _columns(self, when: Array, states: Array) -> dict[str, Any]:
         starts = [phase.t_start for phase in self.phases]
-        at = np.maximum(np.searchsorted(starts, self.times, side="right") - 1, 0)
+        at = np.maximum(np.searchsorted(starts, when, side="right") - 1, 0)
         kinds = [", ".join(self.phases[i].kinds) for i in at]
-        return column_rows({"t": self.times, **dict(zip(self.names, self.states.T, strict=True)), "contacts": kinds})
+        return {"t": when, **dict(zip(self.names, states.T, strict=True)), "contacts": kinds}
 
     def _tables_(self) -> str:
         return result_rows(self.phases) + paragraphs([self.reason])

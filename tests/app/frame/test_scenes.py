@@ -61,3 +61,15 @@ def test_only_a_given_system_locks_controls():
     assert "a" in locked
     assert "f1" in locked
     assert not {"b", "d", "f2", "z"} & set(locked)
+
+
+def test_a_mechanism_with_several_contacts_opens_beside_another_of_its_contacts():
+    cart = {**values(), **complete_changes(values(), {"system": "cart_at_rear_wheel"})}
+    assert cart["beside"] == "system=cart_at_front_wheel"
+    assert complete_changes(cart, {"system": "plate_at_foot_2"})["beside"] == "system=plate_at_foot_1"
+    assert complete_changes(cart, {"system": "ball_in_pool"})["beside"] == ""
+    plate = {**values(), "system": "plate_at_foot_1", "beside": "system=plate_at_foot_3"}  # as chosen in the list
+    assert complete_changes(plate, {"system": "ball_in_pool"})["beside"] == ""
+    own = {**values(), "beside": "psi=tanh"}
+    assert "beside" not in complete_changes(own, {"system": "ball_in_pool"})
+    assert make_scene({**cart, "system": "cart_at_front_wheel"}).z == make_scene(cart).z == (0.5, 4.0, 5.0)

@@ -257,3 +257,10 @@ def test_cycles_that_are_not_there_yet_keep_no_frame_waiting():
     header, _ = unpack(frames.answer({"set": {"psi": "custom", "psi_text": "1/(1+s)**3"}}))
     assert header["errors"] == {}
     assert "picture" in header["late"]
+
+
+def test_what_sticks_at_rest_is_told_of_a_mechanism_and_when_its_parameters_change_it(frames):
+    assert ask(frames, system="cart_at_front_wheel")[0]["at_rest"].endswith(": front wheel sticks, rear wheel sticks.")
+    assert "at_rest" not in ask(frames, z=0.6)[0]
+    assert ask(frames, parameters={"D": 60.0})[0]["at_rest"].endswith("front wheel sticks, rear wheel begins to slip.")
+    assert ask(frames, system="ball_in_pool")[0]["at_rest"] == ""

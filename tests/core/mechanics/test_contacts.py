@@ -12,27 +12,17 @@ import codim2_core as c2
 from codim2_core import psi
 from codim2_core.mechanics import contact, contacts
 
+from .plates import INERTIA, MASS, MU, foot, plate, shaken_plate
+
 EYE = ((1, 0), (0, 1))
-PLATE_MASS, PLATE_INERTIA, RADIUS, MU, G = 2.0, 0.5, 0.7, 0.3, 9.81
+RADIUS, G = 0.7, 9.81
 DRIVEN = ("F*cos(2*t) + 0.3*v", "1")
-
-
-def foot(x, y, normal, mu=MU):
-    """Return a foot of a rigid plate at (x, y), velocities (u, v, w) in its own axes."""
-    return ((1, 0, -y), (0, 1, x)), mu, normal
-
-
-def plate(feet, force=(0, 0, 0), **more):
-    """Return a plate that slides on its feet: in its own axes, (u, v) turns with it."""
-    m, own = PLATE_MASS, ("{0}*w*v + ({1})", "-{0}*w*u + ({1})", "0*{0} + ({1})")
-    rows = [text.format(m, part) for text, part in zip(own, force, strict=True)]
-    return contacts(np.diag([m, m, PLATE_INERTIA]).tolist(), feet, rows, ("u", "v", "w"), **more)
 
 
 def three_feet():
     """Return a plate on three feet of equal load."""
     angles = 0.3 + np.arange(3) * math.tau / 3.0
-    load = PLATE_MASS * G / 3.0
+    load = MASS * G / 3.0
     return plate([foot(RADIUS * math.cos(a), RADIUS * math.sin(a), load) for a in angles.tolist()])
 
 
@@ -90,7 +80,7 @@ def test_a_plate_that_translates_is_a_point_mass_and_one_that_spins_stops_as_its
     assert run.phases[0].t_end == pytest.approx(1.0 / (MU * G), rel=1e-9)
     assert run.dense(0.1) == pytest.approx(np.array([0.6, 0.8, 0.0]) * (1.0 - 0.1 * MU * G), abs=1e-9)
     spun = whole.simulate_nonsmooth((0.0, 0.0, 3.0), (0.0, 1.0))
-    assert spun.phases[0].t_end == pytest.approx(3.0 * PLATE_INERTIA / (MU * PLATE_MASS * G * RADIUS), rel=1e-9)
+    assert spun.phases[0].t_end == pytest.approx(3.0 * INERTIA / (MU * MASS * G * RADIUS), rel=1e-9)
 
 
 def test_spin_and_slip_end_together_as_an_independent_quadrature_says():
@@ -102,9 +92,9 @@ def test_spin_and_slip_end_together_as_an_independent_quadrature_says():
     def rate(_t, state):
         u, v, w = state
         slip = np.array([u - w * place[1], v + w * place[0]])
-        pull = -MU * PLATE_MASS * G / 3.0 * slip / np.hypot(*slip)
-        turning = (place[0] * pull[1] - place[1] * pull[0]).sum() / PLATE_INERTIA
-        return [w * v + pull[0].sum() / PLATE_MASS, -w * u + pull[1].sum() / PLATE_MASS, turning]
+        pull = -MU * MASS * G / 3.0 * slip / np.hypot(*slip)
+        turning = (place[0] * pull[1] - place[1] * pull[0]).sum() / INERTIA
+        return [w * v + pull[0].sum() / MASS, -w * u + pull[1].sum() / MASS, turning]
 
     def stop(_t, state):
         return np.abs(state).max() - 1e-6
@@ -153,6 +143,24 @@ def test_the_regularised_motion_comes_to_the_limit_like_eps():
     assert errors[1] / errors[2] == pytest.approx(10.0, rel=0.1)
 
 
+def test_after_a_departure_the_regularised_motion_is_ahead_like_eps_to_four_fifths():
+    """The force passes its bound r as 1 + alpha t; there 1 - |e_Psi| = (eps/x)^2/2 for Psi = 1.
+
+    So the slip follows ``x' = r (alpha t + (eps/x)^2/2)``, in the limit ``r alpha t``. With x = A X, t = B T,
+    A = r alpha B^2 and B^5 = eps^2/(r^2 alpha^3) this is X' = T + 1/(2 X^2) without eps: X - T^2/2 comes to a number,
+    and A is of the order eps^(4/5): neither eps nor eps log(1/eps).
+    """
+    system, start, r, alpha = two_blocks(), (0.0,) * 5, 3.0, 4.0 / 3.0 * math.sin(2.0 * math.pi / 3.0)
+    inner = solve_ivp(lambda T, X: T + 0.5 / X**2, (-30.0, 30.0), [1.0 / math.sqrt(60.0)], "Radau", rtol=1e-10)
+    ahead, t, errors = inner.y[0, -1] - 450.0, math.pi / 3.0 + 0.03, []
+    for eps in (1e-6, 1e-7, 1e-8):
+        own = system.simulate(psi.constant(), start, (0.0, t), eps=eps).states[-1, 0]
+        errors.append(own - system.simulate_nonsmooth(start, (0.0, t)).states[-1, 0])
+        B = (eps**2 / (r**2 * alpha**3)) ** 0.2
+        assert errors[-1] == pytest.approx(ahead * r * alpha * B**2, rel=0.01)
+    assert np.diff(np.log10(errors)) == pytest.approx([-0.8, -0.8], abs=0.02)
+
+
 def test_the_regularised_motion_keeps_the_bound_of_the_theorem():
     """The gyroscopic force has the Lipschitz constant |(u, v)| sqrt(m/I) in the kinetic energy."""
     whole, start, times = three_feet(), (1.0, 0.2, 2.0), np.linspace(0.0, 1.0, 100)
@@ -160,7 +168,7 @@ def test_the_regularised_motion_keeps_the_bound_of_the_theorem():
     for eps in (1e-2, 1e-3):
         own = whole.simulate(psi.constant(), start, (0.0, 1.0), eps=eps).dense(times)
         for t, apart in zip(times.tolist(), own - limit, strict=True):
-            bound = t * eps * MU * PLATE_MASS * G * math.exp(2.0 * constant * t)
+            bound = t * eps * MU * MASS * G * math.exp(2.0 * constant * t)
             assert kinetic(whole, apart) <= bound + 1e-15
 
 
@@ -220,7 +228,7 @@ def test_a_plate_turns_about_its_heavy_foot():
     whole = plate([foot(0.0, 0.0, heavy), foot(2.0, 0.0, light)], (0, 0, torque))
     found = whole.decide((0.0, 0.0, 0.0))
     assert found.kinds == ("stick", "slip")
-    assert found.acceleration == pytest.approx([0.0, 0.0, (torque - 2.0 * MU * light) / PLATE_INERTIA])
+    assert found.acceleration == pytest.approx([0.0, 0.0, (torque - 2.0 * MU * light) / INERTIA])
     assert found.e[0] == pytest.approx([0.0, -light / heavy])  # it holds what the light foot pushes sideways
 
 
@@ -294,14 +302,27 @@ def test_a_contact_that_loses_its_load_ends_the_motion():
         one.decide((0.0, 0.0, 2.0))
 
 
+def shaken(seed):
+    rng = np.random.default_rng(seed)
+    return shaken_plate(rng.normal(size=(3, 2)), rng.uniform(2.0, 12.0, 3), rng.uniform(5.0, 8.0, 3))
+
+
+@pytest.mark.parametrize(("seed", "rtol"), [(14, 1e-6), (15, 1e-6), (3, 1e-4), (7, 1e-4)])
+def test_contacts_that_stop_because_others_do_have_no_slip_left_however_loose_the_tolerance(seed, rtol):
+    """Three feet have six rows in three velocities: where two stop, so does the third."""
+    whole, start = shaken(seed), (0.0, 0.0, 0.0, 0.0)
+    run = whole.simulate_nonsmooth(start, (0.0, 3.0), rtol=rtol, atol=1e-2 * rtol, max_steps=2000)
+    assert run.status.name == "T_END"
+    for phase in run.phases:
+        still = np.array(phase.kinds) == "stick"
+        inside = (run.times >= phase.t_start) & (run.times < phase.t_end)
+        assert np.abs(whole.slips(run.states[inside])[:, still]).max(initial=0.0) < 1e-13
+
+
 @pytest.mark.parametrize("seed", [3, 8])
 def test_a_shaken_plate_on_redundant_feet_is_the_limit_of_the_regularised_one(seed):
     """It sticks, turns about a foot, slides on all and comes to rest, in every order."""
-    rng = np.random.default_rng(seed)
-    places, loads = rng.normal(size=(3, 2)).tolist(), rng.uniform(2.0, 12.0, 3).tolist()
-    Fx, Fy, torque = rng.uniform(5.0, 8.0, 3).tolist()
-    force = f"{Fx}*sin(2*t)", f"{Fy}*cos(2*t)", f"{torque}*cos(t)"
-    whole = plate([foot(x, y, load) for (x, y), load in zip(places, loads, strict=True)], force, rates={"t": 1})
+    whole = shaken(seed)
     start, times = (0.0, 0.0, 0.0, 0.0), np.linspace(0.0, 3.0, 200)
     run = whole.simulate_nonsmooth(start, (0.0, 3.0))
     assert run.status.name == "T_END"
@@ -309,3 +330,21 @@ def test_a_shaken_plate_on_redundant_feet_is_the_limit_of_the_regularised_one(se
     own = whole.simulate(psi.constant(), start, (0.0, 3.0), eps=1e-6)
     assert np.abs(own.dense(times) - run.dense(times)).max() < 1e-4  # of slips that are 0.1 and more
     assert max(np.abs(whole.slips(run.states)).max(axis=(1, 2))) > 0.1
+
+
+def test_a_motion_has_the_times_that_were_asked_for_a_table_and_a_picture():
+    whole, times = plate([foot(0.0, 0.5, 5.0)], rates={"t": 1}), np.linspace(0.0, 1.0, 7)
+    plain = whole.simulate_nonsmooth((1.0, 0.2, 0.0, 0.0), (0.0, 1.0))
+    run = whole.simulate_nonsmooth((1.0, 0.2, 0.0, 0.0), (0.0, 1.0), times=times)
+    assert run.times.tolist() == times.tolist()
+    assert run.states.tolist() == plain.dense(times).tolist()
+    assert run.dense(0.37).tolist() == plain.dense(0.37).tolist()
+    own = whole.simulate(psi.constant(), (1.0, 0.2, 0.0, 0.0), (0.0, 1.0), eps=1e-2, times=times)
+    assert own.states[:, 3] == pytest.approx(times)
+    table = run.to_frame([0.25, 0.5])
+    assert table["u"].tolist() == plain.dense([0.25, 0.5])[:, 0].tolist()
+    assert set(table["contacts"]) <= {"slip", "stick"}
+    drawn = run._repr_svg_()
+    assert [f">{name}<" in drawn for name in ("u", "v", "w")] == [True] * 3
+    with pytest.raises(ValueError, match="give times from 0 to 1"):
+        whole.simulate_nonsmooth((1.0, 0.2, 0.0, 0.0), (0.0, 1.0), times=[0.0, 2.0])

@@ -20,7 +20,7 @@ const SETTING = ["system", "texts", "parameters", "a", "f1", "psi", "n"]
 const FIRST = {system: "normal", texts: {}, parameters: {}, a: -2, f1: 0, psi: "constant", n: 2, psi_text: "1", layers: ["inside"], trajectories: 24, orbits: "", beside: "", preset: "one", panel: "lessons", z: 0}
 const slider = (name) => `<div class="control" data-control="${name}"><label>${name}!</label><input type="range" min="-2" max="3"></div>`
 const MARKUP = `<div class="codim2"><form class="controls">${["a", "f1", "n", "z"].map(slider).join("")}<select id="c2-psi"><option value="constant"><option value="hill"><option value="tanh"></select></form><button class="two"></button><p class="first-words"></p>
-  <div class="second" hidden><select class="second-what"><option value=""><option value="psi"><option value="now"><option value="one"></select><details><ul></ul></details><p class="second-narrow" hidden></p><div class="second-place"></div><p class="second-own"></p></div></div>`
+  <div class="second" hidden><select class="second-what"><option value=""><option value="psi"><option value="now"><option value="one"></select><details><ul></ul></details><p class="second-narrow" hidden></p><p class="at-rest" hidden></p><div class="second-place"></div><p class="second-own"></p></div></div>`
 const LOOK = {seen: [-1, 1, -1, 1], theme: "dark", times: 1}
 
 /** The page of the first portrait. */
@@ -168,6 +168,17 @@ test("the first portrait is named below its picture", () => {
   one.second.applied({portrait: {sentence: "Case I."}})
   one.second.applied(/** @type {any} */ ({}))
   assert.equal(one.find(".first-words").textContent, "Case I.")
+})
+
+test("of a mechanism the second can be at any contact, and what sticks at rest is told; another system takes both away", () => {
+  const one = first({system: "front"})
+  one.second.applied({at_rest: "At rest, front sticks.", system: {contacts: [["front", "Cart: front"], ["rear", "Cart: rear"]]}})
+  assert.deepEqual([one.find(".at-rest").textContent, one.find(".at-rest").hidden], ["At rest, front sticks.", false])
+  assert.deepEqual([...one.root.querySelectorAll(".second-contacts option")].map((it) => [it.getAttribute("value"), it.textContent]), [["front", "Cart: front"], ["rear", "Cart: rear"]])
+  one.choose("rear")
+  assert.deepEqual([one.own(), one.addresses[0][0].system, one.addresses[0][0].a], [{system: "rear"}, "rear", -2])
+  one.second.applied({at_rest: "", system: {contacts: []}})
+  assert.deepEqual([one.find(".at-rest").hidden, one.find(".second-contacts")], [true, null])
 })
 
 test("inside the frame: what the first tells is put, what a person moves is told, and nothing goes back and forth", () => {

@@ -75,8 +75,8 @@ export function packed(header, lines = {}, arrays = {}, exact = false) {
 
 export const EQUATOR = {label: ["Q₁", "Q₂"], x: [0.6, -0.8], y: [0.8, 0.6], label_x: [0.7, -0.9], label_y: [0.95, 0.7], shape: ["circle", "diamond"], filled: [1, 0], colour: ["attr", "rep"], size: [11, 13], theta: [0.9273, 2.4981], lambda_rho: [-1.5, 0.25], lambda_theta: [-0.3, 2], type: ["node", "saddle"], multiplicity: [1, 2]}
 export const CRITICAL = {label: ["C"], x: [0.2], y: [-0.35], shape: ["square"], filled: [1], colour: ["crit"], size: [12], sense: ["⊙"], kind: ["stable node"], e: [[0.2, -0.3]], x2: [[0.21, -0.33]], trace: [-3], determinant: [2], discriminant: [1], eigenvalues: [[[-1, 0], [-2, 0]]], slow_flow: [[0.4]]}
-export const SYSTEM = {choice: "normal", label: "friction of a disc", sentence: "Normal form.", coefficients: true, equations: "<b>eq</b>", parameters: [], slow: [{symbol: "z", range: [-4, 4]}]}
-export const OWN = {choice: "own", sentence: "Yours.", coefficients: false, equations: "<i>own</i>", parameters: [{name: "mu", symbol: "μ", value: 0.3, range: [0, 1]}], slow: [{symbol: "v", range: [-9, 9]}, {symbol: "w", range: [-1, 1]}]}
+export const SYSTEM = {choice: "normal", label: "friction of a disc", sentence: "Normal form.", coefficients: true, equations: "<b>eq</b>", parameters: [], slow: [{symbol: "z", range: [-4, 4]}], contacts: []}
+export const OWN = {choice: "own", sentence: "Yours.", coefficients: false, equations: "<i>own</i>", parameters: [{name: "mu", symbol: "μ", value: 0.3, range: [0, 1]}], slow: [{symbol: "v", range: [-9, 9]}, {symbol: "w", range: [-1, 1]}], contacts: []}
 const LINES = {
   inside: {counts: [3, 2], points: [0, 0, 8191, 4096, 16384, 0, -8191, -8191, -4096, 100], heads: [[8191, 4096, 10000], [-4096, 100, -20000]]},
   stable: {counts: [2], points: [0, 16384, 2000, 3000]},
