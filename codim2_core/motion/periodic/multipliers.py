@@ -138,7 +138,7 @@ def _product_eigenvalues(factors: Sequence[Array]) -> tuple[Complex, Array]:
     if len(factors) == 1:
         return _eigenvalues(factors[0])
     n = len(factors[0])
-    turned = np.eye(n)
+    turned = first = upper = np.eye(n)
     for _ in range(SWEEPS):
         first, upper = turned, np.eye(n)
         for factor in factors:
