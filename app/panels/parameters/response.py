@@ -24,8 +24,7 @@ from ..panel import Panel
 from .axes import available, missing_axes, spans_of
 from .diagram import tidy
 
-RTOL, ATOL = 1e-7, 1e-9
-MAX_POINTS = 240  # that the browser is sent
+MAX_SENT_MOTIONS = 240  # that the browser is sent
 
 
 def add(draft: FrameContext) -> None:
@@ -77,14 +76,14 @@ def response_columns(
         return forcing_period(vary(system, psi, (), along, value)[0]) or period
 
     forced = forcing_period(system) is not None
-    found = response_curve(system, state, period_of if forced else period, along, span, psi, eps, rtol=RTOL, atol=ATOL)
+    found = response_curve(system, state, period_of if forced else period, along, span, psi, eps)
     clocks = [bool(row.constant) for row in field(system).rows[2:]]
     return {"span": list(span), "forced": forced, "eps": eps, **curve_columns(found, clocks)}
 
 
 def curve_columns(found: ResponseCurve, clocks: list[bool]) -> dict[str, Any]:
     """Return a curve as numbers: of each motion the amplitude of all that is no clock, and its multipliers."""
-    kept = np.unique(np.rint(np.linspace(0, len(found) - 1, min(len(found), MAX_POINTS))).astype(int))
+    kept = np.unique(np.rint(np.linspace(0, len(found) - 1, min(len(found), MAX_SENT_MOTIONS))).astype(int))
     measured = [i for i, clock in enumerate(clocks) if not clock]
     which = measured[0] if measured else None
     amplitude = found.velocity_amplitude[:, 0] if which is None else found.amplitude[:, which]

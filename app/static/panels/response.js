@@ -42,19 +42,24 @@ class Response {
 
   go(value) { this.tools.move({[this.values.along]: value}) }
 
-  // The motions of the curve that are next to the present value, a stable one first.
+  // Where the curve passes the present value, stable first: the motion next to it, amplitude and period between two.
   get here() {
-    const {values, stable} = this.data, at = this.tools.valueOf(this.values.along)
-    const passed = values.flatMap((value, i) => (i && (value - at) * (values[i - 1] - at) <= 0 ? [Math.abs(value - at) < Math.abs(values[i - 1] - at) ? i : i - 1] : []))
-    return [...new Set(passed)].sort((one, other) => Number(stable[other]) - Number(stable[one]))
+    const {values, stable, amplitude, period} = this.data, at = this.tools.valueOf(this.values.along)
+    const passed = values.flatMap((high, k) => {
+      const low = values[k - 1]
+      if (!k || (high - at) * (low - at) > 0 || high === at && k < values.length - 1 || high === low) return []
+      const share = (at - low) / (high - low), between = (of) => of[k - 1] + share * (of[k] - of[k - 1])
+      return [{i: share > 0.5 ? k : k - 1, amplitude: between(amplitude), period: between(period)}]
+    })
+    return passed.sort((one, other) => Number(stable[other.i]) - Number(stable[one.i]))
   }
 
   // The motion at the present value from its start on, for three periods.
   overTime() {
-    const [i] = this.here
-    if (i === undefined) return
-    this.tools.choose("launch", this.data.starts[i].map(plain).join(", "))
-    this.tools.choose("t_end", Number((3 * this.data.period[i]).toPrecision(5)))
+    const [one] = this.here
+    if (!one) return
+    this.tools.choose("launch", this.data.starts[one.i].map(plain).join(", "))
+    this.tools.choose("t_end", Number((3 * one.period).toPrecision(5)))
     this.tools.choose("orbit", 0)
     this.tools.choose("panel", "orbits")
   }
@@ -82,8 +87,8 @@ class Response {
     const at = this.tools.valueOf(values.along)
     this.chart.at(at)
     this.svg.setAttribute("aria-valuenow", at)
-    const {amplitude, multipliers, period, stable} = this.data
-    this.find(".response-here").textContent = this.here.map((i) => `${stable[i] ? "Stable" : "Unstable"}: amplitude ${digits(amplitude[i])}, period ${digits(period[i])}, multipliers ${told(multipliers[i])}.`).join(" ")
+    const {multipliers, stable} = this.data
+    this.find(".response-here").textContent = this.here.map(({i, amplitude, period}) => `${stable[i] ? "Stable" : "Unstable"}: amplitude ${digits(amplitude)}, period ${digits(period)}, multipliers about ${told(multipliers[i])}.`).join(" ")
   }
 
   drawAll() {

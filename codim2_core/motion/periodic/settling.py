@@ -1,4 +1,4 @@
-"""Where a response curve may begin: the period of a forcing, read off the formulas, and what a motion settles to."""
+"""Beginnings of response curves: the period of a forcing, read off the formulas, and what a motion settles to."""
 
 from __future__ import annotations
 

@@ -32,7 +32,9 @@ from ..variation.result import Variation
 from .multipliers import rate_at
 from .result import PeriodicStatus
 
-MAX_GROWTH = 1e4  # of a change along a segment, in units of the motion's size; where it is more there are more segments
+MAX_SEGMENT_GROWTH = (
+    1e4  # of a change along a segment, in units of the motion's size; where it is more there are more segments
+)
 NULL_SINGULAR_VALUE = (
     1e-8  # singular values of M - 1, or of M if that is larger, that count as 0: nothing moves, as in a family
 )
@@ -143,7 +145,7 @@ class Shooting:
         for k in range(first, first + count) if self.eps > 0.0 else ():
             step = (variation.propagators[k % count, :n, :n] * scale)[np.ix_(self.free, self.free)]
             growth = step if k == cuts[-1] else step @ growth
-            if k > cuts[-1] and np.linalg.norm(growth, 2) > MAX_GROWTH:
+            if k > cuts[-1] and np.linalg.norm(growth, 2) > MAX_SEGMENT_GROWTH:
                 growth, cuts = step, [*cuts, k]
         starts = np.array([run.states[k % count] for k in cuts])
         times = np.array([run.times[k % count] + period * (k // count) for k in cuts])

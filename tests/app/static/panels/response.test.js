@@ -18,7 +18,7 @@ test("the panel response: stable parts are full, unstable ones dashed, multiplie
   const one = opened("response", {along: "own:w", "own:w": 1.75, zoom: 0, orbit: 1, launch: "", t_end: 8, panel: "response"})
   one.frame({response: CURVE, axes: [["own:w", "w"]]})
   assert.equal(one.all(".response .cycle.unstable").length, 2) // of the amplitude, and of the multiplier
-  assert.equal(one.find(".response-here").textContent, "Stable: amplitude 1.000, period 3.000, multipliers 0.250 ± 0.500i. Unstable: amplitude 1.500, period 3.000, multipliers 1.500.")
+  assert.equal(one.find(".response-here").textContent, "Stable: amplitude 0.969, period 3.188, multipliers about 0.250 ± 0.500i. Unstable: amplitude 1.531, period 2.969, multipliers about 1.500.")
   one.said()
   one.fire(one.find(".response-points button"), "click")
   assert.deepEqual(one.said(), [["move", {"own:w": 2.5}]])
