@@ -58,10 +58,8 @@ class Response {
   overTime() {
     const [one] = this.here
     if (!one) return
-    this.tools.choose("launch", this.data.starts[one.i].map(plain).join(", "))
-    this.tools.choose("t_end", Number((3 * one.period).toPrecision(5)))
-    this.tools.choose("orbit", 0)
-    this.tools.choose("panel", "orbits")
+    const launch = this.data.starts[one.i].map(plain).join(", "), t_end = Number((3 * one.period).toPrecision(5))
+    this.tools.open({...this.tools.values, launch, t_end, orbit: 0, panel: "orbits"})
   }
 
   fits() { return this.data && this.data.control === this.values?.along }

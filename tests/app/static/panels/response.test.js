@@ -23,7 +23,8 @@ test("the panel response: stable parts are full, unstable ones dashed, multiplie
   one.fire(one.find(".response-points button"), "click")
   assert.deepEqual(one.said(), [["move", {"own:w": 2.5}]])
   one.fire(one.find(".over-time"), "click")
-  assert.ok(one.said().some(([, name, value]) => name === "launch" && value === "2, 0, 3"))
+  const [[kind, opened_]] = one.said()
+  assert.deepEqual([kind, opened_.launch, opened_.t_end, opened_.orbit, opened_.panel], ["open", "2, 0, 3", 7.5, 0, "orbits"])
 })
 
 test("the panel response: why there is none", () => {
