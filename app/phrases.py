@@ -112,6 +112,16 @@ SENTENCES: dict[str, Sentence] = {
         "This system has no parameter to vary. Type a name in a formula, or choose Ψ = 3/(3 + (4s)ⁿ).",
         "numbers only, and m = 0",
     ),
+    "no parameter of the motion": Sentence(
+        "A motion in time does not depend on this. Choose a parameter of the system.", "a response along z or Ψ"
+    ),
+    "no periodic motion to follow": Sentence(
+        (
+            "The motion from the typed start is not seen to repeat itself. In the panel Orbits, choose another start "
+            "or follow it longer, or force the system with a sine of t."
+        ),
+        "a response curve of a motion that comes to rest or leaves",
+    ),
     "one axis twice": Sentence("Choose two different parameters.", "both axes are one parameter"),
     "n of another Ψ": Sentence("Only Ψ = 3/(3 + (4s)ⁿ) has the parameter n.", "an axis that Ψ does not have"),
     "no such axis": Sentence("{symbol} is not in this system. Choose another.", "an axis that the system lacks"),

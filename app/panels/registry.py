@@ -18,7 +18,7 @@ from .panel import Panel
 #: Modules beside this one that end with a `PANEL`, in the order of the tabs: a new panel is one more name here.
 MODULES = (
     "parameters.atlas", "numbers", "parameters.planes", "parameters.diagram", "theorems", "along", "solid", "orbits",
-    "psi", "census", "lessons",
+    "parameters.response", "psi", "census", "lessons",
 )  # fmt: skip
 #: By key.
 PANELS_BY_NAME: dict[str, Panel] = {}

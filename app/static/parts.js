@@ -29,7 +29,10 @@ export function panelsOf(explorer) {
     choose: (name, value) => explorer.choose(name, value),
     rangeOf: (name) => (name.startsWith("own:") ? explorer.systems.sliders[name.slice(4)] : controls[name])?.range ?? config.ranges[name] ?? [-4, 4],
     valueOf: (name) => name.startsWith("own:") ? explorer.systems.value(name.slice(4)) : values[name],
-    follow: (name, set) => { setters[name] = set },
+    follow: (name, set) => { // two panels may have the same one
+      const before = setters[name]
+      setters[name] = before ? (value) => { before(value); set(value) } : set
+    },
     take: (wish, progress) => explorer.takes.ask({theme: explorer.theme.name, ...wish}, progress), film: config.film, untake: (kind) => explorer.takes.stop(kind),
     trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarge(explorer.picture.list, 1 / explorer.picture.times),
     open: (wanted) => explorer.put(wanted),

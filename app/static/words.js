@@ -62,6 +62,7 @@ export const SAYS = {
   follows: "This system takes longer than one frame; its picture follows …",
   compiling: "Compiling once; trajectories are sketched meanwhile …",
   looking: "Looking for limit cycles …",
+  following: "Following the periodic motion …",
   drawnNormal: "a, b, d, f₁, f₂ are independent and standard normal: one choice among others.",
   drawnQuadratic: "U₁ and U₂ are polynomials of degree two in c and s, their twelve coefficients independent and standard normal.",
   proved: "proved: no other",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import pairwise
 from typing import overload
 
 import numpy as np
@@ -141,6 +142,51 @@ def simulate(
     runs = asked.runs(states) if span[0] < span[1] else _pasts(asked, states)
     runs = tuple(run.sample(when) for run in runs)
     return runs[0] if np.ndim(state0) < 2 else runs
+
+
+def simulate_segments(
+    system: AnySystem, psi: Psi, starts: Array, times: Array, *, eps: float, rtol: float, atol: float, max_steps: int
+) -> tuple[Simulation, tuple[int, ...], Array]:
+    """Follow a motion in segments, as multiple shooting does, each from a start of its own.
+
+    Parameters
+    ----------
+    system : ELinear, System, or one of them frozen at a z
+    psi : Psi
+    starts : ndarray (k, 2 + m)
+    times : ndarray (k + 1,)
+        Of the starts, and of the last end.
+    eps, rtol, atol, max_steps
+        As in `simulate`.
+
+    Returns
+    -------
+    run : Simulation
+        From start to start, up to the first segment that ends before its time.
+    cuts : tuple of int
+        Step ends at which segments begin, and the last.
+    ends : ndarray (k, 2 + m)
+        Of the segments.
+    """
+    runs: list[Simulation] = []
+    for start, span in zip(starts, pairwise(times.tolist()), strict=True):
+        runs.append(simulate(system, psi, start, span, eps=eps, rtol=rtol, atol=atol, max_steps=max_steps))
+        if runs[-1].status is not SimulationStatus.T_END:
+            break
+    motions = [run.motion for run in runs]
+    following = [*(motion.states[0] for motion in motions[1:]), motions[-1].states[-1]]
+    parts = [
+        StepArray(m.states[0], m.times[:-1], m.lengths, np.vstack([m.states[1:-1], last]), m.polynomials)
+        for m, last in zip(motions, following, strict=True)
+    ]
+    asked = _RegularisedRun(
+        system, field(system), psi, eps, (float(times[0]), float(times[-1])), rtol, atol, (), max_steps
+    )
+    motion, status = dense(float(times[0]), starts[0], parts), runs[-1].status
+    detail = runs[-1].reason.removeprefix(status.value).strip()
+    run = asked.told(motion, status, detail, sum(run.evaluations for run in runs))
+    cuts = np.cumsum([0, *(len(motion.lengths) for motion in motions)])
+    return run, tuple(cuts.tolist()), np.array([motion.states[-1] for motion in motions])
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ TOO_WIDE = """() => {
         .filter((e) => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== 'inline')
         .map((e) => e.className) }"""
 
-OWN = ["Atlas", "Numbers", "Planes", "Diagram", "Theorems", "Along z", "3-D", "Orbits", "Ψ", "Census"]
+OWN = ["Atlas", "Numbers", "Planes", "Diagram", "Theorems", "Along z", "3-D", "Orbits", "Response", "Ψ", "Census"]
 
 
 def value(explorer, name):
@@ -34,6 +34,7 @@ def choose(explorer, name, option):
 
 def drag(explorer, selector, *places):
     """Press at the first place, given in parts of width and height, and move through the others."""
+    explorer.find(selector).scroll_into_view_if_needed()
     box = explorer.find(selector).bounding_box()
     points = [(box["x"] + u * box["width"], box["y"] + v * box["height"]) for u, v in places]
     explorer.page.mouse.move(*points[0])
@@ -185,7 +186,7 @@ def test_a_special_point_is_gone_to_exactly(open_page):
 
 def test_the_diagram_sets_its_parameter(explorer):
     open_panel(explorer, "Diagram")
-    choose(explorer, "along", "d")
+    explorer.choose(".panel-diagram select.along", "d")
     for _ in drag(explorer, ".diagram", (0.3, 0.5), (0.8, 0.5)):
         pass
     assert value(explorer, "d") > 1.5

@@ -198,6 +198,7 @@ CHECKS = {
 ELSEWHERE = {
     "app/frame/test_budget.py": ("too wild", "fault"),
     "app/panels/parameters/test_axes.py": ("no slow variable", "no parameter", "n of another Ψ", "axis given"),
+    "app/panels/parameters/test_response.py": ("no parameter of the motion", "no periodic motion to follow"),
     "app/state/test_compatible_changes.py": (
         "request of a wrong kind",
         "values of a wrong kind",

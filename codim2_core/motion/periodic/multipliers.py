@@ -5,11 +5,17 @@ other step: P_i ... P_1 P_K ... P_(i+1). In the limit eps -> 0 this begins where
 and the state is z alone: two multipliers are 0, the others are those of z by z. Where the motion crosses Sigma,
 (x, y) = 0 too, and a motion beside it is told by z and by when it leaves, along e: one multiplier is 0. So zeros are
 exact, and not what rounding leaves of them.
+
+Where the motion is shot in segments, M = S_k ... S_1 is never multiplied out: large multipliers would drown small ones.
+Sweeps of QR decompositions around the period, ``S_i Q_(i-1) = Q_i R_i`` (periodic Schur form: Bojanczyk, Golub and Van
+Dooren 1992), turn Q_0 into an invariant basis, and each multiplier is a product of diagonal entries of R_i.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import reduce
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +27,9 @@ from ...psi.function import Psi
 from ..result import Simulation
 from ..tracked_set import place_on_hemisphere
 from ..variation.result import Variation
+
+SWEEPS = 8  # around the period
+DEFLATED = 1e-11  # what a sweep still turns of a direction into those before it, where they are apart
 
 
 def rate_at(formulas: Field, psi: Psi | None, run: Simulation, i: int) -> Array:
@@ -70,8 +79,9 @@ def start_of(run: Simulation, variation: Variation) -> tuple[int, Array]:
 
 
 def multipliers(
-    formulas: Field, psi: Psi | None, run: Simulation, variation: Variation, clocks: NDArray[np.bool_]
-) -> tuple[Complex, Array, int]:
+    formulas: Field, psi: Psi | None, run: Simulation, variation: Variation, clocks: NDArray[np.bool_],
+    cuts: Sequence[int] = (0,),
+) -> tuple[Complex, Array, int]:  # fmt: skip
     """Return the multipliers of a periodic motion, largest first, their condition, and how many are exactly 0.
 
     Parameters
@@ -84,6 +94,8 @@ def multipliers(
         Its derivatives, all of them.
     clocks : ndarray (m,) of bool
         Slow variables that move at a constant rate. Without any, a shift in time is left out.
+    cuts : sequence of int
+        Step ends at which segments begin; several for eps > 0 only.
 
     Returns
     -------
@@ -95,18 +107,50 @@ def multipliers(
     n = run.states.shape[1]
     steps = variation.propagators[:, :n, :n]
     i, plane = start_of(run, variation)
-    whole = reduce(lambda product, step: step @ product, [*steps[i:], *steps[:i]], np.eye(n))
     slow = np.eye(n)[:, 2:] if variation.within is None else variation.within[:, 1:]
     slow = slow[:, ~slow[2:][clocks].any(axis=0)]
     basis = np.concatenate([np.concatenate([plane, np.zeros((n - 2, plane.shape[1]))]), slow], axis=1)
-    if not clocks.any():
-        ahead = basis.T @ rate_at(formulas, psi, run, i)
-        basis = basis @ np.linalg.qr(ahead[:, None], mode="complete")[0][:, 1:]
-    found, conditions = _eigenvalues(basis.T @ whole @ basis)
+
+    def across(k: int) -> Array:  # the motion
+        if clocks.any():
+            return basis
+        ahead = basis.T @ rate_at(formulas, psi, run, k)
+        return basis @ np.linalg.qr(ahead[:, None], mode="complete")[0][:, 1:]
+
+    steps, starts = [*steps[i:], *steps[:i]], [i, *cuts[1:]]
+    bases = [across(k) for k in (*starts, i)]
+    segments = [
+        after.T @ reduce(lambda product, step: step @ product, steps[low - i : high - i], np.eye(n)) @ before
+        for (low, high), (before, after) in zip(pairwise([*starts, i + len(steps)]), pairwise(bases), strict=True)
+    ]
+    found, conditions = _product_eigenvalues(segments)
     lost = (2 if variation.within is None else 1) - plane.shape[1]
     order = np.argsort(-np.abs(found), kind="stable")
     zeros = np.zeros(lost)
     return np.concatenate([found[order], zeros.astype(complex)]), np.concatenate([conditions[order], zeros]), lost
+
+
+def _product_eigenvalues(factors: Sequence[Array]) -> tuple[Complex, Array]:
+    """Eigenvalues of a product, the first factor acting first, and their condition.
+
+    An error of a segment moves what is deflated by the same share: conditions are those of an error of the product.
+    """
+    if len(factors) == 1:
+        return _eigenvalues(factors[0])
+    n = len(factors[0])
+    turned = first = upper = np.eye(n)
+    for _ in range(SWEEPS):
+        first, upper = turned, np.eye(n)
+        for factor in factors:
+            turned, right = np.linalg.qr(factor @ turned)
+            upper = right @ upper
+    mixed = first.T @ turned  # of the product in the basis `first`: mixed @ upper
+    borders = [k for k in range(1, n) if np.abs(mixed[k:, :k]).max() < DEFLATED]
+    blocks = [mixed[low:high, low:high] @ upper[low:high, low:high] for low, high in pairwise([0, *borders, n])]
+    parts = [_eigenvalues(block) for block in blocks]
+    sizes = [np.linalg.norm(block) for block in blocks]
+    shares = [condition * size / max(sizes) for (_, condition), size in zip(parts, sizes, strict=True)]
+    return np.concatenate([values for values, _ in parts]), np.concatenate(shares)
 
 
 def _eigenvalues(matrix: Array) -> tuple[Complex, Array]:

@@ -25,6 +25,7 @@ from ...psi.constructors import constant
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ..regularised import MAX_STEPS
+from ..result import Simulation
 from .response_piece import MotionFamily, Piece, at_value, jump_corner, measure_piece, response_row
 from .response_points import KINDS_OF_CHANGE, ResponsePoint, ResponseRow, change_point
 from .response_result import ResponseCurve
@@ -122,15 +123,15 @@ def response_curve(
         shooting(system, psi, eps, found.state0, found.period, moved, atol / rtol, max_steps, stiction), along,
         (low, high), period_of, moved, rtol,
     )  # fmt: skip
-    return _trace_both_ways(family, found.state0, found.period, value)
+    return _trace_both_ways(family, found.run, found.period, value)
 
 
-def _trace_both_ways(family: MotionFamily, state: Array, period: float, value: float) -> ResponseCurve:
+def _trace_both_ways(family: MotionFamily, run: Simulation, period: float, value: float) -> ResponseCurve:
     rows: list[ResponseRow] = []
     special: list[ResponsePoint] = []
     ends: list[str] = []
     for sign in (-1.0, 1.0):
-        found, points, end = _trace_response(family, state, period, value, sign)
+        found, points, end = _trace_response(family, run, period, value, sign)
         if not found:
             raise ValueError("the periodic motion to begin with is one of a family: its curve has no direction there.")
         rows = [*reversed(rows), *found[1 if rows else 0 :]]
@@ -143,13 +144,13 @@ def _trace_both_ways(family: MotionFamily, state: Array, period: float, value: f
 
 
 def _trace_response(
-    family: MotionFamily, state: Array, period: float, value: float, sign: float
+    family: MotionFamily, run: Simulation, period: float, value: float, sign: float
 ) -> tuple[list[ResponseRow], list[ResponsePoint], str]:
     """Follow the curve one way: its motions from the first on, special points between them, and how it ends."""
     rows: list[ResponseRow] = []
     special: list[ResponsePoint] = []
-    piece, way = measure_piece(family, state, period, value)[0], None
-    here = piece.unknowns(piece.state, period, value)
+    piece, way = measure_piece(family, run, period, value)[0], None
+    here = piece.unknowns(piece.starts, period, value)
     while True:
         along = tangent(piece.condition, here)
         if along is None:
@@ -178,11 +179,12 @@ def _trace_response(
             return rows, special, end
         if _comes_round(rows, piece):
             return rows, special, "closed"
-        (old, before, earlier), (start, period, value) = piece.motion_of(line[-2]), piece.motion_of(line[-1])
-        further, part = measure_piece(family, start, period, value)
-        old = family.at(earlier).follow(old, before, family.rtol).dense(part * before)
-        way = further.unknowns(further.state, period, value) - further.unknowns(old, before, earlier)
-        piece, here = further, further.unknowns(further.state, period, value)
+        (_, before, earlier), (_, period, value) = piece.motion_of(line[-2]), piece.motion_of(line[-1])
+        old, run = (piece.shot(v).run for v in line[-2:])
+        further, part = measure_piece(family, run, period, value)
+        starts = further.starts_on(old, before, earlier, part)
+        way = further.unknowns(further.starts, period, value) - further.unknowns(starts, before, earlier)
+        piece, here = further, further.unknowns(further.starts, period, value)
 
 
 def _last_unit(v: Array) -> Array:

@@ -14,6 +14,7 @@ from ...curves.newton import newton
 from ...initial_value.field import field
 from ...layer_problem.vary import vary
 from ...psi.constructors import constant
+from ..result import Simulation
 from .extent import swing
 from .multipliers import multipliers, rate_at
 from .response_points import ResponseRow
@@ -43,6 +44,10 @@ class MotionFamily:
         advance = rates * self.period_of(value) if self.advance is None else self.advance
         return replace(self.first, system=system, formulas=formulas, advance=advance, names=(self.along,))
 
+    def clock(self, value: float) -> Array:
+        """Return how long a period is (1,) and how far z is on after it (m,), at a value."""
+        return np.array([self.forced_period(value), *self.at(value).advance])
+
     def forced_period(self, value: float) -> float:
         """Return the period that a clock gives."""
         if self.advance is None:
@@ -54,14 +59,17 @@ class MotionFamily:
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """Unknowns measured by one motion: (X(0) - X_ref)/sizes, T/T_ref - 1 without a clock, and the part of the span.
+    """Unknowns measured by one motion: (X_i - X_ref)/sizes, T/T_ref - 1 without a clock, and the part of the span.
+
+    The X_i are the starts of its segments, mostly one.
 
     What is exactly 0, and stays so whatever else is changed, as across an invariant line, is none of the `free` ones:
     so rounding does not lead out of it.
     """
 
     family: MotionFamily
-    state: Array
+    starts: Array
+    parts: tuple[float, ...]
     sizes: Array
     period: float
     normal: Array
@@ -72,25 +80,41 @@ class Piece:
         """Whether a clock gives the period."""
         return self.family.first.is_forced
 
-    def unknowns(self, state: Array, period: float, value: float) -> Array:
-        """Return the unknowns (n,) of a motion: start, period where none is given, parameter."""
+    def unknowns(self, starts: Array, period: float, value: float) -> Array:
+        """Return the unknowns (n,) of a motion: starts, period where none is given, parameter."""
         low, high = self.family.span
+        moved = ((starts - self.starts) / self.sizes)[:, self.free].ravel()
         more = [] if self.forced else [period / self.period - 1.0]
-        return np.array([*((state - self.state) / self.sizes)[self.free], *more, (value - low) / (high - low)])
+        return np.array([*moved, *more, (value - low) / (high - low)])
 
     def motion_of(self, v: Array) -> tuple[Array, float, float]:
-        """Return start, period and value of unknowns."""
-        (low, high), state = self.family.span, self.state.copy()
-        n = int(self.free.sum())
-        state[self.free] += v[:n] * self.sizes[self.free]
+        """Return starts, period and value of unknowns."""
+        (low, high), starts = self.family.span, self.starts.copy()
+        n = starts[:, self.free].size
+        starts[:, self.free] += v[:n].reshape(len(starts), -1) * self.sizes[self.free]
         value = low + float(v[-1]) * (high - low)
         period = self.family.forced_period(value) if self.forced else self.period * (1.0 + float(v[n]))
-        return state, period, value
+        return starts, period, value
+
+    def starts_on(self, run: Simulation, period: float, value: float, part: float) -> Array:
+        """Return where segments would begin on another motion: at the same clock, or from a part of its period on."""
+        advance = self.family.at(value).advance
+        if self.forced:
+            k = int(np.argmax(self.family.first.clocks))
+            part = float((self.starts[0, 2 + k] - run.states[0, 2 + k]) / advance[k])
+        times = part + np.array(self.parts)
+        starts = run.dense(times % 1.0 * period)
+        starts[:, 2:] += np.outer(times // 1.0, advance)
+        return starts
+
+    def at(self, value: float) -> Shooting:
+        """Return the problem at a value, in the segments of the piece."""
+        return replace(self.family.at(value), parts=self.parts)
 
     def shot(self, v: Array) -> Shot:
         """Follow the motion of unknowns over a period; LostError where that cannot be."""
-        state, period, value = self.motion_of(v)
-        return self.family.at(value).shot(state, period, self.family.rtol)
+        starts, period, value = self.motion_of(v)
+        return self.at(value).shot(starts, period, self.family.rtol)
 
     def condition(self, v: Array) -> tuple[Array, Array]:
         """Conditions with all slopes; NaN where the motion cannot be followed."""
@@ -99,44 +123,45 @@ class Piece:
             shot = self.shot(v)
         except (LostError, ValueError):
             return np.full(count - 1, math.nan), np.full((count - 1, count), math.nan)
-        free, n = self.free, len(self.state)
+        free, n = self.free, len(shot.state)
         sizes, width = self.sizes[free], self.family.span[1] - self.family.span[0]
-        last, rate = shot.variation.last, shot.variation.rate
-        slope = np.zeros((count - 1, count))
-        rows = len(sizes)
-        slope[:rows, :rows] = (last[:, :n] - np.eye(n))[np.ix_(free, free)] * sizes / sizes[:, None]
-        by_value = last[:, n]
+        by_starts, by_period, segments = shot.slopes(free, sizes)
+        slope, rows = np.zeros((count - 1, count)), len(by_starts)
+        slope[:rows, :rows] = by_starts
+        by_value = segments[:, :, n]
         if self.forced:
-            by_value = by_value + rate * self.period_slope(self.motion_of(v)[2])
+            period, *advance = self.clock_slope(self.motion_of(v)[2])
+            moved = np.outer(self.parts, np.where(shot.of.clocks, advance, 0.0))  # the clocks at the starts
+            by_value = by_value + by_period * period + np.einsum("iqm,im->iq", segments[:, :, 2:n], moved)
         else:
-            slope[:rows, rows] = (rate * self.period)[free] / sizes
-            slope[rows, :rows] = self.normal[free]
-        slope[:rows, -1] = by_value[free] * width / sizes
-        value = shot.miss[free] / sizes
-        return (value if self.forced else np.append(value, self.normal[free] @ v[:rows])), slope
+            slope[:rows, rows] = by_period.ravel() * self.period
+            slope[rows, : len(sizes)] = self.normal[free]
+        slope[:rows, -1] = by_value.ravel() * width
+        value = (shot.miss[:, free] / sizes).ravel()
+        return (value if self.forced else np.append(value, self.normal[free] @ v[: len(sizes)])), slope
 
-    def period_slope(self, value: float) -> float:
-        """Return the derivative of the period that is given."""
+    def clock_slope(self, value: float) -> Array:
+        """Return the derivative of the period that is given, and of how far z is on after it."""
         step = PERIOD_STEP * max(abs(value), self.family.span[1] - self.family.span[0])
-        before, after = (self.family.forced_period(value + sign * step) for sign in (-1.0, 1.0))
+        before, after = (self.family.clock(value + sign * step) for sign in (-1.0, 1.0))
         return (after - before) / (2.0 * step)
 
 
-def measure_piece(family: MotionFamily, state: Array, period: float, value: float) -> tuple[Piece, float]:
+def measure_piece(family: MotionFamily, run: Simulation, period: float, value: float) -> tuple[Piece, float]:
     """Measure by a motion, begun anew where it is farthest from Sigma; at which part of the period that is."""
-    run = family.at(value).follow(state, period, family.rtol)
-    i = int(np.argmax(np.hypot(*run.states[:-1, :2].T)))
-    state, part = run.states[i].copy(), float(run.times[i]) / period
-    if family.first.is_forced:  # near time 0, so that a change of a frequency changes the phase little
-        k, advance = int(np.argmax(family.first.clocks)), family.at(value).advance
-        state[2:] -= advance * np.round(state[2 + k] / advance[k])
-    shot = family.at(value).shot(state, period, family.rtol)
-    ahead = rate_at(shot.of.formulas, shot.of.psi, shot.run, 0) / shot.sizes
-    coupled = np.column_stack([shot.variation.last, shot.variation.rate, shot.miss]) != 0.0
-    coupled[:, : len(state)] &= ~np.eye(len(state), dtype=bool)
-    free = shot.of.free & ((state != 0.0) | coupled.any(axis=1))
+    i, own = int(np.argmax(np.hypot(*run.states[:-1, :2].T))), family.at(value)
+    own, starts = own.divide(run, i, period, run.variation()) if own.eps > 0.0 else (own, run.states[i : i + 1].copy())
+    part = float(run.times[i]) / period
+    if own.is_forced:  # near time 0, so that a change of a frequency changes the phase little
+        k, advance = int(np.argmax(own.clocks)), own.advance
+        starts[:, 2:] -= advance * np.round(starts[0, 2 + k] / advance[k])
+    shot = own.shot(starts, period, family.rtol)
+    ahead = rate_at(own.formulas, own.psi, shot.run, 0) / shot.sizes
+    coupled = np.column_stack([shot.variation.last, shot.variation.rate, shot.miss.T]) != 0.0
+    coupled[:, : len(ahead)] &= ~np.eye(len(ahead), dtype=bool)
+    free = own.free & ((starts != 0.0).any(axis=0) | coupled.any(axis=1))
     normal = ahead / max(float(np.linalg.norm(ahead)), 1e-300)
-    return Piece(family, state, shot.sizes, period, normal, free), part
+    return Piece(family, starts, own.parts, shot.sizes, period, normal, free), part
 
 
 def response_row(piece: Piece, v: Array, onward: float) -> ResponseRow | None:
@@ -146,7 +171,7 @@ def response_row(piece: Piece, v: Array, onward: float) -> ResponseRow | None:
     except (LostError, ValueError):
         return None
     own = shot.of
-    values, _, _ = multipliers(own.formulas, own.psi, shot.run, shot.variation, own.clocks)
+    values, _, _ = multipliers(own.formulas, own.psi, shot.run, shot.variation, own.clocks, shot.cuts[:-1])
     _, period, value = piece.motion_of(v)
     kinds = [phase.kind for phase in shot.run.phases]
     if len(kinds) > 1 and kinds[0] == kinds[-1]:  # one phase, in which it starts

@@ -177,9 +177,9 @@ class _Stopped(Exception):
 
 def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
     try:
-        rough = _newton(asked, asked.shot(start, asked.period, rtol), rtol)
+        rough = _newton(_divided(asked.shot(start, asked.period, rtol), rtol), rtol)
         closer = max(FINAL_RTOL_SHARE * rtol, CLOSEST)
-        fine = _newton(asked, asked.shot(rough.state, rough.period, closer), closer)
+        fine = _newton(rough.of.shot(rough.starts, rough.period, closer), closer)
     except LostError as lost:
         return _not_found(asked, lost.status, str(lost), lost.run, asked.period, np.nan)
     except _Stopped as stopped:
@@ -188,14 +188,21 @@ def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
     return _make_result(asked, rough, fine)
 
 
-def _newton(asked: Shooting, shot: Shot, rtol: float) -> Shot:
+def _divided(shot: Shot, rtol: float) -> Shot:
+    """Return a shot in as many segments as it needs."""
+    own, starts = shot.of.divide(shot.run, 0, shot.period, shot.variation)
+    return shot if len(starts) == 1 else own.shot(starts, shot.period, rtol)
+
+
+def _newton(shot: Shot, rtol: float) -> Shot:
     """Take Newton's steps, shorter ones where a whole one does not lead closer."""
+    asked = shot.of
     for _ in range(MAX_NEWTON):
         if not asked.is_forced and _extent(shot) <= REST_EXTENT:
             break
         if shot.residual <= RESIDUAL_RTOLS * rtol and shot.step_size <= LOOSE * rtol:
             return shot
-        ahead = _closer(asked, shot, rtol)
+        ahead = _closer(shot, rtol)
         if ahead is None:
             break
         shot = ahead
@@ -207,9 +214,9 @@ def _newton(asked: Shooting, shot: Shot, rtol: float) -> Shot:
     raise _Stopped(PeriodicStatus.NO_CONVERGENCE, say("no periodic motion", residual=shot.residual), shot)
 
 
-def _closer(asked: Shooting, shot: Shot, rtol: float) -> Shot | None:
+def _closer(shot: Shot, rtol: float) -> Shot | None:
     """Return what the longest part of the step that leads closer leads to; None if none does."""
-    change, later = shot.step
+    asked, (change, later) = shot.of, shot.step
     lost: LostError | None = None
     for k in range(MAX_HALVINGS):
         part = 0.5**k
@@ -217,7 +224,7 @@ def _closer(asked: Shooting, shot: Shot, rtol: float) -> Shot | None:
         if not asked.period / MAX_PERIOD_FACTOR < period < asked.period * MAX_PERIOD_FACTOR:
             continue
         try:
-            ahead = asked.shot(shot.state + part * change, period, rtol)
+            ahead = asked.shot(shot.starts + part * change, period, rtol)
         except LostError as error:
             lost = error
             continue
@@ -246,14 +253,15 @@ def _not_found(
 def _make_result(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
     n = len(fine.state)
     (others, _, _), (values, conditions, lost) = (
-        multipliers(asked.formulas, asked.psi, shot.run, shot.variation, asked.clocks) for shot in (rough, fine)
+        multipliers(asked.formulas, asked.psi, shot.run, shot.variation, asked.clocks, shot.cuts[:-1])
+        for shot in (rough, fine)
     )
     blur = float((fine.variation.error[:, :n] / fine.sizes[:, None] * fine.sizes).max(initial=0.0))
     apart = matching_distances(values, others) if len(others) == len(values) else np.ones(len(values))
     errors = conditions * max(blur, RESIDUAL_ROUNDING) + apart
     errors[len(values) - lost :] = 0.0
     change, later = fine.step
-    moved = np.abs(fine.state - rough.state) + np.abs(change)
+    moved = np.abs(fine.state - rough.state) + np.abs(change[0])
     moved[~asked.free] = 0.0
     period_error = 0.0 if asked.is_forced else abs(fine.period - rough.period) + abs(later)
     stability, why = _verdict(values, errors, fine.variation.within is not None)

@@ -1,18 +1,21 @@
 """Shooting: a motion over a period, how far its end is from its start, and the step of Newton's method.
 
 A motion X(t) is periodic if ``X(T) = X(0) + a``, where a is how far the slow variables are on after a period: 0, or a
-period of the formulas, as 2 pi of an angle. With M the derivative of X(T) by X(0), Newton's step is
+period of the formulas, as 2 pi of an angle. Where a period multiplies a change by more than 1e4, the motion is cut into
+segments, each from a start X_1, ..., X_k of its own (Keller 1968; Ascher, Mattheij and Russell 1995). With S_i the
+derivative of the end E_i of a segment by its start, and p_i its part of the period, Newton's step is
 
-    forced:  (M - 1) dX = -(X(T) - X(0) - a)                in all but the clocks, whose start is kept, T too,
-    else:    (M - 1) dX + X'(T) dT = -(X(T) - X(0) - a),    X'(0) . dX = 0,
+    S_i dX_i + p_i E_i' dT - dX_(i+1) = -(E_i - X_(i+1)),   X_(k+1) = X_1 + a,
 
-the last row because every point of a periodic motion is a start of it.
+in all but the clocks, whose start is kept, and where there is one, without dT; else with ``X_1' . dX_1 = 0`` besides,
+because every point of a periodic motion is a start of it.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, replace
+from functools import cached_property, reduce
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,12 +26,15 @@ from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
 from ..nonsmooth import simulate_nonsmooth
-from ..regularised import simulate
+from ..regularised import simulate, simulate_segments
 from ..result import Simulation, SimulationStatus
 from ..variation.result import Variation
 from .multipliers import rate_at
 from .result import PeriodicStatus
 
+MAX_SEGMENT_GROWTH = (
+    1e4  # of a change along a segment, in units of the motion's size; where it is more there are more segments
+)
 NULL_SINGULAR_VALUE = (
     1e-8  # singular values of M - 1, or of M if that is larger, that count as 0: nothing moves, as in a family
 )
@@ -65,6 +71,8 @@ class Shooting:
         Static over kinetic friction.
     names : tuple of str
         Numbers of the system by which motions are differentiated too.
+    parts : tuple of float
+        Where segments begin, as parts of the period; several for eps > 0 only.
     """
 
     system: AnySystem
@@ -78,6 +86,7 @@ class Shooting:
     max_steps: int
     stiction: float = 1.0
     names: tuple[str, ...] = ()
+    parts: tuple[float, ...] = (0.0,)
 
     @property
     def is_forced(self) -> bool:
@@ -89,15 +98,30 @@ class Shooting:
         """Return which of (x, y, z) are unknown."""
         return np.concatenate([[True, True], ~self.clocks])
 
-    def follow(self, state: Array, period: float, rtol: float) -> Simulation:
-        """Follow a motion over a period."""
+    def follow(self, starts: Array, period: float, rtol: float) -> tuple[Simulation, tuple[int, ...], Array]:
+        """Follow a motion over a period: from the starts of its segments (k, 2 + m), the clocks of the first.
+
+        Returns
+        -------
+        run : Simulation
+        cuts : tuple of k + 1 int
+            Step ends at which segments begin, and the last.
+        ends : ndarray (k, 2 + m)
+            Of the segments.
+        """
         options = {"rtol": rtol, "atol": rtol * self.floor, "max_steps": self.max_steps}
         if self.eps == 0.0:
-            return simulate_nonsmooth(self.system, state, (0.0, period), self.psi, stiction=self.stiction, **options)
+            run = simulate_nonsmooth(self.system, starts[0], (0.0, period), self.psi, stiction=self.stiction, **options)
+            return run, (0, len(run.times) - 1), run.states[-1:]
         assert self.psi is not None
-        return simulate(self.system, self.psi, state, (0.0, period), eps=self.eps, **options)
+        if len(starts) == 1:
+            run = simulate(self.system, self.psi, starts[0], (0.0, period), eps=self.eps, **options)
+            return run, (0, len(run.times) - 1), run.states[-1:]
+        starts, times = starts.copy(), period * np.array([*self.parts, 1.0])
+        starts[1:, 2:][:, self.clocks] = (starts[0, 2:] + np.outer(self.parts, self.advance))[1:, self.clocks]
+        return simulate_segments(self.system, self.psi, starts, times, eps=self.eps, **options)
 
-    def shot(self, state: Array, period: float, rtol: float) -> Shot:
+    def shot(self, starts: Array, period: float, rtol: float) -> Shot:
         """Follow a motion over a period, and differentiate it.
 
         Raises
@@ -105,43 +129,64 @@ class Shooting:
         LostError
             It ends before, or has no derivative.
         """
-        run = self.follow(state, period, rtol)
+        run, cuts, ends = self.follow(np.atleast_2d(starts), period, rtol)
         if run.status is not SimulationStatus.T_END:
             raise LostError(PeriodicStatus.MOTION_ENDS, f"{say('motion ends early')} {run.reason}", run)
         variation = run.variation(*self.names)
         if variation.reason or not (np.isfinite(variation.rate).all() and np.isfinite(variation.last).all()):
             raise LostError(PeriodicStatus.NO_DERIVATIVE, f"{say('no derivative')} {variation.reason}".strip(), run)
-        return Shot(self, run, period, variation)
+        return Shot(self, run, period, variation, cuts, ends)
+
+    def divide(self, run: Simulation, first: int, period: float, variation: Variation) -> tuple[Shooting, Array]:
+        """Divide a motion, begun at a step end, where changes have grown: the problem, and starts (k, 2 + m)."""
+        n, sizes, count = run.states.shape[1], _sizes(run, self), len(variation.propagators)
+        scale = sizes / sizes[:, None]
+        growth, cuts = np.eye(n), [first]
+        for k in range(first, first + count) if self.eps > 0.0 else ():
+            step = (variation.propagators[k % count, :n, :n] * scale)[np.ix_(self.free, self.free)]
+            growth = step if k == cuts[-1] else step @ growth
+            if k > cuts[-1] and np.linalg.norm(growth, 2) > MAX_SEGMENT_GROWTH:
+                growth, cuts = step, [*cuts, k]
+        starts = np.array([run.states[k % count] for k in cuts])
+        times = np.array([run.times[k % count] + period * (k // count) for k in cuts])
+        starts[:, 2:] += np.outer([k // count for k in cuts], self.advance)
+        parts = (times - times[0]) / period
+        return replace(self, parts=tuple(parts.tolist())), starts
 
 
 @dataclass(frozen=True, eq=False)
 class Shot:
-    """A motion over what may be its period, with its derivatives."""
+    """A motion over what may be its period, with its derivatives; `cuts` and `ends` are those of its segments."""
 
     of: Shooting
     run: Simulation
     period: float
     variation: Variation
+    cuts: tuple[int, ...]
+    ends: Array
 
     @property
     def state(self) -> Array:
         """Its start."""
         return self.run.states[0]
 
+    @property
+    def starts(self) -> Array:
+        """Those of its segments (k, 2 + m)."""
+        return self.run.states[list(self.cuts[:-1])]
+
     @cached_property
     def sizes(self) -> Array:
         """Return the scales (2 + m,) by which a difference counts as small."""
-        found = np.abs(self.run.states).max(axis=0) + self.of.floor
-        found[:2] = np.hypot(*self.run.states[:, :2].T).max() + self.of.eps
-        found[:2] = found[:2] if found[0] > 0.0 else 1.0
-        return found
+        return _sizes(self.run, self.of)
 
     @cached_property
     def miss(self) -> Array:
-        """Return the difference (2 + m,) of end and start."""
-        found = self.run.states[-1] - self.run.states[0]
-        found[2:] -= self.of.advance
-        found[~self.of.free] = 0.0
+        """Return the differences (k, 2 + m) of ends and the starts that follow."""
+        starts = self.starts
+        found = self.ends - np.roll(starts, -1, axis=0)
+        found[-1, 2:] -= self.of.advance
+        found[:, ~self.of.free] = 0.0
         return found
 
     @property
@@ -153,20 +198,46 @@ class Shot:
         """Size of it, small being measured by `sizes`."""
         return float(np.abs(self.miss / sizes).max())
 
+    def slopes(self, free: NDArray[np.bool_], sizes: Array) -> tuple[Array, Array, Array]:
+        """Return the derivatives of what is missed of `free`, in units of their sizes.
+
+        Returns
+        -------
+        by_starts : ndarray (k q, k q)
+            By the starts, in those units.
+        by_period : ndarray (k, q)
+        segments : ndarray (k, q, 2 + m + names)
+            By all of a segment's start, and by `names`, in their own units.
+        """
+        k, n, q = len(self.ends), len(self.state), int(free.sum())
+        steps, count = self.variation.propagators, self.variation.propagators.shape[1]
+        segments = np.array([
+            reduce(lambda product, step: step @ product, steps[low:high], np.eye(count))[:n]
+            for low, high in pairwise(self.cuts)
+        ])[:, free] / sizes[:, None]  # fmt: skip
+        by_starts = np.zeros((k, q, k, q))
+        for i in range(k):
+            by_starts[i, :, i] += segments[i][:, :n][:, free] * sizes
+            by_starts[i, :, (i + 1) % k] -= np.eye(q)
+        rates = [rate_at(self.of.formulas, self.of.psi, self.run, cut) for cut in self.cuts[1:-1]]
+        parts = np.diff([*self.of.parts, 1.0])
+        by_period = np.array([*rates, self.variation.rate])[:, free] / sizes * parts[:, None]
+        return by_starts.reshape(k * q, k * q), by_period, segments
+
     @cached_property
     def step(self) -> tuple[Array, float]:
-        """Newton's step of the start and of the period."""
-        free, sizes, n = self.of.free, self.sizes[self.of.free], len(self.state)
-        matrix = (self.variation.last[:, :n] - np.eye(n))[np.ix_(free, free)] * sizes / sizes[:, None]
-        right = -self.miss[free] / sizes
+        """Newton's step of the starts (k, 2 + m) and of the period."""
+        free, sizes = self.of.free, self.sizes[self.of.free]
+        matrix, ahead, _ = self.slopes(free, sizes)
+        right = -(self.miss[:, free] / sizes).ravel()
         if not self.of.is_forced:
-            behind = rate_at(self.of.formulas, self.of.psi, self.run, 0) * self.period / sizes
-            ahead = self.variation.rate * self.period / sizes
-            matrix = np.block([[matrix, ahead[:, None]], [behind[None], np.zeros((1, 1))]])
+            behind = np.zeros(len(right))
+            behind[: len(sizes)] = rate_at(self.of.formulas, self.of.psi, self.run, 0) * self.period / sizes
+            matrix = np.block([[matrix, ahead.reshape(-1, 1) * self.period], [behind[None], np.zeros((1, 1))]])
             right = np.append(right, 0.0)
         found = _least_solution(matrix, right)
-        change = np.zeros(n)
-        change[free] = found[: len(sizes)] * sizes
+        change = np.zeros(self.ends.shape)
+        change[:, free] = found[: self.ends[:, free].size].reshape(len(change), -1) * sizes
         return change, 0.0 if self.of.is_forced else float(found[-1]) * self.period
 
     @property
@@ -174,6 +245,13 @@ class Shot:
         """Size of the step, in units of the motion's."""
         change, later = self.step
         return max(float(np.abs(change / self.sizes).max()), abs(later) / self.period)
+
+
+def _sizes(run: Simulation, of: Shooting) -> Array:
+    found = np.abs(run.states).max(axis=0) + of.floor
+    found[:2] = np.hypot(*run.states[:, :2].T).max() + of.eps
+    found[:2] = found[:2] if found[0] > 0.0 else 1.0
+    return found
 
 
 def _least_solution(matrix: Array, right: Array) -> Array:

@@ -19,11 +19,11 @@ LINE = System(
 PLANE = System(
     U=("-z1 - mu*c + F*cos(w*z3)", "-z2 - mu*s"), W=("x", "y", "1"), parameters={"mu": 0.1, "F": 1.0, "w": 0.6}
 )
-#: Pushed round, with viscous friction d besides.
+#: Pushed round, with viscous friction d besides, on springs, or with k < 0 on a hilltop.
 CIRCLE = System(
-    U=("-z1 - mu*c - d*x + F*cos(w*z3)", "-z2 - mu*s - d*y + F*sin(w*z3)"),
+    U=("-k*z1 - mu*c - d*x + F*cos(w*z3)", "-k*z2 - mu*s - d*y + F*sin(w*z3)"),
     W=("x", "y", "1"),
-    parameters={"mu": 0.3, "d": 0.0, "F": 0.5, "w": 2.0},
+    parameters={"mu": 0.3, "d": 0.0, "F": 0.5, "w": 2.0, "k": 1.0},
 )
 #: On a belt of speed v, with friction mu - k |slip|; z = (q1, q2), (x, y) = q' - (v, 0).
 BELT = System(U=("-z1 - mu*c + k*x", "-z2 - mu*s + k*y"), W=("x + v", "y"), parameters={"mu": 1.0, "k": 0.1, "v": 1.0})
@@ -80,9 +80,9 @@ class DenHartog:
 class Rotating:
     """The motion r = Re(iw t) of CIRCLE on a circle, R complex.
 
-    Friction is against the velocity iwR, of modulus a: ``(1 - w^2) R + (d + mu/h) iwR = F``, where h = a in the limit
+    Friction is against the velocity iwR, of modulus a: ``(k - w^2) R + (d + mu/h) iwR = F``, where h = a in the limit
     and sqrt(a^2 + eps^2) for Psi = 1. In the turning frame r = u e^(iwt) motions beside it obey a linear equation with
-    constant coefficients: ``u'' + 2iw u' + (1 - w^2) u + (d + mu D)(u' + iwu) = 0`` with ``D = (1 - v v'/h^2)/h``.
+    constant coefficients: ``u'' + 2iw u' + (k - w^2) u + (d + mu D)(u' + iwu) = 0`` with ``D = (1 - v v'/h^2)/h``.
     """
 
     mu: float
@@ -90,18 +90,20 @@ class Rotating:
     F: float
     w: float
     eps: float = 0.0
+    k: float = 1.0
 
     @property
     def speed(self) -> float:
         if self.eps == 0.0 and self.d == 0.0:
-            return math.sqrt(self.F**2 - self.mu**2) * abs(self.w / (1.0 - self.w**2))
-        short = lambda a: abs(complex((1 - self.w**2) / self.w * a, self.d * a + self.mu * a / math.hypot(a, self.eps)))
+            return math.sqrt(self.F**2 - self.mu**2) * abs(self.w / (self.k - self.w**2))
+        drag = lambda a: self.d * a + self.mu * a / math.hypot(a, self.eps)
+        short = lambda a: abs(complex((self.k - self.w**2) / self.w * a, drag(a)))
         return brentq(lambda a: short(a) - self.F, 1e-12, 1e3, xtol=1e-15, rtol=1e-15)
 
     @property
     def R(self) -> complex:
         pull = self.d + self.mu / math.hypot(self.speed, self.eps)
-        return self.F / complex(1.0 - self.w**2, pull * self.w)
+        return self.F / complex(self.k - self.w**2, pull * self.w)
 
     @property
     def start(self) -> tuple[float, ...]:
@@ -114,7 +116,7 @@ class Rotating:
         drag = self.d * np.eye(2) + self.mu * (np.eye(2) - np.outer(v, v) / h**2) / h
         turn = self.w * np.array([[0.0, -1.0], [1.0, 0.0]])
         matrix = np.block(
-            [[np.zeros((2, 2)), np.eye(2)], [(self.w**2 - 1.0) * np.eye(2) - drag @ turn, -2.0 * turn - drag]]
+            [[np.zeros((2, 2)), np.eye(2)], [(self.w**2 - self.k) * np.eye(2) - drag @ turn, -2.0 * turn - drag]]
         )
         return np.exp(np.linalg.eigvals(matrix) * math.tau / self.w)
 

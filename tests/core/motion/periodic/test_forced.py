@@ -60,6 +60,19 @@ def test_it_goes_round_with_a_push_that_goes_round(mu, d, F, w, eps):
         assert found.stability == ("stable" if size < 1.0 else "unstable")
 
 
+@pytest.mark.parametrize(("w", "eps"), [(0.3, 0.1), (0.2, 1e-3)])
+def test_what_a_period_multiplies_by_1e10_is_shot_in_segments(w, eps):
+    """On a hilltop: multipliers from 1e-21 to 1e10, each to its own digits."""
+    exact = Rotating(0.3, 0.2, 2.0, w, eps, -1.0)
+    start = np.add(exact.start, (0.01, 0.0, 0.0, 0.0, 0.0))
+    found = periodic_motion(CIRCLE.evolve(d=0.2, F=2.0, w=w, k=-1.0), start, math.tau / w, psi.constant(), eps)
+    assert (found.status, found.stability) == (PeriodicStatus.FOUND, "unstable")
+    np.testing.assert_allclose(found.state0, exact.start, rtol=0.0, atol=1e-9)
+    ours, theirs = (np.sort(np.log(np.abs(values))) for values in (found.multipliers, exact.multipliers))
+    np.testing.assert_allclose(ours, theirs, atol=1e-5)
+    np.testing.assert_allclose(np.abs(found.multipliers[:2]), np.abs(exact.multipliers).max(), rtol=1e-8)
+
+
 @pytest.mark.parametrize(("mu", "F", "w"), [(0.1, 1.0, 0.6), (0.3, 1.2, 0.75)])
 def test_den_hartogs_motion_in_its_line_and_in_the_plane(mu, F, w):
     exact = DenHartog(mu, F, w)

@@ -43,6 +43,20 @@ def test_a_mass_that_is_driven_round_along_its_frequency(eps):
         assert matching_distances(found.multipliers[i], one.multipliers).max() < 1e-8
 
 
+def test_a_motion_on_a_hilltop_to_where_a_period_multiplies_by_1e11():
+    """The number of segments grows with the period; each time they are laid anew it goes on the same way."""
+    exact = lambda w: Rotating(0.3, 0.2, 2.0, w, 0.1, -1.0)
+    hilltop = CIRCLE.evolve(d=0.2, F=2.0, w=0.3, k=-1.0)
+    found = response_curve(hilltop, exact(0.3).start, of_w, "w", (0.18, 1.0), psi.constant(), 0.1)
+    assert (*found.ends, found.values.min(), found.values.max()) == ("span", "span", 0.18, 1.0)
+    for w, amplitude, values in zip(found.values, found.amplitude[:, 0], found.multipliers, strict=True):
+        one = exact(float(w))
+        assert amplitude == pytest.approx(abs(one.R), abs=1e-9)
+        assert np.abs(values[:2]) == pytest.approx(np.abs(one.multipliers).max(), rel=1e-6)
+    assert not found.stable.any()
+    assert found.special == ()
+
+
 def test_den_hartogs_diagram_and_where_it_begins_to_stick():
     """It does not stop while the force at its turn, w^2 A, is above friction; it is followed on through the stick."""
     exact = lambda w: DenHartog(0.5, 1.0, w)
