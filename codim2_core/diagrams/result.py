@@ -16,6 +16,7 @@ from ..psi.function import Psi
 from ..results import Pictured, Result, Tabled
 from ..systems.kinds import AnySystem
 from ..tables import html_table, paragraphs, table_number
+from ..theorems.point_accuracy import PointAccuracy, point_accuracy
 from ..words import say
 from .family import SystemPath, linear_path, values_over
 
@@ -176,6 +177,20 @@ class Branches(Pictured):
         """All special points, of the equilibria and of limit cycles, by increasing value; Hopf points once."""
         of_cycles = [one for branch in self.cycles for one in branch.special if one.kind not in UNREPORTED_KINDS]
         return tuple(sorted([*self.standing, *of_cycles], key=lambda one: one.value))
+
+    @property
+    def accuracy(self) -> tuple[PointAccuracy, ...]:
+        """Residual, normal-form coefficient and condition of special points of the equilibria, where these are defined.
+
+        Returns
+        -------
+        tuple of PointAccuracy
+            In the order of `standing`.
+        """
+        scale = self.span[1] - self.span[0]
+        of = self.system, self.psi, self.z, self.along, scale
+        found = (point_accuracy(one, *of) for one in self.standing)
+        return tuple(one for one in found if one is not None)
 
     @property
     def notes(self) -> tuple[str, ...]:
