@@ -69,7 +69,7 @@ def drawn(kind: str, seed: int = SEED) -> Iterator[LayerProblem]:
 
 
 def overlooked(count: int) -> tuple[int, int]:
-    """Return how many proofs were asked for that leave out the last cycle of a cubic system, and how many were given."""
+    """Return how many proofs that leave out the last cycle of a cubic system were asked for, and how many given."""
     asked = given = 0
     for problem in islice(drawn("cubic, with cycles"), count):
         asked += 1
