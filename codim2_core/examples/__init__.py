@@ -14,6 +14,7 @@ from .ball import Ball
 from .ball_in_pool import ball_in_pool
 from .ball_on_turntable import ball_on_turntable
 from .cart_on_two_wheels import cart_on_two_wheels
+from .driven_mass import driven_mass
 from .example import GRAVITY, Example
 from .nonunique_sliding import nonunique_sliding
 from .offered import catalogue, register, unregister
@@ -33,6 +34,7 @@ __all__ = [
     "ball_on_turntable",
     "cart_on_two_wheels",
     "catalogue",
+    "driven_mass",
     "nonunique_sliding",
     "plate_on_three_feet",
     "register",
