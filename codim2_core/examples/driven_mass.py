@@ -48,7 +48,7 @@ EXAMPLE = Example(
     title="Driven mass",
     label="forced oscillator",
     source="J. P. Den Hartog, Trans. ASME 53 (1931) 107-115, moved to the plane",
-    sentence="A force that turns drives it round on a circle, against friction; the panel Response shows its radius.",
+    sentence="A turning force drives it on a circle against friction; Response shows its radius; z = (q₁, q₂, t).",
     ranges={"omega": (1.2, 3.0), "F": (0.6, 2.0), "S": (0.05, 0.9), "k": (0.2, 1.2)},
     z=(-0.25, -0.14, 0.0),
     slow=(("q₁", -2.0, 2.0), ("q₂", -2.0, 2.0), ("t", 0.0, 6.3)),
