@@ -15,7 +15,6 @@ class Orbits {
     const {symbols, docs} = tools
     const number = (name) => slider(name, symbols[name], docs[name])
     box.innerHTML = `<p class="note orbits-hint">Click or tap the picture: the orbit through that point, at the present z. Press and drag, and it follows. Drag its start to move it. From a typed start z moves too.</p>
-      <p class="note orbits-contacts" hidden></p>
       <ol class="orbit-list"></ol>
       <div class="control typed orbit-typed" data-control="launch"><button type="button" class="choose" title="Show over time" aria-label="Show the typed start over time"><i class="orbit-colour"></i></button><label for="c2-launch">start</label><input type="text" id="c2-launch" class="text" placeholder="x, y, z₁, …" spellcheck="false" autocomplete="off"><p class="error" role="alert" hidden></p></div>
       <div class="row"><button type="button" class="clear" hidden>Remove all</button></div>
@@ -68,9 +67,8 @@ class Orbits {
 
   apply({header}, late) {
     if (header.system) {
-      const others = this.find(".orbits-contacts"), several = header.system.contacts.length > 0
-      others.hidden = !several
-      others.textContent = several ? SAYS.othersSlip : ""
+      this.find(".orbits-contacts")?.remove()
+      if (header.system.contacts.length) this.find(".orbits-hint").insertAdjacentHTML("afterend", `<p class="note orbits-contacts">${SAYS.othersSlip}</p>`)
     }
     if (header.launched) this.words = header.launched
     if (header.orbit) { this.orbit = header.orbit; this.why = "" }
