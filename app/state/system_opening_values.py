@@ -15,7 +15,7 @@ from .chosen_system import NORMAL, has_atlas, starting_launch, starting_z
 def opening_values(choice: str) -> dict[str, Any]:
     """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing.
 
-    And a panel that has something to show of it: of what is forced, its response along the first parameter. Of a
+    And a panel that has something to show of it: of what is forced, without an atlas, its response. Of a
     mechanism with several contacts it brings a second portrait, of another.
     """
     z = (*starting_z(choice), *(0.0,) * len(SLOW_CONTROLS))
@@ -26,7 +26,7 @@ def opening_values(choice: str) -> dict[str, Any]:
     axes = {"drift": "z", "across": across, "up": up, "along": across}
     panel = "atlas" if has_atlas(choice) else "numbers"
     example = catalogue.get(choice)
-    if example is not None and example.ranges and forcing_period(example.make()) is not None:
+    if panel != "atlas" and example is not None and example.ranges and forcing_period(example.make()) is not None:
         axes["along"], panel = OWN_AXIS + next(iter(example.ranges)), "response"
     beside = next((portrait_of_system(key) for key in keys_at_contacts(choice) if key != choice), "")
     return {"texts": {}, "parameters": {}, **slow, **motion, **axes, "panel": panel, "beside": beside}
