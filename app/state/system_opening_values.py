@@ -6,6 +6,7 @@ from typing import Any
 
 from codim2_core.examples import catalogue
 from codim2_core.examples.offered import keys_at_contacts
+from codim2_core.motion.periodic.settling import forcing_period
 
 from .choices import OWN_AXIS, SLOW_CONTROLS
 from .chosen_system import NORMAL, has_atlas, starting_launch, starting_z
@@ -14,7 +15,8 @@ from .chosen_system import NORMAL, has_atlas, starting_launch, starting_z
 def opening_values(choice: str) -> dict[str, Any]:
     """Return what a choice of system brings: its first place on Sigma, its own parameters, a motion worth seeing.
 
-    And a panel that has something to show of it; of a mechanism with several contacts a second portrait, of another.
+    And a panel that has something to show of it: of what is forced, without an atlas, its response. Of a
+    mechanism with several contacts it brings a second portrait, of another.
     """
     z = (*starting_z(choice), *(0.0,) * len(SLOW_CONTROLS))
     _, t_end = starting_launch(choice)
@@ -23,6 +25,9 @@ def opening_values(choice: str) -> dict[str, Any]:
     motion = {"launch": opening_launch(choice), "t_end": t_end}
     axes = {"drift": "z", "across": across, "up": up, "along": across}
     panel = "atlas" if has_atlas(choice) else "numbers"
+    example = catalogue.get(choice)
+    if panel != "atlas" and example is not None and example.ranges and forcing_period(example.make()) is not None:
+        axes["along"], panel = OWN_AXIS + next(iter(example.ranges)), "response"
     beside = next((portrait_of_system(key) for key in keys_at_contacts(choice) if key != choice), "")
     return {"texts": {}, "parameters": {}, **slow, **motion, **axes, "panel": panel, "beside": beside}
 

@@ -122,6 +122,7 @@ export const SAYS = {
   ends: "v₁₃ combines the limit vectors v₁ and v₃, and v₂₄ combines v₂ and v₄.",
   secondPortrait: "Second portrait",
   contacts: "Contacts of this mechanism",
+  othersSlip: "Motions here hold only while all other contacts of this mechanism slip.",
   differsIn: "differs in",
   systemItself: "the system",
   itsParameters: "its parameters",

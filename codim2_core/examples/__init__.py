@@ -10,11 +10,11 @@ from collections.abc import Callable
 from ..systems.elinear import ELinear
 from ..systems.typed import System
 from .attracting_repelling import attracting_repelling
-from .ball import Ball
 from .ball_in_pool import ball_in_pool
 from .ball_on_turntable import ball_on_turntable
 from .cart_on_two_wheels import cart_on_two_wheels
-from .example import GRAVITY, Example
+from .driven_mass import driven_mass
+from .example import GRAVITY, Ball, Example
 from .nonunique_sliding import nonunique_sliding
 from .offered import catalogue, register, unregister
 from .plate_on_three_feet import plate_on_three_feet
@@ -33,6 +33,7 @@ __all__ = [
     "ball_on_turntable",
     "cart_on_two_wheels",
     "catalogue",
+    "driven_mass",
     "nonunique_sliding",
     "plate_on_three_feet",
     "register",

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from ..systems.elinear import ELinear
-from .ball import Ball
-from .example import GRAVITY, Example, check_physics
+from .example import GRAVITY, Ball, Example, check_physics
 
 
 def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRAVITY) -> ELinear:

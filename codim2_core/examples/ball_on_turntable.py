@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from ..systems.elinear import ELinear
-from .ball import Ball
-from .example import GRAVITY, Example, check_physics
+from .example import GRAVITY, Ball, Example, check_physics
 
 
 def ball_on_turntable(mu: float = 0.2, Omega: float = 3.0, g: float = GRAVITY) -> ELinear:

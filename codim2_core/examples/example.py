@@ -13,7 +13,6 @@ from ..mechanics.several.contacts import Contacts
 from ..systems.bounds import MAX_NUMBER
 from ..systems.elinear import ELinear
 from ..systems.typed import System
-from .ball import Ball
 
 GRAVITY = 9.81  # m/s²
 
@@ -40,6 +39,22 @@ def _system_at_contact(mechanism: Callable[..., Contacts], i: int, key: str) -> 
 
     make.__name__ = make.__qualname__ = key
     return make
+
+
+@dataclass(frozen=True)
+class Ball:
+    """A ball on a plane: z begins with the velocity of its centre, (x, y) is the slip at its contact, m/s.
+
+    Attributes
+    ----------
+    placed : bool
+        The next two slow variables are the place of the centre, m; else it starts at (0, 0).
+    turning : str or None
+        The parameter that is the rate of the plane about (0, 0), rad/s; None where the plane is at rest.
+    """
+
+    placed: bool = False
+    turning: str | None = None
 
 
 @dataclass(frozen=True, eq=False)

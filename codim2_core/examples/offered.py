@@ -19,6 +19,7 @@ EXAMPLE_NAMES = (
     "spinning_disc",
     "spinning_annulus",
     "towed_wheel",
+    "driven_mass",
 )
 MECHANISM_NAMES = ("cart_on_two_wheels", "plate_on_three_feet")  # with several contacts: an example at each
 LISTED: tuple[Example, ...] = (

@@ -166,7 +166,8 @@ def test_an_e_linear_system_is_printed_as_it_was_given():
 @pytest.mark.parametrize(("example", "wrong"), [
     ("ball_in_pool", {"mu": -1.0}), ("ball_in_pool", {"m": 0.0}), ("spinning_disc", {"k": 0.0}),
     ("spinning_annulus", {"eta": 1.0}), ("tilting_block", {"mu2": 0.0}), ("ball_on_turntable", {"g": -9.81}),
-    ("towed_wheel", {"l": 0.0}), ("cart_at_rear_wheel", {"j": 0.0}), ("plate_on_three_feet", {"r": -1.0}),
+    ("towed_wheel", {"l": 0.0}), ("driven_mass", {"omega": 0.0}), ("cart_at_rear_wheel", {"j": 0.0}),
+    ("plate_on_three_feet", {"r": -1.0}),
 ])  # fmt: skip
 def test_a_mechanism_that_there_is_not_is_refused(example, wrong):
     [name] = wrong

@@ -5,7 +5,7 @@ import {slider} from "../controls/controls.js"
 import {changeLaunch, cleanName, coloursOf, readLaunches, without, writeLaunches} from "../interaction/launches.js"
 import {MARKUP, OrbitInTime, TYPED} from "../widgets/orbit_in_time.js"
 import {register} from "../widgets/panels.js"
-import {escape, claimNumber, pair, plain, slowName} from "../words.js"
+import {SAYS, escape, claimNumber, pair, plain, slowName} from "../words.js"
 
 const COLOURS = 6
 const SHORT = 0.999 // of the time asked for: what ends before says why
@@ -66,6 +66,10 @@ class Orbits {
   get chosen() { return Math.min(this.tools.values.orbit, this.launches().length) }
 
   apply({header}, late) {
+    if (header.system) {
+      this.find(".orbits-contacts")?.remove()
+      if (header.system.contacts.length) this.find(".orbits-hint").insertAdjacentHTML("afterend", `<p class="note orbits-contacts">${SAYS.othersSlip}</p>`)
+    }
     if (header.launched) this.words = header.launched
     if (header.orbit) { this.orbit = header.orbit; this.why = "" }
     if (header.unable?.orbit) { this.orbit = null; this.why = header.unable.orbit }

@@ -1,6 +1,10 @@
 """The panel of response curves: a driven mass, what it depends on, and what is said where there is no such motion."""
 
+import math
+
+import pytest
 from codim2_app.phrases import say
+from codim2_app.state.system_opening_values import opening_values
 
 from ..opening import ask, opened
 
@@ -25,6 +29,17 @@ def test_a_driven_mass_along_its_frequency():
     assert amplitudes == sorted(amplitudes, reverse=True)  # beyond the resonance
     assert "late" not in ask(frames, parameters={"w": 2.25})  # moving along it
     assert ask(frames, t_end=39.0)["late"] == ["response"]
+
+
+def test_an_example_that_is_forced_opens_with_its_response():
+    values = opening_values("driven_mass")
+    assert (values["panel"], values["along"]) == ("response", "own:omega")
+    _, header = opened(values.pop("panel"), system="driven_mass", **values)
+    found = header["response"]
+    for omega, amplitude in zip(found["values"], found["amplitude"], strict=True):
+        assert amplitude == pytest.approx(math.sqrt(0.75) / (omega**2 - 1.0), rel=1e-3)  # as it is sent
+    panels = {name: opening_values(name)["panel"] for name in ("towed_wheel", "tilting_block")}
+    assert panels == {"towed_wheel": "numbers", "tilting_block": "atlas"}  # sines of z, too
 
 
 def test_where_there_is_none():

@@ -5,6 +5,7 @@ import test from "node:test"
 import "../../../../app/static/panels/lessons.js"
 import "../../../../app/static/panels/numbers.js"
 import "../../../../app/static/panels/orbits.js"
+import {SAYS} from "../../../../app/static/words.js"
 import {Panels, register} from "../../../../app/static/widgets/panels.js"
 import {page} from "../played/page.js"
 import {opened} from "../played/reading.js"
@@ -30,6 +31,20 @@ test("the panel numbers: limit cycles are told while they are shown", () => {
   assert.equal(box.hidden, true)
   one.panels.draw({layers: ["inside", "cycles"]})
   assert.equal(box.hidden, false)
+})
+
+test("the panel of orbits: at one of several contacts it says that the others slip", () => {
+  const one = opened("orbits", {orbits: "", orbit: 0, launch: "", orbit_eps: "hide", t_end: 1})
+  const notes = () => one.all(".orbits-contacts").map((note) => note.textContent)
+  const several = {contacts: [["front", "Cart: front"], ["rear", "Cart: rear"]]}
+  assert.deepEqual(notes(), [])
+  one.frame({system: several})
+  assert.deepEqual(notes(), [SAYS.othersSlip])
+  one.frame({}) // of the same system
+  one.frame({system: several})
+  assert.deepEqual(notes(), [SAYS.othersSlip])
+  one.frame({system: {contacts: []}})
+  assert.deepEqual(notes(), [])
 })
 
 const ONE = {kind: ["stable"], period: [7.5], multiplier: [0.25], reason: "", notes: []}
