@@ -220,12 +220,21 @@ def _special_points(
 
         place = zero_between(piece.condition, value, one, other, PLACE_SHARE)
         row = response_row(piece, place, before.onward)
-        if row is not None and (point := change_point(piece.family.along, kind, row, before, after)) is not None:
+        if row is not None and (
+            point := change_point(piece.family.along, kind, row, before, after, _parameter_turns(piece, one, other))
+        ):
             yield point
     if Counter(before.phases) != Counter(after.phases) and piece.family.first.eps == 0.0:
         row = _phase_border(piece, (one, before), (other, after))
         if (point := change_point(piece.family.along, "phases change", row, before, after)) is not None:
             yield point
+
+
+def _parameter_turns(piece: Piece, one: Array, other: Array) -> bool:
+    """Whether the parameter turns between two neighbours, by tangents: near a fold its values differ too little."""
+    ends = tangent(piece.condition, one), tangent(piece.condition, other)
+    slopes = [end[-1] * float(end @ (other - one)) for end in ends if end is not None]
+    return len(slopes) == 2 and slopes[0] * slopes[1] < 0.0
 
 
 def _phase_border(piece: Piece, one: tuple[Array, ResponseRow], other: tuple[Array, ResponseRow]) -> ResponseRow:

@@ -80,12 +80,14 @@ KINDS_OF_CHANGE: Mapping[str, Callable[[Complex], float]] = {
 
 
 def change_point(
-    along: str, kind: str, row: ResponseRow, before: ResponseRow, after: ResponseRow
+    along: str, kind: str, row: ResponseRow, before: ResponseRow, after: ResponseRow, turns: bool = False
 ) -> ResponsePoint | None:
-    """Return the point at a zero of a test function between two motions; None where it is none of that kind."""
+    """Return the point at a zero of a test function between two motions; None where it is none of that kind.
+
+    The parameter `turns` between the two or it does not.
+    """
     told = {"name": along, "value": row.value}
     if kind == "fold":
-        turns = (row.value - before.value) * (row.value - after.value) > 0.0
         kind, sentence = (
             ("fold", say("response folds", **told)) if turns else ("branch point", say("branches off", **told))
         )

@@ -106,6 +106,12 @@ def test_folds_of_a_bent_resonance(bent):
         assert (alone.stability == "stable") == bent.stable[i]
 
 
+def test_a_fold_is_one_at_a_loose_tolerance_too():
+    """Near it values of the parameter differ by less than their error."""
+    found = response_curve(DUFFING, (0.0, 0.0, 2.0, 0.3), of_w, "w", (1.59, 2.6), rtol=1e-6)
+    assert [one.kind for one in found.special] == ["fold"]
+
+
 def test_folds_come_from_those_of_small_eps(bent):
     near = response_curve(DUFFING, (0.0, 0.0, 2.0, 0.3), of_w, "w", (1.4, 2.6), psi.constant(), 1e-4)
     ours, theirs = (sorted(one.value for one in curve.special if one.kind == "fold") for curve in (bent, near))
@@ -146,8 +152,8 @@ def test_real_pairs_are_no_torus_and_a_branch_is_no_fold():
         value=value, period=1.0, multipliers=np.array(of, complex), phases=("slip",)
     )
     assert change_point("w", "Neimark-Sacker", row(0.5, 2.0, 0.5), row(0.4), row(0.6)) is None
-    through = change_point("w", "fold", row(0.5, 1.0), row(0.4), row(0.6))
-    turning = change_point("w", "fold", row(0.5, 1.0), row(0.4), row(0.45))
+    through = change_point("w", "fold", row(0.5, 1.0), row(0.4), row(0.6), turns=False)
+    turning = change_point("w", "fold", row(0.5, 1.0), row(0.4), row(0.45), turns=True)
     assert (through.kind, turning.kind) == ("branch point", "fold")
     assert recognise(through.sentence)[0][0] == "branches off"
 
