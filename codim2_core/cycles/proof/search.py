@@ -253,7 +253,8 @@ def loops(system: ScaledLayerProblem, cycle: Array, stable: bool) -> Iterator[Ar
     ways = np.exp(2j * math.pi * np.arange(64) / 64)
     rays = ways[:, None] * np.linspace(abs(line).min(), 0.99, 24)
     least = (forward * sense * _turning(system, rays.ravel())).reshape(rays.shape).min(axis=1)
-    for way in ways[np.argsort(-least)[:4]].tolist():
+    best = least.reshape(8, 8).argmax(axis=1) + 8 * np.arange(8)  # of each eighth of a turn
+    for way in ways[best[np.argsort(-least[best])[:4]]].tolist():
         turned = line / way
         crosses = (turned.imag[1:] * turned.imag[:-1] <= 0.0) & (turned.real[1:] > 0.0)
         if not crosses.any():
