@@ -97,14 +97,9 @@ def halves(n):
     return np.stack([left, left[::-1, ::-1]])
 
 
+@np.errstate(all="ignore")
 def check(certificate):
     """Return what is proved of limit directions, critical sets, limit cycles, and that these are all; None: nothing."""
-    with np.errstate(all="ignore"):
-        return proved_portrait(certificate)
-
-
-def proved_portrait(certificate):
-    """Return what limit directions, critical sets and how many limit cycles there are; None: not shown."""
     (family, power), known = certificate["psi"], ("constant", "hill", "rational", "exponential", "tanh")
     if family not in known or (family == "hill" and not power >= 1):
         return {"limit directions": None, "critical sets": None, "limit cycles": None}
@@ -353,7 +348,7 @@ def squares(chart, centers, half):
     return np.where(w + r > 0, low - ROUNDING_BOUND, np.inf), high + ROUNDING_BOUND
 
 
-def sign_changes(P, start, end):
+def zero_bound(P, start, end):
     """Return a bound of the zeros of P on the way from one place to another (Descartes); None if a corner is one."""
     n, powers = 2 * len(P) - 2, [[np.array([1], object)], [np.array([1], object)]]
     for row, a, b in zip(powers, start, end):
@@ -388,7 +383,7 @@ def cycle_count(P, certificate, charts, field, lines):
         joined = isinstance(end, int)  # to a critical set before this one
         if not (0 <= end < len(changes) if joined else {*map(type, end)} == {int} and max(map(abs, end)) == 8):
             return None
-        changes.append(sign_changes(P, start, starts[end] if joined else [Fraction(v, 8) for v in end]))
+        changes.append(zero_bound(P, start, starts[end] if joined else [Fraction(v, 8) for v in end]))
     if None in changes or sum(map(bool, changes)) > 1:
         return None
     most, core = sum(changes), []
