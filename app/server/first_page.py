@@ -13,10 +13,10 @@ import bokeh
 from tornado.web import RequestHandler
 
 from ..view import warmup
-from ..view.first_markup import MARKUP, NOTICE, TITLE, page_markup, policy
+from ..view.first_markup import MARKUP, TITLE, page_markup, policy
 from ..view.markup import page_frame
 from ..view.opening import link_of
-from .live import LivePages, is_known, query_of
+from .live import LivePages, query_of
 from .scripts import PREVIEW, takes_packed
 
 KEPT_PAGES = 64  # addresses
@@ -81,7 +81,7 @@ class Page(RequestHandler):
         here = f"{self.request.protocol}://{escape(self.request.host)}{app.prefix}"
         text = _page_frame().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
         text = text.replace(MARKUP, markup_of(query_of(self.request.arguments)))
-        page, packed, allowed = _ready_page(text.replace(NOTICE, self._notice()), self.ancestors)
+        page, packed, allowed = _ready_page(text, self.ancestors)
         self.set_header("Content-Security-Policy", allowed)
         if takes_packed(self):
             self.set_header("Content-Encoding", "gzip")
@@ -96,16 +96,3 @@ class Page(RequestHandler):
     def on_finish(self) -> None:
         """Let go on what stands back for the first page."""
         warmup.page_sent()
-
-    def _notice(self) -> str:
-        """Say what to set where the browser's websocket will be refused: under a name that is not allowed."""
-        host = self.request.host.lower()
-        names = list(self.application.websocket_origins)  # type: ignore[attr-defined]  # Bokeh's
-        if is_known(f"{self.request.protocol}://{host}", names):
-            return ""
-        return (
-            '<p role="alert" style="font:16px sans-serif;margin:0;padding:.8em;background:#fff6e0;color:#1c2430">'
-            f"This server does not expect to be reached as <b>{escape(host)}</b>, so the picture below cannot move. "
-            f"Start it with <code>--allow-origin {escape(host)}</code> or <code>CODIM2_ORIGINS={escape(host)}</code>."
-            "</p>"
-        )

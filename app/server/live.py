@@ -11,11 +11,10 @@ from __future__ import annotations
 import json
 import logging
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
-from bokeh.server.util import check_allowlist
 from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
@@ -29,6 +28,7 @@ from ..view.markup import edition
 from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
 from ..view.warmup import FormulaQuota, is_ready_for_all
+from .application import is_known
 from .session_queue import Rota
 
 #: Bytes of one message from a browser: a request is a few hundred.
@@ -41,13 +41,6 @@ ASIDE = frozenset({"take", "room", "note"})
 CLOSE_FULL, CLOSE_FAILED, REFUSED = 1013, 1011, 1008
 
 _log = logging.getLogger(__name__)
-
-
-def is_known(origin: str, names: Sequence[str]) -> bool:
-    """Whether pages of an origin may have a line: its host is among the names that the server was told of."""
-    scheme, _, host = origin.lower().partition("://")
-    port = "" if ":" in host else ":443" if scheme == "https" else ":80"
-    return check_allowlist(host + port, names) or check_allowlist(host, names)
 
 
 def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
@@ -119,7 +112,8 @@ class LiveConnection(WebSocketHandler):
 
     def check_origin(self, origin: str) -> bool:
         """Let pages of this server in, and of the hosts that it was told of."""
-        return is_known(origin, list(self.application.websocket_origins))  # type: ignore[attr-defined]  # Bokeh's
+        app: Any = self.application
+        return is_known(origin, app.names)
 
     def open(self, *_: str, **__: str) -> None:
         """Let a page in, in its turn."""
@@ -137,7 +131,7 @@ class LiveConnection(WebSocketHandler):
             return
         try:
             frames, config, first = open_page(link_of(query_of(self.request.arguments)), self.places.engine)
-        except Exception:  # the page says so; the log has the rest
+        except BaseException:  # the page says so; the log has the rest
             _log.exception("a page could not be opened")
             self.close(CLOSE_FAILED, "a page could not be opened")
             return

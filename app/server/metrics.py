@@ -87,9 +87,12 @@ def _resident_memory() -> float:
 class MetricsPage(RequestHandler):
     """Answers ``/metrics``."""
 
+    def initialize(self, metrics: Metrics) -> None:
+        """Take what `make_server` gives."""
+        self.metrics = metrics
+
     def get(self) -> None:
         """Send the text."""
-        metrics: Metrics = self.settings["metrics"]
         self.set_header("Content-Type", CONTENT_TYPE)
         self.set_header("Cache-Control", "no-store")
-        self.finish(metrics.text())
+        self.finish(self.metrics.text())

@@ -10,13 +10,12 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import Executor
+from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import version
-from typing import Any
 
-import panel as pn
+from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
-from tornado.process import task_id
 from tornado.web import RequestHandler
 
 from ..docs.docs_handlers import Docs, ToDocs
@@ -29,6 +28,7 @@ from ..rooms.rooms import serve_with as serve_rooms
 from ..view import warmup
 from ..view.compiling.steps import Told
 from ..view.markup import edition
+from .application import ExplorerApplication, known_names
 from .engine_files import EngineFiles, served_panels
 from .first_page import Page
 from .headers import embedders, transform
@@ -38,8 +38,8 @@ from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
 from .process.compile_throttle import stand_back
 from .process.listener import Listener
-from .process.ports import listen_by_own, share_port
-from .scripts import routes
+from .process.ports import bind, fork
+from .scripts import ROUTES
 
 #: What the workers find imported.
 PRELOAD = ("codim2_app.server.worker",)
@@ -52,6 +52,21 @@ SWITCH = 0.0005
 HEADERS = 20.0
 #: Seconds between two signs of life to each page: proxies close a line on which nothing is said for a minute.
 BEAT = 37.0
+
+
+@dataclass
+class Server:
+    """A server of the explorer: it listens, and answers once its loop runs."""
+
+    application: ExplorerApplication
+    http: HTTPServer
+    io_loop: IOLoop
+    port: int
+
+    @property
+    def prefix(self) -> str:
+        """The path below which it answers."""
+        return self.application.prefix
 
 
 class ToRoom(RequestHandler):
@@ -106,9 +121,8 @@ def make_server(
     engine: EngineFiles | None = None,
     executor: Executor | None = None,
     at_once: int = 1,
-    **options: Any,
-) -> Any:
-    """Return a server of the explorer, not yet started (``.start()``, ``.io_loop.start()``).
+) -> Server:
+    """Return a server of the explorer, which answers when its loop runs (``.io_loop.start()``).
 
     Parameters
     ----------
@@ -152,23 +166,40 @@ def make_server(
     board = Board(processes)
     places = LivePages(sessions, engine and {"script": engine.script, "served": served_panels()})
     listen = partial(Listener, counts=Counter(), places=sessions, health=json.dumps(health()))
-    with share_port(processes, listen):
-        server = _server(port, address, allow_origin, processes, prefix, places, embedders(frame_ancestors), options)
-    keep_steady(server.io_loop)
-    listen_by_own(server, address, listen)
-    board.belong(task_id() or 0)
+    sockets, port = bind(port, address, processes)
+    sockets, number = fork(sockets, address, processes)
+    board.belong(number)
     kept = Rooms(board, rooms)
     _keep(kept)
-    application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
-    application.settings["metrics"] = Metrics(places, turns, kept)
-    application.add_handlers(".*", routes(server.prefix) + ([engine.route(server.prefix)] if engine else []))
-    application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
-    application.settings["log_function"] = _log_request
+    application = ExplorerApplication(
+        [
+            (r"/?", Page, {"places": places, "ancestors": embedders(frame_ancestors)}),
+            (r"/live", LiveConnection, {"places": places}),
+            (r"/health", Health),
+            (r"/ready", Ready),
+            (r"/metrics", MetricsPage, {"metrics": Metrics(places, turns, kept)}),
+            (r"/room", ToRoom),
+            (r"/docs", ToDocs),
+            (r"/docs/(.*)", Docs),
+            *ROUTES,
+            *([engine.route()] if engine else []),
+        ],
+        f"/{prefix.strip('/')}".rstrip("/"),
+        known_names(allow_origin, port),
+        transform(frame_ancestors),
+        websocket_max_message_size=MOST_SENT,
+        log_function=_log_request,
+    )
+    loop = IOLoop.current()
+    keep_steady(loop)
+    http = HTTPServer(application, idle_connection_timeout=HEADERS, body_timeout=HEADERS)
+    http.add_sockets(map(listen, sockets))
+    server = Server(application, http, loop, port)
     if not warmup_now:
-        server.io_loop.add_callback(begin)
-    server.io_loop.add_callback(PeriodicCallback(places.beat, 1000 * BEAT).start)
+        loop.add_callback(begin)
+    loop.add_callback(PeriodicCallback(places.beat, 1000 * BEAT).start)
     if os.getpid() != parent:
-        _stop_with(parent, server.io_loop)
+        _stop_with(parent, loop)
     return server
 
 
@@ -213,38 +244,3 @@ def _stop_with(parent: int, loop: IOLoop) -> None:
             loop.stop()
 
     loop.add_callback(PeriodicCallback(check, 1000).start)
-
-
-def _server(
-    port: int,
-    address: str,
-    allow_origin: Sequence[str],
-    processes: int,
-    prefix: str,
-    places: LivePages,
-    ancestors: str,
-    options: dict[str, Any],
-) -> Any:
-    return pn.io.server.get_server(
-        {},
-        port=port,
-        address=address,
-        websocket_origin=list(allow_origin) or None,
-        num_procs=processes,
-        extra_patterns=[
-            (r"/?", Page, {"places": places, "ancestors": ancestors}),
-            (r"/live", LiveConnection, {"places": places}),
-            (r"/health", Health),
-            (r"/ready", Ready),
-            (r"/metrics", MetricsPage),
-            (r"/room", ToRoom),
-            (r"/docs", ToDocs),
-            (r"/docs/(.*)", Docs),
-        ],
-        websocket_max_message_size=MOST_SENT,
-        prefix=prefix,
-        compress_response=True,
-        start=False,
-        http_server_kwargs={"idle_connection_timeout": HEADERS, "body_timeout": HEADERS},
-        **options,
-    )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import io
+import re
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
@@ -99,12 +100,10 @@ class QrCode(RequestHandler):
         self.finish(picture.getvalue())
 
 
-def routes(prefix: str) -> list[tuple[Any, ...]]:
-    """Return what is answered here, to be asked before Bokeh's own routes."""
-    own = "|".join(name.replace(".", r"\.") for name in SCRIPTS)
-    return [
-        (rf"{prefix}/({own})", Script),
-        (rf"{prefix}/qr\.svg", QrCode),
-        (rf"{prefix}/({PREVIEW})", StaticFileHandler, {"path": SCRIPT_FOLDER}),
-        (rf"{prefix}/static/(js/.*\.js)", BokehScript),
-    ]
+#: What is answered here.
+ROUTES: list[tuple[Any, ...]] = [
+    (rf"/({'|'.join(map(re.escape, SCRIPTS))})", Script),
+    (r"/qr\.svg", QrCode),
+    (rf"/({PREVIEW})", StaticFileHandler, {"path": SCRIPT_FOLDER}),
+    (r"/static/(js/bokeh\.min\.js)", BokehScript),  # the only one that a page loads
+]

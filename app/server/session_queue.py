@@ -76,6 +76,6 @@ class Rota:
             try:
                 with answering:
                     do()
-            except Exception:  # one page's fault ends nobody else's turns
+            except BaseException:  # one page's fault ends nobody else's turns, nor does its exit
                 logging.getLogger(__name__).exception("a page could not be answered")
         self._task = None

@@ -18,9 +18,9 @@ from .markup import markup_of_frame
 from .refresh import Frames
 from .warmup import is_ready_for_all
 
-#: What a page is called, and where its markup and what its server has to say stand in it.
+#: What a page is called, and where its markup is put.
 TITLE = "Isolated codimension-2 discontinuity: explorer"
-MARKUP, NOTICE = "<!-- codim2 markup -->", "<!-- codim2 notice -->"
+MARKUP = "<!-- codim2 markup -->"
 
 _INLINE = re.compile(rb"<script(?![^>]*\bsrc=)(?![^>]*application/json)[^>]*>(.*?)</script>", re.DOTALL)
 

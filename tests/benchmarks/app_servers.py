@@ -59,8 +59,7 @@ def forgetful(port: int) -> None:
             self.write({"resident": resident, "objects": many, **counts, "formulas": len(warmup._formulas)})
 
     server = page.make_server(port)
-    server._tornado.add_handlers(r".*", [("/left", Left), ("/there", There)])
-    server.start()
+    server.application.add_handlers(r".*", [("/left", Left), ("/there", There)])
     server.io_loop.start()
 
 

@@ -135,13 +135,6 @@ def test_headers_allow_this_origin_and_tell_nothing(server):
     assert opened(server + "/health")[1]["Content-Security-Policy"].endswith("frame-ancestors 'self'")
 
 
-def test_a_page_under_another_name_says_what_to_set(server):
-    assert "--allow-origin" not in opened(server)[0]
-    page, _ = opened(server, Host="lan.example:8080")
-    assert "--allow-origin lan.example:8080" in page
-    assert "CODIM2_ORIGINS=lan.example:8080" in page
-
-
 def test_an_address_cannot_write_scripts(server):
     page, _ = opened(server + "/?psi_text=%3Cscript%3Ealert(1)%3C/script%3E&%3Cscript%3E=1")
     assert "<script>alert" not in page
