@@ -6,6 +6,7 @@ import logging
 import sys
 from collections.abc import Sequence
 from html import escape
+from ipaddress import IPv4Address, ip_address, ip_network
 from typing import Any
 
 from bokeh.server.util import check_allowlist, create_hosts_allowlist
@@ -38,6 +39,17 @@ def is_known(origin: str, names: Sequence[str]) -> bool:
     scheme, _, host = origin.lower().partition("://")
     port = "" if ":" in host else ":443" if scheme == "https" else ":80"
     return check_allowlist(host + port, names) or check_allowlist(host, names)
+
+
+def visitor_of(request: HTTPServerRequest) -> str:
+    """Return the network address of a visitor: of IPv6 the network, which one visitor has all of."""
+    try:
+        address = ip_address((request.remote_ip or "").partition("%")[0])
+    except ValueError:  # of a socket that has none
+        return ""
+    if isinstance(address, IPv4Address):
+        return str(address)
+    return str(address.ipv4_mapped or ip_network((int(address), 64), strict=False))
 
 
 class Misdirected(RequestHandler):
@@ -84,6 +96,7 @@ class ExplorerApplication(Application):
         self, rules: Sequence[Rule], prefix: str, names: Sequence[str], headers: type[OutputTransform], **settings: Any
     ) -> None:
         self.prefix, self.names = prefix, names
+        self.listed = [name for name in names if "*" not in name]
         below = [_guard(prefix + pattern, *more) for pattern, *more in rules]
         super().__init__(below, transforms=[headers, GZipContentEncoding], **settings)
 

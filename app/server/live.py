@@ -18,9 +18,9 @@ from typing import Any
 from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
+from ..draw.packing import unpack
 from ..frame.budget import Budget
 from ..state.chosen_system import NORMAL
-from ..state.links import Link
 from ..state.request_reading import MOST_CONTROLS
 from ..state.system_opening_values import opening_values
 from ..view.answers import AnswerQueue
@@ -28,11 +28,14 @@ from ..view.markup import edition
 from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
 from ..view.warmup import FormulaQuota, is_ready_for_all
-from .application import is_known
+from .application import is_known, visitor_of
+from .kept import Kept
 from .session_queue import Rota
 
 #: Bytes of one message from a browser: a request is a few hundred.
 MOST_SENT = 200_000
+#: Bytes that are kept for all: first frames by address (10 kB each), and pages with them (200 kB).
+MOST_FIRSTS, MOST_PAGES = 4_000_000, 16_000_000
 #: What a page may ask for at once: a frame, files, and a room.
 MOST_ASKED = 8
 #: Names of what is asked or told besides frames.
@@ -48,11 +51,22 @@ def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
     return {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
 
 
-def open_page(link: Link, engine: Mapping[str, Any] | None = None) -> tuple[Frames, str, bytes]:
-    """Return what a page shows, what its script must know, and its first frame."""
+def key_of(query: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
+    """Return what an address is kept by."""
+    return tuple(sorted(query.items()))
+
+
+def open_page(query: Mapping[str, str], places: LivePages) -> tuple[Frames, str, bytes]:
+    """Return what a page shows, what its script must know, and its first frame, which is kept if it is whole."""
+    link = link_of(query)
     budget = Budget(FormulaQuota().elsewhere)
     frames = Frames(link.state, None, is_ready_for_all, link.errors, budget)
-    return frames, *opening_messages(frames, link, edition(), engine=engine)
+    config, first = opening_messages(frames, link, edition(), engine=places.engine)
+    header, _ = unpack(first)
+    if header.get("ready") and "picture" not in header.get("late", ()):
+        key = key_of(query)
+        places.firsts.keep(key, first, len(first) + len(str(key)))
+    return frames, config, first
 
 
 def merge_requests(kept: Mapping[str, Any], newer: Mapping[str, Any]) -> dict[str, Any]:
@@ -79,12 +93,15 @@ class LivePages:
         What pages are told of a worker of their own.
     open : set of LiveConnection
     rota : Rota
+    firsts, pages : Kept
+        First frames by address, and pages with them.
     frames, openings, refused : int
         How many have been sent, were let in, and found no place.
     """
 
     def __init__(self, most: int, engine: Mapping[str, Any] | None = None) -> None:
         self.most, self.engine, self.open, self.rota = most, engine, set[LiveConnection](), Rota()
+        self.firsts, self.pages = Kept[bytes](MOST_FIRSTS), Kept[tuple[bytes, bytes, str]](MOST_PAGES)
         self.frames = self.openings = self.refused = 0
 
     def beat(self) -> None:
@@ -124,13 +141,13 @@ class LiveConnection(WebSocketHandler):
             self.close(CLOSE_FULL, "all places are taken")
             return
         self.places.open.add(self)
-        self.places.rota.come_in(self._begin)
+        self.places.rota.come_in(self._begin, visitor_of(self.request))
 
     def _begin(self) -> None:
         if self not in self.places.open:
             return
         try:
-            frames, config, first = open_page(link_of(query_of(self.request.arguments)), self.places.engine)
+            frames, config, first = open_page(query_of(self.request.arguments), self.places)
         except BaseException:  # the page says so; the log has the rest
             _log.exception("a page could not be opened")
             self.close(CLOSE_FAILED, "a page could not be opened")

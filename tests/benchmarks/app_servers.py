@@ -32,8 +32,8 @@ def forgetful(port: int) -> None:
     held: WeakSet[Frames] = WeakSet()
     open_page = live.open_page
 
-    def noted(link: Any) -> Any:
-        found = open_page(link)
+    def noted(*of: Any) -> Any:
+        found = open_page(*of)
         held.add(found[0])
         return found
 

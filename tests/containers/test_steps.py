@@ -17,7 +17,8 @@ ROOT = Path(__file__).parents[2]
 #: What a stage may copy or write, from the root of its file system.
 PATHS = re.compile(r"(?<![\w./])/(?=(?:build\.txt|docs\.txt|wheels|source|site|srv)\b)")
 LEFT_OUT = ("useradd", "codim2 warm")
-SITE = ("codim2 docs /site", "python -c 'from codim2_app.docs.build import build; build(\"/site\", portraits=False)'")
+BUILD = "from pathlib import Path; from codim2_app.docs.build import build; build(Path('/site'), portraits=False)"
+SITE = ("codim2 docs /site", f'python -c "{BUILD}"')
 
 
 def instructions():

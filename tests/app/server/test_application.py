@@ -179,10 +179,10 @@ def test_a_page_whose_request_exits_ends_no_process():
 from codim2_app.server import live
 live.LiveConnection._answer = lambda self, request: sys.exit(3)
 real = live.open_page
-def open_page(link, engine=None):
-    if link.state.a == -7:
+def open_page(query, places):
+    if query.get("a") == "-7":
         raise SystemExit(4)
-    return real(link, engine)
+    return real(query, places)
 live.open_page = open_page
 from codim2_app.server.cli import main
 sys.exit(main(sys.argv[1:]))
