@@ -39,7 +39,7 @@ from .process.clock import keep_steady
 from .process.compile_throttle import stand_back
 from .process.listener import Listener
 from .process.ports import bind, fork
-from .scripts import ROUTES
+from .scripts import ROUTES, QrCode
 
 #: What the workers find imported.
 PRELOAD = ("codim2_app.server.worker",)
@@ -50,6 +50,8 @@ SWITCH = 0.0005
 
 #: Seconds for which a connection may say nothing before its next request, or go on with one; no websocket.
 HEADERS = 20.0
+#: Bytes of a request's lines, of which a link is the longest.
+MAX_HEADER_BYTES = 20_000
 #: Seconds between two signs of life to each page: proxies close a line on which nothing is said for a minute.
 BEAT = 37.0
 
@@ -181,6 +183,7 @@ def make_server(
             (r"/room", ToRoom),
             (r"/docs", ToDocs),
             (r"/docs/(.*)", Docs),
+            (r"/qr\.svg", QrCode, {"rota": places.rota}),
             *ROUTES,
             *([engine.route()] if engine else []),
         ],
@@ -192,7 +195,14 @@ def make_server(
     )
     loop = IOLoop.current()
     keep_steady(loop)
-    http = HTTPServer(application, idle_connection_timeout=HEADERS, body_timeout=HEADERS)
+    http = HTTPServer(
+        application,
+        idle_connection_timeout=HEADERS,
+        body_timeout=HEADERS,
+        max_header_size=MAX_HEADER_BYTES,
+        max_body_size=0,  # nobody sends any
+        max_buffer_size=4 * MOST_SENT,
+    )
     http.add_sockets(map(listen, sockets))
     server = Server(application, http, loop, port)
     if not warmup_now:

@@ -4,7 +4,9 @@ import json
 import socket
 import subprocess
 import sys
+from contextlib import suppress
 from http.client import HTTPConnection
+from urllib.parse import urlencode
 
 import pytest
 from codim2_app.server.live import CLOSE_FAILED
@@ -202,3 +204,38 @@ sys.exit(main(sys.argv[1:]))
     with serving(command=("-c", code)) as address:
         talk(visits(address.port))
         assert asked(address.port, "/health")[0] == 200
+
+
+@pytest.mark.parametrize("text", ["x" * 300, "http://h/?a=1", "ä" * 150])
+def test_a_code_has_a_short_text(server, text):
+    assert asked(server.port, f"/qr.svg?{urlencode({'text': text})}")[0] == 200
+    assert asked(server.port, f"/qr.svg?{urlencode({'text': text + 'x' * 300})}")[0] == 400
+    assert asked(server.port, "/qr.svg?text=")[0] == 400
+    assert asked(server.port, "/qr.svg?text=%ff%ed%a0%80")[0] in (200, 400)
+
+
+BODIES = {
+    "long": "Content-Length: 99000000\r\n\r\n",
+    "a byte": "Content-Length: 1\r\n\r\n",
+    "expected": "Content-Length: 99000000\r\nExpect: 100-continue\r\n\r\n",
+    "in pieces": "Transfer-Encoding: chunked\r\n\r\n5F5E100\r\n",
+    "packed": "Content-Encoding: gzip\r\nContent-Length: 1000\r\n\r\n",
+    "form": "Content-Type: multipart/form-data; boundary=x\r\nContent-Length: 99000000\r\n\r\n",
+    "headers": "X: " + "x" * 30_000 + "\r\n\r\n",
+    "many headers": "".join(f"X{i}: x\r\n" for i in range(5000)) + "\r\n",
+}
+
+
+@pytest.mark.parametrize("path", ["/", "/live", "/health", "/nothing"])
+@pytest.mark.parametrize("method", ["POST", "PUT", "GET"])
+@pytest.mark.parametrize("body", BODIES)
+def test_a_body_is_refused_before_it_is_sent(server, method, path, body):
+    """Nothing of it is sent here: who waits for it would not answer."""
+    with socket.create_connection(("localhost", server.port), 10) as line:
+        line.sendall(f"{method} {path} HTTP/1.1\r\nHost: localhost:{server.port}\r\n{BODIES[body]}".encode())
+        answer = b""
+        with suppress(ConnectionResetError):
+            while piece := line.recv(4096):
+                answer += piece
+    answer = answer.removeprefix(b"HTTP/1.1 100 (Continue)\r\n\r\n")  # as Tornado greets before it looks
+    assert answer[:12] in (b"", b"HTTP/1.1 400", b"HTTP/1.1 413", b"HTTP/1.1 431")
