@@ -171,6 +171,8 @@ def _serve(chosen: argparse.Namespace) -> None:
         prefix=chosen.prefix,
         frame_ancestors=chosen.frame_ancestors,
         sessions=chosen.sessions,
+        per_address=chosen.per_address,
+        proxied=chosen.proxied,
         rooms=chosen.rooms,
         told=_say_if_compiled,
         engine=None if chosen.pyodide is None else _engine(chosen.pyodide, chosen.kernels),

@@ -47,7 +47,7 @@ class Page(RequestHandler):
             self.redirect(f"{self.request.path}/?{self.request.query}".rstrip("?"))
             return
         self.set_header("Cache-Control", "no-store")
-        if self.places.full:
+        if not self.places.has_place(visitor_of(self.request)):
             self.places.refused += 1
             self.set_status(503)
             self.set_header("Retry-After", str(RETRY))

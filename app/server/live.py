@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import json
 import logging
-from collections import deque
+import time
+from collections import Counter, deque
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from typing import Any
 
 from tornado.ioloop import IOLoop
@@ -38,10 +38,17 @@ MOST_SENT = 200_000
 MOST_FIRSTS, MOST_PAGES = 4_000_000, 16_000_000
 #: What a page may ask for at once: a frame, files, and a room.
 MOST_ASKED = 8
+#: Pages that one network address may have open.
+MOST_OF_ONE = 200
+#: Seconds between two pages that come back after their server was gone, which opening one takes; and at most for one.
+RETURN_SECONDS, MAX_RETURN_SECONDS = 0.05, 20.0
+#: Seconds after which a page that has asked nothing gives its place to another one, where all are taken.
+RESTING_SECONDS = 180.0
 #: Names of what is asked or told besides frames.
 ASIDE = frozenset({"take", "room", "note"})
-#: Why a connection is closed before its page has begun, as codes of websockets: all places are taken; a fault here.
-CLOSE_FULL, CLOSE_FAILED, REFUSED = 1013, 1011, 1008
+#: Why a connection is closed, as codes of websockets: all places are taken; a fault here; a message that no page sends;
+#: the page has rested for long, and another one has its place.
+CLOSE_FULL, CLOSE_FAILED, REFUSED, CLOSE_RESTING = 1013, 1011, 1008, 4001
 
 _log = logging.getLogger(__name__)
 
@@ -99,21 +106,49 @@ class LivePages:
         How many have been sent, were let in, and found no place.
     """
 
-    def __init__(self, most: int, engine: Mapping[str, Any] | None = None) -> None:
-        self.most, self.engine, self.open, self.rota = most, engine, set[LiveConnection](), Rota()
+    def __init__(self, most: int, engine: Mapping[str, Any] | None = None, most_of_one: int = MOST_OF_ONE) -> None:
+        self.most, self.most_of_one, self.engine = most, most_of_one, engine
+        self.open, self.addresses, self.rota = set[LiveConnection](), Counter[str](), Rota()
         self.firsts, self.pages = Kept[bytes](MOST_FIRSTS), Kept[tuple[bytes, bytes, str]](MOST_PAGES)
         self.frames = self.openings = self.refused = 0
+        self._next_return = 0.0
 
-    def beat(self) -> None:
-        """Give each page a sign of life."""
-        for page in self.open:
-            with suppress(WebSocketClosedError):
-                page.ping(b"")
+    def has_place(self, address: str) -> bool:
+        """Whether one more page of a network address may be open; one that rests for long gives its place up."""
+        if self.addresses[address] >= self.most_of_one:
+            return False
+        return len(self.open) < self.most or self._resting() is not None
 
-    @property
-    def full(self) -> bool:
-        """Whether all are taken."""
-        return len(self.open) >= self.most
+    def let_in(self, page: LiveConnection) -> bool:
+        """Give a page a place, or say that there is none."""
+        if not self.has_place(page.address):
+            self.refused += 1
+            return False
+        if len(self.open) >= self.most and (resting := self._resting()) is not None:
+            self.let_out(resting)
+            resting.close(CLOSE_RESTING, "another page has taken its place")
+        self.open.add(page)
+        self.addresses[page.address] += 1
+        return True
+
+    def let_out(self, page: LiveConnection) -> None:
+        """Have a page's place free."""
+        if page in self.open:
+            self.open.remove(page)
+            self.addresses[page.address] -= 1
+            if not self.addresses[page.address]:
+                del self.addresses[page.address]
+
+    def turn_of_return(self) -> float:
+        """Return the seconds after which a page that has lost its server may come back: one after the other."""
+        now = time.monotonic()
+        self._next_return = min(max(now, self._next_return + RETURN_SECONDS), now + MAX_RETURN_SECONDS)
+        return round(self._next_return - now, 3)
+
+    def _resting(self) -> LiveConnection | None:
+        """Return the page that has asked nothing for longest, if that is minutes; who is in a room stays."""
+        longest = min((page for page in self.open if not page.is_in_a_room), key=lambda page: page.heard, default=None)
+        return None if longest is None or time.monotonic() - longest.heard < RESTING_SECONDS else longest
 
 
 class LiveConnection(WebSocketHandler):
@@ -121,11 +156,17 @@ class LiveConnection(WebSocketHandler):
 
     def initialize(self, places: LivePages) -> None:
         """Take what `make_server` gives."""
-        self.places = places
+        self.places, self.address = places, visitor_of(self.request)
+        self.heard = time.monotonic()  # when it asked for something last
         self.answers: AnswerQueue | None = None
         self._request: dict[str, Any] | None = None  # for a frame, with all that has been set since the last one
         self._asked: deque[Callable[[], None]] = deque()  # in the order in which it came; `_request` is one of them
         self._writing = False
+
+    @property
+    def is_in_a_room(self) -> bool:
+        """Whether its visitor has opened or entered one."""
+        return self.answers is not None and self.answers.visitor.is_in_a_room
 
     def check_origin(self, origin: str) -> bool:
         """Let pages of this server in, and of the hosts that it was told of."""
@@ -136,12 +177,10 @@ class LiveConnection(WebSocketHandler):
         """Let a page in, in its turn."""
         self.set_nodelay(True)
         self._loop = IOLoop.current()
-        if self.places.full:
-            self.places.refused += 1
+        if not self.places.let_in(self):
             self.close(CLOSE_FULL, "all places are taken")
             return
-        self.places.open.add(self)
-        self.places.rota.come_in(self._begin, visitor_of(self.request))
+        self.places.rota.come_in(self._begin, self.address)
 
     def _begin(self) -> None:
         if self not in self.places.open:
@@ -153,12 +192,13 @@ class LiveConnection(WebSocketHandler):
             self.close(CLOSE_FAILED, "a page could not be opened")
             return
         self.places.openings += 1
-        self.answers = AnswerQueue(frames, self._send, self._later, self._loop.call_later)
+        self.answers = AnswerQueue(frames, self._send, self._later, self._loop.call_later, self.address)
         self._write(config)
         self._write(first)
 
     def on_message(self, message: str | bytes) -> None:
         """Note what is asked for; it is answered in this page's turn."""
+        self.heard = time.monotonic()
         try:
             request = json.loads(message) if isinstance(message, str) else None
         except (ValueError, RecursionError):
@@ -233,7 +273,7 @@ class LiveConnection(WebSocketHandler):
 
     def on_close(self) -> None:
         """End what was computed for this page alone."""
-        self.places.open.discard(self)
+        self.places.let_out(self)
         self.places.rota.leave(self)
         answers, self.answers = self.answers, None
         self._asked.clear()

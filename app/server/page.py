@@ -13,6 +13,7 @@ from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import version
+from typing import Any
 
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
@@ -33,7 +34,7 @@ from .engine_files import EngineFiles, served_panels
 from .first_page import Page
 from .headers import embedders, transform
 from .kernel_cache import begin_early
-from .live import MOST_SENT, LiveConnection, LivePages
+from .live import MOST_OF_ONE, MOST_SENT, LiveConnection, LivePages
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
 from .process.compile_throttle import stand_back
@@ -79,7 +80,7 @@ class ToRoom(RequestHandler):
         self.redirect("./?room=new")
 
 
-def health() -> dict[str, str]:
+def health() -> dict[str, Any]:
     """Return what the process says of itself."""
     return {"status": "ok", "version": version("codim2"), "edition": edition()}
 
@@ -87,10 +88,18 @@ def health() -> dict[str, str]:
 class Health(RequestHandler):
     """Answers 200 while the process serves: a container that does not is started again."""
 
+    def initialize(self, places: LivePages) -> None:
+        """Take what `make_server` gives."""
+        self.places = places
+
     def get(self) -> None:
-        """Say that it is there, and which version it is; pages that come back look whether it is still theirs."""
+        """Say that it is there, and which version it is; pages that come back look whether it is still theirs.
+
+        Each of these is told how long to wait, so that many do not wait for each other.
+        """
         self.set_header("Cache-Control", "no-store")
-        self.write(health())
+        back = self.get_query_argument("back", "") == "1"
+        self.write(health() | ({"wait": self.places.turn_of_return()} if back else {}))
 
     head = get
 
@@ -118,6 +127,8 @@ def make_server(
     prefix: str = "",
     frame_ancestors: str = "'self'",
     sessions: int = 400,
+    per_address: int = MOST_OF_ONE,
+    proxied: bool = False,
     rooms: int = MOST_ROOMS,
     told: Told | None = None,
     engine: EngineFiles | None = None,
@@ -144,6 +155,10 @@ def make_server(
         Who may embed the pages besides this server, as Content-Security-Policy says it.
     sessions : int
         Open pages of a process, beyond which a new one is asked to wait.
+    per_address : int
+        Open pages of one network address, of a process.
+    proxied : bool
+        Whether a proxy in front says in X-Real-IP whose a request is; nobody else may reach the server then.
     rooms : int
         Rooms that lecturers have open at once, of a process; 0 for none.
     told : callable, optional
@@ -166,7 +181,7 @@ def make_server(
         begin()
     parent = os.getpid()
     board = Board(processes)
-    places = LivePages(sessions, engine and {"script": engine.script, "served": served_panels()})
+    places = LivePages(sessions, engine and {"script": engine.script, "served": served_panels()}, per_address)
     listen = partial(Listener, counts=Counter(), places=sessions, health=json.dumps(health()))
     sockets, port = bind(port, address, processes)
     sockets, number = fork(sockets, address, processes)
@@ -177,7 +192,7 @@ def make_server(
         [
             (r"/?", Page, {"places": places, "ancestors": embedders(frame_ancestors)}),
             (r"/live", LiveConnection, {"places": places}),
-            (r"/health", Health),
+            (r"/health", Health, {"places": places}),
             (r"/ready", Ready),
             (r"/metrics", MetricsPage, {"metrics": Metrics(places, turns, kept)}),
             (r"/room", ToRoom),
@@ -191,6 +206,8 @@ def make_server(
         known_names(allow_origin, port),
         transform(frame_ancestors),
         websocket_max_message_size=MOST_SENT,
+        websocket_ping_interval=BEAT,  # a page that has not answered at the next beat has gone
+        websocket_ping_timeout=BEAT,
         log_function=_log_request,
     )
     loop = IOLoop.current()
@@ -202,12 +219,12 @@ def make_server(
         max_header_size=MAX_HEADER_BYTES,
         max_body_size=0,  # nobody sends any
         max_buffer_size=4 * MOST_SENT,
+        xheaders=proxied,
     )
     http.add_sockets(map(listen, sockets))
     server = Server(application, http, loop, port)
     if not warmup_now:
         loop.add_callback(begin)
-    loop.add_callback(PeriodicCallback(places.beat, 1000 * BEAT).start)
     if os.getpid() != parent:
         _stop_with(parent, loop)
     return server
