@@ -33,8 +33,6 @@ SHARE = 4  # of all rooms, one network address has at most this part
 MOST_TRIES = 60  # of one network address in a minute, in vain: codes are not to be guessed
 SHARING_SECONDS = 0.5  # seconds
 
-_log = logging.getLogger(__name__)
-
 #: ``[number, name of the portrait, settings or None, [lesson, question, right] or None]``
 GuestRow = list[Any]
 Tell = Callable[[dict[str, Any]], None]
@@ -284,7 +282,7 @@ class Rooms:
             try:
                 rows.setdefault(guest.code, []).append(_guest_row(guest))
             except Exception:  # his room and all others go on without him
-                _log.exception("a guest of a room cannot be shown; he is taken out of it")
+                logging.getLogger(__name__).exception("a guest of a room cannot be shown; he is taken out of it")
                 self.leave(guest)
         hosts = {host.code: [host.opened, host.is_open(now), host.closed, host.mark] for host in self.hosts.values()}
         views = {host.code: _view_of(host) for host in self.hosts.values() if host.tell is not None}
@@ -346,7 +344,7 @@ def _view_of(host: Host) -> Any:
     try:
         return _short_settings(host.view())
     except Exception:
-        _log.exception("what the lecturer of a room shows cannot be told")
+        logging.getLogger(__name__).exception("what the lecturer of a room shows cannot be told")
         return None
 
 

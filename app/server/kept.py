@@ -1,4 +1,4 @@
-"""What is kept for all visitors: bounded by bytes, what was asked for longest ago goes first."""
+"""A cache for all visitors, bounded by bytes: the least recently used value goes first."""
 
 from __future__ import annotations
 

@@ -14,7 +14,7 @@ from typing import Protocol, TypeVar
 
 from .process.compile_throttle import answering
 
-Result = TypeVar("Result")
+TurnResult = TypeVar("TurnResult")
 
 #: Of so many turns one is that of somebody who opens a page, if there is one.
 FOURTH = 4
@@ -49,9 +49,9 @@ class Rota:
         self._coming.setdefault(address, deque()).append(opening)
         self._begin()
 
-    async def take_turn(self, do: Callable[[], Result], address: str) -> Result:
+    async def take_turn(self, do: Callable[[], TurnResult], address: str) -> TurnResult:
         """Return what a function gives, which is called in the turn of somebody who comes in."""
-        given: asyncio.Future[Result] = asyncio.get_running_loop().create_future()
+        given: asyncio.Future[TurnResult] = asyncio.get_running_loop().create_future()
 
         def turn() -> None:
             if given.cancelled():
