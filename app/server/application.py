@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import logging
+import re
 import sys
 from collections.abc import Sequence
 from html import escape
 from ipaddress import IPv4Address, ip_address, ip_network
 from typing import Any
 
-from bokeh.server.util import check_allowlist, create_hosts_allowlist
+from bokeh.server.util import check_allowlist
 from tornado.httputil import HTTPServerRequest
 from tornado.ioloop import IOLoop
 from tornado.web import Application, GZipContentEncoding, OutputTransform, RequestHandler
@@ -18,6 +19,7 @@ from tornado.web import Application, GZipContentEncoding, OutputTransform, Reque
 Rule = tuple[Any, ...]
 #: What a server is reached by from its own machine.
 LOOPBACK = ("localhost", "127.0.0.1", "[::1]")
+_PORT = re.compile(r":\d+$")
 #: Answered under any name: probes of a host know none, and nothing of a visitor is in the answer.
 PROBES = ("/health", "/ready")
 UNKNOWN_NAME = (
@@ -31,13 +33,14 @@ UNKNOWN_NAME = (
 
 def known_names(allowed: Sequence[str], port: int) -> list[str]:
     """Return the hosts under which a server is reached: those that it is given, and those of its own machine."""
-    return [*create_hosts_allowlist(allowed, port), *(f"{name}:{port}" for name in LOOPBACK)]
+    listed = [name if name == "*" or _PORT.search(name) else f"{name}:80" for name in map(str.lower, allowed)]
+    return [*listed, *(f"{name}:{port}" for name in LOOPBACK)]
 
 
 def is_known(origin: str, names: Sequence[str]) -> bool:
     """Whether the host of an origin is among the names of a server."""
     scheme, _, host = origin.lower().partition("://")
-    port = "" if ":" in host else ":443" if scheme == "https" else ":80"
+    port = "" if _PORT.search(host) else ":443" if scheme == "https" else ":80"
     return check_allowlist(host + port, names) or check_allowlist(host, names)
 
 
@@ -97,7 +100,7 @@ class ExplorerApplication(Application):
     ) -> None:
         self.prefix, self.names = prefix, names
         self.listed = [name for name in names if "*" not in name]
-        below = [_guard(prefix + pattern, *more) for pattern, *more in rules]
+        below = [_guard(re.escape(prefix) + pattern, *more) for pattern, *more in rules]
         super().__init__(below, transforms=[headers, GZipContentEncoding], **settings)
 
     def find_handler(self, request: HTTPServerRequest, **kwargs: Any) -> Any:

@@ -36,8 +36,8 @@ from .session_queue import Rota
 MOST_SENT = 200_000
 #: Bytes that are kept for all: first frames by address (10 kB each), and pages with them (200 kB).
 MOST_FIRSTS, MOST_PAGES = 4_000_000, 16_000_000
-#: What a page may ask for at once: a frame, files, and a room.
-MOST_ASKED = 8
+#: What a page may ask for at once: a frame, files, and a room; all together in `2 * MOST_SENT` bytes.
+MOST_ASKED = 64
 #: Pages that one network address may have open.
 MOST_OF_ONE = 200
 #: Seconds between two pages that come back after their server was gone, which opening one takes; and at most for one.
@@ -161,6 +161,7 @@ class LiveConnection(WebSocketHandler):
         self.answers: AnswerQueue | None = None
         self._request: dict[str, Any] | None = None  # for a frame, with all that has been set since the last one
         self._asked: deque[Callable[[], None]] = deque()  # in the order in which it came; `_request` is one of them
+        self._asked_bytes = 0  # of messages that wait
         self._writing = False
 
     @property
@@ -206,13 +207,24 @@ class LiveConnection(WebSocketHandler):
         if not isinstance(request, dict):
             self._refuse("a message is no JSON object")
         elif ASIDE & request.keys():
-            if len(self._asked) < MOST_ASKED:
-                self._errand(lambda: self._answer(request))
+            self._ask_aside(request, len(message))
         elif self._request is None:
             self._request = request
             self._errand(self._answer_request)
         else:
             self._request = merge_requests(self._request, request)
+
+    def _ask_aside(self, request: dict[str, Any], size: int) -> None:
+        if len(self._asked) >= MOST_ASKED or self._asked_bytes + size > 2 * MOST_SENT:
+            self._refuse("more is asked at once than a page asks")
+            return
+
+        def answer() -> None:
+            self._asked_bytes -= size
+            self._answer(request)
+
+        self._asked_bytes += size
+        self._errand(answer)
 
     def _ask(self) -> None:
         if self._asked and self.answers is not None and not self._writing:

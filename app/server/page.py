@@ -51,6 +51,8 @@ SWITCH = 0.0005
 
 #: Seconds for which a connection may say nothing before its next request, or go on with one; no websocket.
 HEADERS = 20.0
+#: Seconds by which the loop of a process is late that is not well.
+LATE_SECONDS = 2.0
 #: Bytes of a request's lines, of which a link is the longest.
 MAX_HEADER_BYTES = 20_000
 #: Seconds between two signs of life to each page: proxies close a line on which nothing is said for a minute.
@@ -88,18 +90,23 @@ def health() -> dict[str, Any]:
 class Health(RequestHandler):
     """Answers 200 while the process serves: a container that does not is started again."""
 
-    def initialize(self, places: LivePages) -> None:
+    def initialize(self, metrics: Metrics) -> None:
         """Take what `make_server` gives."""
-        self.places = places
+        self.metrics = metrics
 
     def get(self) -> None:
         """Say that it is there, and which version it is; pages that come back look whether it is still theirs.
 
-        Each of these is told how long to wait, so that many do not wait for each other.
+        Each of these is told how long to wait, so that many do not wait for each other. 503: the loop is late.
         """
         self.set_header("Cache-Control", "no-store")
-        back = self.get_query_argument("back", "") == "1"
-        self.write(health() | ({"wait": self.places.turn_of_return()} if back else {}))
+        said = health()
+        if self.metrics.lag.worst >= LATE_SECONDS:
+            self.set_status(503)
+            said["status"] = "late"
+        elif self.get_query_argument("back", "") == "1":
+            said["wait"] = self.metrics.places.turn_of_return()
+        self.write(said)
 
     head = get
 
@@ -188,13 +195,14 @@ def make_server(
     board.belong(number)
     kept = Rooms(board, rooms)
     _keep(kept)
+    metrics = Metrics(places, turns, kept)
     application = ExplorerApplication(
         [
             (r"/?", Page, {"places": places, "ancestors": embedders(frame_ancestors)}),
             (r"/live", LiveConnection, {"places": places}),
-            (r"/health", Health, {"places": places}),
+            (r"/health", Health, {"metrics": metrics}),
             (r"/ready", Ready),
-            (r"/metrics", MetricsPage, {"metrics": Metrics(places, turns, kept)}),
+            (r"/metrics", MetricsPage, {"metrics": metrics}),
             (r"/room", ToRoom),
             (r"/docs", ToDocs),
             (r"/docs/(.*)", Docs),
@@ -222,6 +230,7 @@ def make_server(
         xheaders=proxied,
     )
     http.add_sockets(map(listen, sockets))
+    loop.add_callback(metrics.lag.begin)
     server = Server(application, http, loop, port)
     if not warmup_now:
         loop.add_callback(begin)
