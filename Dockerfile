@@ -1,7 +1,9 @@
 # The explorer as a container: slim base, no root, kernels compiled at build time for a baseline processor, health check.
 # It runs with a read-only root: docker run --read-only --user 10001 -p 5006:5006 codim2
 # What is installed is pinned with hashes: .ci/lock writes the files.
-FROM python:3.12-slim AS wheel
+# A tag moves: --build-arg PYTHON=python:3.12-slim@sha256:… builds on the base that you have looked at.
+ARG PYTHON=python:3.12-slim
+FROM ${PYTHON} AS wheel
 COPY .github/hosting/build.txt /
 RUN pip install --no-cache-dir --require-hashes -r /build.txt
 COPY pyproject.toml README.md LICENSE /source/
@@ -10,13 +12,13 @@ COPY codim2_core /source/codim2_core
 RUN pip wheel --no-cache-dir --no-deps --no-build-isolation --wheel-dir /wheels /source
 
 # The documentation, which the explorer serves at /docs/; what builds it stays in this stage.
-FROM python:3.12-slim AS site
+FROM ${PYTHON} AS site
 COPY .github/hosting/docs.txt /
 COPY --from=wheel /wheels /wheels
 RUN pip install --no-cache-dir --require-hashes -r /docs.txt \
     && pip install --no-cache-dir --no-deps /wheels/*.whl && codim2 docs /site
 
-FROM python:3.12-slim
+FROM ${PYTHON}
 # What the kernels are compiled for: every server processor since 2015. On ARM: --build-arg KERNELS_FOR=generic
 ARG KERNELS_FOR=x86-64-v3
 ENV NUMBA_CPU_NAME=${KERNELS_FOR} \

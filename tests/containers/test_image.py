@@ -19,7 +19,7 @@ from urllib.request import urlopen
 import pytest
 
 ROOT = Path(__file__).parents[2]
-BASE = re.search(r"^FROM (\S+)", (ROOT / "Dockerfile").read_text(encoding="utf-8"), re.MULTILINE).group(1)
+BASE = re.search(r"^ARG PYTHON=(\S+)", (ROOT / "Dockerfile").read_text(encoding="utf-8"), re.MULTILINE).group(1)
 SYSTEM, PACKAGES = "bookworm", "python3,python3-pip,python-is-python3,ca-certificates"
 CERTIFICATES = "/etc/ssl/certs"
 LARGEST = 600e6  # bytes over the base

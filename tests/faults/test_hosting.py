@@ -8,13 +8,15 @@ import signal
 import subprocess
 import time
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, closing, contextmanager, suppress
+from http.client import HTTPConnection
 from pathlib import Path
 from urllib.request import urlopen
 
 import pytest
 import yaml
 from codim2_app.draw.packing import unpack
+from codim2_app.server.cli import parser
 from codim2_app.server.settings import SETTINGS
 from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.websocket import WebSocketClosedError
@@ -95,11 +97,16 @@ def test_the_compose_file_builds_this_and_sets_what_there_is():
         assert each["CODIM2_ORIGINS"] == f"localhost:{port}"
 
 
+def given(i, port):
+    """What the compose file sets for one of its replicas, with the proxy at another port."""
+    own = {name: str(value) for name, value in environments()[i].items()}
+    return {**os.environ, **own, "CODIM2_ORIGINS": f"localhost:{port}"}
+
+
 def replica(i, port, own, prefix=""):
     """One of those that the compose file starts, at a port of its own behind the proxy's."""
-    given = {**os.environ, **{name: str(value) for name, value in environments()[i].items()}}
-    given |= {"CODIM2_ORIGINS": f"localhost:{port}", **({"CODIM2_PREFIX": prefix} if prefix else {})}
-    return serving("--port", own, "--workers", "1", environment=given)
+    environment = given(i, port) | ({"CODIM2_PREFIX": prefix} if prefix else {})
+    return serving("--port", own, "--workers", "1", environment=environment)
 
 
 @needs_nginx
@@ -185,6 +192,64 @@ def test_one_of_three_replicas_is_killed_in_a_drag_and_no_page_loses_its_state(t
             lost = pool.submit(asyncio.run, play(pids)).result()
     assert sum(seen) == PAGES
     assert sorted(map(len, lost)) == [0] * int(PAGES - max(seen)) + [1] * int(max(seen))
+
+
+@needs_nginx
+def test_the_proxy_keeps_operators_and_panels_addresses_and_bodies_from_visitors(tmp_path):
+    port, own = free_port(), str(free_port())
+    handshake = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": "13",
+                 "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA=="}  # fmt: skip
+
+    def status(path, method="GET", body=None, **headers):
+        with closing(HTTPConnection("localhost", port, timeout=20)) as line:
+            line.request(method, path, body, headers)
+            answer = line.getresponse()
+            return answer.status, answer.headers["Set-Cookie"]
+
+    with (
+        serving("--port", own, "--per-address", "1", "--proxied", environment=given(0, port)),
+        proxy(tmp_path, port, [own]),
+    ):
+        assert answers(port)
+        there, cookie = status("/")
+        assert there == 200
+        assert re.fullmatch(r"codim2=\w+; Path=/; HttpOnly; SameSite=Lax", cookie)
+        for path in ("/metrics", "/metrics/", "/components/this/a/__css__/x", "//components/this/a/__css__/x",
+                     "/%63omponents/this/a/__css__/x", "/app/components/x/y/z/w", "/x/../metrics"):  # fmt: skip
+            assert status(path)[0] == 404
+        assert status("/", "POST", b"x" * 2000)[0] == 413
+        assert status("/", Host="evil.example")[0] == 421
+        lines = []
+        for i in range(2):  # whatever a visitor says of himself, it is one address
+            lines.append(HTTPConnection("localhost", port, timeout=20))
+            lines[-1].request(
+                "GET", "/live", headers={**handshake, "X-Real-IP": f"10.0.0.{i}", "X-Forwarded-For": "1.1.1.1"}
+            )
+        begun = []
+        for line in lines:
+            heard = line.sock.recv(4000).partition(b"\r\n\r\n")[2] or line.sock.recv(10)
+            begun.append(heard[:1])
+            line.close()
+        assert sorted(begun) == [b"\x81", b"\x88"]  # one is told what its page begins with, the other is closed
+
+
+def test_the_unit_starts_what_there_is_and_gives_it_little():
+    unit = CONFIGURATION.with_name("codim2@.service").read_text()
+    (command,) = re.findall(r"^ExecStart=\S+/codim2 (.*)$", unit, re.MULTILINE)
+    parser().parse_args(command.replace("%i", "5006").split())
+    for line in (
+        "DynamicUser=yes",
+        "NoNewPrivileges=yes",
+        "ProtectSystem=strict",
+        "CapabilityBoundingSet=\n",
+        "Restart=always",
+    ):
+        assert line in unit
+    assert re.search(r"^(MemoryMax|TasksMax)=\w+$", unit, re.MULTILINE)
+    services = yaml.safe_load(COMPOSE.read_text())["services"]
+    for each in services.values():
+        assert (each["cap_drop"], each["security_opt"]) == (["ALL"], ["no-new-privileges:true"])
+        assert {"mem_limit", "pids_limit", "read_only"} <= each.keys()
 
 
 def commands(title):
