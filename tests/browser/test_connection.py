@@ -97,3 +97,22 @@ def test_a_page_that_gets_no_connection_says_so_and_what_to_do(open_page, code, 
     page.wait_for_selector(".codim2[data-ready]")
     assert explorer.settle().find("select.psi").input_value() == "rational"
     assert not banner.is_visible()
+
+
+def test_a_site_that_lets_its_own_name_lead_here_gets_no_page_and_no_line(chromium, server):
+    page = chromium.new_page()
+    port = server.rsplit(":", 1)[1]
+    try:
+        answer = page.goto(f"http://evil.rebound.test:{port}/")
+        assert answer.status == 421
+        assert "does not expect to be reached as" in page.locator("p").inner_text()
+        tried = """() => new Promise((tell) => {
+            const line = new WebSocket(`ws://${location.host}/live`)
+            line.onopen = () => tell("open")
+            line.onclose = () => tell("closed")
+        })"""
+        assert page.evaluate(tried) == "closed"
+        page.goto(f"{server}/")
+        assert page.evaluate(tried) == "open"
+    finally:
+        page.close()
