@@ -1,27 +1,21 @@
-"""Motions by the kernels: the steps of one that is under way, and many from their start to their end.
-
-They are explicit or implicit, whichever costs less (`kernels.motion`).
-"""
+"""The steps of a motion, explicit or implicit, whichever costs less (`kernels.motion`)."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
 from ..arrays import Array
-from ..numerics.dense import Dense, StepArray
+from ..numerics.dense import StepArray
 from ..numerics.growth import BlowUpError, too_short
 from ..numerics.radau import StepsTooShortError, TooManyStepsError, tableau
 from ..psi.function import Psi
 from ..stepping.field_parameters import PSI
 from ..words import say
 from .field import Field
-from .functions import FieldFunctions, functions_of
+from .functions import FieldFunctions
 from .kernels.explicit import DENSE_DEGREE
 from .kernels.motion import (
     AT_SIGMA,
@@ -38,7 +32,6 @@ from .kernels.motion import (
     SHORT,
     STEPS_LEFT,
     UNDEFINED,
-    follow_all,
     follow_steps,
 )
 from .kernels.slow import SLOW_EXTENT
@@ -46,8 +39,6 @@ from .line import InvariantLine
 from .slopes import outside, smoothed_direction
 
 STEPS_PER_CALL = 256  # steps that one call fills in
-SHARED_OUT = 16  # motions at once that are shared out to all cores, in as many parts each, at most so many in one
-PARTS_PER_CORE, LARGEST_PART = 4, 256
 
 
 @lru_cache(maxsize=1)
@@ -174,82 +165,6 @@ class MotionSteps:
             raise error
 
 
-@dataclass(frozen=True)
-class CompletedMotion:
-    """A motion that was followed all the way: its dense output, why it ended (`failure`), and its evaluations."""
-
-    motion: Dense
-    code: int
-    t: float
-    evaluations: int
-
-
-def integrate_compiled(
-    field: Field,
-    psi: Psi,
-    eps: float,
-    lines: Sequence[InvariantLine | None],
-    first: Array,
-    span: tuple[float, float],
-    rtol: float,
-    floor: float,
-    most: int,
-) -> list[CompletedMotion]:
-    """Follow one motion from each state; of many, on all cores.
-
-    Parameters
-    ----------
-    field : Field
-    psi : Psi
-    eps : float
-    lines : sequence of k InvariantLine or None
-    first : ndarray (k, n)
-    span : (t_start, t_end)
-    rtol, floor, most
-        As in `MotionSteps`.
-
-    """
-    made, count = functions_of(field, psi, many=True), len(first)
-    numbers, along = np.array([eps, rtol, floor, *span, psi.parameter]), line_directions(lines)
-
-    def part(cut: slice) -> list[CompletedMotion]:
-        times, lengths, states, polynomials, told = follow_all(
-            made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most)
-        )
-        return _split_motions(times, lengths, states, polynomials, told, first.shape[1])
-
-    return shared_out(part, count)
-
-
 def line_directions(lines: Sequence[InvariantLine | None]) -> Array:
     """Return the direction (k, 2) of the invariant line of each motion, 0 where there is none."""
     return np.array([(0.0, 0.0) if line is None else line.n for line in lines], float).reshape(-1, 2)
-
-
-def shared_out(part: Callable[[slice], list[Any]], count: int) -> list[Any]:
-    """Return what `part` returns for `count` motions, slice by slice: few at once, many on all cores."""
-    cores = os.cpu_count() or 1
-    if count < SHARED_OUT or cores == 1:
-        return part(slice(0, count))
-    from concurrent.futures import ThreadPoolExecutor  # imported late: one motion does without
-
-    size = max(1, min(LARGEST_PART, -(-count // (PARTS_PER_CORE * cores))))
-    cuts = [slice(i, i + size) for i in range(0, count, size)]
-    with ThreadPoolExecutor(cores) as pool:
-        return [one for found in pool.map(part, cuts) for one in found]
-
-
-def _split_motions(
-    times: Array, lengths: Array, states: Array, polynomials: Array, told: Array, n: int
-) -> list[CompletedMotion]:
-    """Cut what `follow_all` returns into motions, without copying."""
-    states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DENSE_DEGREE)
-    for array in (times, lengths, states, polynomials):
-        array.flags.writeable = False
-    found, row = [], 0
-    for steps, code, t, evaluations in told.tolist():
-        last = row + int(steps)
-        motion = Dense(times[row : last + 1], states[row : last + 1], lengths[row:last], polynomials[row:last])
-        found.append(CompletedMotion(motion, int(code), t, int(evaluations)))
-        row = last + 1
-    return found

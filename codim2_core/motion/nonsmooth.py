@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import overload
@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 
 from ..arguments import checked_times
 from ..arrays import Array
-from ..initial_value.compiled_hybrid import run_hybrid
 from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards_system, field
 from ..initial_value.functions import functions_of
@@ -27,7 +26,6 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
-from .limit.compiled_run_phases import PhaseBuilder
 from .limit.hybrid_run import AtEventError, HybridRun, StopError
 from .limit.stiction import checked_stiction
 from .locations import OfState
@@ -107,7 +105,7 @@ def simulate_nonsmooth(
     state0 : (2 + m,), or (k, 2 + m)
         (x, y, z1, ..., zm). On Sigma x = y = 0 is p = 0 for every eps: the orbit of the layer problem through it
         decides. Without psi: slides if one critical set attracts, else leaves along the one way out. Rows are as many
-        motions, followed compiled on all cores.
+        motions.
     t_span : (t_start, t_end)
         If it decreases, what is returned is the past of state0, which lies off Sigma: the slip that comes to state0 at
         t_start. It begins at t_end, or where it left Sigma: what was before that is not unique.
@@ -167,8 +165,8 @@ def simulate_nonsmooth(
     if t_end < t_start:
         runs: Iterable[Simulation] = (_past(asked, first) for first in states)
     else:
-        many = reach == 1.0 and functions_of(formulas, constant(), are_many(len(states), max_steps)).is_compiled
-        runs = _run_motions(asked, states) if many else map(asked.one, states)
+        functions_of(formulas, constant(), are_many(len(states), max_steps))  # compiled, where that is due
+        runs = map(asked.one, states)
     found = tuple(run.sample(when) for run in runs)
     return found[0] if np.ndim(state0) < 2 else found
 
@@ -187,8 +185,8 @@ class _NonsmoothRun:
     max_steps: int
     stiction: float
 
-    def one(self, first: Array, begun: PhaseBuilder | None = None) -> Simulation:
-        """Follow one motion from a state, or from where it was handed over, phase by phase."""
+    def one(self, first: Array) -> Simulation:
+        """Follow one motion phase by phase."""
         t_start, t_end = self.span
         line = invariant_line(self.formulas, first)
         watch = EventWatch(self.watched, t_start, first)
@@ -196,8 +194,6 @@ class _NonsmoothRun:
             self.system, self.psi, self.formulas, line, watch, t_start, first, t_end, self.rtol, self.atol,
             self.max_steps, self.stiction,
         )  # fmt: skip
-        if begun is not None:
-            course.go_on(begun)
         status, detail = SimulationStatus.T_END, ""
         try:
             course.run()
@@ -241,31 +237,3 @@ def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
         motion, lambda: phases, variation, past.status,
         detail=past.detail, evaluations=past.evaluations, events=past.events,
     )  # fmt: skip
-
-
-def _run_motions(asked: _NonsmoothRun, states: Array) -> Iterator[Simulation]:
-    """Follow motions compiled as far as safe signs decide what comes next, all at once, and phase by phase from there.
-
-    What starts on Sigma, and what is under watch, is followed phase by phase from the start.
-    """
-    outside = [i for i, first in enumerate(states) if first[:2].any()] if not asked.watched else []
-    legs: dict[int, PhaseBuilder] = {}
-    if outside:
-        lines = [invariant_line(asked.formulas, states[i]) for i in outside]
-        own = (asked.rtol, asked.atol / asked.rtol, asked.max_steps)
-        found = run_hybrid(asked.formulas, asked.psi, lines, states[outside], asked.span, *own)
-        legs = {
-            i: PhaseBuilder(asked.system, asked.psi, line, one)
-            for i, line, one in zip(outside, lines, found, strict=True)
-        }
-    for i, first in enumerate(states):
-        begun = legs.get(i)
-        if begun is None or not begun.found.legs:
-            yield asked.one(first)
-        elif not begun.whole:
-            yield asked.one(first, begun)
-        else:
-            found = begun.found
-            phases = partial(begun.phases, found.motion)
-            variation = partial(of_nonsmooth, asked.system, asked.psi, found.motion, phases, begun.line)
-            yield simulation(found.motion, phases, variation, SimulationStatus.T_END, evaluations=found.evaluations)

@@ -18,7 +18,7 @@ from ..initial_value.field import Field, backwards, field
 from ..initial_value.functions import FieldFunctions, functions_of
 from ..initial_value.kernels.motion import UNDEFINED
 from ..initial_value.line import InvariantLine, invariant_line
-from ..initial_value.motion_steps import MotionSteps, failure, integrate_compiled, rate_at
+from ..initial_value.motion_steps import MotionSteps, rate_at
 from ..numerics.dense import Dense, StepArray, dense, gather_steps
 from ..numerics.growth import BlowUpError
 from ..numerics.radau import Step, TooManyStepsError
@@ -90,7 +90,7 @@ def simulate(
     system : ELinear, System, or one of them frozen at a z
     psi : Psi
     state0 : (2 + m,), or (k, 2 + m)
-        (x, y, z1, ..., zm); x = y = 0 is allowed. Rows are as many motions, followed compiled on all cores.
+        (x, y, z1, ..., zm); x = y = 0 is allowed. Rows are as many motions.
     t_span : (t_start, t_end)
         In the time t of eq:vf. If it decreases, what is returned is the past of state0: the motion that begins at
         t_end, runs forward like any other, and comes to state0 at t_start.
@@ -204,10 +204,8 @@ class _RegularisedRun:
     max_steps: int
 
     def runs(self, states: Array) -> tuple[Simulation, ...]:
-        """Follow all motions: in as few calls as there are cores, or one by one."""
+        """Follow all motions."""
         functions = functions_of(self.formulas, self.psi, are_many(len(states), self.max_steps))
-        if functions.is_compiled and not self.events:
-            return self.whole(states)
         return tuple(self.one(functions, first) for first in states)
 
     def rate(self, line: InvariantLine | None) -> Callable[[Array], Array]:
@@ -233,19 +231,6 @@ class _RegularisedRun:
         except TooManyStepsError as error:
             status, detail = self.end(motion.code, error, first)
         return self.told(dense(self.span[0], first, parts), status, detail, motion.evaluations, watch.times)
-
-    def whole(self, states: Array) -> tuple[Simulation, ...]:
-        """Follow motions from their start to their end."""
-        lines = [invariant_line(self.formulas, first) for first in states]
-        found = integrate_compiled(
-            self.formulas, self.psi, self.eps, lines, states, self.span, self.rtol, self.atol / self.rtol,
-            self.max_steps,
-        )  # fmt: skip
-        runs = []
-        for one, line in zip(found, lines, strict=True):
-            error = failure(one.code, one.t, one.motion.states[-1], self.rate(line))
-            runs.append(self.told(one.motion, *self.end(one.code, error, one.motion.states[0]), one.evaluations))
-        return tuple(runs)
 
     def end(self, code: int, error: Exception | None, first: Array) -> tuple[SimulationStatus, str]:
         """Return how a motion from a state has ended, and what there is to say of it."""

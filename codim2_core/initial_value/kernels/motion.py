@@ -9,18 +9,15 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from ...jit import held_kernel, kernel, spliced_kernel
 from ...numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH, STAGES
 from . import explicit, radau
 from .rate import MotionConstants, inward_bound, rate, sizes
-from .stages import tableau_of, work_on, workspace
+from .stages import tableau_of, work_on
 
 FINISHED, LIMIT, SHORT, CHUNK_FULL, BLOWN_UP, UNDEFINED, AT_SIGMA = range(7)
 FIRST_STEP_SHARE = 1e-2  # of rho/|U|: the first step tried
 MIN_STEP = 1e-290
-STEPS_PER_CALL = 256  # steps that are filled in at once
 MAX_STATE, GROWN = 1e200, 8.0  # what has grown so large, or so many times within the spacing of times, has blown up
 MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE = 1e-13, 5e-5  # of the largest rho of a slip; of that times rtol
 
@@ -276,83 +273,3 @@ def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, le
         control[NEXT] = first if first > 0.0 else control[NEXT]
         control[IMPLICIT] = max(implicit, control[IMPLICIT])
     return integrate_motion(motion, table, work, y, clock, control, starts, lengths, ends, polynomials)
-
-
-@kernel
-def longer(array, length):
-    """Return an array of numbers that begins with another's: a plain loop, which compiles fast."""
-    found = np.empty(length)
-    for i in range(len(array)):
-        found[i] = array[i]
-    return found
-
-
-@kernel
-def follow_all(fields, numbers, coefficients, lines, first, most):
-    """Follow one motion from each state, all the way.
-
-    Parameters
-    ----------
-    fields : int64 (3,)
-        Addresses, as in `MotionConstants`.
-    numbers : (6,)
-        eps, rtol, floor, t_start, t_end, parameter of Psi.
-    coefficients
-        As for `tableau_of`.
-    lines : (k, 2)
-        The invariant line of each, or 0.
-    first : (k, n)
-    most : float
-        Steps, each.
-
-    Returns
-    -------
-    times, lengths (N,), states (N n,), polynomials (N 7 n,)
-        Of all motions, one after the other: times and states at which steps begin or end; the length and polynomial of
-        the step from there on, none in a motion's last row.
-    told : (k, 4)
-        Steps of each, why it ended, its last time, evaluations.
-    """
-    k, n = first.shape
-    work, table = workspace(n, numbers[5]), tableau_of(coefficients)
-    clock, control, y = np.zeros(4), np.zeros(CONTROL), np.zeros(n)
-    each = explicit.DENSE_DEGREE * n
-    room, row = STEPS_PER_CALL + 32 * k, 0
-    times, lengths, states, polynomials = np.empty(room), np.empty(room), np.empty(room * n), np.empty(room * each)
-    told = np.zeros((k, 4))
-    for i in range(k):
-        line1, line2 = lines[i, 0], lines[i, 1]
-        motion = MotionConstants(fields[0], fields[1], fields[2], n, numbers[0], numbers[1], numbers[2], line1, line2)
-        for j in range(n):
-            y[j] = first[i, j]
-        code = (
-            CHUNK_FULL if prepare_motion(motion, y, clock, control, numbers[3], numbers[4], most, work) else UNDEFINED
-        )
-        begun = row
-        while True:
-            if row + STEPS_PER_CALL >= room:
-                room = 2 * room + STEPS_PER_CALL
-                times, lengths = longer(times, room), longer(lengths, room)
-                states, polynomials = longer(states, room * n), longer(polynomials, room * each)
-            if row == begun:
-                times[row] = numbers[3]
-                for j in range(n):
-                    states[row * n + j] = y[j]
-            if code != CHUNK_FULL:
-                break
-            code, filled = integrate_motion(
-                motion, table, work, y, clock, control,
-                times[row + 1 : row + STEPS_PER_CALL], lengths[row : row + STEPS_PER_CALL - 1],
-                states[(row + 1) * n : (row + STEPS_PER_CALL) * n].reshape((STEPS_PER_CALL - 1, n)),
-                polynomials[row * each : (row + STEPS_PER_CALL - 1) * each].reshape(
-                    (STEPS_PER_CALL - 1, n, explicit.DENSE_DEGREE)
-                ),
-            )  # fmt: skip
-            for a in range(row, row + filled):  # from a step's start to its end, never decreasing
-                times[a + 1] = max(times[a], times[a + 1] + lengths[a])
-            row += filled
-            if code == FINISHED:
-                times[row] = numbers[4]
-        told[i, 0], told[i, 1], told[i, 2], told[i, 3] = row - begun, code, clock[0], clock[3]
-        row += 1
-    return times[:row], lengths[:row], states[: row * n], polynomials[: row * each], told

@@ -17,7 +17,6 @@ from ...initial_value.events import EventWatch
 from ...initial_value.field import Field
 from ...initial_value.line import InvariantLine
 from ...layer_problem.equator import equator_equilibria
-from ...numerics.dense import StepArray
 from ...numerics.radau import Step, TooManyStepsError
 from ...psi import constructors
 from ...psi.function import Psi
@@ -26,7 +25,6 @@ from ...words import say
 from ..locations import Ascent
 from ..result import Phase
 from ..tracked_set import in_disc
-from .compiled_run_phases import PhaseBuilder
 from .delay import REST_CHANGE, NotAnalyticError
 from .delayed_exit import cut_at_delayed_exit, departure_point, exit_circle
 from .fold_classification import Fold, classify_fold
@@ -71,7 +69,6 @@ class HybridRun:
     taken: list[Step] = made_with(default_factory=list)
     parts: list[PendingPhase] = made_with(default_factory=list)
     ascent: Ascent | None = None  # of the phase to come
-    decided: Decision | None = None  # what follows at first, where that is known
     leaving: Array | None = None  # points of the disc by which the set is left that is slid on, where they are known
 
     @property
@@ -112,15 +109,6 @@ class HybridRun:
         if stopped:
             raise AtEventError
 
-    def go_on(self, legs: PhaseBuilder) -> None:
-        """Begin where a motion that was followed compiled was handed over."""
-        motion, self.evaluations = legs.found.motion, legs.found.evaluations
-        before = StepArray(motion.states[0], motion.times[:-1], motion.lengths, motion.states[1:], motion.polynomials)
-        self.taken, self.parts, self.decided = list(before), list(legs.parts), legs.onward()
-        self.t, self.state = float(motion.times[-1]), motion.states[-1].copy()
-        if self.decided.kind == "slide":
-            self.ascent = legs.ascent(len(motion.lengths), legs.found.theta)
-
     def run(self) -> None:
         """Follow the motion to the end of its time.
 
@@ -129,10 +117,8 @@ class HybridRun:
         AtEventError, StopError, BlowUpError, TooManyStepsError
             It ends before; what has been followed is kept.
         """
-        decision = self.decided
-        if decision is None:
-            on = not self.state[:2].any()
-            decision = self.first() if on else self.slip([], say("starts outside"))
+        on = not self.state[:2].any()
+        decision = self.first() if on else self.slip([], say("starts outside"))
         while decision is not None and self.t < self.t_end:
             if self.left <= 0:
                 raise TooManyStepsError

@@ -17,12 +17,14 @@ from ...arrays import Array
 from ...initial_value.departure import polynomial_of
 from ...initial_value.field import Field
 from ...initial_value.functions import functions_of
-from ...initial_value.kernels.hybrid_run import OF_SLIPS
 from ...initial_value.kernels.motion import AT_SIGMA
 from ...initial_value.line import InvariantLine
 from ...initial_value.motion_steps import MotionSteps, rate_at
 from ...numerics.radau import Step, TooManyStepsError
 from ...psi.constructors import constant
+
+#: Of rtol, for the steps of a slip: explicit ones use up what is allowed, implicit ones leave most of it.
+OF_SLIPS = 0.5
 
 
 @dataclass(frozen=True)
