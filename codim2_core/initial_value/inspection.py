@@ -109,6 +109,13 @@ class Inspection:
         U = np.array(self.field.value(*at.tolist())[:2])
         return abs(float(self.line.n[0] * U[1] - self.line.n[1] * U[0])) > ACROSS * float(np.abs(U).max())
 
+    def _rises(self, g: int, path: Array, u: float) -> bool:
+        """Whether a guard increases where it is negative: rounding has put it off where its branch began."""
+        at = (path @ u ** np.arange(path.shape[1])).tolist()
+        guard, values = self.field.branch.guards[g], self.field.values(at[:2], at[2:])
+        rates = dict(zip(list(values)[2:], self.field.value(*at), strict=True))
+        return sum(float(guard.derivative(name).evaluate(values)) * rates[name] for name in guard.names) > 0.0
+
     def _directions(self, states: Array) -> Array:
         """Return polynomials (k, 2, d) of e along steps, through its values at d places."""
         at = np.einsum("kid,jd->kji", states[:, :2], NODES[:, None] ** np.arange(states.shape[2])).reshape(-1, 2)
@@ -147,7 +154,8 @@ class Inspection:
         for k, path in enumerate(paths):
             for g in range(len(self.guards.roots)):
                 here = zeros_along(*self.guards.arrays, path, g, True, found)
-                if here and (cut is None or (k, found[0, 0]) < (cut.step, cut.u)):
+                sooner = here and (cut is None or (k, found[0, 0]) < (cut.step, cut.u))
+                if sooner and not self._rises(g, path, found[0, 0]):
                     cut = Cut(k, float(found[0, 0]), 0.0, g)
             if cut is not None and cut.step == k:
                 return cut
