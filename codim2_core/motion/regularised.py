@@ -225,7 +225,8 @@ class _RegularisedRun:
         watch, parts = EventWatch(self.events, self.span, first), list[StepArray]()
         status, detail, evaluations, undecided = SimulationStatus.T_END, "", 0, 0
         jumps = dict[float, bool]()
-        t, state, most, formulas = self.span[0], first, self.max_steps, self.formulas.on_branch(self.e(first), first)
+        t, state, most = self.span[0], first, self.max_steps
+        formulas = self.formulas.on_branch(self.e(first), first.tolist())
         line = invariant_line(formulas, state)
         while t < self.span[1] and status is SimulationStatus.T_END:
             rate = partial(rate_at, formulas, self.psi, self.eps, line)

@@ -254,7 +254,7 @@ class HybridRun:
         lives = self.has_cycle if on_cycle else None
         part = self.slid(decision.e, lives=lives, line=self.line)
         # At a kink, or where a load pushes it out of a line, it slides on.
-        while part.leaves_line or (part.switch is not None and not self.formulas.branch.jumps[part.switch]):
+        while part.end == "switch" and (part.switch is None or not self.formulas.branch.jumps[part.switch]):
             last = part.taken[-1]
             self.enter_branch(part.e, last.last, last.end, part.switch)
             ahead = self.slid(part.e, last.end, last.last[2:], lives=lives, line=self.line)

@@ -70,7 +70,7 @@ def test_a_table_that_begins_to_tilt():
     )  # fmt: skip
     begins = 3.0 + 5.0 * math.atan(0.4)
     pull = lambda t: 9.81 * (math.sin(0.2 * (t - 3.0)) - 0.4 * math.cos(0.2 * (t - 3.0)))
-    expected = [quad(lambda t: (7.0 - t) ** k * pull(t), begins, 7.0)[0] for k in (0, 1)]
+    expected = quad(pull, begins, 7.0)[0], quad(lambda t: (7.0 - t) * pull(t), begins, 7.0)[0]
     for run, error in _both(system, (0.0, 0.0, 0.0), (0.0, 7.0)):
         assert run.states[-1, [0, 2]] == pytest.approx(expected, abs=error)
 
