@@ -192,8 +192,11 @@ class NonsmoothRun(ContactRun):
         """Free the contacts that slip a moment later, so late that it is clear which do; their e are put into e.
 
         A force that holds redundant contacts is found at its bound a little late, and v' goes on from where it is by
-        then; or a little early, and the contacts stick until it is there.
+        then; or a little early, and the contacts stick until it is there. From there a contact i slips like
+        ``a t^2 e_i`` with a > 0, along the force that held it: what v' gains grows like t, and so does what v' itself
+        changes by, which Y'' says. Neither is known at one state alone: the e of contacts that slip turn meanwhile.
         """
+        n = self.field.n
         for share in AHEAD:
             step = share * self.first
             soon, later = (self.field.at(self.Y + k * step * self.rate) for k in (1.0, 2.0))
@@ -201,25 +204,25 @@ class NonsmoothRun(ContactRun):
             if ahead.is_at_bound or next_ahead.is_at_bound or (ahead.sticks != next_ahead.sticks).any():
                 continue
             goes = found.sticks & ~ahead.sticks
-            gain = ahead.u - self.field.rate(soon, e, self.sticks)[: self.field.n]
-            next_gain = next_ahead.u - self.field.rate(later, e, self.sticks)[: self.field.n]
-            self.jerk = (next_gain - gain) / step
-            missed = gain - step * self.jerk
-            wait = -float(missed @ self.jerk) / float(self.jerk @ self.jerk)
+            gain = ahead.u - self._slopes(soon)[1][:n]
+            growth = (next_ahead.u - self._slopes(later)[1][:n] - gain) / step
+            missed = gain - step * growth
+            wait = -float(missed @ growth) / float(growth @ growth)
             if wait > 0.0:
-                self._wait(min(wait, step, self.t_end - self.t), e)
+                self._wait(min(wait, step, self.t_end - self.t))
             else:
-                self.rate[: self.field.n] += missed
+                self.rate[:n] += missed
+            self.curve = np.concatenate([next_ahead.u - ahead.u, later.rates - soon.rates]) / step
             e[at_sets] = np.where(goes[:, None], ahead.e, e[at_sets])
             self.sticks[at_sets] = found.sticks & ahead.sticks
             return
 
-    def _wait(self, dt: float, e: Array) -> None:
+    def _wait(self, dt: float) -> None:
         """Go on for a moment with the contacts that stick."""
         last = self.Y + dt * self.rate
         here = self._take(Step(self.t, dt, self.Y, last, (last - self.Y)[:, None]), ends=False)
-        self.rate = self.field.rate(here, e, self.sticks)
+        self.rate = self._slopes(here)[1]
 
     def _decided(self, here: Local, at_sets: Flags) -> Decided:
-        Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.e), at_sets)
+        Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.law.e(here.x)), at_sets)
         return decide_contacts(here.M, Q, here.J[at_sets], here.k[at_sets], here.r[at_sets])

@@ -36,8 +36,8 @@ class ContactRun:
         Y' at the state.
     departs : ndarray (c,)
         Contacts that begin to slip here, and have no slip yet.
-    jerk : ndarray (n,)
-        What v'' gains as contacts begin to slip with no acceleration.
+    curve : ndarray (N,)
+        Y'' where contacts begin to slip with no acceleration, else 0.
     speed : float
         The largest velocity so far.
     starts : list of (t, sticks, sentence)
@@ -56,7 +56,7 @@ class ContactRun:
     sticks: Flags = made_with(init=False)
     rate: Array = made_with(init=False)
     departs: Flags = made_with(init=False)
-    jerk: Array = made_with(init=False)
+    curve: Array = made_with(init=False)
     speed: float = 0.0
     steps: list[Step] = made_with(default_factory=list)
     starts: list[tuple[float, tuple[bool, ...], str]] = made_with(default_factory=list)
@@ -120,17 +120,19 @@ class ContactRun:
         return here
 
     def _guess(self, h: float) -> Array:
-        """Return stages less Y: along Y', and along v'' where contacts depart with no acceleration."""
+        """Return stages less Y: along Y', and along Y'' where contacts depart with no acceleration."""
         tau = tableau().nodes[:, None] * h
-        Z = tau * self.rate
-        Z[:, : self.field.n] += 0.5 * tau**2 * self.jerk
-        return Z
+        return tau * self.rate + 0.5 * tau**2 * self.curve
+
+    def _slopes(self, here: Local) -> tuple[Array, Array]:
+        """Return e and Y' where no contact is about to slip."""
+        e = np.where(self.sticks[:, None], 0.0, self.law.e(here.x))
+        return e, self.field.rate(here, e, self.sticks)
 
     def _go_on(self, here: Local) -> None:
         """Set what holds at a state between events."""
-        self.e = np.where(self.sticks[:, None], 0.0, self.law.e(here.x))
-        self.rate = self.field.rate(here, self.e, self.sticks)
-        self.departs, self.jerk = np.zeros(len(here.r), bool), np.zeros(self.field.n)
+        self.e, self.rate = self._slopes(here)
+        self.departs, self.curve = np.zeros(len(here.r), bool), np.zeros(len(self.Y))
 
 
 class RegularisedRun(ContactRun):

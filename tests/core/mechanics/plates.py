@@ -1,6 +1,7 @@
 """Rigid plates on feet, and their regularised equations of motion written again, for other solvers."""
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -40,3 +41,46 @@ def shaken_rate(places: np.ndarray, loads: np.ndarray, push: np.ndarray, eps: fl
         return np.array([w * v + X / MASS, -w * u + Y / MASS, turning / INERTIA])
 
     return rate
+
+
+@dataclass(frozen=True)
+class Driven:
+    """A plate in the axes of the ground, its feet (x, y, mu, N) in its own: it turns by phi, and springs hold it.
+
+    The force is ``(F1 cos(om t) - k qx, F2 sin(om t) - k qy, T cos 1.3 t)``, the state (u, v, w, phi, qx, qy, t).
+    """
+
+    mass: float
+    inertia: float
+    feet: tuple[tuple[float, float, float, float], ...]
+    push: tuple[float, float]
+    omega: float
+    spring: float
+    torque: float
+
+    def contacts(self) -> Contacts:
+        """Return the mechanism."""
+        (F1, F2), k, om = self.push, self.spring, self.omega
+        rows = [
+            (((1, 0, f"-({x})*sin(phi) - ({y})*cos(phi)"), (0, 1, f"({x})*cos(phi) - ({y})*sin(phi)")), mu, normal)
+            for x, y, mu, normal in self.feet
+        ]
+        force = f"({F1})*cos({om}*tt) - {k}*qx", f"({F2})*sin({om}*tt) - {k}*qy", f"({self.torque})*cos(1.3*tt)"
+        M = np.diag([self.mass, self.mass, self.inertia]).tolist()
+        return contacts(M, rows, force, ("u", "v", "w"), {"phi": "w", "qx": "u", "qy": "v", "tt": 1})
+
+    def rate(self, eps: float) -> Callable[..., np.ndarray]:
+        """Return (u, v, w, phi, qx, qy)' by Newton and Euler, with friction ``-mu N x/sqrt(x^2 + eps^2)``."""
+        x, y, mu, normal = np.array(self.feet).T
+
+        def rate(t: float, state: np.ndarray) -> np.ndarray:
+            u, v, w, phi, qx, qy = state
+            px, py = x * np.cos(phi) - y * np.sin(phi), x * np.sin(phi) + y * np.cos(phi)
+            slip = np.stack([u - w * py, v + w * px])
+            pull = -mu * normal * slip / np.sqrt((slip**2).sum(axis=0) + eps**2)
+            X = pull[0].sum() + self.push[0] * np.cos(self.omega * t) - self.spring * qx
+            Y = pull[1].sum() + self.push[1] * np.sin(self.omega * t) - self.spring * qy
+            turning = (px * pull[1] - py * pull[0]).sum() + self.torque * np.cos(1.3 * t)
+            return np.array([X / self.mass, Y / self.mass, turning / self.inertia, w, u, v])
+
+        return rate
