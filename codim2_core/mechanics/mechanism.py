@@ -26,7 +26,7 @@ from ..words import say
 from .algebra import Algebra, MatrixRow
 from .contact_force import ContactForce
 from .formula_reading import ZERO
-from .grip import Grip
+from .grip import ROUNDINGS, Grip
 from .parts import Parts
 
 
@@ -274,7 +274,10 @@ class Mechanism(ByValue, Parts):
             raise ValueError(f"a force is not finite{at_place(tuple(known[w] for w in SLOW_NAMES if w in known))}.")
         found = np.linalg.solve(slopes, -free)
         normal = float(found[2]) if self.has_constraint else float(at(self._algebra.formula(self._normal)))
-        return Grip(found[:2], normal, mu, held=self.has_constraint)
+        sizes = np.abs(slopes) @ np.abs(found) + np.abs(free)
+        errors = ROUNDINGS * np.finfo(float).eps * (np.abs(np.linalg.inv(slopes)) @ sizes)
+        lost = (*errors.tolist(), ROUNDINGS * np.finfo(float).eps * abs(normal))[:3]
+        return Grip(found[:2], normal, mu, self.has_constraint, lost)
 
     @cached_property
     def _contact_formulas(self) -> tuple[Expression, Expression]:
