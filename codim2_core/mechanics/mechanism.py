@@ -284,13 +284,15 @@ class Mechanism(ByValue, Parts):
         approach, gain = (self._algebra.formula(entry) for entry in self._normal_parts)
         return approach, gain
 
-    def contact_force(self, state: ArrayLike) -> ContactForce:
+    def contact_force(self, state: ArrayLike, e: ArrayLike | None = None) -> ContactForce:
         """Return the normal force at a state, and whether the contact presses, opens or jams.
 
         Parameters
         ----------
         state : (2 + m,)
             (x, y, z1, ..., zm). At x = y = 0 friction is what sticking needs, see `grip`.
+        e : (2,), optional
+            Friction is ``-N mu e``; left out, e is the direction of the slip. For eps > 0 it is ``e_Psi``.
 
         Raises
         ------
@@ -304,7 +306,8 @@ class Mechanism(ByValue, Parts):
         known = {**self.parameters, "x": x, "y": y, **dict(zip(SLOW_NAMES, z, strict=False))}
         if any(word in ("c", "s") for row in self._contact_formulas for word in row.names):
             r = math.hypot(x, y)
-            known["c"], known["s"] = (x / r, y / r) if r > 0.0 else self.grip(z).e.tolist()
+            own = (x / r, y / r) if r > 0.0 else self.grip(z).e.tolist()
+            known["c"], known["s"] = own if e is None else np.asarray(e, float).tolist()
         values = (float(row.evaluate({word: known[word] for word in row.names})) for row in self._contact_formulas)
         return ContactForce(*values)
 
