@@ -30,12 +30,22 @@ class Branch:
         One for each switch: positive on the branch.
     jumps : tuple of bool
         Whether the rows jump where that guard vanishes; else they have a kink.
+    arguments : tuple of Expression
     """
 
-    choices: tuple[int, ...]
-    rows: Rows
-    guards: Rows
-    jumps: tuple[bool, ...]
+    choices: tuple[int, ...] = ()
+    rows: Rows = ()
+    guards: Rows = ()
+    jumps: tuple[bool, ...] = ()
+    arguments: Rows = ()
+
+    def next_choice(self, switch: int, values: Mapping[str, float]) -> int:
+        """Return the choice past the end of a guard."""
+        argument, choice = self.arguments[switch], self.choices[switch]
+        if self.guards[switch] in (argument, _guard("sign", argument, -1)):
+            return -choice
+        nearest = round(float(argument.evaluate(values)))
+        return nearest if nearest > choice else choice - 1
 
 
 def kinks(rows: Sequence[Expression], names: Collection[str]) -> Rows:
@@ -52,6 +62,8 @@ def kinks(rows: Sequence[Expression], names: Collection[str]) -> Rows:
 
 def has_switches(rows: Sequence[Expression], names: Collection[str]) -> bool:
     """Whether rows have a kink or a jump where a formula in some of the names, and in no others, vanishes."""
+    if not any(op in FUNCTIONS_OF_TWO or op == "abs" or op in JUMPS for row in rows for op, *_ in row.tape):
+        return False
     return bool(branch_at(rows, names, {name: 0.5 for row in rows for name in row.names}).choices)
 
 
@@ -101,7 +113,8 @@ def branch_at(
             jumps[key] = jumps.get(key, False) or op in JUMPS
             at.append(_chosen(build, op, own, choices[key]))
         smooth.append(Expression(compact(build.nodes, at[-1])))
-    return Branch(tuple(choices.values()), tuple(smooth), tuple(guards.values()), tuple(jumps.values()))
+    arguments = tuple(argument for _, argument in choices)
+    return Branch(tuple(choices.values()), tuple(smooth), tuple(guards.values()), tuple(jumps.values()), arguments)
 
 
 def _argument(nodes: list[tuple], op: str, args: Sequence[int]) -> Expression:

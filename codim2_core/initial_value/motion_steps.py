@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 
@@ -16,6 +17,7 @@ from ..stepping.field_parameters import PSI
 from ..words import say
 from .field import Field
 from .functions import FieldFunctions
+from .inspection import Inspection
 from .kernels.explicit import DENSE_DEGREE
 from .kernels.motion import (
     AT_SIGMA,
@@ -27,10 +29,13 @@ from .kernels.motion import (
     IMPLICIT,
     LEAST_STEP,
     LIMIT,
+    MAX_STEP,
     NEXT,
     ONLY,
     SHORT,
     STEPS_LEFT,
+    STEPS_TRIED,
+    SWITCHED,
     UNDEFINED,
     follow_steps,
 )
@@ -38,7 +43,9 @@ from .kernels.slow import SLOW_EXTENT
 from .line import InvariantLine
 from .slopes import outside, smoothed_direction
 
-STEPS_PER_CALL = 256  # steps that one call fills in
+STEPS_PER_CALL, FIRST_STEPS = 256, 16  # steps that one call fills in, and that the first one does
+MAX_RETRIES = 20  # of one step, ever shorter, before it is kept for what it is
+LEAST_CUT = 1e-12  # of a step: a shorter part of it is not kept
 
 
 @lru_cache(maxsize=1)
@@ -102,10 +109,12 @@ class MotionSteps:
         Steps tried before `TooManyStepsError`.
     farthest : float
         The largest rho so far, of a motion outside Sigma.
-    h, least : float
-        The first step, 0 if it is not known; a shorter one than `least` ends the motion.
+    h, least, longest : float
+        The first step, 0 if it is not known; a shorter one than `least` ends the motion, none is longer than `longest`.
     implicit : bool
         Every step is: the slopes are then asked for once where it begins, and where each step ends.
+    inspection : Inspection, optional
+        Of its steps: the motion stops where the formulas switch.
     """
 
     def __init__(
@@ -123,20 +132,25 @@ class MotionSteps:
         farthest: float = 0.0,
         h: float = 0.0,
         least: float = 0.0,
+        longest: float = math.inf,
         implicit: bool = False,
+        inspection: Inspection | None = None,
     ) -> None:
+        self.inspection, self.switch, self._evaluated = inspection, None, 0.0
+        self.leaves_line, self._retries = False, 0
         self.functions, self.addresses, self.rate = functions, functions.addresses, rate
         self.numbers = np.array([eps, rtol, floor, *line_directions([line])[0]])
         self.S = np.zeros(SLOW_EXTENT)
         self.S[PSI] = functions.parameter
         self.y, self.clock, self.control = np.array(first), np.array([span[0], 0.0, span[1], 0.0]), np.zeros(CONTROL)
         self.control[[NEXT, STEPS_LEFT, FARTHEST_RHO, LEAST_STEP, IMPLICIT]] = h, most, farthest, least, ONLY * implicit
+        self.control[MAX_STEP] = longest
         self.code = CHUNK_FULL
 
     @property
     def evaluations(self) -> int:
         """Evaluations of the field so far."""
-        return int(self.clock[3])
+        return int(self._evaluated + self.clock[3])
 
     def chunks(self, size: int = STEPS_PER_CALL) -> Iterator[StepArray]:
         """Step to the end, so many steps at a time.
@@ -147,11 +161,12 @@ class MotionSteps:
             The state grows beyond all bounds in no time.
         TooManyStepsError, StepsTooShortError
         """
-        n = len(self.y)
+        n, size, most = len(self.y), min(FIRST_STEPS, size), size
         while self.code in (CHUNK_FULL, AT_SIGMA):  # who has arrived asks for no more
             starts, lengths = np.empty(size), np.empty(size)
             ends, polynomials = np.empty((size, n)), np.empty((size, n, DENSE_DEGREE))
-            begin, before = self.y.copy(), self.evaluations
+            begin, before, self._began = self.y.copy(), self.evaluations, float(self.clock[0])
+            farthest = float(self.control[FARTHEST_RHO])
             self.code, filled = follow_steps(
                 self.addresses, self.numbers, numbers_of_tableau(), self.S, self.y, self.clock, self.control, starts,
                 lengths, ends, polynomials,
@@ -159,10 +174,40 @@ class MotionSteps:
             self.functions.count(self.evaluations - before)
             if self.code == FINISHED:
                 lengths[filled - 1] = self.clock[2] - starts[filled - 1]  # it ends then, to the last digit
-            yield StepArray(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
+            part = StepArray(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
+            yield part if self.inspection is None else self._inspected(part, self.inspection, farthest)
+            size = min(2 * size, most)
         error = failure(self.code, float(self.clock[0]), self.y, self.rate, self.control[LEAST_STEP])
         if error is not None:
             raise error
+
+    def _inspected(self, part: StepArray, inspection: Inspection, farthest: float) -> StepArray:
+        """Return the steps to keep, and go back to the end of these; before them rho was at most `farthest`."""
+        cut = inspection.look(part)
+        if cut is None:
+            self._retries = 0
+            return part
+        stays = cut.step == 0 and cut.u <= LEAST_CUT and cut.switch is None and not cut.leaves_line
+        self._retries = self._retries + 1 if stays else 0
+        if self._retries > MAX_RETRIES:
+            inspection.undecided += 1
+            return part
+        part = part.upto(cut.step, cut.u if cut.u > LEAST_CUT else 0.0)
+        self.switch, self.leaves_line = cut.switch, cut.leaves_line
+        self.code = CHUNK_FULL if cut.switch is None and not cut.leaves_line else SWITCHED
+        last = len(part.lengths) - 1
+        self.y[:] = part.ends[last] if last >= 0 else part.first
+        self._evaluated += self.clock[3]
+        self.clock[:] = self._began if last < 0 else part.starts[last] + part.lengths[last], 0.0, self.clock[2], 0.0
+        # It begins anew, as what was learnt from later steps misleads.
+        self.control[[NEXT, STEPS_TRIED]] = cut.h, 0.0
+        self.control[FARTHEST_RHO] = max(farthest, float(np.hypot(*part.ends[:, :2].T).max(initial=0.0)))
+        self.control[IMPLICIT] = ONLY * (self.control[IMPLICIT] == ONLY)
+        self.begin_at(self.y)
+        return part
+
+    def begin_at(self, y: Array) -> None:
+        """Correct the state where the motion begins anew: it is as it is."""
 
 
 def line_directions(lines: Sequence[InvariantLine | None]) -> Array:

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..expressions.arrays import Program, polynomial_degree, program
-from ..expressions.switches import kinks
 from ..expressions.names import number_names
+from ..expressions.switches import kinks
 from ..numerics.fourier_zeros import UNIT, Series, series, turn, zeros
 from ..numerics.sign_changes import refine_roots, roots
 from ..words import say

@@ -52,6 +52,7 @@ def simulate_nonsmooth(  # pyright: ignore[reportOverlappingOverload] (rows are 
     times: ArrayLike | None = ...,
     stiction: float = ...,
     max_steps: int = ...,
+    max_step: float = ...,
 ) -> tuple[Simulation, ...]: ...
 
 
@@ -68,6 +69,7 @@ def simulate_nonsmooth(
     times: ArrayLike | None = ...,
     stiction: float = ...,
     max_steps: int = ...,
+    max_step: float = ...,
 ) -> Simulation: ...
 
 
@@ -83,6 +85,7 @@ def simulate_nonsmooth(
     times: ArrayLike | None = None,
     stiction: float = 1.0,
     max_steps: int = MAX_STEPS,
+    max_step: float = math.inf,
 ) -> Simulation | tuple[Simulation, ...]:
     """Follow one motion of eq:vf itself, as the limit eps -> 0 of the regularised system.
 
@@ -124,6 +127,8 @@ def simulate_nonsmooth(
         e; where friction feeds a slip (D_e U plus its transpose is not negative definite) what follows is not known.
     max_steps : int
         Steps and phases before the motion is given up, with a status that says so.
+    max_step : float
+        The longest step, as in SciPy.
 
     Returns
     -------
@@ -153,7 +158,7 @@ def simulate_nonsmooth(
     """
     t_start, t_end = checked_span(t_span)
     when = checked_times(times, (t_start, t_end))
-    checked_tolerances(rtol, atol, max_steps)
+    checked_tolerances(rtol, atol, max_steps, max_step)
     formulas = field(system)
     reach = checked_stiction(stiction, formulas)
     watched = checked_events(events)
@@ -161,7 +166,7 @@ def simulate_nonsmooth(
     for first in states:
         if math.hypot(first[0], first[1]) < ON_SIGMA:
             first[:2] = 0.0
-    asked = _NonsmoothRun(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps, reach)
+    asked = _NonsmoothRun(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps, max_step, reach)
     if t_end < t_start:
         runs: Iterable[Simulation] = (_past(asked, first) for first in states)
     else:
@@ -183,17 +188,19 @@ class _NonsmoothRun:
     rtol: float
     atol: float
     max_steps: int
+    max_step: float
     stiction: float
 
     def one(self, first: Array) -> Simulation:
         """Follow one motion phase by phase."""
         t_start, t_end = self.span
-        line = invariant_line(self.formulas, first)
         watch = EventWatch(self.watched, t_start, first)
         course = HybridRun(
-            self.system, self.psi, self.formulas, line, watch, t_start, first, t_end, self.rtol, self.atol,
-            self.max_steps, self.stiction,
+            self.system, self.psi, self.formulas, None, watch, t_start, first, t_end, self.rtol, self.atol,
+            self.max_steps, self.max_step, self.stiction,
         )  # fmt: skip
+        r = math.hypot(*first[:2].tolist())
+        course.enter_branch(first[:2] / r if r > 0.0 else first[:2], first)
         status, detail = SimulationStatus.T_END, ""
         try:
             course.run()
@@ -205,9 +212,11 @@ class _NonsmoothRun:
             status, detail = SimulationStatus.BLOW_UP, str(error)
         except TooManyStepsError as error:
             status, detail = SimulationStatus.STEP_LIMIT, str(error)
+        if course.undecided:
+            detail = f"{detail} {say('not bounded', count=course.undecided)}".strip()
         motion = dense(t_start, first, [gather_steps(course.taken, len(first))])
         phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
-        variation = partial(of_nonsmooth, self.system, self.psi, motion, phases, line)
+        variation = partial(of_nonsmooth, self.system, self.psi, motion, phases, course.line)
         return simulation(
             motion, phases, variation, status, detail=detail, evaluations=course.evaluations, events=watch.times
         )
@@ -222,7 +231,7 @@ def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
     t_start, t_end = asked.span
     back = simulate_nonsmooth(
         backwards_system(asked.system), last, (-t_start, -t_end), asked.psi, rtol=asked.rtol, atol=asked.atol,
-        events=tuple(map(reverse_event, asked.watched)), max_steps=asked.max_steps,
+        events=tuple(map(reverse_event, asked.watched)), max_steps=asked.max_steps, max_step=asked.max_step,
     )  # fmt: skip
     arrives = len(back.phases) > 1
     steps = int(np.searchsorted(back.times, back.phases[0].t_end, side="right")) - 1 if arrives else len(back.times) - 1

@@ -150,6 +150,9 @@ def slope_of(k, a, b, v, w):
         return divide(0.5, 0.5, v, w)
     if k == TANH:
         lo, hi = _hyperbolic_cosine(a, b)
+        if not hi < 1e150:  # it overflows, and 1 - tanh^2 does not
+            lo, hi = modulus(v, w)
+            return max(1.0 - hi * hi - WIDER, 0.0), 1.0 - lo * lo + WIDER
         lo, hi = power_positive(lo, hi, 2.0)
         return divide(1.0, 1.0, lo, hi)
     if k == SINH:

@@ -17,6 +17,15 @@ SENTENCES: dict[str, Sentence] = {
         "There is no critical set on the line: it crosses Σ and leaves along θ = {theta:.4g}.",
         "in a line, the equator ahead",
     ),
+    "load jumps": Sentence("The load jumps.", "a slide on Sigma where a formula jumps in time"),
+    "load switches back": Sentence(
+        "Both sides of a jump of its formulas lead back to it: give a formula that does not jump there.",
+        "a motion would slide along a jump in the slow variables",
+    ),
+    "not bounded": Sentence(
+        "In {count} of its steps the formulas could not be bounded, and were sampled.",
+        "interval bounds along the steps of a motion decide nothing",
+    ),
     "arrives in a line": Sentence("It reaches Σ in an invariant line.", "a slip ends, in an invariant line"),
     "variation undefined": Sentence(
         "The derivatives are unknown after t = {t:.6g}, where those of a formula are not finite.",
