@@ -53,7 +53,7 @@ def collocate(
     smooth, slip = field.smooth_slopes(Y, e, sticks)
     Z, size = guess, np.inf
     for _ in range(MAX_NEWTON_ROUNDS):
-        places = [field.at(Y + z) for z in Z]
+        places = field.at_all(Y + Z)
         F = np.array([field.rate(one, law.e(one.x), sticks) for one in places])
         slopes = [smooth + field.friction_slope(one, law.slope(one.x), sticks, slip) for one in places]
         matrix = np.kron(inverse, np.eye(n))
@@ -73,4 +73,4 @@ def collocate(
     errors = (np.linalg.solve(np.eye(n) - table.gamma * h * slope, raw) for slope in (slopes[0], slopes[-1]))
     error = max(float(np.sqrt(((one / scale) ** 2).mean())) for one in errors)
     step = Step(t, h, Y, Y + Z[-1], (table.fit @ Z).T)
-    return Collocated(step, error, tuple(field.at(Y + z) for z in Z))
+    return Collocated(step, error, tuple(field.at_all(Y + Z)))

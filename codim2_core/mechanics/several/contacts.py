@@ -49,7 +49,7 @@ from ..formula_reading import FormulaRow, Matrix
 from ..mechanism import Mechanism
 from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
-from .field import ContactField, Coulomb, Regularised
+from .field import ContactField, Coulomb, Regularised, contact_field
 from .nonsmooth_run import NonsmoothRun
 from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus, contact_names
 from .run import ContactRun, NoFrictionError, RegularisedRun
@@ -94,7 +94,7 @@ class Contacts(Result):
 
     @cached_property
     def _field(self) -> ContactField:
-        return ContactField(self.M, self.contacts, self.force, self.velocities, self.rates, self.parameters)
+        return contact_field(self.M, self.contacts, self.force, self.velocities, self.rates, self.parameters)
 
     def at(self, i: int) -> ELinear | System:
         """Return the system of eq:vf at the set of contact i, from 0, while the others slip.

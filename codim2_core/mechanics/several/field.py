@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import math
+from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from ...arrays import Array
+from ...expressions.arrays import Program, path_program
 from ...expressions.expression import Expression
+from ...expressions.names import FAST_NAMES, SLOW_NAMES
+from ...expressions.switches import Branch, Rows, branch_at, has_switches
 from ...psi.function import Psi
+from ..algebra import Algebra
 from ..formula_reading import FormulaRow, Matrix
 from .contact_parts import ContactParts
 from .decision import RANK_TOLERANCE, Flags
 
 SMALLEST_ZETA = 1e-9  # in the chart kappa_2: nearer, e_Psi is as linear as it is there
+STATE_NAMES = (*FAST_NAMES[2:], *SLOW_NAMES)
 DIFFERENCE = 1e-7  # step of a finite difference, in units of max(1, |Y|)
 
 
@@ -84,53 +91,79 @@ class Regularised:
 
 
 class ContactField:
-    """The equations of motion, by states Y: velocities, then positions."""
+    """The equations of motion, by states Y: velocities, then positions.
+
+    Parameters
+    ----------
+    n, count : int
+        Velocities and contacts.
+    rows : tuple of Expression
+        In the names x, y, z1, ... for the state: M, Q, J, w, mu N, how positions move, and ``k = J' v - w'``.
+    branch : Branch
+        Its guards are positive as long as the rows hold.
+    whole : ContactField or None
+        The field that this is a branch of.
+    """
 
     def __init__(
-        self,
-        M: Matrix,
-        contacts: Sequence[ContactParts],
-        force: FormulaRow,
-        velocities: Sequence[str],
-        rates: Mapping[str, Expression],
-        parameters: Mapping[str, float],
+        self, n: int, count: int, rows: Rows, branch: Branch | None = None, whole: ContactField | None = None
     ) -> None:
-        self.n, self.words = len(velocities), (*velocities, *rates)
-        self._parameters = dict(parameters)
-        self._M = self._rows(M)
-        self._J = [self._rows(one.J) for one in contacts]
-        self._surface = [self._rows([one.surface]) for one in contacts]
-        self._bounds = [self._rows([(one.mu, one.normal)]) for one in contacts]
-        self._force, self._rates = self._rows([force]), self._rows([tuple(rates.values())])
-        slopes = lambda rows, word: [tuple(entry.derivative(word) for entry in row) for row in rows]
-        self._moving = [
-            (j, i, self._rows(slopes(one.J, word)), self._rows(slopes([one.surface], word)))
-            for j, word in enumerate(rates)
-            for i, one in enumerate(contacts)
-            if any(word in entry.names for row in (*one.J, one.surface) for entry in row)
-        ]
+        self.n, self.count, self.rows, self.branch, self.whole = n, count, rows, branch or Branch(), whole
+        shapes = (n, n), (n,), (count, 2, n), (count, 2), (count,), (len(rows) - _fixed(n, count),), (count, 2)
+        self._places, at = list[tuple[slice, tuple[int, ...]]](), 0
+        for shape in shapes:
+            size = math.prod(shape)
+            self._places.append((slice(at, at + size), shape))
+            at += size
+        self.names = STATE_NAMES[: n + shapes[5][0]]
+        self.moving = np.array([row.constant is None for row in rows])
 
-    def _rows(self, rows: Iterable[FormulaRow]) -> tuple[tuple[FormulaRow, ...], Array | None]:
-        """Return formulas, with their numbers where nothing in them moves."""
-        given = tuple(map(tuple, rows))
-        moves = any(word in self.words for row in given for entry in row for word in entry.names)
-        return given, None if moves else self._numbers(given, self._parameters)
+    @cached_property
+    def program(self) -> Program:
+        """The rows, as the kernels take them."""
+        return path_program(self.rows)
 
-    @staticmethod
-    def _numbers(rows: tuple[FormulaRow, ...], known: Mapping[str, float]) -> Array:
-        return np.array([[float(entry.evaluate(known)) for entry in row] for row in rows])
+    @cached_property
+    def moving_program(self) -> Program:
+        """The rows that are no numbers."""
+        return path_program(tuple(row for row in self.rows if row.constant is None))
+
+    def on_branch(self, Y: Array, rate: Array, known: Sequence[int] = ()) -> ContactField:
+        """Return the smooth branch of the formulas at a state, on a border the one ahead."""
+        if not has_switches(self.rows, self.names):
+            return self
+        values, rates = (dict(zip(self.names, numbers.tolist(), strict=True)) for numbers in (Y, rate))
+        found = branch_at(self.rows, self.names, values, rates, known)
+        return ContactField(self.n, self.count, found.rows, found, self)
+
+    def past_switch(self, switch: int, Y: Array, rate: Array) -> ContactField:
+        """Return the branch that follows this one where a guard vanishes."""
+        assert self.whole is not None
+        after, before = self.whole.on_branch(Y, rate), self.branch.choices
+        if after.branch.choices[: switch + 1] == before[: switch + 1]:  # rounding hides that it has changed
+            other = self.branch.next_choice(switch, dict(zip(self.names, Y.tolist(), strict=True)))
+            after = self.whole.on_branch(Y, rate, (*before[:switch], other))
+        return after
+
+    def values(self, states: Array) -> Array:
+        """Return the rows (k, rows) at states (k, N)."""
+        from ...expressions import interpreter  # on first use: it loads the compiler
+
+        out = np.empty((len(states), len(self.rows)))
+        interpreter.values(*self.program.arrays, np.ascontiguousarray(states), out)
+        return out
+
+    def at_all(self, states: Array) -> list[Local]:
+        """Return what the equations are made of at states (k, N)."""
+        found: list[Local] = []
+        for Y, row in zip(states, self.values(states), strict=True):
+            M, Q, J, surface, r, rates, k = (row[place].reshape(shape) for place, shape in self._places)
+            found.append(Local(M, Q, J, k, r, J @ Y[: self.n] - surface, rates))
+        return found
 
     def at(self, Y: Array) -> Local:
         """Return what the equations are made of at a state."""
-        known = {**self._parameters, **dict(zip(self.words, Y.tolist(), strict=True))}
-        value = lambda rows: self._numbers(rows[0], known) if rows[1] is None else rows[1]
-        v, J = Y[: self.n], np.array(list(map(value, self._J)))
-        surface = np.array([value(rows)[0] for rows in self._surface])
-        rates, k = value(self._rates)[0], np.zeros_like(surface)
-        for j, i, rows, own in self._moving:
-            k[i] += rates[j] * (value(rows) @ v - value(own)[0])
-        r = np.array([value(rows).prod() for rows in self._bounds])
-        return Local(value(self._M), value(self._force)[0], J, k, r, J @ v - surface, rates)
+        return self.at_all(Y[None])[0]
 
     def rate(self, local: Local, e: Array, sticks: Flags) -> Array:
         """Return Y' where these contacts stick, and friction is -r J^T e at the others."""
@@ -139,20 +172,15 @@ class ContactField:
 
     def smooth_slopes(self, Y: Array, e: Array, sticks: Flags) -> tuple[Array, Array]:
         """Return the derivatives of Y' with e as it is, and of the slips, by Y."""
-        here = self.at(Y)
-        first = self.rate(here, e, sticks)
-        rate, slip = np.zeros((len(Y), len(Y))), np.zeros((len(here.r), 2, len(Y)))
-        for j in range(len(Y)):
-            beside = Y.copy()
-            beside[j] += DIFFERENCE * max(1.0, abs(Y[j]))
-            other = self.at(beside)
-            rate[:, j] = (self.rate(other, e, sticks) - first) / (beside[j] - Y[j])
-            slip[:, :, j] = (other.x - here.x) / (beside[j] - Y[j])
-        return rate, slip
+        places = np.vstack([Y, Y + np.diag(DIFFERENCE * np.maximum(1.0, np.abs(Y)))])
+        here, *others = self.at_all(places)
+        steps, first = places.diagonal(-1) - Y, self.rate(here, e, sticks)
+        rate = np.array([self.rate(other, e, sticks) - first for other in others]).T / steps
+        return rate, np.moveaxis(np.array([other.x - here.x for other in others]), 0, -1) / steps
 
     def friction_slope(self, local: Local, gain: Array, sticks: Flags, slip: Array) -> Array:
         """Return the derivative of Y' by Y through e, whose derivatives by the slips are `gain`."""
-        found = np.zeros((len(self.words), len(self.words)))
+        found = np.zeros((len(self.names), len(self.names)))
         out = ~sticks
         pull = np.einsum("cin,cij,cjy->ny", local.J[out], local.r[out, None, None] * gain[out], slip[out])
         solved = np.linalg.solve(local.M, pull)
@@ -162,6 +190,40 @@ class ContactField:
             solved = solved - back @ np.linalg.lstsq(held @ back, held @ solved, RANK_TOLERANCE)[0]
         found[: self.n] = -solved
         return found
+
+
+def _fixed(n: int, count: int) -> int:
+    """Return how many rows do not depend on how many positions there are."""
+    return n * n + n + 2 * count * n + 5 * count
+
+
+def contact_field(
+    M: Matrix,
+    contacts: Sequence[ContactParts],
+    force: FormulaRow,
+    velocities: Sequence[str],
+    rates: Mapping[str, Expression],
+    parameters: Mapping[str, float],
+) -> ContactField:
+    """Return the equations of motion of a mechanism."""
+    algebra, words = Algebra(), (*velocities, *rates)
+    meanings = {word: algebra.number(value) for word, value in parameters.items()}
+    meanings |= {word: algebra.name(name) for word, name in zip(words, STATE_NAMES, strict=False)}
+    enter = lambda rows: [algebra.enter(entry, meanings) for row in rows for entry in row]
+    v, moves = [meanings[word] for word in velocities], enter([rates.values()])
+    k = []
+    for one in contacts:
+        for row, w in zip(one.J, one.surface, strict=True):
+            total = algebra.zero
+            for word, move in zip(rates, moves, strict=True):
+                slope = algebra.dot(enter([[entry.derivative(word) for entry in row]]), v)
+                slope = algebra.minus(slope, *enter([[w.derivative(word)]]))
+                total = algebra.plus(total, algebra.times(move, slope))
+            k.append(total)
+    J, surface = (enter(row for one in contacts for row in rows(one)) for rows in (lambda one: one.J, lambda one: [one.surface]))
+    r = [algebra.times(*enter([(one.mu, one.normal)])) for one in contacts]
+    entries = (*enter(M), *enter([force]), *J, *surface, *r, *moves, *k)
+    return ContactField(len(velocities), len(contacts), tuple(map(algebra.formula, entries)))
 
 
 def held_rates(local: Local, sticks: Flags, Q: Array) -> tuple[Array, Array]:
