@@ -25,6 +25,7 @@ for three feet of a rigid plate: v' is unique, the forces e that hold it are not
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -141,7 +142,7 @@ class Contacts(Result):
 
     def simulate_nonsmooth(
         self, state0: ArrayLike, t_span: ArrayLike, *, rtol: float = 1e-9, atol: float = 1e-11,
-        times: ArrayLike | None = None, max_steps: int = 20_000,
+        times: ArrayLike | None = None, max_steps: int = 20_000, max_step: float = math.inf,
     ) -> ContactMotion:  # fmt: skip
         """Follow the motion of the limit eps -> 0, through all combinations of slip and stick.
 
@@ -160,6 +161,8 @@ class Contacts(Result):
             Within the span: those of the result, as far as the motion comes; left out, the ends of the steps.
         max_steps : int
             Steps and phases before the motion is given up, with a status that says so.
+        max_step : float
+            The longest step.
 
         Raises
         ------
@@ -168,19 +171,19 @@ class Contacts(Result):
         """
         t, t_end = _checked_span(t_span)
         when = checked_times(times, (t, t_end))
-        run = NonsmoothRun(self._field, Coulomb(), t, self._checked(state0), t_end, rtol, atol, max_steps)
+        run = NonsmoothRun(self._field, Coulomb(), t, self._checked(state0), t_end, rtol, atol, max_steps, _checked_max_step(max_step))
         return self._follow(run, t, 0.0).sample(when)
 
     def simulate(
         self, psi: Psi, state0: ArrayLike, t_span: ArrayLike, *, eps: float, rtol: float = 1e-9, atol: float = 1e-11,
-        times: ArrayLike | None = None, max_steps: int = 20_000,
+        times: ArrayLike | None = None, max_steps: int = 20_000, max_step: float = math.inf,
     ) -> ContactMotion:  # fmt: skip
         """Follow the motion of the regularised system, ``e_Psi`` with the same eps at every contact.
 
         Parameters
         ----------
         psi : Psi
-        state0, t_span, rtol, atol, times, max_steps
+        state0, t_span, rtol, atol, times, max_steps, max_step
             As for `simulate_nonsmooth`.
         eps : float
             Positive.
@@ -195,7 +198,7 @@ class Contacts(Result):
         t, t_end = _checked_span(t_span)
         when = checked_times(times, (t, t_end))
         law = Regularised(psi, float(eps))
-        run = RegularisedRun(self._field, law, t, self._checked(state0), t_end, rtol, atol, max_steps)
+        run = RegularisedRun(self._field, law, t, self._checked(state0), t_end, rtol, atol, max_steps, _checked_max_step(max_step))
         return self._follow(run, t, float(eps)).sample(when)
 
     def _checked(self, state: ArrayLike) -> Array:
@@ -235,6 +238,12 @@ class Contacts(Result):
 
 def _kinds(sticks: Flags) -> tuple[str, ...]:
     return tuple("stick" if one else "slip" for one in sticks.tolist())
+
+
+def _checked_max_step(max_step: float) -> float:
+    if not (isinstance(max_step, int | float | np.number) and max_step > 0.0):
+        raise ValueError(f"max_step is {max_step!r}; give a positive time, or leave it out.")
+    return float(max_step)
 
 
 def _checked_span(t_span: ArrayLike) -> tuple[float, float]:

@@ -44,8 +44,8 @@ class Law(Protocol):
         """Return e (c, 2) of slips (c, 2)."""
         ...
 
-    def slope(self, x: Array) -> Array:
-        """Return de/dx (c, 2, 2)."""
+    def slope(self, x: Array, e: Array) -> Array:
+        """Return de/dx (c, 2, 2), e as it is known."""
         ...
 
 
@@ -57,22 +57,22 @@ class Coulomb:
         with np.errstate(invalid="ignore"):
             return x / np.hypot(*x.T)[:, None]
 
-    def slope(self, x: Array) -> Array:
-        """Return ``(1 - e e^T)/|x|``."""
+    def slope(self, x: Array, e: Array) -> Array:
+        """Return ``(1 - e n^T)/|x|``, n = x/|x|."""
         with np.errstate(all="ignore"):
-            e, size = self.e(x), np.hypot(*x.T)
-            return (np.eye(2) - e[:, :, None] * e[:, None, :]) / size[:, None, None]
+            n, size = self.e(x), np.hypot(*x.T)
+            return (np.eye(2) - e[:, :, None] * n[:, None, :]) / size[:, None, None]
 
 
 class Regularised:
     """``e_Psi``, def:MPsi, of every contact."""
 
     def __init__(self, psi: Psi, eps: float) -> None:
-        self._psi, self._eps = psi, eps
+        self._psi, self.eps = psi, eps
 
     def _polar(self, x: Array) -> tuple[Array, Array]:
-        zeta = np.hypot(*x.T) / self._eps
-        direction = x / (self._eps * np.where(zeta > 0.0, zeta, 1.0))[:, None]
+        zeta = np.hypot(*x.T) / self.eps
+        direction = x / (self.eps * np.where(zeta > 0.0, zeta, 1.0))[:, None]
         return np.maximum(zeta, SMALLEST_ZETA), direction
 
     def e(self, x: Array) -> Array:
@@ -80,14 +80,14 @@ class Regularised:
         zeta, direction = self._polar(x)
         return self._psi.modulus(zeta)[:, None] * direction
 
-    def slope(self, x: Array) -> Array:
+    def slope(self, x: Array, e: Array) -> Array:  # noqa: ARG002 (it is a function of x)
         """Return its derivative: along e ``(Psi - zeta^2 Psi')/(zeta^2 + Psi)^(3/2)``, across ``|e_Psi|/zeta``."""
         zeta, direction = self._polar(x)
         value = self._psi(zeta**2)
         size = np.sqrt(zeta**2 + value)
         out = (value - zeta**2 * self._psi.derivative(zeta**2)) / size**3
         along = direction[:, :, None] * direction[:, None, :]
-        return (out[:, None, None] * along + (np.eye(2) - along) / size[:, None, None]) / self._eps
+        return (out[:, None, None] * along + (np.eye(2) - along) / size[:, None, None]) / self.eps
 
 
 class ContactField:
@@ -110,10 +110,10 @@ class ContactField:
     ) -> None:
         self.n, self.count, self.rows, self.branch, self.whole = n, count, rows, branch or Branch(), whole
         shapes = (n, n), (n,), (count, 2, n), (count, 2), (count,), (len(rows) - _fixed(n, count),), (count, 2)
-        self._places, at = list[tuple[slice, tuple[int, ...]]](), 0
+        self.places, at = list[tuple[slice, tuple[int, ...]]](), 0
         for shape in shapes:
             size = math.prod(shape)
-            self._places.append((slice(at, at + size), shape))
+            self.places.append((slice(at, at + size), shape))
             at += size
         self.names = STATE_NAMES[: n + shapes[5][0]]
         self.moving = np.array([row.constant is None for row in rows])
@@ -157,7 +157,7 @@ class ContactField:
         """Return what the equations are made of at states (k, N)."""
         found: list[Local] = []
         for Y, row in zip(states, self.values(states), strict=True):
-            M, Q, J, surface, r, rates, k = (row[place].reshape(shape) for place, shape in self._places)
+            M, Q, J, surface, r, rates, k = (row[place].reshape(shape) for place, shape in self.places)
             found.append(Local(M, Q, J, k, r, J @ Y[: self.n] - surface, rates))
         return found
 
@@ -190,6 +190,11 @@ class ContactField:
             solved = solved - back @ np.linalg.lstsq(held @ back, held @ solved, RANK_TOLERANCE)[0]
         found[: self.n] = -solved
         return found
+
+
+def within_disc(e: Array) -> Array:
+    """Return e (c, 2), brought back onto the circle where it is outside."""
+    return e / np.maximum(1.0, np.hypot(*e.T))[:, None]
 
 
 def _fixed(n: int, count: int) -> int:

@@ -18,6 +18,7 @@ from .collocation import Collocated
 from .decision import AT_BOUND, Decided, Flags, decide_contacts
 from .field import Local, held_rates, project_velocities
 from .result import contact_names
+from .inspection import Switch
 from .run import ContactRun, NoFrictionError
 
 TO_ZERO = 0.9  # of the way to 0 that a slip may go in a step
@@ -27,7 +28,6 @@ TOGETHER = 1e4  # slips so many times larger may arrive in the same moment
 AHEAD = (1e-3, 1e-2, 1e-1, 1.0)  # of a first step: how far ahead it is looked at what departs
 HALVINGS = 50
 MARGIN_SAMPLES = 65  # places in a step at which the polynomial through margins is asked
-STICKING_SHARE = 1 / 64  # of the span: longest step while a contact sticks
 
 
 @dataclass
@@ -57,8 +57,7 @@ class NonsmoothRun(ContactRun):
         size = np.hypot(*here.x.T)
         change = ((here.J @ self.rate[: self.field.n] + here.k) * self.e).sum(axis=1)
         falls = ~self.sticks & ~self.departs & (change < 0.0)
-        longest = STICKING_SHARE * (self.t_end - self.starts[0][0]) if self.sticks.any() else np.inf
-        return float((TO_ZERO * size[falls] / -change[falls]).min(initial=longest))
+        return float((TO_ZERO * size[falls] / -change[falls]).min(initial=np.inf))
 
     def _turns(self, found: Collocated) -> bool:
         out = ~self.sticks
@@ -93,36 +92,49 @@ class NonsmoothRun(ContactRun):
         held = here.J[self.sticks].reshape(-1, self.field.n)
         return np.linalg.matrix_rank(held, 1e-10) < len(held)
 
-    def _accept(self, found: Collocated, ends: bool, h: float) -> float:
-        if self.sticks.any() and not self.grazes and (bound := self._bound(found)) is not None:
+    def _accept(self, found: Collocated, ends: bool, switch: Switch | None, h: float) -> float:
+        last = 1.0 if switch is None else switch.u
+        if self.sticks.any() and not self.grazes and (bound := self._bound(found, last)) is not None:
             self._take(truncate_step(found.step, bound), ends=False)
-            before = self.sticks
-            self._decide(before)
-            free = before & ~self.sticks
-            self.grazes = not free.any()
-            if free.any():
-                self._note(say("contact departs", where=contact_names(free)))
+            self.grazes = not self._release(self.sticks)
             return self.first
         self.grazes = False
+        if switch is not None:
+            return self._pass(found.step, switch)
         here = self._take(found.step, ends)
         self._go_on(here)
         if self.t < self.t_end and (arrived := self._arrived(here)) is not None:
             return self._arrive(arrived)
         return h
 
-    def _bound(self, found: Collocated) -> float | None:
-        """Return the fraction of a step at which a force that holds comes to its bound; None if none does.
+    def _release(self, at_sets: Flags) -> bool:
+        """Decide anew which contacts stick, and whether one lets go."""
+        before = self.sticks
+        self._decide(at_sets)
+        free = before & ~self.sticks
+        if free.any():
+            self._note(say("contact departs", where=contact_names(free)))
+        return bool(free.any())
+
+    def _resume(self) -> None:
+        self._release(self.sticks & (np.hypot(*self.field.at(self.Y).x.T) <= self._near_set))
+
+    def _bound(self, found: Collocated, last: float) -> float | None:
+        """Return the fraction of a step, up to `last`, at which a force that holds comes to its bound; or None.
 
         Asked are the stages, and the least of the polynomial through what they answer.
         """
         at = lambda u: self._margin(self.field.at(found.step.at(u)))
         nodes = np.array([0.0, *tableau().nodes])
         margins = np.array([self._margin(self.field.at(self.Y)), *map(self._margin, found.stages)])
-        fine = np.linspace(0.0, 1.0, MARGIN_SAMPLES)
+        fine = np.linspace(0.0, last, MARGIN_SAMPLES)
         least = float(fine[np.argmin(np.polynomial.Polynomial.fit(nodes, margins, len(nodes) - 1)(fine))])
-        places = sorted([*zip(nodes[1:].tolist(), margins[1:].tolist(), strict=True), (least, at(least))])
+        ends = [(least, at(least)), *([(last, at(last))] if last < 1.0 else [])]
+        places = sorted([*zip(nodes[1:].tolist(), margins[1:].tolist(), strict=True), *ends])
         low = 0.0
         for high, margin in places:
+            if high > last:
+                return None
             if high > 0.0 and margin < 0.0:
                 break
             low = high
