@@ -14,14 +14,16 @@ from collections.abc import Callable
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from codim2_core import psi
 from codim2_core.mechanics import Contacts
-from tests.core.mechanics.plates import INERTIA, MASS, MU, Driven, shaken_plate, shaken_rate
+from tests.core.mechanics.plates import INERTIA, MASS, MU, Blocks, Driven, shaken_plate, shaken_rate
 from tests.core.mechanics.test_contacts import gauss_seidel
 
 from .ways import Check
 
-EPS, SPAN = 1e-6, 3.0
+EPS, SPAN = 1e-7, 3.0
 MAX_ERROR = 1e-4  # of velocities of the order 1: the limit differs by some eps after each departure
+MAX_LOAD_ERROR = 5e-3  # of steps of 1e-4
 MAX_ACCELERATION_ERROR = 1e-6
 
 
@@ -64,12 +66,26 @@ def _compare(whole: Contacts, rate: Callable[..., np.ndarray], start: np.ndarray
     run = whole.simulate_nonsmooth((*start, 0.0), (0.0, SPAN))
     if run.status.name != "T_END":
         return [run.reason]
-    own = solve_ivp(rate, (0.0, SPAN), start, "Radau", rtol=1e-8, atol=1e-11, dense_output=True)
+    own = solve_ivp(rate, (0.0, SPAN), start, "Radau", rtol=1e-9, atol=1e-12, dense_output=True)
     times = np.linspace(0.0, SPAN, 200)
     apart = np.abs(run.dense(times)[:, :-1] - own.sol(times).T).max(axis=1)
     worst = int(np.argmax(apart))
     kinds = ["/".join(phase.kinds) for phase in run.phases]
     return [f"{apart[worst]:.2e} at t = {times[worst]:.3f}; {kinds}"] if apart[worst] > MAX_ERROR else []
+
+
+def loads_and_tiny_steps(rng: random.Random) -> tuple[str, list[str]]:
+    """Two blocks under loads that switch, pulse and ramp, in the limit and for a small eps."""
+    whole, start, span = Blocks.drawn(np.random.default_rng(rng.getrandbits(64))), (0.0,) * 6, (0.0, SPAN)
+    blocks, own = whole.contacts(), whole.tiny_steps(SPAN)
+    found = {"limit": blocks.simulate_nonsmooth(start, span)}
+    found["eps"] = blocks.simulate(psi.constant(), start, span, eps=EPS)
+    apart = {name: float(np.abs(run.states[-1, :5] - own).max()) for name, run in found.items()}
+    return f"{whole}", [
+        f"{name}: {apart[name]:.2e}; {run.reason}"
+        for name, run in found.items()
+        if run.status.name != "T_END" or not apart[name] <= MAX_LOAD_ERROR
+    ]
 
 
 def rest_and_gauss_seidel(rng: random.Random) -> tuple[str, list[str]]:
@@ -84,4 +100,4 @@ def rest_and_gauss_seidel(rng: random.Random) -> tuple[str, list[str]]:
     return what, [f"accelerations {apart:.2e} apart"] if apart > MAX_ACCELERATION_ERROR else []
 
 
-CHECKS: tuple[Check, ...] = (motion_and_scipy, turning_motion_and_scipy, rest_and_gauss_seidel)
+CHECKS: tuple[Check, ...] = (motion_and_scipy, turning_motion_and_scipy, loads_and_tiny_steps, rest_and_gauss_seidel)

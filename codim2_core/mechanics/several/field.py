@@ -145,6 +145,15 @@ class ContactField:
             after = self.whole.on_branch(Y, rate, (*before[:switch], other))
         return after
 
+    def leads_back(self, switch: int, Y: Array, rate: Array) -> bool:
+        """Whether a state leaves the branch at once through a switch at which its formulas jump."""
+        guard = self.branch.guards[switch]
+        values = dict(zip(self.names, Y.tolist(), strict=True))
+        rates = dict(zip(self.names, rate.tolist(), strict=True))
+        return self.branch.jumps[switch] and sum(
+            guard.derivative(name).evaluate(values) * rates[name] for name in guard.names
+        ) < 0.0
+
     def values(self, states: Array) -> Array:
         """Return the rows (k, rows) at states (k, N)."""
         from ...expressions import interpreter  # on first use: it loads the compiler

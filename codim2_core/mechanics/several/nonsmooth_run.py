@@ -19,7 +19,7 @@ from .decision import AT_BOUND, Decided, Flags, decide_contacts
 from .field import Local, held_rates, project_velocities
 from .result import contact_names
 from .inspection import Switch
-from .run import ContactRun, NoFrictionError
+from .run import ContactRun
 
 TO_ZERO = 0.9  # of the way to 0 that a slip may go in a step
 TURN = 0.5  # cosine of how far e may turn from stage to stage
@@ -117,7 +117,7 @@ class NonsmoothRun(ContactRun):
         return bool(free.any())
 
     def _resume(self) -> None:
-        self._release(self.sticks & (np.hypot(*self.field.at(self.Y).x.T) <= self._near_set))
+        self._release((self.sticks | self.departs) & (np.hypot(*self.field.at(self.Y).x.T) <= self._near_set))
 
     def _bound(self, found: Collocated, last: float) -> float | None:
         """Return the fraction of a step, up to `last`, at which a force that holds comes to its bound; or None.
@@ -187,9 +187,7 @@ class NonsmoothRun(ContactRun):
 
     def _decide(self, at_sets: Flags) -> None:
         """Decide which of the contacts at their sets stick from here on, and where the others go."""
-        here = self.field.at(self.Y)
-        if not (here.r > 0.0).all():
-            raise NoFrictionError(int(np.argmin(here.r > 0.0)) + 1)
+        here = self._here()
         self.sticks = at_sets.copy()
         self._go_on(here)
         e, found = self.e.copy(), self._decided(here, at_sets)

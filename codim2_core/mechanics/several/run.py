@@ -111,6 +111,8 @@ class ContactRun:
         rate = self._slopes(self.field.at(self.Y))[1]
         self._enter(self.field.past_switch(switch.guard, self.Y, rate))
         self._resume()
+        if self.field.leads_back(switch.guard, self.Y, self.rate):
+            raise TooManyStepsError(say("load switches back"))
         return self.first
 
     @property
@@ -151,6 +153,10 @@ class ContactRun:
             self.steps.append(step)
         self.t, self.Y = (self.t_end if ends else step.end), step.last
         self.speed = max(self.speed, float(np.abs(step.first[: self.field.n]).max()))
+        return self._here()
+
+    def _here(self) -> Local:
+        """Return what holds at the state, where every contact has friction."""
         here = self.field.at(self.Y)
         if not (here.r > 0.0).all():
             raise NoFrictionError(int(np.argmin(here.r > 0.0)) + 1)
@@ -179,9 +185,8 @@ class RegularisedRun(ContactRun):
         return np.hypot(*here.x.T) <= HELD_SLIPS * self.law.eps
 
     def _begin(self) -> None:
-        here = self.field.at(self.Y)
-        self.sticks = np.zeros(len(here.r), bool)
-        self._go_on(here)
+        self.sticks = np.zeros(self.field.count, bool)
+        self._resume()
 
     def _turns(self, found: Collocated) -> bool:  # noqa: ARG002 (e may turn as it likes where |e| < 1)
         return False
@@ -193,4 +198,4 @@ class RegularisedRun(ContactRun):
         return h
 
     def _resume(self) -> None:
-        self._go_on(self.field.at(self.Y))
+        self._go_on(self._here())

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from codim2_core.expressions.expression import parse
 from codim2_core.mechanics import Contacts, contacts
 
 MASS, INERTIA, MU = 2.0, 0.5, 0.3
@@ -84,3 +85,52 @@ class Driven:
             return np.array([X / self.mass, Y / self.mass, turning / self.inertia, w, u, v])
 
         return rate
+
+
+LOADS = (
+    "{a}*sign(sin({w}*tm + {p}))", "{a}*max(0, tm - {t})", "{a}*exp(-((tm - {t})/{s})^2)", "{a}*(abs(tm - {t}) < {s})",
+    "{a}*mod(tm, {t})", "{a}*min(1, abs(tm - {t}))", "{a}*floor({w}*tm)*cos({w}*tm)", "{a}*tanh((tm - {t})/{s})",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Blocks:
+    """Two blocks of 1 kg in two dimensions joined by a spring of stiffness k, under loads: (u1, v1, u2, v2, l, tm)."""
+
+    bounds: tuple[float, float]
+    k: float
+    loads: tuple[str, str, str, str]
+
+    @classmethod
+    def drawn(cls, rng: np.random.Generator) -> "Blocks":
+        """Return random ones."""
+
+        def load() -> str:
+            parts = [("a", -3.0, 3.0), ("w", 0.5, 4.0), ("p", 0.0, 6.0), ("t", 0.5, 3.5), ("s", 0.003, 0.3)]
+            return str(rng.choice(LOADS)).format(**{name: round(rng.uniform(a, b), 3) for name, a, b in parts})
+
+        low, high = np.round(rng.uniform(0.4, 2.0, 2), 2).tolist()
+        return cls((low, high), round(rng.uniform(0.0, 5.0), 2), (load(), "0", load(), load()))
+
+    def contacts(self) -> Contacts:
+        """Return the mechanism."""
+        rows = ((1, 0, 0, 0), (0, 1, 0, 0)), ((0, 0, 1, 0), (0, 0, 0, 1))
+        first, second, third, fourth = self.loads
+        return contacts(
+            np.eye(4).tolist(), [(row, bound, 1) for row, bound in zip(rows, self.bounds, strict=True)],
+            (f"{first} + {self.k}*l", second, f"{third} - {self.k}*l", fourth), ("u1", "v1", "u2", "v2"),
+            {"l": "u2 - u1", "tm": 1},
+        )  # fmt: skip
+
+    def tiny_steps(self, t_end: float, h: float = 1e-4) -> np.ndarray:
+        """Return (u1, v1, u2, v2, l) by steps of Moreau: the load gives an impulse, then friction takes its most."""
+        mid = (np.arange(round(t_end / h)) + 0.5) * h
+        F = np.stack([parse(text, ("tm",)).evaluate({"tm": mid}) for text in self.loads], axis=-1).reshape(-1, 2, 2)
+        v, stretch, most = np.zeros((2, 2)), 0.0, h * np.array(self.bounds)
+        for push in F * h:
+            pull = h * self.k * (stretch + 0.5 * h * (v[1, 0] - v[0, 0]))
+            v = v + push + [[pull, 0.0], [-pull, 0.0]]
+            size = np.hypot(*v.T)
+            v = v * np.maximum(0.0, 1.0 - most / np.maximum(size, 1e-300))[:, None]
+            stretch += h * (v[1, 0] - v[0, 0])
+        return np.array([*v.ravel(), stretch])
