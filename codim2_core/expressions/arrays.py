@@ -160,7 +160,9 @@ def path_program(rows: tuple[Expression, ...]) -> Program:
 
     template, names = _encode(rows), (*FAST_NAMES, *SLOW_NAMES)
     slots = np.array([names.index(name) for name in number_names(rows)], np.int64)
-    op, left, right, number = (array.copy() for array in template.arrays[:4])
+    op, left, right, number = (
+        template.op.copy(), template.left.copy(), template.right.copy(), template.number.copy(),
+    )  # fmt: skip
     slow = op == SLOT
     op[slow], left[slow] = VAR, slots[left[slow]]
     interpreter.specialise(op, left, right, number, np.zeros(0))

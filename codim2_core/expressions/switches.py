@@ -60,6 +60,16 @@ def kinks(rows: Sequence[Expression], names: Collection[str]) -> Rows:
     return tuple(found)
 
 
+def jump_names(rows: Sequence[Expression]) -> frozenset[str]:
+    """Return the names that the arguments of sign and floor read: what decides where rows jump."""
+    found: set[str] = set()
+    for row in rows:
+        for op, *args in row.tape:
+            if op in JUMPS:
+                found.update(_argument(list(row.tape), op, args).names)
+    return frozenset(found)
+
+
 def has_switches(rows: Sequence[Expression], names: Collection[str]) -> bool:
     """Whether rows have a kink or a jump where a formula in some of the names, and in no others, vanishes."""
     if not any(op in FUNCTIONS_OF_TWO or op == "abs" or op in JUMPS for row in rows for op, *_ in row.tape):

@@ -90,6 +90,12 @@ class Field:
         """Return the values of all names at e and a state."""
         return dict(zip((*FAST_NAMES[:2], *_state_names(self.m)), (*e, *state), strict=True))
 
+    def jumps_by_time(self, switch: int) -> bool:
+        """Whether a switch of this branch depends on slow variables of constant rate alone."""
+        rates = dict(zip(SLOW_NAMES, self.rows[2:], strict=False))
+        guard = self.branch.guards[switch]
+        return all(name in rates and rates[name].constant is not None for name in guard.names)
+
     def past_switch(self, switch: int, e: Sequence[float], state: Sequence[float]) -> Field | None:
         """Return the branch that follows this one of a field past a switch; None if that leads back at once.
 

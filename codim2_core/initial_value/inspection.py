@@ -106,8 +106,16 @@ class Inspection:
         if self.line is None:
             return False
         at = path @ u ** np.arange(path.shape[1])
-        U = np.array(self.field.value(*at.tolist())[:2])
+        c, s, x, y, *z = at.tolist()
+        U = np.array(self.field.value(c, s, x, y, *z)[:2])
         return abs(float(self.line.n[0] * U[1] - self.line.n[1] * U[0])) > ACROSS * float(np.abs(U).max())
+
+    def _rises(self, g: int, path: Array, u: float) -> bool:
+        """Whether a guard increases where it is negative: rounding has put it off where its branch began."""
+        c, s, *state = (path @ u ** np.arange(path.shape[1])).tolist()
+        guard, values = self.field.branch.guards[g], self.field.values((c, s), state)
+        rates = dict(zip(list(values)[2:], self.field.value(c, s, *state), strict=True))
+        return sum(float(guard.derivative(name).evaluate(values)) * rates[name] for name in guard.names) > 0.0
 
     def _directions(self, states: Array) -> Array:
         """Return polynomials (k, 2, d) of e along steps, through its values at d places."""
@@ -147,7 +155,8 @@ class Inspection:
         for k, path in enumerate(paths):
             for g in range(len(self.guards.roots)):
                 here = zeros_along(*self.guards.arrays, path, g, True, found)
-                if here and (cut is None or (k, found[0, 0]) < (cut.step, cut.u)):
+                sooner = here and (cut is None or (k, found[0, 0]) < (cut.step, cut.u))
+                if sooner and not self._rises(g, path, found[0, 0]):
                     cut = Cut(k, float(found[0, 0]), 0.0, g)
             if cut is not None and cut.step == k:
                 return cut

@@ -161,7 +161,9 @@ class MotionSteps:
             The state grows beyond all bounds in no time.
         TooManyStepsError, StepsTooShortError
         """
-        n, size, most = len(self.y), min(FIRST_STEPS, size), size
+        n, size, most = len(self.y), min(size, 4 * FIRST_STEPS), size
+        if self.inspection is not None and self.inspection.guards is not None:
+            size = FIRST_STEPS  # what follows a switch is lost
         while self.code in (CHUNK_FULL, AT_SIGMA):  # who has arrived asks for no more
             starts, lengths = np.empty(size), np.empty(size)
             ends, polynomials = np.empty((size, n)), np.empty((size, n, DENSE_DEGREE))
@@ -172,10 +174,12 @@ class MotionSteps:
                 lengths, ends, polynomials,
             )  # fmt: skip
             self.functions.count(self.evaluations - before)
+            part = StepArray(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
+            if self.inspection is not None:
+                part = self._inspected(part, self.inspection, farthest)
             if self.code == FINISHED:
                 lengths[filled - 1] = self.clock[2] - starts[filled - 1]  # it ends then, to the last digit
-            part = StepArray(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
-            yield part if self.inspection is None else self._inspected(part, self.inspection, farthest)
+            yield part
             size = min(2 * size, most)
         error = failure(self.code, float(self.clock[0]), self.y, self.rate, self.control[LEAST_STEP])
         if error is not None:

@@ -194,13 +194,13 @@ class _NonsmoothRun:
     def one(self, first: Array) -> Simulation:
         """Follow one motion phase by phase."""
         t_start, t_end = self.span
-        watch = EventWatch(self.watched, t_start, first)
+        watch = EventWatch(self.watched, self.span, first)
         course = HybridRun(
             self.system, self.psi, self.formulas, None, watch, t_start, first, t_end, self.rtol, self.atol,
             self.max_steps, self.max_step, self.stiction,
         )  # fmt: skip
         r = math.hypot(*first[:2].tolist())
-        course.enter_branch(first[:2] / r if r > 0.0 else first[:2], first)
+        course.enter_branch(first[:2] / r if r > 0.0 else first[:2], first, t_start)
         status, detail = SimulationStatus.T_END, ""
         try:
             course.run()
@@ -216,7 +216,7 @@ class _NonsmoothRun:
             detail = f"{detail} {say('not bounded', count=course.undecided)}".strip()
         motion = dense(t_start, first, [gather_steps(course.taken, len(first))])
         phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
-        variation = partial(of_nonsmooth, self.system, self.psi, motion, phases, course.line)
+        variation = partial(of_nonsmooth, self.system, self.psi, motion, phases, course.line, course.jumps)
         return simulation(
             motion, phases, variation, status, detail=detail, evaluations=course.evaluations, events=watch.times
         )
@@ -240,7 +240,7 @@ def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
     slip = Phase("slip", first, t_start, say("past on Sigma" if arrives else "starts outside"))
     phases = (slip.with_place(OfState(motion, None, 0.0, first, t_start), None),)
     variation = partial(
-        of_nonsmooth, asked.system, asked.psi, motion, lambda: phases, invariant_line(asked.formulas, last)
+        of_nonsmooth, asked.system, asked.psi, motion, lambda: phases, invariant_line(asked.formulas, last), {}
     )
     return simulation(
         motion, lambda: phases, variation, past.status,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -222,9 +222,11 @@ class _RegularisedRun:
 
     def one(self, first: Array) -> Simulation:
         """Follow one motion step by step, from switch to switch of its formulas."""
-        watch, parts = EventWatch(self.events, self.span[0], first), list[StepArray]()
+        watch, parts = EventWatch(self.events, self.span, first), list[StepArray]()
         status, detail, evaluations, undecided = SimulationStatus.T_END, "", 0, 0
-        t, state, most, formulas = self.span[0], first, self.max_steps, self.formulas.on_branch(self.e(first), first)
+        jumps = dict[float, bool]()
+        t, state, most = self.span[0], first, self.max_steps
+        formulas = self.formulas.on_branch(self.e(first), first.tolist())
         line = invariant_line(formulas, state)
         while t < self.span[1] and status is SimulationStatus.T_END:
             rate = partial(rate_at, formulas, self.psi, self.eps, line)
@@ -254,10 +256,12 @@ class _RegularisedRun:
             if ahead is None:
                 status, detail = SimulationStatus.NOT_UNIQUE, say("load switches back")
                 break
+            if formulas.branch.jumps[motion.switch]:
+                jumps[t] = formulas.jumps_by_time(motion.switch)
             formulas, line = ahead, invariant_line(ahead, state)
         if undecided:
             detail = f"{detail} {say('not bounded', count=undecided)}".strip()
-        return self.told(dense(self.span[0], first, parts), status, detail, evaluations, watch.times)
+        return self.told(dense(self.span[0], first, parts), status, detail, evaluations, watch.times, jumps)
 
     def e(self, state: Array) -> list[float]:
         """Return e_Psi (2,) of a state."""
@@ -280,10 +284,11 @@ class _RegularisedRun:
         detail: str,
         evaluations: int,
         events: Sequence[Sequence[float]] = (),
+        jumps: Mapping[float, bool] | None = None,
     ) -> Simulation:
         """Return the result, whose phases and derivatives are found when they are asked for."""
         phases = partial(phases_of, self.system, self.psi, self.eps, self.rtol, motion)
-        variation = partial(of_regularised, self.system, self.psi, self.eps, motion)
+        variation = partial(of_regularised, self.system, self.psi, self.eps, motion, jumps or {})
         return simulation(
             motion, phases, variation, status, detail=detail, eps=self.eps, evaluations=evaluations, events=events
         )

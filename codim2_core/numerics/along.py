@@ -15,7 +15,8 @@ from ..jit import held_kernel, kernel, spliced_kernel
 from .enclosure import enclose_over
 
 MAX_DEPTH = 45  # halvings of a step in which a zero is sought: to the rounding of the time
-MAX_ZERO_PARTS = 20_000  # parts that are looked at for zeros, of one step
+MAX_ZEROS = 4096  # of one formula along one step
+MAX_ZERO_PARTS = 100_000  # parts that are looked at for zeros, of one step
 MAX_DEFECT_DEPTH = 16
 MAX_DEFECT_PARTS = 160  # parts that are looked at, of one step
 ROOT_ITERATIONS = 100

@@ -35,6 +35,10 @@ SENTENCES: dict[str, Sentence] = {
         "The derivatives are unknown after t = {t:.6g}, where the motion begins to slide on a limit cycle.",
         "a slide on a limit cycle of a general system",
     ),
+    "variation at a jump": Sentence(
+        "The derivatives are unknown after t = {t:.6g}, where a formula jumps.",
+        "a jump whose time depends on the state, or on a number that is varied",
+    ),
     "variation past an end": Sentence(
         "The derivatives are unknown after t = {t:.6g}, where sliding ends away from the equator.",
         "a fold, a Hopf bifurcation, the end of a cycle",

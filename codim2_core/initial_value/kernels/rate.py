@@ -126,3 +126,7 @@ def jacobian(motion, y, S, J):
         for j in range(n):
             if not math.isfinite(J[i, j]):
                 J[i, j] = 0.0
+    if motion.line1 != 0.0 or motion.line2 != 0.0:  # it stays in its line
+        for j in range(n):
+            along = motion.line1 * J[0, j] + motion.line2 * J[1, j]
+            J[0, j], J[1, j] = along * motion.line1, along * motion.line2

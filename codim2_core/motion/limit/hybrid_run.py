@@ -67,6 +67,7 @@ class HybridRun:
     max_step: float = math.inf
     stiction: float = 1.0
     undecided: int = 0  # steps that could not be bounded
+    jumps: dict[float, bool] = made_with(default_factory=dict)  # times of jumps, and whether time alone decides them
     evaluations: int = 0
     taken: list[Step] = made_with(default_factory=list)
     parts: list[PendingPhase] = made_with(default_factory=list)
@@ -78,7 +79,7 @@ class HybridRun:
         """Psi, or Psi = 1 where none is given."""
         return constructors.constant() if self.psi is None else self.psi
 
-    def enter_branch(self, e: Array, state: Array, switch: int | None = None) -> None:
+    def enter_branch(self, e: Array, state: Array, t: float, switch: int | None = None) -> None:
         """Go on with the branch of the formulas ahead of a state, at e, or, where no switch is given, in another line.
 
         Raises
@@ -92,6 +93,8 @@ class HybridRun:
             ahead = self.formulas.on_branch(*at) if switch is None else self.formulas.past_switch(switch, *at)
             if ahead is None:
                 raise StopError(say("load switches back"))
+            if switch is not None and self.formulas.branch.jumps[switch]:
+                self.jumps[t] = self.formulas.jumps_by_time(switch)
             self.formulas, self.system, left = ahead, ahead.system, None
         self.line = invariant_line(self.formulas, state, left)
 
@@ -196,7 +199,7 @@ class HybridRun:
                 taken += part.taken
                 t, state = (taken[-1].end, taken[-1].last) if taken else (t, state)
                 try:
-                    self.enter_branch(state[:2] / math.hypot(*state[:2].tolist()), state, part.switch)
+                    self.enter_branch(state[:2] / math.hypot(*state[:2].tolist()), state, t, part.switch)
                 except StopError:
                     self.add("slip", taken, reason)
                     raise
@@ -251,9 +254,9 @@ class HybridRun:
         lives = self.has_cycle if on_cycle else None
         part = self.slid(decision.e, lives=lives, line=self.line)
         # At a kink, or where a load pushes it out of a line, it slides on.
-        while part.leaves_line or (part.switch is not None and not self.formulas.branch.jumps[part.switch]):
+        while part.end == "switch" and (part.switch is None or not self.formulas.branch.jumps[part.switch]):
             last = part.taken[-1]
-            self.enter_branch(part.e, last.last, part.switch)
+            self.enter_branch(part.e, last.last, last.end, part.switch)
             ahead = self.slid(part.e, last.end, last.last[2:], lives=lives, line=self.line)
             taken, places = [*part.taken, *ahead.taken], [*part.places, *ahead.places[1:]]
             part = replace(ahead, taken=taken, places=places)
@@ -307,7 +310,7 @@ class HybridRun:
     def past_switch(self, part: Slide) -> Decision:
         """Decide anew what follows from the place of the set, where the formulas have jumped."""
         reason = say("load jumps")
-        self.enter_branch(part.e, self.state, part.switch)
+        self.enter_branch(part.e, self.state, self.t, part.switch)
         if self.line is not None:
             return self.in_line(float(self.line.n @ part.e), reason)
         held = hold(self.formulas, None, self.state[2:], self.stiction)
