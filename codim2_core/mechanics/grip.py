@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from ..words import say
 
-
 ROUNDINGS = 16  # operations that what is given to a grip has gone through, at most, each off by half a unit
 
 

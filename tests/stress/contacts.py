@@ -58,7 +58,8 @@ def motion_and_scipy(rng: random.Random) -> tuple[str, list[str]]:
 def turning_motion_and_scipy(rng: random.Random) -> tuple[str, list[str]]:
     """The same of a plate that turns, so that a stuck foot lets go while others slip."""
     driven, start = draw_driven(rng)
-    return f"{driven}, from {start.tolist()}", _compare(driven.contacts(), driven.rate(EPS), np.append(start, (0.0, 0.0)))
+    found = _compare(driven.contacts(), driven.rate(EPS), np.append(start, (0.0, 0.0)))
+    return f"{driven}, from {start.tolist()}", found
 
 
 def _compare(whole: Contacts, rate: Callable[..., np.ndarray], start: np.ndarray) -> list[str]:

@@ -1,7 +1,7 @@
 """One step of Radau IIA of order 9 for a mechanism with several contacts: Newton's method with exact slopes of e.
 
-Where a slip is small, e is stiff: forces decide e, and e the slip. So e is an unknown of its own, ``|x| e = x`` (Andersen
-and others 2000, see `decision`): its slope is ``(1 - e n^T)/|x|``, n = x/|x|, with e as it was found last.
+Where a slip is small, e is stiff: forces decide e, and e the slip. So e is an unknown of its own, ``|x| e = x``
+(Andersen and others 2000, see `decision`): its slope is ``(1 - e n^T)/|x|``, n = x/|x|, with e as it was found last.
 
 No stage is at the start of a step, so that a step may begin where a contact is at its set and about to slip: there
 e = x/|x| is no function of the state, but its limit along the motion is known.

@@ -38,7 +38,9 @@ class Local(NamedTuple):
 
 
 class Law(Protocol):
-    """Friction by the slip: e and its derivative."""
+    """Friction by the slip: e and its derivative; eps is 0 in the limit."""
+
+    eps: float
 
     def e(self, x: Array) -> Array:
         """Return e (c, 2) of slips (c, 2)."""
@@ -51,6 +53,8 @@ class Law(Protocol):
 
 class Coulomb:
     """``e = x/|x|``."""
+
+    eps = 0.0
 
     def e(self, x: Array) -> Array:
         """Return the unit vectors; nan at 0."""
@@ -132,8 +136,7 @@ class ContactField:
         """Return the smooth branch of the formulas at a state, on a border the one ahead."""
         if not has_switches(self.rows, self.names):
             return self
-        values, rates = (dict(zip(self.names, numbers.tolist(), strict=True)) for numbers in (Y, rate))
-        found = branch_at(self.rows, self.names, values, rates, known)
+        found = branch_at(self.rows, self.names, self._named(Y), self._named(rate), known)
         return ContactField(self.n, self.count, found.rows, found, self)
 
     def past_switch(self, switch: int, Y: Array, rate: Array) -> ContactField:
@@ -141,18 +144,18 @@ class ContactField:
         assert self.whole is not None
         after, before = self.whole.on_branch(Y, rate), self.branch.choices
         if after.branch.choices[: switch + 1] == before[: switch + 1]:  # rounding hides that it has changed
-            other = self.branch.next_choice(switch, dict(zip(self.names, Y.tolist(), strict=True)))
+            other = self.branch.next_choice(switch, self._named(Y))
             after = self.whole.on_branch(Y, rate, (*before[:switch], other))
         return after
 
     def leads_back(self, switch: int, Y: Array, rate: Array) -> bool:
         """Whether a state leaves the branch at once through a switch at which its formulas jump."""
-        guard = self.branch.guards[switch]
-        values = dict(zip(self.names, Y.tolist(), strict=True))
-        rates = dict(zip(self.names, rate.tolist(), strict=True))
-        return self.branch.jumps[switch] and sum(
-            guard.derivative(name).evaluate(values) * rates[name] for name in guard.names
-        ) < 0.0
+        guard, values, rates = self.branch.guards[switch], self._named(Y), self._named(rate)
+        slope = sum(guard.derivative(name).evaluate(values) * rates[name] for name in guard.names)
+        return self.branch.jumps[switch] and slope < 0.0
+
+    def _named(self, numbers: Array) -> dict[str, float]:
+        return dict(zip(self.names, numbers.tolist(), strict=True))
 
     def values(self, states: Array) -> Array:
         """Return the rows (k, rows) at states (k, N)."""
@@ -234,7 +237,7 @@ def contact_field(
                 slope = algebra.minus(slope, *enter([[w.derivative(word)]]))
                 total = algebra.plus(total, algebra.times(move, slope))
             k.append(total)
-    J, surface = (enter(row for one in contacts for row in rows(one)) for rows in (lambda one: one.J, lambda one: [one.surface]))
+    J, surface = enter(row for one in contacts for row in one.J), enter(one.surface for one in contacts)
     r = [algebra.times(*enter([(one.mu, one.normal)])) for one in contacts]
     entries = (*enter(M), *enter([force]), *J, *surface, *r, *moves, *k)
     return ContactField(len(velocities), len(contacts), tuple(map(algebra.formula, entries)))

@@ -31,10 +31,16 @@ class Switch(NamedTuple):
 
 
 class Inspection:
-    """The inspection of the steps on one branch of the formulas."""
+    """The inspection of the steps on one branch of the formulas.
+
+    Attributes
+    ----------
+    was_undecided : bool
+        Whether bounds decided nothing along some of the step inspected last, so that samples alone speak for it.
+    """
 
     def __init__(self, field: ContactField, rtol: float) -> None:
-        self.field, self.undecided = field, 0
+        self.field, self.was_undecided = field, False
         self.tolerance = max(CHANGE_TOLERANCE, PER_RTOL * rtol)
         nodes = np.array([0.0, *tableau().nodes])
         powers = np.arange(1, len(nodes) + 1)
@@ -67,7 +73,7 @@ class Inspection:
         allowed = self._allowed(step, np.abs(seen).max(axis=0), here, sticks, speed)[:, None, moving]
         told = np.zeros(4)
         found = first_defect(*self.field.moving_program.arrays, path[None], np.array([step.h]), *allowed, told)
-        self.undecided += int(told[3])
+        self.was_undecided = bool(found and told[3])
         return None if found else step.h * float(told[0] if told[0] > 0.0 else RETRY_SHARE * told[1])
 
     def switch(self, step: Step) -> Switch | None:

@@ -17,8 +17,8 @@ from ...words import say
 from .collocation import Collocated
 from .decision import AT_BOUND, Decided, Flags, decide_contacts
 from .field import Local, held_rates, project_velocities
-from .result import contact_names
 from .inspection import Switch
+from .result import contact_names
 from .run import ContactRun
 
 TO_ZERO = 0.9  # of the way to 0 that a slip may go in a step

@@ -98,6 +98,7 @@ class ContactRun:
             if retry is not None:
                 h = retry
                 continue
+            self.undecided += self.inspection.was_undecided
             h *= min(MOST_GROWTH, max(LEAST_GROWTH, factor))
             h = self._accept(found, ends, self.inspection.switch(found.step), h)
 
@@ -142,7 +143,7 @@ class ContactRun:
         return self.sticks
 
     def _take(self, step: Step, ends: bool) -> Local:
-        """Take a step, without the slip that rounding and errors give to contacts that stick; return what holds then."""
+        """Take a step, without the slip that its error gives to contacts that stick; return what holds at its end."""
         if self.sticks.any():
             last = step.last.copy()
             last[: self.field.n] = project_velocities(self.field.at(last), last[: self.field.n], self.sticks)

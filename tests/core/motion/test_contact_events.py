@@ -64,7 +64,11 @@ def test_a_rod_lifts_off_when_its_equations_of_motion_say_so(mu):
     assert run.states[-1, 4:6] == pytest.approx(other.y[5:, -1], abs=1e-8)
     assert mechanism.contact_force(run.states[-1]).approach == pytest.approx(0.0, abs=1e-7)
     creeping = c2.simulate(
-        mechanism.system, psi.constant(), start, (0.0, 2.0), eps=1e-6,
+        mechanism.system,
+        psi.constant(),
+        start,
+        (0.0, 2.0),
+        eps=1e-6,
         events=c2.contact_events(mechanism, start, psi.constant(), 1e-6),
     )
     assert creeping.times[-1] == pytest.approx(run.times[-1], abs=1e-4)
