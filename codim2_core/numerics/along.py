@@ -185,7 +185,7 @@ def _first_defect(op, left, right, number, roots, path, h, rates, changes, both,
         enclose_over(op, left, right, number, roots, box, bounds, out)
         sure = True
         for r in range(len(roots)):
-            own = 2 + r
+            own = len(moved) - len(roots) + r
             defect = abs(rows[r, 0] - moved[own, 1] / h)
             if not _is_small(defect, width * h, rates[r], changes[r], both[r] != 0.0) and math.isfinite(defect):
                 return DEFECT, low, width
@@ -215,7 +215,7 @@ def first_defect(op, left, right, number, roots, paths, lengths, rates, changes,
     Parameters
     ----------
     op, left, right, number, roots
-        Of `path_program`, of the rates of x, y, z1, ...
+        Of `path_program`, of the rates of the last variables.
     paths : (k, V, d)
         For each step polynomials of c, s, x, y, z1, ... in u, from the constant on.
     lengths : (k,)

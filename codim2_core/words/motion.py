@@ -210,6 +210,11 @@ SENTENCES: dict[str, Sentence] = {
     "not unique": Sentence(
         "It stopped: in the limit ε → 0 what follows is not unique, or not known.", "the status of a simulation"
     ),
+    "pole on the hemisphere": Sentence(
+        "U has a pole on the hemisphere there. If a constraint brings the normal force, the contact jams (Painlevé): "
+        "with friction in some directions a normal force presses the bodies together.",
+        "an arrival at Sigma where a divisor in U vanishes for some |e| <= 1",
+    ),
     "past on Sigma": Sentence(
         "It is known from the moment at which it left Σ.", "a past in the limit that begins on Sigma"
     ),
