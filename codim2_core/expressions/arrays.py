@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from ..arrays import Array
 from .expression import Expression
 from .functions import code
-from .names import FAST_NAMES, number_names
+from .names import FAST_NAMES, SLOW_NAMES, number_names
 from .opcodes import ADD, DIV, HYPOT, MAX, MIN, MUL, NEG, NUM, POW, SLOT, SUB, VAR
 
 Key = tuple[tuple[Expression, ...], tuple[float, ...]]  # `Frozen.key`: rows of U, and the numbers that they read
@@ -40,7 +40,7 @@ class Program:
     Attributes
     ----------
     op, left, right : ndarray of int (n,)
-        Operation of each entry and the entries it acts on (`left` of a variable: 0 … 3 for c, s, x, y).
+        Operation of each entry and the entries it acts on (`left` of a variable: 0 … 3 for c, s, x, y, then z1, ...).
     number : ndarray (n,)
         Value of a constant entry, and exponent of an integer power.
     roots : ndarray of int (rows,)
@@ -151,6 +151,22 @@ def program(key: Hashable) -> Program:
     op, right, number = template.op.copy(), template.right.copy(), template.number.copy()
     interpreter.specialise(op, template.left, right, number, np.array(numbers, float))
     return Program(op, template.left, right, number, template.roots)
+
+
+@lru_cache(maxsize=64)
+def path_program(rows: tuple[Expression, ...]) -> Program:
+    """Return the tape of formulas in c, s, x, y, z1, ..., all of which are its variables, in this order."""
+    from . import interpreter  # on first use: it loads the compiler
+
+    template, names = _encode(rows), (*FAST_NAMES, *SLOW_NAMES)
+    slots = np.array([names.index(name) for name in number_names(rows)], np.int64)
+    op, left, right, number = (
+        template.op.copy(), template.left.copy(), template.right.copy(), template.number.copy(),
+    )  # fmt: skip
+    slow = op == SLOT
+    op[slow], left[slow] = VAR, slots[left[slow]]
+    interpreter.specialise(op, left, right, number, np.zeros(0))
+    return Program(op, left, right, number, template.roots)
 
 
 def polynomial_degree(rows: tuple[Expression, ...]) -> int | None:

@@ -136,3 +136,20 @@ def batch(op, left, right, number, roots, points, out):
     for i in range(len(points)):
         seed[0, 0], seed[1, 0] = points[i, 0], points[i, 1]
         gradients(op, left, right, number, roots, seed, work, out[i])
+
+
+@kernel
+def values(op, left, right, number, roots, states, out):
+    """Rows at states (k, N) of x, y, z1, ...; out : (k, rows)."""
+    work = np.empty(len(op))
+    for j in range(len(states)):
+        for i in range(len(op)):
+            k = op[i]
+            if k == NUM:
+                work[i] = number[i]
+            elif k == VAR:
+                work[i] = states[j, left[i] - 2]
+            else:
+                work[i] = _operate(k, work[left[i]], number[i] if k == POWI else work[right[i]])
+        for r in range(len(roots)):
+            out[j, r] = work[roots[r]]

@@ -15,13 +15,14 @@ LARGEST_EXPONENT = 1000
 
 _TOKEN = re.compile(
     r"[ \t\r\n]*(?:(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
-    r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*)|(?P<power>[⁰¹²³⁴⁵⁶⁷⁸⁹]+)|(?P<op>\*\*|[-+*/^(),|]))"
+    r"|(?P<name>[A-Za-z_][A-Za-z0-9_]*)|(?P<power>[⁰¹²³⁴⁵⁶⁷⁸⁹]+)|(?P<op>\*\*|[<>]=?|[-+*/^(),|]))"
 )
 # What a text processor writes for what is meant; one character each, so that columns stay right.
 _MEANT = str.maketrans("−–—×·⋅∗÷", "---****/")
 _DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
-_CALLED = (*FUNCTIONS, *FUNCTIONS_OF_TWO)
-_LEFT_BINDING = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4, "^": 4}
+_CALLED = (*FUNCTIONS, *FUNCTIONS_OF_TWO, "mod")
+_COMPARISONS = ("<", ">", "<=", ">=")
+_LEFT_BINDING = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4, "^": 4} | dict.fromkeys(_COMPARISONS, 0.5)
 _UNARY_BINDING = 3  # -s^2 is -(s^2), and 2*-s and s^-2 are read too
 
 
@@ -133,7 +134,7 @@ class _Reader:
             mend = "group with ( and )"
         elif ch in "θϑφϕ":
             mend = self.angle() or "type plain ASCII"
-        elif ch in "=<>!&~%@?:;":
+        elif ch in "=!&~%@?:;":
             mend = "write one formula, with arithmetic only"
         elif not " " <= ch <= "~":
             mend = "type plain ASCII"
@@ -151,7 +152,7 @@ class _Reader:
             f"write {before[:20]}*{what[:20]} for a product",
         )
 
-    def expression(self, binding: int) -> int:
+    def expression(self, binding: float) -> int:
         """Read operators that bind tighter than `binding` (precedence climbing)."""
         column = self.tokens[self.at][2]
         if self.depth >= MOST_NESTING:
@@ -185,6 +186,8 @@ class _Reader:
                 right = self.expression(_UNARY_BINDING)  # from the right: s^2^3 is s^(2^3)
                 self.check_exponent(right, column)
                 left = self.apply(column, "**", left, right)
+            elif op in _COMPARISONS:
+                left = self.comparison(column, op, left, self.expression(strength))
             else:
                 outer, self.divided = self.divided, op == "/"
                 right = self.expression(strength)
@@ -192,6 +195,15 @@ class _Reader:
                 left = self.apply(column, op, left, right)
         self.depth -= 1
         return left
+
+    def comparison(self, column: int, op: str, left: int, right: int) -> int:
+        """Enter u > v as (1 + sign(u - v))/2: 1 where it holds, 0 where it does not, 1/2 where both are equal."""
+        if self.tokens[self.at][1] in _COMPARISONS:
+            raise self.error(column, "two comparisons follow one another", "write (0 < t)*(t < 1)")
+        sides = (left, right) if op[0] == ">" else (right, left)
+        sign = self.apply(column, "sign", self.apply(column, "-", *sides))
+        one = self.apply(column, "+", self.build.number(1.0), sign)
+        return self.apply(column, "*", self.build.number(0.5), one)
 
     def multiplies(self, kind: str, what: str) -> bool:
         """Whether the next token begins a factor, with no operator before it: 2c, 2(c + s), (c + s)c, 2|c|."""
@@ -260,12 +272,20 @@ class _Reader:
         found, count = self.expression(0), 1
         while self.tokens[self.at][1] == ",":
             self.at += 1
-            found, count = self.apply(column, word, found, self.expression(0)), count + 1
+            found, count = self.of_two(column, word, found, self.expression(0)), count + 1
         self.bars, self.divided = hidden, outer
         self.end(opened)
-        if count == 1:
-            raise self.error(column, f"{word} has one argument", f"write {word}(u, v)")
+        if count == 1 or (word == "mod" and count > 2):
+            given = "one argument" if count == 1 else f"{count} arguments"
+            raise self.error(column, f"{word} has {given}", f"write {word}(u, v)")
         return found
+
+    def of_two(self, column: int, word: str, u: int, v: int) -> int:
+        """Enter min, max, or mod(u, v) = u - v floor(u/v)."""
+        if word != "mod":
+            return self.apply(column, word, u, v)
+        whole = self.apply(column, "floor", self.apply(column, "/", u, v))
+        return self.apply(column, "-", u, self.apply(column, "*", v, whole))
 
     def modulus(self, column: int) -> int:
         """Read up to the bar that closes |u|."""

@@ -20,6 +20,7 @@ Tape = tuple[Node, ...]
 
 FUNCTIONS = tuple(one.name for one in _FUNCTIONS)
 FUNCTIONS_OF_TWO = ("min", "max")
+JUMPS = ("sign", "floor")
 BESIDE_ZERO = "*0"  # of derivatives alone: u v, and 0 where one is 0 and the other infinite
 BESIDE_ZERO_SOURCE = "(0.0 if ({0} == 0.0 and math.isinf({1})) or ({1} == 0.0 and math.isinf({0})) else {0}*{1})"
 CONSTANTS = {"pi": math.pi, "e": math.e}

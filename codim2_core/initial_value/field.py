@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from dataclasses import field as made_with
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -19,6 +20,7 @@ from ..expressions.expression import Expression, parse
 from ..expressions.functions import called
 from ..expressions.names import FAST_NAMES, SLOW_NAMES
 from ..expressions.source import program
+from ..expressions.switches import Branch, branch_at, has_switches
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
@@ -27,6 +29,10 @@ from ..systems.typed_at_z import Frozen
 from ..systems.typed_formulas import Formulas
 
 ONE_SIDED_DISTANCE = 1e-9
+
+
+def _state_names(m: int) -> tuple[str, ...]:
+    return (*FAST_NAMES[2:], *SLOW_NAMES[:m])
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +45,10 @@ class Field:
         The number of slow variables.
     rows : tuple of Expression
         The formulas of U and W.
+    branch : Branch
+        Its guards are positive as long as the rows hold.
+    whole : Field or None
+        The field that this is a branch of.
     value : callable
         ``value(c, s, x, y, *z)`` is the tuple (U1, U2, W1, ..., Wm); NaNs where a formula has a pole.
     slope : callable
@@ -49,10 +59,79 @@ class Field:
     rows: tuple[Expression, ...]
     value: Callable[..., tuple[float, ...]]
     slope: Callable[..., tuple[float, ...]]
+    branch: Branch = made_with(default_factory=Branch)
+    whole: Field | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Be pickled by the formulas, of which the functions are made again."""
         return _make_field, (self.rows, self.m)
+
+    @cached_property
+    def switches(self) -> bool:
+        """Whether its formulas have kinks or jumps in the state: each branch is then followed by itself."""
+        return has_switches(self.rows, _state_names(self.m))
+
+    def on_branch(self, e: Sequence[float], state: Sequence[float], known: Sequence[int] = ()) -> Field:
+        """Return the smooth branch of the formulas at e (2,) and a state (2 + m,); on a border the one ahead.
+
+        Parameters
+        ----------
+        e, state : sequence of float
+        known : sequence of int
+            The first choices of the branch, where they are known.
+        """
+        if not self.switches:
+            return self
+        names, rates = _state_names(self.m), self.value(*e, *state)
+        found = branch_at(self.rows, names, self.values(e, state), dict(zip(names, rates, strict=True)), known)
+        return _branch_field(found, self)
+
+    def values(self, e: Sequence[float], state: Sequence[float]) -> dict[str, float]:
+        """Return the values of all names at e and a state."""
+        return dict(zip((*FAST_NAMES[:2], *_state_names(self.m)), (*e, *state), strict=True))
+
+    def jumps_by_time(self, switch: int) -> bool:
+        """Whether a switch of this branch depends on slow variables of constant rate alone."""
+        rates = dict(zip(SLOW_NAMES, self.rows[2:], strict=False))
+        guard = self.branch.guards[switch]
+        return all(name in rates and rates[name].constant is not None for name in guard.names)
+
+    def past_switch(self, switch: int, e: Sequence[float], state: Sequence[float]) -> Field | None:
+        """Return the branch that follows this one of a field past a switch; None if that leads back at once.
+
+        Parameters
+        ----------
+        switch : int
+        e, state : sequence of float
+            Where its guard vanishes.
+        """
+        before, whole = self.branch, self.whole
+        assert whole is not None
+        after = whole.on_branch(e, state)
+        if after.branch.choices[: switch + 1] == before.choices[: switch + 1]:
+            # Rounding hides that it has changed, or the guard touches 0 with a rate of 0.
+            other = before.next_choice(switch, self.values(e, state))
+            after = whole.on_branch(e, state, (*before.choices[:switch], other))
+        if before.jumps[switch]:
+            guard = after.branch.guards[switch]
+            rates = dict(zip(_state_names(self.m), after.value(*e, *state), strict=True))
+            values = self.values(e, state)
+            if sum(guard.derivative(name).evaluate(values) * rates[name] for name in guard.names) < 0.0:
+                return None
+        return after
+
+    @cached_property
+    def rests(self) -> bool:
+        """Whether U = 0 at x = y = 0 and e = 0 for every z, as its formulas say."""
+        rows, zero = list(self.rows[:2]), _constant(0.0)
+        for name in FAST_NAMES:
+            rows = [row.substitute(name, zero) if name in row.names else row for row in rows]
+        return all(row.constant == 0.0 for row in rows)
+
+    @cached_property
+    def system(self) -> System:
+        """Its formulas as a system."""
+        return System(U=self.rows[:2], W=self.rows[2:])
 
     @cached_property
     def is_affine(self) -> bool:
@@ -108,6 +187,11 @@ def backwards(formulas: Field) -> Field:
     return _reverse_field(formulas.rows, formulas.m)
 
 
+@lru_cache(maxsize=64)
+def _branch_field(branch: Branch, whole: Field) -> Field:
+    return replace(_make_field(branch.rows, whole.m), branch=branch, whole=whole)
+
+
 @lru_cache(maxsize=32)
 def _reverse_field(rows: tuple[Expression, ...], m: int) -> Field:
     return _make_field([_fill_template("-r", r=row) for row in rows], m)
@@ -115,8 +199,7 @@ def _reverse_field(rows: tuple[Expression, ...], m: int) -> Field:
 
 def backwards_system(system: AnySystem) -> System:
     """Return a system whose motions are those of another one, run backwards."""
-    rows = [row.text for row in backwards(field(system)).rows]
-    return System(U=(rows[0], rows[1]), W=tuple(rows[2:]))
+    return backwards(field(system)).system
 
 
 def rows_of(system: AnySystem, kept: Sequence[str] = ()) -> list[Expression]:

@@ -77,7 +77,7 @@ class InvariantLine:
         return end
 
 
-def invariant_line(field: Field, state: Array) -> InvariantLine | None:
+def invariant_line(field: Field, state: Array, left: InvariantLine | None = None) -> InvariantLine | None:
     """Return the invariant line that a motion lies in; None if it lies in none.
 
     z may lie in an invariant subspace: the line is asked for z in the span of z and W there.
@@ -86,6 +86,8 @@ def invariant_line(field: Field, state: Array) -> InvariantLine | None:
     ----------
     field : Field
     state : ndarray (2 + m,)
+    left : InvariantLine, optional
+        One that a load has pushed the motion out of.
     """
     x, y = state[:2].tolist()
     r = math.hypot(x, y)
@@ -96,6 +98,8 @@ def invariant_line(field: Field, state: Array) -> InvariantLine | None:
         at_rest = np.array(field.value(0.0, 0.0, 0.0, 0.0, *state[2:].tolist())[:2])
         if np.isfinite(at_rest).all() and at_rest.any():  # it leaves e = 0 that way, and no other
             directions = [at_rest / math.hypot(*at_rest.tolist())]
+    if left is not None:
+        directions = [n for n in directions if abs(float(n @ left.n)) < 0.5]
     found = [n for n in directions if _invariant(field, n, max(r, 1.0), state[2:])]
     return InvariantLine(field, found[0]) if len(found) == 1 or (found and r > 0.0) else None
 
@@ -115,6 +119,12 @@ def _invariant(field: Field, n: Array, r: float, z: Array) -> bool:
         return False
     basis, sizes, _ = np.linalg.svd(span, full_matrices=False)
     basis = basis[:, sizes > EXACT * max(1e-300, float(sizes.max(initial=0.0)))]
+    # In all of z, or, if not there, in the subspace that z stays in.
+    return any(_holds_within(field, n, r, z, one) for one in (np.eye(len(z)), basis))
+
+
+def _holds_within(field: Field, n: Array, r: float, z: Array, basis: Array) -> bool:
+    """Whether the line is invariant for z in an affine subspace that z stays in, at samples of it."""
     V, places = _sample_places(basis.shape[1])
     moved = z + (1.0 + np.abs(z).max(initial=0.0)) * (V @ basis.T)
     n1, n2 = n.tolist()

@@ -1,27 +1,23 @@
-"""Motions by the kernels: the steps of one that is under way, and many from their start to their end.
-
-They are explicit or implicit, whichever costs less (`kernels.motion`).
-"""
+"""The steps of a motion, explicit or implicit, whichever costs less (`kernels.motion`)."""
 
 from __future__ import annotations
 
-import os
+import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
 from ..arrays import Array
-from ..numerics.dense import Dense, StepArray
+from ..numerics.dense import StepArray
 from ..numerics.growth import BlowUpError, too_short
 from ..numerics.radau import StepsTooShortError, TooManyStepsError, tableau
 from ..psi.function import Psi
 from ..stepping.field_parameters import PSI
 from ..words import say
 from .field import Field
-from .functions import FieldFunctions, functions_of
+from .functions import FieldFunctions
+from .inspection import Inspection
 from .kernels.explicit import DENSE_DEGREE
 from .kernels.motion import (
     AT_SIGMA,
@@ -33,21 +29,23 @@ from .kernels.motion import (
     IMPLICIT,
     LEAST_STEP,
     LIMIT,
+    MAX_STEP,
     NEXT,
     ONLY,
     SHORT,
     STEPS_LEFT,
+    STEPS_TRIED,
+    SWITCHED,
     UNDEFINED,
-    follow_all,
     follow_steps,
 )
 from .kernels.slow import SLOW_EXTENT
 from .line import InvariantLine
 from .slopes import outside, smoothed_direction
 
-STEPS_PER_CALL = 256  # steps that one call fills in
-SHARED_OUT = 16  # motions at once that are shared out to all cores, in as many parts each, at most so many in one
-PARTS_PER_CORE, LARGEST_PART = 4, 256
+STEPS_PER_CALL, FIRST_STEPS = 256, 16  # steps that one call fills in, and that the first one does
+MAX_RETRIES = 20  # of one step, ever shorter, before it is kept for what it is
+LEAST_CUT = 1e-12  # of a step: a shorter part of it is not kept
 
 
 @lru_cache(maxsize=1)
@@ -111,10 +109,12 @@ class MotionSteps:
         Steps tried before `TooManyStepsError`.
     farthest : float
         The largest rho so far, of a motion outside Sigma.
-    h, least : float
-        The first step, 0 if it is not known; a shorter one than `least` ends the motion.
+    h, least, longest : float
+        The first step, 0 if it is not known; a shorter one than `least` ends the motion, none is longer than `longest`.
     implicit : bool
         Every step is: the slopes are then asked for once where it begins, and where each step ends.
+    inspection : Inspection, optional
+        Of its steps: the motion stops where the formulas switch.
     """
 
     def __init__(
@@ -132,20 +132,25 @@ class MotionSteps:
         farthest: float = 0.0,
         h: float = 0.0,
         least: float = 0.0,
+        longest: float = math.inf,
         implicit: bool = False,
+        inspection: Inspection | None = None,
     ) -> None:
+        self.inspection, self.switch, self._evaluated = inspection, None, 0.0
+        self.leaves_line, self._retries = False, 0
         self.functions, self.addresses, self.rate = functions, functions.addresses, rate
         self.numbers = np.array([eps, rtol, floor, *line_directions([line])[0]])
         self.S = np.zeros(SLOW_EXTENT)
         self.S[PSI] = functions.parameter
         self.y, self.clock, self.control = np.array(first), np.array([span[0], 0.0, span[1], 0.0]), np.zeros(CONTROL)
         self.control[[NEXT, STEPS_LEFT, FARTHEST_RHO, LEAST_STEP, IMPLICIT]] = h, most, farthest, least, ONLY * implicit
+        self.control[MAX_STEP] = longest
         self.code = CHUNK_FULL
 
     @property
     def evaluations(self) -> int:
         """Evaluations of the field so far."""
-        return int(self.clock[3])
+        return int(self._evaluated + self.clock[3])
 
     def chunks(self, size: int = STEPS_PER_CALL) -> Iterator[StepArray]:
         """Step to the end, so many steps at a time.
@@ -156,100 +161,59 @@ class MotionSteps:
             The state grows beyond all bounds in no time.
         TooManyStepsError, StepsTooShortError
         """
-        n = len(self.y)
+        n, size, most = len(self.y), min(size, 4 * FIRST_STEPS), size
+        if self.inspection is not None and self.inspection.guards is not None:
+            size = FIRST_STEPS  # what follows a switch is lost
         while self.code in (CHUNK_FULL, AT_SIGMA):  # who has arrived asks for no more
             starts, lengths = np.empty(size), np.empty(size)
             ends, polynomials = np.empty((size, n)), np.empty((size, n, DENSE_DEGREE))
-            begin, before = self.y.copy(), self.evaluations
+            begin, before, self._began = self.y.copy(), self.evaluations, float(self.clock[0])
+            farthest = float(self.control[FARTHEST_RHO])
             self.code, filled = follow_steps(
                 self.addresses, self.numbers, numbers_of_tableau(), self.S, self.y, self.clock, self.control, starts,
                 lengths, ends, polynomials,
             )  # fmt: skip
             self.functions.count(self.evaluations - before)
+            part = StepArray(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
+            if self.inspection is not None:
+                part = self._inspected(part, self.inspection, farthest)
             if self.code == FINISHED:
                 lengths[filled - 1] = self.clock[2] - starts[filled - 1]  # it ends then, to the last digit
-            yield StepArray(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
+            yield part
+            size = min(2 * size, most)
         error = failure(self.code, float(self.clock[0]), self.y, self.rate, self.control[LEAST_STEP])
         if error is not None:
             raise error
 
+    def _inspected(self, part: StepArray, inspection: Inspection, farthest: float) -> StepArray:
+        """Return the steps to keep, and go back to the end of these; before them rho was at most `farthest`."""
+        cut = inspection.look(part)
+        if cut is None:
+            self._retries = 0
+            return part
+        stays = cut.step == 0 and cut.u <= LEAST_CUT and cut.switch is None and not cut.leaves_line
+        self._retries = self._retries + 1 if stays else 0
+        if self._retries > MAX_RETRIES:
+            inspection.undecided += 1
+            return part
+        part = part.upto(cut.step, cut.u if cut.u > LEAST_CUT else 0.0)
+        self.switch, self.leaves_line = cut.switch, cut.leaves_line
+        self.code = CHUNK_FULL if cut.switch is None and not cut.leaves_line else SWITCHED
+        last = len(part.lengths) - 1
+        self.y[:] = part.ends[last] if last >= 0 else part.first
+        self._evaluated += self.clock[3]
+        self.clock[:] = self._began if last < 0 else part.starts[last] + part.lengths[last], 0.0, self.clock[2], 0.0
+        # It begins anew, as what was learnt from later steps misleads.
+        self.control[[NEXT, STEPS_TRIED]] = cut.h, 0.0
+        self.control[FARTHEST_RHO] = max(farthest, float(np.hypot(*part.ends[:, :2].T).max(initial=0.0)))
+        self.control[IMPLICIT] = ONLY * (self.control[IMPLICIT] == ONLY)
+        self.begin_at(self.y)
+        return part
 
-@dataclass(frozen=True)
-class CompletedMotion:
-    """A motion that was followed all the way: its dense output, why it ended (`failure`), and its evaluations."""
-
-    motion: Dense
-    code: int
-    t: float
-    evaluations: int
-
-
-def integrate_compiled(
-    field: Field,
-    psi: Psi,
-    eps: float,
-    lines: Sequence[InvariantLine | None],
-    first: Array,
-    span: tuple[float, float],
-    rtol: float,
-    floor: float,
-    most: int,
-) -> list[CompletedMotion]:
-    """Follow one motion from each state; of many, on all cores.
-
-    Parameters
-    ----------
-    field : Field
-    psi : Psi
-    eps : float
-    lines : sequence of k InvariantLine or None
-    first : ndarray (k, n)
-    span : (t_start, t_end)
-    rtol, floor, most
-        As in `MotionSteps`.
-
-    """
-    made, count = functions_of(field, psi, many=True), len(first)
-    numbers, along = np.array([eps, rtol, floor, *span, psi.parameter]), line_directions(lines)
-
-    def part(cut: slice) -> list[CompletedMotion]:
-        times, lengths, states, polynomials, told = follow_all(
-            made.addresses, numbers, numbers_of_tableau(), along[cut], first[cut], float(most)
-        )
-        return _split_motions(times, lengths, states, polynomials, told, first.shape[1])
-
-    return shared_out(part, count)
+    def begin_at(self, y: Array) -> None:
+        """Correct the state where the motion begins anew: it is as it is."""
 
 
 def line_directions(lines: Sequence[InvariantLine | None]) -> Array:
     """Return the direction (k, 2) of the invariant line of each motion, 0 where there is none."""
     return np.array([(0.0, 0.0) if line is None else line.n for line in lines], float).reshape(-1, 2)
-
-
-def shared_out(part: Callable[[slice], list[Any]], count: int) -> list[Any]:
-    """Return what `part` returns for `count` motions, slice by slice: few at once, many on all cores."""
-    cores = os.cpu_count() or 1
-    if count < SHARED_OUT or cores == 1:
-        return part(slice(0, count))
-    from concurrent.futures import ThreadPoolExecutor  # imported late: one motion does without
-
-    size = max(1, min(LARGEST_PART, -(-count // (PARTS_PER_CORE * cores))))
-    cuts = [slice(i, i + size) for i in range(0, count, size)]
-    with ThreadPoolExecutor(cores) as pool:
-        return [one for found in pool.map(part, cuts) for one in found]
-
-
-def _split_motions(
-    times: Array, lengths: Array, states: Array, polynomials: Array, told: Array, n: int
-) -> list[CompletedMotion]:
-    """Cut what `follow_all` returns into motions, without copying."""
-    states, polynomials = states.reshape(-1, n), polynomials.reshape(-1, n, DENSE_DEGREE)
-    for array in (times, lengths, states, polynomials):
-        array.flags.writeable = False
-    found, row = [], 0
-    for steps, code, t, evaluations in told.tolist():
-        last = row + int(steps)
-        motion = Dense(times[row : last + 1], states[row : last + 1], lengths[row:last], polynomials[row:last])
-        found.append(CompletedMotion(motion, int(code), t, int(evaluations)))
-        row = last + 1
-    return found

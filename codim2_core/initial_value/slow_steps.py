@@ -15,6 +15,7 @@ from .functions import called_back, functions_of
 from .kernels.slow import SLOPES, SLOW_RATES, VALUE, flow, sets
 from .line import InvariantLine
 from .motion_steps import MotionSteps
+from .slow_manifold import solve_critical
 
 SLOW_STEPS_PER_CALL = 64  # steps that one call fills in
 
@@ -27,7 +28,7 @@ class SlowSteps(MotionSteps):
     field : Field
     e : ndarray (2,)
         On the set at z.
-    line, span, z, rtol, floor, most, h, least
+    line, span, z, rtol, floor, most, how
         As in `MotionSteps`.
     """
 
@@ -41,21 +42,24 @@ class SlowSteps(MotionSteps):
         rtol: float,
         floor: float,
         most: int,
-        h: float,
-        least: float,
+        **how: Any,
     ) -> None:
         def rate(state: Array) -> Array:
             return np.array(field.value(*state[:2].tolist(), 0.0, 0.0, *state[2:].tolist()))
 
-        first = np.concatenate([e, z])
+        self.field, first = field, np.concatenate([e, z])
         # eps is read as the size by which errors of e are measured: 1 and more.
-        super().__init__(
-            functions_of(field, constant()), rate, 1.0, line, span, first, rtol, floor, most, h=h, least=least
-        )
+        super().__init__(functions_of(field, constant()), rate, 1.0, line, span, first, rtol, floor, most, **how)
         own = self.functions.addresses
         self.S[VALUE], self.S[SLOPES], self.S[SLOW_RATES] = *own[:2].view(float), len(z)
         self._flow = flow()
         self.addresses = np.array([*(one.address for one in self._flow), own[2]], np.int64)
+
+    def begin_at(self, y: Array) -> None:
+        """Put e on the set, from which the dense output may have parted before a push that it did not see."""
+        e = solve_critical(self.field, y[:2], y[2:])
+        if e is not None:
+            y[:2] = e
 
     def sets(self, steps: StepArray, u: Array) -> tuple[Array, Array]:
         """Return e (k, d, 2) and D_e U (k, d, 2, 2) at d fractions of steps."""

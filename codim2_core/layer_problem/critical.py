@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..expressions.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, program
-from ..expressions.kinks import kinks
 from ..expressions.names import FAST_NAMES
+from ..expressions.switches import kinks
 from ..psi.function import Psi
 from ..results import Results, Tabled
 from ..systems.bounds import at_place

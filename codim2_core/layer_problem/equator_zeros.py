@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..expressions.arrays import Program, polynomial_degree, program
-from ..expressions.kinks import kinks
 from ..expressions.names import number_names
+from ..expressions.switches import kinks
 from ..numerics.fourier_zeros import UNIT, Series, series, turn, zeros
 from ..numerics.sign_changes import refine_roots, roots
 from ..words import say
@@ -70,8 +70,9 @@ def _components(run: Program, theta: Array) -> tuple[Array, Array, Array, Array,
     c, s = e[:, 0], e[:, 1]
     rows = run.evaluate(e)
     u, v = rows[:, 0, 0], rows[:, 1, 0]
-    du = c * rows[:, 0, 2] - s * rows[:, 0, 1]
-    dv = c * rows[:, 1, 2] - s * rows[:, 1, 1]
+    with np.errstate(invalid="ignore"):  # at a pole
+        du = c * rows[:, 0, 2] - s * rows[:, 0, 1]
+        dv = c * rows[:, 1, 2] - s * rows[:, 1, 1]
     Theta, radial = c * v - s * u, c * u + s * v
     return Theta, c * dv - s * du - radial, radial, c * du + s * dv + Theta, rows[:, :, 0]
 

@@ -26,7 +26,7 @@ from ..words import say
 from .algebra import Algebra, MatrixRow
 from .contact_force import ContactForce
 from .formula_reading import ZERO
-from .grip import Grip
+from .grip import ROUNDINGS, Grip
 from .parts import Parts
 
 
@@ -274,20 +274,25 @@ class Mechanism(ByValue, Parts):
             raise ValueError(f"a force is not finite{at_place(tuple(known[w] for w in SLOW_NAMES if w in known))}.")
         found = np.linalg.solve(slopes, -free)
         normal = float(found[2]) if self.has_constraint else float(at(self._algebra.formula(self._normal)))
-        return Grip(found[:2], normal, mu, held=self.has_constraint)
+        sizes = np.abs(slopes) @ np.abs(found) + np.abs(free)
+        errors = ROUNDINGS * np.finfo(float).eps * (np.abs(np.linalg.inv(slopes)) @ sizes)
+        lost = (*errors.tolist(), ROUNDINGS * np.finfo(float).eps * abs(normal))[:3]
+        return Grip(found[:2], normal, mu, self.has_constraint, lost)
 
     @cached_property
     def _contact_formulas(self) -> tuple[Expression, Expression]:
         approach, gain = (self._algebra.formula(entry) for entry in self._normal_parts)
         return approach, gain
 
-    def contact_force(self, state: ArrayLike) -> ContactForce:
+    def contact_force(self, state: ArrayLike, e: ArrayLike | None = None) -> ContactForce:
         """Return the normal force at a state, and whether the contact presses, opens or jams.
 
         Parameters
         ----------
         state : (2 + m,)
             (x, y, z1, ..., zm). At x = y = 0 friction is what sticking needs, see `grip`.
+        e : (2,), optional
+            Friction is ``-N mu e``; left out, e is the direction of the slip. For eps > 0 it is ``e_Psi``.
 
         Raises
         ------
@@ -301,7 +306,8 @@ class Mechanism(ByValue, Parts):
         known = {**self.parameters, "x": x, "y": y, **dict(zip(SLOW_NAMES, z, strict=False))}
         if any(word in ("c", "s") for row in self._contact_formulas for word in row.names):
             r = math.hypot(x, y)
-            known["c"], known["s"] = (x / r, y / r) if r > 0.0 else self.grip(z).e.tolist()
+            own = (x / r, y / r) if r > 0.0 else self.grip(z).e.tolist()
+            known["c"], known["s"] = own if e is None else np.asarray(e, float).tolist()
         values = (float(row.evaluate({word: known[word] for word in row.names})) for row in self._contact_formulas)
         return ContactForce(*values)
 

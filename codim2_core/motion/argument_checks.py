@@ -62,11 +62,13 @@ def checked_states(state0: ArrayLike, m: int) -> Array:
     return states
 
 
-def checked_tolerances(rtol: float, atol: float, max_steps: int) -> None:
-    """Check tolerances and the step limit."""
+def checked_tolerances(rtol: float, atol: float, max_steps: int, max_step: float = math.inf) -> None:
+    """Check tolerances, the step limit and the longest step."""
     if not 1e-13 <= rtol <= 1e-2:
         raise ValueError(f"rtol is {rtol!r}; give a relative tolerance from 1e-13 to 0.01.")
     if not 0.0 < atol < math.inf:
         raise ValueError(f"atol is {atol!r}; give a positive absolute tolerance for z.")
     if not 1 <= max_steps <= 10**9:
         raise ValueError(f"max_steps is {max_steps!r}; give a number of steps from 1 to 1e9.")
+    if not (isinstance(max_step, int | float | np.number) and max_step > 0.0):
+        raise ValueError(f"max_step is {max_step!r}; give a positive time, or leave it out.")

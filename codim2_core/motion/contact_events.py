@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
@@ -9,6 +10,7 @@ from numpy.typing import ArrayLike
 from ..arrays import Array
 from ..initial_value.events import Event
 from ..mechanics.mechanism import Mechanism
+from ..psi.function import Psi
 from ..words import say
 from .argument_checks import checked_state
 
@@ -21,12 +23,20 @@ class _ForceNumber:
 
     mechanism: Mechanism
     name: str
+    psi: Psi | None
+    eps: float
 
     def __call__(self, t: float, state: Array) -> float:  # noqa: ARG002 (the mechanism has no clock)
-        return getattr(self.mechanism.contact_force(state), self.name)
+        e = None
+        if self.psi is not None:
+            r = math.hypot(state[0], state[1])
+            e = state[:2] * (self.psi.modulus(r / self.eps) / r if r > 0.0 else 0.0)
+        return getattr(self.mechanism.contact_force(state, e), self.name)
 
 
-def contact_events(mechanism: Mechanism, state0: ArrayLike) -> tuple[Event, ...]:
+def contact_events(
+    mechanism: Mechanism, state0: ArrayLike, psi: Psi | None = None, eps: float = 0.0
+) -> tuple[Event, ...]:
     """Return the events that stop a motion where the normal force falls to 0, or Painlevé's paradox begins.
 
     The system of a mechanism is that of a contact that presses: give them to `simulate` or `simulate_nonsmooth`, whose
@@ -37,6 +47,9 @@ def contact_events(mechanism: Mechanism, state0: ArrayLike) -> tuple[Event, ...]
     mechanism : Mechanism
     state0 : (2 + m,)
         Where the motion starts.
+    psi : Psi, optional
+    eps : float
+        Those of `simulate`, where the friction is ``-N mu e_Psi``; left out, that of the limit.
 
     Returns
     -------
@@ -47,7 +60,7 @@ def contact_events(mechanism: Mechanism, state0: ArrayLike) -> tuple[Event, ...]
     Raises
     ------
     ValueError
-        The contact does not press at state0, or that has the wrong length.
+        The contact does not press at state0, or that has the wrong length; or one of psi and eps is given alone.
 
     Examples
     --------
@@ -64,9 +77,11 @@ def contact_events(mechanism: Mechanism, state0: ArrayLike) -> tuple[Event, ...]
     >>> run.reason
     'It stopped at a terminal event. The contact opens: no normal force is needed to keep the bodies apart.'
     """
+    if (psi is None) != (eps == 0.0) or eps < 0.0:
+        raise ValueError(f"psi is {psi}, and eps is {eps}; give both, eps positive, or neither.")
     begins = mechanism.contact_force(checked_state(state0, len(mechanism.slow)))
     if begins.kind != "presses":
         raise ValueError(f"state0 is where the contact does not press; start where it does. {begins.sentence}")
-    opens = Event(_ForceNumber(mechanism, "approach"), -1, True, say("contact opens"))
-    jams = Event(_ForceNumber(mechanism, "gain"), -1, True, say("contact jams"))
+    opens = Event(_ForceNumber(mechanism, "approach", psi, eps), -1, True, say("contact opens"))
+    jams = Event(_ForceNumber(mechanism, "gain", psi, eps), -1, True, say("contact jams"))
     return (opens, jams) if mechanism.has_constraint else (opens,)

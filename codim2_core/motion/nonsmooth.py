@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import overload
@@ -13,7 +13,6 @@ from numpy.typing import ArrayLike
 
 from ..arguments import checked_times
 from ..arrays import Array
-from ..initial_value.compiled_hybrid import run_hybrid
 from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards_system, field
 from ..initial_value.functions import functions_of
@@ -27,7 +26,6 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
-from .limit.compiled_run_phases import PhaseBuilder
 from .limit.hybrid_run import AtEventError, HybridRun, StopError
 from .limit.stiction import checked_stiction
 from .locations import OfState
@@ -54,6 +52,7 @@ def simulate_nonsmooth(  # pyright: ignore[reportOverlappingOverload] (rows are 
     times: ArrayLike | None = ...,
     stiction: float = ...,
     max_steps: int = ...,
+    max_step: float = ...,
 ) -> tuple[Simulation, ...]: ...
 
 
@@ -70,6 +69,7 @@ def simulate_nonsmooth(
     times: ArrayLike | None = ...,
     stiction: float = ...,
     max_steps: int = ...,
+    max_step: float = ...,
 ) -> Simulation: ...
 
 
@@ -85,6 +85,7 @@ def simulate_nonsmooth(
     times: ArrayLike | None = None,
     stiction: float = 1.0,
     max_steps: int = MAX_STEPS,
+    max_step: float = math.inf,
 ) -> Simulation | tuple[Simulation, ...]:
     """Follow one motion of eq:vf itself, as the limit eps -> 0 of the regularised system.
 
@@ -107,7 +108,7 @@ def simulate_nonsmooth(
     state0 : (2 + m,), or (k, 2 + m)
         (x, y, z1, ..., zm). On Sigma x = y = 0 is p = 0 for every eps: the orbit of the layer problem through it
         decides. Without psi: slides if one critical set attracts, else leaves along the one way out. Rows are as many
-        motions, followed compiled on all cores.
+        motions.
     t_span : (t_start, t_end)
         If it decreases, what is returned is the past of state0, which lies off Sigma: the slip that comes to state0 at
         t_start. It begins at t_end, or where it left Sigma: what was before that is not unique.
@@ -126,6 +127,8 @@ def simulate_nonsmooth(
         e; where friction feeds a slip (D_e U plus its transpose is not negative definite) what follows is not known.
     max_steps : int
         Steps and phases before the motion is given up, with a status that says so.
+    max_step : float
+        The longest step, as in SciPy.
 
     Returns
     -------
@@ -155,7 +158,7 @@ def simulate_nonsmooth(
     """
     t_start, t_end = checked_span(t_span)
     when = checked_times(times, (t_start, t_end))
-    checked_tolerances(rtol, atol, max_steps)
+    checked_tolerances(rtol, atol, max_steps, max_step)
     formulas = field(system)
     reach = checked_stiction(stiction, formulas)
     watched = checked_events(events)
@@ -163,12 +166,12 @@ def simulate_nonsmooth(
     for first in states:
         if math.hypot(first[0], first[1]) < ON_SIGMA:
             first[:2] = 0.0
-    asked = _NonsmoothRun(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps, reach)
+    asked = _NonsmoothRun(system, psi, formulas, watched, (t_start, t_end), rtol, atol, max_steps, max_step, reach)
     if t_end < t_start:
         runs: Iterable[Simulation] = (_past(asked, first) for first in states)
     else:
-        many = reach == 1.0 and functions_of(formulas, constant(), are_many(len(states), max_steps)).is_compiled
-        runs = _run_motions(asked, states) if many else map(asked.one, states)
+        functions_of(formulas, constant(), are_many(len(states), max_steps))  # compiled, where that is due
+        runs = map(asked.one, states)
     found = tuple(run.sample(when) for run in runs)
     return found[0] if np.ndim(state0) < 2 else found
 
@@ -185,19 +188,19 @@ class _NonsmoothRun:
     rtol: float
     atol: float
     max_steps: int
+    max_step: float
     stiction: float
 
-    def one(self, first: Array, begun: PhaseBuilder | None = None) -> Simulation:
-        """Follow one motion from a state, or from where it was handed over, phase by phase."""
+    def one(self, first: Array) -> Simulation:
+        """Follow one motion phase by phase."""
         t_start, t_end = self.span
-        line = invariant_line(self.formulas, first)
-        watch = EventWatch(self.watched, t_start, first)
+        watch = EventWatch(self.watched, self.span, first)
         course = HybridRun(
-            self.system, self.psi, self.formulas, line, watch, t_start, first, t_end, self.rtol, self.atol,
-            self.max_steps, self.stiction,
+            self.system, self.psi, self.formulas, None, watch, t_start, first, t_end, self.rtol, self.atol,
+            self.max_steps, self.max_step, self.stiction,
         )  # fmt: skip
-        if begun is not None:
-            course.go_on(begun)
+        r = math.hypot(*first[:2].tolist())
+        course.enter_branch(first[:2] / r if r > 0.0 else first[:2], first, t_start)
         status, detail = SimulationStatus.T_END, ""
         try:
             course.run()
@@ -209,9 +212,11 @@ class _NonsmoothRun:
             status, detail = SimulationStatus.BLOW_UP, str(error)
         except TooManyStepsError as error:
             status, detail = SimulationStatus.STEP_LIMIT, str(error)
+        if course.undecided:
+            detail = f"{detail} {say('not bounded', count=course.undecided)}".strip()
         motion = dense(t_start, first, [gather_steps(course.taken, len(first))])
         phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
-        variation = partial(of_nonsmooth, self.system, self.psi, motion, phases, line)
+        variation = partial(of_nonsmooth, self.system, self.psi, motion, phases, course.line, course.jumps)
         return simulation(
             motion, phases, variation, status, detail=detail, evaluations=course.evaluations, events=watch.times
         )
@@ -226,7 +231,7 @@ def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
     t_start, t_end = asked.span
     back = simulate_nonsmooth(
         backwards_system(asked.system), last, (-t_start, -t_end), asked.psi, rtol=asked.rtol, atol=asked.atol,
-        events=tuple(map(reverse_event, asked.watched)), max_steps=asked.max_steps,
+        events=tuple(map(reverse_event, asked.watched)), max_steps=asked.max_steps, max_step=asked.max_step,
     )  # fmt: skip
     arrives = len(back.phases) > 1
     steps = int(np.searchsorted(back.times, back.phases[0].t_end, side="right")) - 1 if arrives else len(back.times) - 1
@@ -235,37 +240,9 @@ def _past(asked: _NonsmoothRun, last: Array) -> Simulation:
     slip = Phase("slip", first, t_start, say("past on Sigma" if arrives else "starts outside"))
     phases = (slip.with_place(OfState(motion, None, 0.0, first, t_start), None),)
     variation = partial(
-        of_nonsmooth, asked.system, asked.psi, motion, lambda: phases, invariant_line(asked.formulas, last)
+        of_nonsmooth, asked.system, asked.psi, motion, lambda: phases, invariant_line(asked.formulas, last), {}
     )
     return simulation(
         motion, lambda: phases, variation, past.status,
         detail=past.detail, evaluations=past.evaluations, events=past.events,
     )  # fmt: skip
-
-
-def _run_motions(asked: _NonsmoothRun, states: Array) -> Iterator[Simulation]:
-    """Follow motions compiled as far as safe signs decide what comes next, all at once, and phase by phase from there.
-
-    What starts on Sigma, and what is under watch, is followed phase by phase from the start.
-    """
-    outside = [i for i, first in enumerate(states) if first[:2].any()] if not asked.watched else []
-    legs: dict[int, PhaseBuilder] = {}
-    if outside:
-        lines = [invariant_line(asked.formulas, states[i]) for i in outside]
-        own = (asked.rtol, asked.atol / asked.rtol, asked.max_steps)
-        found = run_hybrid(asked.formulas, asked.psi, lines, states[outside], asked.span, *own)
-        legs = {
-            i: PhaseBuilder(asked.system, asked.psi, line, one)
-            for i, line, one in zip(outside, lines, found, strict=True)
-        }
-    for i, first in enumerate(states):
-        begun = legs.get(i)
-        if begun is None or not begun.found.legs:
-            yield asked.one(first)
-        elif not begun.whole:
-            yield asked.one(first, begun)
-        else:
-            found = begun.found
-            phases = partial(begun.phases, found.motion)
-            variation = partial(of_nonsmooth, asked.system, asked.psi, found.motion, phases, begun.line)
-            yield simulation(found.motion, phases, variation, SimulationStatus.T_END, evaluations=found.evaluations)

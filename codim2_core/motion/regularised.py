@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
@@ -15,18 +16,22 @@ from ..arguments import checked_times
 from ..arrays import Array
 from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards, field
-from ..initial_value.functions import FieldFunctions, functions_of
+from ..initial_value.functions import functions_of
+from ..initial_value.inspection import Inspection
 from ..initial_value.kernels.motion import UNDEFINED
 from ..initial_value.line import InvariantLine, invariant_line
-from ..initial_value.motion_steps import MotionSteps, failure, integrate_compiled, rate_at
+from ..initial_value.motion_steps import MotionSteps, rate_at
+from ..initial_value.slopes import smoothed_direction
 from ..numerics.dense import Dense, StepArray, dense, gather_steps
 from ..numerics.growth import BlowUpError
 from ..numerics.radau import Step, TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+from ..words import say
 from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
 from .phases import phases_of
+from .resting_distance import RestingDistance
 from .result import Simulation, SimulationStatus, simulation
 from .variation.regularised import of_regularised
 
@@ -51,6 +56,7 @@ def simulate(  # pyright: ignore[reportOverlappingOverload] (rows are told from 
     events: Events = ...,
     times: ArrayLike | None = ...,
     max_steps: int = ...,
+    max_step: float = ...,
 ) -> tuple[Simulation, ...]: ...
 
 
@@ -67,6 +73,7 @@ def simulate(
     events: Events = ...,
     times: ArrayLike | None = ...,
     max_steps: int = ...,
+    max_step: float = ...,
 ) -> Simulation: ...
 
 
@@ -82,6 +89,7 @@ def simulate(
     events: Events = (),
     times: ArrayLike | None = None,
     max_steps: int = MAX_STEPS,
+    max_step: float = math.inf,
 ) -> Simulation | tuple[Simulation, ...]:
     """Follow one motion of the regularised system: eq:vf with e replaced by e_Psi, eq:ePsi.
 
@@ -90,7 +98,7 @@ def simulate(
     system : ELinear, System, or one of them frozen at a z
     psi : Psi
     state0 : (2 + m,), or (k, 2 + m)
-        (x, y, z1, ..., zm); x = y = 0 is allowed. Rows are as many motions, followed compiled on all cores.
+        (x, y, z1, ..., zm); x = y = 0 is allowed. Rows are as many motions.
     t_span : (t_start, t_end)
         In the time t of eq:vf. If it decreases, what is returned is the past of state0: the motion that begins at
         t_end, runs forward like any other, and comes to state0 at t_start.
@@ -105,6 +113,8 @@ def simulate(
         Within the span: those of the result, as far as the motion comes; left out, the ends of the steps.
     max_steps : int
         Steps tried before the motion is given up, with a status that says so.
+    max_step : float
+        The longest step, as in SciPy.
 
     Returns
     -------
@@ -136,8 +146,10 @@ def simulate(
         raise ValueError(f"eps is {eps!r}; allowed is {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
     span = checked_span(t_span)
     when = checked_times(times, span)
-    checked_tolerances(rtol, atol, max_steps)
-    asked = _RegularisedRun(system, field(system), psi, float(eps), span, rtol, atol, checked_events(events), max_steps)
+    checked_tolerances(rtol, atol, max_steps, max_step)
+    asked = _RegularisedRun(
+        system, field(system), psi, float(eps), span, rtol, atol, checked_events(events), max_steps, max_step
+    )
     states = checked_states(with_time(state0, system, span[0]), asked.formulas.m)
     runs = asked.runs(states) if span[0] < span[1] else _pasts(asked, states)
     runs = tuple(run.sample(when) for run in runs)
@@ -180,7 +192,7 @@ def simulate_segments(
         for m, last in zip(motions, following, strict=True)
     ]
     asked = _RegularisedRun(
-        system, field(system), psi, eps, (float(times[0]), float(times[-1])), rtol, atol, (), max_steps
+        system, field(system), psi, eps, (float(times[0]), float(times[-1])), rtol, atol, (), max_steps, math.inf
     )
     motion, status = dense(float(times[0]), starts[0], parts), runs[-1].status
     detail = runs[-1].reason.removeprefix(status.value).strip()
@@ -202,55 +214,80 @@ class _RegularisedRun:
     atol: float
     events: tuple[Event, ...]
     max_steps: int
+    max_step: float
 
     def runs(self, states: Array) -> tuple[Simulation, ...]:
-        """Follow all motions: in as few calls as there are cores, or one by one."""
-        functions = functions_of(self.formulas, self.psi, are_many(len(states), self.max_steps))
-        if functions.is_compiled and not self.events:
-            return self.whole(states)
-        return tuple(self.one(functions, first) for first in states)
+        """Follow all motions."""
+        functions_of(self.formulas, self.psi, are_many(len(states), self.max_steps))  # compiled, where that is due
+        return tuple(map(self.one, states))
 
-    def rate(self, line: InvariantLine | None) -> Callable[[Array], Array]:
-        """Return the rate of a state, in Python."""
-        return partial(rate_at, self.formulas, self.psi, self.eps, line)
+    def one(self, first: Array) -> Simulation:
+        """Follow one motion step by step, from switch to switch of its formulas."""
+        watch, parts = EventWatch(self.events, self.span, first), list[StepArray]()
+        status, detail, evaluations, undecided = SimulationStatus.T_END, "", 0, 0
+        jumps = dict[float, bool]()
+        t, state, most = self.span[0], first, self.max_steps
+        formulas = self.formulas.on_branch(self.e(first), first.tolist())
+        line = invariant_line(formulas, state)
+        while t < self.span[1] and status is SimulationStatus.T_END:
+            rate = partial(rate_at, formulas, self.psi, self.eps, line)
+            inspection = Inspection(formulas, self.psi, self.eps, line, self.rtol, self.atol / self.rtol)
+            motion = MotionSteps(
+                functions_of(formulas, self.psi), rate, self.eps, line, (t, self.span[1]), state, self.rtol,
+                self.atol / self.rtol, most, longest=self.max_step, inspection=inspection,
+            )  # fmt: skip
+            resting = self.resting(formulas, line)
+            close = None
+            try:
+                for part in motion.chunks():
+                    close = None if resting is None else resting.arrival(part)
+                    for steps in (part,) if close is None else resting.passage(part, *close, most):
+                        ended = _cut_at_event(steps, watch, len(first))
+                        parts.append(steps if ended is None else ended)
+                        most -= len(steps.lengths)
+                        if ended is not None:
+                            break
+                    if ended is not None:
+                        status, detail = SimulationStatus.EVENT, watch.reason
+                    if ended is not None or close is not None:
+                        break
+            except TooManyStepsError as error:
+                status, detail = self.end(motion.code, error, first)
+            evaluations, undecided = evaluations + motion.evaluations, undecided + inspection.undecided
+            t, state = float(motion.clock[0]), motion.y.copy()
+            if close is not None:
+                t, state = float(parts[-1].starts[-1] + parts[-1].lengths[-1]), parts[-1].ends[-1].copy()
+                continue
+            if motion.leaves_line:
+                line = invariant_line(formulas, state, line)
+                continue
+            if motion.switch is None:
+                break
+            ahead = formulas.past_switch(motion.switch, self.e(state), state.tolist())
+            if ahead is None:
+                status, detail = SimulationStatus.NOT_UNIQUE, say("load switches back")
+                break
+            if formulas.branch.jumps[motion.switch]:
+                jumps[t] = formulas.jumps_by_time(motion.switch)
+            formulas, line = ahead, invariant_line(ahead, state)
+        if undecided:
+            detail = f"{detail} {say('not bounded', count=undecided)}".strip()
+        return self.told(dense(self.span[0], first, parts), status, detail, evaluations, watch.times, jumps)
 
-    def one(self, functions: FieldFunctions, first: Array) -> Simulation:
-        """Follow one motion step by step."""
-        line, watch = invariant_line(self.formulas, first), EventWatch(self.events, self.span[0], first)
-        motion = MotionSteps(
-            functions, self.rate(line), self.eps, line, self.span, first, self.rtol, self.atol / self.rtol,
-            self.max_steps,
-        )  # fmt: skip
-        parts: list[StepArray] = []
-        status, detail = SimulationStatus.T_END, ""
-        try:
-            for part in motion.chunks():
-                ended = _cut_at_event(part, watch, len(first))
-                parts.append(part if ended is None else ended)
-                if ended is not None:
-                    status, detail = SimulationStatus.EVENT, watch.reason
-                    break
-        except TooManyStepsError as error:
-            status, detail = self.end(motion.code, error, first)
-        return self.told(dense(self.span[0], first, parts), status, detail, motion.evaluations, watch.times)
+    def resting(self, formulas: Field, line: InvariantLine | None) -> RestingDistance | None:
+        """Return what follows the distance to x = y = 0 where that is invariant; None elsewhere."""
+        if line is None or not formulas.rests:
+            return None
+        return RestingDistance(formulas, self.psi, self.eps, line, self.span[1], self.rtol, self.atol / self.rtol)
 
-    def whole(self, states: Array) -> tuple[Simulation, ...]:
-        """Follow motions from their start to their end."""
-        lines = [invariant_line(self.formulas, first) for first in states]
-        found = integrate_compiled(
-            self.formulas, self.psi, self.eps, lines, states, self.span, self.rtol, self.atol / self.rtol,
-            self.max_steps,
-        )  # fmt: skip
-        runs = []
-        for one, line in zip(found, lines, strict=True):
-            error = failure(one.code, one.t, one.motion.states[-1], self.rate(line))
-            runs.append(self.told(one.motion, *self.end(one.code, error, one.motion.states[0]), one.evaluations))
-        return tuple(runs)
+    def e(self, state: Array) -> list[float]:
+        """Return e_Psi (2,) of a state."""
+        return smoothed_direction(self.psi, self.eps, state[None, :2])[0][0].tolist()
 
     def end(self, code: int, error: Exception | None, first: Array) -> tuple[SimulationStatus, str]:
         """Return how a motion from a state has ended, and what there is to say of it."""
         if code == UNDEFINED:
-            rate = self.rate(None)(first).tolist()
+            rate = rate_at(self.formulas, self.psi, self.eps, None, first).tolist()
             raise ValueError(f"(U, W) is {rate} at state0 = {first.tolist()}; it must be finite there.")
         if error is None:
             return SimulationStatus.T_END, ""
@@ -264,10 +301,11 @@ class _RegularisedRun:
         detail: str,
         evaluations: int,
         events: Sequence[Sequence[float]] = (),
+        jumps: Mapping[float, bool] | None = None,
     ) -> Simulation:
         """Return the result, whose phases and derivatives are found when they are asked for."""
         phases = partial(phases_of, self.system, self.psi, self.eps, self.rtol, motion)
-        variation = partial(of_regularised, self.system, self.psi, self.eps, motion)
+        variation = partial(of_regularised, self.system, self.psi, self.eps, motion, jumps or {})
         return simulation(
             motion, phases, variation, status, detail=detail, eps=self.eps, evaluations=evaluations, events=events
         )

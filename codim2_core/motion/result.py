@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -58,40 +58,20 @@ class Phase(Tabled):
 
     _head_ = ("phase", "from t", "to t", "on", "why it began")
 
-    _internal_: ClassVar[frozenset[str]] = frozenset({"told_later", "with_place"})
+    _internal_: ClassVar[frozenset[str]] = frozenset({"with_place"})
 
     kind: str
     t_start: float
     t_end: float
     reason: str
-    onto: str | None = field(default_factory=lambda: None)  # a default would be found where it is told later
+    onto: str | None = None
     delay: Delay | None = field(default=None, repr=False, compare=False)
     _place: Location | None = field(default=None, repr=False, compare=False)
     _ascent: Ascent | None = field(default=None, repr=False, compare=False)
-    _words: Callable[[], tuple[str, str | None]] | None = field(default=None, repr=False, compare=False)
-
-    @classmethod
-    def told_later(cls, kind: str, t_start: float, t_end: float, words: Callable[[], tuple[str, str | None]]) -> Phase:
-        """Return a phase whose reason and set are asked of `words` when they are first read."""
-        phase = cls(kind, t_start, t_end, "", _words=words)
-        del phase.__dict__["reason"], phase.__dict__["onto"]
-        return phase
 
     def with_place(self, place: Location, ascent: Ascent | None) -> Phase:
         """Return the phase with where it lies, and how it came there."""
-        phase = object.__new__(Phase)
-        phase.__dict__.update(self.__dict__, _place=place, _ascent=ascent)
-        return phase
-
-    if not TYPE_CHECKING:
-
-        def __getattr__(self, name: str) -> str | None:
-            """Ask for what is told later."""
-            if name not in ("reason", "onto") or self._words is None:
-                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
-            reason, onto = self._words()
-            self.__dict__.update(reason=reason, onto=onto)
-            return self.__dict__[name]
+        return replace(self, _place=place, _ascent=ascent)
 
     def _row_(self) -> tuple[str, ...]:
         return self.kind, table_number(self.t_start), table_number(self.t_end), self.onto or "", self.reason

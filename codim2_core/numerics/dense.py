@@ -176,6 +176,17 @@ class StepArray:
             yield Step(start, h, before, end, polynomial)
             before = end
 
+    def upto(self, k: int, u: float) -> StepArray:
+        """Return the first k steps, and of the next one the part up to its fraction u; nothing of it for u = 0."""
+        starts, lengths, ends = self.starts[:k], self.lengths[:k], self.ends[:k]
+        if not u > 0.0:
+            return StepArray(self.first, starts, lengths, ends, self.polynomials[:k])
+        powers = u ** np.arange(1, self.polynomials.shape[2] + 1)
+        polynomials = np.concatenate([self.polynomials[:k], self.polynomials[k : k + 1] * powers])
+        first = self.ends[k - 1] if k else self.first
+        ends = np.concatenate([ends, (first + polynomials[k].sum(axis=1))[None]])
+        return StepArray(self.first, self.starts[: k + 1], np.append(lengths, u * self.lengths[k]), ends, polynomials)
+
 
 def gather_steps(taken: Sequence[Step], n: int) -> StepArray:
     """Gather steps of n numbers."""

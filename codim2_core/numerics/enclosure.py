@@ -1,4 +1,4 @@
-"""Bounds of U and its derivatives over a whole box of the e-disc, by interval arithmetic along its tape; compiled.
+"""Bounds of formulas and two derivatives over a whole box, by interval arithmetic along their tape; compiled.
 
 It holds for every point of the box, rounding included; what is undefined somewhere in it has the bounds -inf, inf.
 """
@@ -6,6 +6,8 @@ It holds for every point of the box, rounding included; what is undefined somewh
 from __future__ import annotations
 
 import math
+
+import numpy as np
 
 from ..expressions.opcodes import (
     ADD,
@@ -148,19 +150,26 @@ def enclose(op, left, right, number, roots, c_lo, c_hi, s_lo, s_hi, work, out):
 
     work : (n, 6), scratch; out : (rows, 6), lower and upper bound of the value, of d/dc and of d/ds.
     """
+    box = np.zeros((4, 6))
+    box[0, 0], box[0, 1], box[0, 2], box[0, 3] = c_lo, c_hi, 1.0, 1.0
+    box[1, 0], box[1, 1], box[1, 4], box[1, 5] = s_lo, s_hi, 1.0, 1.0
+    enclose_over(op, left, right, number, roots, box, work, out)
+
+
+@kernel
+def enclose_over(op, left, right, number, roots, box, work, out):
+    """Enclose the rows and two derivatives, where each variable has its bounds and those of its own: box (V, 6)."""
     for i in range(len(op)):
         k = op[i]
         w = work[i]
+        if k == VAR:
+            for j in range(6):
+                w[j] = box[left[i], j]
+            continue
         for j in range(6):
             w[j] = 0.0
         if k == NUM:
             w[0] = w[1] = number[i]
-            continue
-        if k == VAR:
-            if left[i] == 0:
-                w[0], w[1], w[2], w[3] = c_lo, c_hi, 1.0, 1.0
-            elif left[i] == 1:
-                w[0], w[1], w[4], w[5] = s_lo, s_hi, 1.0, 1.0
             continue
         u, v = work[left[i]], work[right[i]]
         if k in (NEG, ADD, SUB):

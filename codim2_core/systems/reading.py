@@ -11,6 +11,7 @@ from typing import Any
 from ..expressions.expression import Expression, ExpressionError, parse
 from ..expressions.names import FAST_NAMES, MOST_SLOW_VARIABLES, SLOW_NAMES, TIME
 from ..expressions.reader import MOST_CHARACTERS
+from ..expressions.tape import JUMPS
 from .bounds import MAX_NUMBER
 
 Text = str | float | int | Expression
@@ -133,9 +134,9 @@ def continuous(row: Expression, what: str) -> None:
 
     for op, *args in tape:
         moves.append(args[0] in FAST_NAMES if op == "name" else op != "num" and any(moves[i] for i in args))
-        if op == "sign" and moves[-1]:
+        if op in JUMPS and moves[-1]:
             raise ValueError(
-                f"{what} has the sign of a formula in c, s, x or y: it jumps there, on a discontinuity set of "
+                f"{what} has the {op} of a formula in c, s, x or y: it jumps there, on a discontinuity set of "
                 "codimension 1. Write abs(u) for u*sign(u), or a steep tanh(u/0.05)."
             )
         if op == "/" and distance(args[1]):

@@ -16,6 +16,10 @@ SENTENCES: dict[str, Sentence] = {
         "It can stick: this needs a friction of {needed:.4g}, and {there:.4g} is available in that direction.",
         "a critical set inside, friction by a matrix or a constraint",
     ),
+    "grips just": Sentence(
+        "It just holds: sticking needs a friction of {needed:.4g}, and no more is available in that direction.",
+        "a critical set on the equator, to rounding",
+    ),
     "grip lost": Sentence(
         (
             "It cannot stick: this needs a friction of {needed:.4g}, and only {there:.4g} is available in that "

@@ -17,6 +17,19 @@ SENTENCES: dict[str, Sentence] = {
         "There is no critical set on the line: it crosses Σ and leaves along θ = {theta:.4g}.",
         "in a line, the equator ahead",
     ),
+    "starts on a repelling set": Sentence(
+        "It starts exactly on {onto}, which does not attract, and stays: any disturbance would make it leave.",
+        "a motion that starts at x = y = 0, which is invariant",
+    ),
+    "load jumps": Sentence("The load jumps.", "a slide on Sigma where a formula jumps in time"),
+    "load switches back": Sentence(
+        "Both sides of a jump of its formulas lead back to it: give a formula that does not jump there.",
+        "a motion would slide along a jump in the slow variables",
+    ),
+    "not bounded": Sentence(
+        "In {count} of its steps the formulas could not be bounded, and were sampled.",
+        "interval bounds along the steps of a motion decide nothing",
+    ),
     "arrives in a line": Sentence("It reaches Σ in an invariant line.", "a slip ends, in an invariant line"),
     "variation undefined": Sentence(
         "The derivatives are unknown after t = {t:.6g}, where those of a formula are not finite.",
@@ -25,6 +38,10 @@ SENTENCES: dict[str, Sentence] = {
     "variation on a cycle": Sentence(
         "The derivatives are unknown after t = {t:.6g}, where the motion begins to slide on a limit cycle.",
         "a slide on a limit cycle of a general system",
+    ),
+    "variation at a jump": Sentence(
+        "The derivatives are unknown after t = {t:.6g}, where a formula jumps.",
+        "a jump whose time depends on the state, or on a number that is varied",
     ),
     "variation past an end": Sentence(
         "The derivatives are unknown after t = {t:.6g}, where sliding ends away from the equator.",
@@ -196,6 +213,11 @@ SENTENCES: dict[str, Sentence] = {
     "at an event": Sentence("It stopped at a terminal event.", "the status of a simulation"),
     "not unique": Sentence(
         "It stopped: in the limit ε → 0 what follows is not unique, or not known.", "the status of a simulation"
+    ),
+    "pole on the hemisphere": Sentence(
+        "U has a pole on the hemisphere there. If a constraint brings the normal force, the contact jams (Painlevé): "
+        "with friction in some directions a normal force presses the bodies together.",
+        "an arrival at Sigma where a divisor in U vanishes for some |e| <= 1",
     ),
     "past on Sigma": Sentence(
         "It is known from the moment at which it left Σ.", "a past in the limit that begins on Sigma"

@@ -4,7 +4,8 @@ Runs all tests that Hypothesis makes examples for, with the examples of one seed
 or one fails. The seed is printed; what was found becomes an ``@example`` of its test.
 
 ``--ways`` compares what can be had in two ways, of random systems: see `ways`. ``--contacts`` does so of random plates
-on several feet: see `contacts`.
+on several feet: see `contacts`. ``--loads`` compares motions under random loads that switch, pulse and ramp with brute
+force: see `loads`.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ import subprocess
 import sys
 import time
 
-from . import contacts
+from . import contacts, loads
 from .ways import CHECKS, compare
 
 FOLDERS = ("tests/core", "tests/app", "tests/stress")
@@ -40,9 +41,11 @@ def main(words: list[str]) -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--ways", action="store_true", help="compare what can be had in two ways instead")
     parser.add_argument("--contacts", action="store_true", help="compare motions of plates with another solver instead")
+    parser.add_argument("--loads", action="store_true", help="compare motions under loads with brute force instead")
     options = parser.parse_args(words)
-    if options.ways or options.contacts:
-        return compare(options.seconds, options.seed, contacts.CHECKS if options.contacts else CHECKS)
+    if options.ways or options.contacts or options.loads:
+        checks = contacts.CHECKS if options.contacts else loads.CHECKS if options.loads else CHECKS
+        return compare(options.seconds, options.seed, checks)
     return properties(options.seconds, options.seed)
 
 

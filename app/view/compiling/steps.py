@@ -10,7 +10,6 @@ import numpy as np
 
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.figures.presets import presets
-from codim2_core.initial_value.events import Event
 from codim2_core.orbits.trajectories import warm
 from codim2_core.portrait.approach_outcomes import approach_outcomes
 from codim2_core.psi import FAMILIES, hill, make
@@ -126,19 +125,15 @@ def _warm_regularised() -> None:
     """Compile, or load, what follows motions for ε > 0: once for all systems, but for their formulas."""
     from codim2_core.motion.regularised import simulate  # late: it brings SciPy along
 
-    for events in _EVENTS:
-        simulate(_PUSHED, hill(3.0), _STARTS, (0.0, 0.2), eps=0.01, events=events)
+    simulate(_PUSHED, hill(3.0), _STARTS, (0.0, 0.2), eps=0.01)
 
 
 def _warm_nonsmooth() -> None:
     """Compile, or load, what follows motions in the limit, in the same way."""
     from codim2_core.motion.nonsmooth import simulate_nonsmooth  # late, too
 
-    for events in _EVENTS:  # it slips, slides and leaves
-        simulate_nonsmooth(_PUSHED, _STARTS, (0.0, 3.0), hill(3.0), events=events)
+    simulate_nonsmooth(_PUSHED, _STARTS, (0.0, 3.0), hill(3.0))  # it slips, slides and leaves
 
 
 _PUSHED = ELinear(-1.0, 0.3, -2.0, f=("1.3*sin(z1)", "0.4*cos(2*z1)"), B=((0.0, 0.0),), g=(1.0,))
 _STARTS = [(0.3, 0.2, 0.0)] * 8  # so many are compiled at once
-#: Step by step, and whole.
-_EVENTS = ((Event(lambda t, state: 1.0),), ())  # noqa: ARG005 (an event is of both)

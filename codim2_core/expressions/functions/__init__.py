@@ -6,11 +6,13 @@ from .angles import ATAN, COS, SIN, TAN
 from .elementary import COSH, EXP, LOG, SINH, SQRT, TANH
 from .elliptic import ELLIPTIC
 from .function import Function
-from .kinked import ABS, SIGN_FUNCTION
+from .kinked import ABS, FLOOR, SIGN_FUNCTION
 
 __all__ = ["FIRST_CODE", "FUNCTIONS", "Function", "called", "code", "known"]
 
-FUNCTIONS: tuple[Function, ...] = (SIN, COS, TAN, EXP, LOG, SQRT, TANH, SINH, COSH, ATAN, ABS, SIGN_FUNCTION, *ELLIPTIC)
+FUNCTIONS: tuple[Function, ...] = (
+    SIN, COS, TAN, EXP, LOG, SQRT, TANH, SINH, COSH, ATAN, ABS, SIGN_FUNCTION, FLOOR, *ELLIPTIC,
+)  # fmt: skip
 FIRST_CODE = 32  # code of the first; those below are operations
 known = {one.name: one for one in FUNCTIONS}
 called = {one.name: one.scalar for one in FUNCTIONS if not one.source}  # what source calls by its name

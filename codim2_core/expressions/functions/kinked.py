@@ -22,6 +22,10 @@ def _sign_slope(a, v):
     return 0.0
 
 
+def _floor(a):
+    return math.floor(a) * 1.0 if abs(a) < 1e15 else a
+
+
 def _abs(a):
     return abs(a)
 
@@ -38,4 +42,8 @@ SIGN_FUNCTION = Function(
     # at the jump too: formulas that jump in e are refused (`systems.typed`)
     "sign", sign, np.sign, plain(_sign, _sign_slope), lambda build, k, u: build.number(0.0),
     source="(1.0*({0} > 0.0) - 1.0*({0} < 0.0))",
+)  # fmt: skip
+FLOOR = Function(
+    "floor", lambda u: float(math.floor(u)), np.floor, plain(_floor, _sign_slope),
+    lambda build, k, u: build.number(0.0), source="(1.0*math.floor({0}))",
 )  # fmt: skip

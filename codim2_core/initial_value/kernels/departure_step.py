@@ -10,8 +10,7 @@ from __future__ import annotations
 import math
 
 from ...jit import held_kernel, kernel
-from .arrival import write_at
-from .slow import RATES, TABLE
+from .slow import RATES, TABLE, write_at
 
 FAST_START, SLOW_START = 1e-9, 1e-5  # first part, of the time ahead or of the rates' own, covered by an expansion
 TILT = 1e-6  # largest angle that this expansion may cover

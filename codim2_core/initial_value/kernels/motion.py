@@ -9,18 +9,15 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from ...jit import held_kernel, kernel, spliced_kernel
 from ...numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH, STAGES
 from . import explicit, radau
-from .rate import MotionConstants, inward_bound, rate, sizes
-from .stages import tableau_of, work_on, workspace
+from .rate import MotionConstants, blur_of_rate, inward_bound, rate, sizes
+from .stages import tableau_of, work_on
 
-FINISHED, LIMIT, SHORT, CHUNK_FULL, BLOWN_UP, UNDEFINED, AT_SIGMA = range(7)
+FINISHED, LIMIT, SHORT, CHUNK_FULL, BLOWN_UP, UNDEFINED, AT_SIGMA, SWITCHED = range(8)
 FIRST_STEP_SHARE = 1e-2  # of rho/|U|: the first step tried
 MIN_STEP = 1e-290
-STEPS_PER_CALL = 256  # steps that are filled in at once
 MAX_STATE, GROWN = 1e200, 8.0  # what has grown so large, or so many times within the spacing of times, has blown up
 MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE = 1e-13, 5e-5  # of the largest rho of a slip; of that times rtol
 
@@ -38,8 +35,9 @@ MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE = 1e-13, 5e-5  # of the largest rho of a 
     FARTHEST_RHO,
     LEAST_STEP,
     PAID_AT,
-) = range(12)
-CONTROL = 12
+    MAX_STEP,
+) = range(13)
+CONTROL = 13
 
 PASSED_SHRINKAGE = 0.5  # of a step that has passed Sigma
 ONLY = 2.0  # of IMPLICIT: and explicit never
@@ -150,6 +148,7 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
         ONLY. COUNT: signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead.
         FARTHEST: the largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is
         `arrived` of that. LEAST: a shorter step ends the motion. PAID: when the turn to implicit steps has paid.
+        MAX_STEP: no step is longer.
     starts, lengths (k,), ends (k, n), polynomials (k, n, 7)
         Filled with steps.
 
@@ -177,7 +176,7 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
                 begun = True
             bound = inward_bound(motion, y, work.rate)
         remaining = clock[2] - clock[0] - clock[1]
-        h = _length(control[NEXT], bound, remaining)
+        h = _length(control[NEXT], min(bound, control[MAX_STEP]), remaining)
         control[STEPS_LEFT] -= 1.0
         control[STEPS_TRIED] += 1.0
         if control[STEPS_LEFT] < 0.0:
@@ -256,7 +255,7 @@ def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, le
     S : (ROOM,)
         What the fields read and write.
     y, clock, control, starts, lengths, ends, polynomials
-        As of `integrate_motion`. At first of control only LEFT, FARTHEST, LEAST, and NEXT and IMPLICIT, or 0.
+        As of `integrate_motion`. At first of control only LEFT, FARTHEST, LEAST, MAX_STEP, and NEXT and IMPLICIT, or 0.
 
     Returns
     -------
@@ -265,8 +264,12 @@ def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, le
     """
     work, table = work_on(S, len(y)), tableau_of(coefficients)
     motion = MotionConstants(
-        fields[0], fields[1], fields[2], len(y), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]
+        fields[0], fields[1], fields[2], len(y), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], 0.0
     )
+    motion = MotionConstants(
+        fields[0], fields[1], fields[2], len(y), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4],
+        blur_of_rate(motion, y, work),
+    )  # fmt: skip
     if control[STEPS_TRIED] == 0.0:
         first, most, implicit = control[NEXT], control[STEPS_LEFT], control[IMPLICIT]
         farthest, least = control[FARTHEST_RHO], control[LEAST_STEP]
@@ -276,83 +279,3 @@ def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, le
         control[NEXT] = first if first > 0.0 else control[NEXT]
         control[IMPLICIT] = max(implicit, control[IMPLICIT])
     return integrate_motion(motion, table, work, y, clock, control, starts, lengths, ends, polynomials)
-
-
-@kernel
-def longer(array, length):
-    """Return an array of numbers that begins with another's: a plain loop, which compiles fast."""
-    found = np.empty(length)
-    for i in range(len(array)):
-        found[i] = array[i]
-    return found
-
-
-@kernel
-def follow_all(fields, numbers, coefficients, lines, first, most):
-    """Follow one motion from each state, all the way.
-
-    Parameters
-    ----------
-    fields : int64 (3,)
-        Addresses, as in `MotionConstants`.
-    numbers : (6,)
-        eps, rtol, floor, t_start, t_end, parameter of Psi.
-    coefficients
-        As for `tableau_of`.
-    lines : (k, 2)
-        The invariant line of each, or 0.
-    first : (k, n)
-    most : float
-        Steps, each.
-
-    Returns
-    -------
-    times, lengths (N,), states (N n,), polynomials (N 7 n,)
-        Of all motions, one after the other: times and states at which steps begin or end; the length and polynomial of
-        the step from there on, none in a motion's last row.
-    told : (k, 4)
-        Steps of each, why it ended, its last time, evaluations.
-    """
-    k, n = first.shape
-    work, table = workspace(n, numbers[5]), tableau_of(coefficients)
-    clock, control, y = np.zeros(4), np.zeros(CONTROL), np.zeros(n)
-    each = explicit.DENSE_DEGREE * n
-    room, row = STEPS_PER_CALL + 32 * k, 0
-    times, lengths, states, polynomials = np.empty(room), np.empty(room), np.empty(room * n), np.empty(room * each)
-    told = np.zeros((k, 4))
-    for i in range(k):
-        line1, line2 = lines[i, 0], lines[i, 1]
-        motion = MotionConstants(fields[0], fields[1], fields[2], n, numbers[0], numbers[1], numbers[2], line1, line2)
-        for j in range(n):
-            y[j] = first[i, j]
-        code = (
-            CHUNK_FULL if prepare_motion(motion, y, clock, control, numbers[3], numbers[4], most, work) else UNDEFINED
-        )
-        begun = row
-        while True:
-            if row + STEPS_PER_CALL >= room:
-                room = 2 * room + STEPS_PER_CALL
-                times, lengths = longer(times, room), longer(lengths, room)
-                states, polynomials = longer(states, room * n), longer(polynomials, room * each)
-            if row == begun:
-                times[row] = numbers[3]
-                for j in range(n):
-                    states[row * n + j] = y[j]
-            if code != CHUNK_FULL:
-                break
-            code, filled = integrate_motion(
-                motion, table, work, y, clock, control,
-                times[row + 1 : row + STEPS_PER_CALL], lengths[row : row + STEPS_PER_CALL - 1],
-                states[(row + 1) * n : (row + STEPS_PER_CALL) * n].reshape((STEPS_PER_CALL - 1, n)),
-                polynomials[row * each : (row + STEPS_PER_CALL - 1) * each].reshape(
-                    (STEPS_PER_CALL - 1, n, explicit.DENSE_DEGREE)
-                ),
-            )  # fmt: skip
-            for a in range(row, row + filled):  # from a step's start to its end, never decreasing
-                times[a + 1] = max(times[a], times[a + 1] + lengths[a])
-            row += filled
-            if code == FINISHED:
-                times[row] = numbers[4]
-        told[i, 0], told[i, 1], told[i, 2], told[i, 3] = row - begun, code, clock[0], clock[3]
-        row += 1
-    return times[:row], lengths[:row], states[: row * n], polynomials[: row * each], told

@@ -51,6 +51,14 @@ def write_slopes(S, m):
 
 
 @kernel
+def write_at(S, m, c, s):
+    """Write U, W and their slopes at e = (c, s) on Sigma, at the z in place."""
+    S[SET_PLACE], S[SET_PLACE + 1], S[SET_PLACE + 2], S[SET_PLACE + 3] = c, s, 0.0, 0.0
+    write_slopes(S, m)
+    call_field(bits_of_double(S[VALUE]), S, SET_PLACE, RATES, S)
+
+
+@kernel
 def found_set(S, m):
     """Find the critical set near the e in place, by Newton's method, and its rates; say whether there is one."""
     value, width = bits_of_double(S[VALUE]), 4 + m

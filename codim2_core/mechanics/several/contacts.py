@@ -25,6 +25,7 @@ for three feet of a rigid plate: v' is unique, the forces e that hold it are not
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -49,7 +50,7 @@ from ..formula_reading import FormulaRow, Matrix
 from ..mechanism import Mechanism
 from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
-from .field import ContactField, Coulomb, Regularised
+from .field import ContactField, Coulomb, Law, Regularised, contact_field
 from .nonsmooth_run import NonsmoothRun
 from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus, contact_names
 from .run import ContactRun, NoFrictionError, RegularisedRun
@@ -94,7 +95,7 @@ class Contacts(Result):
 
     @cached_property
     def _field(self) -> ContactField:
-        return ContactField(self.M, self.contacts, self.force, self.velocities, self.rates, self.parameters)
+        return contact_field(self.M, self.contacts, self.force, self.velocities, self.rates, self.parameters)
 
     def at(self, i: int) -> ELinear | System:
         """Return the system of eq:vf at the set of contact i, from 0, while the others slip.
@@ -141,7 +142,7 @@ class Contacts(Result):
 
     def simulate_nonsmooth(
         self, state0: ArrayLike, t_span: ArrayLike, *, rtol: float = 1e-9, atol: float = 1e-11,
-        times: ArrayLike | None = None, max_steps: int = 20_000,
+        times: ArrayLike | None = None, max_steps: int = 20_000, max_step: float = math.inf,
     ) -> ContactMotion:  # fmt: skip
         """Follow the motion of the limit eps -> 0, through all combinations of slip and stick.
 
@@ -160,27 +161,26 @@ class Contacts(Result):
             Within the span: those of the result, as far as the motion comes; left out, the ends of the steps.
         max_steps : int
             Steps and phases before the motion is given up, with a status that says so.
+        max_step : float
+            The longest step.
 
         Raises
         ------
         ValueError
             The state, the span or a time is invalid.
         """
-        t, t_end = _checked_span(t_span)
-        when = checked_times(times, (t, t_end))
-        run = NonsmoothRun(self._field, Coulomb(), t, self._checked(state0), t_end, rtol, atol, max_steps)
-        return self._follow(run, t, 0.0).sample(when)
+        return self._follow(NonsmoothRun, Coulomb(), state0, t_span, rtol, atol, times, max_steps, max_step)
 
     def simulate(
         self, psi: Psi, state0: ArrayLike, t_span: ArrayLike, *, eps: float, rtol: float = 1e-9, atol: float = 1e-11,
-        times: ArrayLike | None = None, max_steps: int = 20_000,
+        times: ArrayLike | None = None, max_steps: int = 20_000, max_step: float = math.inf,
     ) -> ContactMotion:  # fmt: skip
         """Follow the motion of the regularised system, ``e_Psi`` with the same eps at every contact.
 
         Parameters
         ----------
         psi : Psi
-        state0, t_span, rtol, atol, times, max_steps
+        state0, t_span, rtol, atol, times, max_steps, max_step
             As for `simulate_nonsmooth`.
         eps : float
             Positive.
@@ -192,11 +192,8 @@ class Contacts(Result):
         """
         if not 1e-14 <= eps <= 1e6:
             raise ValueError(f"eps is {eps}; give a positive number, from 1e-14 to 1e6.")
-        t, t_end = _checked_span(t_span)
-        when = checked_times(times, (t, t_end))
         law = Regularised(psi, float(eps))
-        run = RegularisedRun(self._field, law, t, self._checked(state0), t_end, rtol, atol, max_steps)
-        return self._follow(run, t, float(eps)).sample(when)
+        return self._follow(RegularisedRun, law, state0, t_span, rtol, atol, times, max_steps, max_step)
 
     def _checked(self, state: ArrayLike) -> Array:
         given = np.array(state, float)
@@ -204,8 +201,16 @@ class Contacts(Result):
             raise ValueError(f"the state is {given.tolist()}; give finite numbers for {', '.join(self.names)}.")
         return given
 
-    def _follow(self, run: ContactRun, t: float, eps: float) -> ContactMotion:
-        first, status, detail = run.Y.copy(), ContactStatus.T_END, ""
+    def _follow(
+        self, kind: type[ContactRun], law: Law, state0: ArrayLike, t_span: ArrayLike, rtol: float, atol: float,
+        times: ArrayLike | None, max_steps: int, max_step: float,
+    ) -> ContactMotion:  # fmt: skip
+        t, t_end = _checked_span(t_span)
+        when = checked_times(times, (t, t_end))
+        if not (isinstance(max_step, int | float | np.number) and max_step > 0.0):
+            raise ValueError(f"max_step is {max_step!r}; give a positive time, or leave it out.")
+        first, status, detail = self._checked(state0), ContactStatus.T_END, ""
+        run = kind(self._field, law, t, first, t_end, rtol, atol, max_steps, max_step)
         try:
             run.run()
         except TooManyStepsError as error:
@@ -213,13 +218,16 @@ class Contacts(Result):
         except NoFrictionError as error:
             status, detail = ContactStatus.NO_FRICTION, say("contact, mu N", which=int(error.args[0]))
         motion = dense(t, first, [gather_steps(run.steps, len(first))])
-        starts = run.starts if eps == 0.0 else self._regularised_starts(motion.times, motion.states, eps)
+        starts = run.starts or self._regularised_starts(motion.times, motion.states, law.eps)
         ends = [*(start for start, *_ in starts[1:]), float(motion.times[-1])]
         phases = tuple(
             ContactPhase(start, end, _kinds(np.array(sticks)), reason)
             for (start, sticks, reason), end in zip(starts, ends, strict=True)
         )
-        return ContactMotion(motion, self.names, phases, status, f"{status.value} {detail}".strip(), eps)
+        if run.undecided:
+            detail = f"{detail} {say('not bounded', count=run.undecided)}"
+        reason = f"{status.value} {detail}".strip()
+        return ContactMotion(motion, self.names, phases, status, reason, law.eps).sample(when)
 
     def _regularised_starts(self, times: Array, states: Array, eps: float) -> list[tuple[float, tuple[bool, ...], str]]:
         slips = self.slips(states)

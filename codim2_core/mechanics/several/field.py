@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import math
+from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from ...arrays import Array
+from ...expressions.arrays import Program, path_program
 from ...expressions.expression import Expression
+from ...expressions.names import FAST_NAMES, SLOW_NAMES
+from ...expressions.switches import Branch, Rows, branch_at, has_switches
 from ...psi.function import Psi
+from ..algebra import Algebra
 from ..formula_reading import FormulaRow, Matrix
 from .contact_parts import ContactParts
 from .decision import RANK_TOLERANCE, Flags
 
 SMALLEST_ZETA = 1e-9  # in the chart kappa_2: nearer, e_Psi is as linear as it is there
+STATE_NAMES = (*FAST_NAMES[2:], *SLOW_NAMES)
 DIFFERENCE = 1e-7  # step of a finite difference, in units of max(1, |Y|)
 
 
@@ -31,41 +38,45 @@ class Local(NamedTuple):
 
 
 class Law(Protocol):
-    """Friction by the slip: e and its derivative."""
+    """Friction by the slip: e and its derivative; eps is 0 in the limit."""
+
+    eps: float
 
     def e(self, x: Array) -> Array:
         """Return e (c, 2) of slips (c, 2)."""
         ...
 
-    def slope(self, x: Array) -> Array:
-        """Return de/dx (c, 2, 2)."""
+    def slope(self, x: Array, e: Array) -> Array:
+        """Return de/dx (c, 2, 2), e as it is known."""
         ...
 
 
 class Coulomb:
     """``e = x/|x|``."""
 
+    eps = 0.0
+
     def e(self, x: Array) -> Array:
         """Return the unit vectors; nan at 0."""
         with np.errstate(invalid="ignore"):
             return x / np.hypot(*x.T)[:, None]
 
-    def slope(self, x: Array) -> Array:
-        """Return ``(1 - e e^T)/|x|``."""
+    def slope(self, x: Array, e: Array) -> Array:
+        """Return ``(1 - e n^T)/|x|``, n = x/|x|."""
         with np.errstate(all="ignore"):
-            e, size = self.e(x), np.hypot(*x.T)
-            return (np.eye(2) - e[:, :, None] * e[:, None, :]) / size[:, None, None]
+            n, size = self.e(x), np.hypot(*x.T)
+            return (np.eye(2) - e[:, :, None] * n[:, None, :]) / size[:, None, None]
 
 
 class Regularised:
     """``e_Psi``, def:MPsi, of every contact."""
 
     def __init__(self, psi: Psi, eps: float) -> None:
-        self._psi, self._eps = psi, eps
+        self._psi, self.eps = psi, eps
 
     def _polar(self, x: Array) -> tuple[Array, Array]:
-        zeta = np.hypot(*x.T) / self._eps
-        direction = x / (self._eps * np.where(zeta > 0.0, zeta, 1.0))[:, None]
+        zeta = np.hypot(*x.T) / self.eps
+        direction = x / (self.eps * np.where(zeta > 0.0, zeta, 1.0))[:, None]
         return np.maximum(zeta, SMALLEST_ZETA), direction
 
     def e(self, x: Array) -> Array:
@@ -73,64 +84,98 @@ class Regularised:
         zeta, direction = self._polar(x)
         return self._psi.modulus(zeta)[:, None] * direction
 
-    def slope(self, x: Array) -> Array:
+    def slope(self, x: Array, e: Array) -> Array:  # noqa: ARG002 (it is a function of x)
         """Return its derivative: along e ``(Psi - zeta^2 Psi')/(zeta^2 + Psi)^(3/2)``, across ``|e_Psi|/zeta``."""
         zeta, direction = self._polar(x)
         value = self._psi(zeta**2)
         size = np.sqrt(zeta**2 + value)
         out = (value - zeta**2 * self._psi.derivative(zeta**2)) / size**3
         along = direction[:, :, None] * direction[:, None, :]
-        return (out[:, None, None] * along + (np.eye(2) - along) / size[:, None, None]) / self._eps
+        return (out[:, None, None] * along + (np.eye(2) - along) / size[:, None, None]) / self.eps
 
 
 class ContactField:
-    """The equations of motion, by states Y: velocities, then positions."""
+    """The equations of motion, by states Y: velocities, then positions.
+
+    Parameters
+    ----------
+    n, count : int
+        Velocities and contacts.
+    rows : tuple of Expression
+        In the names x, y, z1, ... for the state: M, Q, J, w, mu N, how positions move, and ``k = J' v - w'``.
+    branch : Branch
+        Its guards are positive as long as the rows hold.
+    whole : ContactField or None
+        The field that this is a branch of.
+    """
 
     def __init__(
-        self,
-        M: Matrix,
-        contacts: Sequence[ContactParts],
-        force: FormulaRow,
-        velocities: Sequence[str],
-        rates: Mapping[str, Expression],
-        parameters: Mapping[str, float],
+        self, n: int, count: int, rows: Rows, branch: Branch | None = None, whole: ContactField | None = None
     ) -> None:
-        self.n, self.words = len(velocities), (*velocities, *rates)
-        self._parameters = dict(parameters)
-        self._M = self._rows(M)
-        self._J = [self._rows(one.J) for one in contacts]
-        self._surface = [self._rows([one.surface]) for one in contacts]
-        self._bounds = [self._rows([(one.mu, one.normal)]) for one in contacts]
-        self._force, self._rates = self._rows([force]), self._rows([tuple(rates.values())])
-        slopes = lambda rows, word: [tuple(entry.derivative(word) for entry in row) for row in rows]
-        self._moving = [
-            (j, i, self._rows(slopes(one.J, word)), self._rows(slopes([one.surface], word)))
-            for j, word in enumerate(rates)
-            for i, one in enumerate(contacts)
-            if any(word in entry.names for row in (*one.J, one.surface) for entry in row)
-        ]
+        self.n, self.count, self.rows, self.branch, self.whole = n, count, rows, branch or Branch(), whole
+        shapes = (n, n), (n,), (count, 2, n), (count, 2), (count,), (len(rows) - _fixed(n, count),), (count, 2)
+        self.places, at = list[tuple[slice, tuple[int, ...]]](), 0
+        for shape in shapes:
+            size = math.prod(shape)
+            self.places.append((slice(at, at + size), shape))
+            at += size
+        self.names = STATE_NAMES[: n + shapes[5][0]]
+        self.moving = np.array([row.constant is None for row in rows])
 
-    def _rows(self, rows: Iterable[FormulaRow]) -> tuple[tuple[FormulaRow, ...], Array | None]:
-        """Return formulas, with their numbers where nothing in them moves."""
-        given = tuple(map(tuple, rows))
-        moves = any(word in self.words for row in given for entry in row for word in entry.names)
-        return given, None if moves else self._numbers(given, self._parameters)
+    @cached_property
+    def program(self) -> Program:
+        """The rows, as the kernels take them."""
+        return path_program(self.rows)
 
-    @staticmethod
-    def _numbers(rows: tuple[FormulaRow, ...], known: Mapping[str, float]) -> Array:
-        return np.array([[float(entry.evaluate(known)) for entry in row] for row in rows])
+    @cached_property
+    def moving_program(self) -> Program:
+        """The rows that are no numbers."""
+        return path_program(tuple(row for row in self.rows if row.constant is None))
+
+    def on_branch(self, Y: Array, rate: Array, known: Sequence[int] = ()) -> ContactField:
+        """Return the smooth branch of the formulas at a state, on a border the one ahead."""
+        if not has_switches(self.rows, self.names):
+            return self
+        found = branch_at(self.rows, self.names, self._named(Y), self._named(rate), known)
+        return ContactField(self.n, self.count, found.rows, found, self)
+
+    def past_switch(self, switch: int, Y: Array, rate: Array) -> ContactField:
+        """Return the branch that follows this one where a guard vanishes."""
+        assert self.whole is not None
+        after, before = self.whole.on_branch(Y, rate), self.branch.choices
+        if after.branch.choices[: switch + 1] == before[: switch + 1]:  # rounding hides that it has changed
+            other = self.branch.next_choice(switch, self._named(Y))
+            after = self.whole.on_branch(Y, rate, (*before[:switch], other))
+        return after
+
+    def leads_back(self, switch: int, Y: Array, rate: Array) -> bool:
+        """Whether a state leaves the branch at once through a switch at which its formulas jump."""
+        guard, values, rates = self.branch.guards[switch], self._named(Y), self._named(rate)
+        slope = sum(guard.derivative(name).evaluate(values) * rates[name] for name in guard.names)
+        return self.branch.jumps[switch] and slope < 0.0
+
+    def _named(self, numbers: Array) -> dict[str, float]:
+        return dict(zip(self.names, numbers.tolist(), strict=True))
+
+    def values(self, states: Array) -> Array:
+        """Return the rows (k, rows) at states (k, N)."""
+        from ...expressions import interpreter  # on first use: it loads the compiler
+
+        out = np.empty((len(states), len(self.rows)))
+        interpreter.values(*self.program.arrays, np.ascontiguousarray(states), out)
+        return out
+
+    def at_all(self, states: Array) -> list[Local]:
+        """Return what the equations are made of at states (k, N)."""
+        found: list[Local] = []
+        for Y, row in zip(states, self.values(states), strict=True):
+            M, Q, J, surface, r, rates, k = (row[place].reshape(shape) for place, shape in self.places)
+            found.append(Local(M, Q, J, k, r, J @ Y[: self.n] - surface, rates))
+        return found
 
     def at(self, Y: Array) -> Local:
         """Return what the equations are made of at a state."""
-        known = {**self._parameters, **dict(zip(self.words, Y.tolist(), strict=True))}
-        value = lambda rows: self._numbers(rows[0], known) if rows[1] is None else rows[1]
-        v, J = Y[: self.n], np.array(list(map(value, self._J)))
-        surface = np.array([value(rows)[0] for rows in self._surface])
-        rates, k = value(self._rates)[0], np.zeros_like(surface)
-        for j, i, rows, own in self._moving:
-            k[i] += rates[j] * (value(rows) @ v - value(own)[0])
-        r = np.array([value(rows).prod() for rows in self._bounds])
-        return Local(value(self._M), value(self._force)[0], J, k, r, J @ v - surface, rates)
+        return self.at_all(Y[None])[0]
 
     def rate(self, local: Local, e: Array, sticks: Flags) -> Array:
         """Return Y' where these contacts stick, and friction is -r J^T e at the others."""
@@ -139,20 +184,15 @@ class ContactField:
 
     def smooth_slopes(self, Y: Array, e: Array, sticks: Flags) -> tuple[Array, Array]:
         """Return the derivatives of Y' with e as it is, and of the slips, by Y."""
-        here = self.at(Y)
-        first = self.rate(here, e, sticks)
-        rate, slip = np.zeros((len(Y), len(Y))), np.zeros((len(here.r), 2, len(Y)))
-        for j in range(len(Y)):
-            beside = Y.copy()
-            beside[j] += DIFFERENCE * max(1.0, abs(Y[j]))
-            other = self.at(beside)
-            rate[:, j] = (self.rate(other, e, sticks) - first) / (beside[j] - Y[j])
-            slip[:, :, j] = (other.x - here.x) / (beside[j] - Y[j])
-        return rate, slip
+        places = np.vstack([Y, Y + np.diag(DIFFERENCE * np.maximum(1.0, np.abs(Y)))])
+        here, *others = self.at_all(places)
+        steps, first = places.diagonal(-1) - Y, self.rate(here, e, sticks)
+        rate = np.array([self.rate(other, e, sticks) - first for other in others]).T / steps
+        return rate, np.moveaxis(np.array([other.x - here.x for other in others]), 0, -1) / steps
 
     def friction_slope(self, local: Local, gain: Array, sticks: Flags, slip: Array) -> Array:
         """Return the derivative of Y' by Y through e, whose derivatives by the slips are `gain`."""
-        found = np.zeros((len(self.words), len(self.words)))
+        found = np.zeros((len(self.names), len(self.names)))
         out = ~sticks
         pull = np.einsum("cin,cij,cjy->ny", local.J[out], local.r[out, None, None] * gain[out], slip[out])
         solved = np.linalg.solve(local.M, pull)
@@ -162,6 +202,45 @@ class ContactField:
             solved = solved - back @ np.linalg.lstsq(held @ back, held @ solved, RANK_TOLERANCE)[0]
         found[: self.n] = -solved
         return found
+
+
+def within_disc(e: Array) -> Array:
+    """Return e (c, 2), brought back onto the circle where it is outside."""
+    return e / np.maximum(1.0, np.hypot(*e.T))[:, None]
+
+
+def _fixed(n: int, count: int) -> int:
+    """Return how many rows do not depend on how many positions there are."""
+    return n * n + n + 2 * count * n + 5 * count
+
+
+def contact_field(
+    M: Matrix,
+    contacts: Sequence[ContactParts],
+    force: FormulaRow,
+    velocities: Sequence[str],
+    rates: Mapping[str, Expression],
+    parameters: Mapping[str, float],
+) -> ContactField:
+    """Return the equations of motion of a mechanism."""
+    algebra, words = Algebra(), (*velocities, *rates)
+    meanings = {word: algebra.number(value) for word, value in parameters.items()}
+    meanings |= {word: algebra.name(name) for word, name in zip(words, STATE_NAMES, strict=False)}
+    enter = lambda rows: [algebra.enter(entry, meanings) for row in rows for entry in row]
+    v, moves = [meanings[word] for word in velocities], enter([rates.values()])
+    k = []
+    for one in contacts:
+        for row, w in zip(one.J, one.surface, strict=True):
+            total = algebra.zero
+            for word, move in zip(rates, moves, strict=True):
+                slope = algebra.dot(enter([[entry.derivative(word) for entry in row]]), v)
+                slope = algebra.minus(slope, *enter([[w.derivative(word)]]))
+                total = algebra.plus(total, algebra.times(move, slope))
+            k.append(total)
+    J, surface = enter(row for one in contacts for row in one.J), enter(one.surface for one in contacts)
+    r = [algebra.times(*enter([(one.mu, one.normal)])) for one in contacts]
+    entries = (*enter(M), *enter([force]), *J, *surface, *r, *moves, *k)
+    return ContactField(len(velocities), len(contacts), tuple(map(algebra.formula, entries)))
 
 
 def held_rates(local: Local, sticks: Flags, Q: Array) -> tuple[Array, Array]:

@@ -17,8 +17,9 @@ from ...words import say
 from .collocation import Collocated
 from .decision import AT_BOUND, Decided, Flags, decide_contacts
 from .field import Local, held_rates, project_velocities
+from .inspection import Switch
 from .result import contact_names
-from .run import ContactRun, NoFrictionError
+from .run import ContactRun
 
 TO_ZERO = 0.9  # of the way to 0 that a slip may go in a step
 TURN = 0.5  # cosine of how far e may turn from stage to stage
@@ -27,7 +28,6 @@ TOGETHER = 1e4  # slips so many times larger may arrive in the same moment
 AHEAD = (1e-3, 1e-2, 1e-1, 1.0)  # of a first step: how far ahead it is looked at what departs
 HALVINGS = 50
 MARGIN_SAMPLES = 65  # places in a step at which the polynomial through margins is asked
-STICKING_SHARE = 1 / 64  # of the span: longest step while a contact sticks
 
 
 @dataclass
@@ -57,8 +57,7 @@ class NonsmoothRun(ContactRun):
         size = np.hypot(*here.x.T)
         change = ((here.J @ self.rate[: self.field.n] + here.k) * self.e).sum(axis=1)
         falls = ~self.sticks & ~self.departs & (change < 0.0)
-        longest = STICKING_SHARE * (self.t_end - self.starts[0][0]) if self.sticks.any() else np.inf
-        return float((TO_ZERO * size[falls] / -change[falls]).min(initial=longest))
+        return float((TO_ZERO * size[falls] / -change[falls]).min(initial=np.inf))
 
     def _turns(self, found: Collocated) -> bool:
         out = ~self.sticks
@@ -93,36 +92,49 @@ class NonsmoothRun(ContactRun):
         held = here.J[self.sticks].reshape(-1, self.field.n)
         return np.linalg.matrix_rank(held, 1e-10) < len(held)
 
-    def _accept(self, found: Collocated, ends: bool, h: float) -> float:
-        if self.sticks.any() and not self.grazes and (bound := self._bound(found)) is not None:
+    def _accept(self, found: Collocated, ends: bool, switch: Switch | None, h: float) -> float:
+        last = 1.0 if switch is None else switch.u
+        if self.sticks.any() and not self.grazes and (bound := self._bound(found, last)) is not None:
             self._take(truncate_step(found.step, bound), ends=False)
-            before = self.sticks
-            self._decide(before)
-            free = before & ~self.sticks
-            self.grazes = not free.any()
-            if free.any():
-                self._note(say("contact departs", where=contact_names(free)))
+            self.grazes = not self._release(self.sticks)
             return self.first
         self.grazes = False
+        if switch is not None:
+            return self._pass(found.step, switch)
         here = self._take(found.step, ends)
         self._go_on(here)
         if self.t < self.t_end and (arrived := self._arrived(here)) is not None:
             return self._arrive(arrived)
         return h
 
-    def _bound(self, found: Collocated) -> float | None:
-        """Return the fraction of a step at which a force that holds comes to its bound; None if none does.
+    def _release(self, at_sets: Flags) -> bool:
+        """Decide anew which contacts stick, and whether one lets go."""
+        before = self.sticks
+        self._decide(at_sets)
+        free = before & ~self.sticks
+        if free.any():
+            self._note(say("contact departs", where=contact_names(free)))
+        return bool(free.any())
+
+    def _resume(self) -> None:
+        self._release((self.sticks | self.departs) & (np.hypot(*self.field.at(self.Y).x.T) <= self._near_set))
+
+    def _bound(self, found: Collocated, last: float) -> float | None:
+        """Return the fraction of a step, up to `last`, at which a force that holds comes to its bound; or None.
 
         Asked are the stages, and the least of the polynomial through what they answer.
         """
         at = lambda u: self._margin(self.field.at(found.step.at(u)))
         nodes = np.array([0.0, *tableau().nodes])
         margins = np.array([self._margin(self.field.at(self.Y)), *map(self._margin, found.stages)])
-        fine = np.linspace(0.0, 1.0, MARGIN_SAMPLES)
+        fine = np.linspace(0.0, last, MARGIN_SAMPLES)
         least = float(fine[np.argmin(np.polynomial.Polynomial.fit(nodes, margins, len(nodes) - 1)(fine))])
-        places = sorted([*zip(nodes[1:].tolist(), margins[1:].tolist(), strict=True), (least, at(least))])
+        ends = [(least, at(least)), *([(last, at(last))] if last < 1.0 else [])]
+        places = sorted([*zip(nodes[1:].tolist(), margins[1:].tolist(), strict=True), *ends])
         low = 0.0
         for high, margin in places:
+            if high > last:
+                return None
             if high > 0.0 and margin < 0.0:
                 break
             low = high
@@ -175,9 +187,7 @@ class NonsmoothRun(ContactRun):
 
     def _decide(self, at_sets: Flags) -> None:
         """Decide which of the contacts at their sets stick from here on, and where the others go."""
-        here = self.field.at(self.Y)
-        if not (here.r > 0.0).all():
-            raise NoFrictionError(int(np.argmin(here.r > 0.0)) + 1)
+        here = self._here()
         self.sticks = at_sets.copy()
         self._go_on(here)
         e, found = self.e.copy(), self._decided(here, at_sets)
@@ -192,8 +202,11 @@ class NonsmoothRun(ContactRun):
         """Free the contacts that slip a moment later, so late that it is clear which do; their e are put into e.
 
         A force that holds redundant contacts is found at its bound a little late, and v' goes on from where it is by
-        then; or a little early, and the contacts stick until it is there.
+        then; or a little early, and the contacts stick until it is there. From there a contact i slips like
+        ``a t^2 e_i`` with a > 0, along the force that held it: what v' gains grows like t, and so does what v' itself
+        changes by, which Y'' says. Neither is known at one state alone: the e of contacts that slip turn meanwhile.
         """
+        n = self.field.n
         for share in AHEAD:
             step = share * self.first
             soon, later = (self.field.at(self.Y + k * step * self.rate) for k in (1.0, 2.0))
@@ -201,25 +214,25 @@ class NonsmoothRun(ContactRun):
             if ahead.is_at_bound or next_ahead.is_at_bound or (ahead.sticks != next_ahead.sticks).any():
                 continue
             goes = found.sticks & ~ahead.sticks
-            gain = ahead.u - self.field.rate(soon, e, self.sticks)[: self.field.n]
-            next_gain = next_ahead.u - self.field.rate(later, e, self.sticks)[: self.field.n]
-            self.jerk = (next_gain - gain) / step
-            missed = gain - step * self.jerk
-            wait = -float(missed @ self.jerk) / float(self.jerk @ self.jerk)
+            gain = ahead.u - self._slopes(soon)[1][:n]
+            growth = (next_ahead.u - self._slopes(later)[1][:n] - gain) / step
+            missed = gain - step * growth
+            wait = -float(missed @ growth) / float(growth @ growth)
             if wait > 0.0:
-                self._wait(min(wait, step, self.t_end - self.t), e)
+                self._wait(min(wait, step, self.t_end - self.t))
             else:
-                self.rate[: self.field.n] += missed
+                self.rate[:n] += missed
+            self.curve = np.concatenate([next_ahead.u - ahead.u, later.rates - soon.rates]) / step
             e[at_sets] = np.where(goes[:, None], ahead.e, e[at_sets])
             self.sticks[at_sets] = found.sticks & ahead.sticks
             return
 
-    def _wait(self, dt: float, e: Array) -> None:
+    def _wait(self, dt: float) -> None:
         """Go on for a moment with the contacts that stick."""
         last = self.Y + dt * self.rate
         here = self._take(Step(self.t, dt, self.Y, last, (last - self.Y)[:, None]), ends=False)
-        self.rate = self.field.rate(here, e, self.sticks)
+        self.rate = self._slopes(here)[1]
 
     def _decided(self, here: Local, at_sets: Flags) -> Decided:
-        Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.e), at_sets)
+        Q = self._slip_force(here, np.where(at_sets[:, None], 0.0, self.law.e(here.x)), at_sets)
         return decide_contacts(here.M, Q, here.J[at_sets], here.k[at_sets], here.r[at_sets])

@@ -15,9 +15,8 @@ from ...cycles.limit_cycles import limit_cycles
 from ...initial_value.departure import leave
 from ...initial_value.events import EventWatch
 from ...initial_value.field import Field
-from ...initial_value.line import InvariantLine
+from ...initial_value.line import InvariantLine, invariant_line
 from ...layer_problem.equator import equator_equilibria
-from ...numerics.dense import StepArray
 from ...numerics.radau import Step, TooManyStepsError
 from ...psi import constructors
 from ...psi.function import Psi
@@ -26,7 +25,6 @@ from ...words import say
 from ..locations import Ascent
 from ..result import Phase
 from ..tracked_set import in_disc
-from .compiled_run_phases import PhaseBuilder
 from .delay import REST_CHANGE, NotAnalyticError
 from .delayed_exit import cut_at_delayed_exit, departure_point, exit_circle
 from .fold_classification import Fold, classify_fold
@@ -66,18 +64,39 @@ class HybridRun:
     rtol: float
     atol: float
     most: int
+    max_step: float = math.inf
     stiction: float = 1.0
+    undecided: int = 0  # steps that could not be bounded
+    jumps: dict[float, bool] = made_with(default_factory=dict)  # times of jumps, and whether time alone decides them
     evaluations: int = 0
     taken: list[Step] = made_with(default_factory=list)
     parts: list[PendingPhase] = made_with(default_factory=list)
     ascent: Ascent | None = None  # of the phase to come
-    decided: Decision | None = None  # what follows at first, where that is known
     leaving: Array | None = None  # points of the disc by which the set is left that is slid on, where they are known
 
     @property
     def own(self) -> Psi:
         """Psi, or Psi = 1 where none is given."""
         return constructors.constant() if self.psi is None else self.psi
+
+    def enter_branch(self, e: Array, state: Array, t: float, switch: int | None = None) -> None:
+        """Go on with the branch of the formulas ahead of a state, at e, or, where no switch is given, in another line.
+
+        Raises
+        ------
+        StopError
+            The branch ahead leads back at once.
+        """
+        left = self.line
+        if self.formulas.switches or switch is not None:
+            at = e.tolist(), state.tolist()
+            ahead = self.formulas.on_branch(*at) if switch is None else self.formulas.past_switch(switch, *at)
+            if ahead is None:
+                raise StopError(say("load switches back"))
+            if switch is not None and self.formulas.branch.jumps[switch]:
+                self.jumps[t] = self.formulas.jumps_by_time(switch)
+            self.formulas, self.system, left = ahead, ahead.system, None
+        self.line = invariant_line(self.formulas, state, left)
 
     @property
     def left(self) -> int:
@@ -112,15 +131,6 @@ class HybridRun:
         if stopped:
             raise AtEventError
 
-    def go_on(self, legs: PhaseBuilder) -> None:
-        """Begin where a motion that was followed compiled was handed over."""
-        motion, self.evaluations = legs.found.motion, legs.found.evaluations
-        before = StepArray(motion.states[0], motion.times[:-1], motion.lengths, motion.states[1:], motion.polynomials)
-        self.taken, self.parts, self.decided = list(before), list(legs.parts), legs.onward()
-        self.t, self.state = float(motion.times[-1]), motion.states[-1].copy()
-        if self.decided.kind == "slide":
-            self.ascent = legs.ascent(len(motion.lengths), legs.found.theta)
-
     def run(self) -> None:
         """Follow the motion to the end of its time.
 
@@ -129,10 +139,8 @@ class HybridRun:
         AtEventError, StopError, BlowUpError, TooManyStepsError
             It ends before; what has been followed is kept.
         """
-        decision = self.decided
-        if decision is None:
-            on = not self.state[:2].any()
-            decision = self.first() if on else self.slip([], say("starts outside"))
+        on = not self.state[:2].any()
+        decision = self.first() if on else self.slip([], say("starts outside"))
         while decision is not None and self.t < self.t_end:
             if self.left <= 0:
                 raise TooManyStepsError
@@ -140,8 +148,12 @@ class HybridRun:
                 raise StopError(decision.reason)
             decision = self.leave(decision) if decision.kind == "leave" else self.slide(decision)
 
-    def first(self) -> Decision:
+    def first(self) -> Decision | None:
         """Decide what follows from a start on Sigma."""
+        if self.psi is not None and self.formulas.rests and not self.attracts_at_rest():
+            onto = critical_name(self.system, self.own, self.state[2:], np.zeros(2))
+            part = self.slid(np.zeros(2), delayed=True, resting=True)
+            return self.follow(part, say("starts on a repelling set", onto=onto), onto)
         if self.line is not None:
             return self.in_line(0.0, say("starts in a line"))
         held = hold(self.formulas, None, self.state[2:], self.stiction)
@@ -151,6 +163,11 @@ class HybridRun:
         if self.psi is not None:
             self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
         return self.at_border(decision) if decision.kind == "border" else decision
+
+    def attracts_at_rest(self) -> bool:
+        """Whether e = 0, a critical set for every z, attracts in the layer problem: whatever Psi is, as D e_Psi ~ 1."""
+        slopes = self.formulas.jacobian(0.0, 0.0, 0.0, 0.0, self.state[2:].tolist())[:2, :2]
+        return bool((np.linalg.eigvals(slopes).real < 0.0).all())
 
     def in_line(self, q: float, reason: str) -> Decision:
         """Decide what follows on Sigma in an invariant line, where the layer problem is that of one variable."""
@@ -181,10 +198,21 @@ class HybridRun:
         if begun:
             t, state = begun[-1].end, begun[-1].last
         largest = 0.0
+        options: dict[str, Any] = {"rtol": self.rtol, "atol": self.atol, "max_step": self.max_step}
         while True:
-            options = {"rtol": self.rtol, "atol": self.atol, "most": self.left, "largest": largest}
-            part = slip(self.formulas, self.line, (t, self.t_end), state, **options)
+            most = self.left - len(taken)
+            part = slip(self.formulas, self.line, (t, self.t_end), state, most=most, largest=largest, **options)
             self.evaluations += part.evaluations
+            self.undecided += part.undecided
+            if part.switch is not None or part.leaves_line:
+                taken += part.taken
+                t, state = (taken[-1].end, taken[-1].last) if taken else (t, state)
+                try:
+                    self.enter_branch(state[:2] / math.hypot(*state[:2].tolist()), state, t, part.switch)
+                except StopError:
+                    self.add("slip", taken, reason)
+                    raise
+                continue
             if part.theta is None:
                 self.add("slip", taken + part.taken, reason)
                 if part.stopped is not None:
@@ -232,14 +260,25 @@ class HybridRun:
         on_cycle = decision.kind == "cycle"
         if on_cycle and self.system.typed is not None:
             return self.slide_on_cycle(decision)
-        part = self.slid(decision.e, lives=self.has_cycle if on_cycle else None, line=self.line)
+        lives = self.has_cycle if on_cycle else None
+        part = self.slid(decision.e, lives=lives, line=self.line)
+        # At a kink, or where a load pushes it out of a line, it slides on.
+        while part.end == "switch" and (part.switch is None or not self.formulas.branch.jumps[part.switch]):
+            last = part.taken[-1]
+            self.enter_branch(part.e, last.last, last.end, part.switch)
+            ahead = self.slid(part.e, last.end, last.last[2:], lives=lives, line=self.line)
+            taken, places = [*part.taken, *ahead.taken], [*part.places, *ahead.places[1:]]
+            part = replace(ahead, taken=taken, places=places)
         return self.follow(part, decision.reason, decision.onto, on_cycle)
 
-    def slid(self, e: Array, **how: Any) -> Slide:
-        """Follow the slow flow from the critical set at e."""
+    def slid(self, e: Array, t: float | None = None, z: Array | None = None, **how: Any) -> Slide:
+        """Follow the slow flow from the critical set at e, from now on, or from t and z."""
+        t, z = (self.t, self.state[2:]) if t is None or z is None else (t, z)
         options = {"rtol": self.rtol, "atol": self.atol, "most": self.left, "reach": self.stiction}
-        part = slide(self.formulas, self.own, e, self.t, self.state[2:], self.t_end, **options, **how)
+        options["max_step"] = self.max_step
+        part = slide(self.formulas, self.own, e, t, z, self.t_end, **options, **how)
         self.evaluations += part.evaluations
+        self.undecided += part.undecided
         return part
 
     def follow(
@@ -252,6 +291,8 @@ class HybridRun:
         C = "C" if on_cycle else onto
         if part.end == "time":
             return None
+        if part.end == "switch":
+            return self.past_switch(part)
         if part.end == "left":
             return self.left_set(part.e, say("Hopf, left", C=C))
         if part.end == "feeds":
@@ -274,6 +315,22 @@ class HybridRun:
         if on_cycle:
             return Decision("slide", say("cycle shrinks", C=C), part.e, onto=C)
         return self.past_loss(part.e, C)
+
+    def past_switch(self, part: Slide) -> Decision:
+        """Decide anew what follows from the place of the set, where the formulas have jumped."""
+        reason = say("load jumps")
+        self.enter_branch(part.e, self.state, self.t, part.switch)
+        if self.line is not None:
+            return self.in_line(float(self.line.n @ part.e), reason)
+        held = hold(self.formulas, None, self.state[2:], self.stiction)
+        if held is not None:
+            return replace(held, reason=f"{reason} {held.reason}")
+        if self.psi is None:
+            decision = decide_start(self.system, None, self.state[2:])
+            return replace(decision, reason=f"{reason} {decision.reason}")
+        start = in_disc(self.own, part.e)
+        self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=start)
+        return self.onward(reason, self.state[2:], start[None])
 
     def slide_on_cycle(self, decision: Decision) -> Decision | None:
         """Slide on a limit cycle of a general system."""
@@ -357,7 +414,8 @@ class HybridRun:
         if resting and part.taken:  # its name is another past the sets that it has met
             C = critical_name(self.system, self.psi, part.taken[0].at(0.5)[2:], e)
         try:
-            on = cut_at_delayed_exit(self.formulas, self.psi, (taken, before.e), part, C, how)
+            # A kink within its past is one of the whole formulas, not of their branch.
+            on = cut_at_delayed_exit(self.formulas.whole or self.formulas, self.psi, (taken, before.e), part, C, how)
         except NotAnalyticError:
             return Decision("stop", say("Hopf, not analytic", C=C, how=how))
         if resting and before.ascent is not None:

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import wraps
+from typing import Any
 
 import numpy as np
 
@@ -11,6 +14,7 @@ from ...arrays import Array
 from ...cycles.limit_cycles import limit_cycles
 from ...layer_problem.critical import CriticalSet, critical_sets
 from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
+from ...layer_problem.poles import has_pole
 from ...layer_problem.problem import LayerProblem
 from ...portrait.approach_outcomes import outcome_towards
 from ...portrait.outcome_verdicts import judge, omega_limits_of, orbits_to_end
@@ -47,6 +51,25 @@ class Decision:
     onto: str | None = None
 
 
+def _name_poles(decide: Callable[..., Decision]) -> Callable[..., Decision]:
+    """Say that U has a pole on the hemisphere where that is why nothing can be decided."""
+
+    @wraps(decide)
+    def named(system: AnySystem, psi: Psi | None, z: Array, *more: Any) -> Decision:
+        try:
+            decision = decide(system, psi, z, *more)
+        except ValueError:
+            if not has_pole(system.at(tuple(z.tolist()))):
+                raise
+            return Decision("stop", say("pole on the hemisphere"))
+        if decision.kind == "stop" and has_pole(system.at(tuple(z.tolist()))):
+            return Decision("stop", say("pole on the hemisphere"))
+        return decision
+
+    return named
+
+
+@_name_poles
 def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Decision:
     """Decide what becomes of a trajectory that arrives at Sigma at angle theta.
 
@@ -67,6 +90,7 @@ def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -
     return _decision_of_outcome(own, outcome.verdict, outcome.onto, outcome.leaving, outcome.reason)
 
 
+@_name_poles
 def decide_from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
     """Decide what becomes of orbits of the layer problem at z that are now at points of the hemisphere.
 
@@ -143,6 +167,7 @@ def decide_from_origin(system: AnySystem, psi: Psi, z: Array) -> Decision:
     return replace(decision, reason=f"{say('middle')} {decision.reason}")
 
 
+@_name_poles
 def decide_start(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
     """Decide what follows from a state on Sigma, when nothing is known of how it came there.
 

@@ -16,6 +16,7 @@ import numpy as np
 from ...arrays import Array
 from ...initial_value.events import DEGREES, monotone_fractions
 from ...initial_value.field import Field
+from ...initial_value.inspection import Inspection
 from ...initial_value.kernels.motion import FIRST_STEP_SHARE
 from ...initial_value.line import InvariantLine
 from ...initial_value.motion_steps import MotionSteps
@@ -45,8 +46,9 @@ class Slide:
     taken : list of Step
         Of the whole state, with x = y = 0.
     end : str
-        "time", "equator" (or the reach of static friction), "fold", "hopf", "cycle" (the limit cycle it slides on is
-        there no longer), "feeds" (static friction takes no longer energy from every slip), or "given up".
+        "time", "switch" (of the formulas), "equator" (or the reach of static friction), "fold", "hopf", "cycle" (the
+        limit cycle it slides on is there no longer), "feeds" (static friction takes no longer energy from every slip),
+        or "given up".
     e : ndarray (2,)
         Critical set at the end.
     places : list of ndarray (2,)
@@ -56,6 +58,12 @@ class Slide:
         Why it was given up; also where W is undefined from some z on.
     p : sequence of ndarray (2,)
         On a cycle of a general system, whose means `places` are: the means of p.
+    switch : int or None
+        Which one.
+    undecided : int
+        Steps that could not be bounded.
+    leaves_line : bool
+        A load pushes it out of its invariant line.
     """
 
     taken: list[Step]
@@ -65,6 +73,9 @@ class Slide:
     evaluations: int = 0
     stopped: TooManyStepsError | None = None
     p: Sequence[Array] = ()
+    switch: int | None = None
+    undecided: int = 0
+    leaves_line: bool = False
 
 
 def own_time(z: Array, rate: Array, floor: float) -> float:
@@ -89,6 +100,7 @@ def slide(
     delayed: bool = False,
     resting: bool = False,
     reach: float = 1.0,
+    max_step: float = math.inf,
 ) -> Slide:
     """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
 
@@ -113,6 +125,7 @@ def slide(
         The set does not move: go on with it, also where it meets others.
     reach : float
         |e| up to which it slides; above 1 by static friction, see `stiction`.
+    max_step : float
     """
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
@@ -132,20 +145,26 @@ def slide(
     floor = atol / rtol
     pace = own_time(z, np.array(field.value(*manifold.e.tolist(), 0.0, 0.0, *z.tolist())[2:]), floor)
     h, shortest = FIRST_STEP_SHARE * pace, MIN_STEP * min(pace, t_end - t)
+    inspection = Inspection(field, None, 0.0, line, rtol, floor, slide=True)
     if resting:
         (c, s), slope = e.tolist(), partial(field.jacobian, *e.tolist(), 0.0, 0.0)
         rate = lambda z: np.array(field.value(c, s, 0.0, 0.0, *z)[2:])
-        motion = steps_of_z(rate, lambda z: slope(z)[2:, 4:], (t, t_end), z, rtol, floor, most, h=h, least=shortest)
+        options = {"h": h, "least": shortest, "longest": max_step}
+        motion = steps_of_z(rate, lambda z: slope(z)[2:, 4:], (t, t_end), z, rtol, floor, most, **options)
         ahead = _steps_of_rest(e, motion)
     else:
-        motion = SlowSteps(field, manifold.e, line, (t, t_end), z, rtol, floor, most, h, shortest)
+        options = {"h": h, "least": shortest, "longest": max_step, "inspection": inspection}
+        motion = SlowSteps(field, manifold.e, line, (t, t_end), z, rtol, floor, most, **options)
         sign, n = math.copysign(1.0, determinant(manifold, manifold.e, z)), None if line is None else line.n
         ahead = _steps_of_set(manifold, motion, StepRequirements(psi, sign, n, reach) if lives is None else None)
     taken: list[Step] = []
     places = [manifold.e]
 
     def ended(end: str, e: Array, stopped: TooManyStepsError | None = None) -> Slide:
-        return Slide(taken, end, e, places, motion.evaluations, stopped)
+        return Slide(
+            taken, end, e, places, motion.evaluations, stopped, (), motion.switch, inspection.undecided,
+            motion.leaves_line,
+        )  # fmt: skip
 
     try:
         for step, after, is_safe in ahead:
@@ -171,7 +190,7 @@ def slide(
         return ended(end, manifold.e, error if end == "given up" else None)
     except TooManyStepsError as error:
         return ended("given up", places[-1], error)
-    return ended("time", places[-1])
+    return ended("time" if motion.switch is None and not motion.leaves_line else "switch", places[-1])
 
 
 class _Ahead(NamedTuple):

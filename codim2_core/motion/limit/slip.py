@@ -17,12 +17,15 @@ from ...arrays import Array
 from ...initial_value.departure import polynomial_of
 from ...initial_value.field import Field
 from ...initial_value.functions import functions_of
-from ...initial_value.kernels.hybrid_run import OF_SLIPS
+from ...initial_value.inspection import Inspection
 from ...initial_value.kernels.motion import AT_SIGMA
 from ...initial_value.line import InvariantLine
 from ...initial_value.motion_steps import MotionSteps, rate_at
 from ...numerics.radau import Step, TooManyStepsError
 from ...psi.constructors import constant
+
+#: Of rtol, for the steps of a slip: explicit ones use up what is allowed, implicit ones leave most of it.
+OF_SLIPS = 0.5
 
 
 @dataclass(frozen=True)
@@ -37,12 +40,21 @@ class Slip:
     evaluations : int
     stopped : TooManyStepsError or None
         Why it was given up before.
+    switch : int or None
+        The switch of the formulas at which it ends.
+    undecided : int
+        Steps that could not be bounded.
+    leaves_line : bool
+        It ends where a load pushes it out of its invariant line.
     """
 
     taken: list[Step]
     theta: float | None
     evaluations: int
     stopped: TooManyStepsError | None = None
+    switch: int | None = None
+    undecided: int = 0
+    leaves_line: bool = False
 
 
 def slip(
@@ -55,6 +67,7 @@ def slip(
     atol: float,
     most: int,
     largest: float,
+    max_step: float,
 ) -> Slip:
     """Follow the nonsmooth system until it arrives at Sigma, or to the end of the time span.
 
@@ -72,10 +85,14 @@ def slip(
     largest : float
         The scale of rho: it has arrived where rho is a small part of that (or of a larger rho met on the way), see
         `kernels.motion.arrived`.
+    max_step : float
     """
     rate, functions = partial(rate_at, field, None, 0.0, line), functions_of(field, constant())
     farthest = max(largest, math.hypot(state[0], state[1]))
-    motion = MotionSteps(functions, rate, 0.0, line, span, state, OF_SLIPS * rtol, atol / rtol, most, farthest=farthest)
+    rtol, floor = OF_SLIPS * rtol, atol / rtol
+    inspection = Inspection(field, None, 0.0, line, rtol, floor)
+    options = {"farthest": farthest, "longest": max_step, "inspection": inspection}
+    motion = MotionSteps(functions, rate, 0.0, line, span, state, rtol, floor, most, **options)
     taken: list[Step] = []
     try:
         for part in motion.chunks():
@@ -84,10 +101,10 @@ def slip(
                 last = _straight(taken[-1], rate(taken[-1].last))
                 if last is not None and last.end < span[1]:
                     x, y = last.first[:2].tolist()
-                    return Slip([*taken, last], math.atan2(y, x), motion.evaluations)
+                    return Slip([*taken, last], math.atan2(y, x), motion.evaluations, undecided=inspection.undecided)
     except TooManyStepsError as error:
         return Slip(taken, None, motion.evaluations, error)
-    return Slip(taken, None, motion.evaluations)
+    return Slip(taken, None, motion.evaluations, None, motion.switch, inspection.undecided, motion.leaves_line)
 
 
 def _straight(before: Step, rate: Array) -> Step | None:

@@ -38,6 +38,9 @@ MAX_PERIOD_FACTOR = (
 MOST_TIMES = 12  # that a motion is asked whether it has repeated itself
 REPEAT_TOLERANCE = 1e-7  # relative: formulas, and states, that repeat themselves
 LOOKED_AT = 16  # states at which formulas are asked whether they do
+NEUTRAL = 1e-4  # |1 - multiplier|, up to which motions that nearly repeat themselves are a family
+SETTLED = 1e-4  # of the residual of a period: that of the next one, of a motion that has settled
+GENERIC = 0.381966  # of the way between two places: none lies where a square wave jumps
 
 
 def periodic_motion(
@@ -156,7 +159,7 @@ def _repeats(formulas: Field, states: Array, advance: Array) -> bool:
     angles = np.arange(LOOKED_AT) * 2.4  # the golden angle: no two places look alike
     for k, angle in enumerate(angles.tolist()):
         x, y, *z = states[k % len(states)].tolist()
-        z = np.array(z) + advance * (k / LOOKED_AT)
+        z = np.array(z) + advance * ((k + GENERIC) / LOOKED_AT)
         e = 0.9 * np.cos(angle), 0.9 * np.sin(angle)
         here, there = (np.array(formulas.value(*e, x + e[0], y + e[1], *at.tolist())) for at in (z, z + advance))
         if not np.allclose(
@@ -177,7 +180,7 @@ class _Stopped(Exception):
 
 def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
     try:
-        rough = _newton(_divided(asked.shot(start, asked.period, rtol), rtol), rtol)
+        rough = _newton(_divided(_settled(asked.shot(start, asked.period, rtol), rtol), rtol), rtol)
         closer = max(FINAL_RTOL_SHARE * rtol, CLOSEST)
         fine = _newton(rough.of.shot(rough.starts, rough.period, closer), closer)
     except LostError as lost:
@@ -186,6 +189,19 @@ def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
         shot = stopped.shot
         return _not_found(asked, stopped.status, stopped.reason, shot.run, shot.period, shot.residual)
     return _make_result(asked, rough, fine)
+
+
+def _settled(shot: Shot, rtol: float) -> Shot:
+    """Return the motion of the next period, where that repeats itself far better, as after one slip to rest."""
+    ahead = shot.run.states[-1].copy()
+    ahead[2:] -= shot.of.advance
+    if not shot.of.is_forced or shot.residual <= LOOSE * rtol:
+        return shot
+    try:
+        after = shot.of.shot(ahead, shot.period, rtol)
+    except LostError:
+        return shot
+    return after if after.residual <= SETTLED * shot.residual else shot
 
 
 def _divided(shot: Shot, rtol: float) -> Shot:
@@ -202,6 +218,8 @@ def _newton(shot: Shot, rtol: float) -> Shot:
             break
         if shot.residual <= RESIDUAL_RTOLS * rtol and shot.step_size <= LOOSE * rtol:
             return shot
+        if asked.is_forced and shot.residual <= min(np.sqrt(rtol), NEUTRAL * shot.step_size):
+            return shot  # it drifts along a family of motions that repeat themselves nearly
         ahead = _closer(shot, rtol)
         if ahead is None:
             break
@@ -265,7 +283,7 @@ def _make_result(asked: Shooting, rough: Shot, fine: Shot) -> PeriodicMotion:
     moved[~asked.free] = 0.0
     period_error = 0.0 if asked.is_forced else abs(fine.period - rough.period) + abs(later)
     stability, why = _verdict(values, errors, fine.variation.within is not None)
-    alone = not (np.abs(values - 1.0) <= errors).any()
+    alone = not (np.abs(values - 1.0) <= np.maximum(errors, NEUTRAL * (fine.step_size > errors.max(initial=0.0)))).any()
     said = [say("repeats", period=fine.period)]
     times = _repetitions(asked, fine)
     said += [say("repeats sooner", count=times)] if times > 1 else []

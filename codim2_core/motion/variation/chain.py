@@ -2,11 +2,48 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from ...arrays import Array
+from ...expressions.switches import jump_names
+from ...initial_value.slopes import Slopes
 from ...words import say
 from .result import Variation
+
+
+def past_jumps(
+    fine: Array, coarse: Array, times: Array, jumps: Mapping[float, bool], slopes: Slopes
+) -> tuple[Array, Array, str]:
+    """Pass the jumps of a load: what time alone decides changes nothing but what comes from a change of the clock.
+
+    Parameters
+    ----------
+    fine, coarse : ndarray (k, N, N)
+    times : ndarray (k + 1,)
+    jumps : mapping of float to bool
+        Times of jumps, and whether slow variables of constant rate alone decide them.
+    slopes : Slopes
+
+    Returns
+    -------
+    fine, coarse : ndarray
+        The steps that are known; changes of a clock end at a jump, as columns of zeros.
+    reason : str
+        Why no more are.
+    """
+    names = {name for name, _ in slopes.kept}
+    for t, by_time in jumps.items():
+        step = int(np.searchsorted(times[:-1], t, side="left"))
+        if step >= len(fine):
+            continue
+        if not by_time or not names.isdisjoint(jump_names(slopes.rows)):
+            return fine[:step], coarse[:step], say("variation at a jump", t=t)
+        for i, row in enumerate(slopes.rows[2:]):
+            if row.constant is not None:
+                fine[step, :, 2 + i] = coarse[step, :, 2 + i] = 0.0
+    return fine, coarse, ""
 
 
 def chain_propagators(

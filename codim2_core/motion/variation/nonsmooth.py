@@ -9,7 +9,7 @@ equator, both fields agree and the motion begins with no speed: nothing is added
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from itertools import pairwise
@@ -25,7 +25,7 @@ from ...numerics.dense import Dense
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
-from .chain import chain_propagators
+from .chain import chain_propagators, past_jumps
 from .passage import shrinks_across
 from .propagators import Propagators, pad_jacobians, propagators, states_along
 from .result import Variation
@@ -58,6 +58,7 @@ def of_nonsmooth(
     motion: Dense,
     phases: Callable[[], Sequence[Phase]],
     line: InvariantLine | None,
+    jumps: Mapping[float, bool],
     names: Sequence[str],
 ) -> Variation:
     """Differentiate a motion by its start, and by numbers of its system.
@@ -72,10 +73,12 @@ def of_nonsmooth(
     line : InvariantLine or None
         The invariant line that it stays in: where the line repels (but see `passage`), changes that leave it are left
         out.
+    jumps : mapping of float to bool
+        As in `past_jumps`.
     names : sequence of str
         Of ``system.variable``.
     """
-    course, legs = _Course(slopes_of(system, names), motion, None), list(_legs(motion, phases()))
+    course, legs = _Course(slopes_of(system, names), motion, None, jumps), list(_legs(motion, phases()))
     if line is not None and any(
         course.repels(leg, line.n) and not (following and course.shrinks(system, psi, leg, following, line.n))
         for leg, following in pairwise([*legs, None])
@@ -97,7 +100,8 @@ def of_nonsmooth(
     matrices, longer = np.concatenate(fine), np.concatenate(coarse)
     for first in (matrices[:1], longer[:1]):
         first @= start
-    end = len(matrices)
+    matrices, longer, lost = past_jumps(matrices, longer, motion.times, jumps, course.slopes)
+    reason, end = lost or reason, len(matrices)
     times, rate = motion.times[: end + 1], course.rate(legs, end)
     return chain_propagators(tuple(names), times, matrices, longer, rate, reason, course.line_basis)
 
@@ -136,6 +140,7 @@ class _Course:
     slopes: Slopes
     motion: Dense
     n: Array | None
+    jumps: Mapping[float, bool]
 
     @property
     def size(self) -> int:
@@ -148,15 +153,26 @@ class _Course:
 
     def slide(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
         """Along a slide: ``z' = W(e(z), z)`` on the critical set e(z), eq:linslowflow."""
-        phase, last, reason = leg.slides[0], leg.last, ""
-        if not self.rests(phase):
-            return self.none, say("variation on a cycle", t=phase.t_start)
-        if len(leg.slides) > 1 or (following is not None and not _at_equator(phase)):
-            last = int(np.searchsorted(self.motion.times, phase.t_end, side="left"))
-            reason = say("variation past an end", t=phase.t_end)
-        slopes = lambda steps, u: self.slide_slopes(phase, steps, u)
-        found = self.propagate(range(leg.first, last), slopes, before)
-        if following is not None and last == leg.last and _is_let_go(phase):
+        parts, first, reason = [self.none], leg.first, ""
+        for phase, later in pairwise([*leg.slides, None]):
+            assert phase is not None
+            if not self.rests(phase):
+                reason = say("variation on a cycle", t=phase.t_start)
+                break
+            last, jumps = leg.last, phase.t_end in self.jumps
+            goes_on = later is not None or following is not None
+            if later is not None or (goes_on and not jumps and not _at_equator(phase)):
+                last = int(np.searchsorted(self.motion.times, phase.t_end, side="left"))
+                reason = "" if jumps else say("variation past an end", t=phase.t_end)
+            slopes = lambda steps, u, phase=phase: self.slide_slopes(phase, steps, u)
+            found = self.propagate(range(first, last), slopes, before)
+            parts.append(found)
+            if reason or later is None:
+                break
+            before, first = reduce(lambda product, step: step @ product, found.fine, before), last
+        found = Propagators(*(np.concatenate([getattr(one, of) for one in parts]) for of in ("fine", "coarse")))
+        phase = leg.slides[-1]
+        if following is not None and not reason and _is_let_go(phase) and phase.t_end not in self.jumps:
             matrix = self.letting_go(phase, following)
             for matrices in (found.fine, found.coarse):
                 matrices[-1] = matrix @ matrices[-1]
@@ -176,7 +192,7 @@ class _Course:
         near = self.arrival_step(leg) if leg.to_sigma else leg.last
         coming = self.departure(leg) @ before if leg.from_sigma else before
         found = self.propagate(range(leg.first, near), self.slip_slopes, coming)
-        if leg.from_sigma:
+        if leg.from_sigma and len(found.fine):
             for matrices in (found.fine, found.coarse):
                 matrices[0] = self.departure_matrix(leg, matrices[0])
         if not leg.to_sigma:

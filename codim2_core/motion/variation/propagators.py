@@ -56,6 +56,8 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
     before : ndarray (N, N)
         Changes that come to the first step.
     """
+    if not len(lengths):
+        return Propagators(*np.zeros((2, 0, *before.shape)))
     steps: NDArray[np.intp] = np.arange(len(lengths))
     low, high = np.zeros(len(lengths)), np.ones(len(lengths))
     whole = _solve_collocation(jacobian, lengths, steps, low, high)

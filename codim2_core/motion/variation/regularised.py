@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,14 +12,16 @@ from ...initial_value.slopes import slopes_of, smoothed_direction
 from ...numerics.dense import Dense
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
-from .chain import chain_propagators
+from .chain import chain_propagators, past_jumps
 from .propagators import pad_jacobians, propagators, states_along
 from .result import Variation
 
 RTOL = 1e-10  # how far a part of a step and its halves may differ
 
 
-def of_regularised(system: AnySystem, psi: Psi, eps: float, motion: Dense, names: Sequence[str]) -> Variation:
+def of_regularised(
+    system: AnySystem, psi: Psi, eps: float, motion: Dense, jumps: Mapping[float, bool], names: Sequence[str]
+) -> Variation:
     """Differentiate a motion by its start, and by numbers of its system.
 
     Parameters
@@ -28,6 +30,8 @@ def of_regularised(system: AnySystem, psi: Psi, eps: float, motion: Dense, names
     psi : Psi
     eps : float
     motion : Dense
+    jumps : mapping of float to bool
+        As in `past_jumps`.
     names : sequence of str
         Of ``system.variable``.
     """
@@ -42,4 +46,5 @@ def of_regularised(system: AnySystem, psi: Psi, eps: float, motion: Dense, names
     sizes[:, :2] = rho[:, None]
     found = propagators(jacobian, motion.lengths, sizes, RTOL, np.diag(sizes[0]))
     rate = slopes.rates(smoothed_direction(psi, eps, states[-1:, :2])[0], states[-1:])[0]
-    return chain_propagators(tuple(names), motion.times, found.fine, found.coarse, rate)
+    fine, coarse, reason = past_jumps(found.fine, found.coarse, motion.times, jumps, slopes)
+    return chain_propagators(tuple(names), motion.times[: len(fine) + 1], fine, coarse, rate, reason)

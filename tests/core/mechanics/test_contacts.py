@@ -1,5 +1,6 @@
 """Several contacts: against one contact, closed forms, quadratures, the limit eps -> 0, and another convex solver."""
 
+import itertools
 import math
 import pickle
 import re
@@ -12,7 +13,7 @@ import codim2_core as c2
 from codim2_core import psi
 from codim2_core.mechanics import contact, contacts
 
-from .plates import INERTIA, MASS, MU, foot, plate, shaken_plate
+from .plates import INERTIA, MASS, MU, Driven, foot, plate, shaken_plate
 
 EYE = ((1, 0), (0, 1))
 RADIUS, G = 0.7, 9.81
@@ -348,3 +349,30 @@ def test_a_motion_has_the_times_that_were_asked_for_a_table_and_a_picture():
     assert [f">{name}<" in drawn for name in ("u", "v", "w")] == [True] * 3
     with pytest.raises(ValueError, match="give times from 0 to 1"):
         whole.simulate_nonsmooth((1.0, 0.2, 0.0, 0.0), (0.0, 1.0), times=[0.0, 2.0])
+
+
+@pytest.mark.parametrize(
+    ("driven", "start", "end"),
+    [
+        (
+            Driven(1.44, 0.33, ((0.01, 0.2, 0.58, 1.49), (0.25, -1.16, 0.22, 4.77)), (0.34, -2.77), 0.96, 2.09, 1.66),
+            (-0.58, -0.05, 0.28, 0.72), (-0.2386, 0.5077, -0.4727, 1.7979, 0.0146, -1.0871),
+        ),
+        (
+            Driven(2.87, 0.89, ((0.34, -0.33, 0.35, 2.9), (-0.67, -0.71, 0.59, 2.99)), (-3.17, 0.11), 0.98, 0.41, 1.14),
+            (1.28, -1.0, 1.68, 1.04), (0.0669, 0.0022, 0.0343, 3.2439, 0.6430, -1.5124),
+        ),
+        (
+            Driven(2.0, 0.7, ((0.2, 0.1, 0.3, 5.0), (0.7, -0.8, 0.3, 5.0)), (-3.4, -6.9), 1.0, 0.0, 0.5),
+            (0.5, 0.0, 1.0, 0.0), (2.05383, -1.50286, 0.33845, 2.61857),
+        ),
+    ],
+)  # fmt: skip
+def test_a_stuck_foot_lets_go_while_another_slips(driven, start, end):
+    """Where it lets go its slip grows like t^2, and the foot that slips turns: Radau with eps = 1e-5 has the end."""
+    run = driven.contacts().simulate_nonsmooth((*start, 0.0, 0.0, 0.0), (0.0, 4.0 if driven.spring == 0.0 else 3.0))
+    assert run.status.name == "T_END"
+    assert run.states[-1, : len(end)] == pytest.approx(end, abs=1.5e-4)
+    lets_go = [b for a, b in itertools.pairwise(run.phases) if a.kinds.count("stick") == 1 and "holds" in b.reason]
+    assert lets_go
+    assert all(phase.t_end - phase.t_start > 1e-3 for phase in run.phases)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import codim2_core as c2
 from codim2_core import ELinear, System, examples, psi
-from codim2_core.mechanics import Mechanism, contact
+from codim2_core.mechanics import Mechanism, contact, contacts
 from codim2_core.words import recognise
 
 number = st.floats(-2.0, 2.0).map(lambda v: round(v, 3))
@@ -123,6 +123,30 @@ def test_a_block_is_told_as_an_engineer_would(pull, key):
     assert [found for found, _ in recognise(grip.sentence)] == [key]
     assert f"a friction of {pull:g}, and " in grip.sentence
     assert grip.sentence.endswith("10 is available in that direction.")
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_block_that_is_pulled_as_hard_as_friction_can_hold_holds(seed):
+    """In every direction, with a matrix of friction too: a part in 10^12 more is lost, a part less is not the limit."""
+    rng = np.random.default_rng(seed)
+    angle, law = rng.uniform(0.0, math.tau), rng.uniform(0.1, 1.0, 2)
+    law = np.diag(law if seed % 2 else law[[0, 0]])
+    pull = 20.0 * law @ (math.cos(angle), math.sin(angle))
+    at = lambda share: block((share * pull).tolist(), law=law.tolist()).grip()
+    assert [at(share).sticks for share in (1.0, 1.0 + 1e-12, 1.0 - 1e-12)] == [True, False, True]
+    said = [[key for key, _ in recognise(at(share).sentence)] for share in (1.0, 1.0 - 1e-12)]
+    assert said == [["grips just"], ["can grip" if seed % 2 else "grips"]]
+
+
+def test_the_block_of_four_newton_holds_in_every_function():
+    whole = Mechanism(np.eye(2), np.eye(2), (4, 0), 0.4, 10, ("vx", "vy"))
+    assert whole.grip().sentence == (
+        "It just holds: sticking needs a friction of 4, and no more is available in that direction."
+    )
+    both = contacts(np.eye(2), [(np.eye(2), 0.4, 10)], (4, 0), ("vx", "vy"))
+    assert both.decide((0, 0)).kinds == ("stick",)
+    assert [phase.kinds for phase in both.simulate_nonsmooth((0, 0), (0, 9)).phases] == [("stick",)]
+    assert [phase.kind for phase in c2.simulate_nonsmooth(whole.system, (0, 0), (0, 9)).phases] == ["slide"]
 
 
 def test_a_block_that_is_pulled_up_comes_off():

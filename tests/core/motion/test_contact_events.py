@@ -64,7 +64,12 @@ def test_a_rod_lifts_off_when_its_equations_of_motion_say_so(mu):
     assert run.states[-1, 4:6] == pytest.approx(other.y[5:, -1], abs=1e-8)
     assert mechanism.contact_force(run.states[-1]).approach == pytest.approx(0.0, abs=1e-7)
     creeping = c2.simulate(
-        mechanism.system, psi.constant(), start, (0.0, 2.0), eps=1e-6, events=c2.contact_events(mechanism, start)
+        mechanism.system,
+        psi.constant(),
+        start,
+        (0.0, 2.0),
+        eps=1e-6,
+        events=c2.contact_events(mechanism, start, psi.constant(), 1e-6),
     )
     assert creeping.times[-1] == pytest.approx(run.times[-1], abs=1e-4)
     assert creeping.reason == run.reason
@@ -145,3 +150,78 @@ def test_a_block_that_sticks_slips_and_opens():
 def test_a_state_of_another_length_is_refused():
     with pytest.raises(ValueError, match=r"shape \(2,\); give \(x, y, z1, ..., zm\) with m = 1"):
         block(1).contact_force((1.0, 2.0))
+
+
+def leaning_rod(inertia, length, mu, stiffness, angle):
+    """A rod whose end slides on the ground, turned by a spring about an axis along the second direction."""
+    return Mechanism(
+        M=np.diag((1, 1, 1, inertia)).tolist(), J=((1, 0, 0, f"-{length}*cos(phi)"), (0, 1, 0, 0)),
+        force=(0, 0, -G, f"-{stiffness}*(phi - {angle})"), mu=mu, normal=(0, 0, 1, f"{length}*sin(phi)"),
+        velocities=("vx", "vy", "vz", "w"), slow=("w", "phi"), rates={"phi": "w"},
+    )  # fmt: skip
+
+
+JAMMED = leaning_rod(0.031, 0.4646, 1.2537, 18.2639, 0.2959), (-4.8354, -8.495, -0.8737, 0.283)
+
+
+@pytest.mark.parametrize("watched", [False, True])
+def test_a_rod_that_arrives_where_it_can_jam_stops_and_the_jam_is_named(watched):
+    """With friction along 2.5 to 3.8 the normal force presses the bodies together: U has a pole on the hemisphere."""
+    mechanism, start = JAMMED
+    events = c2.contact_events(mechanism, start) if watched else ()
+    run = c2.simulate_nonsmooth(mechanism.system, start, (0.0, 3.0), events=events)
+    assert run.status is c2.SimulationStatus.NOT_UNIQUE
+    assert [key for key, _ in recognise(run.reason)] == ["not unique", "pole on the hemisphere"]
+    assert [phase.kind for phase in run.phases] == ["slip"]
+    assert run.times[-1] == pytest.approx(0.82269, abs=1e-5)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_rod_ends_as_its_equations_of_motion_say_or_the_jam_is_named(seed):
+    """Friction ``-N mu x/sqrt(x^2 + eps^2)`` by SciPy: where it opens or goes on to the end, and where p is 0."""
+    rng, eps = np.random.default_rng(seed), 1e-5
+    inertia, length, mu, k, angle, phi = np.round(rng.uniform(*np.transpose(
+        [(0.01, 0.06), (0.3, 0.6), (0.5, 1.8), (2.0, 30.0), (0.1, 1.2), (0.1, 1.2)]
+    )), 3).tolist()  # fmt: skip
+    mechanism = leaning_rod(inertia, length, mu, k, angle)
+    start = (*np.round(rng.normal(size=3) * (4.0, 4.0, 0.7), 3).tolist(), phi)
+    if mechanism.contact_force(start).kind != "presses":
+        return
+
+    def parts(s):
+        x, y, w, now = s
+        J = np.array([[1.0, 0.0, 0.0, -length * math.cos(now)], [0.0, 1.0, 0.0, 0.0]])
+        across = np.array([0.0, 0.0, 1.0, length * math.sin(now)])
+        push = across - mu * np.array([x, y]) / math.sqrt(x * x + y * y + eps * eps) @ J
+        free = np.array([0.0, 0.0, -G, -k * (now - angle) / inertia])
+        bent = push / np.array([1.0, 1.0, 1.0, inertia])
+        return J, free, bent, across @ bent, -(across @ free + length * math.cos(now) * w * w)
+
+    def rate(_, s):
+        J, free, bent, p, b = parts(s)
+        v = free + b / p * bent
+        return [J[0] @ v + length * math.sin(s[3]) * s[2] ** 2, v[1], v[3], s[2]]
+
+    opens, jams = (lambda _, s: parts(s)[4]), (lambda _, s: parts(s)[3] - 1e-3)
+    opens.terminal = jams.terminal = True
+    own = solve_ivp(rate, (0.0, 2.0), start, "Radau", rtol=1e-9, atol=1e-12, events=(opens, jams))
+    run = c2.simulate_nonsmooth(mechanism.system, start, (0.0, 2.0), events=c2.contact_events(mechanism, start))
+    named = [key for key, _ in recognise(run.reason)]
+    if "pole on the hemisphere" in named:
+        return
+    assert run.times[-1] == pytest.approx(own.t[-1], abs=1e-3)
+    assert (named == ["end of span"]) == (own.status == 0)
+    events = c2.contact_events(mechanism, start, psi.constant(), eps)
+    creeping = c2.simulate(mechanism.system, psi.constant(), start, (0.0, 2.0), eps=eps, events=events)
+    assert creeping.times[-1] == pytest.approx(own.t[-1], abs=1e-3)
+    assert creeping.status is run.status
+
+
+def test_events_of_a_regularised_contact_have_the_friction_of_a_regularised_contact():
+    """A slip of eps at rest has e_Psi inside the circle: the rod sticks, and its normal force presses to the end."""
+    mechanism, start = JAMMED
+    events = c2.contact_events(mechanism, start, psi.constant(), 1e-4)
+    run = c2.simulate(mechanism.system, psi.constant(), start, (0.0, 3.0), eps=1e-4, events=events)
+    assert run.status is c2.SimulationStatus.T_END
+    with pytest.raises(ValueError, match="give both"):
+        c2.contact_events(mechanism, start, psi.constant())

@@ -1,0 +1,237 @@
+"""Loads that switch, pulse and ramp: nothing in a formula is stepped over. Friction is 1 where nothing else is said.
+
+The right values are closed forms, or quadratures of one variable written here.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+from scipy.optimize import brentq
+
+from codim2_core import (
+    Event,
+    System,
+    lyapunov_exponents,
+    periodic_motion,
+    psi,
+    response_curve,
+    simulate,
+    simulate_nonsmooth,
+)
+from codim2_core.motion.result import SimulationStatus
+
+PSI = psi.constant()
+
+
+def _block(load, W=("x",), across="-s"):
+    return System(U=(f"-c + {load}", across), W=W)
+
+
+def _both(system, start, span, **options):
+    """The same motion for eps > 0 and in the limit, with what the first may differ by."""
+    regularised = simulate(system, PSI, start, span, eps=1e-7, rtol=1e-9, atol=1e-11, **options)
+    limit = simulate_nonsmooth(system, start, span, PSI, **options)
+    for run, error in ((regularised, 1e-4), (limit, 1e-7)):
+        assert run.status is SimulationStatus.T_END, run.reason
+        yield run, error
+
+
+def _pushed(force, begins, ends):
+    """Velocity and way of a slip from rest under a force less friction, until a time."""
+    velocity = quad(lambda t: force(t) - 1.0, begins, ends, epsabs=1e-13)[0]
+    way = quad(lambda t: (ends - t) * (force(t) - 1.0), begins, ends, epsabs=1e-13)[0]
+    return velocity, way
+
+
+def test_a_force_that_is_switched_on_as_a_ramp():
+    """It exceeds friction at 3.5; then x = (t - 3.5)^2."""
+    for run, error in _both(_block("2*max(0, t-3)"), (0.0, 0.0, 0.0), (0.0, 6.0)):
+        assert [phase.kind for phase in run.phases] == ["slide", "slip"]
+        assert run.phases[1].t_start == pytest.approx(3.5, abs=error)
+        assert run.states[-1, [0, 2]] == pytest.approx([6.25, 2.5**3 / 3.0], abs=error)
+
+
+def test_a_step_that_is_steep_and_smooth():
+    force = lambda t: 0.75 * (1.0 + math.tanh(20.0 * (t - 40.0)))
+    begins = brentq(lambda t: force(t) - 1.0, 39.0, 41.0, xtol=1e-14)
+    expected = _pushed(force, begins, 60.0)
+    assert expected[0] == pytest.approx(9.976131, abs=1e-6)
+    for run, error in _both(_block("0.75*(1+tanh(20*(t-40)))"), (0.0, 0.0, 0.0), (0.0, 60.0)):
+        assert run.states[-1, [0, 2]] == pytest.approx(expected, abs=20.0 * error)
+
+
+def test_a_table_that_begins_to_tilt():
+    angle = {"mu": 0.4, "g": 9.81}
+    system = System(
+        U=("-mu*g*cos(a)*c + g*sin(a)", "-mu*g*cos(a)*s"), W=("x",), parameters=angle,
+        definitions={"a": "0.2*max(0, t-3)"},
+    )  # fmt: skip
+    begins = 3.0 + 5.0 * math.atan(0.4)
+    pull = lambda t: 9.81 * (math.sin(0.2 * (t - 3.0)) - 0.4 * math.cos(0.2 * (t - 3.0)))
+    expected = quad(pull, begins, 7.0)[0], quad(lambda t: (7.0 - t) * pull(t), begins, 7.0)[0]
+    for run, error in _both(system, (0.0, 0.0, 0.0), (0.0, 7.0)):
+        assert run.states[-1, [0, 2]] == pytest.approx(expected, abs=error)
+
+
+@pytest.mark.parametrize(
+    ("load", "expected"),
+    [
+        ("0.75*(1+sign(t-4))", (3.0, 9.0)),
+        ("1.5*(t > 4)", (3.0, 9.0)),
+        ("0.3 + 1.2*(t >= 4)", (3.0, 9.0)),
+        ("1.5*min(1, floor(t/4))", (3.0, 9.0)),
+        ("3*(t > 4)*(t < 5)", (0.0, 2.0 + 2.0)),  # slips for 1 with 2, and comes to rest in 2 more
+        ("3*(mod(t, 8) > 4)*(t < 5)", (0.0, 4.0)),
+    ],
+)
+def test_a_jump_of_the_load(load, expected):
+    for run, error in _both(_block(load), (0.0, 0.0, 0.0), (0.0, 10.0)):
+        if expected[0] == 0.0:
+            way = 0.5 * 2.0 * 1.0 + 0.5 * 2.0 * 2.0
+            assert run.states[-1, 2] == pytest.approx(way, abs=error)
+        else:
+            assert run.states[-1, [0, 2]] == pytest.approx(expected, abs=2.0 * error)
+
+
+@pytest.mark.parametrize(
+    ("system", "expected"),
+    [
+        (_block("0.3+0.75*(1+sign(t-1))"), 1.6),
+        (System(U=("-0.5*(1-sign(t-1))*c+0.5", "-0.5*(1-sign(t-1))*s"), W=("x",)), 1.0),
+        (System(U=("-c", "-s + 0.3 + 0.75*(1+sign(t-1))"), W=("y",)), 1.6),
+    ],
+)
+def test_a_slip_that_begins_at_a_jump(system, expected):
+    for run, error in _both(system, (0.0, 0.0, 0.0), (0.0, 3.0)):
+        assert [phase.kind for phase in run.phases] == ["slide", "slip"]
+        assert math.hypot(*run.states[-1, :2]) == pytest.approx(expected, abs=error)
+
+
+def test_without_psi_a_jump_is_decided_where_all_agree():
+    run = simulate_nonsmooth(_block("0.3+0.75*(1+sign(t-1))"), (0.0, 0.0, 0.0), (0.0, 3.0))
+    assert run.states[-1, 0] == pytest.approx(1.6, abs=1e-9)
+
+
+@pytest.mark.parametrize("width", [0.5, 0.05, 0.005])
+def test_a_short_push(width):
+    """The push 3 exp(-((t - 50)/w)^2), whose slip begins and ends where closed forms say."""
+    force = lambda t: 3.0 * math.exp(-(((t - 50.0) / width) ** 2))
+    begins = 50.0 - width * math.sqrt(math.log(3.0))
+    ends = brentq(lambda t: _pushed(force, begins, t)[0], 50.0 + 1.1 * width, 50.0 + 20.0 * width, xtol=1e-14)
+    way = _pushed(force, begins, ends)[1]
+    if width == 0.5:
+        assert (begins, ends, way) == pytest.approx((49.475926, 51.950813, 1.640510), abs=1e-5)
+    system = _block(f"3*exp(-((t-50)/{width})^2)")
+    for run, error in _both(system, (0.0, 0.0, 0.0), (0.0, 60.0)):
+        slip = run.phases[1]
+        assert (slip.kind, slip.t_start) == ("slip", pytest.approx(begins, abs=error))
+        assert run.states[-1, 2] == pytest.approx(way, rel=1e-4, abs=10.0 * error * width)
+
+
+def test_a_train_of_pushes():
+    """Brute force: sub-steps of 2e-5 of an explicit method that knows friction."""
+    system = _block("3*exp(-(sin(pi*t/10)/0.05)^2) - 0.5*z1")
+    for run, error in _both(system, (0.0, 0.0, 0.0), (0.0, 60.0)):
+        assert run.states[-1, 2] == pytest.approx(0.667544, abs=max(error, 1e-6))
+        assert sum(phase.kind == "slip" for phase in run.phases) >= 7
+
+
+def test_a_gust_across_a_slip():
+    system = System(U=("-0.1*c", "-0.1*s + 20*exp(-((t-50)/0.05)^2)"), W=("x", "y"))
+
+    def rate(t, state):
+        e = state[:2] / math.hypot(*state[:2])
+        return [-0.1 * e[0], -0.1 * e[1] + 20.0 * math.exp(-(((t - 50.0) / 0.05) ** 2)), *state[:2]]
+
+    exact = solve_ivp(rate, (0.0, 60.0), (100.0, 0.0, 0.0, 0.0), "DOP853", rtol=1e-12, atol=1e-12, max_step=0.01)
+    for run, error in _both(system, (100.0, 0.0, 0.0, 0.0), (0.0, 60.0)):
+        assert run.states[-1, 1] == pytest.approx(1.753800, abs=1e-5)
+        np.testing.assert_allclose(run.states[-1, :4], exact.y[:, -1], atol=100.0 * error, rtol=1e-8)
+
+
+@pytest.mark.parametrize("search", [0.5, 5.0, 30.0])
+def test_no_step_is_longer_than_max_step(search):
+    system = System(U=("-c+0.2", "-s"), W=("c",))
+    for run, _ in _both(system, (0.0, 0.0, 0.0), (0.0, 60.0), max_step=search):
+        assert run.motion.lengths.max() <= search
+    with pytest.raises(ValueError, match="max_step"):
+        simulate(system, PSI, (0.0, 0.0, 0.0), (0.0, 60.0), eps=1e-3, max_step=-1.0)
+
+
+def test_a_jump_that_leads_back_from_both_sides_is_refused():
+    run = simulate_nonsmooth(System(U=("-c + 0.2", "-s"), W=("-sign(z1)",)), (0.0, 0.0, 0.5), (0.0, 2.0), PSI)
+    assert run.status is SimulationStatus.NOT_UNIQUE
+    assert run.times[-1] == pytest.approx(0.5, abs=1e-12)
+    assert "does not jump" in run.reason
+
+
+SQUARE = System(U=("-c+2*sign(sin(t))-4*z1", "-s"), W=("x",))
+
+
+@pytest.mark.parametrize("eps", [None, 1e-6])
+def test_a_square_wave_has_a_periodic_motion(eps):
+    """From z = 0.3 it is at rest, then slips from -2 - 4 z = -3.2 by half a period of the spring, twice: z -> -0.7."""
+    found = periodic_motion(SQUARE, (0.0, 0.0, 0.3), 2.0 * math.pi, PSI, eps)
+    assert found.found
+    assert found.state0[2] == pytest.approx(-0.7, abs=1e-5 if eps else 1e-9)
+    exponents = lyapunov_exponents(SQUARE, (0.0, 0.0, 0.3), 2.0 * math.pi, PSI, eps, count=16, transient=2)
+    assert exponents.values[0] == pytest.approx(0.0, abs=1e-4)
+
+
+def test_a_square_wave_has_a_response_curve():
+    """A mass without friction on a damped spring: the periodic solution of a linear equation, by its matrix."""
+    driven = System(U=("-0.4*x - w2*z1 + sign(sin(t))", "-y"), W=("x",), parameters={"w2": 4.0})
+    curve = response_curve(driven, (0.0, 0.0, 0.1), 2.0 * math.pi, along="w2", span=(3.0, 5.0), psi=PSI, eps=1e-3)
+    assert len(curve.values) > 2
+
+    def amplitude(w2):
+        t = np.linspace(0.0, math.pi, 20001)
+        a, w = 0.2, math.sqrt(w2 - 0.04)
+        flow = lambda t: np.exp(-a * t) * np.array(
+            [[np.cos(w * t) + a / w * np.sin(w * t), np.sin(w * t) / w],
+             [-w2 / w * np.sin(w * t), np.cos(w * t) - a / w * np.sin(w * t)]]
+        )  # fmt: skip
+        half = flow(math.pi)
+        rest = np.array([1.0 / w2, 0.0])
+        start = np.linalg.solve(half + np.eye(2), half @ rest - rest)  # -start after half a period
+        z = np.einsum("ijk,j->ik", flow(t), start - rest)[0] + rest[0]
+        return float(np.abs(z).max())
+
+    np.testing.assert_allclose(curve.amplitude[:, 0], [amplitude(value) for value in curve.values.tolist()], rtol=2e-4)
+
+
+def test_a_leg_without_steps_has_a_derivative():
+    system = System(U=("z1-z1**3-0.15*x-0.1*c+0.35*cos(z2)", "-s"), W=("x", "1"))
+    found = lyapunov_exponents(system, (-0.5, 0.0, 0.3, 0.0), 2.0 * math.pi, PSI, count=32, transient=5)
+    assert 0.08 < found.values[0] < 0.2
+
+
+SLIDES = System(U=("-c+0.2", "-s"), W=("c",))
+
+
+@pytest.mark.parametrize("event", [lambda t, _: math.sin(10.0 * t), "sin(10*t)"])
+def test_no_zero_of_an_event_is_lost_in_a_long_step(event):
+    for run, _ in _both(SLIDES, (0.0, 0.0, 0.0), (0.0, 60.0), events=[event]):
+        np.testing.assert_allclose(run.events[0], math.pi / 10.0 * np.arange(1, 191), atol=1e-9)
+
+
+def test_a_typed_event_of_a_thousandth_of_the_span_is_found():
+    event = Event("exp(-((z - 6.6)/0.0006)^2) - 0.5", direction=1)
+    for run, error in _both(SLIDES, (0.0, 0.0, 0.0), (0.0, 60.0), events=event):
+        assert run.events[0] == pytest.approx([(6.6 - 6e-4 * math.sqrt(math.log(2.0))) / 0.2], abs=error)
+
+
+@pytest.mark.parametrize(
+    ("event", "message"),
+    [
+        (lambda _, s: s[2] > 30, r"s\[2\] - 30"),
+        (lambda _, s: bool(s[2] > 30), "truth value"),
+        ("z4 - 1", "z4"),
+        ("q + 1", "q"),
+    ],
+)
+def test_what_is_no_event_is_refused(event, message):
+    with pytest.raises(ValueError, match=message):
+        simulate_nonsmooth(SLIDES, (0.0, 0.0, 0.0), (0.0, 1.0), PSI, events=[event])
