@@ -28,6 +28,8 @@ from .axes import Axis, available, missing_axes, spans_of, without_parameters
 
 #: Controls of the plane of f: a system that lacks one of them has none.
 MAP_PARAMETERS = ("a", "b", "d", "f1", "f2")
+#: Of the frames of a drag each so many-th brings the curves: they are a quarter of the work of a frame.
+EACH_FRAME = 3
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
 #: A region of less area than the square of this, of the map's, gets no small portrait; nor a stretch shorter than this.
@@ -68,6 +70,13 @@ def add(draft: FrameContext) -> None:
 
 def _plane_of_f(draft: FrameContext) -> None:
     scene, header = draft.scene, draft.header
+    here = scene.key("matrix", "psi")
+    moved = 0 if draft.rest or draft.now.get("atlas at") == here else draft.now.get("atlas moved", 0) + 1
+    draft.now["atlas moved"] = moved
+    if moved and moved % EACH_FRAME != 1:
+        draft.late("regions")
+        return
+    draft.now["atlas at"] = here
     curves = scene["atlas_curves"]
     if draft.fresh("atlas_curves", curves):
         header["atlas_size"] = draft.now["atlas_size"] = plane_curves.size_of(curves)
