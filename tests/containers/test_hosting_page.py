@@ -21,7 +21,7 @@ SYSTEM, PACKAGES = "bookworm", "sudo,ca-certificates,openssl"
 NAME = "explorer.example.org"
 LONGEST = 3600.0  # seconds for one part: what is installed is downloaded, and compiled
 ENVIRONMENT = {
-    "PATH": "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "LANG": "C.UTF-8",
+    "PATH": "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "USER": "root", "LANG": "C.UTF-8",
     "DEBIAN_FRONTEND": "noninteractive", "PIP_CERT": "/etc/ssl/certs/ca-certificates.crt",
 }  # fmt: skip
 #: Makes a root one that programs run in, before it is entered.
@@ -73,7 +73,18 @@ def follow(root, text, alone):
     return told
 
 
-HERE = "cd ~/codim2 && . .venv/bin/activate\n"
+HERE = "cd /opt/codim2 && . .venv/bin/activate\n"
+#: In place of systemd, which needs a machine: what a unit starts, with its environment.
+SYSTEMCTL = """#!/bin/bash
+[ $1 = enable ] && shift
+shift
+for unit; do
+    port=${unit#*@} known=/run/codim2-${unit#*@}
+    [ ! -f $known ] || { kill $(cat $known); tail --pid $(cat $known) -f /dev/null; }
+    start=$(sed -n "s|^ExecStart=||p" /etc/systemd/system/codim2@.service)
+    (set -a; . /etc/codim2; exec ${start//%i/$port}) > /dev/null 2>> /run/said & echo $! > $known
+done
+"""
 
 
 def test_the_page_on_hosting_word_for_word_on_a_clean_machine(machine):
@@ -84,8 +95,11 @@ def test_the_page_on_hosting_word_for_word_on_a_clean_machine(machine):
     )
     *before, serve = install.splitlines()
     assert serve.startswith("codim2 serve ")
-    upgrade = re.search(r"for an upgrade, after `(.*?)`", page())[1]
-    assert "`sudo nginx` where none runs yet" in page()
+    upgrade = re.search(r"For an upgrade, first run `(.*?)`", page())[1]
+    assert "Use `sudo nginx` if none runs yet" in page()
+    stub = machine / "usr/local/bin/systemctl"
+    stub.write_text(SYSTEMCTL)
+    stub.chmod(0o755)
 
     follow(machine, "cd\napt update\n" + "\n".join(before).replace("THIS_REPOSITORY", "/repository"), alone=False)
     follow(machine, f"{HERE}{serve} &\n{VISIT.format(f'http://{NAME}:5006/')}kill %1; wait %1 || true\n", alone=True)
@@ -96,11 +110,11 @@ def test_the_page_on_hosting_word_for_word_on_a_clean_machine(machine):
     )
     visit = VISIT.format(f"https://{NAME}/")
     first = begin.replace("sudo nginx -s reload", "sudo nginx")
-    pids = "cat 5006.pid 5007.pid 5008.pid | tee /dev/stderr > {0}\n"
+    pids = "cat /run/codim2-500[678] | tee /dev/stderr > /tmp/{0}\n"
     told = follow(
         machine,
         f"{HERE}{certificate}{first}{visit}{pids.format('before')}sudo nginx -s reload\n"
-        f"{restart}{visit}{pids.format('after')}if grep -xf before after; then exit 1; fi\nkill $(cat after)\n",
+        f"{restart}{visit}{pids.format('after')}if grep -xf /tmp/before /tmp/after; then exit 1; fi\nkill $(cat /tmp/after)\ncat /run/said\n",
         alone=True,
     )
     assert "Traceback" not in told
