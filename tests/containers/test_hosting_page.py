@@ -21,7 +21,8 @@ SYSTEM, PACKAGES = "bookworm", "sudo,ca-certificates,openssl"
 NAME = "explorer.example.org"
 LONGEST = 3600.0  # seconds for one part: what is installed is downloaded, and compiled
 ENVIRONMENT = {
-    "PATH": "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "USER": "root", "LANG": "C.UTF-8",
+    "PATH": "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin", "HOME": "/root", "USER": "root",
+    "LANG": "C.UTF-8",
     "DEBIAN_FRONTEND": "noninteractive", "PIP_CERT": "/etc/ssl/certs/ca-certificates.crt",
 }  # fmt: skip
 #: Makes a root one that programs run in, before it is entered.
@@ -114,7 +115,8 @@ def test_the_page_on_hosting_word_for_word_on_a_clean_machine(machine):
     told = follow(
         machine,
         f"{HERE}{certificate}{first}{visit}{pids.format('before')}sudo nginx -s reload\n"
-        f"{restart}{visit}{pids.format('after')}if grep -xf /tmp/before /tmp/after; then exit 1; fi\nkill $(cat /tmp/after)\ncat /run/said\n",
+        f"{restart}{visit}{pids.format('after')}if grep -xf /tmp/before /tmp/after; then exit 1; fi\n"
+        "kill $(cat /tmp/after)\ncat /run/said\n",
         alone=True,
     )
     assert "Traceback" not in told

@@ -70,21 +70,17 @@ def add(draft: FrameContext) -> None:
 
 def _plane_of_f(draft: FrameContext) -> None:
     scene, header = draft.scene, draft.header
-    here = scene.key("matrix", "psi")
-    moved = 0 if draft.rest or draft.now.get("atlas at") == here else draft.now.get("atlas moved", 0) + 1
-    draft.now["atlas moved"] = moved
-    if moved and moved % EACH_FRAME != 1:
-        draft.late("regions")
-        return
-    draft.now["atlas at"] = here
-    curves = scene["atlas_curves"]
-    if draft.fresh("atlas_curves", curves):
-        header["atlas_size"] = draft.now["atlas_size"] = plane_curves.size_of(curves)
-    size = draft.now["atlas_size"]
-    if "atlas_size" in header:
-        for name, curve in zip(CURVES, curves, strict=True):
-            draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
     matrix = scene.key("matrix")
+    moved = 0 if draft.rest or draft.now.get("atlas at") == matrix else draft.now.get("atlas moved", 0) + 1
+    draft.now["atlas moved"] = moved
+    if moved % EACH_FRAME == min(moved, 1):
+        draft.now["atlas at"] = matrix
+        curves = scene["atlas_curves"]
+        if draft.fresh("atlas_curves", curves):
+            header["atlas_size"] = draft.now["atlas_size"] = plane_curves.size_of(curves)
+            for name, curve in zip(CURVES, curves, strict=True):
+                draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, header["atlas_size"]))
+    size = draft.now["atlas_size"]
     if draft.now.get("regions at") != matrix:
         if draft.rest:
             draft.now["regions at"] = matrix
