@@ -52,7 +52,7 @@ SWITCH = 0.0005
 #: Seconds for which a connection may say nothing before its next request, or go on with one; no websocket.
 HEADERS = 20.0
 #: Seconds by which the loop of a process is late that is not well.
-LATE_SECONDS = 2.0
+LATE_SECONDS = 5.0
 #: Bytes of a request's lines, of which a link is the longest.
 MAX_HEADER_BYTES = 20_000
 #: Seconds between two signs of life to each page: proxies close a line on which nothing is said for a minute.

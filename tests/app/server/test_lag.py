@@ -13,7 +13,7 @@ from tests.work import wait_until
 
 BLOCKED = """import sys, time
 from codim2_app.server import page
-page.ToRoom.get = lambda self: time.sleep(2.5)
+page.LATE_SECONDS, page.ToRoom.get = 2.0, lambda self: time.sleep(2.5)
 from codim2_app.server.cli import main
 sys.exit(main(sys.argv[1:]))
 """
