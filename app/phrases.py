@@ -184,11 +184,13 @@ SENTENCES: dict[str, Sentence] = {
     "no such box": Sentence("The system has no box {names} ({there}). They were ignored.", "a link, or a cell"),
     "no rooms": Sentence("This server opens no rooms.", "a room asked for where there are none"),
     "all rooms taken": Sentence(
-        "All {most} rooms of this server are in use. Try again when one has ended.", "a room too many"
+        "All {most} rooms that you can have here are in use. Try again when one has ended.", "a room too many"
     ),
-    "no such room": Sentence("There is no room {code!r}. Check its code of four letters.", "a code that is typed"),
+    "no such room": Sentence("There is no room {code!r}. Check its code of six letters.", "a code that is typed"),
     "room full": Sentence("The room is full: it holds {most} visitors.", "a phone too many"),
-    "too many codes": Sentence("Too many codes were tried. Reload the page.", "codes that are guessed"),
+    "too many codes": Sentence(
+        "Too many codes were tried from your network. Wait a minute, and check the code.", "codes that are guessed"
+    ),
     "no such lesson": Sentence("There is no lesson {name!r}. Choose one such as {some}.", "a link"),
 }
 

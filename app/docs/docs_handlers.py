@@ -30,8 +30,12 @@ class Docs(RequestHandler):
             self.set_status(404)
             self.finish(UNBUILT)
             return
-        file = (folder / path / ("index.html" if path.endswith("/") or not path else "")).resolve()
-        if not file.is_relative_to(folder.resolve()) or not file.is_file():
+        try:
+            file = (folder / path / ("index.html" if path.endswith("/") or not path else "")).resolve()
+            found = file.is_relative_to(folder.resolve()) and file.is_file()
+        except (OSError, ValueError):  # too long a name, or one that no system has
+            raise HTTPError(404) from None
+        if not found:
             raise HTTPError(404)
         kind = mimetypes.guess_type(file.name)[0] or "application/octet-stream"
         self.set_header("Content-Type", f"{kind}; charset=utf-8" if kind.startswith("text/") else kind)

@@ -53,10 +53,9 @@ class KeptResults:
         self._kept.move_to_end(key)
         return self._kept[key][0]
 
-    def put(self, key: Hashable, result: Any) -> None:
-        """Keep a result, and forget those not used for longest."""
+    def put(self, key: Hashable, result: Any, size: int | None) -> None:
+        """Keep a result of so many bytes, and forget those not used for longest."""
         self.size -= self._kept.pop(key, (None, 0))[1]
-        size = _result_size(result)
         if size is None or size > self.most_bytes:
             return
         self._kept[key] = result, size
@@ -65,7 +64,7 @@ class KeptResults:
             self.size -= self._kept.popitem(last=False)[1][1]
 
 
-def _result_size(result: Any) -> int | None:
+def result_size(result: Any) -> int | None:
     """Return about how many bytes a result holds; what cannot be sent by a process has no size that is known."""
     try:
         return len(pickle.dumps(result, pickle.HIGHEST_PROTOCOL))
@@ -200,6 +199,7 @@ class WorkQueue:
 
     def _done(self, work: QueuedWork, done: Future[Any]) -> None:
         result, lost = _outcome(done)
+        size = result_size(result)  # before the lock: pickling takes long, and whoever answers visitors waits for it
         with self._lock:
             owner = self._running.pop(work, None)
             if owner in self._used:
@@ -212,7 +212,7 @@ class WorkQueue:
                 self._queues.setdefault(owner, deque()).appendleft(work)
             elif wanted:
                 del self._works[work.key]
-                self.results.put(work.key, result)
+                self.results.put(work.key, result, size)
             self._next()
         self._forget_idle()
         if wanted and not again:

@@ -1,17 +1,19 @@
 """The rooms of one server process: who has opened one, who is in one, and what the one is told of the others.
 
-A room is a code of four letters. Its lecturer holds a key, of which the code is the digest, so that the room can be
+A room is a code of six letters. Its lecturer holds a key, of which the code is the digest, so that the room can be
 taken up again from another page or process. Who is in it shows a row: a number, the name of his portrait, his
 settings, and how far he is in a lesson. A room ends when it is closed, when nobody has held its key for a while, or
-after some hours; then nothing of it is left.
+after some hours; then nothing of it is left. One that had no guest goes with its page.
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
+import logging
 import secrets
 import time
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -20,14 +22,15 @@ from ..phrases import say
 from .board import Board
 
 #: Without vowels no code is a word, and none of these is taken for another, or for a figure.
-LETTERS, CODE_LENGTH = "BCDFGHJKLMNPQRSTVWXZ", 4
+LETTERS, CODE_LENGTH = "BCDFGHJKLMNPQRSTVWXZ", 6
 HOURS = 4.0  # that a room lasts
 LINGERS = 600.0  # seconds for which it waits for its lecturer to come back
 CLOSED_SECONDS = 120.0  # seconds for which it is known that it was closed
 LOST_SECONDS = 60.0  # seconds for which a process that holds it may be gone
 # (They are counted by the clock of the machine's start, which all its processes share and nobody sets.)
 MOST_ROOMS, MOST_GUESTS, LONGEST_ROW = 20, 300, 2000
-MOST_TRIES = 20  # of one page: codes are not to be guessed
+SHARE = 4  # of all rooms, one network address has at most this part
+MOST_TRIES = 60  # of one network address in a minute, in vain: codes are not to be guessed
 SHARING_SECONDS = 0.5  # seconds
 
 #: ``[number, name of the portrait, settings or None, [lesson, question, right] or None]``
@@ -51,6 +54,8 @@ class Host:
     left: float = 0.0
     closed: float = 0.0
     shown: Any = None
+    address: str = ""
+    had_guest: bool = False
 
     def is_open(self, now: float) -> bool:
         """Say whether the room is open."""
@@ -88,6 +93,7 @@ class Rooms:
         self.hosts: dict[str, Host] = {}
         self.guests: dict[int, Guest] = {}
         self._count = 0
+        self._tried: tuple[int, Counter[str]] = 0, Counter()  # in which minute, by network address
         self._ticks: Callable[[], None] | None = None
 
     def beat_with(self, begin: Callable[[], None]) -> None:
@@ -101,10 +107,13 @@ class Rooms:
 
     # The lecturer ----------------------------------------------------------------------------------------------
 
-    def open(self, key: str, tell: Tell, now: float | None = None, view: Callable[[], Any] = dict) -> tuple[str, str]:
+    def open(
+        self, key: str, tell: Tell, now: float | None = None, view: Callable[[], Any] = dict, address: str = ""
+    ) -> tuple[str, str]:
         """Open a room, or take up the one of this key; return its code and its key.
 
-        `view` returns what the lecturer shows: who types the code begins with it.
+        `view` returns what the lecturer shows: who types the code begins with it. If all rooms are taken, or all that
+        his network address may have, the oldest without a guest gives way.
 
         Raises
         ------
@@ -122,29 +131,52 @@ class Rooms:
             while not key or code in states:
                 key = secrets.token_urlsafe(16)
                 code, mark = code_of(key), mark_of(key)
-        if code not in self.hosts and self.count(now) >= self.most:
-            raise RoomError(say("all rooms taken", most=self.most))
-        self.hosts[code] = Host(code, mark, min((opened for opened, _ in known), default=now), tell, view)
+        if code not in self.hosts:
+            self._make_room(address, now)
+        had_guest = code in self.hosts and self.hosts[code].had_guest
+        opened = min((opened for opened, _ in known), default=now)
+        self.hosts[code] = Host(code, mark, opened, tell, view, address=address, had_guest=had_guest)
         self._begin(now)
         return code, key
 
+    def _make_room(self, address: str, now: float) -> None:
+        """See that one more room may be open, of all and of a network address."""
+        there = [host for host in self.hosts.values() if host.is_open(now)]
+        own = [host for host in there if host.address == address]
+        for rooms, most in ((own, max(1, self.most // SHARE) if address else self.most), (there, self.most)):
+            if len(rooms) < most:
+                continue
+            empty = [host for host in rooms if not self._rows(host.code, now)]
+            if not empty:
+                raise RoomError(say("all rooms taken", most=most))
+            self.close(min(empty, key=lambda host: (host.tell is not None, host.opened)).code, now)
+            there = [host for host in there if host.is_open(now)]
+
     def leave_open(self, code: str, tell: Tell, now: float | None = None) -> None:
-        """Note that a lecturer's page has gone: he may come back."""
+        """Note that a lecturer's page has gone: he may come back, but where nobody was a room is not kept."""
+        now = time.monotonic() if now is None else now
         host = self.hosts.get(code)
         if host is not None and host.tell is tell:  # else another page holds the room by now
-            host.tell, host.left = None, time.monotonic() if now is None else now
+            host.tell, host.left = None, now
+            if not host.had_guest and not self._rows(code, now):
+                del self.hosts[code]
+                self._write(now)
 
     def close(self, code: str, now: float | None = None) -> None:
         """Close a room: all who are in it are told."""
         now = time.monotonic() if now is None else now
         host = self.hosts.get(code)
         if host is not None and not host.closed:
-            host.tell, host.closed = None, now
+            tell, host.tell, host.closed = host.tell, None, now
+            if tell is not None:
+                tell({"ended": code})
             self.tick(now)
 
     # Who is in it ----------------------------------------------------------------------------------------------
 
-    def join(self, code: str, look: Callable[[], GuestRow], tell: Tell, now: float | None = None) -> Guest:
+    def join(
+        self, code: str, look: Callable[[], GuestRow], tell: Tell, now: float | None = None, address: str = ""
+    ) -> Guest:
         """Enter a room.
 
         Parameters
@@ -159,17 +191,25 @@ class Rooms:
         Raises
         ------
         RoomError
-            There is no such room, or it is full.
+            There is no such room, it is full, or too many codes were tried from a network address.
         """
         now = time.monotonic() if now is None else now
         code = code.strip().upper()
+        minute = int(now / 60.0)
+        if self._tried[0] != minute:
+            self._tried = minute, Counter()
+        if self._tried[1][address] >= MOST_TRIES:
+            raise RoomError(say("too many codes"))
         if self._states(now).get(code) != "open":
+            self._tried[1][address] += 1
             raise RoomError(say("no such room", code=code[:8]))
         if len(self._rows(code, now)) >= MOST_GUESTS:
             raise RoomError(say("room full", most=MOST_GUESTS))
         self._count += 1
         number = self._count * self.board.processes + self.board.mine  # no other process gives it
         guest = self.guests[number] = Guest(number, code, look, tell)
+        if code in self.hosts:
+            self.hosts[code].had_guest = True
         self._begin(now)
         return guest
 
@@ -224,11 +264,11 @@ class Rooms:
                 guest.tell({"ended": guest.code})
             self._show(guest, now)
         for host in self.hosts.values():
-            if host.tell is not None:
-                rows = self._rows(host.code, now)
-                if rows != host.shown:
-                    host.shown = rows
-                    host.tell({"rows": rows})
+            rows = self._rows(host.code, now)
+            host.had_guest = host.had_guest or bool(rows)
+            if host.tell is not None and rows != host.shown:
+                host.shown = rows
+                host.tell({"rows": rows})
         return bool(self.hosts or self.guests)
 
     def _begin(self, now: float) -> None:
@@ -238,10 +278,14 @@ class Rooms:
 
     def _write(self, now: float) -> None:
         rows: dict[str, list[GuestRow]] = {}
-        for guest in self.guests.values():
-            rows.setdefault(guest.code, []).append(_guest_row(guest))
+        for guest in list(self.guests.values()):
+            try:
+                rows.setdefault(guest.code, []).append(_guest_row(guest))
+            except Exception:  # his room and all others go on without him
+                logging.getLogger(__name__).exception("a guest of a room cannot be shown; he is taken out of it")
+                self.leave(guest)
         hosts = {host.code: [host.opened, host.is_open(now), host.closed, host.mark] for host in self.hosts.values()}
-        views = {host.code: _short_settings(host.view()) for host in self.hosts.values() if host.tell is not None}
+        views = {host.code: _view_of(host) for host in self.hosts.values() if host.tell is not None}
         if not self.board.write({"hosts": hosts, "rows": rows, "views": views}, now):
             bare = {code: [[row[0], row[1], None, row[3]] for row in all_] for code, all_ in rows.items()}
             self.board.write({"hosts": hosts, "rows": bare, "views": {}}, now)
@@ -266,9 +310,13 @@ class Rooms:
         return [row for _, _, told in self.board.read(now) for row in told["rows"].get(code, ())]
 
 
+def _bytes_of(key: str) -> bytes:
+    return key.encode("utf-8", "backslashreplace")  # JSON may hold half of a character
+
+
 def code_of(key: str) -> str:
     """Return the code of the room of a key."""
-    number = int.from_bytes(hashlib.sha256(key.encode()).digest()[:8], "big")
+    number = int.from_bytes(hashlib.sha256(_bytes_of(key)).digest()[:8], "big")
     letters = []
     for _ in range(CODE_LENGTH):
         number, at = divmod(number, len(LETTERS))
@@ -278,7 +326,7 @@ def code_of(key: str) -> str:
 
 def mark_of(key: str) -> str:
     """Return what tells the keys of one code apart, and does not give them away."""
-    return hashlib.sha256(b"mark " + key.encode()).hexdigest()[:24]
+    return hashlib.sha256(b"mark " + _bytes_of(key)).hexdigest()[:24]
 
 
 def _guest_row(guest: Guest) -> GuestRow:
@@ -289,6 +337,15 @@ def _guest_row(guest: Guest) -> GuestRow:
         _short_settings(settings),
         lesson,
     ]  # without settings it is counted, but cannot be opened
+
+
+def _view_of(host: Host) -> Any:
+    """Return what a lecturer shows; None where that cannot be told, so that the other rooms go on."""
+    try:
+        return _short_settings(host.view())
+    except Exception:
+        logging.getLogger(__name__).exception("what the lecturer of a room shows cannot be told")
+        return None
 
 
 def _short_settings(settings: Any) -> Any:

@@ -11,11 +11,10 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 
 from ..lessons.library import lessons
-from ..phrases import say
 from ..state.choices import SETTING
 from ..state.chosen_system import NORMAL
 from ..state.controls import CONTROL_NAMES, first_values
-from .rooms import MOST_TRIES, Guest, GuestRow, RoomError, code_of, process_rooms, settings_of
+from .rooms import Guest, GuestRow, RoomError, code_of, process_rooms, settings_of
 
 MAX_KEY_CHARACTERS = 64  # characters of a key or a code
 _default_values = cache(first_values)
@@ -45,11 +44,13 @@ class Visitor:
     ----------
     frames : SharedView
         What it shows.
+    address : str
+        Of its network.
     """
 
-    def __init__(self, frames: SharedView) -> None:
-        self.frames = frames
-        self._tries = 0
+    def __init__(self, frames: SharedView, address: str = "") -> None:
+        self.frames, self.address = frames, address
+        self._untold: dict[str, dict[str, Any]] = {}  # of each kind the newest message, which waits for its turn
         self._opened: tuple[str, Callable[[dict[str, Any]], None]] | None = None
         self._guest: Guest | None = None
 
@@ -73,7 +74,11 @@ class Visitor:
         asked = request if isinstance(request, Mapping) else {}
 
         def tell(message: dict[str, Any]) -> None:
-            later(lambda: reply(message))
+            (kind, *_) = message
+            waits = kind in self._untold
+            self._untold[kind] = message
+            if not waits:
+                later(lambda: reply(self._untold.pop(kind)))
 
         try:
             if isinstance(key := asked.get("open"), str):
@@ -82,7 +87,7 @@ class Visitor:
                 if self._opened is not None and self._opened[0] != code_of(key):  # a page has one room
                     process_rooms().close(self._opened[0])
                     self._opened = None
-                code, key = process_rooms().open(key, tell, view=self._view)
+                code, key = process_rooms().open(key, tell, view=self._view, address=self.address)
                 self._opened = code, tell
                 reply({"open": code, "key": key})
             elif isinstance(code := asked.get("join"), str):
@@ -101,10 +106,7 @@ class Visitor:
             reply({"error": str(error)})
 
     def _join(self, code: str, tell: Callable[[dict[str, Any]], None]) -> str:
-        self._tries += 1
-        if self._tries > MOST_TRIES:
-            raise RoomError(say("too many codes"))
-        guest = process_rooms().join(code, self._row, tell)
+        guest = process_rooms().join(code, self._row, tell, address=self.address)
         self._leave_guest()
         self._guest = guest
         return guest.code
@@ -130,6 +132,11 @@ class Visitor:
     def _view(self) -> dict[str, Any]:
         """Return what this browser shows, as far as it is other than at first."""
         return settings_of(self._values(), _default_values(), CONTROL_NAMES)
+
+    @property
+    def is_in_a_room(self) -> bool:
+        """Whether it has opened or entered one."""
+        return self._guest is not None or self._opened is not None
 
     def _leave_guest(self) -> None:
         if self._guest is not None:

@@ -9,7 +9,9 @@ import multiprocessing
 import os
 import socket
 import sys
+import webbrowser
 from collections.abc import Sequence
+from contextlib import suppress
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -92,14 +94,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if chosen.dask and chosen.processes > 1:
         return _refuse("--dask goes with one process; give no --processes.")
     stop_when_asked()
-    try:
-        _serve(chosen)
-    except ClusterError as error:
-        return _refuse(str(error))
-    except KeyboardInterrupt:
-        print("codim2: stopped", flush=True)
-        os._exit(0)  # workers end with their server, and there is nothing to save: an orderly exit waits for both
-    return 0
+    with suppress(KeyboardInterrupt):
+        try:
+            _serve(chosen)
+        except ClusterError as error:
+            return _refuse(str(error))
+    print("codim2: stopped", flush=True)
+    os._exit(0)  # workers end with their server, and there is nothing to save: an orderly exit waits for both
 
 
 def _refuse(why: str) -> int:
@@ -155,6 +156,7 @@ def _serve(chosen: argparse.Namespace) -> None:
 
     if uncached := prepare():
         print(f"codim2: {uncached}", file=sys.stderr, flush=True)
+    from .application import run
     from .page import make_server
 
     long: dict[str, Any] = {}
@@ -169,6 +171,8 @@ def _serve(chosen: argparse.Namespace) -> None:
         prefix=chosen.prefix,
         frame_ancestors=chosen.frame_ancestors,
         sessions=chosen.sessions,
+        per_address=chosen.per_address,
+        proxied=chosen.proxied,
         rooms=chosen.rooms,
         told=_say_if_compiled,
         engine=None if chosen.pyodide is None else _engine(chosen.pyodide, chosen.kernels),
@@ -180,12 +184,11 @@ def _serve(chosen: argparse.Namespace) -> None:
     print(f"codim2: the explorer is at http://{host}:{server.port}{server.prefix}/  (stop with Ctrl+C)", flush=True)
     names = ", ".join(chosen.allow_origin) or f"{host}:{server.port} only (--allow-origin names more)"
     print(f"codim2: version {version('codim2')}; listens for {whom}; pages work under {names}.", flush=True)
-    server.start()
     gc.freeze()
     gc.enable()
     if chosen.show:
-        server.io_loop.add_callback(server.show, "/")
-    server.io_loop.start()
+        server.io_loop.add_callback(webbrowser.open, f"http://{host}:{server.port}{server.prefix}/")
+    run(server.io_loop)
 
 
 def _engine(pyodide: Path, kernels: Path | None) -> Any:

@@ -47,9 +47,9 @@ class EngineFiles:
         }
         self.script = f"engine/{self._folder}/worker.js"
 
-    def route(self, prefix: str) -> tuple[Any, ...]:
+    def route(self) -> tuple[Any, ...]:
         """Return what answers for the files, and under which addresses."""
-        return rf"{prefix}/engine/{self._folder}/(.*)", EngineFile, {"packed": self._packed}
+        return rf"/engine/{self._folder}/(.*)", EngineFile, {"packed": self._packed}
 
 
 class EngineFile(RequestHandler):

@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import gzip
-from collections import OrderedDict
-from collections.abc import Mapping
-from functools import cache, lru_cache
+from functools import cache
 from html import escape
 from typing import Any
 
 import bokeh
 from tornado.web import RequestHandler
 
+from ..docs.docs_folder import site
 from ..view import warmup
-from ..view.first_markup import MARKUP, NOTICE, TITLE, page_markup, policy
-from ..view.markup import page_frame
+from ..view.first_markup import MARKUP, TITLE, policy
+from ..view.markup import explorer_html, markup_of_frame, page_frame
 from ..view.opening import link_of
-from .live import LivePages, is_known, query_of
+from .application import is_known, visitor_of
+from .live import LivePages, key_of, open_page, query_of
 from .scripts import PREVIEW, takes_packed
 
-KEPT_PAGES = 64  # addresses
 BUSY = (
     '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width">'
     '<meta http-equiv="refresh" content="{0}"><meta name="color-scheme" content="light dark"><title>Busy</title>'
@@ -29,33 +28,10 @@ BUSY = (
 )
 RETRY = 20  # seconds
 
-_pages: OrderedDict[tuple[tuple[str, str], ...], str] = OrderedDict()
-
-
-def markup_of(query: Mapping[str, str]) -> str:
-    """Return the explorer's markup for an address, with its first picture; the same address is drawn once."""
-    key = tuple(sorted(query.items()))
-    if key in _pages:
-        _pages.move_to_end(key)
-        return _pages[key]
-    markup, complete = page_markup(link_of(query))
-    if complete:
-        _pages[key] = markup
-        if len(_pages) > KEPT_PAGES:
-            _pages.popitem(last=False)
-    return markup
-
 
 @cache
 def _page_frame() -> str:
     return page_frame(TITLE, f"./static/js/bokeh.min.js?v={bokeh.__version__}", "live")
-
-
-@lru_cache(maxsize=KEPT_PAGES)
-def _ready_page(text: str, ancestors: str) -> tuple[bytes, bytes, str]:
-    """Return a page, the same compressed, and what may run in it: made once for all who open one address."""
-    page = text.encode()
-    return page, gzip.compress(page, 6, mtime=0), policy(page, ancestors)
 
 
 class Page(RequestHandler):
@@ -65,27 +41,50 @@ class Page(RequestHandler):
         """Take what `make_server` gives."""
         self.places, self.ancestors = places, ancestors
 
-    def get(self) -> None:
-        """Answer with the page, or ask to wait where all places are taken."""
+    async def get(self) -> None:
+        """Answer with the page in its turn, or ask to wait where all places are taken."""
         if not self.request.path.endswith("/"):  # all addresses in it are below it
             self.redirect(f"{self.request.path}/?{self.request.query}".rstrip("?"))
             return
         self.set_header("Cache-Control", "no-store")
-        if self.places.full:
+        if not self.places.has_place(visitor_of(self.request)):
             self.places.refused += 1
             self.set_status(503)
             self.set_header("Retry-After", str(RETRY))
             self.finish(BUSY.format(RETRY))
             return
-        app: Any = self.application
-        here = f"{self.request.protocol}://{escape(self.request.host)}{app.prefix}"
-        text = _page_frame().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
-        text = text.replace(MARKUP, markup_of(query_of(self.request.arguments)))
-        page, packed, allowed = _ready_page(text.replace(NOTICE, self._notice()), self.ancestors)
+        page, packed, allowed = await self.places.rota.take_turn(self._page, visitor_of(self.request))
         self.set_header("Content-Security-Policy", allowed)
         if takes_packed(self):
             self.set_header("Content-Encoding", "gzip")
         self.finish(packed if takes_packed(self) else page)
+
+    def _page(self) -> tuple[bytes, bytes, str]:
+        """Return the page, the same compressed, and what may run in it.
+
+        Its first picture is the one that the line of this address began with; where no line has, the page is without.
+        """
+        application: Any = self.application
+        query = query_of(self.request.arguments)
+        key = key_of(query)
+        here = f"{self.request.protocol}://{self.request.host.lower()}"
+        here = escape(here) + application.prefix if is_known(here, application.listed) else "."
+        kept = self.places.pages.get((key, here))
+        if kept is not None:
+            return kept
+        link = link_of(query)
+        first = self.places.firsts.get(key)
+        if first is None and not key:  # the page that most begin with
+            first = open_page(query, self.places)[2]
+        shown = explorer_html(link.state, {}, (), link.look, site() is not None)
+        if first is not None:
+            shown = markup_of_frame(link, first, site() is not None)
+        text = _page_frame().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
+        page = text.replace(MARKUP, shown).encode()
+        made = page, gzip.compress(page, 6, mtime=0), policy(page, self.ancestors)
+        if key in self.places.firsts:
+            self.places.pages.keep((key, here), made, sum(map(len, made)))
+        return made
 
     head = get
 
@@ -96,16 +95,3 @@ class Page(RequestHandler):
     def on_finish(self) -> None:
         """Let go on what stands back for the first page."""
         warmup.page_sent()
-
-    def _notice(self) -> str:
-        """Say what to set where the browser's websocket will be refused: under a name that is not allowed."""
-        host = self.request.host.lower()
-        names = list(self.application.websocket_origins)  # type: ignore[attr-defined]  # Bokeh's
-        if is_known(f"{self.request.protocol}://{host}", names):
-            return ""
-        return (
-            '<p role="alert" style="font:16px sans-serif;margin:0;padding:.8em;background:#fff6e0;color:#1c2430">'
-            f"This server does not expect to be reached as <b>{escape(host)}</b>, so the picture below cannot move. "
-            f"Start it with <code>--allow-origin {escape(host)}</code> or <code>CODIM2_ORIGINS={escape(host)}</code>."
-            "</p>"
-        )

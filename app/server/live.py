@@ -10,18 +10,17 @@ from __future__ import annotations
 
 import json
 import logging
-from collections import deque
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
+import time
+from collections import Counter, deque
+from collections.abc import Callable, Mapping
 from typing import Any
 
-from bokeh.server.util import check_allowlist
 from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
+from ..draw.packing import unpack
 from ..frame.budget import Budget
 from ..state.chosen_system import NORMAL
-from ..state.links import Link
 from ..state.request_reading import MOST_CONTROLS
 from ..state.system_opening_values import opening_values
 from ..view.answers import AnswerQueue
@@ -29,25 +28,29 @@ from ..view.markup import edition
 from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
 from ..view.warmup import FormulaQuota, is_ready_for_all
+from .application import is_known, visitor_of
+from .kept import Kept
 from .session_queue import Rota
 
 #: Bytes of one message from a browser: a request is a few hundred.
 MOST_SENT = 200_000
-#: What a page may ask for at once: a frame, files, and a room.
-MOST_ASKED = 8
+#: Bytes that are kept for all: first frames by address (10 kB each), and pages with them (200 kB).
+MOST_FIRSTS, MOST_PAGES = 4_000_000, 16_000_000
+#: What a page may ask for at once: a frame, files, and a room; all together in `2 * MOST_SENT` bytes.
+MOST_ASKED = 64
+#: Pages that one network address may have open.
+MOST_OF_ONE = 200
+#: Seconds between two pages that come back after their server was gone, which opening one takes; and at most for one.
+RETURN_SECONDS, MAX_RETURN_SECONDS = 0.05, 20.0
+#: Seconds after which a page that has asked nothing gives its place to another one, where all are taken.
+RESTING_SECONDS = 180.0
 #: Names of what is asked or told besides frames.
 ASIDE = frozenset({"take", "room", "note"})
-#: Why a connection is closed before its page has begun, as codes of websockets: all places are taken; a fault here.
-CLOSE_FULL, CLOSE_FAILED, REFUSED = 1013, 1011, 1008
+#: Why a connection is closed, as codes of websockets: all places are taken; a fault here; a message that no page sends;
+#: the page has rested for long, and another one has its place.
+CLOSE_FULL, CLOSE_FAILED, REFUSED, CLOSE_RESTING = 1013, 1011, 1008, 4001
 
 _log = logging.getLogger(__name__)
-
-
-def is_known(origin: str, names: Sequence[str]) -> bool:
-    """Whether pages of an origin may have a line: its host is among the names that the server was told of."""
-    scheme, _, host = origin.lower().partition("://")
-    port = "" if ":" in host else ":443" if scheme == "https" else ":80"
-    return check_allowlist(host + port, names) or check_allowlist(host, names)
 
 
 def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
@@ -55,11 +58,22 @@ def query_of(arguments: Mapping[str, list[bytes]]) -> dict[str, str]:
     return {name: values[-1].decode("utf-8", "replace") for name, values in arguments.items() if values}
 
 
-def open_page(link: Link, engine: Mapping[str, Any] | None = None) -> tuple[Frames, str, bytes]:
-    """Return what a page shows, what its script must know, and its first frame."""
+def key_of(query: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
+    """Return what an address is kept by."""
+    return tuple(sorted(query.items()))
+
+
+def open_page(query: Mapping[str, str], places: LivePages) -> tuple[Frames, str, bytes]:
+    """Return what a page shows, what its script must know, and its first frame, which is kept if it is whole."""
+    link = link_of(query)
     budget = Budget(FormulaQuota().elsewhere)
     frames = Frames(link.state, None, is_ready_for_all, link.errors, budget)
-    return frames, *opening_messages(frames, link, edition(), engine=engine)
+    config, first = opening_messages(frames, link, edition(), engine=places.engine)
+    header, _ = unpack(first)
+    if header.get("ready") and "picture" not in header.get("late", ()):
+        key = key_of(query)
+        places.firsts.keep(key, first, len(first) + len(str(key)))
+    return frames, config, first
 
 
 def merge_requests(kept: Mapping[str, Any], newer: Mapping[str, Any]) -> dict[str, Any]:
@@ -86,24 +100,55 @@ class LivePages:
         What pages are told of a worker of their own.
     open : set of LiveConnection
     rota : Rota
+    firsts, pages : Kept
+        First frames by address, and pages with them.
     frames, openings, refused : int
         How many have been sent, were let in, and found no place.
     """
 
-    def __init__(self, most: int, engine: Mapping[str, Any] | None = None) -> None:
-        self.most, self.engine, self.open, self.rota = most, engine, set[LiveConnection](), Rota()
+    def __init__(self, most: int, engine: Mapping[str, Any] | None = None, most_of_one: int = MOST_OF_ONE) -> None:
+        self.most, self.most_of_one, self.engine = most, most_of_one, engine
+        self.open, self.addresses, self.rota = set[LiveConnection](), Counter[str](), Rota()
+        self.firsts, self.pages = Kept[bytes](MOST_FIRSTS), Kept[tuple[bytes, bytes, str]](MOST_PAGES)
         self.frames = self.openings = self.refused = 0
+        self._next_return = 0.0
 
-    def beat(self) -> None:
-        """Give each page a sign of life."""
-        for page in self.open:
-            with suppress(WebSocketClosedError):
-                page.ping(b"")
+    def has_place(self, address: str) -> bool:
+        """Whether one more page of a network address may be open; one that rests for long gives its place up."""
+        if self.addresses[address] >= self.most_of_one:
+            return False
+        return len(self.open) < self.most or self._resting() is not None
 
-    @property
-    def full(self) -> bool:
-        """Whether all are taken."""
-        return len(self.open) >= self.most
+    def let_in(self, page: LiveConnection) -> bool:
+        """Give a page a place, or say that there is none."""
+        if not self.has_place(page.address):
+            self.refused += 1
+            return False
+        if len(self.open) >= self.most and (resting := self._resting()) is not None:
+            self.let_out(resting)
+            resting.close(CLOSE_RESTING, "another page has taken its place")
+        self.open.add(page)
+        self.addresses[page.address] += 1
+        return True
+
+    def let_out(self, page: LiveConnection) -> None:
+        """Have a page's place free."""
+        if page in self.open:
+            self.open.remove(page)
+            self.addresses[page.address] -= 1
+            if not self.addresses[page.address]:
+                del self.addresses[page.address]
+
+    def turn_of_return(self) -> float:
+        """Return the seconds after which a page that has lost its server may come back: one after the other."""
+        now = time.monotonic()
+        self._next_return = min(max(now, self._next_return + RETURN_SECONDS), now + MAX_RETURN_SECONDS)
+        return round(self._next_return - now, 3)
+
+    def _resting(self) -> LiveConnection | None:
+        """Return the page that has asked nothing for longest, if that is minutes; who is in a room stays."""
+        longest = min((page for page in self.open if not page.is_in_a_room), key=lambda page: page.heard, default=None)
+        return None if longest is None or time.monotonic() - longest.heard < RESTING_SECONDS else longest
 
 
 class LiveConnection(WebSocketHandler):
@@ -111,43 +156,50 @@ class LiveConnection(WebSocketHandler):
 
     def initialize(self, places: LivePages) -> None:
         """Take what `make_server` gives."""
-        self.places = places
+        self.places, self.address = places, visitor_of(self.request)
+        self.heard = time.monotonic()  # when it asked for something last
         self.answers: AnswerQueue | None = None
         self._request: dict[str, Any] | None = None  # for a frame, with all that has been set since the last one
         self._asked: deque[Callable[[], None]] = deque()  # in the order in which it came; `_request` is one of them
+        self._asked_bytes = 0  # of messages that wait
         self._writing = False
+
+    @property
+    def is_in_a_room(self) -> bool:
+        """Whether its visitor has opened or entered one."""
+        return self.answers is not None and self.answers.visitor.is_in_a_room
 
     def check_origin(self, origin: str) -> bool:
         """Let pages of this server in, and of the hosts that it was told of."""
-        return is_known(origin, list(self.application.websocket_origins))  # type: ignore[attr-defined]  # Bokeh's
+        app: Any = self.application
+        return is_known(origin, app.names)
 
     def open(self, *_: str, **__: str) -> None:
         """Let a page in, in its turn."""
         self.set_nodelay(True)
         self._loop = IOLoop.current()
-        if self.places.full:
-            self.places.refused += 1
+        if not self.places.let_in(self):
             self.close(CLOSE_FULL, "all places are taken")
             return
-        self.places.open.add(self)
-        self.places.rota.come_in(self._begin)
+        self.places.rota.come_in(self._begin, self.address)
 
     def _begin(self) -> None:
         if self not in self.places.open:
             return
         try:
-            frames, config, first = open_page(link_of(query_of(self.request.arguments)), self.places.engine)
-        except Exception:  # the page says so; the log has the rest
+            frames, config, first = open_page(query_of(self.request.arguments), self.places)
+        except BaseException:  # the page says so; the log has the rest
             _log.exception("a page could not be opened")
             self.close(CLOSE_FAILED, "a page could not be opened")
             return
         self.places.openings += 1
-        self.answers = AnswerQueue(frames, self._send, self._later, self._loop.call_later)
+        self.answers = AnswerQueue(frames, self._send, self._later, self._loop.call_later, self.address)
         self._write(config)
         self._write(first)
 
     def on_message(self, message: str | bytes) -> None:
         """Note what is asked for; it is answered in this page's turn."""
+        self.heard = time.monotonic()
         try:
             request = json.loads(message) if isinstance(message, str) else None
         except (ValueError, RecursionError):
@@ -155,13 +207,24 @@ class LiveConnection(WebSocketHandler):
         if not isinstance(request, dict):
             self._refuse("a message is no JSON object")
         elif ASIDE & request.keys():
-            if len(self._asked) < MOST_ASKED:
-                self._errand(lambda: self._answer(request))
+            self._ask_aside(request, len(message))
         elif self._request is None:
             self._request = request
             self._errand(self._answer_request)
         else:
             self._request = merge_requests(self._request, request)
+
+    def _ask_aside(self, request: dict[str, Any], size: int) -> None:
+        if len(self._asked) >= MOST_ASKED or self._asked_bytes + size > 2 * MOST_SENT:
+            self._refuse("more is asked at once than a page asks")
+            return
+
+        def answer() -> None:
+            self._asked_bytes -= size
+            self._answer(request)
+
+        self._asked_bytes += size
+        self._errand(answer)
 
     def _ask(self) -> None:
         if self._asked and self.answers is not None and not self._writing:
@@ -222,7 +285,7 @@ class LiveConnection(WebSocketHandler):
 
     def on_close(self) -> None:
         """End what was computed for this page alone."""
-        self.places.open.discard(self)
+        self.places.let_out(self)
         self.places.rota.leave(self)
         answers, self.answers = self.answers, None
         self._asked.clear()

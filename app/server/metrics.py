@@ -18,6 +18,7 @@ from ..frame.work_queue import WorkQueue
 from ..rooms.rooms import Rooms
 from ..view import warmup
 from .live import LivePages
+from .process.lag import LoopLag
 
 CONTENT_TYPE = "text/plain; version=0.0.4; charset=utf-8"
 #: Seconds.
@@ -41,6 +42,9 @@ class Metrics:
         words = "Seconds that a page waited for its turn"
         delays = Histogram("codim2_wait_seconds", words, ["process"], registry=self.registry, buckets=BUCKETS)
         places.rota.waited = delays.labels(str(os.getpid())).observe
+        words = "Seconds by which the loop was late, whatever held it"
+        late = Histogram("codim2_loop_lag_seconds", words, ["process"], registry=self.registry, buckets=BUCKETS)
+        self.lag = LoopLag(late.labels(str(os.getpid())).observe)
 
     def collect(self) -> Iterator[Metric]:
         """Yield what is so now."""
@@ -87,9 +91,12 @@ def _resident_memory() -> float:
 class MetricsPage(RequestHandler):
     """Answers ``/metrics``."""
 
+    def initialize(self, metrics: Metrics) -> None:
+        """Take what `make_server` gives."""
+        self.metrics = metrics
+
     def get(self) -> None:
         """Send the text."""
-        metrics: Metrics = self.settings["metrics"]
         self.set_header("Content-Type", CONTENT_TYPE)
         self.set_header("Cache-Control", "no-store")
-        self.finish(metrics.text())
+        self.finish(self.metrics.text())

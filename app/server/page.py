@@ -10,13 +10,13 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import Executor
+from dataclasses import dataclass
 from functools import partial
 from importlib.metadata import version
 from typing import Any
 
-import panel as pn
+from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
-from tornado.process import task_id
 from tornado.web import RequestHandler
 
 from ..docs.docs_handlers import Docs, ToDocs
@@ -29,17 +29,18 @@ from ..rooms.rooms import serve_with as serve_rooms
 from ..view import warmup
 from ..view.compiling.steps import Told
 from ..view.markup import edition
+from .application import ExplorerApplication, known_names
 from .engine_files import EngineFiles, served_panels
 from .first_page import Page
 from .headers import embedders, transform
 from .kernel_cache import begin_early
-from .live import MOST_SENT, LiveConnection, LivePages
+from .live import MOST_OF_ONE, MOST_SENT, LiveConnection, LivePages
 from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
 from .process.compile_throttle import stand_back
 from .process.listener import Listener
-from .process.ports import listen_by_own, share_port
-from .scripts import routes
+from .process.ports import bind, fork
+from .scripts import ROUTES, QrCode
 
 #: What the workers find imported.
 PRELOAD = ("codim2_app.server.worker",)
@@ -50,8 +51,27 @@ SWITCH = 0.0005
 
 #: Seconds for which a connection may say nothing before its next request, or go on with one; no websocket.
 HEADERS = 20.0
+#: Seconds by which the loop of a process is late that is not well.
+LATE_SECONDS = 2.0
+#: Bytes of a request's lines, of which a link is the longest.
+MAX_HEADER_BYTES = 20_000
 #: Seconds between two signs of life to each page: proxies close a line on which nothing is said for a minute.
 BEAT = 37.0
+
+
+@dataclass
+class Server:
+    """A server of the explorer: it listens, and answers once its loop runs."""
+
+    application: ExplorerApplication
+    http: HTTPServer
+    io_loop: IOLoop
+    port: int
+
+    @property
+    def prefix(self) -> str:
+        """The path below which it answers."""
+        return self.application.prefix
 
 
 class ToRoom(RequestHandler):
@@ -62,7 +82,7 @@ class ToRoom(RequestHandler):
         self.redirect("./?room=new")
 
 
-def health() -> dict[str, str]:
+def health() -> dict[str, Any]:
     """Return what the process says of itself."""
     return {"status": "ok", "version": version("codim2"), "edition": edition()}
 
@@ -70,10 +90,23 @@ def health() -> dict[str, str]:
 class Health(RequestHandler):
     """Answers 200 while the process serves: a container that does not is started again."""
 
+    def initialize(self, metrics: Metrics) -> None:
+        """Take what `make_server` gives."""
+        self.metrics = metrics
+
     def get(self) -> None:
-        """Say that it is there, and which version it is; pages that come back look whether it is still theirs."""
+        """Say that it is there, and which version it is; pages that come back look whether it is still theirs.
+
+        Each of these is told how long to wait, so that many do not wait for each other. 503: the loop is late.
+        """
         self.set_header("Cache-Control", "no-store")
-        self.write(health())
+        said = health()
+        if self.metrics.lag.worst >= LATE_SECONDS:
+            self.set_status(503)
+            said["status"] = "late"
+        elif self.get_query_argument("back", "") == "1":
+            said["wait"] = self.metrics.places.turn_of_return()
+        self.write(said)
 
     head = get
 
@@ -101,14 +134,15 @@ def make_server(
     prefix: str = "",
     frame_ancestors: str = "'self'",
     sessions: int = 400,
+    per_address: int = MOST_OF_ONE,
+    proxied: bool = False,
     rooms: int = MOST_ROOMS,
     told: Told | None = None,
     engine: EngineFiles | None = None,
     executor: Executor | None = None,
     at_once: int = 1,
-    **options: Any,
-) -> Any:
-    """Return a server of the explorer, not yet started (``.start()``, ``.io_loop.start()``).
+) -> Server:
+    """Return a server of the explorer, which answers when its loop runs (``.io_loop.start()``).
 
     Parameters
     ----------
@@ -128,6 +162,10 @@ def make_server(
         Who may embed the pages besides this server, as Content-Security-Policy says it.
     sessions : int
         Open pages of a process, beyond which a new one is asked to wait.
+    per_address : int
+        Open pages of one network address, of a process.
+    proxied : bool
+        Whether a proxy in front says in X-Real-IP whose a request is; nobody else may reach the server then.
     rooms : int
         Rooms that lecturers have open at once, of a process; 0 for none.
     told : callable, optional
@@ -150,25 +188,54 @@ def make_server(
         begin()
     parent = os.getpid()
     board = Board(processes)
-    places = LivePages(sessions, engine and {"script": engine.script, "served": served_panels()})
+    places = LivePages(sessions, engine and {"script": engine.script, "served": served_panels()}, per_address)
     listen = partial(Listener, counts=Counter(), places=sessions, health=json.dumps(health()))
-    with share_port(processes, listen):
-        server = _server(port, address, allow_origin, processes, prefix, places, embedders(frame_ancestors), options)
-    keep_steady(server.io_loop)
-    listen_by_own(server, address, listen)
-    board.belong(task_id() or 0)
+    sockets, port = bind(port, address, processes)
+    sockets, number = fork(sockets, address, processes)
+    board.belong(number)
     kept = Rooms(board, rooms)
     _keep(kept)
-    application = server._tornado  # noqa: SLF001 (Bokeh hands out no other way to it)
-    application.settings["metrics"] = Metrics(places, turns, kept)
-    application.add_handlers(".*", routes(server.prefix) + ([engine.route(server.prefix)] if engine else []))
-    application.transforms.insert(0, transform(frame_ancestors))  # before they are compressed
-    application.settings["log_function"] = _log_request
+    metrics = Metrics(places, turns, kept)
+    application = ExplorerApplication(
+        [
+            (r"/?", Page, {"places": places, "ancestors": embedders(frame_ancestors)}),
+            (r"/live", LiveConnection, {"places": places}),
+            (r"/health", Health, {"metrics": metrics}),
+            (r"/ready", Ready),
+            (r"/metrics", MetricsPage, {"metrics": metrics}),
+            (r"/room", ToRoom),
+            (r"/docs", ToDocs),
+            (r"/docs/(.*)", Docs),
+            (r"/qr\.svg", QrCode, {"rota": places.rota}),
+            *ROUTES,
+            *([engine.route()] if engine else []),
+        ],
+        f"/{prefix.strip('/')}".rstrip("/"),
+        known_names(allow_origin, port),
+        transform(frame_ancestors),
+        websocket_max_message_size=MOST_SENT,
+        websocket_ping_interval=BEAT,  # a page that has not answered at the next beat has gone
+        websocket_ping_timeout=BEAT,
+        log_function=_log_request,
+    )
+    loop = IOLoop.current()
+    keep_steady(loop)
+    http = HTTPServer(
+        application,
+        idle_connection_timeout=HEADERS,
+        body_timeout=HEADERS,
+        max_header_size=MAX_HEADER_BYTES,
+        max_body_size=0,  # nobody sends any
+        max_buffer_size=4 * MOST_SENT,
+        xheaders=proxied,
+    )
+    http.add_sockets(map(listen, sockets))
+    loop.add_callback(metrics.lag.begin)
+    server = Server(application, http, loop, port)
     if not warmup_now:
-        server.io_loop.add_callback(begin)
-    server.io_loop.add_callback(PeriodicCallback(places.beat, 1000 * BEAT).start)
+        loop.add_callback(begin)
     if os.getpid() != parent:
-        _stop_with(parent, server.io_loop)
+        _stop_with(parent, loop)
     return server
 
 
@@ -213,38 +280,3 @@ def _stop_with(parent: int, loop: IOLoop) -> None:
             loop.stop()
 
     loop.add_callback(PeriodicCallback(check, 1000).start)
-
-
-def _server(
-    port: int,
-    address: str,
-    allow_origin: Sequence[str],
-    processes: int,
-    prefix: str,
-    places: LivePages,
-    ancestors: str,
-    options: dict[str, Any],
-) -> Any:
-    return pn.io.server.get_server(
-        {},
-        port=port,
-        address=address,
-        websocket_origin=list(allow_origin) or None,
-        num_procs=processes,
-        extra_patterns=[
-            (r"/?", Page, {"places": places, "ancestors": ancestors}),
-            (r"/live", LiveConnection, {"places": places}),
-            (r"/health", Health),
-            (r"/ready", Ready),
-            (r"/metrics", MetricsPage),
-            (r"/room", ToRoom),
-            (r"/docs", ToDocs),
-            (r"/docs/(.*)", Docs),
-        ],
-        websocket_max_message_size=MOST_SENT,
-        prefix=prefix,
-        compress_response=True,
-        start=False,
-        http_server_kwargs={"idle_connection_timeout": HEADERS, "body_timeout": HEADERS},
-        **options,
-    )

@@ -4,23 +4,35 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
-from urllib.parse import urlsplit
 
 LEVELS = ("debug", "info", "warning", "error")
 #: Of the tests and the continuous integration: no settings of the server.
 OTHERS = frozenset({"CODIM2_CHROMIUM", "CODIM2_PAPER", "CODIM2_NGINX", "CODIM2_TEST_RUN", "CODIM2_BEFORE"})
 
 
-def whole_number(least: int, most: int | None = None) -> Callable[[str], int]:
+_NAME = r"(\*|[\w.*-]+|\[[0-9a-fA-F:.]+\])"
+HOST = re.compile(rf"{_NAME}(:\d{{1,5}})?", re.ASCII)
+PATH = re.compile(r"(/?[\w.~-]+)*/?", re.ASCII)
+SOURCE = re.compile(rf"'self'|'none'|[a-z][a-z0-9+.-]*:|([a-z]+://)?{_NAME}(:(\d{{1,5}}|\*))?(/[\w./~%-]*)?", re.ASCII)
+#: More of them no machine has.
+MOST_PROCESSES = 512
+
+
+def whole_number(least: int, most: int) -> Callable[[str], int]:
     """Return what reads a whole number that is neither smaller nor larger."""
 
     def number(text: str) -> int:
-        if not text.strip().isdecimal() or int(text) < least or (most is not None and int(text) > most):
+        if (
+            not (text.isascii() and text.strip().isdecimal())
+            or int(text) < least
+            or (most is not None and int(text) > most)
+        ):
             allowed = f"from {least} on" if most is None else f"from {least} to {most}"
             raise argparse.ArgumentTypeError(f"{text!r} given; give a whole number {allowed}.")
         return int(text)
@@ -30,10 +42,27 @@ def whole_number(least: int, most: int | None = None) -> Callable[[str], int]:
 
 def host(text: str) -> str:
     """Return a host, with its port if one is given, of what may be the address of a page."""
-    place = urlsplit(text if "//" in text else f"//{text}").netloc
-    if not place or place != place.strip() or " " in place:
+    place = text.partition("//")[2].partition("/")[0] if "//" in text else text.partition("/")[0]
+    if not HOST.fullmatch(place):
         raise argparse.ArgumentTypeError(f"{text!r} given; give a host such as explorer.example.org, or host:port.")
     return place
+
+
+def path(text: str) -> str:
+    """Return a path of plain names."""
+    if not PATH.fullmatch(text) or {".", ".."}.intersection(text.split("/")):
+        raise argparse.ArgumentTypeError(f"{text!r} given; give a path such as /explorer.")
+    return text
+
+
+def sources(text: str) -> str:
+    """Return sources of a Content-Security-Policy."""
+    for source in filter(None, text.split(" ")):
+        if not SOURCE.fullmatch(source):
+            raise argparse.ArgumentTypeError(
+                f"{source!r} given; give hosts such as https://course.example.org, with spaces between them."
+            )
+    return text
 
 
 @dataclass(frozen=True)
@@ -78,13 +107,19 @@ SETTINGS = (
     Setting("address", "localhost", "0.0.0.0 for all interfaces", str, "HOST"),
     Setting("allow-origin", (), "a host under which browsers reach this server; may be repeated", host, "HOST[:PORT]",
             "CODIM2_ORIGINS"),
-    Setting("prefix", "", "the path below which a proxy shows this server", str, "/PATH"),
-    Setting("frame-ancestors", "'self'", "who else may embed the pages, as in Content-Security-Policy", str, "SOURCES"),
-    Setting("processes", 1, "server processes that share the port", whole_number(1), "N"),
-    Setting("workers", 0, "processes for long work, of each of these; 0 shares the processors", whole_number(0), "N"),
+    Setting("prefix", "", "the path below which a proxy shows this server", path, "/PATH"),
+    Setting("frame-ancestors", "'self'", "who else may embed the pages, as in Content-Security-Policy", sources,
+            "SOURCES"),
+    Setting("processes", 1, "server processes that share the port", whole_number(1, MOST_PROCESSES), "N"),
+    Setting("workers", 0, "processes for long work, of each of these; 0 shares the processors",
+            whole_number(0, MOST_PROCESSES), "N"),
     Setting("dask", "", "the scheduler of a Dask cluster that does the long work in place of these", str, "ADDRESS"),
-    Setting("sessions", 400, "open pages of a server process; one more is asked to wait", whole_number(1), "N"),
-    Setting("rooms", 20, "rooms open at once, of a server process; 0 for none", whole_number(0), "N"),
+    Setting("sessions", 400, "open pages of a server process; one more is asked to wait", whole_number(1, 1_000_000),
+            "N"),
+    Setting("per-address", 200, "open pages of one network address, which a class behind one router is",
+            whole_number(1, 1_000_000), "N"),
+    Setting("proxied", False, "a proxy in front gives each visitor's address in X-Real-IP", bool),
+    Setting("rooms", 20, "rooms open at once, of a server process; 0 for none", whole_number(0, 10_000), "N"),
     Setting("lessons", None, "a folder of your own lessons, after the course; /?lesson=NAME opens one", Path, "DIR"),
     Setting("docs", None, "a folder with the site that `codim2 docs DIR` built; else the package's own", Path, "DIR"),
     Setting("pyodide", None, "a folder with Pyodide's release: pages compute on their visitors' devices", Path, "DIR"),

@@ -49,6 +49,7 @@ export const SAYS = {
   rangeHere: "The range of its slider",
   lost: "Connection lost. Reload the page, or run the cell again.",
   trying: "Connection lost. Trying again …",
+  rested: "The server was full, and this page had rested for minutes. Click anywhere to go on.",
   renewed: "A new version of the explorer is available. Reload the page: your settings stay.",
   reload: "Reload",
   noFiles: "The server does not answer, so no files can be made now.",

@@ -24,7 +24,7 @@ from bokeh.settings import settings as bokeh_settings
 import codim2_core
 
 from ..draw.bundle import bundle
-from ..view.first_markup import MARKUP, NOTICE, TITLE, policy
+from ..view.first_markup import MARKUP, TITLE, policy
 from ..view.markup import SCRIPT_FOLDER, edition, export_script, markup_of_frame, page_frame, script
 from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
@@ -117,8 +117,8 @@ def page() -> str:
     saved = opening.removesuffix("}") + f',"first":"{b64encode(first).decode()}"}}'
     saved = saved.replace("<", r"\u003c")
     text = page_frame(TITLE, "bokeh.min.js", "openHere")
-    text = text.replace(NOTICE, f'<script type="application/json" id="codim2-saved">{saved}</script>')
-    text = text.replace(MARKUP, markup_of_frame(link, first, worker_edition=edition()))
+    data = f'<script type="application/json" id="codim2-saved">{saved}</script>'
+    text = text.replace(MARKUP, data + markup_of_frame(link, first, worker_edition=edition()))
     allowed = policy(text.encode()).partition("; frame-ancestors")[0]  # which only a header may say
     head = f'<meta http-equiv="Content-Security-Policy" content="{escape(allowed)}">'
     return text.replace("<title>", f'{head}\n<link rel="manifest" href="manifest.webmanifest">\n<title>', 1)

@@ -56,14 +56,21 @@ class AnswerQueue:
         Has a function called in its turn.
     after : callable
         Has a function called after so many seconds, as a loop's `call_later` does.
+    address : str
+        Of its network.
     """
 
     def __init__(
-        self, frames: Frames, send: Reply, later: Scheduler, after: Callable[[float, Callable[[], None]], Any]
+        self,
+        frames: Frames,
+        send: Reply,
+        later: Scheduler,
+        after: Callable[[float, Callable[[], None]], Any],
+        address: str = "",
     ) -> None:
         self.frames, self._send, self._later, self._after = frames, send, later, after
         self.taking = ExportJobs(frames)
-        self.visitor = Visitor(frames)
+        self.visitor = Visitor(frames, address)
         self._held: _PendingAnswer | None = None  # the frame that waits; a newer one replaces it
 
     def answer(self, request: Any) -> None:

@@ -32,8 +32,8 @@ def forgetful(port: int) -> None:
     held: WeakSet[Frames] = WeakSet()
     open_page = live.open_page
 
-    def noted(link: Any) -> Any:
-        found = open_page(link)
+    def noted(*of: Any) -> Any:
+        found = open_page(*of)
         held.add(found[0])
         return found
 
@@ -59,8 +59,7 @@ def forgetful(port: int) -> None:
             self.write({"resident": resident, "objects": many, **counts, "formulas": len(warmup._formulas)})
 
     server = page.make_server(port)
-    server._tornado.add_handlers(r".*", [("/left", Left), ("/there", There)])
-    server.start()
+    server.application.add_handlers(r".*", [("/left", Left), ("/there", There)])
     server.io_loop.start()
 
 

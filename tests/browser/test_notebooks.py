@@ -40,7 +40,7 @@ def test_every_cell_runs_and_its_static_page_shows_the_finished_pictures(execute
         assert out.output_type != "error", (cell.source, out)
         assert out.get("name") != "stderr", (cell.source, out)
         for kind, data in out.get("data", {}).items():
-            assert len(data) < 100_000 or cell.source.startswith("beside("), (cell.source, kind)
+            assert len(data) < 100_000 or cell.source.startswith("Row("), (cell.source, kind)
     shown = [cell.source for cell in executed.cells if cell.cell_type == "code" and cell.outputs]
     assert len(shown) >= 7
     assert len(json.dumps(executed)) < MOST

@@ -7,6 +7,9 @@ import logging
 import sys
 from datetime import UTC, datetime
 
+#: Characters of a message.
+MAX_CHARACTERS = 500
+
 
 class JsonLines(logging.Formatter):
     """One JSON object a line: time, level, logger, message, and the traceback of an error."""
@@ -24,9 +27,17 @@ class JsonLines(logging.Formatter):
         return json.dumps(line, ensure_ascii=False)
 
 
+def shorten(record: logging.LogRecord) -> bool:
+    """Bound a record's message and leave no control character in it: a visitor may have written it."""
+    text = record.getMessage()
+    record.msg, record.args = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in text[:MAX_CHARACTERS]), ()
+    return True
+
+
 def log_to_stderr(lines: bool, level: str) -> None:
     """Send the log of this process to standard error."""
     handler = logging.StreamHandler(sys.stderr)
+    handler.addFilter(shorten)
     plain = logging.Formatter("%(asctime)s %(levelname)s %(name)s: %(message)s")
     handler.setFormatter(JsonLines() if lines else plain)
     root = logging.getLogger()

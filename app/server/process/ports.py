@@ -7,47 +7,31 @@ from __future__ import annotations
 
 import socket
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from typing import Any
 
-from bokeh.server import server
 from tornado.netutil import bind_sockets
-from tornado.process import task_id
+from tornado.process import fork_processes
 
-#: Puts another socket in the place of one that listens.
-ListenerFactory = Callable[[socket.socket], socket.socket]
-
-bokeh_server: Any = server  # it says of no name that it may be replaced
 #: Elsewhere such sockets cannot be, or all visitors come to the last of them.
 CAN_SHARE_PORT = sys.platform == "linux" and hasattr(socket, "SO_REUSEPORT")
+#: Processes that ended and were started again in the life of a server; beyond that it ends, and its host starts it.
+MAX_RESTARTS = 10_000
 
 
-@contextmanager
-def share_port(processes: int, listen: ListenerFactory) -> Iterator[None]:
-    """Let a server that is made meanwhile listen so, at a port that each of several processes can bind again."""
-    shared = processes > 1 and CAN_SHARE_PORT
-
-    def bind(address: str | None, port: int) -> tuple[list[socket.socket], int]:
-        sockets = bind_sockets(port or 0, address, reuse_port=shared)
-        own = sockets[0].getsockname()[1]
-        return [listen(one) for one in sockets], own
-
-    kept, bokeh_server.bind_sockets = bokeh_server.bind_sockets, bind
-    try:
-        yield
-    finally:
-        bokeh_server.bind_sockets = kept
+def bind(port: int, address: str, processes: int) -> tuple[list[socket.socket], int]:
+    """Return sockets at an address, and their port; each of several processes can bind it again."""
+    sockets = bind_sockets(port, address, reuse_port=processes > 1 and CAN_SHARE_PORT)
+    return sockets, sockets[0].getsockname()[1]
 
 
-def listen_by_own(one: Any, address: str, listen: ListenerFactory) -> None:
-    """In each forked process but the first, which keeps the socket that all have inherited: listen by another one.
+def fork(sockets: list[socket.socket], address: str, processes: int) -> tuple[list[socket.socket], int]:
+    """Fork a server into processes; in each of them return the sockets by which it listens, and its number.
 
-    The process from which they are forked has that socket too and never answers: without the first it would be waited
-    for.
+    The first keeps the sockets that all have inherited. The process from which they are forked has them too and never
+    answers: without the first it would be waited for.
     """
-    if not CAN_SHARE_PORT or not task_id():
-        return
-    http = one._http  # noqa: SLF001 (Bokeh hands out no other way to it)
-    http.stop()
-    http.add_sockets(listen(each) for each in bind_sockets(one.port, address, reuse_port=True))
+    if processes == 1:
+        return sockets, 0
+    number = fork_processes(processes, MAX_RESTARTS)
+    if number and CAN_SHARE_PORT:
+        return bind_sockets(sockets[0].getsockname()[1], address, reuse_port=True), number
+    return sockets, number

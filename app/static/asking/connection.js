@@ -3,6 +3,8 @@
 
 import {SAYS} from "../words.js"
 
+const RESTED = 4001 // a server's code: the page has asked nothing for minutes, and another one has its place
+const TOUCHED = ["pointerdown", "keydown"]
 const RETRY = [500, 1000, 2000, 3000, 5000] // ms between attempts; the last one goes on
 
 export class Connection {
@@ -16,11 +18,17 @@ export class Connection {
     this.edition = edition
     this.say = say
     this.leave = leave
-    line.lost(() => {
+    line.lost((code) => {
       if (this.attempts) return
       lost()
       this.attempts = 1
       if (!page) { say(SAYS.lost); return }
+      if (code === RESTED) {
+        say(SAYS.rested)
+        const back = () => { for (const event of TOUCHED) removeEventListener(event, back); this.attempt() }
+        for (const event of TOUCHED) addEventListener(event, back)
+        return
+      }
       say(SAYS.trying)
       this.wait()
     })
@@ -30,7 +38,7 @@ export class Connection {
 
   async attempt() {
     try {
-      const answer = await fetch(new URL("health", location.href), {cache: "no-store", signal: AbortSignal.timeout(5000)})
+      const answer = await fetch(new URL("health?back=1", location.href), {cache: "no-store", signal: AbortSignal.timeout(5000)})
       if (answer.status < 500) { this.returned(await answer.text()); return } // 5xx: a proxy whose server is down
     } catch { /* no server yet */ }
     this.wait()
@@ -38,12 +46,14 @@ export class Connection {
 
   returned(text) {
     const reload = () => { this.leave(); location.reload() }
-    const edition = editionOf(text)
-    if (edition && edition !== this.edition) this.say(SAYS.renewed, reload); else reload()
+    const {edition = "", wait = 0} = read(text)
+    if (edition && edition !== this.edition) this.say(SAYS.renewed, reload)
+    else if (wait > 0) setTimeout(reload, 1000 * wait) // many come back: each has its turn
+    else reload()
   }
 }
 
-/** What a server calls its edition; "" if something else has answered. @param {string} text */
-function editionOf(text) {
-  try { return JSON.parse(text).edition ?? "" } catch { return "" }
+/** What a server says of itself; nothing if something else has answered. @param {string} text @returns {any} */
+function read(text) {
+  try { return JSON.parse(text) ?? {} } catch { return {} }
 }

@@ -195,6 +195,6 @@ export class DeviceLine {
 
   lost(told) {
     this.loses = told
-    this.server.lost(() => { this.gone = true; if (this.end === this.server || this.room) told() })
+    this.server.lost((code) => { this.gone = true; if (this.end === this.server || this.room) told(code) })
   }
 }

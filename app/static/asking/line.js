@@ -2,7 +2,7 @@
 
 /**
  * @typedef {{config: any, offered: any, first: ArrayBuffer | null, send: (message: any) => void,
- *   hear: (heard: (message: any) => void) => void, lost: (told: () => void) => void, ready?: Promise<void>, heard?: (header: any, values: any) => void}} Line
+ *   hear: (heard: (message: any) => void) => void, lost: (told: (code?: number) => void) => void, ready?: Promise<void>, heard?: (header: any, values: any) => void}} Line
  *   what an explorer asks; until it is `ready`, if it is not so from the beginning, nothing is asked; `heard`, if it is
  *   there, is told of each frame before it is shown
  */
@@ -13,7 +13,7 @@
  * @returns {Promise<Line>} rejects with the code of a line that was closed before
  */
 export function openLine(address, Socket = WebSocket) {
-  const socket = new Socket(address), hearing = /** @type {((message: any) => void)[]} */ ([]), told = /** @type {(() => void)[]} */ ([])
+  const socket = new Socket(address), hearing = /** @type {((message: any) => void)[]} */ ([]), told = /** @type {((code?: number) => void)[]} */ ([])
   socket.binaryType = "arraybuffer"
   const said = (message) => { for (const heard of hearing) heard(message) }
   let beginning = /** @type {any} */ (null), of = /** @type {any} */ (null) // the message whose file comes next
@@ -33,6 +33,6 @@ export function openLine(address, Socket = WebSocket) {
         beginning = null
       } else said({frame: data})
     })
-    socket.addEventListener("close", ({code}) => { refuse(code); for (const tell of told) tell() })
+    socket.addEventListener("close", ({code}) => { refuse(code); for (const tell of told) tell(code) })
   })
 }

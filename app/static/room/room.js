@@ -153,7 +153,8 @@ export class Room {
     this.tell()
     if (!this.dialog.open) this.dialog.showModal()
     const view = await compressQuery(this.tools.query(), this.tools.version)
-    find(".qr").src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: `${page}?room=${this.code}&${view}`})}`
+    const bare = `${page}?room=${this.code}`, whole = `${bare}&${view}` // a code has room for so much
+    find(".qr").src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: whole.length > 300 ? bare : whole})}`
   }
 
   make() {

@@ -17,6 +17,7 @@ from .rate import RATE_PLACES, jacobian, rate_between
 
 MAX_COMPONENTS = 8  # components at most; a longer state is followed implicitly
 STIFF = 0.4  # h times a rate from which on a step may be short for stability alone, or for its loss of order
+BLUR_MARGIN = 8.0  # times the blur of the rate: a smaller error is rounding
 STEP_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step: its estimate is sharper than that of Radau IIA
 
 _row_kernels = {
@@ -89,7 +90,9 @@ def attempt(motion, h, clock, work):
         unit = 1.0 / min(work.size[i], end_size[i])
         five += (S[ERROR_5 + i] * unit) ** 2
         three += (S[ERROR_3 + i] * unit) ** 2
-    error = five / math.sqrt(five + 0.01 * three + 1e-300) / (STEP_TOLERANCE_SHARE * motion.rtol)
+    tolerance = STEP_TOLERANCE_SHARE * motion.rtol
+    error = five / math.sqrt(five + 0.01 * three + 1e-300) / tolerance
+    error = max(error - BLUR_MARGIN * h * motion.blur / (min(work.size[0], end_size[0]) * tolerance), 0.0)
     if not error < math.inf:
         return False, MAX_SHRINKAGE
     change = min(max(STEP_SAFETY * max(error, 1e-16) ** -0.125, MAX_SHRINKAGE), MAX_GROWTH)

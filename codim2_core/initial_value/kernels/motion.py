@@ -12,7 +12,7 @@ import math
 from ...jit import held_kernel, kernel, spliced_kernel
 from ...numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH, STAGES
 from . import explicit, radau
-from .rate import MotionConstants, inward_bound, rate, sizes
+from .rate import MotionConstants, blur_of_rate, inward_bound, rate, sizes
 from .stages import tableau_of, work_on
 
 FINISHED, LIMIT, SHORT, CHUNK_FULL, BLOWN_UP, UNDEFINED, AT_SIGMA, SWITCHED = range(8)
@@ -264,8 +264,12 @@ def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, le
     """
     work, table = work_on(S, len(y)), tableau_of(coefficients)
     motion = MotionConstants(
-        fields[0], fields[1], fields[2], len(y), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4]
+        fields[0], fields[1], fields[2], len(y), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4], 0.0
     )
+    motion = MotionConstants(
+        fields[0], fields[1], fields[2], len(y), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4],
+        blur_of_rate(motion, y, work),
+    )  # fmt: skip
     if control[STEPS_TRIED] == 0.0:
         first, most, implicit = control[NEXT], control[STEPS_LEFT], control[IMPLICIT]
         farthest, least = control[FARTHEST_RHO], control[LEAST_STEP]

@@ -13,6 +13,7 @@ from ...expressions.names import MOST_SLOW_VARIABLES
 from ...jit import call_field, inlined_kernel, kernel, spliced_kernel
 
 DIFFERENCE_STEP = 1e-5
+ROUNDING = 2.0**-52
 MAX_INWARD_SHARE = 0.9  # of rho: how far towards Sigma one step may go
 
 # Where the right-hand side reads and writes: the gain's arguments, the field's, its value, its slopes. The same array
@@ -34,6 +35,8 @@ class MotionConstants(NamedTuple):
         The error allowed in a step is rtol rho for x and y, rtol (|z| + floor) for z: floor = atol/rtol.
     line1, line2 : float
         The invariant line that is kept to, or 0.
+    blur : float
+        What the rounding of z, the time among them, makes of the rate of x and y.
     """
 
     value: int
@@ -45,6 +48,7 @@ class MotionConstants(NamedTuple):
     floor: float
     line1: float
     line2: float
+    blur: float
 
 
 @spliced_kernel
@@ -130,3 +134,17 @@ def jacobian(motion, y, S, J):
         for j in range(n):
             along = motion.line1 * J[0, j] + motion.line2 * J[1, j]
             J[0, j], J[1, j] = along * motion.line1, along * motion.line2
+
+
+@kernel
+def blur_of_rate(motion, y, work):
+    """Return what the rounding of z makes of the rate of x and y at a state: it counts where both are small."""
+    rate(motion, y, work.S, work.rate)
+    jacobian(motion, y, work.S, work.J)
+    found = 0.0
+    for i in range(2):
+        total = 0.0
+        for j in range(2, motion.n):
+            total += abs(work.J[i, j] * y[j])
+        found = max(found, total * ROUNDING)
+    return found

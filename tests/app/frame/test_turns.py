@@ -1,12 +1,13 @@
 """Who is served next, what is shared, and what ends when nobody wants it any more."""
 
 import gc
+import threading
 import weakref
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 
 import pytest
 from codim2_app.frame.background_results import Jobs
-from codim2_app.frame.work_queue import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue
+from codim2_app.frame.work_queue import MAX_KEPT_RESULTS, FailedResult, KeptResults, WorkQueue, result_size
 
 
 class Held(Executor):
@@ -31,7 +32,7 @@ class Held(Executor):
     def run(self):
         future, fn, args = self.given.pop(0)
         future.set_result(fn(*args))
-        return args[1:]
+        return args[1:] or args
 
 
 def names(executor):
@@ -173,16 +174,16 @@ def test_what_is_done_holds_nobody_who_waited_for_it(error, wanted):
 def test_results_are_bounded_in_number_and_in_size():
     kept = KeptResults(most_bytes=10_000)
     for i in range(3 * MAX_KEPT_RESULTS):
-        kept.put(i, "x")
+        kept.put(i, (one := "x"), result_size(one))
     assert len(kept) == MAX_KEPT_RESULTS
     for i in range(20):
-        kept.put(("big", i), b"x" * 3_000)
+        kept.put(("big", i), (one := b"x" * 3_000), result_size(one))
     assert len(kept) == 3
     assert 9_000 < kept.size <= 10_000
-    kept.put("too big", b"x" * 20_000)
+    kept.put("too big", (one := b"x" * 20_000), result_size(one))
     assert kept.get("too big") is None
     assert kept.get(("big", 19)) is not None
-    kept.put("of unknown size", lambda: 1)
+    kept.put("of unknown size", (one := lambda: 1), result_size(one))
     assert kept.get("of unknown size") is None
 
 
@@ -203,3 +204,26 @@ def test_when_what_computes_has_been_shut_down_what_waits_is_given_up_without_a_
     assert not caplog.records
     turns.want("three", 3, str, "third")
     assert turns.result(1) == "first"
+
+
+class Large:
+    """A result that notes, while it is pickled, whether another thread can ask the queue for one."""
+
+    def __init__(self, queue):
+        self.queue, self.free = queue, []
+
+    def __reduce__(self):
+        asking = threading.Thread(target=lambda: self.free.append(self.queue.result("x")), daemon=True)
+        asking.start()
+        asking.join(0.5)
+        self.free.append("pickled")
+        return str, ()
+
+
+def test_who_answers_visitors_waits_for_no_result_to_be_pickled():
+    executor = Held()
+    queue = WorkQueue(executor, 1)
+    large = Large(queue)
+    queue.want("a", 1, lambda: large)
+    executor.run()
+    assert large.free[:2] == [None, "pickled"]

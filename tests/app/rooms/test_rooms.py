@@ -11,6 +11,7 @@ from codim2_app.rooms.rooms import (
     LONGEST_ROW,
     LOST_SECONDS,
     MOST_GUESTS,
+    MOST_TRIES,
     SHARING_SECONDS,
     RoomError,
     Rooms,
@@ -62,7 +63,7 @@ def rows(lecturer):
 def test_a_lecturer_is_told_of_the_phones_of_all_processes_when_they_are_others(two):
     here, there = two
     lecturer, code, _ = opened(here)
-    assert len(code) == 4
+    assert len(code) == 6
     assert set(code) <= set(LETTERS)
     phones = [Page("CM4"), Page("CM2", f1=1.5)]
     guests = [
@@ -171,8 +172,9 @@ def test_another_key_of_the_same_code_does_not_take_a_room_over(monkeypatch):
 
 def test_rooms_and_phones_are_bounded():
     rooms = Rooms(most=2)
-    _, code, _ = opened(rooms)
-    opened(rooms)
+    for _ in range(2):
+        _, code, _ = opened(rooms)
+        rooms.join(code, (phone := Page()).look, phone.tell, 0.0)
     with pytest.raises(RoomError, match="All 2 rooms"):
         opened(rooms)
     rooms.close(code, 1.0)
@@ -222,3 +224,81 @@ def test_a_clock_that_is_set_ends_no_room(monkeypatch, jump):
     late = Page()
     rooms.join(code, late.look, late.tell)
     assert not any("ended" in message for page in (lecturer, guest, late) for message in page.heard)
+
+
+def test_a_room_that_had_no_guest_goes_with_its_page():
+    """Twenty pages that open one each and leave took all rooms for ten minutes."""
+    rooms = Rooms(most=3)
+    for _ in range(20):
+        lecturer, code, key = opened(rooms)
+        rooms.leave_open(code, lecturer.heard_by, 1.0)
+        assert rooms.count(1.0) == 0
+    assert opened(rooms, 2.0, key)[1] == code  # as a page that is loaded again
+    rooms.join(code, (phone := Page()).look, phone.tell, 3.0)
+    rooms.leave_open(code, rooms.hosts[code].tell, 4.0)
+    assert rooms.count(5.0) == 1
+
+
+def test_a_room_with_guests_of_another_process_stays(two):
+    here, there = two
+    lecturer, code, _ = opened(here)
+    there.join(code, (phone := Page()).look, phone.tell, 1.0)
+    here.leave_open(code, lecturer.heard_by, 2.0)
+    assert here.count(3.0) == 1
+
+
+def test_the_oldest_room_without_a_guest_gives_way_and_its_lecturer_is_told():
+    rooms = Rooms(most=2)
+    first, code, _ = opened(rooms, 0.0)
+    busy = opened(rooms, 1.0)[1]
+    rooms.join(busy, (phone := Page()).look, phone.tell, 1.0)
+    opened(rooms, 2.0)
+    assert first.heard[-1] == {"ended": code}
+    assert rooms.count(3.0) == 2
+    assert rooms.hosts[busy].is_open(3.0)
+
+
+def test_a_network_address_has_a_part_of_all_rooms():
+    rooms = Rooms(most=8)
+    codes = [rooms.open("", Page().tell, 0.0, address="one")[0] for _ in range(2)]
+    for code in codes:
+        rooms.join(code, (phone := Page()).look, phone.tell, 0.0)
+    with pytest.raises(RoomError, match="All 2 rooms"):
+        rooms.open("", Page().tell, 1.0, address="one")
+    assert rooms.open("", Page().tell, 1.0, address="another")
+
+
+def test_codes_are_not_tried_from_one_network_address():
+    rooms = Rooms()
+    code = opened(rooms)[1]
+    tries = lambda now: rooms.join("BCDFGH", (phone := Page()).look, phone.tell, now, address="one")
+    for i in range(MOST_TRIES):
+        with pytest.raises(RoomError, match="no room"):
+            tries(0.1 * i)
+    with pytest.raises(RoomError, match="Too many"):
+        tries(10.0)
+    rooms.join(code, (phone := Page()).look, phone.tell, 10.0, address="another")
+    with pytest.raises(RoomError, match="no room"):
+        tries(70.0)
+
+
+def test_one_who_cannot_be_shown_stops_no_other_row(caplog):
+    rooms = Rooms()
+    lecturer, code, _ = opened(rooms)
+    other, other_code, _ = opened(rooms)
+    broken, phone = Page("CM2"), Page("CM4")
+    for page, its in ((broken, code), (phone, code), (Page("NCM2"), other_code)):
+        rooms.join(its, page.look, page.tell, 1.0)
+    broken.row = ["CM2"]
+    other.view = lambda: 1 // 0
+    rooms.hosts[other_code].view = other.view
+    rooms.tick(2.0)
+    assert [row[1] for row in rows(lecturer)[-1]] == ["CM4"]
+    assert [row[1] for row in rows(other)[-1]] == ["NCM2"]
+    assert "taken out" in caplog.text
+
+
+def test_half_a_character_is_a_key_like_any_other():
+    rooms = Rooms()
+    code, key = rooms.open("\ud800", Page().tell, 0.0)
+    assert rooms.open(key, Page().tell, 1.0) == (code, key)

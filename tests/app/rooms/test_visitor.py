@@ -145,11 +145,24 @@ def test_a_page_that_goes_leaves_its_room_waiting(fresh):
     assert Page().ask({"open": first["key"]}) == first
 
 
-def test_codes_are_not_guessed():
-    phone = Page()
+def test_codes_are_not_guessed_by_pages_that_are_loaded_again():
+    """A page may be a new one each time: tries are of its network."""
     for _ in range(MOST_TRIES):
-        assert "no room" in phone.ask({"join": "BCDF"})["error"]
-    assert "Too many" in phone.ask({"join": "BCDF"})["error"]
+        assert "no room" in Page().ask({"join": "BCDF"})["error"]
+    assert "Too many" in Page().ask({"join": "BCDF"})["error"]
+
+
+def test_of_what_a_page_does_not_take_the_newest_is_kept(fresh):
+    """Its turns do not come: a lecturer who reads nothing once had all rows of hours kept for him."""
+    lecturer, phone, waiting = Page(), Page(), []
+    lecturer.visitor.answer({"open": ""}, lecturer.heard.append, waiting.append)
+    phone.ask({"join": lecturer.heard[0]["open"]})
+    for i in range(30):
+        phone.frames.answer({"set": {"f1": 0.01 * i}})
+        fresh.tick()
+    assert len(waiting) == 1
+    waiting[0]()
+    assert lecturer.heard[-1]["rows"][0][2] == {"f1": 0.29}
 
 
 @pytest.mark.parametrize(

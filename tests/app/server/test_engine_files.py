@@ -8,8 +8,7 @@ from codim2_app.lessons import library
 from codim2_app.server import cli
 from codim2_app.server import engine_files as engine_module
 from codim2_app.server.engine_files import EngineFiles, served_panels
-from codim2_app.server.live import open_page
-from codim2_app.view.opening import link_of
+from codim2_app.server.live import LivePages, open_page
 from tornado.web import Application
 
 from tests.app.fetching import fetch_all
@@ -34,7 +33,10 @@ def test_each_file_is_the_same_for_ever_and_compressed_once():
     requests = [
         (f"/below/{engine.script}".replace("worker.js", name), {"Accept-Encoding": packing}) for name, packing in asked
     ]
-    *answers, none = fetch_all(Application([engine.route("/below")]), [*requests, (f"/below/{engine.script}x", {})])
+    *answers, none = fetch_all(
+        Application([(rf"/below{pattern}", *more) for pattern, *more in [engine.route()]]),
+        [*requests, (f"/below/{engine.script}x", {})],
+    )
     for (name, packing), answer in zip(asked, answers, strict=True):
         packed = answer.headers.get("Content-Encoding") == "gzip"
         assert packed == (packing == "gzip" and not name.endswith(("zip", "whl")))
@@ -53,7 +55,7 @@ def test_another_file_has_another_address():
 
 def test_a_page_is_told_where_it_is_and_of_nothing_where_it_is_not():
     offered = {"script": "engine/x/worker.js", "served": []}
-    told = [json.loads(open_page(link_of({}), engine)[1])["config"]["engine"] for engine in (offered, None)]
+    told = [json.loads(open_page({}, LivePages(1, engine))[1])["config"]["engine"] for engine in (offered, None)]
     assert told == [offered, None]
 
 

@@ -53,6 +53,17 @@ def test_a_page_is_the_same_for_all_who_open_an_address_and_its_line_has_the_val
     assert wire.bytes < 60_000
 
 
+def test_the_picture_of_an_address_is_drawn_for_its_line_and_then_comes_with_the_page(server):
+    """Nothing is computed for who asks for pages; the page that most begin with has its picture at once."""
+    query = "?a=-1.23456&b=0.125"
+    assert 'class="first"' in opened(server)[0]
+    bare = opened(f"{server}/{query}")[0]
+    talk(begun(server.port, query))
+    whole = opened(f"{server}/{query}")[0]
+    assert len(re.findall("<path ", whole)) > len(re.findall("<path ", bare)) + 5
+    assert 'role="alert" style' not in bare
+
+
 def test_what_a_pasted_link_shows_is_there_under_its_whole_address(server):
     page, _ = opened(server)
     preview = re.search(r'property="og:image" content="([^"]+)"', page)[1]
@@ -133,13 +144,6 @@ def test_headers_allow_this_origin_and_tell_nothing(server):
     assert headers["Referrer-Policy"] == "no-referrer"
     assert "Server" not in headers
     assert opened(server + "/health")[1]["Content-Security-Policy"].endswith("frame-ancestors 'self'")
-
-
-def test_a_page_under_another_name_says_what_to_set(server):
-    assert "--allow-origin" not in opened(server)[0]
-    page, _ = opened(server, Host="lan.example:8080")
-    assert "--allow-origin lan.example:8080" in page
-    assert "CODIM2_ORIGINS=lan.example:8080" in page
 
 
 def test_an_address_cannot_write_scripts(server):

@@ -3,10 +3,12 @@
 import asyncio
 from urllib.request import urlopen
 
+import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.server.live import merge_requests
+from codim2_app.server.live import REFUSED, merge_requests
 from codim2_app.state.request_reading import MOST_CONTROLS
 from tornado.httpclient import HTTPClientError, HTTPRequest
+from tornado.websocket import WebSocketClosedError
 
 from tests.benchmarks.wire import Wire
 
@@ -163,3 +165,42 @@ def test_what_a_page_draws_itself_is_noted_for_rooms_and_files(server):
     assert frames == 0
     assert (header["id"], header["portrait"]["name"]) == (9, "CM2")
     assert "inside.xy" in blocks
+
+
+def test_whatever_is_asked_at_once_is_answered(server):
+    """Forty-two of fifty files were not; and half a character ends no request."""
+
+    async def ask():
+        wire = await Wire.connect(server.port)
+        for i in range(50):
+            await wire.send({"take": {"kind": "json", "id": i}})
+        taken = [(await wire.message()).get("taken") for _ in range(50)]
+        opened = await wire.ask("room", {"open": "\ud800"})
+        joined = await wire.ask("room", {"join": "\udfff"})
+        await wire.send({"room": {"close": True}})
+        await wire.close()
+        return taken, opened, joined
+
+    taken, opened, joined = talk(ask())
+    assert taken == list(range(50))
+    assert "open" in opened
+    assert "error" in joined
+
+
+def test_more_than_a_page_asks_at_once_closes_its_line(server):
+    async def flood(wire, count, text):
+        for i in range(count):
+            await wire.send({"take": {"kind": "json", "id": i, "more": text}})
+        while True:
+            await wire.message()
+
+    async def ask(count, text):
+        wire = await Wire.connect(server.port)
+        with pytest.raises((ConnectionError, WebSocketClosedError)):
+            await flood(wire, count, text)
+        code = wire.socket.close_code
+        await wire.vanish()
+        return code
+
+    assert talk(ask(500, "")) in (REFUSED, None)  # None: it was closed while more was sent
+    assert talk(ask(5, "x" * 150_000)) in (REFUSED, None)

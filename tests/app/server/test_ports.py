@@ -56,10 +56,7 @@ def who(port):
 
 @pytest.mark.parametrize("processes", [1, 2])
 def test_a_port_can_be_bound_again_by_several_processes_only(processes):
-    kept = ports.bokeh_server.bind_sockets
-    with ports.share_port(processes, lambda one: one):
-        (own,), port = ports.bokeh_server.bind_sockets("127.0.0.1", 0)
-    assert ports.bokeh_server.bind_sockets is kept
+    (own,), port = ports.bind(0, "127.0.0.1", processes)
     with (
         closing(own),
         nullcontext() if processes > 1 and ports.CAN_SHARE_PORT else pytest.raises(OSError, match="in use"),

@@ -2,6 +2,7 @@
 
 import asyncio
 
+import pytest
 from codim2_app.server.session_queue import FOURTH, Rota
 
 from .test_first_page import talk
@@ -29,7 +30,9 @@ def played(begin):
     async def play():
         rota = Rota()
         begin(rota, done)
-        while rota.waiting:
+        for _ in range(10_000):
+            if not rota.waiting:
+                break
             await asyncio.sleep(0)
         await asyncio.sleep(0.01)
         return done
@@ -66,3 +69,44 @@ def test_a_fault_of_one_ends_nobody_elses_turns_and_who_has_left_has_none(caplog
 
     assert played(begin) == ["broken", "there"]
     assert "could not be answered" in caplog.text
+
+
+def test_a_fault_while_a_turn_is_given_stops_no_other_turn(caplog):
+    """What is told of the time that one has waited, or a page without turns: both once ended all turns."""
+
+    def begin(rota, done):
+        def fails(seconds):
+            if rota.waiting == 2:
+                raise RuntimeError("no metric")
+
+        rota.waited = fails
+        rota.ask(object())
+        for name in ("first", "second"):
+            rota.ask(Page(name, rota, done))
+
+    assert played(begin) == ["first", "second"]
+    assert len(caplog.records) >= 1
+
+
+def test_network_addresses_come_in_by_turns_whatever_one_asks_for():
+    def begin(rota, done):
+        for number in range(50):
+            rota.come_in(lambda number=number: done.append(f"greedy {number}"), "greedy")
+        for number in range(2):
+            rota.come_in(lambda number=number: done.append(f"modest {number}"), "modest")
+
+    assert played(begin)[:5] == ["greedy 0", "modest 0", "greedy 1", "modest 1", "greedy 2"]
+
+
+def test_who_takes_a_turn_is_given_what_he_asked_for_or_its_error():
+    async def play():
+        rota = Rota()
+        given = await rota.take_turn(lambda: 3, "here")
+        left = asyncio.ensure_future(rota.take_turn(lambda: 4, "here"))
+        await asyncio.sleep(0)
+        left.cancel()
+        with pytest.raises(ZeroDivisionError):
+            await rota.take_turn(lambda: 1 // 0, "here")
+        return given, left.cancelled()
+
+    assert talk(play()) == (3, True)

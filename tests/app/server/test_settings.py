@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from codim2_app.server.process.logs import JsonLines
+from codim2_app.server.process.logs import MAX_CHARACTERS, JsonLines, shorten
 from codim2_app.server.settings import SETTINGS, add_settings, settings_table, unknown_settings
 
 
@@ -50,8 +50,8 @@ def test_the_image_leaves_the_port_to_its_host():
     [
         ({"CODIM2_PORT": "many"}, "'many' given; give a whole number from 0 to 65535."),
         (["--log-level", "loud"], "invalid choice: 'loud'"),
-        (["--processes", "-3"], "'-3' given; give a whole number from 1 on."),
-        (["--sessions", "0"], "'0' given; give a whole number from 1 on."),
+        (["--processes", "-3"], "'-3' given; give a whole number from 1 to 512."),
+        (["--sessions", "0"], "'0' given; give a whole number from 1 to 1000000."),
         ({"CODIM2_ORIGINS": "a.org, https://"}, "CODIM2_ORIGINS: 'https://' given; give a host such as"),
         (["--allow-origin", "https://"], "give a host such as explorer.example.org"),
     ],
@@ -92,3 +92,54 @@ def test_log_lines_are_json():
 def test_the_hosting_page_has_the_table():
     page = (Path(__file__).parents[3] / "app" / "docs" / "text" / "hosting.md").read_text(encoding="utf-8")
     assert settings_table() in page
+
+
+# fmt: off
+ODD = {
+    "--workers": ["100000", "513", "-1", "1e3", "٣"],
+    "--processes": ["0", "100000"],
+    "--sessions": ["0", "99999999999"],
+    "--per-address": ["0", "-5"],
+    "--rooms": ["-1", "99999999"],
+    "--prefix": ["../x", "/a/../b", "/a b", "/x?y", "/(.*)", "/a;b", "/%2e%2e", "/.", "//x", "/a\nb"],
+    "--frame-ancestors": [
+        "x; script-src *",
+        "a.org;",
+        "a.org, b.org",
+        "'unsafe-inline'",
+        "a\rb",
+        "https://a.org/;x",
+        "<x>",
+    ],
+    "--allow-origin": ["a b", "a.org:x", "a.org;b", "<x>", "a.org:999999", "", "a,b", "a@b", "[::1", "a'b"],
+}
+# fmt: on
+
+
+@pytest.mark.parametrize(("flag", "text"), [(flag, text) for flag, texts in ODD.items() for text in texts])
+def test_what_would_be_no_such_setting_is_refused_in_a_sentence(capsys, flag, text):
+    with pytest.raises(SystemExit):
+        read([f"{flag}={text}"])
+    assert "given; give" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("flag", "text"),
+    [("--prefix", "/explorer"), ("--prefix", "courses/one"), ("--prefix", ""), ("--workers", "0"),
+     ("--frame-ancestors", "'self' https://course.example.org *.b.org:8080 https: http://localhost:*"),
+     ("--allow-origin", "[::1]:80"), ("--allow-origin", "*.example.org"), ("--allow-origin", "*")],
+)  # fmt: skip
+def test_what_is_usual_is_taken(flag, text):
+    assert vars(read([f"{flag}={text}"]))[flag.strip("-").replace("-", "_")] in (
+        text,
+        int(text) if text == "0" else text,
+        [text],
+    )
+
+
+def test_a_logged_message_is_one_short_line():
+    for text in ("x" * 9000, "one\ntwo\x1b[31m"):
+        record = logging.LogRecord("a", logging.WARNING, "", 0, "404 %s", (text,), None)
+        assert shorten(record)
+        assert len(record.getMessage()) <= MAX_CHARACTERS + 20
+        assert record.getMessage().isprintable()

@@ -1,5 +1,6 @@
 import math
 import threading
+from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
@@ -11,7 +12,6 @@ from codim2_app.frame.budget import Budget
 from codim2_app.frame.scenes import complete_changes, evolve_scene, make_scene
 from codim2_app.state.controls import ExplorerState, first_values, preset_values
 from codim2_app.state.portraits import portraits
-from codim2_app.view.first_markup import NoBackground
 from codim2_app.view.refresh import Frames
 from codim2_app.view.warmup import is_ready
 
@@ -248,6 +248,13 @@ def test_orbits_keep_away_from_the_cycles_that_are_drawn_and_from_no_others():
     assert gap(after) < 0.5 * SEPARATION * PACKING_PIXEL
     _, alone = unpack(fresh.answer({"set": {**values, **hidden}, "all": True}))
     assert after["inside.n"].tolist() == alone["inside.n"].tolist()
+
+
+class NoBackground(Executor):
+    """Computes nothing."""
+
+    def submit(self, fn, /, *args, **kwargs):
+        return Future()
 
 
 def test_cycles_that_are_not_there_yet_keep_no_frame_waiting():

@@ -39,7 +39,7 @@ test("a page is loaded again, with what was kept, as soon as a server answers, h
   for (const status of [200, 404, 499]) {
     const {waits, asked, said, waiting} = await lost([status])
     assert.deepEqual(said, ["lost", "Connection lost. Trying again …", "leave", "reload"])
-    assert.deepEqual(asked, ["http://h/codim2/health no-store 5000 ms"])
+    assert.deepEqual(asked, ["http://h/codim2/health?back=1 no-store 5000 ms"])
     assert.deepEqual([waits, waiting], [[500], false])
   }
 })
@@ -63,6 +63,26 @@ test("a server of another version is not gone to before a person says so", async
   for (const text of ['{"edition": "one"}', '{"status": "ok"}', "<p>of a proxy", "null"]) {
     assert.deepEqual((await lost([200], true, 1, text)).said.slice(2), ["leave", "reload"])
   }
+})
+
+test("pages that come back together are each given a turn", async () => {
+  const {waits, said, waiting} = await lost([200], true, 1, '{"edition": "one", "wait": 1.25}')
+  assert.deepEqual([waits, waiting], [[500, 1250], true])
+  assert.equal(said.includes("reload"), false)
+})
+
+test("a page that rested while the server was full comes back when it is touched", async () => {
+  const heard = new Map(), kept = {addEventListener: global.addEventListener, removeEventListener: global.removeEventListener}
+  Object.assign(global, {addEventListener: (name, call) => heard.set(name, call), removeEventListener: (name) => heard.delete(name)})
+  try {
+    let lose = /** @type {any} */ (null), attempts = 0
+    const said = [], one = new Connection(/** @type {any} */ ({lost: (call) => { lose = call }}), {page: true, edition: "one", lost: () => said.push("lost"), say: (words) => said.push(words), leave: () => {}})
+    one.attempt = () => { attempts++; return Promise.resolve() }
+    lose(4001)
+    assert.deepEqual([said.length, attempts, [...heard.keys()]], [2, 0, ["pointerdown", "keydown"]])
+    heard.get("keydown")()
+    assert.deepEqual([attempts, heard.size], [1, 0])
+  } finally { Object.assign(global, kept) }
 })
 
 test("a connection is lost once", async () => {

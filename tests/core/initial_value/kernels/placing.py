@@ -31,7 +31,7 @@ def placed(system, z, psi=TANH):
 
 def motion_of(system, psi, eps, rtol=1e-6, floor=0.01, line=(0.0, 0.0)):
     own = functions_of(field(system), psi, many=True).addresses.tolist()
-    return MotionConstants(*own, 2 + system.m, eps, rtol, floor, *line)
+    return MotionConstants(*own, 2 + system.m, eps, rtol, floor, *line, 0.0)
 
 
 def directions(system, z):

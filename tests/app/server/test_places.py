@@ -1,0 +1,148 @@
+"""Who has a place: a share of each network address, and none for who is not there."""
+
+import asyncio
+import os
+import socket
+from base64 import b64encode
+from contextlib import suppress
+
+import pytest
+from codim2_app.server import live
+from codim2_app.server.live import CLOSE_FULL, CLOSE_RESTING, LivePages
+from tornado.websocket import websocket_connect
+
+from tests.app.serving import serving
+from tests.benchmarks.wire import Wire
+from tests.work import PATIENCE
+
+from .test_first_page import opened, refused, talk
+
+PATCHED = """import sys
+from codim2_app.server import live, page
+{0}
+from codim2_app.server.cli import main
+sys.exit(main(sys.argv[1:]))
+"""
+
+
+class Line:
+    """A line of a visitor at an address of this machine, who reads and answers nothing unless told to."""
+
+    def __init__(self, port, address="127.0.0.1", **headers):
+        self.socket = socket.create_connection(("127.0.0.1", port), PATIENCE, source_address=(address, 0))
+        key = b64encode(os.urandom(16)).decode()
+        given = {"Host": f"127.0.0.1:{port}", "Upgrade": "websocket", "Connection": "Upgrade",
+                 "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": key, **headers}  # fmt: skip
+        lines = "".join(f"{name}: {value}\r\n" for name, value in given.items())
+        self.socket.sendall(f"GET /live HTTP/1.1\r\n{lines}\r\n".encode())
+
+    def begins(self):
+        """Whether the server lets it in, and does not close it at once."""
+        heard = b""
+        while b"\r\n\r\n" not in heard or len(heard.partition(b"\r\n\r\n")[2]) < 4:
+            heard += self.socket.recv(4096)
+        return heard.partition(b"\r\n\r\n")[2][0] == 0x81  # a text; 0x88 closes
+
+    def ends(self):
+        """Read until the server has closed it."""
+        with suppress(ConnectionResetError):
+            while self.socket.recv(65536):
+                pass
+        self.socket.close()
+        return True
+
+
+@pytest.fixture(scope="module")
+def shared():
+    """A server of which one address has two places of three."""
+    with serving("--sessions", "3", "--per-address", "2", "--address", "127.0.0.1") as address:
+        yield address
+
+
+def test_one_network_address_has_a_share_of_all_places(shared):
+    one, other = "127.0.0.1", "127.0.0.2"
+    lines = [Line(shared.port, address) for address in (one, one, one, other, other)]
+    assert [line.begins() for line in lines] == [True, True, False, True, False]
+    for line in lines:
+        line.socket.close()
+    refused_at = "127.0.0.3"
+    again = Line(shared.port, refused_at)
+    assert again.begins()
+    again.socket.close()
+
+
+def test_a_page_beyond_the_share_is_asked_to_wait(shared):
+    lines = [Line(shared.port) for _ in range(2)]
+    assert all(line.begins() for line in lines)
+    assert refused(lambda: opened(shared)) == 503
+    for line in lines:
+        line.socket.close()
+
+
+def test_a_visitor_names_no_other_address_than_his_own(shared):
+    lines = [Line(shared.port, **{"X-Real-IP": f"10.0.0.{i}", "X-Forwarded-For": f"10.0.1.{i}"}) for i in range(3)]
+    assert [line.begins() for line in lines] == [True, True, False]
+    for line in lines:
+        line.socket.close()
+
+
+def test_behind_a_proxy_addresses_are_the_visitors():
+    with serving("--per-address", "1", "--proxied", "--address", "127.0.0.1") as address:
+        lines = [Line(address.port, **{"X-Real-IP": one}) for one in ("10.0.0.1", "10.0.0.2", "10.0.0.1")]
+        assert [line.begins() for line in lines] == [True, True, False]
+        for line in lines:
+            line.socket.close()
+
+
+def test_a_page_that_answers_no_sign_of_life_has_gone():
+    with serving(
+        "--sessions", "1", "--address", "127.0.0.1", command=("-c", PATCHED.format("page.BEAT = 0.3"))
+    ) as there:
+        silent = Line(there.port)
+        assert silent.begins()
+        assert silent.ends()  # though it reads, it says nothing
+
+        async def lives():
+            wire = await Wire.connect(there.port)
+            await asyncio.sleep(1.5)  # Tornado answers for it while it is read
+            reading = asyncio.ensure_future(wire.message())
+            await asyncio.sleep(1.5)
+            await wire.send({"take": {"kind": "json", "id": 1}})
+            said = await reading
+            await wire.close()
+            return said
+
+        assert "file" in talk(lives())
+
+
+def test_a_page_that_has_rested_gives_its_place_to_one_that_comes():
+    """Not one that is in a room, nor one that asks."""
+    with serving("--sessions", "3", command=("-c", PATCHED.format("live.RESTING_SECONDS = 0.4"))) as there:
+
+        async def come():
+            lecturer, resting, busy = [await Wire.connect(there.port) for _ in range(3)]
+            await lecturer.ask("room", {"open": ""})
+            await asyncio.sleep(0.6)
+            await busy.frame(1, a=-1.5)
+            new = await Wire.connect(there.port)
+            with pytest.raises(ConnectionError):
+                await resting.message()
+            late = await websocket_connect(f"ws://localhost:{there.port}/live")
+            assert await late.read_message() is None
+            codes = resting.socket.close_code, late.close_code
+            late.close()
+            await resting.vanish()
+            for wire in (lecturer, busy, new):
+                await wire.close()
+            return codes
+
+        assert talk(come()) == (CLOSE_RESTING, CLOSE_FULL)
+
+
+def test_pages_that_come_back_together_come_one_after_the_other(monkeypatch):
+    monkeypatch.setattr(live.time, "monotonic", lambda: 100.0)
+    places = LivePages(10)
+    assert [places.turn_of_return() for _ in range(4)] == [0.0, 0.05, 0.1, 0.15]
+    assert max(places.turn_of_return() for _ in range(10_000)) == live.MAX_RETURN_SECONDS
+    monkeypatch.setattr(live.time, "monotonic", lambda: 200.0)
+    assert places.turn_of_return() == 0.0
