@@ -13,7 +13,6 @@ import numpy as np
 
 from ...arrays import Array
 from ...expressions.arrays import path_program
-from ...numerics.along import first_defect, zeros_along
 from ...numerics.radau import Step, tableau
 from .decision import Flags
 from .field import ContactField, Local
@@ -64,6 +63,8 @@ class Inspection:
         speed : float
             The largest velocity so far.
         """
+        from ...numerics.along import first_defect  # on first use: it loads the compiler
+
         moving = self.field.moving
         if not moving.any():
             return None
@@ -80,6 +81,8 @@ class Inspection:
         """Return the first switch that a step passes."""
         if self._guards is None:
             return None
+        from ...numerics.along import zeros_along
+
         path, found, first = self._path(step, step.polynomial.shape[1] + 1, 0), np.empty((1, 2)), None
         for guard in range(len(self.field.branch.guards)):
             if zeros_along(*self._guards, path, guard, True, found) and (first is None or found[0, 0] < first.u):
