@@ -121,6 +121,14 @@ class Field:
         return after
 
     @cached_property
+    def rests(self) -> bool:
+        """Whether U = 0 at x = y = 0 and e = 0 for every z, as its formulas say."""
+        rows, zero = list(self.rows[:2]), _constant(0.0)
+        for name in FAST_NAMES:
+            rows = [row.substitute(name, zero) if name in row.names else row for row in rows]
+        return all(row.constant == 0.0 for row in rows)
+
+    @cached_property
     def system(self) -> System:
         """Its formulas as a system."""
         return System(U=self.rows[:2], W=self.rows[2:])

@@ -237,6 +237,8 @@ class _ReadMotion:
             starts = [begins, *(run.t_end for run in runs[:-1])]
             for k, (run, start) in enumerate(zip(runs, starts, strict=True)):
                 why = _phase_reason(run, "goes on" if k else "starts, follows" if initial else "comes, follows")
+                if initial and not k and not run.attracts[0] and not self.states[0, :2].any():
+                    why = say("starts on a repelling set", onto=run.onto)
                 turns = self.decided_by_errors(run)
                 if turns is None:
                     yield Phase("slide", start, run.t_end, why, run.onto)

@@ -19,7 +19,7 @@ from ..initial_value.field import Field, backwards, field
 from ..initial_value.functions import functions_of
 from ..initial_value.inspection import Inspection
 from ..initial_value.kernels.motion import UNDEFINED
-from ..initial_value.line import invariant_line
+from ..initial_value.line import InvariantLine, invariant_line
 from ..initial_value.motion_steps import MotionSteps, rate_at
 from ..initial_value.slopes import smoothed_direction
 from ..numerics.dense import Dense, StepArray, dense, gather_steps
@@ -31,6 +31,7 @@ from ..words import say
 from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
 from .phases import phases_of
+from .resting_distance import RestingDistance
 from .result import Simulation, SimulationStatus, simulation
 from .variation.regularised import of_regularised
 
@@ -235,18 +236,28 @@ class _RegularisedRun:
                 functions_of(formulas, self.psi), rate, self.eps, line, (t, self.span[1]), state, self.rtol,
                 self.atol / self.rtol, most, longest=self.max_step, inspection=inspection,
             )  # fmt: skip
+            resting = self.resting(formulas, line)
+            close = None
             try:
                 for part in motion.chunks():
-                    ended = _cut_at_event(part, watch, len(first))
-                    parts.append(part if ended is None else ended)
-                    most -= len(part.lengths)
+                    close = None if resting is None else resting.arrival(part)
+                    for steps in (part,) if close is None else resting.passage(part, *close, most):
+                        ended = _cut_at_event(steps, watch, len(first))
+                        parts.append(steps if ended is None else ended)
+                        most -= len(steps.lengths)
+                        if ended is not None:
+                            break
                     if ended is not None:
                         status, detail = SimulationStatus.EVENT, watch.reason
+                    if ended is not None or close is not None:
                         break
             except TooManyStepsError as error:
                 status, detail = self.end(motion.code, error, first)
             evaluations, undecided = evaluations + motion.evaluations, undecided + inspection.undecided
             t, state = float(motion.clock[0]), motion.y.copy()
+            if close is not None:
+                t, state = float(parts[-1].starts[-1] + parts[-1].lengths[-1]), parts[-1].ends[-1].copy()
+                continue
             if motion.leaves_line:
                 line = invariant_line(formulas, state, line)
                 continue
@@ -262,6 +273,12 @@ class _RegularisedRun:
         if undecided:
             detail = f"{detail} {say('not bounded', count=undecided)}".strip()
         return self.told(dense(self.span[0], first, parts), status, detail, evaluations, watch.times, jumps)
+
+    def resting(self, formulas: Field, line: InvariantLine | None) -> RestingDistance | None:
+        """Return what follows the distance to x = y = 0 where that is invariant; None elsewhere."""
+        if line is None or not formulas.rests:
+            return None
+        return RestingDistance(formulas, self.psi, self.eps, line, self.span[1], self.rtol, self.atol / self.rtol)
 
     def e(self, state: Array) -> list[float]:
         """Return e_Psi (2,) of a state."""

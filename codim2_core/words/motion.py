@@ -17,6 +17,10 @@ SENTENCES: dict[str, Sentence] = {
         "There is no critical set on the line: it crosses Σ and leaves along θ = {theta:.4g}.",
         "in a line, the equator ahead",
     ),
+    "starts on a repelling set": Sentence(
+        "It starts exactly on {onto}, which does not attract, and stays: any disturbance would make it leave.",
+        "a motion that starts at x = y = 0, which is invariant",
+    ),
     "load jumps": Sentence("The load jumps.", "a slide on Sigma where a formula jumps in time"),
     "load switches back": Sentence(
         "Both sides of a jump of its formulas lead back to it: give a formula that does not jump there.",

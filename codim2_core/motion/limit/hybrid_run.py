@@ -148,8 +148,12 @@ class HybridRun:
                 raise StopError(decision.reason)
             decision = self.leave(decision) if decision.kind == "leave" else self.slide(decision)
 
-    def first(self) -> Decision:
+    def first(self) -> Decision | None:
         """Decide what follows from a start on Sigma."""
+        if self.psi is not None and self.formulas.rests and not self.attracts_at_rest():
+            onto = critical_name(self.system, self.own, self.state[2:], np.zeros(2))
+            part = self.slid(np.zeros(2), delayed=True, resting=True)
+            return self.follow(part, say("starts on a repelling set", onto=onto), onto)
         if self.line is not None:
             return self.in_line(0.0, say("starts in a line"))
         held = hold(self.formulas, None, self.state[2:], self.stiction)
@@ -159,6 +163,11 @@ class HybridRun:
         if self.psi is not None:
             self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
         return self.at_border(decision) if decision.kind == "border" else decision
+
+    def attracts_at_rest(self) -> bool:
+        """Whether e = 0, a critical set for every z, attracts in the layer problem: whatever Psi is, as D e_Psi ~ 1."""
+        slopes = self.formulas.jacobian(0.0, 0.0, 0.0, 0.0, self.state[2:].tolist())[:2, :2]
+        return bool((np.linalg.eigvals(slopes).real < 0.0).all())
 
     def in_line(self, q: float, reason: str) -> Decision:
         """Decide what follows on Sigma in an invariant line, where the layer problem is that of one variable."""

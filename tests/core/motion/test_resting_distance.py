@@ -1,0 +1,60 @@
+"""x = y = 0 is invariant: how far a motion is from it is known however small, and so when and where it leaves."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from codim2_core import System, psi, simulate, simulate_nonsmooth
+from codim2_core.motion.result import SimulationStatus
+
+
+def _log_distance(bend, eps, own, z1):
+    """log(r/eps) at z = z1, from r = 0.02 at z = 0, by another method: of ``r' = (z - 1/2) e - bend(e)``."""
+
+    def rate(z, state):
+        zeta = math.exp(min(state[0], 40.0))
+        e = float(own.modulus(zeta)) if state[0] > -40.0 else math.exp(state[0]) * float(own.jacobian_factors(0.0)[0])
+        return [((z - 0.5) * e - bend(e)) / (eps * math.exp(state[0])) if e > 0.0 else (z - 0.5) / eps]
+
+    found = solve_ivp(rate, (0.0, z1), [math.log(0.02 / eps)], "LSODA", rtol=1e-10, atol=1e-10)
+    return float(found.y[0, -1])
+
+
+@pytest.mark.parametrize(("text", "bend"), [("c**3", lambda e: e**3), ("c*c", lambda e: e * e)])
+@pytest.mark.parametrize("eps", [1e-3, 1e-4, 1e-6, 1e-8])
+def test_an_exchange_of_stability_is_left_to_the_side_it_came_from(text, bend, eps):
+    system, own = System(U=(f"(z-0.5)*c - {text}", "-s"), W=("1",)), psi.constant()
+    run = simulate(system, own, (0.02, 0.0, 0.0), (0.0, 1.5), eps=eps)
+    assert run.status is SimulationStatus.T_END
+    assert (run.states[:, 0] > 0.0).all()
+    assert not run.states[:, 1].any()
+    limit = simulate_nonsmooth(system, (0.02, 0.0, 0.0), (0.0, 1.5), own)
+    assert limit.phases[-1].t_start == pytest.approx(0.9866, abs=2e-4)
+    if eps == 1e-3:
+        r = float(run.dense(1.0)[0])
+        assert math.log(r / eps) == pytest.approx(_log_distance(bend, eps, own, 1.0), abs=1e-3)
+    else:  # at C: (z - 1/2) e = bend(e)
+        e = math.sqrt(0.5) if text == "c**3" else 0.5
+        assert float(run.dense(1.0)[0]) / eps == pytest.approx(e / math.sqrt(1.0 - e * e), rel=20.0 * eps + 1e-6)
+
+
+def test_it_keeps_its_side_under_every_psi():
+    system = System(U=("sin(3*z)*c - c**3", "-s"), W=("-1",))
+    for own in (psi.constant(), psi.tanh(), psi.hill(3)):
+        run = simulate(system, own, (-0.02, 0.0, -0.05), (0.0, 2.0), eps=1e-5)
+        assert run.status is SimulationStatus.T_END
+        assert (run.states[:, 0] < 0.0).all()
+
+
+@pytest.mark.parametrize("U", [("c", "s"), ("(z-0.5)*c-c**3", "-s"), ("-c", "0.5*s"), ("c - 2*s", "2*c + s")])
+def test_what_starts_exactly_on_a_repelling_set_stays_in_both(U):
+    system, start = System(U=U, W=("1",)), (0.0, 0.0, 0.7)
+    for run in (
+        simulate(system, psi.tanh(), start, (0.0, 1.0), eps=1e-4),
+        simulate_nonsmooth(system, start, (0.0, 1.0), psi.tanh()),
+    ):
+        assert [phase.kind for phase in run.phases] == ["slide"]
+        assert "any disturbance would make it leave" in run.phases[0].reason
+        np.testing.assert_array_equal(run.states[-1, :2], 0.0)
