@@ -148,6 +148,9 @@ class Contacts(Result):
 
         The regularised motion differs from it by O(eps) until a contact departs, and from then on, for Psi = 1, by
         O(eps^(4/5)): where a force passes its bound, ``x' = r (alpha t + (eps/x)^2/2)``, whose length is that.
+        Each step ends at a kink or jump of a formula (abs, sign, min, max, floor, mod, comparisons), where which
+        contacts stick is decided anew. Bounds of the formulas along it show that no push between its stages is missed;
+        where bounds decide nothing, `reason` says so, and `max_step` makes the steps shorter.
 
         Parameters
         ----------
@@ -167,7 +170,7 @@ class Contacts(Result):
         Raises
         ------
         ValueError
-            The state, the span or a time is invalid.
+            The state, the span, a time or max_step is invalid.
         """
         return self._follow(NonsmoothRun, Coulomb(), state0, t_span, rtol, atol, times, max_steps, max_step)
 
@@ -188,7 +191,7 @@ class Contacts(Result):
         Raises
         ------
         ValueError
-            The state, the span, a time or eps is invalid.
+            The state, the span, a time, max_step or eps is invalid.
         """
         if not 1e-14 <= eps <= 1e6:
             raise ValueError(f"eps is {eps}; give a positive number, from 1e-14 to 1e6.")
