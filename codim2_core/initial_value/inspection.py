@@ -58,8 +58,10 @@ class Inspection:
     line : InvariantLine or None
     rtol, floor : float
         As in `MotionSteps`.
-    e : ndarray (2,)
-        Of a slide in the limit, where it begins.
+    slide : bool
+        The steps are those of a slide in the limit, of (e, z).
+    at : ndarray (2,), optional
+        The e of a slide that does not move: its steps are of (0, 0, z).
     """
 
     def __init__(
@@ -71,8 +73,17 @@ class Inspection:
         rtol: float,
         floor: float,
         slide: bool = False,
+        at: Array | None = None,
     ) -> None:
-        self.field, self.psi, self.eps, self.line, self.floor, self.is_slide = field, psi, eps, line, floor, slide
+        self.at = at
+        self.field, self.psi, self.eps, self.line, self.floor, self.is_slide = (
+            field,
+            psi,
+            eps,
+            line,
+            floor,
+            slide or at is not None,
+        )
         self.tolerance = max(CHANGE_TOLERANCE, PER_RTOL * rtol)
         self.program = path_program(field.rows)
         self.guards = path_program(field.branch.guards) if field.branch.guards else None
@@ -85,6 +96,8 @@ class Inspection:
             return None
         first = np.concatenate([steps.first[None], steps.ends[:-1]])
         states = np.concatenate([first[:, :, None], steps.polynomials], axis=2)
+        if self.at is not None:
+            states[:, :2, 0] = self.at
         e = states[:, :2] if self.is_slide else self._directions(states)
         paths = np.concatenate([e, states], axis=1)
         if self.is_slide:

@@ -157,8 +157,9 @@ def simulate(
 
 
 def simulate_segments(
-    system: AnySystem, psi: Psi, starts: Array, times: Array, *, eps: float, rtol: float, atol: float, max_steps: int
-) -> tuple[Simulation, tuple[int, ...], Array]:
+    system: AnySystem, psi: Psi, starts: Array, times: Array, *, eps: float, rtol: float, atol: float, max_steps: int,
+    max_step: float,
+) -> tuple[Simulation, tuple[int, ...], Array]:  # fmt: skip
     """Follow a motion in segments, as multiple shooting does, each from a start of its own.
 
     Parameters
@@ -168,7 +169,7 @@ def simulate_segments(
     starts : ndarray (k, 2 + m)
     times : ndarray (k + 1,)
         Of the starts, and of the last end.
-    eps, rtol, atol, max_steps
+    eps, rtol, atol, max_steps, max_step
         As in `simulate`.
 
     Returns
@@ -182,7 +183,9 @@ def simulate_segments(
     """
     runs: list[Simulation] = []
     for start, span in zip(starts, pairwise(times.tolist()), strict=True):
-        runs.append(simulate(system, psi, start, span, eps=eps, rtol=rtol, atol=atol, max_steps=max_steps))
+        runs.append(
+            simulate(system, psi, start, span, eps=eps, rtol=rtol, atol=atol, max_steps=max_steps, max_step=max_step)
+        )
         if runs[-1].status is not SimulationStatus.T_END:
             break
     motions = [run.motion for run in runs]
@@ -241,7 +244,9 @@ class _RegularisedRun:
             try:
                 for part in motion.chunks():
                     close = None if resting is None else resting.arrival(part)
-                    for steps in (part,) if close is None else resting.passage(part, *close, most):
+                    passage = [] if close is None or resting is None else list(resting.passage(part, *close, most))
+                    close = close if passage else None
+                    for steps in passage or (part,):
                         ended = _cut_at_event(steps, watch, len(first))
                         parts.append(steps if ended is None else ended)
                         most -= len(steps.lengths)

@@ -15,9 +15,12 @@ import numpy as np
 
 from ..arrays import Array
 from ..initial_value.field import Field
+from ..initial_value.inspection import Inspection
 from ..initial_value.line import InvariantLine
+from ..initial_value.motion_steps import MotionSteps
 from ..initial_value.slow_steps import steps_of_z
 from ..numerics.dense import StepArray
+from ..numerics.radau import Step
 from ..numerics.root_between import root_between
 from ..psi.function import Psi
 
@@ -67,7 +70,8 @@ class RestingDistance:
         else:
             t, state = began, part.first
         taken = list(self._steps(state, t, most))
-        yield StepArray(state, *(np.array(column) for column in zip(*taken, strict=True)))
+        if taken:
+            yield StepArray(state, *(np.array(column) for column in zip(*taken, strict=True)))
 
     def _steps(self, state: Array, t: float, most: int) -> Iterator[tuple[float, float, Array, Array]]:
         """Yield start, length, end and polynomial of steps of (x, y, z), r far below eps."""
@@ -78,7 +82,7 @@ class RestingDistance:
             lambda z: self.rate(z[1:]), self._slopes, (t, self.t_end), first, self.rtol, self.floor, most
         )
         before = state[:2]
-        for step in (step for part in motion.chunks() for step in part):
+        for step in self._up_to_switch(motion):
             u, starts, ends = 1.0, float(step.first[2]), float(step.last[2])
             if ends > top and ends > starts:
                 level = lambda u, step=step: float(step.at(u)[2]) - top
@@ -90,6 +94,17 @@ class RestingDistance:
             way[:2, 0], before = end - before, end
             yield step.start, u * step.h, np.concatenate([end, last[3:]]), np.concatenate([way[:2], way[3:]])
             if u < 1.0:
+                return
+
+    def _up_to_switch(self, motion: MotionSteps) -> Iterator[Step]:
+        """Yield the steps of (eps log r, z) until the formulas switch."""
+        inspection = Inspection(self.field, self.psi, self.eps, self.line, self.rtol, self.floor, at=np.zeros(2))
+        rest = lambda array: np.delete(array, 2, axis=array.ndim - 1)
+        for part in motion.chunks():
+            ways = np.delete(part.polynomials, 2, axis=1)
+            cut = inspection.look(StepArray(rest(part.first), part.starts, part.lengths, rest(part.ends), ways))
+            yield from part if cut is None else part.upto(cut.step, cut.u)
+            if cut is not None:
                 return
 
     def _slopes(self, z: Array) -> Array:

@@ -22,6 +22,11 @@ SENTENCES: dict[str, Sentence] = {
         "a motion that starts at x = y = 0, which is invariant",
     ),
     "load jumps": Sentence("The load jumps.", "a slide on Sigma where a formula jumps in time"),
+    "load sets in": Sentence("A load sets in.", "a slide on Sigma where a formula has a kink in time"),
+    "load switches on a cycle": Sentence(
+        "A formula switches while it slides on a limit cycle, and what follows is not known.",
+        "a kink or a jump in z within a slide on a limit cycle of a general system",
+    ),
     "load switches back": Sentence(
         "Both sides of a jump of its formulas lead back to it: give a formula that does not jump there.",
         "a motion would slide along a jump in the slow variables",

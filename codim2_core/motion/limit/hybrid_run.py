@@ -12,11 +12,13 @@ import numpy as np
 
 from ...arrays import Array
 from ...cycles.limit_cycles import limit_cycles
+from ...expressions.arrays import path_program
 from ...initial_value.departure import leave
 from ...initial_value.events import EventWatch
 from ...initial_value.field import Field
 from ...initial_value.line import InvariantLine, invariant_line
 from ...layer_problem.equator import equator_equilibria
+from ...numerics.along import zeros_along
 from ...numerics.radau import Step, TooManyStepsError
 from ...psi import constructors
 from ...psi.function import Psi
@@ -317,9 +319,20 @@ class HybridRun:
         return self.past_loss(part.e, C)
 
     def past_switch(self, part: Slide) -> Decision:
-        """Decide anew what follows from the place of the set, where the formulas have jumped."""
-        reason = say("load jumps")
+        """Decide anew what follows from the place of the set, where the formulas have switched."""
+        assert part.switch is not None
+        jumps = self.formulas.branch.jumps[part.switch]
         self.enter_branch(part.e, self.state, self.t, part.switch)
+        if jumps:
+            return self.onward_from(part, say("load jumps"))
+        # What a load that sets in continuously does to a set that repels is seen a little later.
+        here, self.state = self.state, np.concatenate([self.state[:2], self.ahead(part.e, PAST)])
+        decision = self.onward_from(part, say("load sets in"))
+        self.state = here
+        return decision
+
+    def onward_from(self, part: Slide, reason: str) -> Decision:
+        """Decide what follows on Sigma from the place of a set."""
         if self.line is not None:
             return self.in_line(float(self.line.n @ part.e), reason)
         held = hold(self.formulas, None, self.state[2:], self.stiction)
@@ -340,12 +353,27 @@ class HybridRun:
             raise StopError(f"{decision.reason} {say('no z to follow')}")
         part = slide_on_cycle(self.system, self.own, index, self.t, z, self.t_end, self.left)
         self.evaluations += part.evaluations
+        if self.switches_within(part.taken):
+            raise StopError(f"{decision.reason} {say('load switches on a cycle')}")
         self.add("slide", part.taken, decision.reason, decision.onto, part.places, part.p)
         if part.end == "time":
             return None
         if not part.taken:
             return Decision("stop", say("cycle ends at once"))
         return self.past_cycle(self.state[2:] + 10.0 * (self.state[2:] - part.taken[-1].first[2:]))
+
+    def switches_within(self, taken: Sequence[Step]) -> bool:
+        """Whether the formulas switch within steps on Sigma."""
+        guards, found = self.formulas.branch.guards, np.empty((1, 2))
+        if not guards:
+            return False
+        program = path_program(guards)
+        for step in taken:
+            path = np.zeros((2 + len(step.first), 1 + step.polynomial.shape[1]))
+            path[2:, 0], path[2:, 1:] = step.first, step.polynomial
+            if any(zeros_along(*program.arrays, path, g, True, found) for g in range(len(guards))):
+                return True
+        return False
 
     def ahead(self, e: Array, part: float, beyond: Array | None = None) -> Array:
         """Return z a small part of the time ahead, or of the slide that has ended, along the slow flow at e."""

@@ -145,11 +145,11 @@ def slide(
     floor = atol / rtol
     pace = own_time(z, np.array(field.value(*manifold.e.tolist(), 0.0, 0.0, *z.tolist())[2:]), floor)
     h, shortest = FIRST_STEP_SHARE * pace, MIN_STEP * min(pace, t_end - t)
-    inspection = Inspection(field, None, 0.0, line, rtol, floor, slide=True)
+    inspection = Inspection(field, None, 0.0, line, rtol, floor, slide=True, at=manifold.e if resting else None)
     if resting:
         (c, s), slope = e.tolist(), partial(field.jacobian, *e.tolist(), 0.0, 0.0)
         rate = lambda z: np.array(field.value(c, s, 0.0, 0.0, *z)[2:])
-        options = {"h": h, "least": shortest, "longest": max_step}
+        options = {"h": h, "least": shortest, "longest": max_step, "inspection": inspection}
         motion = steps_of_z(rate, lambda z: slope(z)[2:, 4:], (t, t_end), z, rtol, floor, most, **options)
         ahead = _steps_of_rest(e, motion)
     else:

@@ -72,6 +72,7 @@ def lyapunov_exponents(
     atol: float = 1e-10,
     stiction: float = 1.0,
     max_steps: int = MAX_STEPS,
+    max_step: float = np.inf,
 ) -> LyapunovExponents:
     """Lyapunov exponents of the motion from a state, followed over many periods, and its states at each of them.
 
@@ -82,7 +83,7 @@ def lyapunov_exponents(
         (x, y, z1, ..., zm).
     period : float
         Of the forcing, or of a system without one any time after which derivatives are made orthogonal again.
-    psi, eps, rtol, atol, stiction, max_steps
+    psi, eps, rtol, atol, stiction, max_steps, max_step
         As in `periodic_motion`.
     count : int
         Periods that are counted, at least 16.
@@ -110,11 +111,11 @@ def lyapunov_exponents(
     >>> bool(found.values[0] > 0.1), round(float(found.values.sum()), 6)
     (True, -1.1)
     """
-    checked_tolerances(rtol, atol, max_steps)
+    checked_tolerances(rtol, atol, max_steps, max_step)
     if count < BATCHES:
         raise ValueError(f"count is {count}; give at least {BATCHES} periods.")
     start = checked_state(with_time(state0, system, 0.0), formulas_of(system).m)
-    asked = shooting(system, psi, eps or 0.0, start, period, None, atol / rtol, max_steps, stiction)
+    asked = shooting(system, psi, eps or 0.0, start, period, None, atol / rtol, max_steps, stiction, max_step)
     free = np.ix_(asked.free, asked.free)
     basis = np.eye(int(asked.free.sum()))
     growth, section, state, why = [], [], start, ""

@@ -54,6 +54,7 @@ def response_curve(
     atol: float = 1e-11,
     stiction: float = 1.0,
     max_steps: int = MAX_STEPS,
+    max_step: float = np.inf,
 ) -> ResponseCurve:
     """Follow a periodic motion along a parameter, both ways from where the system is, through folds.
 
@@ -68,7 +69,7 @@ def response_curve(
     along : str
         One of ``system.variable``; its present value lies in the span.
     span : (low, high)
-    psi, eps, advance, rtol, atol, stiction, max_steps
+    psi, eps, advance, rtol, atol, stiction, max_steps, max_step
         As in `periodic_motion`.
 
     Returns
@@ -114,15 +115,13 @@ def response_curve(
     eps = eps or 0.0
     found = periodic_motion(
         system, state0, period_of(value), psi, eps,
-        advance=advance, rtol=rtol, atol=atol, stiction=stiction, max_steps=max_steps,
+        advance=advance, rtol=rtol, atol=atol, stiction=stiction, max_steps=max_steps, max_step=max_step,
     )  # fmt: skip
     if not found.found:
         raise ValueError(f"no periodic motion to begin with: {found.reason}")
     moved = None if callable(period) and advance is None else found.advance
-    family = MotionFamily(
-        shooting(system, psi, eps, found.state0, found.period, moved, atol / rtol, max_steps, stiction), along,
-        (low, high), period_of, moved, rtol,
-    )  # fmt: skip
+    own = shooting(system, psi, eps, found.state0, found.period, moved, atol / rtol, max_steps, stiction, max_step)
+    family = MotionFamily(own, along, (low, high), period_of, moved, rtol)
     return _trace_both_ways(family, found.run, found.period, value)
 
 

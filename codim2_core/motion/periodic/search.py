@@ -55,6 +55,7 @@ def periodic_motion(
     atol: float = 1e-11,
     stiction: float = 1.0,
     max_steps: int = MAX_STEPS,
+    max_step: float = np.inf,
 ) -> PeriodicMotion:
     """Find a motion that repeats itself, by Newton's method from a start near it, and say whether it is stable.
 
@@ -80,6 +81,8 @@ def periodic_motion(
         As in `simulate`; at last it is followed with a hundredth of both.
     stiction : float
         Static over kinetic friction in the limit, as in `simulate_nonsmooth`.
+    max_step : float
+        As in `simulate`.
     max_steps : int
         Steps of one motion.
 
@@ -108,7 +111,7 @@ def periodic_motion(
     >>> found.stability, round(math.hypot(*found.state0[2:4]), 9)
     ('stable', 0.133333333)
     """
-    checked_tolerances(rtol, atol, max_steps)
+    checked_tolerances(rtol, atol, max_steps, max_step)
     formulas = field(system)
     start = checked_state(with_time(state0, system, 0.0), formulas.m)
     eps = eps or 0.0
@@ -116,13 +119,13 @@ def periodic_motion(
         raise ValueError(f"eps is {eps!r}; give 0 for the limit, or {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
     if eps > 0.0 and psi is None:
         raise ValueError("psi is None; give the regularisation, or leave out eps for the limit eps -> 0.")
-    asked = shooting(system, psi, float(eps), start, float(period), advance, atol / rtol, max_steps, stiction)
+    asked = shooting(system, psi, float(eps), start, float(period), advance, atol / rtol, max_steps, stiction, max_step)
     return _search(asked, start, rtol)
 
 
 def shooting(
     system: AnySystem, psi: Psi | None, eps: float, start: Array, period: float, advance: ArrayLike | None,
-    floor: float, max_steps: int, stiction: float = 1.0,
+    floor: float, max_steps: int, stiction: float = 1.0, max_step: float = np.inf,
 ) -> Shooting:  # fmt: skip
     """Return the boundary value problem of a periodic motion; refuse formulas that do not repeat themselves."""
     formulas = field(system)
@@ -135,7 +138,7 @@ def shooting(
             f"the formulas do not repeat themselves as z moves on by {moved.tolist()}; give a multiple of the "
             "forcing's period, or by how much z moves on as advance."
         )
-    return Shooting(system, psi, eps, formulas, rates != 0.0, moved, period, floor, max_steps, stiction)
+    return Shooting(system, psi, eps, formulas, rates != 0.0, moved, period, floor, max_steps, stiction, max_step)
 
 
 def _advance(given: ArrayLike | None, rates: Array, period: float) -> Array:

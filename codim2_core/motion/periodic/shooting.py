@@ -69,6 +69,7 @@ class Shooting:
     max_steps : int
     stiction : float
         Static over kinetic friction.
+    max_step : float
     names : tuple of str
         Numbers of the system by which motions are differentiated too.
     parts : tuple of float
@@ -85,6 +86,7 @@ class Shooting:
     floor: float
     max_steps: int
     stiction: float = 1.0
+    max_step: float = np.inf
     names: tuple[str, ...] = ()
     parts: tuple[float, ...] = (0.0,)
 
@@ -109,7 +111,7 @@ class Shooting:
         ends : ndarray (k, 2 + m)
             Of the segments.
         """
-        options = {"rtol": rtol, "atol": rtol * self.floor, "max_steps": self.max_steps}
+        options = {"rtol": rtol, "atol": rtol * self.floor, "max_steps": self.max_steps, "max_step": self.max_step}
         if self.eps == 0.0:
             run = simulate_nonsmooth(self.system, starts[0], (0.0, period), self.psi, stiction=self.stiction, **options)
             return run, (0, len(run.times) - 1), run.states[-1:]
