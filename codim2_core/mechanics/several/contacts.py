@@ -50,7 +50,7 @@ from ..formula_reading import FormulaRow, Matrix
 from ..mechanism import Mechanism
 from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
-from .field import ContactField, Coulomb, Law, Regularised, contact_field
+from .field import ContactField, Coulomb, Law, Regularised, contact_field, held_rank
 from .nonsmooth_run import NonsmoothRun
 from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus, contact_names
 from .run import ContactRun, NoFrictionError, RegularisedRun
@@ -134,8 +134,7 @@ class Contacts(Result):
         e[at_sets] = found.e
         sticks = at_sets.copy()
         sticks[at_sets] = found.sticks
-        held = here.J[sticks].reshape(-1, self._field.n)
-        unique = not len(held) or int(np.linalg.matrix_rank(held, 1e-10)) == len(held)
+        unique = held_rank(here, sticks) == 2 * int(sticks.sum())
         rates = np.where(sticks[:, None], 0.0, here.J @ found.u + here.k)
         said = say("contacts decided" if unique else "contacts redundant", count=int(sticks.sum()), of=len(self))
         return ContactDecision(_kinds(sticks), read_only(e), read_only(rates), read_only(found.u), unique, said)
