@@ -25,6 +25,7 @@ from ..numerics.root_between import root_between
 from ..psi.function import Psi
 
 CLOSE = 1e-4  # r in units of eps, below which the flow is linear
+LEVEL_NODES = tuple((np.arange(16) / 16.0).tolist())  # of a step, where the least r is looked for
 LOWEST, TINY = -700.0, 1e-300  # log(r/eps) and r: smaller ones are shown as these, and carried on as they are
 
 
@@ -83,17 +84,18 @@ class RestingDistance:
         )
         before = state[:2]
         for step in self._up_to_switch(motion):
-            u, starts, ends = 1.0, float(step.first[2]), float(step.last[2])
-            if ends > top and ends > starts:
-                level = lambda u, step=step: float(step.at(u)[2]) - top
-                u = root_between(level, 0.0, 1.0, 1e-14) if starts < top else 0.0
+            u, level = 1.0, lambda u, step=step: float(step.at(u)[2]) - top
+            if level(1.0) > 0.0:  # it has grown again after it was least
+                least = min(LEVEL_NODES, key=level)
+                u = root_between(level, least, 1.0, 1e-14) if level(least) < 0.0 else 1.0
             last = step.at(u)
-            end = side * self.eps * math.exp(max(float(last[2]) / self.eps, LOWEST)) * self.line.n
+            size = min(max(float(last[2]) / self.eps, LOWEST), 0.0)
+            end = side * self.eps * math.exp(size) * self.line.n
             way = step.polynomial * u ** np.arange(1, step.polynomial.shape[1] + 1)
             way[:2] = 0.0
             way[:2, 0], before = end - before, end
             yield step.start, u * step.h, np.concatenate([end, last[3:]]), np.concatenate([way[:2], way[3:]])
-            if u < 1.0:
+            if level(1.0) > 0.0:
                 return
 
     def _up_to_switch(self, motion: MotionSteps) -> Iterator[Step]:

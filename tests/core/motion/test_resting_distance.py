@@ -58,3 +58,27 @@ def test_what_starts_exactly_on_a_repelling_set_stays_in_both(U):
         assert [phase.kind for phase in run.phases] == ["slide"]
         assert "any disturbance would make it leave" in run.phases[0].reason
         np.testing.assert_array_equal(run.states[-1, :2], 0.0)
+
+
+@pytest.mark.parametrize("x", [0.02, 0.0])
+def test_a_load_that_sets_in_while_it_rests_ends_the_delay(x):
+    """The push z - 0.7 sets in at z = 0.7; friction holds it up to z = 1.1, and then x' = (z - 1/2) - 1 + (z - 0.7)."""
+    system = System(U=("(z-0.5)*c - c**3 + max(0, z-0.7)", "-s"), W=("1",))
+    runs = simulate(system, psi.constant(), (x, 0.0, 0.0), (0.0, 1.5), eps=1e-6), simulate_nonsmooth(
+        system, (x, 0.0, 0.0), (0.0, 1.5), psi.constant()
+    )
+    for run, error in zip(runs, (1e-4, 1e-9), strict=True):
+        assert run.status is SimulationStatus.T_END
+        assert run.phases[-1].kind == "slip"
+        assert run.phases[-1].t_start == pytest.approx(1.1, abs=error)
+        assert run.states[-1, 0] == pytest.approx(0.16, abs=error)
+
+
+def test_a_load_that_jumps_while_it_rests_on_a_repelling_set():
+    """It stays until 1, and is then pushed with e + 3 = 4."""
+    system = System(U=("c + 3*(t>1)", "0.5*s"), W=("x",))
+    for run in (
+        simulate(system, psi.constant(), (0.0, 0.0, 0.0), (0.0, 2.0), eps=1e-6),
+        simulate_nonsmooth(system, (0.0, 0.0, 0.0), (0.0, 2.0), psi.constant()),
+    ):
+        assert run.states[-1, [0, 2]] == pytest.approx([4.0, 2.0], abs=1e-5)
