@@ -95,8 +95,11 @@ def rest_and_gauss_seidel(rng: random.Random) -> tuple[str, list[str]]:
     found = shaken_plate(places, loads, push).decide((0.0, 0.0, 0.0, 0.0))
     J = np.array([[[1.0, 0.0, -y], [0.0, 1.0, x]] for x, y in places])
     Q = push * (0.0, 1.0, 1.0)
-    other = gauss_seidel(np.diag([MASS, MASS, INERTIA]), Q, J, np.zeros((len(J), 2)), MU * loads)
-    apart = float(np.abs(found.acceleration - other).max())
+    for rounds in (4_000, 40_000):  # it converges slowly where feet are nearly in a line
+        other = gauss_seidel(np.diag([MASS, MASS, INERTIA]), Q, J, np.zeros((len(J), 2)), MU * loads, rounds)
+        apart = float(np.abs(found.acceleration - other).max())
+        if apart <= MAX_ACCELERATION_ERROR:
+            break
     what = f"plate at rest on {places.tolist()}, loads {loads.tolist()}, push {push.tolist()}"
     return what, [f"accelerations {apart:.2e} apart"] if apart > MAX_ACCELERATION_ERROR else []
 

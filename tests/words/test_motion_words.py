@@ -26,6 +26,7 @@ ELSEWHERE = {
     "motion/test_nonsmooth.py": ("repels angularly", "nothing leaves"),
     "motion/test_delay.py": ("delay, open", "Hopf, delayed", "Hopf, delayed until", "Hopf, delayed until the buffer"),
     "motion/test_fold_classification.py": ("canard point", "folded node", "folded saddle", "folded, degenerate"),
+    "motion/test_contact_events.py": ("pole on the hemisphere",),
     "motion/test_exchange.py": ("transcritical", "pitchfork", "exchange, moving", "errors decide"),
     "motion/test_agreement.py": ("phases agree", "phases agree, less", "phases differ"),
     "initial_value/test_events.py": ("at an event",),

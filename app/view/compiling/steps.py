@@ -40,6 +40,7 @@ def kernel_steps() -> list[tuple[str, Callable[[], object]]]:
         ("cycles of general systems", partial(warm_general, GENERAL_LAYERS[4:])),
         ("branches of cycles", _warm_branches),
         ("names of many systems", _warm_names),
+        ("motions of several contacts", _warm_contacts),
         ("motions for ε > 0", _warm_regularised),
         ("motions in the limit", _warm_nonsmooth),
     ]
@@ -119,6 +120,15 @@ def warm_general(layers: Sequence[str] = GENERAL_LAYERS) -> None:
     scene = Scene(example.system, example.psi, example.z)
     for layer in layers:
         scene[layer]
+
+
+def _warm_contacts() -> None:
+    """Compile, or load, what evaluates mechanisms with several contacts, and follows their motions past a switch."""
+    from codim2_core.mechanics import contacts
+
+    rows = ((1, 0), (0, 1))
+    block = contacts(rows, [(rows, 0.1, 10)], ("2*(t > 1)", 0), ("u", "v"), {"t": 1})
+    block.simulate_nonsmooth((0.0, 0.0, 0.0), (0.0, 2.0))
 
 
 def _warm_regularised() -> None:

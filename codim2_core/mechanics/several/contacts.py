@@ -50,7 +50,7 @@ from ..formula_reading import FormulaRow, Matrix
 from ..mechanism import Mechanism
 from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
-from .field import ContactField, Coulomb, Law, Regularised, contact_field
+from .field import ContactField, Coulomb, Law, Regularised, contact_field, held_rank
 from .nonsmooth_run import NonsmoothRun
 from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus, contact_names
 from .run import ContactRun, NoFrictionError, RegularisedRun
@@ -134,8 +134,7 @@ class Contacts(Result):
         e[at_sets] = found.e
         sticks = at_sets.copy()
         sticks[at_sets] = found.sticks
-        held = here.J[sticks].reshape(-1, self._field.n)
-        unique = not len(held) or int(np.linalg.matrix_rank(held, 1e-10)) == len(held)
+        unique = held_rank(here, sticks) == 2 * int(sticks.sum())
         rates = np.where(sticks[:, None], 0.0, here.J @ found.u + here.k)
         said = say("contacts decided" if unique else "contacts redundant", count=int(sticks.sum()), of=len(self))
         return ContactDecision(_kinds(sticks), read_only(e), read_only(rates), read_only(found.u), unique, said)
@@ -148,6 +147,9 @@ class Contacts(Result):
 
         The regularised motion differs from it by O(eps) until a contact departs, and from then on, for Psi = 1, by
         O(eps^(4/5)): where a force passes its bound, ``x' = r (alpha t + (eps/x)^2/2)``, whose length is that.
+        Each step ends at a kink or jump of a formula (abs, sign, min, max, floor, mod, comparisons), where which
+        contacts stick is decided anew. Bounds of the formulas along it show that no push between its stages is missed;
+        where bounds decide nothing, `reason` says so, and `max_step` makes the steps shorter.
 
         Parameters
         ----------
@@ -167,7 +169,7 @@ class Contacts(Result):
         Raises
         ------
         ValueError
-            The state, the span or a time is invalid.
+            The state, the span, a time or max_step is invalid.
         """
         return self._follow(NonsmoothRun, Coulomb(), state0, t_span, rtol, atol, times, max_steps, max_step)
 
@@ -188,7 +190,7 @@ class Contacts(Result):
         Raises
         ------
         ValueError
-            The state, the span, a time or eps is invalid.
+            The state, the span, a time, max_step or eps is invalid.
         """
         if not 1e-14 <= eps <= 1e6:
             raise ValueError(f"eps is {eps}; give a positive number, from 1e-14 to 1e6.")

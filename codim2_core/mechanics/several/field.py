@@ -243,6 +243,12 @@ def contact_field(
     return ContactField(len(velocities), len(contacts), tuple(map(algebra.formula, entries)))
 
 
+def held_rank(local: Local, sticks: Flags) -> int:
+    """Return how many directions of the velocities contacts that stick hold."""
+    held = local.J[sticks].reshape(-1, local.J.shape[2])
+    return int(np.linalg.matrix_rank(held, RANK_TOLERANCE)) if len(held) else 0
+
+
 def held_rates(local: Local, sticks: Flags, Q: Array) -> tuple[Array, Array]:
     """Return v' where contacts stick, and the forces (c, 2) that hold them: of redundant ones the smallest."""
     free = np.asarray(np.linalg.solve(local.M, Q), np.float64)

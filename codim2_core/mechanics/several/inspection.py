@@ -13,10 +13,9 @@ import numpy as np
 
 from ...arrays import Array
 from ...expressions.arrays import path_program
-from ...numerics.along import first_defect, zeros_along
 from ...numerics.radau import Step, tableau
 from .decision import Flags
-from .field import ContactField, Local
+from .field import ContactField, Local, held_rank
 
 CHANGE_TOLERANCE, PER_RTOL = 1e-5, 30.0  # of a state: what a defect may change it by; of rtol, where that is larger
 FORCE_TOLERANCE = 1e-4  # of the friction: the defect of a force while a contact sticks
@@ -64,6 +63,8 @@ class Inspection:
         speed : float
             The largest velocity so far.
         """
+        from ...numerics.along import first_defect  # on first use: it loads the compiler
+
         moving = self.field.moving
         if not moving.any():
             return None
@@ -80,6 +81,8 @@ class Inspection:
         """Return the first switch that a step passes."""
         if self._guards is None:
             return None
+        from ...numerics.along import zeros_along
+
         path, found, first = self._path(step, step.polynomial.shape[1] + 1, 0), np.empty((1, 2)), None
         for guard in range(len(self.field.branch.guards)):
             if zeros_along(*self._guards, path, guard, True, found) and (first is None or found[0, 0] < first.u):
@@ -93,11 +96,6 @@ class Inspection:
         path[2 : 2 + n, 0], path[2 : 2 + n, 1 : d + 1] = step.first, step.polynomial
         return path
 
-    def _holds(self, here: Local, sticks: Flags) -> bool:
-        """Whether contacts that stick leave no velocity free."""
-        held = here.J[sticks].reshape(-1, self.field.n)
-        return len(held) >= self.field.n and np.linalg.matrix_rank(held, 1e-10) == self.field.n
-
     def _allowed(self, step: Step, sizes: Array, here: Local, sticks: Flags, speed: float) -> Array:
         """Return the defects that are allowed of each row, as rates and as changes, and where both bounds count.
 
@@ -108,7 +106,7 @@ class Inspection:
         speed = max(speed, float(np.abs(step.last[:n]).max()))
         arms, mass = float(np.abs(here.J).max()), float(np.abs(here.M).max())
         friction = FORCE_TOLERANCE * float(here.r.max()) if sticks.any() else 0.0
-        partly = float(sticks.any() and not self._holds(here, sticks))
+        partly = float(0 < held_rank(here, sticks) < n)
         q = np.abs([step.first[n:], step.last[n:]]).max(axis=0)
         M, Q, J, surface, r, moves, k = (place for place, _ in self.field.places)
         allowed = np.zeros((3, len(self.field.rows)))

@@ -16,7 +16,7 @@ from ...numerics.radau import Step, tableau, truncate_step
 from ...words import say
 from .collocation import Collocated
 from .decision import AT_BOUND, Decided, Flags, decide_contacts
-from .field import Local, held_rates, project_velocities
+from .field import Local, held_rank, held_rates, project_velocities
 from .inspection import Switch
 from .result import contact_names
 from .run import ContactRun
@@ -81,16 +81,12 @@ class NonsmoothRun(ContactRun):
         Q = self._slip_force(here, e, self.sticks)
         _, force = held_rates(here, self.sticks, Q)
         smallest = force / here.r[self.sticks, None]
-        if len(force) * 2 <= self.field.n and not self._redundant(here):
+        if held_rank(here, self.sticks) == 2 * len(force):
             return smallest
         if (np.hypot(*smallest.T) < 1.0 - AT_BOUND).all():
             return smallest
         found = decide_contacts(here.M, Q, here.J[self.sticks], here.k[self.sticks], here.r[self.sticks])
         return found.e if found.sticks.all() else np.where(found.sticks[:, None], found.e, 2.0 * found.e)
-
-    def _redundant(self, here: Local) -> bool:
-        held = here.J[self.sticks].reshape(-1, self.field.n)
-        return np.linalg.matrix_rank(held, 1e-10) < len(held)
 
     def _accept(self, found: Collocated, ends: bool, switch: Switch | None, h: float) -> float:
         last = 1.0 if switch is None else switch.u

@@ -42,6 +42,10 @@ class ContactRun:
         Y'' where contacts begin to slip with no acceleration, else 0.
     speed : float
         The largest velocity so far.
+    undecided : int
+        Steps along which bounds decide nothing.
+    passed : int
+        Switches.
     starts : list of (t, sticks, sentence)
         The phases.
     """
@@ -63,6 +67,7 @@ class ContactRun:
     inspection: Inspection = made_with(init=False)
     speed: float = 0.0
     undecided: int = 0
+    passed: int = 0
     steps: list[Step] = made_with(default_factory=list)
     starts: list[tuple[float, tuple[bool, ...], str]] = made_with(default_factory=list)
 
@@ -78,7 +83,7 @@ class ContactRun:
         self._enter(self.field.on_branch(self.Y, np.concatenate([np.zeros(self.field.n), self.field.at(self.Y).rates])))
         self._begin()
         while self.t < self.t_end:
-            if len(self.steps) + len(self.starts) >= self.most or h < SHORTEST_SHARE * span:
+            if len(self.steps) + len(self.starts) + self.passed >= self.most or h < SHORTEST_SHARE * span:
                 raise TooManyStepsError(say("contact steps", t=self.t))
             ends = self.t + h >= self.t_end
             h = self.t_end - self.t if ends else h
@@ -108,6 +113,7 @@ class ContactRun:
 
     def _pass(self, step: Step, switch: Switch) -> float:
         """Go on up to a switch, and with the branch behind it; return the next step."""
+        self.passed += 1
         self._take(truncate_step(step, switch.u), ends=False)
         rate = self._slopes(self.field.at(self.Y))[1]
         self._enter(self.field.past_switch(switch.guard, self.Y, rate))

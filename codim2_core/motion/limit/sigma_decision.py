@@ -14,7 +14,6 @@ from ...arrays import Array
 from ...cycles.limit_cycles import limit_cycles
 from ...layer_problem.critical import CriticalSet, critical_sets
 from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
-from ...layer_problem.poles import has_pole
 from ...layer_problem.problem import LayerProblem
 from ...portrait.approach_outcomes import outcome_towards
 from ...portrait.outcome_verdicts import judge, omega_limits_of, orbits_to_end
@@ -22,6 +21,7 @@ from ...psi.constructors import comparison_families, constant
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
+from .poles import has_pole
 
 ORIGIN_TOLERANCE = 1e-12  # |p| of a critical set that x = y = 0 lies on
 ORBITS_AROUND = 8  # orbits from around such a set that does not attract

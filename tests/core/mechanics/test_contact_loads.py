@@ -5,6 +5,7 @@ import pytest
 
 from codim2_core import psi
 from codim2_core.mechanics import contacts
+from codim2_core.words import recognise
 
 from .plates import Blocks
 
@@ -87,3 +88,12 @@ def test_no_step_is_longer_than_max_step():
         assert np.diff(run.times).max() <= 0.05 * (1.0 + 1e-12)
     with pytest.raises(ValueError, match="max_step is 0"):
         whole.simulate_nonsmooth(start, (0.0, 1.0), max_step=0)
+
+
+@pytest.mark.parametrize("eps", [0.0, 1e-5])
+def test_a_load_that_switches_back_at_once_is_named(eps):
+    """The load is -1.5 for u > 0 and 2.5 for u < 0, more than friction holds: no motion goes on from u = 0."""
+    whole, start, span = block("0.5 - 2*sign(u)"), (1.0, 0.0, 0.0, 0.0, 0.0), (0.0, 3.0)
+    run = whole.simulate(psi.constant(), start, span, eps=eps) if eps else whole.simulate_nonsmooth(start, span)
+    assert [key for key, _ in recognise(run.reason)] == ["step limit", "load switches back"]
+    assert run.times[-1] == pytest.approx(0.4, abs=1e-4)

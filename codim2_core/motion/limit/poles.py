@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..expressions.expression import Expression
-from ..expressions.tape import compact
-from ..systems.frozen import FrozenSystem
+from ...expressions.expression import Expression
+from ...expressions.tape import compact
+from ...systems.frozen import FrozenSystem
 
 _RADII, _ANGLES = np.linspace(0.0, 1.0, 17), np.linspace(0.0, 2.0 * np.pi, 257)
 _NET = {"c": np.outer(_RADII, np.cos(_ANGLES)), "s": np.outer(_RADII, np.sin(_ANGLES))}
