@@ -54,7 +54,7 @@ class Event:
     def __post_init__(self) -> None:
         """Check what can be checked before a motion."""
         if isinstance(self.function, str):
-            _typed(self.function)
+            _event_formula(self.function)
         elif not callable(self.function):
             raise ValueError(
                 f"an event's function is {reprlib.repr(self.function)}; give a formula, or a callable (t, state) to a "
@@ -68,7 +68,7 @@ class Event:
             raise ValueError(f"an event's terminal is {reprlib.repr(self.terminal)}; give True or False.")
 
 
-def _typed(text: str) -> Expression:
+def _event_formula(text: str) -> Expression:
     """Read a typed event; its time is named c, the first variable of a path."""
     formula = parse(text, (TIME, "x", "y", "z", *SLOW_NAMES))
     return formula.substitute(TIME, parse("c", ("c",))).substitute("z", parse("z1", SLOW_NAMES))
@@ -122,7 +122,7 @@ class EventWatch:
         """Return the formula of a typed event; None for a callable."""
         if not isinstance(event.function, str):
             return None
-        formula = _typed(event.function)
+        formula = _event_formula(event.function)
         missing = [name for name in formula.names if name in SLOW_NAMES and SLOW_NAMES.index(name) >= n - 2]
         if missing:
             raise ValueError(f"the event {event.function!r} names {missing[0]}; this system has m = {n - 2}: z1 to zm.")
@@ -132,7 +132,7 @@ class EventWatch:
         """Value of event i, which must be a finite number."""
         function, formula = self.events[i].function, self.formulas[i]
         if formula is not None or isinstance(function, str):
-            found: Any = math.nan if formula is None else float(formula.evaluate(_values(t, state)))
+            found: Any = math.nan if formula is None else float(formula.evaluate(_event_values(t, state)))
         else:
             found = function(t, state)
         if isinstance(found, bool | np.bool_):
@@ -179,7 +179,7 @@ class EventWatch:
         start, self.before[i] = self.before[i], along(1.0)
         formula = self.formulas[i]
         if formula is not None:
-            return _typed_zeros(path_program((formula,)), step)
+            return _formula_zeros(path_program((formula,)), step)
         pieces = max(1, math.ceil(PIECES * step.h / self.span))
         u, values = [0.0], [start]
         for k in range(pieces):
@@ -198,11 +198,11 @@ class EventWatch:
         return found
 
 
-def _values(t: float, state: Array) -> dict[str, float]:
+def _event_values(t: float, state: Array) -> dict[str, float]:
     return {"c": t, **dict(zip((*FAST_NAMES[2:], *SLOW_NAMES), state.tolist(), strict=False))}
 
 
-def _typed_zeros(program: Program, step: Step) -> list[tuple[float, bool]]:
+def _formula_zeros(program: Program, step: Step) -> list[tuple[float, bool]]:
     """Return the fractions of a step at which a typed event changes its sign, and whether it rises there."""
     n, d = step.polynomial.shape
     path, found = np.zeros((2 + n, 1 + d)), np.empty((MAX_ZEROS, 2))

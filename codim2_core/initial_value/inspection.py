@@ -32,7 +32,7 @@ TO_POWERS = np.linalg.inv(NODES[:, None] ** np.arange(DENSE_DEGREE + 1))
 
 
 class Cut(NamedTuple):
-    """Where steps cannot be kept: the step, its fraction, the next step to try, and the switch that is there.
+    """The first place at which steps cannot be kept: the step, its fraction, the next step to try, the switch there.
 
     `leaves_line`: a load pushes the motion out of its invariant line.
     """

@@ -10,8 +10,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..numerics.dense import StepArray
-from ..numerics.growth import BlowUpError, too_short
-from ..numerics.radau import StepsTooShortError, TooManyStepsError, tableau
+from ..numerics.radau import BlowUpError, StepsTooShortError, TooManyStepsError, tableau, too_short
 from ..psi.function import Psi
 from ..stepping.field_parameters import PSI
 from ..words import say
@@ -29,7 +28,7 @@ from .kernels.motion import (
     IMPLICIT,
     LEAST_STEP,
     LIMIT,
-    MAX_STEP,
+    LONGEST_STEP,
     NEXT,
     ONLY,
     SHORT,
@@ -144,7 +143,7 @@ class MotionSteps:
         self.S[PSI] = functions.parameter
         self.y, self.clock, self.control = np.array(first), np.array([span[0], 0.0, span[1], 0.0]), np.zeros(CONTROL)
         self.control[[NEXT, STEPS_LEFT, FARTHEST_RHO, LEAST_STEP, IMPLICIT]] = h, most, farthest, least, ONLY * implicit
-        self.control[MAX_STEP] = longest
+        self.control[LONGEST_STEP] = longest
         self.code = CHUNK_FULL
 
     @property
@@ -161,9 +160,9 @@ class MotionSteps:
             The state grows beyond all bounds in no time.
         TooManyStepsError, StepsTooShortError
         """
-        n, size, most = len(self.y), min(size, 4 * FIRST_STEPS), size
-        if self.inspection is not None and self.inspection.guards is not None:
-            size = FIRST_STEPS  # what follows a switch is lost
+        n, most = len(self.y), size
+        if self.inspection is not None:  # what follows a cut, or a switch, is lost
+            size = min(size, 4 * FIRST_STEPS if self.inspection.guards is None else FIRST_STEPS)
         while self.code in (CHUNK_FULL, AT_SIGMA):  # who has arrived asks for no more
             starts, lengths = np.empty(size), np.empty(size)
             ends, polynomials = np.empty((size, n)), np.empty((size, n, DENSE_DEGREE))

@@ -18,8 +18,7 @@ from ..initial_value.field import Field, backwards_system, field
 from ..initial_value.functions import functions_of
 from ..initial_value.line import invariant_line
 from ..numerics.dense import dense, gather_steps
-from ..numerics.growth import BlowUpError
-from ..numerics.radau import TooManyStepsError
+from ..numerics.radau import BlowUpError, TooManyStepsError
 from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem

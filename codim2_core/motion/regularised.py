@@ -23,8 +23,7 @@ from ..initial_value.line import InvariantLine, invariant_line
 from ..initial_value.motion_steps import MotionSteps, rate_at
 from ..initial_value.slopes import smoothed_direction
 from ..numerics.dense import Dense, StepArray, dense, gather_steps
-from ..numerics.growth import BlowUpError
-from ..numerics.radau import Step, TooManyStepsError
+from ..numerics.radau import BlowUpError, Step, TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
@@ -257,7 +256,7 @@ class _RegularisedRun:
                     if ended is not None or close is not None:
                         break
             except TooManyStepsError as error:
-                status, detail = self.end(motion.code, error, first)
+                close, (status, detail) = None, self.end(motion.code, error, first)
             evaluations, undecided = evaluations + motion.evaluations, undecided + inspection.undecided
             t, state = float(motion.clock[0]), motion.y.copy()
             if close is not None:

@@ -26,7 +26,7 @@ from ..psi.function import Psi
 
 CLOSE = 1e-4  # r in units of eps, below which the flow is linear
 LEVEL_NODES = tuple((np.arange(16) / 16.0).tolist())  # of a step, where the least r is looked for
-LOWEST, TINY = -700.0, 1e-300  # log(r/eps) and r: smaller ones are shown as these, and carried on as they are
+LOWEST_LOG, LEAST_RADIUS = -700.0, 1e-300  # log(r/eps), r: smaller ones are shown as these
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class RestingDistance:
         """Yield start, length, end and polynomial of steps of (x, y, z), r far below eps."""
         along = float(state[:2] @ self.line.n)
         side, top = math.copysign(1.0, along), self.eps * math.log(CLOSE)
-        first = np.concatenate([[self.eps * math.log(max(abs(along), TINY) / self.eps)], state[2:]])
+        first = np.concatenate([[self.eps * math.log(max(abs(along), LEAST_RADIUS) / self.eps)], state[2:]])
         motion = steps_of_z(
             lambda z: self.rate(z[1:]), self._slopes, (t, self.t_end), first, self.rtol, self.floor, most
         )
@@ -89,7 +89,7 @@ class RestingDistance:
                 least = min(LEVEL_NODES, key=level)
                 u = root_between(level, least, 1.0, 1e-14) if level(least) < 0.0 else 1.0
             last = step.at(u)
-            size = min(max(float(last[2]) / self.eps, LOWEST), 0.0)
+            size = min(max(float(last[2]) / self.eps, LOWEST_LOG), 0.0)
             end = side * self.eps * math.exp(size) * self.line.n
             way = step.polynomial * u ** np.arange(1, step.polynomial.shape[1] + 1)
             way[:2] = 0.0

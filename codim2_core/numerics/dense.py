@@ -50,7 +50,8 @@ class Dense(ByValue):
         flat = when.ravel()
         at = np.searchsorted(self.times, flat, side="right") - 1  # of several equal times the last
         i = np.minimum(at, len(self.lengths) - 1)
-        u = np.clip((flat - self.times[i]) / self.lengths[i], 0.0, 1.0)
+        with np.errstate(divide="ignore", invalid="ignore"):  # a step may have no length, at a switch
+            u = np.nan_to_num(np.clip((flat - self.times[i]) / self.lengths[i], 0.0, 1.0))
         powers = u[:, None] ** np.arange(1, self.polynomials.shape[2] + 1)
         found = self.states[i] + np.einsum("ijk,ik->ij", self.polynomials[i], powers)
         found = np.where((flat == self.times[at])[:, None], self.states[at], found)

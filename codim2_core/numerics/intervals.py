@@ -13,7 +13,7 @@ import numpy as np
 from ..expressions.functions import FIRST_CODE, FUNCTIONS, code, kernels
 from ..jit import kernel, spliced_kernel
 
-ABS, SIGN_CODE, FLOOR, ATAN, COS, COSH = (code[name] for name in ("abs", "sign", "floor", "atan", "cos", "cosh"))
+ABS, SIGN_CODE, FLOOR_CODE, ATAN, COS, COSH = (code[name] for name in ("abs", "sign", "floor", "atan", "cos", "cosh"))
 EXP, LOG, SIN, SINH = (code[name] for name in ("exp", "log", "sin", "sinh"))
 SQRT, TAN, TANH = (code[name] for name in ("sqrt", "tan", "tanh"))
 BLUR = np.array([one.blur for one in FUNCTIONS])
@@ -164,7 +164,7 @@ def slope_of(k, a, b, v, w):
         return divide(1.0, 1.0, 1.0 + lo, 1.0 + hi)
     if k == SIGN_CODE:
         return (0.0, 0.0) if a > 0.0 or b < 0.0 or a == b else (-math.inf, math.inf)
-    if k == FLOOR:
+    if k == FLOOR_CODE:
         return (0.0, 0.0) if v == w else (-math.inf, math.inf)
     if k == ABS:
         return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)
@@ -212,7 +212,7 @@ def range_of(k, a, b):
         if a == b == 0.0:
             return 0.0, 0.0
         return (1.0 if a > 0.0 else -1.0), (-1.0 if b < 0.0 else 1.0)
-    if k == FLOOR:
+    if k == FLOOR_CODE:
         return kernels.value(k, a), kernels.value(k, b)
     if k == ABS:
         return modulus(a, b)

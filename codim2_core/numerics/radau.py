@@ -13,7 +13,10 @@ from typing import NamedTuple
 import numpy as np
 
 from ..arrays import Array
+from ..words import say
 
+GROWTH_STEPS = 100.0  # of the shortest: what grows by its own size within these has no later time
+RATE = 1e-12  # of the time: what grows by its own size in less ends there
 STAGES = 5
 ITERATIONS = 10  # of Newton's method in one step
 STEP_SAFETY, MAX_SHRINKAGE, MAX_GROWTH, FAILED_SHRINKAGE = 0.9, 0.2, 8.0, 0.3
@@ -93,3 +96,14 @@ class TooManyStepsError(Exception):
 
 class StepsTooShortError(TooManyStepsError):
     """Steps became shorter than the shortest allowed: the solution ends, or its formulas are undefined from here on."""
+
+
+class BlowUpError(TooManyStepsError):
+    """The motion grows beyond all bounds; the message says near which time."""
+
+
+def too_short(state: Array, rate: Array, t: float, shortest: float = 0.0) -> TooManyStepsError:
+    """Say why steps became too short at a state: it blows up, or its formulas end."""
+    if (np.abs(rate) * max(RATE * abs(t), GROWTH_STEPS * shortest) > 1.0 + np.abs(state)).any():
+        return BlowUpError(say("blow-up time", t=t))
+    return StepsTooShortError(say("undefined from", t=t))

@@ -33,6 +33,9 @@ ELSEWHERE = {
     "motion/test_stiction.py": ("static holds", "static gives way", "static unknown"),
     "motion/test_slide_slip.py": ("cycle ends", "cycle ends at once", "cycle ends, not found",
                                   "cycle ends, not decided", "saddle reached"),
+    "motion/test_loads.py": ("load jumps", "load switches back", "load sets in", "load switches on a cycle",
+                             "not bounded", "variation at a jump"),
+    "motion/test_resting_distance.py": ("starts on a repelling set",),
     "motion/test_variation.py": ("variation undefined", "variation on a cycle", "variation past an end",
                                  "variation ends at Sigma"),
 }  # fmt: skip

@@ -6,12 +6,12 @@ from .angles import ATAN, COS, SIN, TAN
 from .elementary import COSH, EXP, LOG, SINH, SQRT, TANH
 from .elliptic import ELLIPTIC
 from .function import Function
-from .kinked import ABS, FLOOR, SIGN_FUNCTION
+from .kinked import ABS, FLOOR_FUNCTION, SIGN_FUNCTION
 
 __all__ = ["FIRST_CODE", "FUNCTIONS", "Function", "called", "code", "known"]
 
 FUNCTIONS: tuple[Function, ...] = (
-    SIN, COS, TAN, EXP, LOG, SQRT, TANH, SINH, COSH, ATAN, ABS, SIGN_FUNCTION, FLOOR, *ELLIPTIC,
+    SIN, COS, TAN, EXP, LOG, SQRT, TANH, SINH, COSH, ATAN, ABS, SIGN_FUNCTION, FLOOR_FUNCTION, *ELLIPTIC,
 )  # fmt: skip
 FIRST_CODE = 32  # code of the first; those below are operations
 known = {one.name: one for one in FUNCTIONS}

@@ -43,7 +43,7 @@ SIGN_FUNCTION = Function(
     "sign", sign, np.sign, plain(_sign, _sign_slope), lambda build, k, u: build.number(0.0),
     source="(1.0*({0} > 0.0) - 1.0*({0} < 0.0))",
 )  # fmt: skip
-FLOOR = Function(
+FLOOR_FUNCTION = Function(
     "floor", lambda u: float(math.floor(u)), np.floor, plain(_floor, _sign_slope),
     lambda build, k, u: build.number(0.0), source="(1.0*math.floor({0}))",
 )  # fmt: skip

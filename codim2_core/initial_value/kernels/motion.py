@@ -35,7 +35,7 @@ MIN_ARRIVAL_RADIUS, ARRIVAL_RTOL_SHARE = 1e-13, 5e-5  # of the largest rho of a 
     FARTHEST_RHO,
     LEAST_STEP,
     PAID_AT,
-    MAX_STEP,
+    LONGEST_STEP,
 ) = range(13)
 CONTROL = 13
 
@@ -148,7 +148,7 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
         ONLY. COUNT: signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead.
         FARTHEST: the largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is
         `arrived` of that. LEAST: a shorter step ends the motion. PAID: when the turn to implicit steps has paid.
-        MAX_STEP: no step is longer.
+        LONGEST_STEP: no step is longer.
     starts, lengths (k,), ends (k, n), polynomials (k, n, 7)
         Filled with steps.
 
@@ -176,7 +176,7 @@ def integrate_motion(motion, table, work, y, clock, control, starts, lengths, en
                 begun = True
             bound = inward_bound(motion, y, work.rate)
         remaining = clock[2] - clock[0] - clock[1]
-        h = _length(control[NEXT], min(bound, control[MAX_STEP]), remaining)
+        h = _length(control[NEXT], min(bound, control[LONGEST_STEP]), remaining)
         control[STEPS_LEFT] -= 1.0
         control[STEPS_TRIED] += 1.0
         if control[STEPS_LEFT] < 0.0:
@@ -255,7 +255,7 @@ def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, le
     S : (ROOM,)
         What the fields read and write.
     y, clock, control, starts, lengths, ends, polynomials
-        As of `integrate_motion`. At first of control only LEFT, FARTHEST, LEAST, MAX_STEP, and NEXT and IMPLICIT, or 0.
+        As of `integrate_motion`. At first of control only LEFT, FARTHEST, LEAST, LONGEST, and NEXT and IMPLICIT, or 0.
 
     Returns
     -------

@@ -152,19 +152,24 @@ class HybridRun:
 
     def first(self) -> Decision | None:
         """Decide what follows from a start on Sigma."""
-        if self.psi is not None and self.formulas.rests and not self.attracts_at_rest():
-            onto = critical_name(self.system, self.own, self.state[2:], np.zeros(2))
-            part = self.slid(np.zeros(2), delayed=True, resting=True)
-            return self.follow(part, say("starts on a repelling set", onto=onto), onto)
+        stays = self.psi is not None and self.formulas.rests and not self.attracts_at_rest()
         if self.line is not None:
-            return self.in_line(0.0, say("starts in a line"))
+            return self.stay() if stays else self.in_line(0.0, say("starts in a line"))
         held = hold(self.formulas, None, self.state[2:], self.stiction)
         if held is not None:
             return held
         decision = decide_start(self.system, self.psi, self.state[2:])
+        if stays and decision.kind == "leave":
+            return self.stay()
         if self.psi is not None:
             self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
         return self.at_border(decision) if decision.kind == "border" else decision
+
+    def stay(self) -> Decision | None:
+        """Stay at x = y = 0, which is invariant and does not attract: as the motion does for every eps."""
+        onto = critical_name(self.system, self.own, self.state[2:], np.zeros(2))
+        part = self.slid(np.zeros(2), delayed=True, resting=True)
+        return self.follow(part, say("starts on a repelling set", onto=onto), onto)
 
     def attracts_at_rest(self) -> bool:
         """Whether e = 0, a critical set for every z, attracts in the layer problem: whatever Psi is, as D e_Psi ~ 1."""

@@ -183,7 +183,7 @@ class _Stopped(Exception):
 
 def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
     try:
-        rough = _newton(_divided(_settled(asked.shot(start, asked.period, rtol), rtol), rtol), rtol)
+        rough = _newton(_divided(_after_settling(asked.shot(start, asked.period, rtol), rtol), rtol), rtol)
         closer = max(FINAL_RTOL_SHARE * rtol, CLOSEST)
         fine = _newton(rough.of.shot(rough.starts, rough.period, closer), closer)
     except LostError as lost:
@@ -194,7 +194,7 @@ def _search(asked: Shooting, start: Array, rtol: float) -> PeriodicMotion:
     return _make_result(asked, rough, fine)
 
 
-def _settled(shot: Shot, rtol: float) -> Shot:
+def _after_settling(shot: Shot, rtol: float) -> Shot:
     """Return the motion of the next period, where that repeats itself far better, as after one slip to rest."""
     ahead = shot.run.states[-1].copy()
     ahead[2:] -= shot.of.advance
