@@ -11,9 +11,11 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from .expression import Expression
+from .names import FAST_NAMES
 from .tape import FUNCTIONS_OF_TWO, JUMPS, Builder, compact
 
 Rows = tuple[Expression, ...]
+ZERO = Expression((("num", 0.0),))
 BORDER = 1e-13  # of the terms of a switch's argument: a smaller value is that of its border, to rounding
 
 
@@ -112,7 +114,7 @@ def branch_at(
                 at.append(build.apply(op, *own))
                 continue
             argument = _argument(build.nodes, op, own)
-            if argument.constant is not None or any(name not in names for name in argument.names):
+            if any(name not in names for name in argument.names) or _is_zero_on_sigma(argument):
                 at.append(build.apply(op, *own))
                 continue
             key = ("floor" if op == "floor" else "sign", argument)
@@ -125,6 +127,15 @@ def branch_at(
         smooth.append(Expression(compact(build.nodes, at[-1])))
     arguments = tuple(argument for _, argument in choices)
     return Branch(tuple(choices.values()), tuple(smooth), tuple(guards.values()), tuple(jumps.values()), arguments)
+
+
+def _is_zero_on_sigma(argument: Expression) -> bool:
+    """Whether an argument is a number, or 0 wherever x = y = 0, as that of abs(x): Sigma itself is no switch."""
+    if argument.constant is not None:
+        return True
+    for name in FAST_NAMES[2:]:
+        argument = argument.substitute(name, ZERO) if name in argument.names else argument
+    return argument.constant == 0.0
 
 
 def _argument(nodes: list[tuple], op: str, args: Sequence[int]) -> Expression:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import pairwise
+from itertools import chain, pairwise
 from typing import overload
 
 import numpy as np
@@ -243,9 +243,11 @@ class _RegularisedRun:
             try:
                 for part in motion.chunks():
                     close = None if resting is None else resting.arrival(part)
-                    passage = [] if close is None or resting is None else list(resting.passage(part, *close, most))
-                    close = close if passage else None
-                    for steps in passage or (part,):
+                    passage = () if close is None or resting is None else resting.passage(part, *close, most)
+                    onward = iter(passage)
+                    begun = next(onward, None)
+                    close = None if begun is None else close
+                    for steps in chain((part if begun is None else begun,), onward):
                         ended = _cut_at_event(steps, watch, len(first))
                         parts.append(steps if ended is None else ended)
                         most -= len(steps.lengths)

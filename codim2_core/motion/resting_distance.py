@@ -20,7 +20,7 @@ from ..initial_value.line import InvariantLine
 from ..initial_value.motion_steps import MotionSteps
 from ..initial_value.slow_steps import steps_of_z
 from ..numerics.dense import StepArray
-from ..numerics.radau import Step
+from ..numerics.radau import Step, TooManyStepsError
 from ..numerics.root_between import root_between
 from ..psi.function import Psi
 
@@ -70,9 +70,16 @@ class RestingDistance:
             t, state = float(part.starts[-1] + part.lengths[-1]), part.ends[-1]
         else:
             t, state = began, part.first
-        taken = list(self._steps(state, t, most))
+        taken, failed = [], None
+        try:
+            for step in self._steps(state, t, most):
+                taken.append(step)  # noqa: PERF402 (what came before an error is kept)
+        except TooManyStepsError as error:
+            failed = error
         if taken:
             yield StepArray(state, *(np.array(column) for column in zip(*taken, strict=True)))
+        if failed is not None:
+            raise failed
 
     def _steps(self, state: Array, t: float, most: int) -> Iterator[tuple[float, float, Array, Array]]:
         """Yield start, length, end and polynomial of steps of (x, y, z), r far below eps."""

@@ -268,7 +268,7 @@ def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, le
     )
     motion = MotionConstants(
         fields[0], fields[1], fields[2], len(y), numbers[0], numbers[1], numbers[2], numbers[3], numbers[4],
-        blur_of_rate(motion, y, work),
+        0.0 if control[IMPLICIT] == ONLY else blur_of_rate(motion, y, work),
     )  # fmt: skip
     if control[STEPS_TRIED] == 0.0:
         first, most, implicit = control[NEXT], control[STEPS_LEFT], control[IMPLICIT]
