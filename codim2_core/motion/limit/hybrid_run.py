@@ -125,7 +125,8 @@ class HybridRun:
         times = [start, *(step.end for step in kept)] if len(e) else []
         if kept:
             self.taken += kept
-            self.t, self.state = max(kept[-1].end, start), kept[-1].last
+            # Rounding may put the end of a step before that of the last: times never decrease, here as in `dense`.
+            self.t, self.state = max(start, *(step.end for step in kept)), kept[-1].last
         delaying = replace(delaying, way=None) if stopped and delaying is not None else delaying
         phase = Phase(kind, start, self.t, reason, onto)
         self.parts.append(PendingPhase(phase, times, self.ascent, e, p, delaying=delaying))
