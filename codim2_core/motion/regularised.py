@@ -226,11 +226,18 @@ class _RegularisedRun:
     def one(self, first: Array) -> Simulation:
         """Follow one motion step by step, from switch to switch of its formulas."""
         watch, parts = EventWatch(self.events, self.span, first), list[StepArray]()
-        status, detail, evaluations, undecided = SimulationStatus.T_END, "", 0, 0
-        jumps = dict[float, bool]()
-        t, state, most = self.span[0], first, self.max_steps
-        formulas = self.formulas.on_branch(self.e(first), first.tolist())
-        line = invariant_line(formulas, state)
+        status: SimulationStatus = SimulationStatus.T_END
+        detail: str = ""
+        evaluations: int = 0
+        undecided: int = 0
+        jumps: dict[float, bool] = {}
+        t: float = self.span[0]
+        state: Array = first
+        most: int = self.max_steps
+        formulas: Field = self.formulas.on_branch(self.e(first), first.tolist())
+        line: InvariantLine | None = invariant_line(formulas, state)
+        close: tuple[int, float] | None
+        ended: StepArray | None = None
         while t < self.span[1] and status is SimulationStatus.T_END:
             rate = partial(rate_at, formulas, self.psi, self.eps, line)
             inspection = Inspection(formulas, self.psi, self.eps, line, self.rtol, self.atol / self.rtol)
