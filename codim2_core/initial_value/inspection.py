@@ -148,7 +148,7 @@ class Inspection:
         if held.any():
             z = ends[0, np.argmax(held), 2:]
             at = e[held]
-            slopes = self.field.jacobian(*at[0].tolist(), 0.0, 0.0, z.tolist())[:2, :2]
+            slopes = self.field.jacobian(float(at[0, 0]), float(at[0, 1]), 0.0, 0.0, z.tolist())[:2, :2]
             scale = float(np.abs(slopes).max())
             if not 0.0 < scale < math.inf:  # no friction
                 return rates, changes, both

@@ -7,6 +7,7 @@ import numpy as np
 from ...expressions.expression import Expression
 from ...expressions.tape import compact
 from ...systems.frozen import FrozenSystem
+from ...systems.typed_at_z import Frozen
 
 _RADII, _ANGLES = np.linspace(0.0, 1.0, 17), np.linspace(0.0, 2.0 * np.pi, 257)
 _NET = {"c": np.outer(_RADII, np.cos(_ANGLES)), "s": np.outer(_RADII, np.sin(_ANGLES))}
@@ -14,7 +15,7 @@ _NET = {"c": np.outer(_RADII, np.cos(_ANGLES)), "s": np.outer(_RADII, np.sin(_AN
 
 def has_pole(at: FrozenSystem) -> bool:
     """Whether a divisor in U changes its sign on a net over the disc |e| <= 1, or vanishes at a place of the net."""
-    if at.typed is None:
+    if not isinstance(at, Frozen):
         return False
     values = {**at.values, "x": 0.0, "y": 0.0, **_NET}
     for row in at.typed.U:
