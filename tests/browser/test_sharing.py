@@ -23,9 +23,10 @@ def test_the_link_opens_the_same_view_and_is_in_the_code_for_phones(open_page):
     page.settle()
     page.ask("picture.seen = [-0.5, 0.75, -1, 0.25]")
     page.find(".share").click()
-    page.find(".qr").wait_for()
-    page.find(".qr").evaluate("(code) => code.decode()")  # refused if it is no picture
     link = page.find(".address").input_value()
+    if len(link) <= 300:  # a longer one has no code
+        page.find(".qr").wait_for()
+        page.find(".qr").evaluate("(code) => code.decode()")  # refused if it is no picture
     assert "&s=" in link
     fresh = open_page().open(link.split("/")[-1])
     assert fresh.find("textarea[data-box=U2]").input_value() == "-q*s + 0.2*c"

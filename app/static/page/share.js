@@ -47,8 +47,9 @@ export class Share {
     const address = `${page}?${short}`
     this.find(".address").value = address
     const code = this.find(".qr")
-    if (this.coded) code.src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: address})}`
-    code.hidden = !this.coded
+    const coded = this.coded && address.length <= 300  // the server makes no longer one
+    if (coded) code.src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: address})}`
+    code.hidden = !coded
     code.onerror = () => { code.hidden = true }
     this.frame = () => {
       const names = this.find(".names").value.replace(/[^\w,]/g, "")
