@@ -235,3 +235,10 @@ def test_a_typed_event_of_a_thousandth_of_the_span_is_found():
 def test_what_is_no_event_is_refused(event, message):
     with pytest.raises(ValueError, match=message):
         simulate_nonsmooth(SLIDES, (0.0, 0.0, 0.0), (0.0, 1.0), PSI, events=[event])
+
+
+def test_where_a_varied_number_decides_a_jump_the_derivatives_end_there():
+    system = System(U=("-c + 2*sign(sin(w*t))", "-s"), W=("x",), parameters={"w": 1.0})
+    run = simulate(system, PSI, (0.1, 0.0, 0.0), (0.0, 4.0), eps=1e-3)
+    assert not run.variation().reason
+    assert "where a formula jumps" in run.variation("w").reason
