@@ -10,9 +10,8 @@ from codim2_app.server.process import ports
 
 CODE = """import os, sys, urllib.request
 from codim2_app.server import page
-from tornado.web import RequestHandler
 
-class Who(RequestHandler):
+class Who(page.Health):
     def get(self):
         self.write(str(os.getpid()))
 
