@@ -14,6 +14,7 @@ from tornado.websocket import websocket_connect
 
 from tests.app.serving import serving
 from tests.benchmarks.wire import Wire
+from tests.work import PATIENCE
 
 from .test_first_page import talk
 
@@ -83,7 +84,7 @@ OTHERS = [
 
 def asked(port, path, method="GET", **headers):
     """Return the status of an answer, and its text."""
-    connection = HTTPConnection("localhost", port, timeout=20)
+    connection = HTTPConnection("localhost", port, timeout=PATIENCE)
     try:
         connection.request(method, path, headers=headers)
         answer = connection.getresponse()
@@ -142,7 +143,7 @@ def test_a_name_and_an_origin_that_are_the_same_open_no_line_unless_known(server
                  "Sec-WebSocket-Key": "AAAAAAAAAAAAAAAAAAAAAA==", "Host": host, "Origin": f"http://{host}"}  # fmt: skip
     expected = (101,) if NAMES.get(name) else (400, 421)
     for fetched in ({}, {"Sec-Fetch-Site": "same-origin"}):
-        with socket.create_connection(("localhost", server.port), 20) as line:
+        with socket.create_connection(("localhost", server.port), PATIENCE) as line:
             headers = "".join(f"{key}: {value}\r\n" for key, value in {**handshake, **fetched}.items())
             line.sendall(f"GET /live HTTP/1.1\r\n{headers}\r\n".encode())
             assert int(line.recv(4096).split()[1]) in expected
