@@ -27,7 +27,7 @@ from ..view.answers import AnswerQueue
 from ..view.markup import edition
 from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
-from ..view.warmup import FormulaQuota, is_ready_for_all
+from ..view.warmup import is_ready
 from .application import is_known, visitor_of
 from .kept import Kept
 from .session_queue import Rota
@@ -66,8 +66,7 @@ def key_of(query: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
 def open_page(query: Mapping[str, str], places: LivePages) -> tuple[Frames, str, bytes]:
     """Return what a page shows, what its script must know, and its first frame, which is kept if it is whole."""
     link = link_of(query)
-    budget = Budget(FormulaQuota().elsewhere)
-    frames = Frames(link.state, None, is_ready_for_all, link.errors, budget)
+    frames = Frames(link.state, None, is_ready, link.errors, Budget())
     config, first = opening_messages(frames, link, edition(), engine=places.engine)
     header, _ = unpack(first)
     if header.get("ready") and "picture" not in header.get("late", ()):
