@@ -257,7 +257,7 @@ class NoBackground(Executor):
 
 
 def test_cycles_that_are_not_there_yet_keep_no_frame_waiting():
-    frames = Frames(ExplorerState(), budget=Budget(lambda *_: True))
+    frames = Frames(ExplorerState(), budget=Budget())
     frames.jobs = Jobs(NoBackground())
     frames.answer({"all": True})
     header, _ = unpack(frames.answer({"set": {"psi": "custom", "psi_text": "1/(1+s)**3"}}))
