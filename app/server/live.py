@@ -40,8 +40,8 @@ MOST_FIRSTS, MOST_PAGES = 4_000_000, 16_000_000
 MOST_ASKED = 64
 #: Pages that one network address may have open.
 MOST_OF_ONE = 200
-#: Seconds between two pages that come back after their server was gone, which opening one takes; and at most for one.
-RETURN_SECONDS, MAX_RETURN_SECONDS = 0.05, 20.0
+#: Seconds between two pages that come back after their server was gone, in which one is opened; and at most for one.
+RETURN_SECONDS, MAX_RETURN_SECONDS = 0.03, 20.0
 #: Seconds after which a page that has asked nothing gives its place to another one, where all are taken.
 RESTING_SECONDS = 180.0
 #: Names of what is asked or told besides frames.
