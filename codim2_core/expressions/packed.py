@@ -17,8 +17,8 @@ from .arrays import Program
 from .functions import code, kernels
 from .opcodes import ADD, BESIDE, DIV, HYPOT, MAX, MIN, MUL, NEG, NUM, POW, POWI, SUB, VAR
 
-OPERATIONS, RESULTS, ROWS, SIZE, BOUND, HEAD = range(6)
-CODE, LEFT, RIGHT, NUMBER, EACH = range(1, 6)  # of an operation, behind the row of its result
+OPERATIONS, RESULTS, ROWS, SIZE, BOUND, FIRST_OPERATION = range(6)
+OPERATION, LEFT, RIGHT, NUMBER, EACH = range(1, 6)  # of an operation, behind the row of its result
 SQUARE_ROOT = code["sqrt"]
 
 
@@ -64,7 +64,7 @@ def pack(program: Program, inputs: int, bound: float = 0.0) -> Array:
         operations += (row[i], SQUARE_ROOT if is_root else k, a, b, number[i])
     if rows > SCRATCH_SIZE:
         raise ValueError(f"The formulas keep {rows} values at a time; give formulas that keep at most {SCRATCH_SIZE}.")
-    results = HEAD + len(operations)
+    results = FIRST_OPERATION + len(operations)
     head = len(operations) // EACH, results, rows, results + len(roots), bound
     return np.array([*head, *operations, *(row[i] for i in roots)], float)
 
@@ -72,7 +72,7 @@ def pack(program: Program, inputs: int, bound: float = 0.0) -> Array:
 @inlined_fast_kernel
 def at_address(address):
     """Return the array of a packed program."""
-    return carray(pointer_to(address), (int(carray(pointer_to(address), (HEAD,))[SIZE]),))
+    return carray(pointer_to(address), (int(carray(pointer_to(address), (FIRST_OPERATION,))[SIZE]),))
 
 
 @inlined_fast_kernel
@@ -88,11 +88,11 @@ def result(T, R, number, width, count):
 
 
 @inlined_fast_kernel
-def run(T, R, width, count):
+def run_packed(T, R, width, count):
     """Evaluate a packed program at the first places of rows at R, of which those of its variables are filled in."""
-    place = HEAD
+    place = FIRST_OPERATION
     for _ in range(int(T[OPERATIONS])):
-        k, to = int(T[place + CODE]), row(R, int(T[place]), width, count)
+        k, to = int(T[place + OPERATION]), row(R, int(T[place]), width, count)
         a, b = row(R, int(T[place + LEFT]), width, count), row(R, int(T[place + RIGHT]), width, count)
         if k == NUM:
             value = T[place + NUMBER]

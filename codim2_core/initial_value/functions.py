@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import Array
 from ..expressions.arrays import path_program
 from ..expressions.names import FAST_NAMES, SLOW_NAMES
-from ..expressions.packed import BOUND, RESULTS, SIZE, at_address, pack, run
+from ..expressions.packed import BOUND, RESULTS, SIZE, at_address, pack, run_packed
 from ..jit import SCRATCH_SIZE, carray, compile_address, inlined_fast_kernel, scratch
 from ..jit.callbacks import Callback
 from ..psi.constructors import constant
@@ -61,12 +61,12 @@ def functions_of(field: Field, psi: Psi) -> FieldFunctions:
     """Return the functions of a field and a Psi."""
     names = (*FAST_NAMES, *SLOW_NAMES[: field.m])
     slopes = tuple(row.derivative(name) for row in field.rows for name in names)
-    formulas = tuple(_packed(rows, len(names)) for rows in (field.rows, slopes))
+    formulas = tuple(_pack_formulas(rows, len(names)) for rows in (field.rows, slopes))
     return FieldFunctions(*_interpreters(), psi, formulas)
 
 
 @lru_cache(maxsize=64)
-def _packed(rows: Any, inputs: int) -> Array:
+def _pack_formulas(rows: Any, inputs: int) -> Array:
     return pack(path_program(rows), inputs, bound=inputs)
 
 
@@ -87,7 +87,7 @@ def _interpret(state, out, T):
     rows = carray(R, (SCRATCH_SIZE,))
     for i in range(inputs):
         rows[i] = A[i]
-    run(T, R, 1, 1)
+    run_packed(T, R, 1, 1)
     for i in range(count):
         D[i] = rows[int(T[results + i])]
 

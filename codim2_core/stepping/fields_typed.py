@@ -12,7 +12,7 @@ from typing import Any
 from ..arrays import Array
 from ..expressions import arrays
 from ..expressions.names import FAST_NAMES
-from ..expressions.packed import ROWS, at_address, pack, result, row, run
+from ..expressions.packed import ROWS, at_address, pack, result, row, run_packed
 from ..jit import SCRATCH_SIZE, ahead, call_at, carray, compile_address, scratch
 from .field_parameters import FACTOR, FORMULAS, GAIN
 from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
@@ -33,7 +33,7 @@ def _interpreted_field(state, out, parameters):
             px, py, gain = S[j], S[j + LANES], D[j]
             rho = S[j + 2 * LANES] * (0.5 + 0.5 * sides[j])  # 0 on the hemisphere
             c[j], s[j], x[j], y[j] = gain * px, gain * py, rho * px, rho * py
-        run(T, R, width, count)
+        run_packed(T, R, width, count)
         u, v = result(T, R, 0, width, count), result(T, R, 1, width, count)
         for j in range(count):
             px, py, w, du, dv = S[j], S[j + LANES], S[j + 2 * LANES], factor * u[j], factor * v[j]

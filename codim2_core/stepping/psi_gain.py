@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from ..expressions.packed import BOUND, ROWS, at_address, result, row, run
+from ..expressions.packed import BOUND, ROWS, at_address, result, row, run_packed
 from ..jit import (
     SCRATCH_SIZE,
     ahead,
@@ -129,7 +129,7 @@ def typed_gain(r2, w, parameter):
     """Return the gain of a typed Psi, whose parameter is the address of its packed formula."""
     T, R = at_address(int(parameter)), scratch()
     row(R, 0, 1, 1)[0] = _shape_argument(T, r2, w * w)
-    run(T, R, 1, 1)
+    run_packed(T, R, 1, 1)
     return _gain_of_shape(T, r2, w * w, result(T, R, 0, 1, 1)[0])
 
 
@@ -147,7 +147,7 @@ def write_typed_gains(state, out, parameters, address, lanes):
         for j in range(count):
             r2, w = arguments(S, P, j)
             s[j] = _shape_argument(T, r2, w * w)
-        run(T, R, width, count)
+        run_packed(T, R, width, count)
         for j in range(count):
             r2, w = arguments(S, P, j)
             D[j] = _gain_of_shape(T, r2, w * w, psi[j])

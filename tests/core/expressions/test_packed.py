@@ -12,7 +12,7 @@ from codim2_core.expressions import packed
 from codim2_core.expressions.arrays import path_program
 from codim2_core.expressions.expression import parse
 from codim2_core.expressions.functions import FUNCTIONS
-from codim2_core.expressions.packed import ROWS, SIZE, pack, result, run
+from codim2_core.expressions.packed import ROWS, SIZE, pack, result, run_packed
 from codim2_core.initial_value import functions
 from codim2_core.initial_value.kernels.rate import VALUE_FORMULAS
 from codim2_core.jit import SCRATCH_SIZE, interpreted
@@ -44,7 +44,7 @@ def side_by_side(T, places, out):
             here = places[first : first + width]
             for v, values in enumerate(here.T):
                 R[v * width : v * width + len(here)] = values
-            interpreted.interpreted(run)(T, R, width, len(here))
+            interpreted.interpreted(run_packed)(T, R, width, len(here))
             for r in range(out.shape[1]):
                 out[first : first + width, r] = interpreted.interpreted(result)(T, R, r, width, len(here))
 
