@@ -12,7 +12,7 @@ SQUARES = """async (code) => {
   await code.decode()
   const side = decodeURIComponent(code.src).match(/viewBox="0 0 (\\d+)/)[1] * 1
   const canvas = Object.assign(document.createElement("canvas"), {width: 8 * side, height: 8 * side})
-  const paint = canvas.getContext("2d")
+  const paint = canvas.getContext("2d", {willReadFrequently: true})
   paint.drawImage(code, 0, 0, 8 * side, 8 * side)
   const dark = (x, y) => Number(paint.getImageData(8 * x + 4, 8 * y + 4, 1, 1).data[0] < 128)
   return Array.from({length: side - 6}, (_, y) => Array.from({length: side - 6}, (_, x) => dark(x + 3, y + 3)))
