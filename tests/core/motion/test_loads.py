@@ -21,6 +21,7 @@ from codim2_core import (
     simulate_nonsmooth,
 )
 from codim2_core.motion.result import SimulationStatus
+from codim2_core.words import recognise
 
 PSI = psi.constant()
 
@@ -254,3 +255,22 @@ def test_a_long_step_whose_dense_output_meets_a_lost_set_is_tried_again():
     push = lambda t: 1.036 * math.exp(-(((t - 10.107) / 0.0212) ** 2)) - 0.5
     slips = [phase for phase in run.phases if phase.kind == "slip"]
     assert slips[-1].t_start == pytest.approx(brentq(push, 10.05, 10.1), abs=1e-9)
+
+
+def test_a_load_that_switches_on_a_limit_cycle_of_a_general_system_is_refused():
+    system = System(
+        U=("c - s - 2*c*(c**2 + s**2) + 0.05*sign(z - 0.2)", "c + s - 2*s*(c**2 + s**2)"), W=("1",)
+    )  # fmt: skip
+    run = simulate_nonsmooth(system, (0.0, 0.0, 0.0), (0.0, 0.5), PSI)
+    assert run.status is SimulationStatus.NOT_UNIQUE
+    assert "load switches on a cycle" in [key for key, _ in recognise(run.reason)]
+
+
+def test_steps_that_no_bound_decides_are_counted():
+    """The denominator is 2, which bounds over a long step do not see where z is large."""
+    system = System(U=("-c + 0.2/(1 + (z+1)**2 - z*(z+2))", "-s"), W=("1",))
+    start, span = (0.0, 0.0, 1e5), (0.0, 1e4)
+    for run in (simulate_nonsmooth(system, start, span, PSI), simulate(system, PSI, start, span, eps=1e-4)):
+        assert run.status is SimulationStatus.T_END
+        assert "not bounded" in [key for key, _ in recognise(run.message)]
+        assert run.states[-1, :2] == pytest.approx([0.0, 0.0], abs=1.1e-5)
