@@ -1,8 +1,10 @@
-"""All that stands still along one parameter, with the points that are special."""
+"""Equilibria along one parameter, with their bifurcation points."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -10,108 +12,134 @@ from numpy.typing import ArrayLike
 
 from ..arrays import Array
 from ..continuation.result import CycleBranches
+from ..families.family import SystemFamily
+from ..layer_problem.vary import check_varying
 from ..numerics.sign_changes import roots
 from ..psi.function import Psi
 from ..words import say
-from .critical import critical_part, existence_borders
-from .equator import equator_part
-from .family import linear_path, values_over
-from .further_kinds import further_kinds
-from .recheck_intervals import samples_beside
-from .result import Branches, ClosedEquator, CriticalBranch, DirectionBranch, SpecialValue
-from .test_functions import Plane, SystemPath, scale
-from .typed.general_diagram import general_parts
+from .branch_pieces import branches_of_pieces
+from .candidates import Candidate, candidates, extrema_of_theta, least_speeds, merge
+from .changes import SIDE_STEP, Change, changes_between, look_beside
+from .name_changes import name_changes
+from .result import Branches, SpecialValue
+from .single_values import single_values
+from .states import State, States
 
-_MAX_AUDITS = 5  # times that special values are looked for
+__all__ = ["equilibrium_branches"]
+
+GRID_CELLS = 48
+REACH = 1.6 / GRID_CELLS  # of the span: how far from a state a candidate may be
+MAX_ROUNDS = 4  # times that candidates are looked for, from the states beside the last ones
+MAX_TURN, MAX_MOVE, MAX_HALVINGS = 0.15, 0.1, 6  # of what stands still from state to state, unless so many are not enough
+POLE_PLACES = np.array([[0.3, 0.1], [-0.2, 0.5], [0.6, -0.4], [-0.5, -0.7]])
 
 
 def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float], z: ArrayLike = ()) -> Branches:
-    """Find everything that stands still along one parameter; see `bifurcation_diagram`, which takes the same.
+    """Find all equilibria along one parameter; see `bifurcation_diagram`, which takes the same.
 
-    Special values are found on a grid of 512 steps and then to the last digits. Two of one kind between neighbouring
-    grid points are found too, if the function behind them is smooth on that scale and exceeds 1e-13 of its largest
-    size between the two. Then the portrait's class is compared along every interval between special values, and where
-    it changes they are looked for again (`recheck_intervals`).
+    They are found at the values of a grid, exactly as by `classify`. Newton's method then solves for all bifurcations
+    from there, and each is held against the equilibria on both of its sides; where two neighbouring states differ and
+    no bifurcation was found between them, as at a kink of U, bisection finds what happens.
     """
     low, high = (float(v) for v in span)
     if not (np.isfinite([low, high]).all() and low < high):
         raise ValueError(f"the span of {along} is {low:g} to {high:g}; give two finite numbers, the smaller one first.")
-    directions, orbits, sets, special, gaps = _find_parts(system, psi, along, (low, high), z)
-    special += further_kinds(system, psi, along, z, [*directions, *sets])
-    special.sort(key=lambda s: s.value)
-    none = CycleBranches(along, (low, high), (), say("cycles not looked for"))
+    (name,) = check_varying(system, psi, z, (along,), ((low, high),))
     slow = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
-    parts = tuple(directions), tuple(orbits), tuple(sets), tuple(special), tuple(gaps), none
-    return Branches(system, psi, slow, along, (low, high), *parts)
-
-
-EquilibriumParts = tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue]]
-Gaps = list[tuple[float, float]]
-
-
-def _find_parts(
-    system: Any, psi: Psi, along: str, span: tuple[float, float], z: ArrayLike
-) -> tuple[list[DirectionBranch], list[ClosedEquator], list[CriticalBranch], list[SpecialValue], Gaps]:
-    """Find branches, special values and gaps, in any order."""
-    grid = values_over(span)
-    path = linear_path(system, psi, z, along, grid)
-    if path is None:
-        directions, orbits, sets, found = general_parts(system, psi, along, span, z)
-        return directions, orbits, sets, found, []
-    whole = path(grid)
-    exponent = scale(whole)
-    runs, gaps = _runs(path, grid, whole)
-    equator: list[DirectionBranch] = []
-    closed: list[ClosedEquator] = []
-    critical: list[CriticalBranch] = []
+    clocked = slow if system.frozen else tuple(system.at(z).z) or slow  # with the time of a clock
+    family = SystemFamily(system, psi, clocked, (name,), ((low, high),))
+    states = States(system, psi, name, (low, high), clocked)
+    # off the round numbers on which special values like to lie
+    u = (np.arange(GRID_CELLS + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(GRID_CELLS + 1))) / GRID_CELLS
+    u[[0, -1]] = SIDE_STEP, 1.0 - SIDE_STEP
+    grid = [states(v) for v in family.values(u[:, None])[:, 0].tolist()]
+    if not any(grid):
+        assert states.refusal is not None
+        raise states.refusal
+    runs = _defined_runs(family, u, grid)
+    found, changes = _find_changes(family, states, runs, u)
     special: list[SpecialValue] = []
-    for run in runs:
-        directions, orbits, sets, found = _mark_run(path, run, exponent)
-        equator += directions
-        closed += orbits
-        critical += sets
-        special += found
-    return equator, closed, critical, special, gaps
+    for change in changes:
+        near = [one for one in found if abs(float(family.values(np.array([one.u]))[0]) - change.value) <= 1e-9 * states.width]
+        special += name_changes(family, change, near)
+    special += single_values(family, states, found, special, u)
+    special = [one for one in special if any(run[0] <= one.value <= run[1] for run in runs)]
+    special.sort(key=lambda one: one.value)
+    parts = branches_of_pieces(states, runs, changes, special)
+    stops = [low, *(v for run in runs for v in run), high]
+    wide = 2.0 * SIDE_STEP * states.width
+    gaps = tuple((a, b) for a, b in zip(stops[::2], stops[1::2], strict=True) if b - a > wide)
+    none = CycleBranches(along, (low, high), (), say("cycles not looked for"))
+    return Branches(system, psi, slow, along, (low, high), *parts, tuple(special), gaps, none)
 
 
-def _mark_run(path: SystemPath, run: Array, exponent: int) -> EquilibriumParts:
-    """Branches and special values of a run, looked for again where something changes between them."""
-    extra = np.zeros(0)
-    parts: EquilibriumParts = [], [], [], []
-    for _ in range(_MAX_AUDITS):
-        cuts = existence_borders(path, run, exponent)
-        critical, special = critical_part(path, run, exponent, cuts, extra)
-        equator, closed, more = equator_part(path, run, exponent, cuts)
-        special += more
-        parts = equator, closed, critical, special
-        if path(run).rigid:
+def _find_changes(
+    family: SystemFamily, states: States, runs: Sequence[tuple[float, float]], u: Array
+) -> tuple[list[Candidate], list[Change]]:
+    """Find the candidates, and the changes among them and elsewhere."""
+    found: list[Candidate] = []
+    seen: set[float] = set()
+    starts = extrema_of_theta(family, u), np.zeros((3, 0)) if family.affine else least_speeds(family, u)
+    for turn in range(MAX_ROUNDS):
+        _refine(states, runs)
+        known = [state for run in runs for state in states.between(*run)]
+        new = [state for state in known if state.value not in seen]
+        seen |= {state.value for state in new}
+        if not new:
             break
-        beside = samples_beside(path, run, np.unique([s.value for s in special]))
-        if not len(beside):
+        if turn:
+            starts = extrema_of_theta(family, family.units(np.array([[s.value] for s in new]))[:, 0]), np.zeros((3, 0))
+        before = len(found)
+        found = merge([*found, *candidates(family, new, starts, REACH)])
+        values = [float(v) for v in family.values(np.array([[one.u] for one in found]))[:, 0]] if found else []
+        look_beside(states, values)
+        if len(found) == before:
             break
-        extra = np.union1d(extra, beside)
-        run = np.union1d(run, beside)
-    return parts
+    values = sorted(set(values))
+    return found, [change for run in runs for change in changes_between(states, values, *run)]
 
 
-def _runs(path: SystemPath, grid: Array, whole: Plane) -> tuple[list[Array], list[tuple[float, float]]]:
-    """Parts of the grid on which all coefficients are finite, and what lies between."""
-    defined = whole.defined
-    poles: list[float] = []
-    if not path.affine:
-        for i in range(6):
-            found = roots(lambda v, i=i: path(v).affine[i], [grid], [whole.affine[i]]).poles[0]
-            poles += found.tolist()
-    if defined.all() and not poles:
-        return [grid], []
-    cut = np.isin(np.arange(len(grid) - 1), np.searchsorted(grid, poles) - 1)
-    runs, start = [], None
-    for i in range(len(grid)):
-        if start is None and defined[i]:
-            start = i
-        if start is not None and (i + 1 == len(grid) or cut[i] or not defined[i + 1]):
-            if i - start > 2:
-                runs.append(grid[start : i + 1])
+def _refine(states: States, runs: Sequence[tuple[float, float]]) -> None:
+    """Add states where equilibria move far between two that are alike."""
+    for low, high in runs:
+        for _ in range(MAX_HALVINGS):
+            pairs = [pair for pair in pairwise(states.between(low, high)) if _far_apart(*pair)]
+            for left, right in pairs:
+                states(0.5 * (left.value + right.value))
+            if not pairs:
+                break
+
+
+def _far_apart(left: State, right: State) -> bool:
+    if left.difference(right) is not None or right.value - left.value < 10.0 * SIDE_STEP:
+        return False
+    for one, two, most in (
+        (left.places, right.places, MAX_TURN),
+        (np.array([C.p for C in left.critical]), np.array([C.p for C in right.critical]), MAX_MOVE),
+    ):
+        if len(one) and float(np.hypot(*np.moveaxis(one[:, None] - two, -1, 0)).min(axis=1).max()) > most:
+            return True
+    return False
+
+
+def _defined_runs(family: SystemFamily, u: Array, grid: Sequence[State | None]) -> list[tuple[float, float]]:
+    """Return the parts of the span on which U is finite, from their first to their last state."""
+    cut = np.zeros(len(grid), bool)
+    for c, s in POLE_PLACES.tolist():
+        rows = family.speed_on_net(np.full(len(u), c), np.full(len(u), s), u)
+        here = np.zeros(len(grid), bool)
+        for i in range(2):
+            at = lambda v, i=i, c=c, s=s: family.speed_on_net(np.full(len(v), c), np.full(len(v), s), v)[i]
+            if np.isfinite(rows[i]).all():
+                here[np.searchsorted(u, roots(at, [u], [rows[i]]).poles[0]) - 1] = True
+        cut = here if (c, s) == tuple(POLE_PLACES[0]) else cut & here
+    runs: list[tuple[float, float]] = []
+    start: float | None = None
+    for i, state in enumerate(grid):
+        if state is None:
+            continue
+        start = state.value if start is None else start
+        if i + 1 == len(grid) or grid[i + 1] is None or cut[i]:
+            runs += [(start, state.value)] if start < state.value else []
             start = None
-    stops = [float(grid[0]), *(float(v) for run in runs for v in (run[0], run[-1])), float(grid[-1])]
-    return runs, [(u, v) for u, v in zip(stops[::2], stops[1::2], strict=True) if v > u]
+    return runs

@@ -1,0 +1,167 @@
+"""What happens at a single value of a parameter, with the same class on both sides of it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ..arrays import Array
+from ..families import special_points
+from ..families.family import SystemFamily
+from ..numerics.sign_changes import roots
+from ..special_kinds import HOPF, SPECIAL_KINDS, SpecialKind
+from ..words import say
+from .candidates import BLUR, Candidate
+from .result import SpecialValue
+from .states import States
+
+__all__ = ["single_values"]
+
+_TOUCH_REACH = 2e-3  # of the span: how far about a double zero its function is fitted
+_TOUCH_TOLERANCE = 1e-9  # of 1 - |e|^2, and of tr J over the size of J: what touches zero
+_ZERO_SHARE = 1e-12  # of |U|: Theta where every direction is a limit direction
+SAME_PLACE = 0.05  # in the disc: of one point
+_NEWTON_ROUNDS = 12
+
+
+def single_values(
+    family: SystemFamily, states: States, found: Sequence[Candidate], named: Sequence[SpecialValue], u: Array
+) -> list[SpecialValue]:
+    """Name crossings, touches, values with det A = 0 or with all directions, and what parts no names.
+
+    Parameters
+    ----------
+    family : SystemFamily
+        Of one parameter.
+    states : States
+    found : sequence of Candidate
+    named : sequence of SpecialValue
+        Where the class changes.
+    u : ndarray (n,)
+        Places along the span, in order.
+    """
+    everywhere = _all_directions(family, u)
+    out = [_special(family, "all directions", v, (0.0, 0.0), say("nothing turns at f = 0")) for v in everywhere]
+    known = [*out, *named]
+    for one in found:
+        if isinstance(one.what, SpecialKind) and not one.what.parts:
+            if one.regular and one.what.holds(*_numbers(family, one)):
+                out.append(_special(family, one.what.kind, one.u, _place(family, states, one), one.what.says))
+        elif not any(_same_point(family, other, one.u, _place(family, states, one)) for other in known):
+            out += _touches(family, states, one)
+    return out + (list(_singular_values(family, u)) if family.affine else [])
+
+
+def _special(family: SystemFamily, kind: str, u: float, place: tuple[float, float], sentence: str) -> SpecialValue:
+    return SpecialValue(kind, float(family.values(np.array([u]))[0]), place, sentence)
+
+
+def _same_point(family: SystemFamily, other: SpecialValue, u: float, place: tuple[float, float]) -> bool:
+    near = abs(float(family.units(np.array([other.value]))[0]) - u) <= BLUR
+    return near and (other.kind == "all directions" or math.dist(other.place, place) < SAME_PLACE)
+
+
+def _numbers(family: SystemFamily, one: Candidate) -> Sequence[Array]:
+    numbers = special_points.set_numbers if len(one.y) == 3 else special_points.equator_numbers
+    return numbers(family, one.y[:, None])[1:]
+
+
+def _place(family: SystemFamily, states: States, one: Candidate) -> tuple[float, float]:
+    """Return the place in the disc, in the axes of the system at that value."""
+    if len(one.y) == 2:
+        place = complex(math.cos(one.y[0]), math.sin(one.y[0]))
+    else:
+        modulus = math.hypot(one.y[0], one.y[1])
+        zeta = float(family.psi_at(one.y[2:]).radius(min(modulus, 1.0), max((1.0 - modulus) * (1.0 + modulus), 1e-300)))
+        place = complex(one.y[0], one.y[1]) * (zeta / math.hypot(1.0, zeta) / modulus if modulus else 0.0)
+    state = states(float(family.values(one.y[-1:])[0])) if family.turns else None
+    place *= complex(math.cos(state.turn), math.sin(state.turn)) if state else 1.0
+    return place.real, place.imag
+
+
+def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[SpecialValue]:
+    """Yield what a candidate is at which the class does not change: a crossing, or a function that only touches zero."""
+    if one.what == "crossing":
+        theta, place = float(one.y[0]), _place(family, states, one)
+        at = f"θ = {math.atan2(place[1], place[0]) % math.tau:.4g}"
+        h = np.array([[1e-3, 0.0], [0.0, 1e-3]])
+        by_theta, by_u = (
+            (special_points.equator_numbers(family, (one.y + way)[:, None])[2],
+             special_points.theta_by_parameter(family, (one.y + way)[:, None])) for way in h
+        )  # fmt: skip
+        crossing = float(by_theta[0][0] * by_u[1][0] - by_theta[1][0] * by_u[0][0]) <= 0.0
+        kind = "exchange of limit directions" if crossing else "saddle-node"
+        yield _special(family, kind, one.u, place, say("pass through" if crossing else "touch", at=at))
+    elif (one.what == "equator" or one.what is HOPF) and not one.regular:
+        u = one.u + _TOUCH_REACH * np.linspace(-1.0, 1.0, 17)
+        u = u[(u > 0.0) & (u < 1.0)]
+
+        def function(u: Array) -> Array:
+            e = _sets_at(family, one.y[:2], u)
+            if one.what == "equator":
+                return 1.0 - e[0] ** 2 - e[1] ** 2
+            _, trace, determinant = special_points.set_numbers(family, np.stack([*e, u]))
+            return trace / np.sqrt(trace**2 + np.abs(determinant))
+
+        values = function(u)
+        if not np.isfinite(values).all() or np.abs(function(np.array([one.u]))[0]) > _TOUCH_TOLERANCE:
+            return
+        for v in roots(function, [u], [values]).touches[0].tolist():
+            there = Candidate(one.what, v, np.array([*_sets_at(family, one.y[:2], np.array([v]))[:, 0], v]), False)
+            place = _place(family, states, there)
+            theta = math.atan2(place[1], place[0]) % math.tau
+            if one.what == "equator":
+                kind, sentence = "touching the equator", say("border, turns back", theta=theta)
+                place = (math.cos(theta), math.sin(theta))
+            else:
+                kind, sentence = "tr J = 0", say("trace touches zero")
+            yield _special(family, kind, v, place, sentence)
+
+
+def _sets_at(family: SystemFamily, start: Array, u: Array) -> Array:
+    """Follow a critical set to some values (n,) by Newton's method: (2, n)."""
+    e = np.repeat(start[:, None], len(u), axis=1)
+    with np.errstate(all="ignore"):
+        for _ in range(_NEWTON_ROUNDS):
+            (U, V), ((a, b), (p, q)) = family.on_net(e[0], e[1], u)
+            det = a * q - b * p
+            e = e - np.stack([(q * U - b * V) / det, (a * V - p * U) / det])
+    return e
+
+
+def _all_directions(family: SystemFamily, u: Array) -> list[float]:
+    """Find where Theta vanishes in every direction, by Gauss and Newton's method."""
+    theta = 2.0 * np.pi * (np.arange(16) + 0.3) / 16
+    c, s = np.cos(theta), np.sin(theta)
+
+    def turning(u: Array, by: str = "") -> Array:
+        U, V = family.speed_on_net(c, s, u[:, None], by=by)
+        return c * V - s * U
+
+    size = np.linalg.norm(turning(u), axis=1)
+    found = u[np.r_[True, size[1:] <= size[:-1]] & np.r_[size[:-1] <= size[1:], True]]
+    if len(found) > len(u) // 2:  # all along, or never
+        return []
+    for _ in range(_NEWTON_ROUNDS):
+        here, slope = turning(found), turning(found, "across_unit")
+        square = (slope * slope).sum(axis=1)
+        found = np.clip(found - (here * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    return np.unique(found[np.abs(turning(found)).max(axis=1) <= _ZERO_SHARE].round(14)).tolist()
+
+
+def _singular_values(family: SystemFamily, u: Array) -> Iterator[SpecialValue]:
+    """Yield the values with det A = 0 of a U that is affine in e: its critical set passes through infinity."""
+
+    def determinant(u: Array) -> Array:
+        _, ((a, b), (c, d)) = family.on_net(0.0 * u, 0.0 * u, u)
+        return a * d - b * c
+
+    values = determinant(u)
+    if not values.any():
+        return
+    for v in roots(determinant, [u], [values]).zeros[0].tolist():
+        (U, V), ((a, b), (c, d)) = family.on_net(*np.zeros((2, 1)), np.array([v]))
+        if max(abs(d * U - b * V), abs(a * V - c * U)) > 1e-9:
+            yield _special(family, "det A = 0", v, (0.0, 0.0), say("through infinity"))

@@ -1,0 +1,157 @@
+"""Where a test function of an equilibrium vanishes along one parameter: Newton's method from many starts at once.
+
+Equations are in (theta, u) on the equator and in (c, s, u) within it, u from 0 to 1 along the parameter. Those of a row
+of `special_kinds` are that the object stands still there and that the row's test function is zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arrays import Array
+from ..special_kinds import SpecialKind
+from .family import AXES, SystemFamily
+
+Equations = Callable[[Array], Array]  # of places (n, k): values (n, k)
+
+MAX_ROUNDS = 48  # Newton steps
+DIFFERENCE_STEP = 1e-5  # of derivatives: of angles, of e, and of the span
+SLOPE_STEP = 1e-3  # of Theta'', by which the derivatives of Theta' are taken
+MAX_ANGLE_STEP, MAX_PLACE_STEP = 0.3, 0.2
+CONVERGED, SETTLED = 1e-14, 1e-6  # steps after which Newton's method stops, or has found a zero within rounding
+MAX_REGULAR_RATIO = 0.1  # of the last two steps: at a multiple zero each is half of the one before
+
+
+class SpecialPoints(NamedTuple):
+    """Zeros of a test function.
+
+    Attributes
+    ----------
+    y : ndarray (n, k)
+        Their places.
+    regular : ndarray of bool (k,)
+        Newton's method converged quadratically: the zero is simple, and known to the last digits.
+    """
+
+    y: Array
+    regular: NDArray[np.bool_]
+
+
+def equator_numbers(family: SystemFamily, y: Array) -> tuple[Array, Array, Array]:
+    """Return Theta, lambda_rho and lambda_theta at places (2, k) of the equator."""
+    c, s = np.cos(y[0]), np.sin(y[0])
+    (U, V), ((Uc, Us), (Vc, Vs)) = family.on_net(c, s, y[1])
+    radial = c * U + s * V
+    return c * V - s * U, radial, c * (c * Vs - s * Vc) - s * (c * Us - s * Uc) - radial
+
+
+def set_numbers(family: SystemFamily, y: Array) -> tuple[Array, Array, Array]:
+    """Return U (2, k), tr J and det J at places (3, k) of the disc, Psi's share being that of its rim beyond it."""
+    c, s, u = y
+    U, ((Uc, Us), (Vc, Vs)) = family.on_net(c, s, u)
+    square = c * c + s * s
+    radial, tangential = family.jacobian_factors(square, np.clip(u, 0.0, 1.0)[:, None])
+    along = (c * c * Uc + c * s * (Us + Vc) + s * s * Vs) / np.where(square > 0.0, square, 1.0)
+    trace = tangential * (Uc + Vs) + (radial - tangential) * along
+    return U, trace, radial * tangential * (Uc * Vs - Us * Vc)
+
+
+def kind_equations(family: SystemFamily, kind: SpecialKind) -> Equations:
+    """Return the equations of a row of `special_kinds`."""
+
+    def of_set(y: Array) -> Array:
+        U, *numbers = set_numbers(family, y)
+        return np.stack([*U, kind.function(*numbers)])
+
+    def of_direction(y: Array) -> Array:
+        theta, *numbers = equator_numbers(family, y)
+        return np.stack([theta, kind.function(*numbers)])
+
+    return of_set if kind.of == "critical set" else of_direction
+
+
+def meeting(family: SystemFamily) -> Equations:
+    """Theta = Theta' = 0: two limit directions meet."""
+    return lambda y: np.stack(equator_numbers(family, y)[::2])
+
+
+def triple_meeting(family: SystemFamily) -> Equations:
+    """Theta' = Theta'' = 0: where a symmetry keeps Theta = 0 along a curve, Theta does not tell."""
+
+    def equations(y: Array) -> Array:
+        step = np.array([SLOPE_STEP, 0.0])[:, None]
+        before, here, after = (equator_numbers(family, y + way)[2] for way in (-step, 0.0 * step, step))
+        return np.stack([here, (after - before) / (2.0 * SLOPE_STEP)])
+
+    return equations
+
+
+def crossing(family: SystemFamily) -> Equations:
+    """Theta' = dTheta/du = 0: branches of limit directions pass through each other."""
+    return lambda y: np.stack([equator_numbers(family, y)[2], theta_by_parameter(family, y)])
+
+
+def theta_by_parameter(family: SystemFamily, y: Array) -> Array:
+    """Return dTheta/du at places (2, k)."""
+    c, s = np.cos(y[0]), np.sin(y[0])
+    U, V = family.speed_on_net(c, s, y[1], by=AXES[0])
+    return c * V - s * U
+
+
+def reaching_equator(family: SystemFamily) -> Equations:
+    """U = 0 and |e| = 1."""
+    return lambda y: np.stack([*family.speed_on_net(*y), 1.0 - y[0] ** 2 - y[1] ** 2])
+
+
+def folding(family: SystemFamily) -> Equations:
+    """U = 0 and det D_e U = 0: two critical sets meet."""
+
+    def equations(y: Array) -> Array:
+        U, ((Uc, Us), (Vc, Vs)) = family.on_net(*y)
+        return np.stack([*U, Uc * Vs - Us * Vc])
+
+    return equations
+
+
+def solve(equations: Equations, starts: Array, reach: float) -> SpecialPoints:
+    """Find zeros of n equations in n unknowns from starts (n, k), no further than `reach` along the parameter."""
+    n = len(starts)
+    most = np.array([MAX_ANGLE_STEP if n == 2 else MAX_PLACE_STEP] * (n - 1) + [reach])[:, None]
+    ways = DIFFERENCE_STEP * np.concatenate([np.zeros((1, n)), np.eye(n), -np.eye(n)])
+    y, first, last = starts.copy(), starts[-1].copy(), np.full(starts.shape[1], np.inf)
+    found, regular = [np.zeros((n, 0))], [np.zeros(0, bool)]
+    for turn in range(MAX_ROUNDS):
+        if not y.shape[1]:
+            break
+        with np.errstate(all="ignore"):
+            values = equations((y[:, None] + ways.T[:, :, None]).reshape(n, -1)).reshape(n, 2 * n + 1, -1)
+            slopes = (values[:, 1 : n + 1] - values[:, n + 1 :]) / (2.0 * DIFFERENCE_STEP)
+            step = _solve_linear(slopes, values[:, 0])
+            size = np.abs(step).max(axis=0)
+            y = y - step / np.maximum((np.abs(step) / most).max(axis=0), 1.0)
+        near = np.isfinite(size) & (np.abs(y[-1] - first) <= reach) & (np.abs(y[:-1]).max(axis=0) < 10.0)
+        near &= (turn > 0) | (np.abs(step[-1]) <= 2.0 * reach)
+        done = near & ((size <= CONVERGED) | ((turn + 1 == MAX_ROUNDS) & (size <= SETTLED)))
+        found.append(y[:, done])
+        regular.append((size <= MAX_REGULAR_RATIO * last)[done])
+        kept = near & ~done
+        y, first, last = y[:, kept], first[kept], np.maximum(size[kept], CONVERGED)
+    return SpecialPoints(np.concatenate(found, axis=1), np.concatenate(regular))
+
+
+def _solve_linear(slopes: Array, values: Array) -> Array:
+    """Solve n equations (n, n, k) for (n, k) by Cramer's rule in rows of one size; NaN where they are singular."""
+    sizes = np.abs(slopes).max(axis=1)
+    A = np.moveaxis(slopes / sizes[:, None], -1, 0)
+    b = np.moveaxis(values / sizes, -1, 0)
+    determinant = np.linalg.det(A)
+    columns = []
+    for j in range(len(values)):
+        B = A.copy()
+        B[:, :, j] = b
+        columns.append(np.linalg.det(B) / determinant)
+    return np.stack(columns)
