@@ -16,7 +16,7 @@ from .states import State
 __all__ = ["Candidate", "candidates", "extrema_of_theta", "least_speeds", "merge"]
 
 ANGLES, NET_SIDE = 128, 25
-MAX_THETA_SHARE = 1e-9  # of |U|: Theta where branches of limit directions cross
+RESIDUALS = np.array([1e-11, 1e-9, 1e-6])[:, None]  # of |U|: of Theta and its derivatives, where more than two vanish
 SAME_VALUE, SAME_PLACE = 1e-12, 1e-5  # of the span, and of angles and places in e: of one point
 BLUR = 1e-5  # of the span: how far Newton's method may stop before a multiple zero
 
@@ -63,14 +63,16 @@ def candidates(family: SystemFamily, states: Sequence[State], starts: Iterable[A
 
     def add(what: str | SpecialKind, equations: special_points.Equations, start: Array) -> None:
         points = solve(equations, start, reach)
-        for y, regular in zip(points.y.T, points.regular.tolist(), strict=True):
-            inside = what == "equator" or len(y) < 3 or y[0] ** 2 + y[1] ** 2 < 1.0
-            if 0.0 <= y[-1] <= 1.0 and inside:
-                found.append(Candidate(what, float(y[-1]), y, regular))
+        y = points.y
+        kept = (y[-1] >= 0.0) & (y[-1] <= 1.0) & ((what == "equator") | (len(y) < 3) | (y[0] ** 2 + y[1] ** 2 < 1.0))
+        if what in ("crossing", "triple"):  # more equations than unknowns
+            orders = 2 + (what == "triple")
+            kept &= (np.abs(special_points.triple_meeting(family)(y))[:orders] <= RESIDUALS[:orders]).all(axis=0)
+        for y, regular in zip(points.y.T[kept], points.regular[kept].tolist(), strict=True):
+            found.append(Candidate(what, float(y[-1]), y, regular))
 
     add("crossing", special_points.crossing(family), extrema)
     add("triple", special_points.triple_meeting(family), extrema)
-    found = [one for one in found if abs(special_points.equator_numbers(family, one.y[:, None])[0][0]) < MAX_THETA_SHARE]
     add("meeting", special_points.meeting(family), extrema)
     rim = np.concatenate([np.cos(directions[:1]), np.sin(directions[:1]), directions[1:]])
     add("equator", special_points.reaching_equator(family), np.concatenate([sets, rim], axis=1))
@@ -118,12 +120,15 @@ def _equilibria(family: SystemFamily, states: Sequence[State]) -> tuple[Array, A
 
 
 def extrema_of_theta(family: SystemFamily, u: Array) -> Array:
-    """Return places (2, k) near which Theta has an extremum, at each of some values (n,)."""
+    """Return places (2, k) near which Theta has an extremum, or nearly so, at each of some values (n,)."""
     theta = 2.0 * np.pi * (np.arange(ANGLES) + 0.37) / ANGLES
     places = np.stack(np.broadcast_arrays(theta, u[:, None]))
     slope = special_points.equator_numbers(family, places)[2]
-    row, at = np.nonzero((slope > 0.0) != (np.roll(slope, -1, axis=1) > 0.0))
-    return np.stack([theta[at] + np.pi / ANGLES, u[row]])
+    turns = (slope > 0.0) != (np.roll(slope, -1, axis=1) > 0.0)
+    size = np.abs(slope)
+    turns |= (size <= np.roll(size, 1, axis=1)) & (size < np.roll(size, -1, axis=1))
+    row, at = np.nonzero(turns)
+    return np.stack([theta[at], u[row]])
 
 
 def least_speeds(family: SystemFamily, u: Array) -> Array:

@@ -31,6 +31,7 @@ GRID_CELLS = 48
 REACH = 1.6 / GRID_CELLS  # of the span: how far from a state a candidate may be
 MAX_ROUNDS = 4  # times that candidates are looked for, from the states beside the last ones
 MAX_TURN, MAX_MOVE, MAX_HALVINGS = 0.15, 0.1, 6  # of what stands still from state to state, unless so many are not enough
+MAX_BISECTIONS, POLE_DISTANCE = 12, 0.01  # to where U ceases to be finite; of a cell, from a pole
 POLE_PLACES = np.array([[0.3, 0.1], [-0.2, 0.5], [0.6, -0.4], [-0.5, -0.7]])
 
 
@@ -52,11 +53,10 @@ def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float
     # off the round numbers on which special values like to lie
     u = (np.arange(GRID_CELLS + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(GRID_CELLS + 1))) / GRID_CELLS
     u[[0, -1]] = SIDE_STEP, 1.0 - SIDE_STEP
-    grid = [states(v) for v in family.values(u[:, None])[:, 0].tolist()]
-    if not any(grid):
+    if not any([states(v) for v in family.values(u[:, None])[:, 0].tolist()]):
         assert states.refusal is not None
         raise states.refusal
-    runs = _defined_runs(family, u, grid)
+    runs = _defined_runs(family, states, u)
     found, changes = _find_changes(family, states, runs, u)
     special: list[SpecialValue] = []
     for change in changes:
@@ -122,24 +122,51 @@ def _far_apart(left: State, right: State) -> bool:
     return False
 
 
-def _defined_runs(family: SystemFamily, u: Array, grid: Sequence[State | None]) -> list[tuple[float, float]]:
+def _defined_runs(family: SystemFamily, states: States, u: Array) -> list[tuple[float, float]]:
     """Return the parts of the span on which U is finite, from their first to their last state."""
-    cut = np.zeros(len(grid), bool)
+    stops = []  # values of the grid, and None where U is not defined
+    poles = _poles(family, u)
+    values = family.values(u[:, None])[:, 0].tolist()
+    for value, after in zip(values, [*values[1:], values[-1]], strict=True):
+        stops.append(value if states(value) else None)
+        for pole in (v for v in poles if value < v < after):
+            step = POLE_DISTANCE * (after - value)
+            stops += [v if states(v) else None for v in (pole - step, pole + step)]
+            stops.insert(-1, None)
+        if (states(value) is None) != (states(after) is None):
+            stops.append(_last_defined(states, value, after))
+    runs: list[tuple[float, float]] = []
+    start = before = None
+    for value in [*stops, None]:
+        if value is None and start is not None and before is not None and before > start:
+            runs.append((start, before))
+        start = value if start is None else None if value is None else start
+        before = value
+    return runs
+
+
+def _last_defined(states: States, low: float, high: float) -> float:
+    """Return the value nearest to where U ceases to be finite, of those at which it is."""
+    first = states(low) is not None
+    for _ in range(MAX_BISECTIONS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if (states(middle) is not None) == first else (low, middle)
+    return low if first else high
+
+
+def _poles(family: SystemFamily, u: Array) -> list[float]:
+    """Return the values at which U has a pole wherever it is looked at."""
+    common: list[set[int]] = []
+    places: list[float] = []
     for c, s in POLE_PLACES.tolist():
-        rows = family.speed_on_net(np.full(len(u), c), np.full(len(u), s), u)
-        here = np.zeros(len(grid), bool)
+        cells: set[int] = set()
         for i in range(2):
             at = lambda v, i=i, c=c, s=s: family.speed_on_net(np.full(len(v), c), np.full(len(v), s), v)[i]
-            if np.isfinite(rows[i]).all():
-                here[np.searchsorted(u, roots(at, [u], [rows[i]]).poles[0]) - 1] = True
-        cut = here if (c, s) == tuple(POLE_PLACES[0]) else cut & here
-    runs: list[tuple[float, float]] = []
-    start: float | None = None
-    for i, state in enumerate(grid):
-        if state is None:
-            continue
-        start = state.value if start is None else start
-        if i + 1 == len(grid) or grid[i + 1] is None or cut[i]:
-            runs += [(start, state.value)] if start < state.value else []
-            start = None
-    return runs
+            rows = at(u)
+            if np.isfinite(rows).all():
+                places += (found := roots(at, [u], [rows]).poles[0].tolist())
+                cells |= set(np.searchsorted(u, found).tolist())
+        common.append(cells)
+    cells = set.intersection(*common)
+    first = {int(np.searchsorted(u, v)): v for v in places}
+    return [float(family.values(np.array([first[i]]))[0]) for i in sorted(cells)]

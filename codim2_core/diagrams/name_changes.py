@@ -20,7 +20,7 @@ from .changes import Change
 from .result import SpecialValue
 from .states import State
 
-__all__ = ["name_changes"]
+__all__ = ["name_changes", "triple_zero"]
 
 _SAME_EVENT_DISTANCE = 0.05  # radians, or distance in p, within which lies what is one at the special value, beside it
 _EQUATOR_DISTANCE = 1e-3  # 1 - |e| of a critical set that reaches the equator at the special value, beside it
@@ -48,17 +48,27 @@ def _of_equator(family: SystemFamily, change: Change, points: Sequence[Candidate
     turn = before.turn if family.turns else 0.0
     for count, theta in met:
         theta = _solved_angle(theta, points, turn)
-        place, at = (math.cos(theta), math.sin(theta)), f"θ = {theta:.4g}"
         if count == 2:
-            out.append(SpecialValue("saddle-node", value, place, say("meet at", at=at)))
-        elif _is_symmetric(family, value, theta - turn):
-            sentence = say("splits, D2" if family.affine else "splits", at=at)
-            out.append(SpecialValue("pitchfork", value, place, sentence))
+            at = f"θ = {theta:.4g}"
+            out.append(SpecialValue("saddle-node", value, _on_equator(theta), say("meet at", at=at)))
         else:
-            out.append(SpecialValue("cusp", value, place, say("passes a cusp", at=at)))
+            out.append(triple_zero(family, value, theta, turn))
     if before.exponent is not None and after.exponent is not None and before.parts[2] != after.parts[2]:
         out.append(SpecialValue("neutral equator", value, (0.0, 0.0), say("equator neutral, a cycle may leave")))
     return out
+
+
+def triple_zero(family: SystemFamily, value: float, theta: float, turn: float) -> SpecialValue:
+    """Name a triple zero of Theta at an angle of axes that are turned from those of the family."""
+    at = f"θ = {theta:.4g}"
+    if _is_symmetric(family, value, theta - turn):
+        sentence = say("splits, D2" if family.affine else "splits", at=at)
+        return SpecialValue("pitchfork", value, _on_equator(theta), sentence)
+    return SpecialValue("cusp", value, _on_equator(theta), say("passes a cusp", at=at))
+
+
+def _on_equator(theta: float) -> tuple[float, float]:
+    return math.cos(theta), math.sin(theta)
 
 
 def _solved_angle(theta: float, points: Sequence[Candidate], turn: float) -> float:
@@ -90,7 +100,7 @@ def _of_sets(family: SystemFamily, change: Change, points: Sequence[Candidate]) 
             if 1.0 - float(np.hypot(*C.e)) < _EQUATOR_DISTANCE and away < _SAME_EVENT_DISTANCE:
                 t = _solved_angle(t, points, here.turn if family.turns else 0.0)
                 sentence = say("set reaches the equator", theta=t)
-                out.append(SpecialValue("transcritical", value, (math.cos(t), math.sin(t)), sentence))
+                out.append(SpecialValue("transcritical", value, _on_equator(t), sentence))
             else:
                 inner.append(C)
         while len(inner) > 1:

@@ -14,6 +14,7 @@ from ..numerics.sign_changes import roots
 from ..special_kinds import HOPF, SPECIAL_KINDS, SpecialKind
 from ..words import say
 from .candidates import BLUR, Candidate
+from .name_changes import triple_zero
 from .result import SpecialValue
 from .states import States
 
@@ -94,6 +95,10 @@ def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[S
         crossing = float(by_theta[0][0] * by_u[1][0] - by_theta[1][0] * by_u[0][0]) <= 0.0
         kind = "exchange of limit directions" if crossing else "saddle-node"
         yield _special(family, kind, one.u, place, say("pass through" if crossing else "touch", at=at))
+    elif one.what == "triple":
+        place, theta = _place(family, states, one), float(one.y[0])
+        turned = math.atan2(place[1], place[0])
+        yield triple_zero(family, float(family.values(one.y[-1:])[0]), turned % math.tau, turned - theta)
     elif (one.what == "equator" or one.what is HOPF) and not one.regular:
         u = one.u + _TOUCH_REACH * np.linspace(-1.0, 1.0, 17)
         u = u[(u > 0.0) & (u < 1.0)]

@@ -23,7 +23,7 @@ DIFFERENCE_STEP = 1e-5  # of derivatives: of angles, of e, and of the span
 SLOPE_STEP = 1e-3  # of Theta'', by which the derivatives of Theta' are taken
 MAX_ANGLE_STEP, MAX_PLACE_STEP = 0.3, 0.2
 CONVERGED, SETTLED = 1e-14, 1e-6  # steps after which Newton's method stops, or has found a zero within rounding
-MAX_REGULAR_RATIO = 0.1  # of the last two steps: at a multiple zero each is half of the one before
+MIN_DETERMINANT = 1e-7  # of the derivatives, in rows of size 1, at a simple zero
 
 
 class SpecialPoints(NamedTuple):
@@ -34,7 +34,7 @@ class SpecialPoints(NamedTuple):
     y : ndarray (n, k)
         Their places.
     regular : ndarray of bool (k,)
-        Newton's method converged quadratically: the zero is simple, and known to the last digits.
+        The zero is simple, and known to the last digits.
     """
 
     y: Array
@@ -80,18 +80,20 @@ def meeting(family: SystemFamily) -> Equations:
 
 
 def triple_meeting(family: SystemFamily) -> Equations:
-    """Theta' = Theta'' = 0: where a symmetry keeps Theta = 0 along a curve, Theta does not tell."""
+    """Theta = Theta' = Theta'' = 0: three limit directions meet, by a symmetry or where the parameter passes a cusp."""
 
     def equations(y: Array) -> Array:
         step = np.array([SLOPE_STEP, 0.0])[:, None]
-        before, here, after = (equator_numbers(family, y + way)[2] for way in (-step, 0.0 * step, step))
-        return np.stack([here, (after - before) / (2.0 * SLOPE_STEP)])
+        (_, _, before), (theta, _, here), (_, _, after) = (
+            equator_numbers(family, y + way) for way in (-step, 0.0 * step, step)
+        )
+        return np.stack([theta, here, (after - before) / (2.0 * SLOPE_STEP)])
 
     return equations
 
 
 def crossing(family: SystemFamily) -> Equations:
-    """Theta' = dTheta/du = 0: branches of limit directions pass through each other."""
+    """Theta' = dTheta/du = 0: where Theta vanishes too, branches of limit directions pass through each other."""
     return lambda y: np.stack([equator_numbers(family, y)[2], theta_by_parameter(family, y)])
 
 
@@ -118,40 +120,41 @@ def folding(family: SystemFamily) -> Equations:
 
 
 def solve(equations: Equations, starts: Array, reach: float) -> SpecialPoints:
-    """Find zeros of n equations in n unknowns from starts (n, k), no further than `reach` along the parameter."""
+    """Find zeros of n equations or more in n unknowns, from starts (n, k) and within `reach` along the parameter."""
     n = len(starts)
     most = np.array([MAX_ANGLE_STEP if n == 2 else MAX_PLACE_STEP] * (n - 1) + [reach])[:, None]
     ways = DIFFERENCE_STEP * np.concatenate([np.zeros((1, n)), np.eye(n), -np.eye(n)])
-    y, first, last = starts.copy(), starts[-1].copy(), np.full(starts.shape[1], np.inf)
+    y, first = starts.copy(), starts[-1].copy()
     found, regular = [np.zeros((n, 0))], [np.zeros(0, bool)]
     for turn in range(MAX_ROUNDS):
         if not y.shape[1]:
             break
         with np.errstate(all="ignore"):
-            values = equations((y[:, None] + ways.T[:, :, None]).reshape(n, -1)).reshape(n, 2 * n + 1, -1)
+            values = equations((y[:, None] + ways.T[:, :, None]).reshape(n, -1)).reshape(-1, 2 * n + 1, y.shape[1])
             slopes = (values[:, 1 : n + 1] - values[:, n + 1 :]) / (2.0 * DIFFERENCE_STEP)
-            step = _solve_linear(slopes, values[:, 0])
+            step, determinant = _solve_linear(slopes, values[:, 0])
             size = np.abs(step).max(axis=0)
             y = y - step / np.maximum((np.abs(step) / most).max(axis=0), 1.0)
         near = np.isfinite(size) & (np.abs(y[-1] - first) <= reach) & (np.abs(y[:-1]).max(axis=0) < 10.0)
         near &= (turn > 0) | (np.abs(step[-1]) <= 2.0 * reach)
         done = near & ((size <= CONVERGED) | ((turn + 1 == MAX_ROUNDS) & (size <= SETTLED)))
         found.append(y[:, done])
-        regular.append((size <= MAX_REGULAR_RATIO * last)[done])
-        kept = near & ~done
-        y, first, last = y[:, kept], first[kept], np.maximum(size[kept], CONVERGED)
+        regular.append(np.abs(determinant[done]) > MIN_DETERMINANT)
+        y, first = y[:, near & ~done], first[near & ~done]
     return SpecialPoints(np.concatenate(found, axis=1), np.concatenate(regular))
 
 
-def _solve_linear(slopes: Array, values: Array) -> Array:
-    """Solve n equations (n, n, k) for (n, k) by Cramer's rule in rows of one size; NaN where they are singular."""
-    sizes = np.abs(slopes).max(axis=1)
-    A = np.moveaxis(slopes / sizes[:, None], -1, 0)
-    b = np.moveaxis(values / sizes, -1, 0)
+def _solve_linear(slopes: Array, values: Array) -> tuple[Array, Array]:
+    """Solve equations (m, n, k), m >= n, for (n, k), by least squares if m > n; also determinants (k,), of rows of size 1."""
+    A, b = np.moveaxis(slopes, -1, 0), values.T
+    if A.shape[1] > A.shape[2]:
+        A, b = np.einsum("kij,kil->kjl", A, A), np.einsum("kij,ki->kj", A, b)
+    sizes = np.abs(A).max(axis=2)
+    A, b = A / sizes[:, :, None], b / sizes
     determinant = np.linalg.det(A)
     columns = []
-    for j in range(len(values)):
+    for j in range(A.shape[2]):
         B = A.copy()
         B[:, :, j] = b
         columns.append(np.linalg.det(B) / determinant)
-    return np.stack(columns)
+    return np.where(values.any(axis=0), np.stack(columns), 0.0), determinant
