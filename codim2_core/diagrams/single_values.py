@@ -9,7 +9,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..families import special_points
-from ..families.family import SystemFamily
+from ..families.family import AXES, SystemFamily
 from ..numerics.sign_changes import roots
 from ..special_kinds import HOPF, SPECIAL_KINDS, SpecialKind
 from ..words import say
@@ -150,7 +150,7 @@ def _all_directions(family: SystemFamily, u: Array) -> list[float]:
     if len(found) > len(u) // 2:  # all along, or never
         return []
     for _ in range(_NEWTON_ROUNDS):
-        here, slope = turning(found), turning(found, "across_unit")
+        here, slope = turning(found), turning(found, AXES[0])
         square = (slope * slope).sum(axis=1)
         found = np.clip(found - (here * slope).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
     return np.unique(found[np.abs(turning(found)).max(axis=1) <= _ZERO_SHARE].round(14)).tolist()

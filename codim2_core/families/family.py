@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arrays import Array
+from ..expressions.arrays import program
 from ..expressions.expression import Expression, parse
 from ..expressions.names import SLOW_NAMES
 from ..initial_value.field import function_of, rows_of
@@ -27,7 +28,7 @@ DIFFERENCE_STEP = 1e-5  # of ln s and of the parameter of Psi, for derivatives b
 KINK_OFFSET = 1e-10  # in e, where derivatives are taken for those of a point that has none
 MIN_RADIUS_SQUARED = 1e-16  # |e|^2 below which it counts as this
 MAX_RADIUS_SQUARED = 1.0 - 1e-6  # |e|^2 up to which curves that ask for Psi are followed: they end on the equator
-AXES: tuple[str, str] = ("across_unit", "up_unit")
+AXES: tuple[str, str] = ("x", "y")  # names of the parameters in units of their ranges: free, as x = y = 0 on Sigma
 _TAPE_ROWS = ("row_c", "row_s", "row_f")
 
 
@@ -157,10 +158,10 @@ class SystemFamily:
 
     def on_net(self, c: Array, s: Array, *u: Array) -> tuple[Array, Array]:
         """Return U (2, ...) over `size` and its derivatives by e (2, 2, ...) at many places at once."""
-        shape = np.broadcast_shapes(*(np.shape(v) for v in (c, s, *u)))
-        D = [[row.derivative(name) for name in "cs"] for row in self.unit_rows]
-        values = [_values(row, (c, s, *u), shape) for row in (*self.unit_rows, *D[0], *D[1])]
-        return np.stack(values[:2]), np.stack(values[2:]).reshape(2, 2, *shape)
+        places = np.broadcast_arrays(c, s, *u)
+        rows = program((self.unit_rows, ())).evaluate(np.stack([v.ravel() for v in places], axis=-1))
+        found = np.moveaxis(rows, 0, -1).reshape(2, 3, *places[0].shape)
+        return found[:, 0], found[:, 1:]
 
     def speed_on_net(self, c: Array, s: Array, *u: Array, by: str = "") -> Array:
         """Return U (2, ...) over `size`, or its derivative by a name, at many places at once."""

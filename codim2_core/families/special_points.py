@@ -18,7 +18,7 @@ from .family import AXES, SystemFamily
 
 Equations = Callable[[Array], Array]  # of places (n, k): values (n, k)
 
-MAX_ROUNDS = 48  # Newton steps
+MAX_ROUNDS, FREE_ROUNDS, MIN_GAIN = 40, 6, 0.75  # Newton steps; those after which each must be so much of the last
 DIFFERENCE_STEP = 1e-5  # of derivatives: of angles, of e, and of the span
 SLOPE_STEP = 1e-3  # of Theta'', by which the derivatives of Theta' are taken
 MAX_ANGLE_STEP, MAX_PLACE_STEP = 0.3, 0.2
@@ -124,7 +124,7 @@ def solve(equations: Equations, starts: Array, reach: float) -> SpecialPoints:
     n = len(starts)
     most = np.array([MAX_ANGLE_STEP if n == 2 else MAX_PLACE_STEP] * (n - 1) + [reach])[:, None]
     ways = DIFFERENCE_STEP * np.concatenate([np.zeros((1, n)), np.eye(n), -np.eye(n)])
-    y, first = starts.copy(), starts[-1].copy()
+    y, first, last = starts.copy(), starts[-1].copy(), np.full(starts.shape[1], np.inf)
     found, regular = [np.zeros((n, 0))], [np.zeros(0, bool)]
     for turn in range(MAX_ROUNDS):
         if not y.shape[1]:
@@ -137,10 +137,11 @@ def solve(equations: Equations, starts: Array, reach: float) -> SpecialPoints:
             y = y - step / np.maximum((np.abs(step) / most).max(axis=0), 1.0)
         near = np.isfinite(size) & (np.abs(y[-1] - first) <= reach) & (np.abs(y[:-1]).max(axis=0) < 10.0)
         near &= (turn > 0) | (np.abs(step[-1]) <= 2.0 * reach)
+        near &= (turn < FREE_ROUNDS) | (size <= np.maximum(MIN_GAIN * last, SETTLED))
         done = near & ((size <= CONVERGED) | ((turn + 1 == MAX_ROUNDS) & (size <= SETTLED)))
         found.append(y[:, done])
         regular.append(np.abs(determinant[done]) > MIN_DETERMINANT)
-        y, first = y[:, near & ~done], first[near & ~done]
+        y, first, last = y[:, near & ~done], first[near & ~done], size[near & ~done]
     return SpecialPoints(np.concatenate(found, axis=1), np.concatenate(regular))
 
 
