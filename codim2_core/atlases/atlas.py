@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..arguments import short_repr
 from ..arrays import Array, read_only
+from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
@@ -23,7 +24,6 @@ from .curve_numbers import curve_numbers, places
 from .curves import curves_of
 from .cycles.cycle_curves import KIND, cycle_curves
 from .degenerate_lines import degenerate_lines
-from ..families.family import SystemFamily, Ranges
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .seed_net import NO_SEEDS, CurveSeeds, seeds_beside

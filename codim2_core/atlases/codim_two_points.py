@@ -11,10 +11,10 @@ import numpy as np
 from ..arrays import Array
 from ..curves.arclength import zero_between
 from ..curves.newton import newton
-from ..words import say
 from ..families.conditions import EquatorEquations, InteriorEquations
-from .curve_numbers import lyapunov, trace
 from ..families.family import SystemFamily
+from ..words import say
+from .curve_numbers import lyapunov, trace
 from .tracing import TracedCurve
 
 SAME_POINT_DISTANCE = 1e-6  # of the ranges: points of one kind nearer to each other are one

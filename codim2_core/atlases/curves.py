@@ -11,10 +11,10 @@ from ..arrays import Array
 from ..curves.arclength import TracedLine, zero_between
 from ..curves.polyline import distance
 from ..families import conditions, plane_conditions
+from ..families.family import SystemFamily
 from . import codim_two_points, seed_net, tracing
 from .codim_two_points import SpecialPlace
 from .degenerate_lines import DegenerateLine
-from ..families.family import SystemFamily
 from .seed_net import NO_SEEDS, CurveSeeds
 from .tracing import TracedCurve, TracedCurves
 

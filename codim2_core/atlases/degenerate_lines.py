@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Array
-from ..numerics.root_between import root_between
 from ..families.family import SystemFamily
+from ..numerics.root_between import root_between
 
 PROBE_ANGLES = (
     2.0 * np.pi * (np.arange(7) + 0.37) / 7.0

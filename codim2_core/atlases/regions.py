@@ -10,8 +10,8 @@ import numpy as np
 from ..arrays import Array, read_only
 from ..curves.polyline import distance, feet
 from ..diagrams.classes import Classes, classes_over
-from .faces import Face, inside_polygons, middle, net_of
 from ..families.family import SystemFamily
+from .faces import Face, inside_polygons, middle, net_of
 from .result import AtlasRegion, SamplingReport
 
 CHORD_DISTANCE = 1e-3  # of the ranges: a point that is as near as this to a curve's chord lies on the curve

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from ..arrays import Array
 from ..curves.newton import Condition
 from ..diagrams.classes import classes_over
+from ..families.family import MAX_RADIUS_SQUARED, MIN_RADIUS_SQUARED, SystemFamily
 from ..layer_problem.critical import critical_sets
 from ..numerics.root_between import root_between
 from ..psi.constructors import many
 from .degenerate_lines import ON_LINE_DISTANCE as BESIDE
 from .degenerate_lines import DegenerateLine, drop_touching
-from ..families.family import MAX_RADIUS_SQUARED, MIN_RADIUS_SQUARED, SystemFamily
 
 EQUATOR_CELLS, PARAMETER_CELLS = 64, 24  # cells round the equator, and along both parameters beside them
 INTERIOR_CELLS = 16  # cells along each of c, s, u and v

@@ -13,8 +13,8 @@ from ..arrays import Array
 from ..curves.arclength import CurveEdge, StepBounds, TracedLine, square_edges, tangent, trace_curve
 from ..curves.newton import Condition, newton
 from ..families import conditions
-from . import seed_net
 from ..families.family import MAX_RADIUS_SQUARED, SystemFamily
+from . import seed_net
 
 EQUATOR_STEPS = StepBounds(0.08, 0.12, 1500, 2.0 * math.pi)
 INTERIOR_STEPS = StepBounds(0.05, 0.12, 1500)
@@ -135,7 +135,9 @@ def hopfs(family: SystemFamily, cells: Array, corners: Sequence[Array], seeds: S
     return _all_to_equator(family, _trace_curves((sought,), cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
 
 
-def node_foci(family: SystemFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> TracedCurves:
+def node_foci(
+    family: SystemFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()
+) -> TracedCurves:
     """Curves on which tr(J)^2 = 4 det J; they end where both are zero."""
 
     def edge(v: Array, sign: float) -> tuple[float, Array]:

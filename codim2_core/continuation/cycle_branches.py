@@ -64,7 +64,9 @@ class NormalForms:
         return replace(branch, section=section)
 
 
-def normal_forms(system: Any, psi: Psi, along: str, span: tuple[float, float], z: Sequence[float]) -> NormalForms | None:
+def normal_forms(
+    system: Any, psi: Psi, along: str, span: tuple[float, float], z: Sequence[float]
+) -> NormalForms | None:
     """Return the normal forms along a span; None if U is not affine, or their axes turn too far or jump.
 
     They jump beside a symmetric part that is a multiple of the unit matrix.

@@ -109,7 +109,8 @@ def _place(y: Array) -> Array:
 def _equilibria(family: SystemFamily, states: Sequence[State]) -> tuple[Array, Array]:
     """Return the limit directions (2, k) and critical sets (3, k) of some states, in the axes of the family."""
     directions, sets = [np.zeros((2, 0))], [np.zeros((3, 0))]
-    for state, u in zip(states, family.units(np.array([[state.value] for state in states]))[:, 0], strict=True):
+    for state in states:
+        u = family.unit(state.value)
         angle = state.turn if family.turns else 0.0
         theta = state.equator.theta - angle
         directions.append(np.stack([theta, np.full(len(theta), u)]))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
@@ -30,7 +29,13 @@ __all__ = ["equilibrium_branches"]
 GRID_CELLS = 48
 REACH = 1.6 / GRID_CELLS  # of the span: how far from a state a candidate may be
 MAX_ROUNDS = 4  # times that candidates are looked for, from the states beside the last ones
-MAX_TURN, MAX_MOVE, MAX_HALVINGS = 0.15, 0.1, 6  # of what stands still from state to state, unless so many are not enough
+MAX_TURN, MAX_MOVE, MAX_HALVINGS = (
+    0.15,
+    0.1,
+    6,
+)  # of what stands still from state to state, unless so many are not enough
+MIN_DISTANCE = 1e-12  # of the span: between two values
+SAME_VALUE = 1e-9  # of the span: of a change, and of the points that were solved for there
 MAX_BISECTIONS, POLE_DISTANCE = 12, 0.01  # to where U ceases to be finite; of a cell, from a pole
 POLE_PLACES = np.array([[0.3, 0.1], [-0.2, 0.5], [0.6, -0.4], [-0.5, -0.7]])
 
@@ -53,14 +58,14 @@ def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float
     # off the round numbers on which special values like to lie
     u = (np.arange(GRID_CELLS + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(GRID_CELLS + 1))) / GRID_CELLS
     u[[0, -1]] = SIDE_STEP, 1.0 - SIDE_STEP
-    if not any([states(v) for v in family.values(u[:, None])[:, 0].tolist()]):
+    if not any([states(family.value(v)) for v in u.tolist()]):
         assert states.refusal is not None
         raise states.refusal
     runs = _defined_runs(family, states, u)
     found, changes = _find_changes(family, states, runs, u)
     special: list[SpecialValue] = []
     for change in changes:
-        near = [one for one in found if abs(float(family.values(np.array([one.u]))[0]) - change.value) <= 1e-9 * states.width]
+        near = [one for one in found if abs(one.u - family.unit(change.value)) <= SAME_VALUE]
         special += name_changes(family, change, near)
     special += single_values(family, states, found, special, u)
     special = [one for one in special if any(run[0] <= one.value <= run[1] for run in runs)]
@@ -79,6 +84,7 @@ def _find_changes(
     """Find the candidates, and the changes among them and elsewhere."""
     found: list[Candidate] = []
     seen: set[float] = set()
+    values: list[float] = []
     starts = extrema_of_theta(family, u), np.zeros((3, 0)) if family.affine else least_speeds(family, u)
     for turn in range(MAX_ROUNDS):
         _refine(states, runs)
@@ -88,15 +94,23 @@ def _find_changes(
         if not new:
             break
         if turn:
-            starts = extrema_of_theta(family, family.units(np.array([[s.value] for s in new]))[:, 0]), np.zeros((3, 0))
+            starts = extrema_of_theta(family, np.array([family.unit(s.value) for s in new])), np.zeros((3, 0))
         before = len(found)
         found = merge([*found, *candidates(family, new, starts, REACH)])
-        values = [float(v) for v in family.values(np.array([[one.u] for one in found]))[:, 0]] if found else []
+        values = _distinct(family, found)
         look_beside(states, values)
         if len(found) == before:
             break
-    values = sorted(set(values))
     return found, [change for run in runs for change in changes_between(states, values, *run)]
+
+
+def _distinct(family: SystemFamily, found: Sequence[Candidate]) -> list[float]:
+    """Return the values of candidates in order, each once: rounding parts those of a symmetric pair."""
+    kept: list[float] = []
+    for one in found:
+        if not kept or one.u - family.unit(kept[-1]) > MIN_DISTANCE:
+            kept.append(family.value(one.u))
+    return kept
 
 
 def _refine(states: States, runs: Sequence[tuple[float, float]]) -> None:
@@ -126,7 +140,7 @@ def _defined_runs(family: SystemFamily, states: States, u: Array) -> list[tuple[
     """Return the parts of the span on which U is finite, from their first to their last state."""
     stops = []  # values of the grid, and None where U is not defined
     poles = _poles(family, u)
-    values = family.values(u[:, None])[:, 0].tolist()
+    values = [family.value(v) for v in u.tolist()]
     for value, after in zip(values, [*values[1:], values[-1]], strict=True):
         stops.append(value if states(value) else None)
         for pole in (v for v in poles if value < v < after):
@@ -169,4 +183,4 @@ def _poles(family: SystemFamily, u: Array) -> list[float]:
         common.append(cells)
     cells = set.intersection(*common)
     first = {int(np.searchsorted(u, v)): v for v in places}
-    return [float(family.values(np.array([first[i]]))[0]) for i in sorted(cells)]
+    return [family.value(first[i]) for i in sorted(cells)]

@@ -18,7 +18,6 @@ from ..words import say
 from .candidates import Candidate
 from .changes import Change
 from .result import SpecialValue
-from .states import State
 
 __all__ = ["name_changes", "triple_zero"]
 
@@ -73,17 +72,17 @@ def _on_equator(theta: float) -> tuple[float, float]:
 
 def _solved_angle(theta: float, points: Sequence[Candidate], turn: float) -> float:
     """Return the angle of the point on the equator that was solved for nearest to an angle, in [0, 2 pi)."""
-    angles = [math.atan2(one.y[1], one.y[0]) if len(one.y) == 3 else float(one.y[0]) for one in points
+    angles = [math.atan2(one.y[1], one.y[0]) if one.what == "equator" else float(one.y[0]) for one in points
               if len(one.y) == 2 or one.what == "equator"]  # fmt: skip
-    near = [angle + turn for angle in angles if abs(math.remainder(angle + turn - theta, math.tau)) < _SAME_EVENT_DISTANCE]
-    return min(near, key=lambda angle: abs(math.remainder(angle - theta, math.tau)), default=theta) % math.tau
+    away = [math.remainder(angle + turn - theta, math.tau) for angle in angles]
+    nearest = min(away, key=abs, default=math.inf)
+    return (theta + nearest if abs(nearest) < _SAME_EVENT_DISTANCE else theta) % math.tau
 
 
 def _is_symmetric(family: SystemFamily, value: float, theta: float) -> bool:
     """Whether Theta is odd about an angle: a triple zero there is then a pitchfork."""
     angles = theta + np.stack([_SYMMETRY_ANGLES, -_SYMMETRY_ANGLES])
-    u = float(family.units(np.array([value]))[0])
-    there = equator_numbers(family, np.stack([angles, np.full(angles.shape, u)]))[0]
+    there = equator_numbers(family, np.stack([angles, np.full(angles.shape, family.unit(value))]))[0]
     return bool(np.abs(there.sum(axis=0)).max() <= _SYMMETRY_TOLERANCE * np.abs(there).max())
 
 
@@ -124,9 +123,8 @@ def _of_sets(family: SystemFamily, change: Change, points: Sequence[Candidate]) 
         kind, place = change_between(C.kind, D.kind), (float(D.p[0]), float(D.p[1]))
         if kind is HOPF:
             out.append(_hopf(family, value, place, [one.y for one in points if one.what is HOPF], D))
-        elif kind is DETERMINANT and family.affine:
-            out.append(SpecialValue("line of equilibria", value, place, say("line at one value")))
-        else:
+        elif not (kind is DETERMINANT and family.affine):  # which is on a line of equilibria
+
             out.append(SpecialValue(kind.kind, value, place, kind.says))
     return out
 
@@ -137,7 +135,7 @@ def _hopf(
     """Describe a Hopf point with its first Lyapunov coefficient."""
     radius = math.hypot(*C.e)
     near = [y for y in solved if abs(math.hypot(y[0], y[1]) - radius) < _SAME_EVENT_DISTANCE]
-    y = near[0] if near else np.array([*C.e, float(family.units(np.array([value]))[0])])
+    y = near[0] if near else np.array([*C.e, family.unit(value)])
     number = float(lyapunov(family, y[None])[0])
     if not math.isfinite(number):
         return SpecialValue(HOPF.kind, value, place, HOPF.says)

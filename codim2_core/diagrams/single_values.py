@@ -11,7 +11,7 @@ from ..arrays import Array
 from ..families import special_points
 from ..families.family import AXES, SystemFamily
 from ..numerics.sign_changes import roots
-from ..special_kinds import HOPF, SPECIAL_KINDS, SpecialKind
+from ..special_kinds import HOPF, SpecialKind
 from ..words import say
 from .candidates import BLUR, Candidate
 from .name_changes import triple_zero
@@ -24,6 +24,7 @@ _TOUCH_REACH = 2e-3  # of the span: how far about a double zero its function is 
 _TOUCH_TOLERANCE = 1e-9  # of 1 - |e|^2, and of tr J over the size of J: what touches zero
 _ZERO_SHARE = 1e-12  # of |U|: Theta where every direction is a limit direction
 SAME_PLACE = 0.05  # in the disc: of one point
+_LINE_SHARE = 1e-9  # of adj(A) f, where f is in the range of A
 _NEWTON_ROUNDS = 12
 
 
@@ -56,11 +57,11 @@ def single_values(
 
 
 def _special(family: SystemFamily, kind: str, u: float, place: tuple[float, float], sentence: str) -> SpecialValue:
-    return SpecialValue(kind, float(family.values(np.array([u]))[0]), place, sentence)
+    return SpecialValue(kind, family.value(u), place, sentence)
 
 
 def _same_point(family: SystemFamily, other: SpecialValue, u: float, place: tuple[float, float]) -> bool:
-    near = abs(float(family.units(np.array([other.value]))[0]) - u) <= BLUR
+    near = abs(family.unit(other.value) - u) <= BLUR
     return near and (other.kind == "all directions" or math.dist(other.place, place) < SAME_PLACE)
 
 
@@ -77,13 +78,13 @@ def _place(family: SystemFamily, states: States, one: Candidate) -> tuple[float,
         modulus = math.hypot(one.y[0], one.y[1])
         zeta = float(family.psi_at(one.y[2:]).radius(min(modulus, 1.0), max((1.0 - modulus) * (1.0 + modulus), 1e-300)))
         place = complex(one.y[0], one.y[1]) * (zeta / math.hypot(1.0, zeta) / modulus if modulus else 0.0)
-    state = states(float(family.values(one.y[-1:])[0])) if family.turns else None
+    state = states(family.value(one.u)) if family.turns else None
     place *= complex(math.cos(state.turn), math.sin(state.turn)) if state else 1.0
     return place.real, place.imag
 
 
 def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[SpecialValue]:
-    """Yield what a candidate is at which the class does not change: a crossing, or a function that only touches zero."""
+    """Yield what a candidate is at which no class changes: a crossing, or a function that only touches zero."""
     if one.what == "crossing":
         theta, place = float(one.y[0]), _place(family, states, one)
         at = f"θ = {math.atan2(place[1], place[0]) % math.tau:.4g}"
@@ -98,7 +99,7 @@ def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[S
     elif one.what == "triple":
         place, theta = _place(family, states, one), float(one.y[0])
         turned = math.atan2(place[1], place[0])
-        yield triple_zero(family, float(family.values(one.y[-1:])[0]), turned % math.tau, turned - theta)
+        yield triple_zero(family, family.value(one.u), turned % math.tau, turned - theta)
     elif (one.what == "equator" or one.what is HOPF) and not one.regular:
         u = one.u + _TOUCH_REACH * np.linspace(-1.0, 1.0, 17)
         u = u[(u > 0.0) & (u < 1.0)]
@@ -157,16 +158,21 @@ def _all_directions(family: SystemFamily, u: Array) -> list[float]:
 
 
 def _singular_values(family: SystemFamily, u: Array) -> Iterator[SpecialValue]:
-    """Yield the values with det A = 0 of a U that is affine in e: its critical set passes through infinity."""
+    """Yield where det A = 0, of a U that is affine in e: A e = -f has no solution there, or a line of them."""
 
-    def determinant(u: Array) -> Array:
-        _, ((a, b), (c, d)) = family.on_net(0.0 * u, 0.0 * u, u)
-        return a * d - b * c
+    def numbers(u: Array) -> Array:
+        """Return det A, and adj(A) f."""
+        (U, V), ((a, b), (c, d)) = family.on_net(0.0 * u, 0.0 * u, u)
+        return np.stack([a * d - b * c, d * U - b * V, a * V - c * U])
 
-    values = determinant(u)
-    if not values.any():
+    sizes = np.abs(numbers(u)).max(axis=1)
+    which = 0 if sizes[0] > _ZERO_SHARE else 1 + int(sizes[1:].argmax())
+    if sizes[which] <= _ZERO_SHARE:
         return
-    for v in roots(determinant, [u], [values]).zeros[0].tolist():
-        (U, V), ((a, b), (c, d)) = family.on_net(*np.zeros((2, 1)), np.array([v]))
-        if max(abs(d * U - b * V), abs(a * V - c * U)) > 1e-9:
+    function = lambda u: numbers(u)[which]
+    for v in roots(function, [u], [function(u)]).zeros[0].tolist():
+        there = np.abs(numbers(np.array([v]))[1:]).max()
+        if there <= _LINE_SHARE:
+            yield _special(family, "line of equilibria", v, (0.0, 0.0), say("line at one value"))
+        elif which == 0:
             yield _special(family, "det A = 0", v, (0.0, 0.0), say("through infinity"))

@@ -69,7 +69,7 @@ class State:
     @property
     def proven(self) -> bool:
         """Whether no limit direction and no critical set is missed, for certain."""
-        return self._problem.at.affine is not None or self.equator.proven and disc_zeros(self._problem.at.key).proven
+        return self._problem.at.affine is not None or (self.equator.proven and disc_zeros(self._problem.at.key).proven)
 
     def difference(self, other: State) -> int | None:
         """First part that is not that of the other; None if all are."""

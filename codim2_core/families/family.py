@@ -145,6 +145,14 @@ class SystemFamily:
         """Return places of the unit square from values (..., n) of the parameters."""
         return np.asarray((values - self._low) / self.widths)
 
+    def value(self, u: float) -> float:
+        """Return the parameter of a family of one at a place of its span."""
+        return float(self._low[0] + self.widths[0] * u)
+
+    def unit(self, value: float) -> float:
+        """Return the place in its span of a value of the parameter of a family of one."""
+        return float((value - self._low[0]) / self.widths[0])
+
     @cached_property
     def size(self) -> float:
         """The largest |U| on a coarse net over the disc and the square, or 1: the unit of speed."""

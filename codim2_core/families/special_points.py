@@ -146,7 +146,7 @@ def solve(equations: Equations, starts: Array, reach: float) -> SpecialPoints:
 
 
 def _solve_linear(slopes: Array, values: Array) -> tuple[Array, Array]:
-    """Solve equations (m, n, k), m >= n, for (n, k), by least squares if m > n; also determinants (k,), of rows of size 1."""
+    """Solve equations (m, n, k) for (n, k), by least squares if m > n; also their determinants (k,)."""
     A, b = np.moveaxis(slopes, -1, 0), values.T
     if A.shape[1] > A.shape[2]:
         A, b = np.einsum("kij,kil->kjl", A, A), np.einsum("kij,ki->kj", A, b)

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import Array, read_only
+from ...families.family import SystemFamily
 from ...layer_problem.problem import LayerProblem
 from ...words import say
-from ...families.family import SystemFamily
 from ..result import AtlasCurve, AtlasPoint
 from .connection_seeds import EQUILIBRIUM_KINDS, ConnectionSearch, ConnectionSeed, lines_beside_takens, straight
 from .connection_tracing import ConnectionCurve, trace_connection

@@ -13,10 +13,10 @@ import numpy as np
 from ...arrays import Array
 from ...continuation.typed.section_base import correct_zero
 from ...curves.polyline import feet
+from ...families.family import SystemFamily
 from ...layer_problem.problem import LayerProblem
 from ...numerics.root_between import root_between
 from ..cycles.fold_seeds import marks
-from ...families.family import SystemFamily
 from ..result import AtlasCurve
 from .saddles import Branch, branches, lines_of
 from .splitting import BranchPair, Splitting, roughly

@@ -16,9 +16,9 @@ import numpy as np
 
 from ...arrays import Array
 from ...continuation.typed.section_base import correct_zero, e_at, hemisphere_place
+from ...families.family import SystemFamily
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem
-from ...families.family import SystemFamily
 from .saddles import Branch
 
 MAX_CACHE_DISTANCE = 3e-3  # of the square: so far from where it is known a connection is kept

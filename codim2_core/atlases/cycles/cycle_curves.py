@@ -9,8 +9,8 @@ from itertools import islice
 import numpy as np
 
 from ...arrays import Array, read_only
-from ...words import say
 from ...families.family import SystemFamily
+from ...words import say
 from ..result import AtlasCurve, AtlasPoint
 from .fold_seeds import FoldSeed, along_lines, seeds_beside_bautin
 from .fold_tracing import CENTRE, FoldCurve, trace_fold

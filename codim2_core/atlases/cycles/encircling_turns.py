@@ -16,8 +16,8 @@ from ...arrays import Array
 from ...continuation.typed.ray import Ray
 from ...continuation.typed.section_base import HemispherePoint, correct_zero, hemisphere_place
 from ...continuation.typed.typed_turn import TurnOrbit, turn
-from ...systems.frozen import FrozenSystem
 from ...families.family import SystemFamily
+from ...systems.frozen import FrozenSystem
 
 LOG_SIZE_SCALE = 6.0  # of x: steps along curves are as long in it as in the unit square
 DIFFERENCE_STEP = 1e-6  # for derivatives, which tell the way and not the place

@@ -15,10 +15,10 @@ from ...continuation.typed.section_base import e_at
 from ...continuation.typed.typed_branches import TypedSearch
 from ...continuation.typed.typed_family import VariedRay
 from ...cycles.ray_section import TurnSection
+from ...families.family import SystemFamily
 from ...layer_problem.critical import critical_sets
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem
-from ...families.family import SystemFamily
 from ..result import AtlasCurve
 from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
 from .fold_tracing import CycleStart

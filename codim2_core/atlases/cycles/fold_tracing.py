@@ -12,8 +12,8 @@ from ...continuation.typed.ray import best_crossing, room
 from ...continuation.typed.section_base import e_at
 from ...curves.arclength import CurveEdge, StepBounds, square_edges, tangent, trace_one_way
 from ...curves.newton import newton
-from ...layer_problem.critical import critical_sets
 from ...families.family import SystemFamily
+from ...layer_problem.critical import critical_sets
 from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
 
 CENTRE = "critical set"  # how a curve ends whose cycles shrink to one
