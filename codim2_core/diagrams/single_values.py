@@ -67,7 +67,7 @@ def _same_point(family: SystemFamily, other: SpecialValue, u: float, place: tupl
 
 def _numbers(family: SystemFamily, one: Candidate) -> Sequence[Array]:
     numbers = special_points.set_numbers if len(one.y) == 3 else special_points.equator_numbers
-    return numbers(family, one.y[:, None])[1:]
+    return numbers(family, one.y[:, None])[1:3]
 
 
 def _place(family: SystemFamily, states: States, one: Candidate) -> tuple[float, float]:
@@ -108,7 +108,7 @@ def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[S
             e = _sets_at(family, one.y[:2], u)
             if one.what == "equator":
                 return 1.0 - e[0] ** 2 - e[1] ** 2
-            _, trace, determinant = special_points.set_numbers(family, np.stack([*e, u]))
+            _, trace, determinant, _ = special_points.set_numbers(family, np.stack([*e, u]))
             return trace / np.sqrt(trace**2 + np.abs(determinant))
 
         values = function(u)

@@ -23,7 +23,7 @@ DIFFERENCE_STEP = 1e-5  # of derivatives: of angles, of e, and of the span
 SLOPE_STEP = 1e-3  # of Theta'', by which the derivatives of Theta' are taken
 MAX_ANGLE_STEP, MAX_PLACE_STEP = 0.3, 0.2
 CONVERGED, SETTLED = 1e-14, 1e-6  # steps after which Newton's method stops, or has found a zero within rounding
-MIN_DETERMINANT = 1e-7  # of the derivatives, in rows of size 1, at a simple zero
+MIN_DETERMINANT = 1e-7  # of the derivatives at a simple zero: equations are of the order of 1
 
 
 class SpecialPoints(NamedTuple):
@@ -49,27 +49,31 @@ def equator_numbers(family: SystemFamily, y: Array) -> tuple[Array, Array, Array
     return c * V - s * U, radial, c * (c * Vs - s * Vc) - s * (c * Us - s * Uc) - radial
 
 
-def set_numbers(family: SystemFamily, y: Array) -> tuple[Array, Array, Array]:
-    """Return U (2, k), tr J and det J at places (3, k) of the disc, Psi's share being that of its rim beyond it."""
+def set_numbers(family: SystemFamily, y: Array) -> tuple[Array, Array, Array, tuple[Array, Array]]:
+    """Return U (2, k), tr J and det J at places (3, k) of the disc, and what these are of the order of.
+
+    Beyond the disc Psi has its share of the rim.
+    """
     c, s, u = y
     U, ((Uc, Us), (Vc, Vs)) = family.on_net(c, s, u)
     square = c * c + s * s
     radial, tangential = family.jacobian_factors(square, np.clip(u, 0.0, 1.0)[:, None])
     along = (c * c * Uc + c * s * (Us + Vc) + s * s * Vs) / np.where(square > 0.0, square, 1.0)
     trace = tangential * (Uc + Vs) + (radial - tangential) * along
-    return U, trace, radial * tangential * (Uc * Vs - Us * Vc)
+    return U, trace, radial * tangential * (Uc * Vs - Us * Vc), (tangential, radial * tangential)
 
 
 def kind_equations(family: SystemFamily, kind: SpecialKind) -> Equations:
-    """Return the equations of a row of `special_kinds`."""
+    """Return the equations of a row of `special_kinds`, each of the order of 1."""
 
     def of_set(y: Array) -> Array:
-        U, *numbers = set_numbers(family, y)
-        return np.stack([*U, kind.function(*numbers)])
+        U, trace, determinant, (one, other) = set_numbers(family, y)
+        size = np.abs(kind.function(one, 0.0 * other)) + np.abs(kind.function(0.0 * one, other))
+        return np.stack([*U, kind.function(trace, determinant) / size])
 
     def of_direction(y: Array) -> Array:
-        theta, *numbers = equator_numbers(family, y)
-        return np.stack([theta, kind.function(*numbers)])
+        theta, radial, slope = equator_numbers(family, y)
+        return np.stack([theta, kind.function(radial, slope)])
 
     return of_set if kind.of == "critical set" else of_direction
 
@@ -150,8 +154,6 @@ def _solve_linear(slopes: Array, values: Array) -> tuple[Array, Array]:
     A, b = np.moveaxis(slopes, -1, 0), values.T
     if A.shape[1] > A.shape[2]:
         A, b = np.einsum("kij,kil->kjl", A, A), np.einsum("kij,ki->kj", A, b)
-    sizes = np.abs(A).max(axis=2)
-    A, b = A / sizes[:, :, None], b / sizes
     determinant = np.linalg.det(A)
     columns = []
     for j in range(A.shape[2]):
