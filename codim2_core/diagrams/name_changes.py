@@ -44,7 +44,7 @@ def _of_equator(family: SystemFamily, change: Change, points: Sequence[Candidate
         away = abs(np.angle(np.exp(1j * (one[:, None] - two))))
         gone, come = one[away.min(axis=1) > _SAME_EVENT_DISTANCE], two[away.min(axis=0) > _SAME_EVENT_DISTANCE]
         met = [pair for side in (gone, come) for pair in _merged_directions(side, side[:0])]
-    turn = before.turn if family.turns else 0.0
+    turn = _turn(family, change)
     for count, theta in met:
         theta = _solved_angle(theta, points, turn)
         if count == 2:
@@ -55,6 +55,12 @@ def _of_equator(family: SystemFamily, change: Change, points: Sequence[Candidate
     if before.exponent is not None and after.exponent is not None and before.parts[2] != after.parts[2]:
         out.append(SpecialValue("neutral equator", value, (0.0, 0.0), say("equator neutral, a cycle may leave")))
     return out
+
+
+def _turn(family: SystemFamily, change: Change) -> float:
+    """Return the angle from the axes of the family to those of the system at a change."""
+    before, after = change.before.turn, change.after.turn
+    return before + 0.5 * math.remainder(after - before, math.tau) if family.turns else 0.0
 
 
 def triple_zero(family: SystemFamily, value: float, theta: float, turn: float) -> SpecialValue:
@@ -91,13 +97,13 @@ def _of_sets(family: SystemFamily, change: Change, points: Sequence[Candidate]) 
     value, before, after = change
     out = []
     pairs, gone, come = _match_states(before.critical, after.critical)
-    for side, here, other in ((gone, before, after), (come, after, before)):
+    for side, other in ((gone, after), (come, before)):
         inner = []
         for C in side:
             t = math.atan2(float(C.e[1]), float(C.e[0]))
             away = abs(np.angle(np.exp(1j * (other.equator.theta - t)))).min(initial=math.inf)
             if 1.0 - float(np.hypot(*C.e)) < _EQUATOR_DISTANCE and away < _SAME_EVENT_DISTANCE:
-                t = _solved_angle(t, points, here.turn if family.turns else 0.0)
+                t = _solved_angle(t, points, _turn(family, change))
                 sentence = say("set reaches the equator", theta=t)
                 out.append(SpecialValue("transcritical", value, _on_equator(t), sentence))
             else:
