@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import Array
 from ..families import conditions
 from ..families.family import SystemFamily
-from ..families.lyapunov import lyapunov
+from ..families.first_lyapunov import lyapunov
 from .tracing import TracedCurve
 
 

@@ -19,15 +19,15 @@ __all__ = ["branches_of_pieces"]
 _JOINT_DISTANCE = 1e-3  # in the disc: from one side of a special value to the other
 _END_DISTANCE = 0.05  # in the disc: from a branch to the special point at its end
 
-Rows = tuple[str, Array, list[Array]]  # kind, places (k, 2), and the columns of a branch
+BranchRows = tuple[str, Array, list[Array]]  # kind, places (k, 2), and the columns of a branch
 
 
 def branches_of_pieces(
     states: States, runs: Sequence[tuple[float, float]], changes: Sequence[Change], special: Sequence[SpecialValue]
 ) -> tuple[tuple[DirectionBranch, ...], tuple[ClosedEquator, ...], tuple[CriticalBranch, ...]]:
     """Return the branches of limit directions, closed equators and critical sets."""
-    directions: list[list[Rows]] = []
-    sets: list[list[Rows]] = []
+    directions: list[list[BranchRows]] = []
+    sets: list[list[BranchRows]] = []
     closed: list[ClosedEquator] = []
     for low, high in runs:
         inside = [change for change in changes if low <= change.value <= high]
@@ -41,13 +41,13 @@ def branches_of_pieces(
                 kind = "attracting from outside" if sign < 0 else "repelling from outside" if sign > 0 else "neutral"
                 closed.append(ClosedEquator(*_read_only([s.value for s in piece], [s.exponent for s in piece]), kind))
     ends = {v: change.value for change in changes for v in (change.before.value, change.after.value)}
-    whole = [_with_ends(one, ends, special, (0,)) for one in _joined(directions)]
+    whole = [_with_ends(one, ends, special, (0,)) for one in _join_pieces(directions)]
     equator = tuple(DirectionBranch(*_read_only(*columns), kind) for kind, _, columns in whole)
-    found = [_with_ends(one, ends, special, (1, 2)) for one in _joined(sets)]
+    found = [_with_ends(one, ends, special, (1, 2)) for one in _join_pieces(sets)]
     return equator, tuple(closed), tuple(CriticalBranch(*_read_only(*columns), kind) for kind, _, columns in found)
 
 
-def _linked_directions(piece: Sequence[State]) -> list[Rows]:
+def _linked_directions(piece: Sequence[State]) -> list[BranchRows]:
     first = piece[0].equator
     if not len(first):
         return []
@@ -74,11 +74,11 @@ def link_zeros(theta: Array) -> Array:
     return np.unwrap(theta, axis=0)
 
 
-def _linked_sets(piece: Sequence[State]) -> list[Rows]:
+def _linked_sets(piece: Sequence[State]) -> list[BranchRows]:
     values = np.array([s.value for s in piece])
     rows = [list(piece[0].critical)]
     for s in piece[1:]:
-        rows.append(_matched(rows[-1], s.critical))
+        rows.append(_match_sets(rows[-1], s.critical))
     out = []
     for column in zip(*rows, strict=True):
         e, p = np.array([C.e for C in column]), np.array([C.p for C in column])
@@ -87,7 +87,7 @@ def _linked_sets(piece: Sequence[State]) -> list[Rows]:
     return out
 
 
-def _matched(before: Sequence[CriticalSet], critical: Sequence[CriticalSet]) -> list[CriticalSet]:
+def _match_sets(before: Sequence[CriticalSet], critical: Sequence[CriticalSet]) -> list[CriticalSet]:
     """Return critical sets in the order of those nearest to them; of one kind, where there is one."""
     left, out = list(critical), []
     for C in before:
@@ -97,14 +97,14 @@ def _matched(before: Sequence[CriticalSet], critical: Sequence[CriticalSet]) -> 
     return out
 
 
-def _joined(pieces: Sequence[list[Rows]]) -> list[Rows]:
+def _join_pieces(pieces: Sequence[list[BranchRows]]) -> list[BranchRows]:
     """Join the branches of neighbouring pieces that go on as they are."""
-    done: list[Rows] = []
-    open_: list[Rows] = []
+    done: list[BranchRows] = []
+    open_: list[BranchRows] = []
     for piece in pieces:
-        going: list[Rows] = []
+        going: list[BranchRows] = []
         for kind, places, columns in piece:
-            before = next((one for one in open_ if one[0] == kind and _meet(one, places)), None)
+            before = next((one for one in open_ if one[0] == kind and _goes_on(one, places)), None)
             if before is None:
                 going.append((kind, places, columns))
                 continue
@@ -118,11 +118,13 @@ def _joined(pieces: Sequence[list[Rows]]) -> list[Rows]:
     return sorted([*done, *open_], key=lambda one: float(one[2][0][0]))
 
 
-def _meet(one: Rows, places: Array) -> bool:
+def _goes_on(one: BranchRows, places: Array) -> bool:
     return bool(np.hypot(*(one[1][-1] - places[0])) < _JOINT_DISTANCE)
 
 
-def _with_ends(one: Rows, ends: dict[float, float], special: Sequence[SpecialValue], moved: tuple[int, ...]) -> Rows:
+def _with_ends(
+    one: BranchRows, ends: dict[float, float], special: Sequence[SpecialValue], moved: tuple[int, ...]
+) -> BranchRows:
     """Lead a branch that ends beside a special value up to its point."""
     kind, places, columns = one
     for i in (0, -1):

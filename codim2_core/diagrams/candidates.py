@@ -18,7 +18,7 @@ __all__ = ["Candidate", "candidates", "extrema_of_theta", "least_speeds", "merge
 ANGLES, NET_SIDE = 128, 25
 RESIDUALS = np.array([1e-11, 1e-9, 1e-6])[:, None]  # of |U|: of Theta and its derivatives, where more than two vanish
 SAME_VALUE, SAME_PLACE = 1e-12, 1e-5  # of the span, and of angles and places in e: of one point
-BLUR = 1e-5  # of the span: how far Newton's method may stop before a multiple zero
+MAX_BLUR = 1e-5  # of the span: how far Newton's method may stop before a multiple zero
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +57,7 @@ def candidates(family: SystemFamily, states: Sequence[State], starts: Iterable[A
         How far from a start along the parameter a candidate may be.
     """
     extrema, slow = starts
-    directions, sets = _equilibria(family, states)
+    directions, sets = _starting_points(family, states)
     solve = special_points.solve
     found: list[Candidate] = []
 
@@ -92,21 +92,21 @@ def merge(found: Sequence[Candidate]) -> list[Candidate]:
             apart = abs(one.u - other.u)
             if len(one.y) != len(other.y):
                 continue
-            away = float(np.abs(_place(one.y) - _place(other.y)).max())
+            away = float(np.abs(_place_in_disc(one.y) - _place_in_disc(other.y)).max())
             same = (one.what is other.what or one.what == other.what) and apart <= SAME_VALUE and away <= SAME_PLACE
             blurred = not one.regular or other.what in ("crossing", "triple")
-            if same or (blurred and apart <= BLUR and away <= 1e3 * SAME_PLACE):
+            if same or (blurred and apart <= MAX_BLUR and away <= 1e3 * SAME_PLACE):
                 break
         else:
             kept.append(one)
     return sorted(kept, key=lambda one: one.u)
 
 
-def _place(y: Array) -> Array:
+def _place_in_disc(y: Array) -> Array:
     return np.array([np.cos(y[0]), np.sin(y[0])]) if len(y) == 2 else y[:2]
 
 
-def _equilibria(family: SystemFamily, states: Sequence[State]) -> tuple[Array, Array]:
+def _starting_points(family: SystemFamily, states: Sequence[State]) -> tuple[Array, Array]:
     """Return the limit directions (2, k) and critical sets (3, k) of some states, in the axes of the family."""
     directions, sets = [np.zeros((2, 0))], [np.zeros((3, 0))]
     for state in states:

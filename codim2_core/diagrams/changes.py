@@ -1,4 +1,4 @@
-"""Where the equilibria of a system change along a parameter: candidates are held against the states on either side.
+"""Changes of equilibria along a parameter: candidates are held against the states on either side.
 
 What differs between two states with no candidate between them, as at a kink of U, is bisected.
 """
@@ -10,13 +10,16 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
+import numpy as np
+
 from ..numerics.root_between import root_between
 from .states import State, States
 
 __all__ = ["SIDE_STEP", "Change", "changes_between", "look_beside"]
 
 SIDE_STEP = 1e-7  # of the span: where the two sides of a special value are looked at,
-GAP_SHARE = 0.3  # or so much of the way to the next one
+GAP_SHARE = 0.3  # or so much of the way to the next one,
+SIDE_STEPS = SIDE_STEP * np.array([1.0, 10.0, 100.0])  # or farther away
 NEARER_STEPS = (3e-11, 3e-10, 3e-9)  # of the span: nearer still, where nothing is degenerate there
 MIN_WIDTH = 1e-12  # of the span: bisection ends
 MAX_CHANGES = 10  # between two neighbouring states, nested
@@ -30,15 +33,21 @@ class Change(NamedTuple):
     after: State
 
 
-def look_beside(states: States, values: Sequence[float]) -> list[State]:
-    """Find the states on both sides of each of some values in order, nearer where another one is near."""
+def look_beside(states: States, values: Sequence[float]) -> None:
+    """Find the states on both sides of each of some values in order: nearer where another one is near.
+
+    They are farther away where all is degenerate within rounding so near: what lies between is then left out.
+    """
     low, high = states.span
-    found = []
-    stops = [-math.inf, *sorted(set(values)), math.inf]
+    stops = [-math.inf, *values, math.inf]
     for before, value, after in zip(stops, stops[1:], stops[2:], strict=False):
-        step = min(SIDE_STEP * states.width, GAP_SHARE * (value - before), GAP_SHARE * (after - value))
-        found += [states(side) for side in (value - step, value + step) if low <= side <= high]
-    return [state for state in found if state is not None]
+        most = min(GAP_SHARE * (value - before), GAP_SHARE * (after - value), value - low, high - value)
+        for step in SIDE_STEPS * states.width:
+            sides = [states(value + side * min(float(step), most)) for side in (-1.0, 1.0)]
+            if all(state is not None and state.plain for state in sides):
+                if step > SIDE_STEP * states.width:
+                    states.leave_out(value - min(float(step), most), value + min(float(step), most))
+                break
 
 
 def changes_between(states: States, values: Sequence[float], low: float, high: float) -> list[Change]:
@@ -49,7 +58,7 @@ def changes_between(states: States, values: Sequence[float], low: float, high: f
             if left.difference(right) is None:
                 continue
             there = [v for v in values if left.value < v < right.value]
-            if len(there) == 1 and right.value - left.value <= 2.1 * SIDE_STEP * states.width:
+            if len(there) == 1 and right.value - left.value <= 2.1 * SIDE_STEPS[-1] * states.width:
                 found.append(Change(there[0], left, right))
             else:
                 found += _bisected(states, left, right, MAX_CHANGES)
@@ -64,7 +73,7 @@ def _bisected(states: States, left: State, right: State, deeper: int) -> Iterato
     if part is None or not deeper:
         return
     value = _narrow(states, left, right, part)
-    before, after = _beside(states, left, value), _beside(states, right, value)
+    before, after = _state_beside(states, left, value), _state_beside(states, right, value)
     yield from _bisected(states, left, before, deeper - 1)
     yield Change(value, before, after)
     yield from _bisected(states, after, right, deeper - 1)
@@ -90,7 +99,7 @@ def _narrow(states: States, left: State, right: State, part: int) -> float:
     return 0.5 * (low + high)
 
 
-def _beside(states: States, far: State, value: float) -> State:
+def _state_beside(states: States, far: State, value: float) -> State:
     """Return the state beside a special value, towards `far`: nearer where that differs, as one more lies between."""
     side = math.copysign(1.0, far.value - value)
     near = far

@@ -29,14 +29,14 @@ __all__ = ["equilibrium_branches"]
 GRID_CELLS = 48
 REACH = 1.6 / GRID_CELLS  # of the span: how far from a state a candidate may be
 MAX_ROUNDS = 4  # times that candidates are looked for, from the states beside the last ones
-MAX_TURN, MAX_MOVE, MAX_HALVINGS = (
+MAX_ANGLE_MOVE, MAX_PLACE_MOVE, MAX_HALVINGS = (
     0.15,
     0.1,
     6,
 )  # of what stands still from state to state, unless so many are not enough
 MIN_DISTANCE = 1e-12  # of the span: between two values
 SAME_VALUE = 1e-9  # of the span: of a change, and of the points that were solved for there
-MAX_BISECTIONS, POLE_DISTANCE = 12, 0.01  # to where U ceases to be finite; of a cell, from a pole
+POLE_HALVINGS, POLE_DISTANCE = 12, 0.01  # to where U ceases to be finite; of a cell, from a pole
 POLE_PLACES = np.array([[0.3, 0.1], [-0.2, 0.5], [0.6, -0.4], [-0.5, -0.7]])
 
 
@@ -117,19 +117,23 @@ def _refine(states: States, runs: Sequence[tuple[float, float]]) -> None:
     """Add states where equilibria move far between two that are alike."""
     for low, high in runs:
         for _ in range(MAX_HALVINGS):
-            pairs = [pair for pair in pairwise(states.between(low, high)) if _far_apart(*pair)]
+            pairs = [
+                pair
+                for pair in pairwise(states.between(low, high))
+                if _far_apart(*pair, 10.0 * SIDE_STEP * states.width)
+            ]
             for left, right in pairs:
                 states(0.5 * (left.value + right.value))
             if not pairs:
                 break
 
 
-def _far_apart(left: State, right: State) -> bool:
-    if left.difference(right) is not None or right.value - left.value < 10.0 * SIDE_STEP:
+def _far_apart(left: State, right: State, least: float) -> bool:
+    if left.difference(right) is not None or right.value - left.value < least:
         return False
     for one, two, most in (
-        (left.places, right.places, MAX_TURN),
-        (np.array([C.p for C in left.critical]), np.array([C.p for C in right.critical]), MAX_MOVE),
+        (left.places, right.places, MAX_ANGLE_MOVE),
+        (np.array([C.p for C in left.critical]), np.array([C.p for C in right.critical]), MAX_PLACE_MOVE),
     ):
         if len(one) and float(np.hypot(*np.moveaxis(one[:, None] - two, -1, 0)).min(axis=1).max()) > most:
             return True
@@ -162,7 +166,7 @@ def _defined_runs(family: SystemFamily, states: States, u: Array) -> list[tuple[
 def _last_defined(states: States, low: float, high: float) -> float:
     """Return the value nearest to where U ceases to be finite, of those at which it is."""
     first = states(low) is not None
-    for _ in range(MAX_BISECTIONS):
+    for _ in range(POLE_HALVINGS):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if (states(middle) is not None) == first else (low, middle)
     return low if first else high

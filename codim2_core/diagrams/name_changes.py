@@ -9,8 +9,9 @@ from itertools import combinations
 import numpy as np
 
 from ..arrays import Array
+from ..expressions.switches import kinks
 from ..families.family import SystemFamily
-from ..families.lyapunov import lyapunov
+from ..families.first_lyapunov import lyapunov
 from ..families.special_points import equator_numbers
 from ..layer_problem.critical import CriticalSet
 from ..special_kinds import DETERMINANT, HOPF, change_between
@@ -44,7 +45,7 @@ def _of_equator(family: SystemFamily, change: Change, points: Sequence[Candidate
         away = abs(np.angle(np.exp(1j * (one[:, None] - two))))
         gone, come = one[away.min(axis=1) > _SAME_EVENT_DISTANCE], two[away.min(axis=0) > _SAME_EVENT_DISTANCE]
         met = [pair for side in (gone, come) for pair in _merged_directions(side, side[:0])]
-    turn = _turn(family, change)
+    turn = _axes_angle(family, change)
     for count, theta in met:
         theta = _solved_angle(theta, points, turn)
         if count == 2:
@@ -57,7 +58,7 @@ def _of_equator(family: SystemFamily, change: Change, points: Sequence[Candidate
     return out
 
 
-def _turn(family: SystemFamily, change: Change) -> float:
+def _axes_angle(family: SystemFamily, change: Change) -> float:
     """Return the angle from the axes of the family to those of the system at a change."""
     before, after = change.before.turn, change.after.turn
     return before + 0.5 * math.remainder(after - before, math.tau) if family.turns else 0.0
@@ -103,7 +104,7 @@ def _of_sets(family: SystemFamily, change: Change, points: Sequence[Candidate]) 
             t = math.atan2(float(C.e[1]), float(C.e[0]))
             away = abs(np.angle(np.exp(1j * (other.equator.theta - t)))).min(initial=math.inf)
             if 1.0 - float(np.hypot(*C.e)) < _EQUATOR_DISTANCE and away < _SAME_EVENT_DISTANCE:
-                t = _solved_angle(t, points, _turn(family, change))
+                t = _solved_angle(t, points, _axes_angle(family, change))
                 sentence = say("set reaches the equator", theta=t)
                 out.append(SpecialValue("transcritical", value, _on_equator(t), sentence))
             else:
@@ -130,7 +131,6 @@ def _of_sets(family: SystemFamily, change: Change, points: Sequence[Candidate]) 
         if kind is HOPF:
             out.append(_hopf(family, value, place, [one.y for one in points if one.what is HOPF], D))
         elif not (kind is DETERMINANT and family.affine):  # which is on a line of equilibria
-
             out.append(SpecialValue(kind.kind, value, place, kind.says))
     return out
 
@@ -142,7 +142,7 @@ def _hopf(
     radius = math.hypot(*C.e)
     near = [y for y in solved if abs(math.hypot(y[0], y[1]) - radius) < _SAME_EVENT_DISTANCE]
     y = near[0] if near else np.array([*C.e, family.unit(value)])
-    number = float(lyapunov(family, y[None])[0])
+    number = math.nan if kinks(family.rows, ("c", "s")) else float(lyapunov(family, y[None])[0])
     if not math.isfinite(number):
         return SpecialValue(HOPF.kind, value, place, HOPF.says)
     born = "supercritical" if number < 0.0 else "subcritical" if number > 0.0 else "degenerate"

@@ -197,7 +197,7 @@ class Branches(Pictured):
 
     def with_cycles(self) -> Branches:
         """Return the same with branches of limit cycles, which take longer."""
-        from ..continuation.cycle_branches import cycle_branches  # here: it loads the compiler
+        from .cycle_branches import cycle_branches  # here: it loads the compiler
 
         ends = [self.span[0], *(v for gap in self.gaps for v in gap), self.span[1]]
         spans = [part for part in zip(ends[::2], ends[1::2], strict=True) if part[0] < part[1]]

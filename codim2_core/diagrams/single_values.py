@@ -1,4 +1,4 @@
-"""What happens at a single value of a parameter, with the same class on both sides of it."""
+"""Events at a single value of a parameter, with the same class on both sides of it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..families.family import AXES, SystemFamily
 from ..numerics.sign_changes import roots
 from ..special_kinds import HOPF, SpecialKind
 from ..words import say
-from .candidates import BLUR, Candidate
+from .candidates import MAX_BLUR, Candidate
 from .name_changes import triple_zero
 from .result import SpecialValue
 from .states import States
@@ -49,9 +49,9 @@ def single_values(
     known = [*out, *named]
     for one in found:
         if isinstance(one.what, SpecialKind) and not one.what.parts:
-            if one.regular and one.what.holds(*_numbers(family, one)):
-                out.append(_special(family, one.what.kind, one.u, _place(family, states, one), one.what.says))
-        elif not any(_same_point(family, other, one.u, _place(family, states, one)) for other in known):
+            if one.regular and one.what.holds(*_linearisation(family, one)):
+                out.append(_special(family, one.what.kind, one.u, _portrait_place(family, states, one), one.what.says))
+        elif not any(_same_point(family, other, one.u, _portrait_place(family, states, one)) for other in known):
             out += _touches(family, states, one)
     return out + (list(_singular_values(family, u)) if family.affine else [])
 
@@ -61,16 +61,16 @@ def _special(family: SystemFamily, kind: str, u: float, place: tuple[float, floa
 
 
 def _same_point(family: SystemFamily, other: SpecialValue, u: float, place: tuple[float, float]) -> bool:
-    near = abs(family.unit(other.value) - u) <= BLUR
+    near = abs(family.unit(other.value) - u) <= MAX_BLUR
     return near and (other.kind == "all directions" or math.dist(other.place, place) < SAME_PLACE)
 
 
-def _numbers(family: SystemFamily, one: Candidate) -> Sequence[Array]:
+def _linearisation(family: SystemFamily, one: Candidate) -> Sequence[Array]:
     numbers = special_points.set_numbers if len(one.y) == 3 else special_points.equator_numbers
     return numbers(family, one.y[:, None])[1:3]
 
 
-def _place(family: SystemFamily, states: States, one: Candidate) -> tuple[float, float]:
+def _portrait_place(family: SystemFamily, states: States, one: Candidate) -> tuple[float, float]:
     """Return the place in the disc, in the axes of the system at that value."""
     if len(one.y) == 2:
         place = complex(math.cos(one.y[0]), math.sin(one.y[0]))
@@ -86,7 +86,7 @@ def _place(family: SystemFamily, states: States, one: Candidate) -> tuple[float,
 def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[SpecialValue]:
     """Yield what a candidate is at which no class changes: a crossing, or a function that only touches zero."""
     if one.what == "crossing":
-        theta, place = float(one.y[0]), _place(family, states, one)
+        theta, place = float(one.y[0]), _portrait_place(family, states, one)
         at = f"θ = {math.atan2(place[1], place[0]) % math.tau:.4g}"
         h = np.array([[1e-3, 0.0], [0.0, 1e-3]])
         by_theta, by_u = (
@@ -97,7 +97,7 @@ def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[S
         kind = "exchange of limit directions" if crossing else "saddle-node"
         yield _special(family, kind, one.u, place, say("pass through" if crossing else "touch", at=at))
     elif one.what == "triple":
-        place, theta = _place(family, states, one), float(one.y[0])
+        place, theta = _portrait_place(family, states, one), float(one.y[0])
         turned = math.atan2(place[1], place[0])
         yield triple_zero(family, family.value(one.u), turned % math.tau, turned - theta)
     elif (one.what == "equator" or one.what is HOPF) and not one.regular:
@@ -116,7 +116,7 @@ def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[S
             return
         for v in roots(function, [u], [values]).touches[0].tolist():
             there = Candidate(one.what, v, np.array([*_sets_at(family, one.y[:2], np.array([v]))[:, 0], v]), False)
-            place = _place(family, states, there)
+            place = _portrait_place(family, states, there)
             theta = math.atan2(place[1], place[0]) % math.tau
             if one.what == "equator":
                 kind, sentence = "touching the equator", say("border, turns back", theta=theta)

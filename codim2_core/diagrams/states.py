@@ -58,7 +58,7 @@ class State:
     def plain(self) -> bool:
         """Whether nothing is degenerate here within rounding."""
         on = self.equator
-        firm = on.proven and not (on.radially_degenerate.any() or (on.multiplicity > 1).any())
+        firm = on.proven and not (on.radially_degenerate.any() or (on.multiplicity > 1).any()) and self.parts[2] != 0
         return firm and all(C.kind.split()[0] in ("stable", "unstable", "saddle") for C in self.critical)
 
     @property
@@ -112,6 +112,10 @@ class States:
         known = [v for v in self._known if low <= v <= high]
         return [state for v in sorted(known) if (state := self(v)) is not None]
 
+    def leave_out(self, low: float, high: float) -> None:
+        """Find no state between two values from now on."""
+        self._rough.append((low, high))
+
     def leave_out_rounding(self, value: float) -> bool:
         """Leave out a zone about a value in which U is all rounding, if there is one.
 
@@ -126,7 +130,7 @@ class States:
             ends.append(next((v for v in beside if not low < v < high or self._is_clear(v)), None))
         if None in ends:
             return False
-        self._rough.append((max(ends[0], low), min(ends[1], high)))
+        self.leave_out(max(ends[0], low), min(ends[1], high))
         return True
 
     def _is_clear(self, value: float) -> bool:

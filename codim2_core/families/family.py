@@ -175,7 +175,7 @@ class SystemFamily:
         """Return U (2, ...) over `size`, or its derivative by a name, at many places at once."""
         rows = [row.derivative(by) if by else row for row in self.unit_rows]
         shape = np.broadcast_shapes(*(np.shape(v) for v in (c, s, *u)))
-        return np.stack([_values(row, (c, s, *u), shape) for row in rows])
+        return np.stack([_evaluate_row(row, (c, s, *u), shape) for row in rows])
 
     def jacobian_factors(self, square: Array, u: Array) -> tuple[Array, Array]:
         """Return both eigenvalues of D e_Psi, along e and across it, at |e|^2 (k,) and places (k, n)."""
@@ -226,7 +226,7 @@ class SystemFamily:
         return of
 
 
-def _values(row: Expression, places: Sequence[Array], shape: tuple[int, ...]) -> Array:
+def _evaluate_row(row: Expression, places: Sequence[Array], shape: tuple[int, ...]) -> Array:
     known = dict(zip(("c", "s", *AXES), places, strict=False))
     return np.broadcast_to(np.asarray(row.evaluate({name: known[name] for name in row.names}), float), shape)
 

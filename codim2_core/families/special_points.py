@@ -1,4 +1,4 @@
-"""Where a test function of an equilibrium vanishes along one parameter: Newton's method from many starts at once.
+"""Zeros of test functions of equilibria along one parameter: Newton's method from many starts at once.
 
 Equations are in (theta, u) on the equator and in (c, s, u) within it, u from 0 to 1 along the parameter. Those of a row
 of `special_kinds` are that the object stands still there and that the row's test function is zero.
@@ -22,7 +22,10 @@ MAX_ROUNDS, FREE_ROUNDS, MIN_GAIN = 40, 6, 0.75  # Newton steps; those after whi
 DIFFERENCE_STEP = 1e-5  # of derivatives: of angles, of e, and of the span
 SLOPE_STEP = 1e-3  # of Theta'', by which the derivatives of Theta' are taken
 MAX_ANGLE_STEP, MAX_PLACE_STEP = 0.3, 0.2
-CONVERGED, SETTLED = 1e-14, 1e-6  # steps after which Newton's method stops, or has found a zero within rounding
+CONVERGED_STEP, SETTLED_STEP = (
+    1e-14,
+    1e-6,
+)  # steps after which Newton's method stops, or has found a zero within rounding
 MIN_DETERMINANT = 1e-7  # of the derivatives at a simple zero: equations are of the order of 1
 
 
@@ -141,8 +144,8 @@ def solve(equations: Equations, starts: Array, reach: float) -> SpecialPoints:
             y = y - step / np.maximum((np.abs(step) / most).max(axis=0), 1.0)
         near = np.isfinite(size) & (np.abs(y[-1] - first) <= reach) & (np.abs(y[:-1]).max(axis=0) < 10.0)
         near &= (turn > 0) | (np.abs(step[-1]) <= 2.0 * reach)
-        near &= (turn < FREE_ROUNDS) | (size <= np.maximum(MIN_GAIN * last, SETTLED))
-        done = near & ((size <= CONVERGED) | ((turn + 1 == MAX_ROUNDS) & (size <= SETTLED)))
+        near &= (turn < FREE_ROUNDS) | (size <= np.maximum(MIN_GAIN * last, SETTLED_STEP))
+        done = near & ((size <= CONVERGED_STEP) | ((turn + 1 == MAX_ROUNDS) & (size <= SETTLED_STEP)))
         found.append(y[:, done])
         regular.append(np.abs(determinant[done]) > MIN_DETERMINANT)
         y, first, last = y[:, near & ~done], first[near & ~done], size[near & ~done]

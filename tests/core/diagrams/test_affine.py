@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.continuation.cycle_branches import normal_forms
+from codim2_core.diagrams.cycle_branches import normal_forms
 
 PSI = c2.psi.hill(3)
 #: A matrix and f whose cycles are born, fold and become the equator, in axes that turn by p*k + 0.4.

@@ -9,19 +9,19 @@ from typing import Any
 
 import numpy as np
 
+from ..continuation.branches import continue_cycles
+from ..continuation.result import CycleBranch, CycleBranches
+from ..continuation.typed.typed_branches import continue_typed
+from ..continuation.typed.typed_ends import MarkedValue
 from ..layer_problem.vary import vary
 from ..psi.function import Psi
 from ..systems.affine import as_elinear
 from ..words import say
-from .branches import continue_cycles
-from .result import CycleBranch, CycleBranches
-from .typed.typed_branches import continue_typed
-from .typed.typed_ends import MarkedValue
 
 __all__ = ["cycle_branches"]
 
-MAX_REACH, MAX_TURN = 0.9 * math.pi, 0.1  # of the axes of the normal form along the span, and from value to value
-SAMPLES = 129  # values of the span at which its axes are looked at
+MAX_REACH, MAX_AXES_TURN = 0.9 * math.pi, 0.1  # of the axes of the normal form along the span, and from value to value
+AXES_SAMPLES = 129  # values of the span at which its axes are looked at
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def normal_forms(
     if getattr(linear, "given_matrix", None) is None and not (linear.frozen and linear.given is not None):
         return forms
     turns, skew = [], True
-    for value in np.linspace(*span, SAMPLES).tolist():
+    for value in np.linspace(*span, AXES_SAMPLES).tolist():
         try:
             varied, _, at_z = vary(linear, psi, z, along, value)
             at = varied.at(at_z)
@@ -92,7 +92,7 @@ def normal_forms(
         (a, _), (b, d) = linear.given_matrix
         return replace(forms, linear=replace(linear, a=a, b=b, d=d, given_matrix=None))
     smooth = np.unwrap(turns, period=math.pi)
-    if np.ptp(smooth) > MAX_REACH or (abs(np.diff(smooth)) > MAX_TURN).any():
+    if np.ptp(smooth) > MAX_REACH or (abs(np.diff(smooth)) > MAX_AXES_TURN).any():
         return None if own else forms
     return replace(forms, axes=0.5 * float(smooth.min() + smooth.max()))
 
