@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
@@ -13,7 +14,7 @@ from ..families.family import SystemFamily
 from ..special_kinds import DETERMINANT, SPECIAL_KINDS, SpecialKind
 from .states import State
 
-__all__ = ["Candidate", "candidates", "extrema_of_theta", "least_speeds", "merge"]
+__all__ = ["Candidate", "candidates", "extrema_of_theta", "least_speeds", "merge", "portrait_place"]
 
 ANGLES, NET_SIDE = 128, 25
 RESIDUALS = np.array([1e-11, 1e-9, 1e-6])[:, None]  # of |U|: of Theta and its derivatives, where more than two vanish
@@ -100,6 +101,18 @@ def merge(found: Sequence[Candidate]) -> list[Candidate]:
         else:
             kept.append(one)
     return sorted(kept, key=lambda one: one.u)
+
+
+def portrait_place(family: SystemFamily, y: Array, angle: float) -> tuple[float, float]:
+    """Return the place in the projected disc of (theta, u) or (c, s, u), in axes at an angle from the family's."""
+    if len(y) == 2:
+        place = complex(math.cos(y[0]), math.sin(y[0]))
+    else:
+        modulus = math.hypot(y[0], y[1])
+        zeta = float(family.psi_at(y[2:]).radius(min(modulus, 1.0), max((1.0 - modulus) * (1.0 + modulus), 1e-300)))
+        place = complex(y[0], y[1]) * (zeta / math.hypot(1.0, zeta) / modulus if modulus else 0.0)
+    place *= complex(math.cos(angle), math.sin(angle))
+    return place.real, place.imag
 
 
 def _place_in_disc(y: Array) -> Array:

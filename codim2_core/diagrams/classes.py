@@ -72,7 +72,7 @@ class Classes:
         self.unproved = 0
         self._names, self._of = names, (system, psi, z)
         self._classes: list[PortraitClass] = []
-        self._plain = as_elinear(system) is not None  # name and kind of the critical set say all
+        self._plain = as_elinear(system) is not None
 
     def decided(self, at: Array) -> Codes:
         """Return classes at points (k, n)."""
@@ -90,6 +90,8 @@ class Classes:
         arcs = -1 if state.equator.all_directions else len(state.equator.arcs)
         sets = tuple(sorted(C.kind for C in state.critical))
         portrait = PortraitClass(tuple(sorted(state.parts[0].items())), arcs, sets, state.parts[2])
+        if self._plain:  # name and kind of the critical set say all
+            portrait = PortraitClass((("", len(state.equator)),) if len(state.equator) else (), arcs, sets, None)
         self.unproved += not state.proven
         if portrait not in self._classes:
             self._classes.append(portrait)
@@ -99,8 +101,7 @@ class Classes:
         """Name a class, as `Classification.name` names e-linear portraits."""
         if code == UNDEFINED:
             return "undefined"
-        full = _name(self._classes[code])
-        return full.partition(";")[0] if self._plain else full
+        return _name(self._classes[code])
 
 
 def classes_over(

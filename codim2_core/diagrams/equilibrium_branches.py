@@ -28,6 +28,7 @@ __all__ = ["equilibrium_branches"]
 
 GRID_CELLS = 48
 REACH = 1.6 / GRID_CELLS  # of the span: how far from a state a candidate may be
+NEAR_REACH = 1e-4  # from the states on the sides of a change that was bisected
 MAX_ROUNDS = 4  # times that candidates are looked for, from the states beside the last ones
 MAX_ANGLE_MOVE, MAX_PLACE_MOVE, MAX_HALVINGS = (
     0.15,
@@ -65,8 +66,7 @@ def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float
     found, changes = _find_changes(family, states, runs, u)
     special: list[SpecialValue] = []
     for change in changes:
-        near = [one for one in found if abs(one.u - family.unit(change.value)) <= SAME_VALUE]
-        special += name_changes(family, change, near)
+        special += name_changes(family, change, _solved_near(family, found, change))
     special += single_values(family, states, found, special, u)
     special = [one for one in special if any(run[0] <= one.value <= run[1] for run in runs)]
     special.sort(key=lambda one: one.value)
@@ -94,14 +94,32 @@ def _find_changes(
         if not new:
             break
         if turn:
-            starts = extrema_of_theta(family, np.array([family.unit(s.value) for s in new])), np.zeros((3, 0))
+            starts = _starts_beside(family, new)
         before = len(found)
         found = merge([*found, *candidates(family, new, starts, REACH)])
         values = _distinct(family, found)
         look_beside(states, values)
         if len(found) == before:
             break
-    return found, [change for run in runs for change in changes_between(states, values, *run)]
+    changes = [change for run in runs for change in changes_between(states, values, *run)]
+    bisected = [c for c in changes if not _solved_near(family, found, c)]
+    if bisected:
+        beside = [state for change in bisected for state in (change.before, change.after)]
+        found = merge([*found, *candidates(family, beside, _starts_beside(family, beside), NEAR_REACH)])
+        for i, change in enumerate(changes):
+            if change in bisected and (near := _solved_near(family, found, change)):
+                solved = min(near, key=lambda one, change=change: abs(one.u - family.unit(change.value)))
+                changes[i] = change._replace(value=family.value(solved.u))
+    return found, changes
+
+
+def _starts_beside(family: SystemFamily, states: Sequence[State]) -> tuple[Array, Array]:
+    return extrema_of_theta(family, np.array([family.unit(state.value) for state in states])), np.zeros((3, 0))
+
+
+def _solved_near(family: SystemFamily, found: Sequence[Candidate], change: Change) -> list[Candidate]:
+    """Return the candidates at a change."""
+    return [one for one in found if abs(one.u - family.unit(change.value)) <= SAME_VALUE]
 
 
 def _distinct(family: SystemFamily, found: Sequence[Candidate]) -> list[float]:

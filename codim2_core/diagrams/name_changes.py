@@ -14,9 +14,9 @@ from ..families.family import SystemFamily
 from ..families.first_lyapunov import lyapunov
 from ..families.special_points import equator_numbers
 from ..layer_problem.critical import CriticalSet
-from ..special_kinds import DETERMINANT, HOPF, change_between
+from ..special_kinds import DETERMINANT, HOPF, SpecialKind, change_between
 from ..words import say
-from .candidates import Candidate
+from .candidates import Candidate, portrait_place
 from .changes import Change
 from .result import SpecialValue
 
@@ -120,28 +120,38 @@ def _of_sets(family: SystemFamily, change: Change, points: Sequence[Candidate]) 
                 continue
             kinds = sorted("saddle" if C.kind == "saddle" else "node" for C in near)
             sentence = say("two sets meet", one=kinds[1], other=kinds[0])
-            out.append(SpecialValue("fold of critical sets", value, _midpoint(near), sentence))
+            place = _solved_place(family, change, points, "fold", _midpoint(near))[0]
+            out.append(SpecialValue("fold of critical sets", value, place, sentence))
         for C in inner:
             place = (float(C.p[0]), float(C.p[1]))
             out.append(SpecialValue("change of critical sets", value, place, say("one comes or goes")))
     for C, D in pairs:
         if C.kind == D.kind:
             continue
-        kind, place = change_between(C.kind, D.kind), (float(D.p[0]), float(D.p[1]))
+        kind = change_between(C.kind, D.kind)
+        place, y = _solved_place(family, change, points, kind, (float(D.p[0]), float(D.p[1])))
         if kind is HOPF:
-            out.append(_hopf(family, value, place, [one.y for one in points if one.what is HOPF], D))
+            out.append(_hopf(family, value, place, np.array([*D.e, family.unit(value)]) if y is None else y))
         elif not (kind is DETERMINANT and family.affine):  # which is on a line of equilibria
             out.append(SpecialValue(kind.kind, value, place, kind.says))
     return out
 
 
-def _hopf(
-    family: SystemFamily, value: float, place: tuple[float, float], solved: Sequence[Array], C: CriticalSet
-) -> SpecialValue:
-    """Describe a Hopf point with its first Lyapunov coefficient."""
-    radius = math.hypot(*C.e)
-    near = [y for y in solved if abs(math.hypot(y[0], y[1]) - radius) < _SAME_EVENT_DISTANCE]
-    y = near[0] if near else np.array([*C.e, family.unit(value)])
+def _solved_place(
+    family: SystemFamily,
+    change: Change,
+    points: Sequence[Candidate],
+    what: str | SpecialKind,
+    place: tuple[float, float],
+) -> tuple[tuple[float, float], Array | None]:
+    """Return the solved point of a kind nearest to a place, and its (c, s, u); if there is none, the place."""
+    solved = [(portrait_place(family, one.y, _axes_angle(family, change)), one.y) for one in points if one.what == what]
+    near = [pair for pair in solved if math.dist(pair[0], place) < _SAME_EVENT_DISTANCE]
+    return min(near, key=lambda pair: math.dist(pair[0], place), default=(place, None))
+
+
+def _hopf(family: SystemFamily, value: float, place: tuple[float, float], y: Array) -> SpecialValue:
+    """Describe a Hopf point at (c, s, u) with its first Lyapunov coefficient."""
     number = math.nan if kinks(family.rows, ("c", "s")) else float(lyapunov(family, y[None])[0])
     if not math.isfinite(number):
         return SpecialValue(HOPF.kind, value, place, HOPF.says)

@@ -13,7 +13,7 @@ from ..families.family import AXES, SystemFamily
 from ..numerics.sign_changes import roots
 from ..special_kinds import HOPF, SpecialKind
 from ..words import say
-from .candidates import MAX_BLUR, Candidate
+from .candidates import MAX_BLUR, Candidate, portrait_place
 from .name_changes import triple_zero
 from .result import SpecialValue
 from .states import States
@@ -72,15 +72,8 @@ def _linearisation(family: SystemFamily, one: Candidate) -> Sequence[Array]:
 
 def _portrait_place(family: SystemFamily, states: States, one: Candidate) -> tuple[float, float]:
     """Return the place in the disc, in the axes of the system at that value."""
-    if len(one.y) == 2:
-        place = complex(math.cos(one.y[0]), math.sin(one.y[0]))
-    else:
-        modulus = math.hypot(one.y[0], one.y[1])
-        zeta = float(family.psi_at(one.y[2:]).radius(min(modulus, 1.0), max((1.0 - modulus) * (1.0 + modulus), 1e-300)))
-        place = complex(one.y[0], one.y[1]) * (zeta / math.hypot(1.0, zeta) / modulus if modulus else 0.0)
     state = states(family.value(one.u)) if family.turns else None
-    place *= complex(math.cos(state.turn), math.sin(state.turn)) if state else 1.0
-    return place.real, place.imag
+    return portrait_place(family, one.y, state.turn if state else 0.0)
 
 
 def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[SpecialValue]:
