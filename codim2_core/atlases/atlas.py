@@ -124,7 +124,8 @@ def _curves_over(family: SystemFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
     ]
     degenerate = tuple((family.names[line.axis], float(family.values(line.points)[0, line.axis])) for line in lines)
     kinds = tuple(dict.fromkeys(found.unfinished))
-    return Atlas(family.names, family.ranges, tuple(curves), tuple(points), (), kinds, degenerate)
+    (across, up), (first, second) = family.names, family.ranges
+    return Atlas((across, up), (first, second), tuple(curves), tuple(points), (), kinds, degenerate)
 
 
 def _nowhere(family: SystemFamily, kind: str, plane: Array) -> AtlasCurve:

@@ -33,18 +33,20 @@ def branches_of_pieces(
         inside = [change for change in changes if low <= change.value <= high]
         stops = [low, *(v for change in inside for v in (change.before.value, change.after.value)), high]
         for start, end in zip(stops[::2], stops[1::2], strict=True):
-            piece = [s for s in states.between(start, end) if s.difference(states.between(start, end)[0]) is None]
+            known = states.between(start, end)
+            piece = [s for s in known if s.difference(known[0]) is None]
             directions.append(_linked_directions(piece))
             sets.append(_linked_sets(piece))
             if piece[0].exponent is not None:
                 sign = piece[len(piece) // 2].exponent or 0.0
                 kind = "attracting from outside" if sign < 0 else "repelling from outside" if sign > 0 else "neutral"
-                closed.append(ClosedEquator(*_read_only([s.value for s in piece], [s.exponent for s in piece]), kind))
+                columns = _read_only([s.value for s in piece], [s.exponent for s in piece])
+                closed.append(ClosedEquator(*columns, kind=kind))
     ends = {v: change.value for change in changes for v in (change.before.value, change.after.value)}
     whole = [_with_ends(one, ends, special, (0,)) for one in _join_pieces(directions)]
-    equator = tuple(DirectionBranch(*_read_only(*columns), kind) for kind, _, columns in whole)
+    equator = tuple(DirectionBranch(*_read_only(*columns), kind=kind) for kind, _, columns in whole)
     found = [_with_ends(one, ends, special, (1, 2)) for one in _join_pieces(sets)]
-    return equator, tuple(closed), tuple(CriticalBranch(*_read_only(*columns), kind) for kind, _, columns in found)
+    return equator, tuple(closed), tuple(CriticalBranch(*_read_only(*columns), kind=kind) for kind, _, columns in found)
 
 
 def _linked_directions(piece: Sequence[State]) -> list[BranchRows]:
