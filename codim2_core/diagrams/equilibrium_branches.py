@@ -17,7 +17,7 @@ from ..numerics.sign_changes import roots
 from ..psi.function import Psi
 from ..words import say
 from .branch_pieces import branches_of_pieces
-from .candidates import Candidate, candidates, extrema_of_theta, least_speeds, merge
+from .candidates import MAX_BLUR, Candidate, candidates, extrema_of_theta, least_speeds, merge
 from .changes import SIDE_STEP, Change, changes_between, look_beside
 from .name_changes import name_changes
 from .result import Branches, SpecialValue
@@ -123,12 +123,13 @@ def _solved_near(family: SystemFamily, found: Sequence[Candidate], change: Chang
 
 
 def _distinct(family: SystemFamily, found: Sequence[Candidate]) -> list[float]:
-    """Return the values of candidates in order, each once: rounding parts those of a symmetric pair."""
+    """Return the values of candidates in order, each once: rounding parts those of one value."""
     kept: list[float] = []
-    for one in found:
-        if not kept or one.u - family.unit(kept[-1]) > MIN_DISTANCE:
-            kept.append(family.value(one.u))
-    return kept
+    for one in sorted(found, key=lambda one: not one.regular):
+        least = MIN_DISTANCE if one.regular else MAX_BLUR
+        if all(abs(one.u - other) > least for other in kept):
+            kept.append(one.u)
+    return [family.value(u) for u in sorted(kept)]
 
 
 def _refine(states: States, runs: Sequence[tuple[float, float]]) -> None:

@@ -102,9 +102,14 @@ def _of_sets(family: SystemFamily, change: Change, points: Sequence[Candidate]) 
         inner = []
         for C in side:
             t = math.atan2(float(C.e[1]), float(C.e[0]))
-            away = abs(np.angle(np.exp(1j * (other.equator.theta - t)))).min(initial=math.inf)
+            turn = _axes_angle(family, change)
+            angles = [
+                *other.equator.theta,
+                *(math.atan2(*one.y[1::-1]) + turn for one in points if one.what == "equator"),
+            ]
+            away = min((abs(math.remainder(angle - t, math.tau)) for angle in angles), default=math.inf)
             if 1.0 - float(np.hypot(*C.e)) < _EQUATOR_DISTANCE and away < _SAME_EVENT_DISTANCE:
-                t = _solved_angle(t, points, _axes_angle(family, change))
+                t = _solved_angle(t, points, turn)
                 sentence = say("set reaches the equator", theta=t)
                 out.append(SpecialValue("transcritical", value, _on_equator(t), sentence))
             else:

@@ -105,9 +105,14 @@ def _touches(family: SystemFamily, states: States, one: Candidate) -> Iterator[S
             return trace / np.sqrt(trace**2 + np.abs(determinant))
 
         values = function(u)
-        if not np.isfinite(values).all() or np.abs(function(np.array([one.u]))[0]) > _TOUCH_TOLERANCE:
+        leaves = values[0] * values[-1] > 0.0 and np.abs(values[[0, -1]]).min() > 10.0 * _TOUCH_TOLERANCE
+        if not (np.isfinite(values).all() and leaves and np.abs(function(np.array([one.u]))[0]) <= _TOUCH_TOLERANCE):
             return
-        for v in roots(function, [u], [values]).touches[0].tolist():
+        fit = np.polynomial.Polynomial.fit(u, values, 6)
+        slope, bend, v = fit.deriv(1), fit.deriv(2), one.u
+        for _ in range(_NEWTON_ROUNDS if bend(v) else 0):
+            v -= min(max(float(slope(v) / bend(v)), -_TOUCH_REACH), _TOUCH_REACH)
+        if abs(v - one.u) <= MAX_BLUR:
             there = Candidate(one.what, v, np.array([*_sets_at(family, one.y[:2], np.array([v]))[:, 0], v]), False)
             place = _portrait_place(family, states, there)
             theta = math.atan2(place[1], place[0]) % math.tau
@@ -163,7 +168,8 @@ def _singular_values(family: SystemFamily, u: Array) -> Iterator[SpecialValue]:
     if sizes[which] <= _ZERO_SHARE:
         return
     function = lambda u: numbers(u)[which]
-    for v in roots(function, [u], [function(u)]).zeros[0].tolist():
+    found = roots(function, [u], [function(u)])
+    for v in [*found.zeros[0].tolist(), *found.touches[0].tolist()]:
         there = np.abs(numbers(np.array([v]))[1:]).max()
         if there <= _LINE_SHARE:
             yield _special(family, "line of equilibria", v, (0.0, 0.0), say("line at one value"))
