@@ -67,14 +67,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     tiers.leave_out(config, items)
 
 
-@pytest.fixture
-def called_back(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let motions take the same steps whatever was compiled for other tests."""
-    from tests.core import ways
-
-    ways.follow(monkeypatch, "called back")
-
-
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """The address of `codim2 serve`, in a process of its own and warm: one for all processes that share the tests."""

@@ -17,8 +17,9 @@ PAGE = b'#set page(width: auto, height: auto, margin: 0pt, fill: none)\n#image("
 DPI, MAX_SCALE = 96, 12.0
 
 
+@cache
 def has_typst() -> bool:
-    """Whether Typst is installed."""
+    """Whether Typst is installed, which is looked for once: each page is told."""
     return find_spec("typst") is not None
 
 

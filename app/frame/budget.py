@@ -164,16 +164,9 @@ def wildness(scene: Scene) -> int:
 
 
 class Budget:
-    """The part of one browser's scenes that the answering thread may compute.
+    """The part of one browser's scenes that the answering thread may compute."""
 
-    Parameters
-    ----------
-    elsewhere : callable, optional
-        Says whether the formulas of a scene are compiled in other processes only; by default in this one too.
-    """
-
-    def __init__(self, elsewhere: Callable[[Scene], bool] = lambda _scene: False) -> None:
-        self._elsewhere = elsewhere
+    def __init__(self) -> None:
         self._timed: OrderedDict[Hashable, tuple[int, dict[str, float]]] = OrderedDict()
         self._left_out: OrderedDict[Hashable, Mapping[str, str]] = OrderedDict()
         self._slow_once: set[str] = set()
@@ -210,7 +203,7 @@ class Budget:
             cost = took.get(name, 0.0)
         else:
             cost = took.get(name, math.inf) if self._wildness(scene) <= wildest else math.inf
-        if cost > LAYER_BUDGET or self._spent + cost > FRAME_BUDGET or self._elsewhere(scene):
+        if cost > LAYER_BUDGET or self._spent + cost > FRAME_BUDGET:
             raise PendingLayer(name)
         self._spent += cost
         return partial(self._computed, formula, name, time.perf_counter(), self._timed_so_far)

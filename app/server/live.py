@@ -27,7 +27,7 @@ from ..view.answers import AnswerQueue
 from ..view.markup import edition
 from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
-from ..view.warmup import FormulaQuota, is_ready_for_all
+from ..view.warmup import is_ready
 from .application import is_known, visitor_of
 from .kept import Kept
 from .session_queue import Rota
@@ -40,8 +40,8 @@ MOST_FIRSTS, MOST_PAGES = 4_000_000, 16_000_000
 MOST_ASKED = 64
 #: Pages that one network address may have open.
 MOST_OF_ONE = 200
-#: Seconds between two pages that come back after their server was gone, which opening one takes; and at most for one.
-RETURN_SECONDS, MAX_RETURN_SECONDS = 0.05, 20.0
+#: Seconds between two pages that come back after their server was gone, in which one is opened; and at most for one.
+RETURN_SECONDS, MAX_RETURN_SECONDS = 0.03, 20.0
 #: Seconds after which a page that has asked nothing gives its place to another one, where all are taken.
 RESTING_SECONDS = 180.0
 #: Names of what is asked or told besides frames.
@@ -66,8 +66,7 @@ def key_of(query: Mapping[str, str]) -> tuple[tuple[str, str], ...]:
 def open_page(query: Mapping[str, str], places: LivePages) -> tuple[Frames, str, bytes]:
     """Return what a page shows, what its script must know, and its first frame, which is kept if it is whole."""
     link = link_of(query)
-    budget = Budget(FormulaQuota().elsewhere)
-    frames = Frames(link.state, None, is_ready_for_all, link.errors, budget)
+    frames = Frames(link.state, None, is_ready, link.errors, Budget())
     config, first = opening_messages(frames, link, edition(), engine=places.engine)
     header, _ = unpack(first)
     if header.get("ready") and "picture" not in header.get("late", ()):

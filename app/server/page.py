@@ -40,7 +40,7 @@ from .process.clock import keep_steady
 from .process.compile_throttle import stand_back
 from .process.listener import Listener
 from .process.ports import bind, fork
-from .scripts import ROUTES, QrCode
+from .scripts import ROUTES
 
 #: What the workers find imported.
 PRELOAD = ("codim2_app.server.worker",)
@@ -206,7 +206,6 @@ def make_server(
             (r"/room", ToRoom),
             (r"/docs", ToDocs),
             (r"/docs/(.*)", Docs),
-            (r"/qr\.svg", QrCode, {"rota": places.rota}),
             *ROUTES,
             *([engine.route()] if engine else []),
         ],

@@ -1,25 +1,20 @@
-"""Files that a page loads: scripts, each compressed once for all visitors, and QR codes of links."""
+"""Files that a page loads: scripts, each compressed once for all visitors."""
 
 from __future__ import annotations
 
 import gzip
-import io
 import re
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
-import segno
 from bokeh.server.views.static_handler import StaticHandler
-from tornado.web import HTTPError, RequestHandler, StaticFileHandler
+from tornado.web import RequestHandler, StaticFileHandler
 
 from ..view.markup import SCRIPT_FOLDER, digest, export_script, script
-from .application import visitor_of
-from .session_queue import Rota
 
 PREVIEW = "preview.jpg"  # what a link looks like where it is pasted; `python -m tests.browser.picture` makes it
 YEAR = 365 * 86400  # seconds
-MAX_QR_BYTES = 300  # 15 ms; links have a short form, and phones read no larger code from a beamer
 
 
 #: The explorer's own, by name.
@@ -85,30 +80,6 @@ class _Packed(StaticFileHandler):
 
 class BokehScript(_Packed, StaticHandler):
     """One of BokehJS's files."""
-
-
-class QrCode(RequestHandler):
-    """Answers ``qr.svg?text=...`` with the text as a QR code: dark squares on white, in either theme."""
-
-    def initialize(self, rota: Rota) -> None:
-        """Take what `make_server` gives."""
-        self.rota = rota
-
-    async def get(self) -> None:
-        """Send the code in its turn; 400 if the text is empty or too long."""
-        text = self.get_query_argument("text", "")
-        if not 0 < len(text.encode("utf-8", "replace")) <= MAX_QR_BYTES:
-            raise HTTPError(400, reason=f"give a text of 1 to {MAX_QR_BYTES} bytes")
-        code = await self.rota.take_turn(lambda: _code(text), visitor_of(self.request))
-        self.set_header("Content-Type", "image/svg+xml")
-        self.set_header("Cache-Control", "private, max-age=3600")
-        self.finish(code)
-
-
-def _code(text: str) -> bytes:
-    picture = io.BytesIO()
-    segno.make_qr(text, error="l").save(picture, kind="svg", border=3, light="#fff", xmldecl=False, omitsize=True)
-    return picture.getvalue()
 
 
 #: What is answered with files.

@@ -137,13 +137,21 @@ def offered_text() -> str:
     return _front_end_json(tuple(PANELS_BY_NAME), tuple(portrait_keys()), tuple(FAMILIES), tuple(LAYERS), tuple(BOXES))
 
 
-def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: PageView | None = None) -> dict[str, Any]:
-    """Return what the front end must know of one view."""
-    declared = {name: type(state).param[name] for name in NUMBERS}  # of the class: a state would copy each
+@cache
+def _declared() -> dict[str, Any]:
+    """Return what controls are, whatever their values."""
+    declared = {name: ExplorerState.param[name] for name in NUMBERS}
     return {
         "ranges": {name: list(one.softbounds) for name, one in declared.items()},
         "symbols": {name: one.label for name, one in declared.items()},
         "docs": {name: one.doc for name, one in declared.items()},
+    }
+
+
+def settings(state: ExplorerState, locked: tuple[str, ...] = (), look: PageView | None = None) -> dict[str, Any]:
+    """Return what the front end must know of one view."""
+    return {
+        **_declared(),
         "values": state.values(),
         "locked": list(locked),
         "film": has_typst(),

@@ -1,4 +1,4 @@
-"""Have kernels compiled by another process, and load them here as they appear on disk; compile what is typed.
+"""Have kernels compiled by another process, and load them here as they appear on disk.
 
 Until a kernel is there it runs as Python, so that a page is answered from the first second.
 """
@@ -12,25 +12,16 @@ from collections.abc import Callable, Hashable
 from typing import Any
 
 from codim2_core.jit import policy
-from codim2_core.orbits.trajectories import is_warm, warm
+from codim2_core.orbits.trajectories import is_warm
 from codim2_core.psi import constant
 from codim2_core.psi.function import Psi
-from codim2_core.scene import Scene
 from codim2_core.systems.kinds import AnySystem
 
 from .compiling import steps
 from .compiling.once import alone
 from .compiling.process import CompilerProcess
 
-MOST_THREADS = 4  # compiling at once; the compiler takes one at a time anyway
-
-MOST_REMEMBERED = 256  # texts that have been compiled, or could not be
 GENERAL = "kernels of general systems"
-#: Formulas that a process which answers visitors compiles in its life: Numba never gives back the machine code, about
-#: 2.5 MB each. The core keeps all of these, so that no frame compiles one again. Later ones are for the workers.
-MOST_COMPILED = 48
-#: Formulas that one page has compiled so, and the settings of one that it asks for before: who types has one of each.
-MAX_PAGE_FORMULAS, MIN_SETTINGS = 8, 4
 
 #: Seconds for which a server's kernels wait for somebody to ask for the first page, and, if so, at most for it to be
 #: sent: it needs none of them, and is half as fast beside them.
@@ -43,7 +34,6 @@ _threads: dict[Hashable, threading.Thread] = {}
 _pictures = threading.Event()
 _cold = threading.Event()  # kernels run as Python: they are not on disk yet
 _page_asked, _page_sent = threading.Event(), threading.Event()
-_formulas: set[Hashable] = set()  # that this process has begun to compile
 
 
 #: What the warm thread came to: "" while it is at work, "ready", or why the first scene could not be computed.
@@ -168,77 +158,14 @@ def is_ready(psi: Psi | None = None, system: AnySystem | None = None, moving: bo
     compiling failed, all layers are asked for all the same, so that their error is seen.
     """
     psi = constant() if psi is None else psi
+    general = system is not None and system.typed is not None
     if _cold.is_set():  # as Python
-        return not moving or (system is not None and system.typed is not None)
+        return not moving or general
     if not outcome and constant() in _threads:
-        return False
-    typed = None if system is None else system.typed
-    if typed is not None and not _is_compiled(GENERAL, _warm_general_alone):
         return False
     if is_warm(psi, system):
         return True
-    key = _formulas_of(psi, system)
-    if key is not None:
-        return _is_compiled(key, warm, psi, system)
     with _lock:
+        if general and GENERAL not in _threads:
+            _start_thread(GENERAL, _warm_general_alone)
         return not any(thread.is_alive() for thread in _threads.values())
-
-
-def _formulas_of(psi: Psi, system: AnySystem | None) -> Hashable:
-    """Return what is typed of both, and is compiled; None if nothing is."""
-    typed = None if system is None else system.typed
-    found = psi if psi.expression is not None else None, None if typed is None else typed.U
-    return found if any(found) else None
-
-
-def _is_here(psi: Psi, system: AnySystem) -> bool:
-    """Whether nothing of both was typed, or this process has compiled it."""
-    return _formulas_of(psi, system) is None or is_warm(psi, system)
-
-
-def is_ready_for_all(psi: Psi, system: AnySystem, moving: bool = False) -> bool:
-    """Say of a page whether all its layers can be drawn, here or by workers, who compile what is typed."""
-    return is_ready(psi, system, moving) if _is_here(psi, system) else is_ready(moving=moving)
-
-
-class FormulaQuota:
-    """Quota of one page in the process that answers: what it moves is compiled there, and not all that it types."""
-
-    def __init__(self) -> None:
-        self._begun: set[Hashable] = set()
-        self._last: tuple[Hashable, Hashable] = None, None  # formulas, and the setting
-        self._settings = 0  # of these formulas, one after the other
-
-    def elsewhere(self, scene: Scene) -> bool:
-        """Whether a scene is for the workers; if its formulas are moved, see that it is not for long."""
-        psi, system = scene.psi, scene.system
-        if _is_here(psi, system):
-            return False
-        key, setting = _formulas_of(psi, system), scene.key("plane", "psi", "launch")
-        if (key, setting) != self._last:
-            self._settings = self._settings + 1 if key == self._last[0] else 1
-            self._last = key, setting
-        if self._settings > MIN_SETTINGS and (key in _formulas or self._may_begin()):
-            self._begun.add(key)
-            is_ready(psi, system)
-        return True
-
-    def _may_begin(self) -> bool:
-        return len(self._begun) < MAX_PAGE_FORMULAS and len(_formulas) < MOST_COMPILED
-
-
-def _is_compiled(key: Hashable, target: Callable[..., None], *arguments: Any) -> bool:
-    """Whether a thread has compiled this; if there was none, begin one as soon as few others are at work."""
-    with _lock:
-        thread = _threads.get(key)
-        if thread is not None:
-            return not thread.is_alive()
-        alive = {key: thread for key, thread in _threads.items() if thread.is_alive()}
-        if len(_threads) > MOST_REMEMBERED:
-            for old in _threads.keys() - alive.keys() - {constant(), GENERAL}:
-                del _threads[old]
-        if len(alive) < MOST_THREADS:
-            _start_thread(key, target, *arguments)
-            if key != GENERAL:
-                _formulas.add(key)
-    return False

@@ -54,7 +54,6 @@ def leave_unoptimised() -> None:
 def extract() -> list[Extract]:
     """Compile everything, and return what is called from Python or by its address."""
     leave_unoptimised()
-    from numba import cfunc, types
     from numba.core import dispatcher
 
     import codim2_core.jit as door
@@ -79,39 +78,25 @@ def extract() -> list[Extract]:
         return made
 
     def compile_with_gain(lanes: Any, own: Any, whole: bool, cache: bool, **names: Any) -> Any:
-        made = with_gain(lanes, own, whole, cache, **names)
-        if not isinstance(own, str):
-            kind = "int" if whole else "float"
-            addresses[lanes.__module__, lanes.__name__, own.__module__, own.__name__, kind] = made
+        made, kind = with_gain(lanes, own, whole, cache, **names), "int" if whole else "float"
+        addresses[lanes.__module__, lanes.__name__, own.__module__, own.__name__, kind] = made
         return made
 
     door.compile_address, door.compile_with_gain = compile_address, compile_with_gain
     _compile_everything()
-    from codim2_core.expressions.functions import kernels
-
-    for name, function in kernels.called.items():
-        signature = types.float64(types.float64)
-        addresses["function", name] = cfunc(signature, nogil=True, error_model="numpy")(_calling(function))
     return [
         *(_of_kernel(made, signature) for made, signature in asked if made.py_func.__module__.startswith("codim2_")),
         *(Extract(key, made._wrapper_name, str(made._library._final_module)) for key, made in addresses.items()),  # noqa: SLF001
     ]
 
 
-def _calling(function: Any) -> Any:
-    def value(x: float) -> float:
-        return function(x)
-
-    return value
-
-
 def _compile_everything() -> None:
-    from codim2_core.psi import FAMILIES, hill, make
+    from codim2_core.psi import FAMILIES, custom, hill, make
     from codim2_core.stepping import fields, psi_gain
 
     from ..view.compiling.steps import warm_all
 
-    for psi in (*(make(family.name) for family in FAMILIES.values() if not family.typed), hill(2.5)):
+    for psi in (*(make(family.name) for family in FAMILIES.values() if not family.typed), hill(2.5), custom("1 + s")):
         for smooth in (True, False):
             fields.field(psi)
             psi_gain.gains(psi, smooth)

@@ -308,10 +308,11 @@ class Section:
     def field_parameters(self, backward: bool) -> Array:
         """Parameters of the compiled field."""
         from ..stepping.layout import SHARED_SIZE
+        from ..stepping.psi_gain import gain_parameter
 
         shared = np.zeros(SHARED_SIZE)
         shared[:5] = -self.plane if backward else self.plane
-        shared[5] = self.psi.parameter
+        shared[5] = gain_parameter(self.psi)
         return shared
 
     @cached_property

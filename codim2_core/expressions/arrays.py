@@ -17,13 +17,27 @@ from numpy.typing import NDArray
 
 from ..arrays import Array
 from .expression import Expression
-from .functions import code
+from .functions import FUNCTIONS, code
 from .names import FAST_NAMES, SLOW_NAMES, number_names
-from .opcodes import ADD, DIV, HYPOT, MAX, MIN, MUL, NEG, NUM, POW, SLOT, SUB, VAR
+from .opcodes import ADD, BESIDE, DIV, HYPOT, MAX, MIN, MUL, NEG, NUM, POW, POWI, SLOT, SUB, VAR
+from .tape import BESIDE_ZERO
 
 Key = tuple[tuple[Expression, ...], tuple[float, ...]]  # `Frozen.key`: rows of U, and the numbers that they read
 
-_CODES = {"neg": NEG, "+": ADD, "-": SUB, "*": MUL, "/": DIV, "**": POW, "min": MIN, "max": MAX, **code}
+_CODES = {
+    "neg": NEG,
+    "+": ADD,
+    "-": SUB,
+    "*": MUL,
+    "/": DIV,
+    "**": POW,
+    "min": MIN,
+    "max": MAX,
+    BESIDE_ZERO: BESIDE,
+    **code,
+}
+
+_ENTIRE = (NUM, VAR, NEG, ADD, SUB, MUL, *(code[one.name] for one in FUNCTIONS if one.entire))
 
 ONE_SIDED_DISTANCE = 1e-6  # so far from a point its slopes are looked at where it has none by the rules,
 AGREED = 1e-4  # and there they agree
@@ -57,6 +71,13 @@ class Program:
     def arrays(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], Array, NDArray[np.int64]]:
         """The five arrays, as the kernels take them."""
         return self.op, self.left, self.right, self.number, self.roots
+
+    @property
+    def is_entire(self) -> bool:
+        """Whether no row has a pole, an edge or a branch point: each is smooth wherever its variables are finite."""
+        divides = (self.op == DIV) & (self.op[self.right] == NUM)
+        whole = (self.op == POWI) & (self.number >= 0.0)
+        return bool((np.isin(self.op, _ENTIRE) | divides | whole).all())
 
     def evaluate(self, points: Array) -> Array:
         """Rows and their exact partial derivatives by c and s.

@@ -10,6 +10,7 @@ from ..jit import kernel
 from .functions import kernels
 from .opcodes import (
     ADD,
+    BESIDE,
     DIV,
     HYPOT,
     MAX,
@@ -48,6 +49,8 @@ def _operate(k, a, b):
         return b if b < a or b != b else a
     if k == MAX:
         return b if b > a or b != b else a
+    if k == BESIDE:
+        return 0.0 if (a == 0.0 and math.isinf(b)) or (b == 0.0 and math.isinf(a)) else a * b
     return kernels.value(k, a)
 
 

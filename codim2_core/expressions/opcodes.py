@@ -3,4 +3,4 @@
 from __future__ import annotations
 
 NUM, VAR, NEG, ADD, SUB, MUL, DIV, POW, POWI, SLOT = range(10)
-HYPOT, MIN, MAX = range(10, 13)
+HYPOT, MIN, MAX, BESIDE = range(10, 14)

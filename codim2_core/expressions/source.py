@@ -1,75 +1,29 @@
-"""Formulas as straight-line Python source for a compiler: equal subformulas are computed once."""
+"""Formulas as straight-line Python source: equal subformulas are computed once."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 from .expression import Expression
-from .functions import FUNCTIONS, known
+from .functions import known
 from .tape import BESIDE_ZERO, BESIDE_ZERO_SOURCE, FUNCTIONS_OF_TWO, Builder, Node
 
-# Smooth wherever their argument is finite, however far a step strays.
-ENTIRE = frozenset({"num", "name", "neg", "+", "-", "*", *(one.name for one in FUNCTIONS if one.entire)})
 
-
-@dataclass(frozen=True)
-class Source:
-    """Statements that compute formulas.
-
-    Attributes
-    ----------
-    before : tuple of str
-        Statements that depend on none of the `inner` names: for outside the loop.
-    inside : tuple of str
-        The others, in order.
-    results : tuple of str
-        An expression for the value of each formula: a name, or a number.
-    entire : bool
-        In the inner names no formula has a pole, an edge or a branch point.
-    """
-
-    before: tuple[str, ...]
-    inside: tuple[str, ...]
-    results: tuple[str, ...]
-    entire: bool
-
-
-def program(rows: Sequence[Expression], names: Mapping[str, str], inner: Collection[str]) -> Source:
-    """Write formulas as statements ``t7 = t3*t4``, one for each distinct operation.
-
-    Parameters
-    ----------
-    rows : sequence of Expression
-    names : mapping of str to str
-        What each name of the formulas is called in the source.
-    inner : collection of str
-        Names (of the formulas) that change from one evaluation to the next.
-    """
+def program(rows: Sequence[Expression]) -> tuple[list[str], list[str]]:
+    """Return statements ``t7 = t3*t4``, one for each distinct operation, and a name or a number for each formula."""
     build = Builder()
     roots = [_entry_of(build, row) for row in rows]
-    shown: list[str] = []
-    varies: list[bool] = []
-    before: list[str] = []
-    inside: list[str] = []
-    entire = True
+    shown, statements = list[str](), list[str]()
     for k, (op, *args) in enumerate(build.nodes):
         if op == "num":
             shown.append(f"({args[0]!r})" if args[0] < 0.0 else repr(args[0]))
-            varies.append(False)
         elif op == "name":
-            shown.append(names[args[0]])
-            varies.append(args[0] in inner)
+            shown.append(args[0])
         else:
-            varies.append(any(varies[i] for i in args))
             exponent = _integer(build.nodes[args[1]]) if op == "**" else None
-            text = _operation(op, [shown[i] for i in args], exponent)
-            (inside if varies[k] else before).append(f"t{k} = {text}")
+            statements.append(f"t{k} = {_operation(op, [shown[i] for i in args], exponent)}")
             shown.append(f"t{k}")
-            if varies[k] and op not in ENTIRE:
-                # A quotient by what does not vary, and a natural power, are entire too.
-                entire = entire and ((op == "/" and not varies[args[1]]) or (exponent is not None and exponent >= 0))
-    return Source(tuple(before), tuple(inside), tuple(shown[i] for i in roots), entire)
+    return statements, [shown[i] for i in roots]
 
 
 def _entry_of(build: Builder, row: Expression) -> int:

@@ -72,11 +72,11 @@ def jump_names(rows: Sequence[Expression]) -> frozenset[str]:
     return frozenset(found)
 
 
-def has_switches(rows: Sequence[Expression], names: Collection[str]) -> bool:
+def has_switches(rows: Sequence[Expression], names: Collection[str], slip: Sequence[str] = FAST_NAMES[2:]) -> bool:
     """Whether rows have a kink or a jump where a formula in some of the names, and in no others, vanishes."""
     if not any(op in FUNCTIONS_OF_TWO or op == "abs" or op in JUMPS for row in rows for op, *_ in row.tape):
         return False
-    return bool(branch_at(rows, names, {name: 0.5 for row in rows for name in row.names}).choices)
+    return bool(branch_at(rows, names, {name: 0.5 for row in rows for name in row.names}, slip=slip).choices)
 
 
 def branch_at(
@@ -85,6 +85,7 @@ def branch_at(
     values: Mapping[str, float],
     rates: Mapping[str, float] | None = None,
     known: Sequence[int] = (),
+    slip: Sequence[str] = FAST_NAMES[2:],
 ) -> Branch:
     """Return the branch at a place, or, where a guard vanishes there, the one towards which its rates lead.
 
@@ -98,6 +99,8 @@ def branch_at(
         How the values move.
     known : sequence of int
         The first choices, where they are known.
+    slip : sequence of str
+        Names that vanish on Sigma: an argument that vanishes with them is no switch, as that of abs(x).
     """
     choices: dict[tuple[str, Expression], int] = {}
     guards: dict[tuple[str, Expression], Expression] = {}
@@ -114,7 +117,7 @@ def branch_at(
                 at.append(build.apply(op, *own))
                 continue
             argument = _argument(build.nodes, op, own)
-            if any(name not in names for name in argument.names) or _is_zero_on_sigma(argument):
+            if any(name not in names for name in argument.names) or _vanishes_with(slip, argument):
                 at.append(build.apply(op, *own))
                 continue
             key = ("floor" if op == "floor" else "sign", argument)
@@ -129,11 +132,11 @@ def branch_at(
     return Branch(tuple(choices.values()), tuple(smooth), tuple(guards.values()), tuple(jumps.values()), arguments)
 
 
-def _is_zero_on_sigma(argument: Expression) -> bool:
-    """Whether an argument is a number, or 0 wherever x = y = 0, as that of abs(x): Sigma itself is no switch."""
+def _vanishes_with(slip: Sequence[str], argument: Expression) -> bool:
+    """Whether an argument is a number, or 0 where all names of a slip are."""
     if argument.constant is not None:
         return True
-    for name in FAST_NAMES[2:]:
+    for name in slip:
         argument = argument.substitute(name, ZERO) if name in argument.names else argument
     return argument.constant == 0.0
 

@@ -45,10 +45,10 @@ def leave(
     """
     functions, m = functions_of(field, constant()), len(z)
     S, linear, square = np.zeros(SLOW_EXTENT), np.zeros(2 + m), np.zeros(2 + m)
+    functions.enter(S)
     S[VALUE : SLOPES + 1], S[SET_PLACE + 4 : SET_PLACE + 4 + m] = functions.addresses[:2].view(float), z
     n1, n2 = (0.0, 0.0) if line is None else line.vector
     h = float(departure_step.leave(S, m, n1, n2, theta, t_end - t, linear, square))
-    functions.count(0)
     if not h > 0.0:
         key = "repels angularly" if h == departure_step.REPELS_ANGULARLY else "nothing leaves"
         return say(key, theta=theta)

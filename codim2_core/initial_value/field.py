@@ -314,9 +314,8 @@ def _make_field(rows: Sequence[Expression], m: int) -> Field:
 
 def function_of(rows: Sequence[Expression], names: Sequence[str]) -> Callable[..., tuple[float, ...]]:
     """Return formulas as one function of numbers, in the order of their names; NaNs where one has a pole."""
-    written = program(rows, {name: name for name in names}, names)
-    lines = [*written.before, *written.inside, f"return ({', '.join(written.results)},)"]
-    body = "\n        ".join(lines)
+    statements, results = program(rows)
+    body = "\n        ".join([*statements, f"return ({', '.join(results)},)"])
     source = (
         f"def function({', '.join(names)}):\n    try:\n        {body}\n"
         f"    except (ArithmeticError, ValueError):\n        return beyond({', '.join(names)})\n"

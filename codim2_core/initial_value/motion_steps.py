@@ -12,7 +12,6 @@ from ..arrays import Array
 from ..numerics.dense import StepArray
 from ..numerics.radau import BlowUpError, StepsTooShortError, TooManyStepsError, tableau, too_short
 from ..psi.function import Psi
-from ..stepping.field_parameters import PSI
 from ..words import say
 from .field import Field
 from .functions import FieldFunctions
@@ -140,7 +139,7 @@ class MotionSteps:
         self.functions, self.addresses, self.rate = functions, functions.addresses, rate
         self.numbers = np.array([eps, rtol, floor, *line_directions([line])[0]])
         self.S = np.zeros(SLOW_EXTENT)
-        self.S[PSI] = functions.parameter
+        functions.enter(self.S)
         self.y, self.clock, self.control = np.array(first), np.array([span[0], 0.0, span[1], 0.0]), np.zeros(CONTROL)
         self.control[[NEXT, STEPS_LEFT, FARTHEST_RHO, LEAST_STEP, IMPLICIT]] = h, most, farthest, least, ONLY * implicit
         self.control[LONGEST_STEP] = longest
@@ -166,13 +165,13 @@ class MotionSteps:
         while self.code in (CHUNK_FULL, AT_SIGMA):  # who has arrived asks for no more
             starts, lengths = np.empty(size), np.empty(size)
             ends, polynomials = np.empty((size, n)), np.empty((size, n, DENSE_DEGREE))
-            begin, before, self._began = self.y.copy(), self.evaluations, float(self.clock[0])
+            begin, self._began = self.y.copy(), float(self.clock[0])
             farthest = float(self.control[FARTHEST_RHO])
             self.code, filled = follow_steps(
                 self.addresses, self.numbers, numbers_of_tableau(), self.S, self.y, self.clock, self.control, starts,
                 lengths, ends, polynomials,
             )  # fmt: skip
-            self.functions.count(self.evaluations - before)
+            self.functions.check()
             part = StepArray(begin, starts[:filled], lengths[:filled], ends[:filled], polynomials[:filled])
             if self.inspection is not None:
                 part = self._inspected(part, self.inspection, farthest)

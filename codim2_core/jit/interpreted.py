@@ -23,6 +23,8 @@ from ..rebind import rebind
 Array = NDArray[np.float64]
 PACKAGES = ("codim2_core", "codim2_app")
 THREE_POINTERS = ctypes.CFUNCTYPE(ctypes.c_void_p, *[ctypes.c_void_p] * 3)
+SCRATCH_SIZE = 4096  # numbers that a function may keep on its stack
+MOST_AT_ADDRESS = 10**7  # numbers that a pointer may lead to
 LONG_LOOP = 500  # turns of a loop beyond which it asks for the time in each
 NUMPY_NAMES = {"pow": "power", "atan2": "arctan2", "atan": "arctan", "asin": "arcsin", "acos": "arccos"}
 
@@ -207,6 +209,14 @@ def _advance_pointer(pointer: Array, places: int) -> Array:
     return pointer[places:]
 
 
+def _pointer_to(address: int) -> Array:
+    return np.ctypeslib.as_array((ctypes.c_double * MOST_AT_ADDRESS).from_address(int(address)))
+
+
+def _scratch() -> Array:
+    return np.empty(SCRATCH_SIZE)
+
+
 def _double_of_bits(bits: int) -> float:
     return struct.unpack("<d", struct.pack("<q", bits))[0]
 
@@ -221,6 +231,8 @@ STAND_INS: dict[str, Callable[..., Any]] = {
     "call_at": _call_at,
     "carray": _carray,
     "ahead": _advance_pointer,
+    "pointer_to": _pointer_to,
+    "scratch": _scratch,
     "double_of_bits": _double_of_bits,
     "bits_of_double": _bits_of_double,
 }

@@ -9,7 +9,20 @@ from numba import types
 from numba.extending import intrinsic
 from numba.np.numpy_support import carray
 
-__all__ = ["POINTER", "ahead", "bits_of_double", "call_at", "call_field", "carray", "double_of_bits"]
+from .interpreted import SCRATCH_SIZE
+
+__all__ = [
+    "POINTER",
+    "SCRATCH_SIZE",
+    "ahead",
+    "bits_of_double",
+    "call_at",
+    "call_field",
+    "carray",
+    "double_of_bits",
+    "pointer_to",
+    "scratch",
+]
 
 POINTER = types.CPointer(types.float64)
 NOTHING = ir.IntType(8).as_pointer()  # what a C function of Numba that returns nothing returns
@@ -56,6 +69,30 @@ def _advance_pointer(typing_context, pointer, places):  # noqa: ARG001
 
 
 ahead: Any = intrinsic(_advance_pointer)
+
+
+def _pointer_to(typing_context, address):  # noqa: ARG001
+    """Return the pointer to doubles at an address."""
+    pointer = ir.DoubleType().as_pointer()
+    return POINTER(types.int64), lambda _c, builder, _s, a: builder.inttoptr(a[0], pointer)
+
+
+pointer_to: Any = intrinsic(_pointer_to)
+
+
+def _scratch(typing_context):  # noqa: ARG001
+    """Return the pointer to `SCRATCH_SIZE` doubles on the stack of the function."""
+    room = ir.ArrayType(ir.DoubleType(), SCRATCH_SIZE)
+
+    def generate(_c, builder, _s, _a):
+        with builder.goto_entry_block():  # not by Numba's `alloca_once`, which writes zeros
+            place = builder.alloca(room)
+        return builder.bitcast(place, ir.DoubleType().as_pointer())
+
+    return POINTER(), generate
+
+
+scratch: Any = intrinsic(_scratch)
 
 
 def _double_of_bits(typing_context, bits):  # noqa: ARG001

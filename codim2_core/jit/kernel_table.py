@@ -11,16 +11,15 @@ from __future__ import annotations
 import ctypes
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from struct import Struct
-from tempfile import NamedTemporaryFile
 from typing import Any
 
 import numpy as np
 
-from .formulas import module_of_lanes, module_of_text
+from .interpreted import SCRATCH_SIZE as SCRATCH_SIZE
 
 FOLDER = Path(__file__).parent / "compiled"
 MOST_SLOTS = 512  # numbers of eight bytes that a call passes, and gets back
@@ -179,10 +178,10 @@ spliced_kernel = TabledKernel
 
 
 class Address:
-    """A right-hand side, by its place in the table of functions; `library` holds it there."""
+    """A right-hand side, by its place in the table of functions."""
 
-    def __init__(self, address: int, library: Any = None) -> None:
-        self.address, self.library = address, library
+    def __init__(self, address: int) -> None:
+        self.address = address
 
 
 def compile_address(function: Callable[..., None], cache: bool = True) -> Address:  # noqa: ARG001 (Numba's other half)
@@ -191,15 +190,8 @@ def compile_address(function: Callable[..., None], cache: bool = True) -> Addres
 
 
 def compile_with_gain(lanes: Callable[..., None], own: Any, whole: bool, cache: bool, **names: Any) -> Address:  # noqa: ARG001
-    """Return what was compiled of a function of lanes with the gain of a family, or compile it with a typed one."""
-    if isinstance(own, str):
-        return _load_module(module_of_lanes(lanes, own, names, _address_of))
+    """Return what was compiled of a function of lanes with the gain of a family."""
     return _find_address(lanes.__module__, lanes.__name__, own.__module__, own.__name__, "int" if whole else "float")
-
-
-def compile_source(source: str, names: Mapping[str, Any], strict: bool = False) -> Address:  # noqa: ARG001
-    """Compile a right-hand side whose text was written from typed formulas."""
-    return _load_module(module_of_text(source, names, _address_of))
 
 
 def _find_address(*key: str) -> Address:
@@ -212,19 +204,8 @@ def _address_of(*key: str) -> int:
     return table().addresses[key]
 
 
-def _load_module(module: bytes) -> Address:
-    """Load a module beside the kernels: its function then has a place in their table."""
-    with NamedTemporaryFile(suffix=".so", delete=False) as file:
-        file.write(module)
-    library = ctypes.CDLL(file.name)
-    Path(file.name).unlink()
-    address = ctypes.cast(library.f, ctypes.c_void_p).value
-    assert address is not None
-    return Address(address, library)
-
-
 def _elsewhere(*_: Any) -> Any:
     raise NotImplementedError("only what is compiled does that")
 
 
-ahead = bits_of_double = call_at = call_field = carray = double_of_bits = _elsewhere
+ahead = bits_of_double = call_at = call_field = carray = double_of_bits = pointer_to = scratch = _elsewhere

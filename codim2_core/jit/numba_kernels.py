@@ -6,8 +6,7 @@ Kernels are kept on disk, under the stamp of all that they are made of (`stamps`
 from __future__ import annotations
 
 import logging
-import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from hashlib import blake2b
 from pathlib import Path
 from typing import Any
@@ -67,38 +66,14 @@ def compile_address(function: Callable[..., None], cache: bool = True) -> Any:
     return right_hand_side(function, cache, fastmath=ARITHMETIC)
 
 
-def compile_source(source: str, names: Mapping[str, Any], strict: bool = False) -> Any:
-    """Compile a right-hand side whose text was written from typed formulas.
-
-    Parameters
-    ----------
-    source : str
-        Python of a function ``right_hand_side(state, out, parameters)``, written from whitelisted formulas: numbers,
-        our own names and ``math.*`` only.
-    names : mapping
-        What else it reads.
-    strict : bool
-        No sum is reordered: a formula ends where it ends.
-
-    Returns
-    -------
-    CFunc
-        Its `address` is called; it must outlive that.
-    """
-    scope: dict[str, Any] = {"math": math, **names}
-    exec(source, scope)
-    function = scope["right_hand_side"]
-    return right_hand_side(function, cache=False) if strict else compile_address(function, cache=False)
-
-
 def compile_with_gain(lanes: Callable[..., None], own: Any, whole: bool, cache: bool, **names: Any) -> Any:
     """Compile a function of lanes, which calls ``gain(r2, w, kind(parameter))``, with a gain in its place.
 
     Parameters
     ----------
     lanes : function
-    own : function or str
-        The gain of a family; or the source of a function ``gain`` that was written from a typed formula.
+    own : function
+        The gain of a family.
     whole : bool
         The parameter is read as an int.
     cache : bool
@@ -106,13 +81,7 @@ def compile_with_gain(lanes: Callable[..., None], own: Any, whole: bool, cache: 
     **names
         What the gain reads in place of its module's: functions that run in vector registers.
     """
-    typed = isinstance(own, str)
-    if typed:
-        scope: dict[str, Any] = {"math": math, **names}
-        exec(own, scope)
-        own = scope["gain"]
-        scope["psi"] = njit(error_model="numpy")(scope["psi"])
-    gain = njit(fastmath=ARITHMETIC, error_model="numpy", forceinline=not typed)(own if typed else rebind(own, **names))
+    gain = njit(fastmath=ARITHMETIC, error_model="numpy", forceinline=True)(rebind(own, **names))
     written = repr((own.__code__.co_code, own.__code__.co_consts, own.__code__.co_names, whole))
     digest = blake2b(written.encode(), digest_size=8).hexdigest()  # a changed gain is another one
     return compile_address(rebind(lanes, digest, gain=gain, kind=int if whole else float), cache)

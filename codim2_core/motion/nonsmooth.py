@@ -15,11 +15,9 @@ from ..arguments import checked_times
 from ..arrays import Array
 from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
 from ..initial_value.field import Field, backwards_system, field
-from ..initial_value.functions import functions_of
 from ..initial_value.line import invariant_line
 from ..numerics.dense import dense, gather_steps
 from ..numerics.radau import BlowUpError, TooManyStepsError
-from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
@@ -28,7 +26,7 @@ from .backward_run import Past
 from .limit.hybrid_run import AtEventError, HybridRun, StopError
 from .limit.stiction import checked_stiction
 from .locations import OfState
-from .regularised import MAX_STEPS, are_many
+from .regularised import MAX_STEPS
 from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
 
@@ -169,7 +167,6 @@ def simulate_nonsmooth(
     if t_end < t_start:
         runs: Iterable[Simulation] = (_past(asked, first) for first in states)
     else:
-        functions_of(formulas, constant(), are_many(len(states), max_steps))  # compiled, where that is due
         runs = map(asked.one, states)
     found = tuple(run.sample(when) for run in runs)
     return found[0] if np.ndim(state0) < 2 else found

@@ -39,7 +39,6 @@ __all__ = ["simulate"]
 
 SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
 MAX_STEPS = 20_000
-MANY_MOTIONS = 8  # motions at once, of `MAX_STEPS`, for which the formulas of a system are compiled
 
 
 @overload
@@ -220,7 +219,6 @@ class _RegularisedRun:
 
     def runs(self, states: Array) -> tuple[Simulation, ...]:
         """Follow all motions."""
-        functions_of(self.formulas, self.psi, are_many(len(states), self.max_steps))  # compiled, where that is due
         return tuple(map(self.one, states))
 
     def one(self, first: Array) -> Simulation:
@@ -345,8 +343,3 @@ def _cut_at_event(part: StepArray, watch: EventWatch, n: int) -> StepArray | Non
         if last is not None:
             return gather_steps(taken, n)
     return None
-
-
-def are_many(count: int, max_steps: int) -> bool:
-    """Whether so many motions, of so many steps at most, are worth compiling the formulas at once."""
-    return count * max_steps >= MANY_MOTIONS * MAX_STEPS

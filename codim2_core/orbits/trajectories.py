@@ -47,15 +47,14 @@ _warm: set[str] = set()
 @lru_cache(maxsize=1)
 def _kernels() -> SimpleNamespace:
     """Load the compiled parts on first use: compiling, or loading from the disk cache, starts with their first call."""
-    from ..stepping import lanes, layout, rosenbrock
+    from ..stepping import fields, lanes, layout, rosenbrock
     from ..stepping import right_hand_side as stepping_problem
 
     return SimpleNamespace(
         integrate=lanes.integrate,
         creep=rosenbrock.creep,
         problem=stepping_problem.problem,
-        prepare=stepping_problem.prepare,
-        is_compiled=stepping_problem.is_compiled,
+        is_compiled=fields.is_compiled,
         states_of=layout.states_of,
     )
 
@@ -241,21 +240,17 @@ def _integrate_implicitly(
     return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
 
 
-def warm(psi: Psi | None = None, system: AnySystem | None = None) -> None:
-    """Compile, or load from the disk cache, all that trajectories with this Psi need.
+def warm(psi: Psi | None = None) -> None:
+    """Compile, or load from the disk cache, all that trajectories of e-linear systems with this Psi need.
 
     Parameters
     ----------
     psi : Psi, optional
         Default Psi = 1.
-    system : System or Frozen, optional
-        Compile the field of this system too; it runs at once at any z and any values of its parameters.
     """
     from ..psi.constructors import constant
 
     psi = constant() if psi is None else psi
-    if system is not None and system.typed is not None:
-        _kernels().prepare(system.typed, psi)
     elinear, seeds = ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), np.array([(0.5, 0.0), (1.5, 0.0)])
     trajectories(elinear, psi, seeds)
     trajectories(ELinear(-1.0, 0.5, -1e4, (0.1, 0.0)), psi, seeds, t_max=1e6, stiff=True)
@@ -263,15 +258,14 @@ def warm(psi: Psi | None = None, system: AnySystem | None = None) -> None:
 
 
 def is_warm(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
-    """Whether trajectories (with this Psi and system, if given) run at once, without compiling or loading."""
+    """Whether trajectories (with this Psi and a system of this kind) run at once, without compiling or loading."""
     kernels = _kernels()
     if CREEPING not in _warm or not all(getattr(one, "signatures", True) for one in (kernels.integrate, kernels.creep)):
         return False  # or they run as Python
     if psi is None:
         return True
-    if system is not None and system.typed is not None:
-        return _kernels().is_compiled(system.typed, psi)
-    return psi.family in _warm and _kernels().is_compiled(None, psi)
+    kind = psi.family if system is None or system.typed is None else GENERAL
+    return kind in _warm and kernels.is_compiled(psi)
 
 
 def continuation(

@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, ClassVar, overload
 
 import numpy as np
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 
 from .. import drawing
 from ..arrays import Array
-from ..expressions.expression import Expression
+from ..expressions.expression import Expression, parse
 from ..results import Listed
 from ..tables import paragraphs
 from . import kernel as arithmetic
@@ -34,6 +35,7 @@ __all__ = ["Psi"]
 Vector = NDArray[Any] | Sequence[float]
 
 MAX_FLOAT = np.finfo(float).max
+LARGE = 1e20  # beyond this s, w^2 Psi(s) is lost next to |p|^2 = w^2 s
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ class Psi(Listed):
     """
 
     _internal_: ClassVar[frozenset[str]] = frozenset(
-        {"complement", "expression", "jacobian_factors", "kernel", "record", "steepness", "words"}
+        {"complement", "expression", "jacobian_factors", "kernel", "packed", "record", "steepness", "words"}
     )
 
     family: str
@@ -85,6 +87,16 @@ class Psi(Listed):
     def saturation(self) -> float:
         """The zeta from which ``|e_Psi|`` is 1, where friction saturates at a finite slip; inf if R3 holds."""
         return math.sqrt(self.kernel.saturation)
+
+    @cached_property
+    def packed(self) -> Array:
+        """The formula as compiled code interprets it at its address (`expressions.packed`), up to where it counts."""
+        from ..expressions.arrays import path_program  # on first use: it loads the compiler
+        from ..expressions.packed import pack
+
+        formula = self.expression or parse(self.text, ("s",))
+        row = formula.substitute("s", parse("c", ("c",)))
+        return pack(path_program((row,)), 1, bound=min(LARGE, self.kernel.saturation))
 
     @overload
     def __call__(self, s: float) -> float: ...

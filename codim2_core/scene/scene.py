@@ -155,8 +155,12 @@ class Scene(Listed, Mapping[str, Any]):
         ):
             raise ValueError(f"window is {window}; give finite left < right and bottom < top.")
         self.view, self.pixel, self.window, self.cut = view, pixel, window, number("cut", cut)
-        self.coefficients: FrozenSystem = system.at(self.z)
         self._memory = Memory() if _memory is None else _memory
+        self._begin()
+
+    def _begin(self) -> None:
+        """Freeze the system, and know no layer yet."""
+        self.coefficients: FrozenSystem = self.system.at(self.z)
         self._own: dict[str, Any] = {}
         self._inputs: dict[str, Hashable] = {}  # values of `INPUTS`, each found once
         self.problem: LayerProblem = _Problem(self)
@@ -176,12 +180,17 @@ class Scene(Listed, Mapping[str, Any]):
             An input is unknown or invalid; this scene stays as it was.
         """
         own = {name: changes.pop(name) for name in tuple(changes) if name in _PARAMETERS}
-        values = {name: getattr(self, name) for name in _PARAMETERS}
-        values.update(own)
+        system = own.get("system", self.system)
         if changes:
-            if values["system"].frozen:
+            if system.frozen:
                 raise ValueError("this scene was made from a system frozen at one z; give it a system to change.")
-            values["system"] = values["system"].evolve(**changes)
+            system = system.evolve(**changes)
+        if not own and system.m == self.system.m:  # all else was checked when this scene was made
+            scene = object.__new__(Scene)
+            scene.__dict__.update(self.__dict__, system=system)
+            scene._begin()
+            return scene
+        values = {**{name: getattr(self, name) for name in _PARAMETERS}, **own, "system": system}
         return Scene(values.pop("system"), values.pop("psi"), values.pop("z"), **values, _memory=self._memory)
 
     def __getitem__(self, name: str) -> Any:

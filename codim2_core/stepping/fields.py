@@ -15,7 +15,7 @@ from ..jit import call_at, carray, compile_address, inlined_fast_kernel
 from ..psi.function import Psi
 from .field_parameters import GAIN, PSI
 from .layout import EACH, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, WITH_EACH
-from .psi_gain import GainVariants, arguments, gain, kind, variant
+from .psi_gain import GainVariants, arguments, gain, kind, variant, write_typed_gains
 
 
 @inlined_fast_kernel
@@ -55,7 +55,14 @@ def _field_of_gain(state, out, parameters):
         write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
 
 
-_compiled, _compiled_of_each = GainVariants(_psi_field), GainVariants(_field_of_each)
+def _typed_psi_field(state, out, parameters):
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
+    write_typed_gains(state, out, parameters, P[PSI], LANES)
+    for lane in range(LANES):
+        write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
+
+
+_compiled, _compiled_of_each = GainVariants(_psi_field, _typed_psi_field), GainVariants(_field_of_each)
 
 
 def is_compiled(psi: Psi) -> bool:
@@ -73,8 +80,7 @@ def field(psi: Psi) -> Any:
     Returns
     -------
     CFunc
-        Its `address` enters the integrator; keep the object alive while that address is in use. Built-in families
-        come from the disk cache, a typed formula costs one compilation of a few lines (about 0.3 s), once a text.
+        Its `address` enters the integrator; keep the object alive while that address is in use.
     """
     return _compiled.get(variant(psi, True))
 

@@ -1,102 +1,57 @@
-"""The field of `fields` for a system of any form: one small compilation for its formulas, whatever Psi.
+"""The field of `fields` for a system of any form: compiled once, it interprets the formulas of U (`packed`).
 
-Slow variables and parameters are arguments, and the gain of Psi is called by its address, so that neither a slider
-nor another Psi compiles anything. Subformulas that only they enter are computed once for all lanes.
+Slow variables and parameters are numbers of the packed formulas, and the gain of Psi is called by its address.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Hashable
+from functools import lru_cache
 from typing import Any
 
-from ..expressions.functions import kernels
+from ..arrays import Array
+from ..expressions import arrays
 from ..expressions.names import FAST_NAMES
-from ..expressions.source import program
-from ..jit import call_at, carray, compile_source
-from ..systems.typed import System
-from .compiling import CompiledCache
-from .field_parameters import FACTOR, GAIN, OWN_NUMBERS
+from ..expressions.packed import ROWS, at_address, pack, result, row, run_packed
+from ..jit import SCRATCH_SIZE, ahead, call_at, carray, compile_address, scratch
+from .field_parameters import FACTOR, FORMULAS, GAIN
 from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
 
-MOST_SYSTEMS = 64  # compiled systems kept
-_fields = CompiledCache(MOST_SYSTEMS)
+
+def _interpreted_field(state, out, parameters):
+    P = carray(parameters, (PARAMETERS,))
+    call_at(int(P[GAIN]), state, out, parameters)
+    T, R, factor = at_address(int(P[FORMULAS])), scratch(), P[FACTOR]
+    width = min(LANES, SCRATCH_SIZE // int(T[ROWS]))
+    for block in range((LANES + width - 1) // width):
+        first = block * width
+        count = min(width, LANES - first)
+        S, D = carray(ahead(state, first), (ROW_WIDTH,)), carray(ahead(out, first), (ROW_WIDTH,))
+        sides = carray(ahead(parameters, SIDE_SIGN + first), (count,))
+        c, s, x, y = row(R, 0, width, count), row(R, 1, width, count), row(R, 2, width, count), row(R, 3, width, count)
+        for j in range(count):
+            px, py, gain = S[j], S[j + LANES], D[j]
+            rho = S[j + 2 * LANES] * (0.5 + 0.5 * sides[j])  # 0 on the hemisphere
+            c[j], s[j], x[j], y[j] = gain * px, gain * py, rho * px, rho * py
+        run_packed(T, R, width, count)
+        u, v = result(T, R, 0, width, count), result(T, R, 1, width, count)
+        for j in range(count):
+            px, py, w, du, dv = S[j], S[j + LANES], S[j + 2 * LANES], factor * u[j], factor * v[j]
+            q = px * du + py * dv
+            D[j], D[j + LANES], D[j + 2 * LANES] = du - px * q, dv - py * q, sides[j] * w * q
 
 
-@dataclass(frozen=True)
-class GeneralField:
-    """A compiled field, and whether U is smooth beyond |e| = 1 too."""
-
-    function: Any
-    smooth: bool
+@lru_cache(maxsize=1)
+def general_field() -> Any:
+    """Return the field of general systems, eq:vf: on the hemisphere U(e_Psi, 0, 0, z), outside U(p, rho p, z)."""
+    return compile_address(_interpreted_field)
 
 
-def _source(system: System) -> tuple[str, bool]:
-    """Python source of the field, and whether U is smooth beyond |e| = 1."""
-    numbers = {name: f"n{i}" for i, name in enumerate(system.numbers)}
-    written = program(system.U, {**{name: name for name in FAST_NAMES}, **numbers}, FAST_NAMES)
-    far = system.reads_position
-    # x = rho p outside, 0 on the hemisphere.
-    position = ["rho = w*(0.5 + 0.5*P[lane + SIGN])", "x, y = rho*px, rho*py"] if far else []
-    u, v = written.results
-    before = [
-        "S, D, P = carray(state, (WIDTH,)), carray(out, (WIDTH,)), carray(parameters, (PARAMETERS,))",
-        "call_at(int(P[GAIN]), state, out, parameters)",
-        "factor = P[FACTOR]",
-        *(f"{name} = P[OWN + {i}]" for i, name in enumerate(numbers.values())),
-        *written.before,
-    ]
-    inside = [
-        "px, py, w = S[lane], S[lane + LANES], S[lane + 2*LANES]",
-        "c, s = D[lane]*px, D[lane]*py",
-        *position,
-        *written.inside,
-        f"u, v = factor*{u}, factor*{v}",
-        "q = px*u + py*v",
-        "D[lane] = u - px*q",
-        "D[lane + LANES] = v - py*q",
-        "D[lane + 2*LANES] = P[lane + SIGN]*w*q",
-    ]
-    lines = [
-        "def right_hand_side(state, out, parameters):",
-        *(f"    {line}" for line in before),
-        "    for lane in range(LANES):",
-    ]
-    return "\n".join([*lines, *(f"        {line}" for line in inside)]) + "\n", written.entire
+@lru_cache(maxsize=64)
+def packed_formulas(key: Hashable) -> tuple[Array, bool]:
+    """Return the formulas of `Frozen.key` packed, and whether U is smooth beyond |e| = 1 too.
 
-
-def _make_field(system: System) -> GeneralField:
-    source, smooth = _source(system)
-    names = {
-        **kernels.called,
-        "carray": carray,
-        "call_at": call_at,
-        "LANES": LANES,
-        "PARAMETERS": PARAMETERS,
-        "SIGN": SIDE_SIGN,
-        "WIDTH": ROW_WIDTH,
-        "FACTOR": FACTOR,
-        "GAIN": GAIN,
-        "OWN": OWN_NUMBERS,
-    }
-    return GeneralField(compile_source(source, names), smooth)  # written by `program` from whitelisted formulas
-
-
-def is_compiled(system: System) -> bool:
-    """Whether a system has its field already."""
-    return system.U in _fields
-
-
-def general_field(system: System) -> GeneralField:
-    """Return the compiled field of a system, eq:vf: on the hemisphere U(e_Psi, 0, 0, z), outside U(p, rho p, z).
-
-    Parameters
-    ----------
-    system : System
-
-    Returns
-    -------
-    GeneralField
-        The `address` of its `function` enters the integrator. Compiled once for the formulas of U and the names of
-        its parameters (below a second for formulas of usual length), whatever their values and Psi.
+    The address of the array enters the parameters; it must outlive that.
     """
-    return _fields.get(system.U, lambda: _make_field(system))
+    program = arrays.program(key)
+    return pack(program, len(FAST_NAMES)), program.is_entire

@@ -1,8 +1,8 @@
 """The gain of Psi compiled: ``e_Psi = gain p``, ``gain = 1/sqrt(|p|^2 + w^2 Psi(|p|^2/w^2))``, eq:ePsi.
 
 Outside, where w is rho, ``gain = 1/|p|``. A family brings its gain as a plain function of scalars (`Family.gain`). It
-is inlined into the fields of e-linear systems, and made into a function of all lanes at an address, which the fields
-of general systems call: so a system is compiled once for all Psi.
+is inlined into the fields of e-linear systems, and made into a function of all lanes at an address, which the field
+of general systems calls. The formula of a typed Psi is interpreted.
 
 Everything is free of branches and of library calls, so that it runs in vector registers.
 """
@@ -15,8 +15,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from ..expressions.functions import called, kernels
+import numpy as np
+
+from ..arrays import Array
+from ..expressions.packed import BOUND, ROWS, at_address, result, row, run_packed
 from ..jit import (
+    SCRATCH_SIZE,
     ahead,
     bits_of_double,
     call_at,
@@ -26,10 +30,11 @@ from ..jit import (
     contracted_kernel,
     double_of_bits,
     inlined_fast_kernel,
+    scratch,
 )
+from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 from ..psi.kernel import UNDERFLOW_BOUND
-from .compiling import CompiledCache
 from .field_parameters import PSI
 from .layout import (
     BLOCK,
@@ -43,9 +48,6 @@ from .layout import (
 )
 
 LOG2_E, LN2_HIGH, LN2_LOW = 1.4426950408889634, 0.6931471803691238, 1.9082149292705877e-10
-# Beyond s = LARGE, w^2 Psi(s) <= Psi(s) |p|^2/LARGE is lost beside |p|^2.
-LARGE_ZETA = 1e20
-MOST_EXPRESSIONS = 64  # compiled typed formulas kept
 
 
 @contracted_kernel
@@ -108,71 +110,71 @@ def _unit_gain(r2, w, parameter):  # noqa: ARG001 (a gain is called with all thr
 gain, kind = _unit_gain, float
 
 
-def _typed_gain(source: str, parameter: str, saturation: float) -> str:
-    """Write the gain for Psi given as Python source in s and a parameter, as `Expression.python_source` writes it."""
-    return f"""
-def psi(s, {parameter}):
-    return {source}
+@inlined_fast_kernel
+def _shape_argument(T, r2, w2):
+    """Return the s at which a typed Psi is evaluated; 0 from where it is lost or has saturated."""
+    return r2 / w2 if r2 < T[BOUND] * w2 else 0.0
 
-def gain(r2, w, parameter):
-    w2 = w * w
-    shape = 0.0
-    if r2 < {min(LARGE_ZETA, saturation)!r} * w2:
-        shape = w2 * psi(r2 / w2, parameter)
-        if not 0.0 <= shape < math.inf:  # a formula that leaves R1 here: the nonsmooth field instead
-            shape = 0.0
-    return 1.0 / math.sqrt(max(r2 + shape, {UNDERFLOW_BOUND!r}))
-"""
+
+@inlined_fast_kernel
+def _gain_of_shape(T, r2, w2, psi):
+    """Return the gain from a value of a typed Psi; that of the nonsmooth field where the formula leaves R1."""
+    shape = w2 * psi
+    if not (r2 < T[BOUND] * w2 and 0.0 <= shape < math.inf):
+        shape = 0.0
+    return 1.0 / math.sqrt(max(r2 + shape, UNDERFLOW_BOUND))
+
+
+def typed_gain(r2, w, parameter):
+    """Return the gain of a typed Psi, whose parameter is the address of its packed formula."""
+    T, R = at_address(int(parameter)), scratch()
+    row(R, 0, 1, 1)[0] = _shape_argument(T, r2, w * w)
+    run_packed(T, R, 1, 1)
+    return _gain_of_shape(T, r2, w * w, result(T, R, 0, 1, 1)[0])
+
+
+@inlined_fast_kernel
+def write_typed_gains(state, out, parameters, address, lanes):
+    """Write the gains of a typed Psi, whose packed formula is at an address, in the first lanes."""
+    T, R = at_address(int(address)), scratch()
+    width = min(lanes, SCRATCH_SIZE // int(T[ROWS]))
+    for block in range((lanes + width - 1) // width):
+        first = block * width
+        count = min(width, lanes - first)
+        S, D = carray(ahead(state, first), (ROW_WIDTH,)), carray(ahead(out, first), (count,))
+        P = carray(ahead(parameters, first), (SIDE_SIGN + LANES,))
+        s, psi = row(R, 0, width, count), result(T, R, 0, width, count)
+        for j in range(count):
+            r2, w = arguments(S, P, j)
+            s[j] = _shape_argument(T, r2, w * w)
+        run_packed(T, R, width, count)
+        for j in range(count):
+            r2, w = arguments(S, P, j)
+            D[j] = _gain_of_shape(T, r2, w * w, psi[j])
 
 
 @dataclass(frozen=True)
 class GainVariant:
-    """The compiled code of a Psi: one for a family, two with `Family.gain_whole`, or one for a typed formula.
+    """The compiled code of a Psi: one for a family, two with `Family.gain_whole`.
 
     Attributes
     ----------
-    key : callable or str
-        The gain as its family gives it, or source.
+    key : callable
+        The gain as its family gives it; `typed_gain` of a formula.
     whole : bool
         The parameter is read as an int.
-    parameter : str
-        What the source calls the parameter.
-    saturation : float
-        The s from which Psi is 0, whatever the source says.
     cached : bool
         The disk cache holds it: so for the families of this package.
     """
 
-    key: Callable[..., Any] | str
+    key: Callable[..., Any]
     whole: bool = False
-    parameter: str = "parameter"
-    saturation: float = math.inf
     cached: bool = False
 
     def make(self, lanes: Callable[..., None]) -> Any:
         """Compile a function of all lanes, which calls ``gain(r2, w, kind(P[PSI]))``, with this gain in its place."""
-        if isinstance(self.key, str):
-            own = _typed_gain(self.key, self.parameter, self.saturation)
-            return compile_with_gain(lanes, own, self.whole, self.cached, **kernels.called)
-        # beside math's, these run in vector registers
+        # next to math's, these run in vector registers
         return compile_with_gain(lanes, self.key, self.whole, self.cached, expm1=expm1, log=log)
-
-    def in_python(self, parameter: float) -> Callable[[float, float], tuple[float]]:
-        """Return this gain at one place as a function of Python, from (|p|^2, w)."""
-        own: Any = self.key
-        if isinstance(own, str):
-            scope: dict[str, Any] = {"math": math, **called}
-            exec(_typed_gain(own, self.parameter, self.saturation), scope)
-            own = scope["gain"]
-        given = int(parameter) if self.whole else parameter
-
-        def gain(r2: float, w: float) -> tuple[float]:
-            try:
-                return (own(r2, w, given),)
-            except (ArithmeticError, ValueError):  # as `_typed_gain` where it is infinite
-                return (1.0 / math.sqrt(max(r2, UNDERFLOW_BOUND)),)
-
-        return gain
 
 
 ONE = GainVariant(_unit_gain, cached=True)  # of Psi = 1 where the sphere |p|^2 + w^2 = 1 is kept to
@@ -193,34 +195,49 @@ def variant(psi: Psi, smooth: bool, whole: bool = True) -> GainVariant:
     if record.identity and smooth:
         return ONE
     if record.gain is None:
-        expression = psi.expression if record.typed else record.expression()
-        if expression is None:
-            raise ValueError(f"{psi!r} has no expression; make it with psi.custom.")
-        parameter = record.names[-1] if len(record.names) > 1 else "parameter"
-        return GainVariant(expression.python_source(), False, parameter, psi.kernel.saturation)
+        return GainVariant(typed_gain, cached=True)
     whole = whole and record.uses_gain_whole(psi.parameter)
     key = record.gain_whole if whole and record.gain_whole is not None else record.gain
     return GainVariant(key, whole, cached=key.__module__.startswith(__name__.split(".")[0] + "."))
 
 
-class GainVariants:
-    """The compiled variants of a function of all lanes: those of the families for good, the last typed ones."""
+def gain_parameter(psi: Psi) -> float:
+    """Return the parameter of Psi as its gain reads it: of a typed one the address of its formula, which Psi keeps."""
+    return float(psi.packed.ctypes.data) if psi.record.gain is None else psi.parameter
 
-    def __init__(self, lanes: Callable[..., None]) -> None:
-        self._lanes = lanes
-        self._families: dict[GainVariant, Any] = {}
-        self._typed = CompiledCache(MOST_EXPRESSIONS)
+
+def gain_parameters(psi: Psi, parameters: Array) -> tuple[Array, tuple[Psi, ...]]:
+    """Return the same (k,) of members of the family of psi, and the members, which must outlive their use."""
+    if psi.record.gain is not None:
+        return parameters, ()
+    members = tuple(psi if value == psi.parameter else with_parameter(psi, value) for value in parameters.tolist())
+    return np.array([gain_parameter(one) for one in members]), members
+
+
+class GainVariants:
+    """The compiled variants of a function of all lanes.
+
+    Parameters
+    ----------
+    lanes : function
+        Calls ``gain(r2, w, parameter)`` in each lane.
+    typed : function, optional
+        The same for a typed Psi, whose formula it interprets in all lanes at once.
+    """
+
+    def __init__(self, lanes: Callable[..., None], typed: Callable[..., None] | None = None) -> None:
+        self._lanes, self._typed_lanes = lanes, typed
+        self._made: dict[GainVariant, Any] = {}
 
     def __contains__(self, asked: GainVariant) -> bool:
-        return asked.cached or asked in self._families or asked in self._typed
+        return asked.cached or asked in self._made
 
     def get(self, asked: GainVariant) -> Any:
         """Return a variant, compiling it or loading it from the disk cache the first time."""
-        if isinstance(asked.key, str):
-            return self._typed.get(asked, lambda: asked.make(self._lanes))
-        found = self._families.get(asked)
+        found = self._made.get(asked)
         if found is None:
-            found = self._families[asked] = asked.make(self._lanes)
+            typed = self._typed_lanes if asked.key is typed_gain else None
+            found = self._made[asked] = asked.make(self._lanes) if typed is None else compile_address(typed)
         return found
 
 
@@ -232,7 +249,11 @@ def _gains(state, out, parameters):
         D[lane] = gain(r2, w, parameter)
 
 
-_compiled = GainVariants(_gains)
+def _typed_gains(state, out, parameters):
+    write_typed_gains(state, out, parameters, carray(parameters, (PARAMETERS,))[PSI], LANES)
+
+
+_compiled = GainVariants(_gains, _typed_gains)
 
 
 def gains(psi: Psi, smooth: bool) -> Any:
@@ -266,7 +287,11 @@ def _gains_of_blocks(state, out, parameters):
         call_at(int(P[GAINS + j]), ahead(state, j * BLOCK), ahead(out, j * BLOCK), ahead(parameters, j * BLOCK))
 
 
-_compiled_of_block = GainVariants(_gains_of_block)
+def _typed_gains_of_block(state, out, parameters):
+    write_typed_gains(state, out, parameters, carray(parameters, (PARAMETERS,))[PSIS], BLOCK)
+
+
+_compiled_of_block = GainVariants(_gains_of_block, _typed_gains_of_block)
 
 
 def gains_of_block(psi: Psi, smooth: bool) -> Any:

@@ -7,14 +7,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..arrays import Array
 from ..psi.function import Psi
 from ..systems.frozen import FrozenSystem
-from ..systems.typed import System
-from . import fields, fields_typed
+from . import fields
 from .field_parameters import FACTOR, field_numbers
-from .psi_gain import gains, gains_of_block, gains_of_blocks, has_gains
+from .fields_typed import general_field, packed_formulas
+from .psi_gain import gain_parameter, gains, gains_of_block, gains_of_blocks
 
 ALONE = np.zeros((1, 2))
 ALONE.flags.writeable = False
@@ -31,7 +31,7 @@ class CompiledProblem:
     shared : ndarray (SHARED_SIZE,)
         Its parameters.
     functions : tuple
-        The compiled functions behind the addresses: they must outlive their use.
+        What is behind the addresses: it must outlive their use.
     factors : slice
         The parameters to which the right-hand side is proportional.
     own : ndarray (m, 2)
@@ -39,10 +39,10 @@ class CompiledProblem:
     """
 
     address: int
-    shared: NDArray[np.float64]
+    shared: Array
     functions: tuple[Any, ...]
     factors: slice
-    own: NDArray[np.float64]
+    own: Array
 
     @property
     def reversed(self) -> CompiledProblem:
@@ -53,7 +53,7 @@ class CompiledProblem:
 
 
 def problem(at: FrozenSystem, psi: Psi, backward: bool = False) -> CompiledProblem:
-    """Prepare a right-hand side, compiling what is new of it.
+    """Prepare a right-hand side.
 
     Parameters
     ----------
@@ -64,15 +64,10 @@ def problem(at: FrozenSystem, psi: Psi, backward: bool = False) -> CompiledProbl
     """
     if at.typed is None:
         field = fields.field(psi)
-        return CompiledProblem(field.address, field_numbers(at, psi, backward), (field,), slice(0, 5), ALONE)
-    function, gain = prepare(at.typed, psi)
-    return CompiledProblem(
-        function.address,
-        field_numbers(at, psi, backward, gain.address),
-        (function, gain),
-        slice(FACTOR, FACTOR + 1),
-        ALONE,
-    )
+        shared = field_numbers(at, gain_parameter(psi), backward)
+        return CompiledProblem(field.address, shared, (field, psi), slice(0, 5), ALONE)
+    formulas, smooth = packed_formulas(at.key)
+    return _general_problem(at, formulas, gains(psi, smooth), psi, backward, (psi,), ALONE)
 
 
 def problems(at: FrozenSystem, psis: Sequence[Psi], backward: bool = False) -> CompiledProblem:
@@ -85,30 +80,19 @@ def problems(at: FrozenSystem, psis: Sequence[Psi], backward: bool = False) -> C
     backward : bool
         Against time.
     """
-    general = None if at.typed is None else fields_typed.general_field(at.typed)
-    field, smooth = (fields.field_of_gain(), True) if general is None else (general.function, general.smooth)
+    formulas, smooth = (None, True) if at.typed is None else packed_formulas(at.key)
     mixed, each = gains_of_blocks(), [gains_of_block(psi, smooth) for psi in psis]
-    own = np.array([(gain.address, psi.parameter) for gain, psi in zip(each, psis, strict=True)], float)
-    factors = slice(0, 5) if general is None else slice(FACTOR, FACTOR + 1)
-    shared = field_numbers(at, psis[0], backward, mixed.address)
-    return CompiledProblem(field.address, shared, (field, mixed, *each), factors, own)
+    own = np.array([(gain.address, gain_parameter(psi)) for gain, psi in zip(each, psis, strict=True)], float)
+    if formulas is not None:
+        return _general_problem(at, formulas, mixed, psis[0], backward, (*each, *psis), own)
+    field, shared = fields.field_of_gain(), field_numbers(at, gain_parameter(psis[0]), backward, mixed.address)
+    return CompiledProblem(field.address, shared, (field, mixed, *each, *psis), slice(0, 5), own)
 
 
-def prepare(system: System, psi: Psi) -> tuple[Any, Any]:
-    """Compile the field of a general system, and the gain of Psi that it calls, for all z and parameters."""
-    own = fields_typed.general_field(system)
-    return own.function, gains(psi, own.smooth)
-
-
-def is_compiled(system: System | None, psi: Psi) -> bool:
-    """Whether `right_hand_side` answers without compiling anything (but for what the disk cache holds).
-
-    Parameters
-    ----------
-    system : System or None
-        None for e-linear systems, which share their fields.
-    psi : Psi
-    """
-    if system is not None:
-        return fields_typed.is_compiled(system) and has_gains(psi)
-    return fields.is_compiled(psi)
+def _general_problem(
+    at: FrozenSystem, formulas: Array, gain: Any, psi: Psi, backward: bool, kept: tuple[Any, ...], own: Array
+) -> CompiledProblem:
+    """Prepare the right-hand side of a general system."""
+    field = general_field()
+    shared = field_numbers(at, gain_parameter(psi), backward, gain.address, formulas.ctypes.data)
+    return CompiledProblem(field.address, shared, (field, gain, formulas, *kept), slice(FACTOR, FACTOR + 1), own)

@@ -15,6 +15,9 @@ from itertools import pairwise
 from urllib.request import urlopen
 
 import numpy as np
+from tornado.httpclient import AsyncHTTPClient
+
+from tests.work import PATIENCE
 
 from .wire import Wire
 
@@ -104,9 +107,37 @@ async def burst(port: int) -> list[float]:
     return list(waits)
 
 
-def page(port: int) -> str:
+async def come_back(port: int, pages: int) -> tuple[list[float], list[float]]:
+    """Let pages, each at an address of its own, come back at once as they do when their server was gone.
+
+    Returns
+    -------
+    waits, whole : list of float
+        Seconds until the picture is there: from the turn that the server gives a page, and from the beginning.
+    """
+    client = AsyncHTTPClient(force_instance=True, max_clients=pages)
+
+    async def visit(i: int) -> tuple[float, float]:
+        began = time.perf_counter()
+        told = await client.fetch(f"http://localhost:{port}/health?back=1", request_timeout=PATIENCE)
+        await asyncio.sleep(json.loads(told.body)["wait"])
+        turn = time.perf_counter()
+        query = f"?a={-1.0 - 1e-3 * i}"
+        await client.fetch(f"http://localhost:{port}/{query}", request_timeout=PATIENCE)
+        wires.append(await Wire.connect(port, query))
+        end = time.perf_counter()
+        return end - turn, end - began
+
+    wires: list[Wire] = []
+    found = await asyncio.gather(*map(visit, range(pages)))
+    await asyncio.gather(*(wire.close() for wire in wires))
+    client.close()
+    return [wait for wait, _ in found], [whole for _, whole in found]
+
+
+def page(port: int, query: str = "") -> str:
     """Return the text of a page."""
-    with urlopen(f"http://localhost:{port}/") as answer:
+    with urlopen(f"http://localhost:{port}/{query}") as answer:
         return answer.read().decode()
 
 

@@ -21,7 +21,6 @@ def explorer(port: int, processes: str = "1", *flags: str) -> None:
 def forgetful(port: int) -> None:
     """Serve the explorer; ``/there``: how many pages' pictures are held; ``/left``: what pages that are gone leave."""
     from codim2_app.server import live, page
-    from codim2_app.view import warmup
     from codim2_app.view.refresh import Frames
     from tornado.web import RequestHandler
 
@@ -56,7 +55,7 @@ def forgetful(port: int) -> None:
             many = len(living)
             living.clear()  # it is in a cycle, as it holds what counts it; frozen, it would hold all that lives now
             gc.freeze()
-            self.write({"resident": resident, "objects": many, **counts, "formulas": len(warmup._formulas)})
+            self.write({"resident": resident, "objects": many, **counts})
 
     server = page.make_server(port)
     server.application.add_handlers(r".*", [("/left", Left), ("/there", There)])

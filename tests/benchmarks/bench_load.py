@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, cpu, family, overtaken, serving
+from .app_load import MANY, RATE, WITHIN, at_rest, burst, children, come_back, cpu, family, overtaken, serving
 from .app_servers import queued
-from .visits import TICKS, TICKS_OF_TEN, WILD, Chair, Waited, beside, seated
+from .visits import TICKS, TICKS_OF_TEN, WILD, Chair, Waited, beside, fetched, seated
 
 CHAIRS = (1, 8, 16, 24, 32, 40)
 SECONDS = 12.0
@@ -28,6 +28,8 @@ LONGEST = 0.1  # seconds: the p95 that is borne
 FIGURES = ((60, 3, 20, 100), (60, 10, 50, 300), (100, 10, 100, 500))
 MOVES = tuple(what for what in TICKS if what != "type")  # what is typed waits by design
 FRAMES, MAX_OWN = 10_000, 50  # of a neighbour of a wild visitor; ms
+CONNECTIONS, P99_OWN = 4, 30  # that ask for pages; ms
+PAGES_BACK, BACK_SECONDS = 200, 2.0
 
 
 @dataclass(frozen=True)
@@ -147,7 +149,27 @@ def figures(quick: bool) -> str:
             p99, p50 = np.quantile(own, (0.99, 0.5))
             lines.append(f"| {what} | {own.max():.0f}, {p99:.0f}, {p50:.0f} ({MAX_OWN}) |")
             asyncio.run(at_rest(pid))
+        lines += ["", *public(port, pid, frames)]
     return "\n".join(lines)
+
+
+def public(port: int, pid: int, frames: int) -> list[str]:
+    """Return what others meet where pages are asked for without end, and who come back after their server was gone."""
+    load = os.getloadavg()[0]
+    with fetched(port, CONNECTIONS):
+        own = 1e3 * np.array(asyncio.run(beside(port, None, frames // 4, waiting(pid, 1))))
+    p99, p50 = np.quantile(own, (0.99, 0.5))
+    asyncio.run(at_rest(pid))
+    back = os.getloadavg()[0]
+    waits, whole = (np.quantile(times, 0.95) for times in asyncio.run(come_back(port, PAGES_BACK)))
+    return [
+        "| 1 process | measured (to reach) | load of the machine before |",
+        "|---|---|---|",
+        f"| beside {CONNECTIONS} connections that ask for pages of new addresses: own p99, p50 of {frames // 4} "
+        f"frames, ms | {p99:.0f}, {p50:.0f} ({P99_OWN}) | {load:.1f} |",
+        f"| {PAGES_BACK} pages that come back at once: p95 until the picture is there, s: from a page's turn, from the "
+        f"beginning | {waits:.2f} ({BACK_SECONDS:g}), {whole:.1f} | {back:.1f} |",
+    ]
 
 
 def carried(found: dict[int, Load]) -> int:

@@ -11,7 +11,9 @@ import random
 import time
 from collections import defaultdict
 from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
+from multiprocessing import Process
 from typing import Any
 
 from codim2_app.state.controls import preset_values
@@ -139,11 +141,32 @@ WILD: dict[str, Callable[[int], dict[str, Any]]] = {
 }  # fmt: skip
 
 
-async def beside(port: int, wild: Callable[[int], dict[str, Any]], frames: int, waited: Waited) -> list[float]:
-    """Return the own delays of somebody who drags while another one does this, each as fast as he can."""
+@contextmanager
+def fetched(port: int, connections: int) -> Iterator[None]:
+    """Ask for pages of new addresses meanwhile, in a process each, as fast as they come."""
+    fetching = [Process(target=_fetch, args=(port, number), daemon=True) for number in range(connections)]
+    for one in fetching:
+        one.start()
+    try:
+        yield
+    finally:
+        for one in fetching:
+            one.terminate()
+            one.join()
+
+
+def _fetch(port: int, number: int) -> None:
+    for i in itertools.count():
+        page(port, f"?a={-1.0 - 0.1 * number - 1e-6 * i}")
+
+
+async def beside(port: int, wild: Callable[[int], dict[str, Any]] | None, frames: int, waited: Waited) -> list[float]:
+    """Return the own delays of somebody who drags while another one, if any, does this, each as fast as he can."""
     wire, chair = await Wire.connect(port), Chair()
 
     async def rage() -> None:
+        if wild is None:
+            return
         other = await Wire.connect(port)
         for i in itertools.count():
             await other.frame(i, **wild(i))

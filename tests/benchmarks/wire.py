@@ -9,6 +9,8 @@ from typing import Any
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import WebSocketClientConnection, websocket_connect
 
+from tests.work import PATIENCE
+
 
 class Wire:
     """One page's connection. `frames` counts those that arrived, `bytes` the size of everything."""
@@ -21,7 +23,8 @@ class Wire:
     @classmethod
     async def connect(cls, port: int, query: str = "", prefix: str = "") -> Wire:
         """Come in as the page of an address does."""
-        return await cls.at(HTTPRequest(f"ws://localhost:{port}{prefix}/live{query}"))
+        address = f"ws://localhost:{port}{prefix}/live{query}"
+        return await cls.at(HTTPRequest(address, connect_timeout=PATIENCE, request_timeout=PATIENCE))
 
     @classmethod
     async def at(cls, request: HTTPRequest) -> Wire:

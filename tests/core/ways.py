@@ -1,4 +1,4 @@
-"""The ways in which a motion is stepped: formulas compiled, or called back; the kernels run as Python too."""
+"""The ways in which a motion is stepped: by compiled kernels, and as Python."""
 
 import math
 from functools import partial
@@ -8,21 +8,19 @@ import pytest
 from codim2_core.initial_value import functions, motion_steps, slow_steps
 from codim2_core.initial_value.kernels import departure_step, slow
 from codim2_core.jit import interpreted, policy, right_hand_sides
-from codim2_core.stepping.compiling import CompiledCache
 
-WAYS = ("compiled", "called back", "as Python")
+WAYS = ("compiled", "as Python")
 
 
 def follow(monkeypatch: pytest.MonkeyPatch, way: str) -> None:
     """Follow motions in one way, whatever has been asked for before."""
-    monkeypatch.setattr(functions, "CALLS_WORTH_COMPILING", 0 if way == "compiled" else math.inf)
-    if way != "compiled":
-        monkeypatch.setattr(functions, "_fields", CompiledCache(functions.MOST_SYSTEMS))
     if way == "as Python":
         for module, name in ((motion_steps, "follow_steps"), (slow_steps, "sets"), (departure_step, "leave")):
             monkeypatch.setattr(module, name, partial(run_as_python, getattr(module, name)))
-        made = tuple(waiting(monkeypatch, one) for one in (slow._slow_velocity, slow._slow_slopes))
-        monkeypatch.setattr(slow_steps, "flow", lambda: made)
+        flow = tuple(waiting(monkeypatch, one) for one in (slow._slow_velocity, slow._slow_slopes))
+        own = tuple(waiting(monkeypatch, one) for one in (functions._interpreted_values, functions._interpreted_slopes))
+        monkeypatch.setattr(slow_steps, "flow", lambda: flow)
+        monkeypatch.setattr(functions, "_interpreters", lambda: own)
 
 
 def run_as_python(kernel, *given):

@@ -55,7 +55,6 @@ def _off(corners: np.ndarray, curve: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize("name", pictures())
-@pytest.mark.usefixtures("called_back")
 def test_a_picture_is_the_one_that_is_kept(name):
     made = pictures()[name]()
     kept = kept_file(name)

@@ -121,7 +121,7 @@ def _kept_pieces(offsets, points, guards, others, order, apart, shortest, left, 
     run = np.empty((longest + 1, 2))
     kept_points = np.empty((len(points) + 2 * most, 2))
     kept_offsets = np.zeros(most + 2, np.int64)
-    stored = pieces = written = 0
+    stored = pieces = written = near = 0
     for piece in range(len(guards) - 1):
         for i in range(guards[piece], guards[piece + 1] - 1):
             dx, dy = others[i + 1, 0] - others[i, 0], others[i + 1, 1] - others[i, 1]
@@ -142,15 +142,20 @@ def _kept_pieces(offsets, points, guards, others, order, apart, shortest, left, 
             for j in range(steps + (i == last - 2)):
                 x, y = x0 + dx * j / steps, y0 + dy * j / steps
                 free = left <= x <= right and bottom <= y <= top
+                if free and near > 0:  # what the place before was too near to, this one mostly is
+                    away_x, away_y = places[near, 0] - x, places[near, 1] - y
+                    free = away_x * away_x + away_y * away_y >= apart * apart
                 if free:
-                    column, row = int((x - left) / apart) + 1, int((y - bottom) / apart) + 1
-                    for u in range(column - 1, column + 2):
-                        for v in range(row - 1, row + 2):
-                            other = newest[u * rows + v]
+                    cell = (int((x - left) / apart) + 1) * rows + int((y - bottom) / apart) + 1
+                    for below in (cell, cell - rows, cell + rows):
+                        for beside in range(below - 1, below + 2):
+                            other = newest[beside]
                             while other > 0 and free:
                                 away_x, away_y = places[other, 0] - x, places[other, 1] - y
                                 free = away_x * away_x + away_y * away_y >= apart * apart
-                                other = older[other]
+                                near, other = other, older[other]
+                        if not free:
+                            break
                 if free:
                     if written > begun:
                         px, py = run[ran - 1, 0], run[ran - 1, 1]

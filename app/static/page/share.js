@@ -2,6 +2,7 @@
 
 import {copyText} from "../dom.js"
 import {compressQuery} from "./links.js"
+import {MAX_QR_BYTES, qrAddress} from "./qr_code.js"
 import {SAYS, escape} from "../words.js"
 
 const MARKUP = `
@@ -25,15 +26,13 @@ export class Share {
    * @param {() => string} query of the present view
    * @param {number} version of links
    * @param {{open: () => void, enter: (code: string) => void} | null} room null where there are none
-   * @param {boolean} coded whether there is a server, which makes QR codes
    * @param {(box: HTMLElement) => Promise<void>} more fills what is below the links
    */
-  constructor(dialog, query, version, room, coded, more) {
+  constructor(dialog, query, version, room, more) {
     this.dialog = dialog
     this.query = query
     this.version = version
     this.room = room
-    this.coded = coded
     this.more = more
   }
   find(name) { return this.dialog.querySelector(name) }
@@ -47,10 +46,8 @@ export class Share {
     const address = `${page}?${short}`
     this.find(".address").value = address
     const code = this.find(".qr")
-    const coded = this.coded && address.length <= 300  // the server makes no longer one
-    if (coded) code.src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: address})}`
-    code.hidden = !coded
-    code.onerror = () => { code.hidden = true }
+    code.hidden = address.length > MAX_QR_BYTES
+    if (!code.hidden) code.src = qrAddress(address)
     this.frame = () => {
       const names = this.find(".names").value.replace(/[^\w,]/g, "")
       const inner = `${page}?${short}&embed=1${names ? `&controls=${encodeURIComponent(names)}` : ""}`

@@ -2,6 +2,7 @@
 
 import {setMarkup} from "../dom.js"
 import {compressQuery} from "../page/links.js"
+import {qrAddress} from "../page/qr_code.js"
 import {SAYS, escape} from "../words.js"
 
 const STORE = "codim2-room" // of this tab: a page that is loaded again is in its room again
@@ -153,8 +154,8 @@ export class Room {
     this.tell()
     if (!this.dialog.open) this.dialog.showModal()
     const view = await compressQuery(this.tools.query(), this.tools.version)
-    const bare = `${page}?room=${this.code}`, whole = `${bare}&${view}` // a code has room for so much
-    find(".qr").src = `${new URL("qr.svg", location.href)}?${new URLSearchParams({text: whole.length > 300 ? bare : whole})}`
+    const bare = `${page}?room=${this.code}`, whole = `${bare}&${view}`
+    find(".qr").src = qrAddress(whole.length > 300 ? bare : whole) // phones read no larger code from a beamer; the room has the view
   }
 
   make() {

@@ -12,7 +12,7 @@ from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import warm
 from codim2_core.portrait.approach_outcomes import approach_outcomes
-from codim2_core.psi import FAMILIES, hill, make
+from codim2_core.psi import FAMILIES, custom, hill, make
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 
@@ -32,7 +32,8 @@ GENERAL_LAYERS = ("equator", "critical", "nullclines_inside", "nullclines_outsid
 def kernel_steps() -> list[tuple[str, Callable[[], object]]]:
     """Return what is compiled beforehand, by what it is called, in the order in which it is asked for."""
     families = [family for family in FAMILIES.values() if not family.typed]
-    first, *others = ((f"trajectories for Ψ = {family.title}", partial(warm, make(family.name))) for family in families)
+    psis = [(family.title, make(family.name)) for family in families] + [("a formula", custom("1/(1+s)"))]
+    first, *others = ((f"trajectories for Ψ = {title}", partial(warm, psi)) for title, psi in psis)
     last = [
         ("approach outcomes", _warm_outcomes),
         ("kernels of general systems", partial(warm_general, GENERAL_LAYERS[:2])),
@@ -132,18 +133,18 @@ def _warm_contacts() -> None:
 
 
 def _warm_regularised() -> None:
-    """Compile, or load, what follows motions for ε > 0: once for all systems, but for their formulas."""
+    """Compile, or load, what follows motions for ε > 0: once for all systems."""
     from codim2_core.motion.regularised import simulate  # late: it brings SciPy along
 
-    simulate(_PUSHED, hill(3.0), _STARTS, (0.0, 0.2), eps=0.01)
+    simulate(_PUSHED, hill(3.0), _START, (0.0, 0.2), eps=0.01)
 
 
 def _warm_nonsmooth() -> None:
     """Compile, or load, what follows motions in the limit, in the same way."""
     from codim2_core.motion.nonsmooth import simulate_nonsmooth  # late, too
 
-    simulate_nonsmooth(_PUSHED, _STARTS, (0.0, 3.0), hill(3.0))  # it slips, slides and leaves
+    simulate_nonsmooth(_PUSHED, _START, (0.0, 3.0), hill(3.0))  # it slips, slides and leaves
 
 
 _PUSHED = ELinear(-1.0, 0.3, -2.0, f=("1.3*sin(z1)", "0.4*cos(2*z1)"), B=((0.0, 0.0),), g=(1.0,))
-_STARTS = [(0.3, 0.2, 0.0)] * 8  # so many are compiled at once
+_START = (0.3, 0.2, 0.0)

@@ -139,11 +139,14 @@ class Sections:
         ways : TurnQuadratures
             Their turns.
         """
+        from ...stepping.psi_gain import gain_parameters
         from ..global_section_kernel import returns
         from . import geometry
 
         field = self.field
-        parameters = np.full(len(self), self.psi.parameter) if self.own is None else self.own
+        parameters, _kept = gain_parameters(
+            self.psi, np.full(len(self), self.psi.parameter) if self.own is None else self.own
+        )
         shared, sense, floor, sunk = geometry.lanes(self.plane, parameters, backward, states, self.x2, self.inner)
         ends, _, codes, steps = returns(
             states, shared, field.address, self.u, self.x2, sense, floor, sunk, MAX_TURN_TIME, np.atleast_1d(rtol),

@@ -1,9 +1,7 @@
-"""The compiled functions of one argument by their codes, with their slopes; and by their names, for compiled source."""
+"""The compiled functions of one argument by their codes, with their slopes."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Any
 
 from ...jit import kernel
@@ -45,6 +43,3 @@ def _chain(link: Any, which: int, end: Any) -> Any:
 
 #: f(a) of the function with a code, and f'(a) from a and f(a).
 value, slope = _chain(_value_link, 0, _none), _chain(_slope_link, 1, _no_slope)
-
-#: What compiled source calls by its name.
-called: Mapping[str, Any] = MappingProxyType({one.name: _both[one.name][0] for one in FUNCTIONS if not one.source})

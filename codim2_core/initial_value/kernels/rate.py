@@ -17,7 +17,8 @@ ROUNDING = 2.0**-52
 MAX_INWARD_SHARE = 0.9  # of rho: how far towards Sigma one step may go
 
 # Where the right-hand side reads and writes: the gain's arguments, the field's, its value, its slopes. The same array
-# holds the parameter of Psi, at PSI, where the gain looks for it.
+# holds the parameter of Psi, at PSI, where the gain looks for it, and the addresses of packed formulas.
+VALUE_FORMULAS, SLOPE_FORMULAS = 6, 7
 RADIUS, GAIN, ARGUMENTS, VALUE, SLOPES = 0, 4, 8, 8 + 32, 8 + 64
 RATE_PLACES = SLOPES + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 

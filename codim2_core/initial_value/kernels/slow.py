@@ -135,11 +135,10 @@ def _slow_slopes(state, out, parameters):
 
 
 @held_kernel
-def sets(addresses, points):
+def sets(S, points):
     """Find the critical sets near points (k, 2 + m), (e, z): e (k, 2), NaN where there is none, and D_e U (k, 2, 2)."""
     k, n = points.shape
-    S, e, D = np.zeros(SLOW_EXTENT), np.empty((k, 2)), np.empty((k, 2, 2))
-    S[VALUE], S[SLOPES] = addresses[0], addresses[1]
+    e, D = np.empty((k, 2)), np.empty((k, 2, 2))
     for i in range(k):
         S[SET_PLACE], S[SET_PLACE + 1] = points[i, 0], points[i, 1]
         for j in range(2, n):

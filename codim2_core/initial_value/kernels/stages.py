@@ -9,8 +9,6 @@ import numpy as np
 
 from ...jit import kernel, spliced_kernel
 from ...numerics.radau import ITERATIONS, STAGES, Tableau
-from ...stepping.field_parameters import PSI
-from .explicit import ROOM
 from .rate import rate
 
 MAX_EXTRAPOLATION = 4.0  # times the last step: how far its polynomial is continued
@@ -35,14 +33,6 @@ class StepArrays(NamedTuple):
     error: Any
     before: Any
     first: Any
-
-
-@kernel
-def workspace(n, parameter):
-    """Return the arrays for a state of n components, and a parameter of Psi."""
-    S = np.zeros(ROOM)
-    S[PSI] = parameter
-    return work_on(S, n)
 
 
 @kernel

@@ -134,9 +134,9 @@ class ContactField:
 
     def on_branch(self, Y: Array, rate: Array, known: Sequence[int] = ()) -> ContactField:
         """Return the smooth branch of the formulas at a state, on a border the one ahead."""
-        if not has_switches(self.rows, self.names):
+        if not has_switches(self.rows, self.names, slip=()):
             return self
-        found = branch_at(self.rows, self.names, self._named(Y), self._named(rate), known)
+        found = branch_at(self.rows, self.names, self._named(Y), self._named(rate), known, slip=())
         return ContactField(self.n, self.count, found.rows, found, self)
 
     def past_switch(self, switch: int, Y: Array, rate: Array) -> ContactField:

@@ -13,7 +13,10 @@ from codim2_app.export.view import view_of
 
 import codim2_core as c2
 
-TIKZ = shutil.which("kpsewhich") and subprocess.run(["kpsewhich", "tikz.sty"], capture_output=True, check=False).stdout
+BOOKTABS, TIKZ = (
+    shutil.which("kpsewhich") and subprocess.run(["kpsewhich", name], capture_output=True, check=False).stdout
+    for name in ("booktabs.sty", "tikz.sty")
+)
 COMMANDS = {
     "begin", "end", "centering", "toprule", "midrule", "bottomrule", "caption", "medskip",
     "theta", "lambda", "rho", "det", "mathrm", "pm", "cdot",
@@ -57,7 +60,7 @@ def test_words_and_numbers_in_latex():
     assert list(map(latex_number, (-0.25, 1.5e-7, 1e-15))) == ["$-0.25$", r"$1.5 \cdot 10^{-7}$", "$0$"]
 
 
-@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="no LaTeX here")
+@pytest.mark.skipif(not BOOKTABS, reason="no LaTeX with booktabs here")
 def test_latex_reads_all_of_them(tmp_path):
     whole = "\n\\clearpage\n".join(latex(view_of(key)) for key in c2.presets)
     text = f"\\documentclass{{article}}\n\\usepackage{{booktabs}}\n\\begin{{document}}\n{whole}\n\\end{{document}}\n"

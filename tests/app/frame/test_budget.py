@@ -92,19 +92,6 @@ def test_that_a_layer_has_become_quick_is_believed_by_halves():
     assert len(scene["equator"]) > 0
 
 
-def test_what_is_compiled_elsewhere_is_not_computed_here_however_quick_it_is():
-    scene, full = make_scene(typed(layers=["critical", "equator"])), []
-    budget = Budget(lambda _scene: bool(full))
-    scene.ask_before(budget.check_cost)
-    quick = dict.fromkeys(("equator", "location", "critical"), 0.001)
-    budget.record_costs(scene, BackgroundLayers({}, quick, {}))
-    full.append(True)
-    with pytest.raises(PendingLayer):
-        scene["equator"]
-    full.clear()
-    assert len(scene["equator"]) > 0
-
-
 def test_a_formula_too_wild_to_draw_is_named_so():
     values = typed(WILD, parameters={"k": 400.0}, layers=["rho", "theta", "separatrices", "critical", "equator"])
     frames, executor = budgeted(values)

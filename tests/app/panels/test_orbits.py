@@ -119,7 +119,6 @@ def test_a_start_that_was_mended_is_sent_again():
     assert frame(launch="1.5, -0.5, 0.25")["orbit"] == first
 
 
-@pytest.mark.usefixtures("called_back")
 def test_the_tick_adds_the_motion_for_eps_and_leaves_the_limit_as_it_is():
     frame = visitor(launch="1.5, -0.5, 0.25", t_end=2.0, log_eps=-3.0)
     limit = frame()["orbit"]

@@ -5,10 +5,13 @@ from urllib.request import urlopen
 
 import pytest
 from codim2_app.draw.packing import unpack
-from codim2_app.server.live import REFUSED, merge_requests
+from codim2_app.server.live import MOST_ASKED, REFUSED, LiveConnection, LivePages, merge_requests
+from codim2_app.server.session_queue import Rota
 from codim2_app.state.request_reading import MOST_CONTROLS
 from tornado.httpclient import HTTPClientError, HTTPRequest
-from tornado.websocket import WebSocketClosedError
+from tornado.httpserver import HTTPServer
+from tornado.testing import bind_unused_port
+from tornado.web import Application
 
 from tests.benchmarks.wire import Wire
 
@@ -187,20 +190,27 @@ def test_whatever_is_asked_at_once_is_answered(server):
     assert "error" in joined
 
 
-def test_more_than_a_page_asks_at_once_closes_its_line(server):
-    async def flood(wire, count, text):
+@pytest.mark.parametrize(("count", "size"), [(MOST_ASKED, 0), (2, 150_000)])
+def test_more_than_a_page_asks_at_once_closes_its_line(monkeypatch, count, size):
+    """So much may wait for its turn, and one more closes the line."""
+    monkeypatch.setattr(Rota, "ask", lambda rota, page: None)  # nobody has a turn
+
+    async def flood():
+        places = LivePages(1)
+        server = HTTPServer(Application([("/live", LiveConnection, {"places": places})]))
+        listening, port = bind_unused_port()
+        server.add_socket(listening)
+        wire = await Wire.connect(port)
+        (page,) = places.open
         for i in range(count):
-            await wire.send({"take": {"kind": "json", "id": i, "more": text}})
-        while True:
+            await wire.send({"take": {"kind": "json", "id": i, "more": "x" * size}})
+        while len(page._asked) < count:
+            await asyncio.sleep(0)
+        await wire.send({"take": {"kind": "json", "id": count, "more": "x" * size}})
+        with pytest.raises(ConnectionError):
             await wire.message()
-
-    async def ask(count, text):
-        wire = await Wire.connect(server.port)
-        with pytest.raises((ConnectionError, WebSocketClosedError)):
-            await flood(wire, count, text)
-        code = wire.socket.close_code
         await wire.vanish()
-        return code
+        server.stop()
+        return wire.socket.close_code
 
-    assert talk(ask(500, "")) in (REFUSED, None)  # None: it was closed while more was sent
-    assert talk(ask(5, "x" * 150_000)) in (REFUSED, None)
+    assert talk(flood()) == REFUSED

@@ -2,9 +2,11 @@
 
 import asyncio
 import os
+import re
 import socket
 from base64 import b64encode
-from contextlib import suppress
+from contextlib import closing, contextmanager, suppress
+from urllib.request import urlopen
 
 import pytest
 from codim2_app.server import live
@@ -13,11 +15,13 @@ from tornado.websocket import websocket_connect
 
 from tests.app.serving import serving
 from tests.benchmarks.wire import Wire
-from tests.work import PATIENCE
+from tests.work import PATIENCE, wait_until
 
 from .test_first_page import opened, refused, talk
 
 PATCHED = """import sys
+from itertools import count
+from types import SimpleNamespace
 from codim2_app.server import live, page
 {0}
 from codim2_app.server.cli import main
@@ -35,21 +39,39 @@ class Line:
                  "Sec-WebSocket-Version": "13", "Sec-WebSocket-Key": key, **headers}  # fmt: skip
         lines = "".join(f"{name}: {value}\r\n" for name, value in given.items())
         self.socket.sendall(f"GET /live HTTP/1.1\r\n{lines}\r\n".encode())
-
-    def begins(self):
-        """Whether the server lets it in, and does not close it at once."""
         heard = b""
-        while b"\r\n\r\n" not in heard or len(heard.partition(b"\r\n\r\n")[2]) < 4:
+        while len(heard.partition(b"\r\n\r\n")[2]) < 1:
             heard += self.socket.recv(4096)
-        return heard.partition(b"\r\n\r\n")[2][0] == 0x81  # a text; 0x88 closes
+        self.begins = heard.partition(b"\r\n\r\n")[2][0] == 0x81  # a text: it is let in; 0x88 closes
 
     def ends(self):
         """Read until the server has closed it."""
         with suppress(ConnectionResetError):
             while self.socket.recv(65536):
                 pass
-        self.socket.close()
         return True
+
+
+@contextmanager
+def lines_to(server):
+    """Yield what opens lines, one after the other; in the end all are closed, and the server has noticed."""
+    lines = []
+
+    def open_line(*given, **headers):
+        lines.append(Line(server.port, *given, **headers))
+        return lines[-1].begins
+
+    try:
+        yield open_line
+    finally:
+        for line in lines:
+            line.socket.close()
+        assert wait_until(lambda: pages_of(server) == 0)
+
+
+def pages_of(server):
+    with urlopen(f"http://127.0.0.1:{server.port}/metrics") as answer:
+        return int(re.search(rb"^codim2_pages(?:{.*})? (\d+)", answer.read(), re.M)[1])
 
 
 @pytest.fixture(scope="module")
@@ -61,54 +83,42 @@ def shared():
 
 def test_one_network_address_has_a_share_of_all_places(shared):
     one, other = "127.0.0.1", "127.0.0.2"
-    lines = [Line(shared.port, address) for address in (one, one, one, other, other)]
-    assert [line.begins() for line in lines] == [True, True, False, True, False]
-    for line in lines:
-        line.socket.close()
-    refused_at = "127.0.0.3"
-    again = Line(shared.port, refused_at)
-    assert again.begins()
-    again.socket.close()
+    with lines_to(shared) as let_in:
+        assert [let_in(address) for address in (one, one, one, other, other)] == [True, True, False, True, False]
+    with lines_to(shared) as let_in:
+        assert let_in(other)
 
 
 def test_a_page_beyond_the_share_is_asked_to_wait(shared):
-    lines = [Line(shared.port) for _ in range(2)]
-    assert all(line.begins() for line in lines)
-    assert refused(lambda: opened(shared)) == 503
-    for line in lines:
-        line.socket.close()
+    with lines_to(shared) as let_in:
+        assert [let_in() for _ in range(2)] == [True, True]
+        assert refused(lambda: opened(shared)) == 503
 
 
 def test_a_visitor_names_no_other_address_than_his_own(shared):
-    lines = [Line(shared.port, **{"X-Real-IP": f"10.0.0.{i}", "X-Forwarded-For": f"10.0.1.{i}"}) for i in range(3)]
-    assert [line.begins() for line in lines] == [True, True, False]
-    for line in lines:
-        line.socket.close()
+    with lines_to(shared) as let_in:
+        given = [{"X-Real-IP": f"10.0.0.{i}", "X-Forwarded-For": f"10.0.1.{i}"} for i in range(3)]
+        assert [let_in(**headers) for headers in given] == [True, True, False]
 
 
 def test_behind_a_proxy_addresses_are_the_visitors():
-    with serving("--per-address", "1", "--proxied", "--address", "127.0.0.1") as address:
-        lines = [Line(address.port, **{"X-Real-IP": one}) for one in ("10.0.0.1", "10.0.0.2", "10.0.0.1")]
-        assert [line.begins() for line in lines] == [True, True, False]
-        for line in lines:
-            line.socket.close()
+    with serving("--per-address", "1", "--proxied", "--address", "127.0.0.1") as address, lines_to(address) as let_in:
+        visitors = "10.0.0.1", "10.0.0.2", "10.0.0.1"
+        assert [let_in(**{"X-Real-IP": visitor}) for visitor in visitors] == [True, True, False]
 
 
 def test_a_page_that_answers_no_sign_of_life_has_gone():
-    with serving(
-        "--sessions", "1", "--address", "127.0.0.1", command=("-c", PATCHED.format("page.BEAT = 0.3"))
-    ) as there:
-        silent = Line(there.port)
-        assert silent.begins()
-        assert silent.ends()  # though it reads, it says nothing
+    """Who answers outlives who does not."""
+    with serving("--address", "127.0.0.1", command=("-c", PATCHED.format("page.BEAT = 2.0"))) as there:
 
         async def lives():
             wire = await Wire.connect(there.port)
-            await asyncio.sleep(1.5)  # Tornado answers for it while it is read
-            reading = asyncio.ensure_future(wire.message())
-            await asyncio.sleep(1.5)
+            silent = await asyncio.to_thread(Line, there.port)
+            with closing(silent.socket):
+                assert silent.begins
+                assert await asyncio.to_thread(silent.ends)  # though it reads, it says nothing
             await wire.send({"take": {"kind": "json", "id": 1}})
-            said = await reading
+            said = await wire.message()
             await wire.close()
             return said
 
@@ -116,14 +126,15 @@ def test_a_page_that_answers_no_sign_of_life_has_gone():
 
 
 def test_a_page_that_has_rested_gives_its_place_to_one_that_comes():
-    """Not one that is in a room, nor one that asks."""
-    with serving("--sessions", "3", command=("-c", PATCHED.format("live.RESTING_SECONDS = 0.4"))) as there:
+    """Not one that is in a room, nor one that asks; the server's clock counts what it is asked."""
+    clock = "live.time, live.RESTING_SECONDS = SimpleNamespace(monotonic=count().__next__), 10"
+    with serving("--sessions", "3", command=("-c", PATCHED.format(clock))) as there:
 
         async def come():
             lecturer, resting, busy = [await Wire.connect(there.port) for _ in range(3)]
             await lecturer.ask("room", {"open": ""})
-            await asyncio.sleep(0.6)
-            await busy.frame(1, a=-1.5)
+            for i in range(10):
+                await busy.frame(i, a=-1.5 - 0.01 * i)
             new = await Wire.connect(there.port)
             with pytest.raises(ConnectionError):
                 await resting.message()
@@ -142,7 +153,7 @@ def test_a_page_that_has_rested_gives_its_place_to_one_that_comes():
 def test_pages_that_come_back_together_come_one_after_the_other(monkeypatch):
     monkeypatch.setattr(live.time, "monotonic", lambda: 100.0)
     places = LivePages(10)
-    assert [places.turn_of_return() for _ in range(4)] == [0.0, 0.05, 0.1, 0.15]
+    assert [places.turn_of_return() for _ in range(4)] == [0.0, 0.03, 0.06, 0.09]
     assert max(places.turn_of_return() for _ in range(10_000)) == live.MAX_RETURN_SECONDS
     monkeypatch.setattr(live.time, "monotonic", lambda: 200.0)
     assert places.turn_of_return() == 0.0

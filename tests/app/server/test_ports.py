@@ -8,11 +8,12 @@ from contextlib import closing, nullcontext
 import pytest
 from codim2_app.server.process import ports
 
+from tests.work import PATIENCE
+
 CODE = """import os, sys, urllib.request
 from codim2_app.server import page
-from tornado.web import RequestHandler
 
-class Who(RequestHandler):
+class Who(page.Health):
     def get(self):
         self.write(str(os.getpid()))
 
@@ -41,12 +42,12 @@ def test_visitors_are_shared_out_among_the_processes():
         assert 8 < came.count(came[0]) < 56  # by chance this fails once in 10^9 times
     finally:
         process.terminate()
-        process.wait(10)
+        process.wait(PATIENCE)
         process.stdout.close()
 
 
 def who(port):
-    with socket.create_connection(("localhost", port), 20) as asking:
+    with socket.create_connection(("localhost", port), PATIENCE) as asking:
         asking.sendall(b"GET /health HTTP/1.0\r\n\r\n")
         answer = b""
         while piece := asking.recv(4096):

@@ -18,7 +18,6 @@ from codim2_app.view.warmup import is_ready
 import codim2_core as c2
 from codim2_core.portrait.classification import NEARER
 from tests.app.near import gaps
-from tests.work import wait_until
 
 from .asking import ask
 
@@ -180,11 +179,11 @@ def test_presets_draw_their_portrait(frames, portrait):
         assert header["critical"]["kind"] == [kind]
 
 
-def test_a_new_custom_psi_is_compiled_in_the_background():
-    psi = c2.psi.custom("1/(1 + s/7)**4")
-    assert not is_ready(psi)  # and so the frame goes out at once, without trajectories
-    assert any(thread.name == "codim2-compile" for thread in threading.enumerate())
-    assert wait_until(lambda: is_ready(psi))
+def test_a_new_custom_psi_is_drawn_at_once():
+    assert is_ready(c2.psi.tanh())
+    threads = threading.active_count()
+    assert is_ready(c2.psi.custom("1/(1 + s/7)**4"))
+    assert threading.active_count() == threads  # nothing is compiled for it
 
 
 KEYS = [item["key"] for item in portraits()]
@@ -258,7 +257,7 @@ class NoBackground(Executor):
 
 
 def test_cycles_that_are_not_there_yet_keep_no_frame_waiting():
-    frames = Frames(ExplorerState(), budget=Budget(lambda *_: True))
+    frames = Frames(ExplorerState(), budget=Budget())
     frames.jobs = Jobs(NoBackground())
     frames.answer({"all": True})
     header, _ = unpack(frames.answer({"set": {"psi": "custom", "psi_text": "1/(1+s)**3"}}))

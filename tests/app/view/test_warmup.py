@@ -16,12 +16,9 @@ from codim2_app.view.compiling import once, process, steps
 from codim2_app.view.compiling.once import alone, hold_name, lock_path
 from codim2_app.view.compiling.process import CompilerProcess
 from codim2_app.view.refresh import Frames
-from codim2_app.view.warmup import MIN_SETTINGS, MOST_COMPILED, FormulaQuota
 
 import codim2_core as c2
 from codim2_core.jit import policy
-from codim2_core.stepping import fields_typed as typed_fields
-from codim2_core.stepping import psi_gain as stepping
 from tests.core.jit.fresh import computed
 from tests.work import wait_until
 
@@ -114,61 +111,6 @@ def test_a_server_starts_without_what_its_first_picture_does_not_need():
     late = "'scipy.integrate', 'scipy.optimize', 'scipy.special', 'holoviews', 'pandas', 'matplotlib', 'IPython'"
     code = f"import sys, codim2_app.server.page; found = {{{late}}} & set(sys.modules); assert not found, found"
     subprocess.run([sys.executable, "-c", code], check=True)
-
-
-@pytest.fixture
-def compiled(monkeypatch):
-    """What has been compiled, in a process that is ready, and that compiles nothing in truth."""
-    made = []
-    monkeypatch.setattr(warmup, "outcome", "ready")
-    monkeypatch.setattr(warmup, "_threads", {})
-    monkeypatch.setattr(warmup, "_formulas", set())
-    monkeypatch.setattr(warmup, "is_warm", lambda psi=None, _=None: psi is None or not psi.expression or psi in made)
-    monkeypatch.setattr(warmup, "warm", lambda psi, _: made.append(psi))
-    yield made
-    for thread in warmup._threads.values():
-        thread.join()
-
-
-def typed(k, f1=0.0):
-    return c2.Scene(c2.ELinear(-1.0, 0.2, -1.3, (f1, 0.1)), c2.psi.custom(f"1/({k}+s)"))
-
-
-def dragged(quota, k, settings=MIN_SETTINGS + 2):
-    """Whether the last of some settings of a formula is left to the workers."""
-    there = [quota.elsewhere(typed(k, 0.01 * i)) for i in range(settings)]
-    for thread in list(warmup._threads.values()):
-        thread.join()
-    return quota.elsewhere(typed(k)) if there[-1] else there[-1]
-
-
-def test_texts_that_are_typed_are_compiled_by_workers_only(compiled):
-    """Sixty in a row, each drawn and drawn again at rest: nothing of the process is used up."""
-    quota = FormulaQuota()
-    for k in range(60):
-        assert warmup.is_ready_for_all(typed(k + 1).psi, typed(k + 1).system)
-        assert all(quota.elsewhere(typed(k + 1)) for _ in range(20))  # each layer asks
-    assert compiled == []
-
-
-def test_a_formula_that_is_moved_is_compiled_here(compiled):
-    quota = FormulaQuota()
-    assert not dragged(quota, 1)
-    assert compiled == [typed(1).psi]
-    assert not FormulaQuota().elsewhere(typed(1))  # for all pages
-    assert not FormulaQuota().elsewhere(typed(1).evolve(psi=c2.psi.tanh()))
-
-
-def test_a_page_and_a_process_compile_so_many_formulas_and_keep_them_all(compiled, monkeypatch):
-    monkeypatch.setattr(warmup, "MOST_COMPILED", 5)
-    monkeypatch.setattr(warmup, "MAX_PAGE_FORMULAS", 3)
-    pages = FormulaQuota(), FormulaQuota()
-    assert [dragged(pages[0], k) for k in (1, 2, 3, 4)] == [False, False, False, True]
-    assert [dragged(pages[1], k) for k in (1, 4, 5, 6)] == [False, False, False, True]
-    assert len(compiled) == 5
-    assert warmup.is_ready_for_all(typed(6).psi, typed(6).system)  # by workers
-    assert stepping.MOST_EXPRESSIONS >= MOST_COMPILED
-    assert typed_fields.MOST_SYSTEMS >= MOST_COMPILED
 
 
 @pytest.fixture
@@ -304,7 +246,7 @@ from codim2_app.view.refresh import Frames
 warmup.start()
 while not warmup._cold.is_set():
     time.sleep(0.01)
-frames = Frames(ExplorerState(), None, warmup.is_ready_for_all, budget=Budget())
+frames = Frames(ExplorerState(), None, warmup.is_ready, budget=Budget())
 asked = {"all": True}, {"set": {"f1": 0.05}}, {"set": {"f1": 0.1}}, {"rest": True}
 found = [unpack(frames.answer(one))[0]["ready"] for one in asked], len(frames.scene["inside"].points)
 """

@@ -36,7 +36,7 @@ FOLD = fold, (0.0, 0.0, 0.3), 1.0, families.constant(), "C₁ ends in a fold (de
 EQUATOR = equator, (0.3, -0.2, 0.1), 3.0, families.tanh(), "C reaches the equator (Figure 19), so sliding ends"
 
 
-@pytest.mark.parametrize(("case", "way"), [*((FOLD, way) for way in WAYS[:2]), *((EQUATOR, way) for way in WAYS)])
+@pytest.mark.parametrize(("case", "way"), [(FOLD, WAYS[0]), *((EQUATOR, way) for way in WAYS)])
 def test_a_motion_and_its_limit_are_the_same_in_another_unit_of_time(monkeypatch, case, way):
     system, state0, t, psi, end = case  # … and what is said of its last phase
     follow(monkeypatch, way)

@@ -7,6 +7,7 @@ import {Room} from "../../../../app/static/room/room.js"
 import "../../../../app/static/panels/atlas.js"
 import {page} from "../played/page.js"
 import {near, opened} from "../played/reading.js"
+import {qrAddress} from "../../../../app/static/page/qr_code.js"
 import {FIRST as HEADER, memory, wired} from "../played/wiring.js"
 
 const FIRST = {a: -2, b: 0, d: -1, f1: -0.5, f2: 0, system: "normal", texts: {}, parameters: {}, z: 0, z2: 0, z3: 0, z4: 0, k1: 0.5, k2: 0, B1: 1, psi: "constant", n: 2, psi_text: "1"}
@@ -119,7 +120,7 @@ test("a lecturer opens a room, is told of the phones, and closes it", async () =
   assert.equal(one.room.hear({room: {open: "BCDF", key: "secret"}}), true)
   assert.deepEqual([one.said(), one.kept(), one.dialog.open], [["changed", "opened"], {key: "secret"}, true])
   await one.shown()
-  assert.equal(decodeURIComponent(one.dialog.querySelector(".qr").src), "http://h/qr.svg?text=http://h/x/?room=BCDF&v=1&f1=1".replace("/qr", "/x/qr"))
+  assert.equal(one.dialog.querySelector(".qr").src, qrAddress("http://h/x/?room=BCDF&v=1&f1=1"))
   assert.deepEqual([".room-code", ".room-address", ".room-count"].map((it) => one.dialog.querySelector(it).textContent), ["BCDF", "h/x/?room=BCDF", "0 phones"])
   one.room.hear({room: {rows: [row(1, "CM4", {})]}})
   assert.deepEqual([one.room.rows?.length, one.said(), one.dialog.querySelector(".room-count").textContent], [1, ["changed"], "1 phone"])

@@ -22,15 +22,16 @@ TANH, HILL = families.tanh(), families.hill(3)
 
 def placed(system, z, psi=TANH):
     """The workspace that the kernels read, with z in place."""
-    S, own = np.zeros(slow.SLOW_EXTENT), functions_of(field(system), psi, many=True).addresses
-    S[slow.VALUE : slow.SLOPES + 1] = own[:2].view(float)
+    S, own = np.zeros(slow.SLOW_EXTENT), functions_of(field(system), psi)
+    own.enter(S)
+    S[slow.VALUE : slow.SLOPES + 1] = own.addresses[:2].view(float)
     S[slow.SLOW_RATES] = len(z)
     S[slow.SET_PLACE + 4 : slow.SET_PLACE + 4 + len(z)] = z
     return S
 
 
 def motion_of(system, psi, eps, rtol=1e-6, floor=0.01, line=(0.0, 0.0)):
-    own = functions_of(field(system), psi, many=True).addresses.tolist()
+    own = functions_of(field(system), psi).addresses.tolist()
     return MotionConstants(*own, 2 + system.m, eps, rtol, floor, *line, 0.0)
 
 

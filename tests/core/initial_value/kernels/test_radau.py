@@ -7,10 +7,10 @@ import pytest
 
 from codim2_core.initial_value.field import field
 from codim2_core.initial_value.kernels import radau
-from codim2_core.initial_value.kernels.stages import tableau_of, workspace
+from codim2_core.initial_value.kernels.stages import tableau_of, work_on
 from codim2_core.initial_value.motion_steps import numbers_of_tableau, rate_at
 
-from .placing import CURVED, TANH, motion_of
+from .placing import CURVED, TANH, motion_of, placed
 
 TABLE = tableau_of(numbers_of_tableau())
 STATES = [(0.4, 0.3, 0.7, -0.2), (-0.02, 0.01, 1.3, 0.5)]
@@ -23,7 +23,7 @@ def test_its_stages_solve_the_collocation_and_its_end_is_as_near_as_it_says(y, e
     told = []
     for rtol in (1e-3, 1e-6):
         for h in math.hypot(y[0], y[1], eps) * np.array([0.03, 0.3, 1.0, 4.0, 30.0]):
-            state, work, clock = np.array(y), workspace(4, 0.0), np.zeros(4)
+            state, work, clock = np.array(y), work_on(placed(CURVED, ()), 4), np.zeros(4)
             motion = motion_of(CURVED, TANH, eps, rtol)
             radau.linearise(motion, state, h, clock, work)
             accepted, _ = radau.attempt(motion, TABLE, state, h, 0.0, False, clock, work)
