@@ -80,7 +80,7 @@ class SystemFamily:
                 row = row.substitute(name, parse(repr(value), ()))
         return row
 
-    @property
+    @cached_property
     def affine(self) -> bool:
         """Whether U is affine in e: then critical sets do not meet."""
         return all(
@@ -167,6 +167,10 @@ class SystemFamily:
     def on_net(self, c: Array, s: Array, *u: Array) -> tuple[Array, Array]:
         """Return U (2, ...) over `size` and its derivatives by e (2, 2, ...) at many places at once."""
         places = np.broadcast_arrays(c, s, *u)
+        if self.affine:  # a few numbers, which need no compiler
+            shape, D = places[0].shape, [[row.derivative(name) for name in "cs"] for row in self.unit_rows]
+            values = [_evaluate_row(row, places, shape) for row in (*self.unit_rows, *D[0], *D[1])]
+            return np.stack(values[:2]), np.stack(values[2:]).reshape(2, 2, *shape)
         rows = program((self.unit_rows, ())).evaluate(np.stack([v.ravel() for v in places], axis=-1))
         found = np.moveaxis(rows, 0, -1).reshape(2, 3, *places[0].shape)
         return found[:, 0], found[:, 1:]
