@@ -61,7 +61,8 @@ SENTENCES: dict[str, Sentence] = {
         "the websocket is refused, or closed before the explorer has begun",
     ),
     "compiling": Sentence(
-        "The integrator is being compiled, once. Trajectories are sketched meanwhile.", "before the compiler is done"
+        "The integrator is being compiled, once. Trajectories are drawn at rest meanwhile.",
+        "before the compiler is done",
     ),
     "outside the class": Sentence(
         "This Ψ violates {which} of Definition 2.3, which the paper’s results assume.", "Ψ breaks a condition"

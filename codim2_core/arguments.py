@@ -10,6 +10,7 @@ import inspect
 import reprlib
 from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from .arrays import Array
-from .earlier_spellings import earlier_spelling
 from .psi.constructors import from_text
 from .psi.function import Psi
 from .systems.coefficients import Coefficients
@@ -33,6 +33,11 @@ ZERO_TOO = (
     ("response_curve", "eps"),
     ("lyapunov_exponents", "eps"),
 )  # stands for a limit there
+#: Functions of the plane (f1, f2) that take a, b, d in the place of a system.
+PLANE_FUNCTIONS = frozenset({
+    "saddle_node", "critical_boundary", "closed_equator", "regions", "hopf", "node_focus", "cycle_folds",
+    "heteroclinic",
+})  # fmt: skip
 POSITIVE = ("period", "eps", "rtol", "atol", "t_max", "pixel", "tolerance", "length", "capture", "view")
 
 _SHORT = reprlib.Repr()
@@ -269,6 +274,15 @@ def _check(owner: str, parameter: inspect.Parameter) -> Check:
     return BY_ANNOTATION[annotation]
 
 
+def _system_of_numbers(given: tuple[Any, ...], named: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """Return arguments in which a, b, d, by place or by name, are the system that they make."""
+    if len(given) > 2 and all(isinstance(one, Real) for one in given[:3]):
+        return (ELinear(*given[:3]), *given[3:]), named
+    if not given and {"a", "b", "d"} <= named.keys():
+        return (ELinear(*(named.pop(name) for name in ("a", "b", "d"))),), named
+    return given, named
+
+
 def with_checks(function: Callable[..., Any], module: str, named_setting: Setting | None = None) -> Callable[..., Any]:
     """Return a function that checks what it is given, under the name by which a module offers it.
 
@@ -286,13 +300,13 @@ def with_checks(function: Callable[..., Any], module: str, named_setting: Settin
     may = [frozenset(parameters) - {name for name, *_ in in_order[:n]} for n in range(len(in_order) + 1)]
     must = [{name for name in names if defaults[name] is inspect.Parameter.empty} for names in may]
 
-    earlier = earlier_spelling(function.__name__)
+    takes_numbers = function.__name__ in PLANE_FUNCTIONS
     by_name = named_setting if next(iter(parameters), "") == "system" else None
 
     @wraps(function)
     def door(*given: Any, **named: Any) -> Any:
-        if earlier is not None and (now := earlier(given, named)) is not None:
-            given, named = now
+        if takes_numbers:
+            given, named = _system_of_numbers(given, named)
         if by_name is not None and isinstance(asked := given[0] if given else named.get("system"), str):
             setting = {name: value for name, value in by_name(asked).items() if name in parameters}
             there = dict(zip((name for name, *_ in in_order), given, strict=False))

@@ -42,8 +42,6 @@ class Part:
         Whether arrowheads tell the sense of time.
     even : bool
         Whether curves end where they would come too near to one another, see `spacing`.
-    sketch : str
-        The layer of the scene that is drawn while the kernels of the other are compiled.
     owners : callable, optional
         Takes what the scene holds, and names the object that each curve is of: U1, L2, S3, O4.
     """
@@ -56,7 +54,6 @@ class Part:
     dash: tuple[float, ...] = ()
     arrows: bool = False
     even: bool = False
-    sketch: str = ""
     owners: Callable[[Any], list[str]] | None = None
 
 
@@ -78,7 +75,7 @@ class Layer:
     hidden : bool
         Until it is asked for.
     compiled : bool
-        Made by the compiled integrator: until that is ready it is sketched, or left out.
+        Made by the compiled integrator: until that is ready it is left out.
     tip : str
         What it is, for its tooltip.
     optional : bool
@@ -148,13 +145,13 @@ _ROWS = (
     Layer(
         "outside", "Orbits outside", 50, compiled=True, first=True, colours={"outside": ("#a3b1c2", "#5c6a7d")},
         parts=(
-            Part("outside", "outside", 1.2, "outside", _orbit_lines, arrows=True, even=True, sketch="outside_sketch"),
+            Part("outside", "outside", 1.2, "outside", _orbit_lines, arrows=True, even=True),
         ),
         tip="The system without regularisation, at radius 1 + |(x, y)|; arrows tell the sense of time.",
     ),
     Layer(
         "inside", "Orbits inside", 60, compiled=True, first=True, colours={"orbit": ("#5f7186", "#aebccc")},
-        parts=(Part("inside", "orbit", 1.4, "inside", _orbit_lines, arrows=True, even=True, sketch="inside_sketch"),),
+        parts=(Part("inside", "orbit", 1.4, "inside", _orbit_lines, arrows=True, even=True),),
         tip="Orbits of the layer problem, projected from the hemisphere.",
     ),
     Layer(

@@ -50,8 +50,6 @@ WORDS = {
     "inside": "trajectories",
     "outside": "trajectories outside",
     "conics": "the hyperbola",
-    "inside_sketch": "trajectories",
-    "outside_sketch": "trajectories outside",
     "continuations": "continuations",
     "closed_orbits": "limit cycles",
     "cycles": "limit cycles",

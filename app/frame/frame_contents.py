@@ -137,10 +137,7 @@ def _changed_blocks(
         if layer.name not in layers:
             continue
         for part in layer.parts:
-            source = part.sketch if layer.compiled and not ready else part.scene
-            if not source:
-                continue
-            result = asked.get(source)
+            result = asked.get(part.scene) if ready or not layer.compiled else NOT_DRAWN
             if result is LATER:
                 continue
             if result is NOT_DRAWN:

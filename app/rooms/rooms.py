@@ -57,6 +57,11 @@ class Host:
     address: str = ""
     had_guest: bool = False
 
+    def release_page(self) -> Tell | None:
+        """Hold nothing of the lecturer's page any more; return what it was told by."""
+        tell, self.tell, self.view = self.tell, None, dict
+        return tell
+
     def is_open(self, now: float) -> bool:
         """Say whether the room is open."""
         waits = self.tell is not None or now - self.left < LINGERS
@@ -157,7 +162,8 @@ class Rooms:
         now = time.monotonic() if now is None else now
         host = self.hosts.get(code)
         if host is not None and host.tell is tell:  # else another page holds the room by now
-            host.tell, host.left = None, now
+            host.release_page()
+            host.left = now
             if not host.had_guest and not self._rows(code, now):
                 del self.hosts[code]
                 self._write(now)
@@ -167,7 +173,7 @@ class Rooms:
         now = time.monotonic() if now is None else now
         host = self.hosts.get(code)
         if host is not None and not host.closed:
-            tell, host.tell, host.closed = host.tell, None, now
+            tell, host.closed = host.release_page(), now
             if tell is not None:
                 tell({"ended": code})
             self.tick(now)
@@ -246,7 +252,7 @@ class Rooms:
         now = time.monotonic() if now is None else now
         for code, host in list(self.hosts.items()):
             if not host.closed and not host.is_open(now):
-                tell, host.closed, host.tell = host.tell, now, None
+                tell, host.closed = host.release_page(), now
                 if tell is not None:
                     tell({"ended": code})
             if host.closed and now - host.closed > CLOSED_SECONDS:
@@ -255,7 +261,8 @@ class Rooms:
         states = self._states(now)
         for code, host in self.hosts.items():
             if states.get(code) == "closed" and not host.closed:  # by another process
-                host.closed, host.tell = now, None
+                host.release_page()
+                host.closed = now
         for guest in list(self.guests.values()):
             state = states.get(guest.code)
             guest.missed = 0.0 if state == "open" else guest.missed or now

@@ -61,7 +61,7 @@ export const SAYS = {
   stillFigure: "This figure cannot be moved here.",
   starting: "Starting the mathematics …",
   follows: "This system takes longer than one frame; its picture follows …",
-  compiling: "Compiling once; trajectories are sketched meanwhile …",
+  compiling: "Compiling once; trajectories are drawn at rest meanwhile …",
   looking: "Looking for limit cycles …",
   following: "Following the periodic motion …",
   drawnNormal: "a, b, d, f₁, f₂ are independent and standard normal: one choice among others.",

@@ -66,7 +66,7 @@ class Frames:
         Drawn instead of one that the controls choose.
     ready : callable, optional
         Says whether all layers of this Psi and system can be drawn without waiting, also while a control may be moving;
-        until then trajectories are sketched.
+        until then trajectories are left out.
     errors : sequence of InputError
         What the address asked for in vain, told with the first frames.
     budget : Budget, optional

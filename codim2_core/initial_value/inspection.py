@@ -104,15 +104,18 @@ class Inspection:
             paths[:, 2:4] = 0.0
         ends = np.stack([first, steps.ends])
         told = np.zeros(4)
+        broken = ~np.isfinite(steps.polynomials).all(axis=(1, 2))  # a stage beyond the step, of its dense output
+        whole = int(np.argmax(broken)) if broken.any() else len(paths)
         k = first_defect(
-            *self.program.arrays, paths, steps.lengths, *self._allowed(ends, paths[:, :2].sum(axis=2)), told
-        )
+            *self.program.arrays, paths[:whole], steps.lengths[:whole],
+            *(one[:whole] for one in self._allowed(ends, paths[:, :2].sum(axis=2))), told,
+        )  # fmt: skip
         self.undecided += int(told[3])
-        cut = None
-        if k < len(paths):
+        cut = Cut(whole, 0.0, float(RETRY_SHARE * steps.lengths[whole]), None) if whole < len(paths) else None
+        if k < whole:
             leaves = self._leaves_line(paths[k], told[0] + 0.5 * told[1])
             cut = Cut(k, float(told[0]), float(RETRY_SHARE * told[1] * steps.lengths[k]), None, leaves)
-        return self._first_switch(paths[: k + 1], cut)
+        return self._first_switch(paths[: min(k + 1, whole)], cut)
 
     def _leaves_line(self, path: Array, u: float) -> bool:
         """Whether U leads out of the invariant line at a place of a step."""

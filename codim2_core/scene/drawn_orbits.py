@@ -11,7 +11,6 @@ from ..layer_problem.problem import LayerProblem, found_once
 from ..orbits.both_directions import Orbits
 from ..orbits.duration import drawn_duration, is_stiff
 from ..orbits.seeds import ring, structured_seeds, window_seeds
-from ..orbits.sketch import Sketch, sketch
 from ..orbits.trajectories import Trajectories, continuation, trajectories
 from ..portrait.omega_limits import radially_neutral_ones
 from ..psi import constructors
@@ -91,13 +90,6 @@ def orbits(setting: SceneSetting, outside: bool) -> Orbits:
         trajectories(setting.coefficients, psi, seeds, backward=back, **options) for back in (True, False)
     ]
     return Orbits(backward, forward)
-
-
-def sketch_orbits(setting: SceneSetting, outside: bool) -> Sketch:
-    """Sketch the same orbits, without the kernels."""
-    options = _stepping_options(setting, outside)
-    wanted = {name: options[name] for name in ("t_max", "length", "view")}
-    return sketch(setting.coefficients, setting.psi, orbit_starts(setting, outside), **wanted)
 
 
 def continuations(setting: SceneSetting) -> Trajectories:

@@ -22,7 +22,7 @@ from ..portrait.separatrices import Separatrices, separatrices_of
 from ..sliding.flow import flow_on
 from ..systems.bounds import MIN_NUMBER
 from ..theorems.certificates import Certificate, certificates_of
-from .drawn_orbits import continuations, orbits, seeds_of, sketch_orbits
+from .drawn_orbits import continuations, orbits, seeds_of
 from .launched_orbits import LaunchedOrbits, launched_orbits
 from .setting import SceneSetting
 
@@ -140,8 +140,6 @@ layers: Mapping[str, Recipe] = MappingProxyType(
         "conics": Recipe(("plane", "view", "closely"), _conics),
         "inside": Recipe(("plane", "psi", "inner seeds", *_STEPPED), lambda s: orbits(s, outside=False)),
         "outside": Recipe(("plane", "outer seeds", "view", *_STEPPED), lambda s: orbits(s, outside=True)),
-        "inside_sketch": Recipe(("plane", "psi", "inner seeds", "time"), lambda s: sketch_orbits(s, outside=False)),
-        "outside_sketch": Recipe(("plane", "outer seeds", "view", "time"), lambda s: sketch_orbits(s, outside=True)),
         "continuations": Recipe(("plane", "psi", *_STEPPED), continuations),
         "closed_orbits": Recipe(("plane", "psi"), lambda s: closed_orbits.compute(s.problem)),
         "cycles": Recipe(("plane", "slow", "psi"), lambda s: cycles_of.compute(s.problem)),

@@ -19,8 +19,7 @@ from codim2_core.scene.layer_table import regions_of
 
 TRAJECTORIES = ("inside", "outside")
 ON_REQUEST = ("separatrices", "regions", "certificates", "outcomes")  # only when a person asks, or at rest
-UNTIL_COMPILED = ("inside_sketch", "outside_sketch")  # stand for trajectories while their kernels are compiled
-LAYERS = tuple(name for name in layers if name not in UNTIL_COMPILED)
+LAYERS = tuple(layers)
 PICTURE = tuple(name for name in LAYERS if name not in ON_REQUEST)  # what a frame of the explorer computes
 
 

@@ -1,4 +1,4 @@
-"""One grammar for all public functions: names for systems and Psi, what calls were spelt like before, and results."""
+"""One grammar for all public functions: names for systems and Psi, numbers for a system, and results."""
 
 import pickle
 
@@ -17,31 +17,6 @@ STATE = (1.0, 0.0, 1.0, 0.0)
 MATRIX = c2.ELinear(1.0, 1.3, -1.2)
 
 SPELLINGS = {
-    "eps in the third place": (
-        lambda: c2.simulate(BALL, ONE, 1e-3, STATE, (0.0, 0.1)),
-        lambda: c2.simulate(BALL, ONE, STATE, (0.0, 0.1), eps=1e-3),
-    ),
-    "a span in the third place": (
-        lambda: c2.slow_portrait(TURNING, ONE, (-1.0, 1.0)),
-        lambda: c2.slow_portrait(TURNING, ONE, "z1", (-1.0, 1.0)),
-    ),
-    "a number of an axis": (
-        lambda: c2.slow_portrait(BALL, ONE, span=(-1.0, 1.0), axis=1, count=5),
-        lambda: c2.slow_portrait(BALL, ONE, along="z2", span=(-1.0, 1.0), count=5),
-    ),
-    "spans in the fourth place": (
-        lambda: c2.delays(TURNING, ONE, (-0.6,), [(-1.0, 1.0)]),
-        lambda: c2.delays(TURNING, ONE, (-0.6,), {"z1": (-1.0, 1.0)}),
-    ),
-    "spans by name": (
-        lambda: c2.delays(TURNING, ONE, z=(-0.6,), spans=[(-1.0, 1.0)]),
-        lambda: c2.delays(TURNING, ONE, z=(-0.6,), ranges={"z": (-1.0, 1.0)}),
-    ),
-    "across and up": (
-        lambda: c2.atlas(SADDLE, ONE, across="f1", up="f2", ranges=((-2, 2), (-1, 1))),
-        lambda: c2.atlas(SADDLE, ONE, {"f1": (-2, 2), "f2": (-1, 1)}),
-    ),
-    "two names by place": (lambda: c2.atlas(SADDLE, ONE, "f1", "f2"), lambda: c2.atlas(SADDLE, ONE, ("f1", "f2"))),
     **{
         f"a, b, d of {name}": (
             lambda name=name, psi=psi: getattr(c2.bifurcations, name)(1.0, 1.3, -1.2, *psi),
@@ -60,11 +35,9 @@ SPELLINGS = {
 
 
 @pytest.mark.parametrize("what", SPELLINGS)
-def test_an_earlier_spelling_is_read_with_a_warning(what):
+def test_three_numbers_stand_for_a_system_where_only_the_plane_is_asked(what):
     before, now = SPELLINGS[what]
-    with pytest.warns(DeprecationWarning, match="write "):
-        found = before()
-    assert found == now()
+    assert before() == now()
 
 
 NAMED = [f for f, given in GOOD.items() if given.get("psi") == c2.psi.tanh() and f not in SLOW]

@@ -54,7 +54,7 @@ def test_a_clock_that_is_set_ends_no_session_and_holds_up_nothing(machine, by):
     async def talk():
         lecturer, phone, typist = [await opened(port) for _ in range(3)]
         code = (await lecturer.ask("room", {"open": ""}))["open"]
-        assert await phone.ask("room", {"join": code}) == {"joined": code}
+        assert (await phone.ask("room", {"join": code}))["joined"] == code
         await told(lecturer, lambda answer: len(answer.get("rows", ())) == 1)
 
         offset.write_text(str(float(offset.read_text()) + by))
@@ -63,7 +63,7 @@ def test_a_clock_that_is_set_ends_no_session_and_holds_up_nothing(machine, by):
             header, _ = unpack(await wire.frame(number + 2, a=-1.1 - 0.1 * number))
             assert header["id"] == number + 2
         later = await opened(port)  # the room is open, and its lecturer sees who comes
-        assert await later.ask("room", {"join": code}) == {"joined": code}
+        assert (await later.ask("room", {"join": code}))["joined"] == code
         await told(lecturer, lambda answer: len(answer.get("rows", ())) == 2)
 
         await typist.frame(1, **TYPED)

@@ -29,9 +29,7 @@ PORTRAITS = [
 ]
 CHANGES = [0.0, 2.0**-52, -(2.0**-52), 1e-8, -1e-8]  # 1 + 1e-16 is 1
 
-# Sketches stand until the kernels are compiled: most of a scene's time, in Python, and asked of every third one.
 EVERY = tuple(layers)
-COMPILED = tuple(name for name in layers if not name.endswith("_sketch"))
 
 
 @by_name
@@ -39,15 +37,13 @@ COMPILED = tuple(name for name in layers if not name.endswith("_sketch"))
 def test_every_layer_on_and_beside_a_stratum(stratum, change):
     paths = stratum.paths.split()
     k = STRATA.index(stratum) + round(-np.log10(abs(change) or 1e-3))
-    names = EVERY if (STRATA.index(stratum) + CHANGES.index(change)) % 3 == 0 else COMPILED
-    check_scene(stratum.moved(paths[k % len(paths)], change), stratum.psi or FAMILIES[k % len(FAMILIES)], names)
+    check_scene(stratum.moved(paths[k % len(paths)], change), stratum.psi or FAMILIES[k % len(FAMILIES)], EVERY)
 
 
 @pytest.mark.parametrize("plane", PORTRAITS, ids=["I, nodes", "I, slow focus", "II", "III", "none"])
 @pytest.mark.parametrize("regularisation", EXTREMES, ids=lambda p: p.text)
 def test_every_layer_with_an_extreme_psi(regularisation, plane):
-    sketched = (EXTREMES.index(regularisation) + PORTRAITS.index(plane)) % 3 == 0
-    check_scene(plane, regularisation, EVERY if sketched else COMPILED)
+    check_scene(plane, regularisation, EVERY)
 
 
 @pytest.mark.parametrize("regularisation", EXTREMES, ids=lambda p: p.text)
@@ -102,7 +98,7 @@ def test_seeds_at_equilibria_stay_or_leave_without_noise():
 def test_random_systems_at_any_scale(values, power, regularisation):
     plane = tuple(v * 10.0**power for v in values)
     if max(map(abs, plane)) >= 1e-150:
-        check_scene(plane, regularisation, COMPILED)
+        check_scene(plane, regularisation, EVERY)
 
 
 @pytest.mark.parametrize("tolerance", [1e-14, 1e-3, 0.1])

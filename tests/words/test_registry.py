@@ -17,7 +17,6 @@ ASIDE = {
     "examples": "what a system is, data",
     "reference": "what moves, and where it is from, data; its values are held in tests/core/reference",
     "arguments.py": "what may be given",
-    "earlier_spellings.py": "how a call is written now",
     "expressions": "how a text is to be written",
     "conditions.py": "conditions of Ψ, held in tests/core/psi",
     "hill.py": "conditions of Ψ, held in tests/core/psi",

@@ -1,5 +1,7 @@
 """Rooms: opened, entered, told, ended; in one process and in several; and their bounds."""
 
+from weakref import ref
+
 import pytest
 from codim2_app.rooms import rooms as module
 from codim2_app.rooms.board import Board
@@ -302,3 +304,15 @@ def test_half_a_character_is_a_key_like_any_other():
     rooms = Rooms()
     code, key = rooms.open("\ud800", Page().tell, 0.0)
     assert rooms.open(key, Page().tell, 1.0) == (code, key)
+
+
+@pytest.mark.parametrize("ends", ["leaves", "closes"])
+def test_a_room_that_outlives_its_lecturers_page_holds_nothing_of_it(ends):
+    rooms, page = Rooms(), Page()
+    tell, held = page.tell, ref(page)
+    code, _ = rooms.open("", tell, 0.0, page.look)
+    rooms.join(code, Page().look, Page().tell, 0.0)
+    rooms.leave_open(code, tell, 1.0) if ends == "leaves" else rooms.close(code, 1.0)
+    assert code in rooms.hosts
+    del page, tell
+    assert held() is None

@@ -2,7 +2,6 @@ import math
 import threading
 from concurrent.futures import Executor, Future
 
-import numpy as np
 import pytest
 from codim2_app.draw.layers import LAYERS
 from codim2_app.draw.lines.spacing import SEPARATION
@@ -142,11 +141,7 @@ def test_cold_integrator_sends_closed_forms_then_the_rest():
     assert header["ready"] is False
     assert header["portrait"]["name"] == "CM4"
     assert not frames.scene.runs.get("inside")
-    for name in ("inside", "outside"):  # sketched
-        assert len(blocks[f"{name}.n"]) > 10
-        sketch = frames.scene[f"{name}_sketch"]
-        lines = np.split(sketch.buffer, sketch.offsets[1:-1])
-        assert gaps(INT16_STEP * blocks[f"{name}.xy"].reshape(-1, 2), lines).max() < INT16_STEP
+    assert not len(blocks["inside.n"])  # those of another setting are gone
     ready[0] = True
     header, sent = ask(frames)
     assert header["ready"] is True

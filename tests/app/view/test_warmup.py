@@ -164,7 +164,7 @@ def test_what_is_not_on_disk_is_loaded_once_another_process_has_compiled_it(begu
     assert warmup._compiler.starts == 1
     assert policy.is_left()  # to it: kernels run as Python
     assert warmup.is_ready(begin_with.psi, begin_with.system)
-    assert not warmup.is_ready(begin_with.psi, begin_with.system, moving=True)  # sketched, as that is faster
+    assert not warmup.is_ready(begin_with.psi, begin_with.system, moving=True)
     wait_until(lambda: warmup.outcome)
     assert warmup.outcome == "ready"  # the first scene is drawn, as Python
     assert warmup.done == (0, 4)
@@ -207,7 +207,7 @@ def test_kernels_stand_back_for_the_first_page(begun):
     begun(lambda: (order.append("kernels"), loaded.set()), patience=60.0)
     warmup.page_asked()
     assert not loaded.wait(0.05)
-    assert not warmup.is_ready()  # what is drawn meanwhile is sketched
+    assert not warmup.is_ready()
     order.append("page")
     warmup.page_sent()
     assert loaded.wait(60.0)

@@ -242,3 +242,15 @@ def test_where_a_varied_number_decides_a_jump_the_derivatives_end_there():
     run = simulate(system, PSI, (0.1, 0.0, 0.0), (0.0, 4.0), eps=1e-3)
     assert not run.variation().reason
     assert "where a formula jumps" in run.variation("w").reason
+
+
+def test_a_long_step_whose_dense_output_meets_a_lost_set_is_tried_again():
+    """The slide ends at 10.09; a stage of its dense output lies in the push, where Newton's method finds no set."""
+    rate = ("-0.5*c + 0.668*exp(-((z3 - 6.497)/0.1076)**2) - 0.198*min(2, max(0, 2.711*(z3 - 17.942)))",
+            "-0.5*s + 1.036*exp(-((z3 - 10.107)/0.0212)**2) + 0.946*exp(-((z3 - 5.232)/0.0979)**2)")  # fmt: skip
+    system = System(U=rate, W=("x", "y", "1"))
+    run = simulate_nonsmooth(system, (-0.7100994773027869, -0.17704939802573616, 0.0, 0.0, 0.0), (0.0, 20.0))
+    assert run.status.name == "T_END"
+    push = lambda t: 1.036 * math.exp(-(((t - 10.107) / 0.0212) ** 2)) - 0.5
+    slips = [phase for phase in run.phases if phase.kind == "slip"]
+    assert slips[-1].t_start == pytest.approx(brentq(push, 10.05, 10.1), abs=1e-9)

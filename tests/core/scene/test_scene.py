@@ -39,8 +39,8 @@ def ran(scene, **changes):
     return computed, changed
 
 
-EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "conics", "outside", "outside_sketch"}
-HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "inside_sketch",
+EQUATOR = {"equator", "equator_cycle", "location", "nullclines_outside", "conics", "outside"}
+HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside",
               "continuations", "name", "classification", "certificates", "outcomes", "launched",
               "eigendirections"}  # fmt: skip
 
@@ -48,7 +48,6 @@ ATLAS = {"atlas_curves", "regions"}  # of the plane (f1, f2): neither f nor Psi 
 SLOW = {"critical", "name", "classification", "certificates", "slow_flow", "outcomes", "cycles"}
 
 CLOSELY = {"nullclines_inside", "nullclines_outside", "conics"}  # what stands still, as finely as it is seen
-SKETCHES = {"inside_sketch", "outside_sketch"}
 
 REACHES = {
     "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
@@ -62,17 +61,17 @@ REACHES = {
     "z": ({"z": 1.0}, {"certificates"}),  # the slow manifold is looked for along z
     "B": ({"B": [[2.0, 1.0]]}, SLOW),
     "g": ({"g": [0.5]}, SLOW),
-    "length": ({"length": 5.0}, {"inside", "outside", "continuations"} | SKETCHES),
-    "t_max": ({"t_max": 6.0}, {"inside", "outside", "continuations"} | SKETCHES),
+    "length": ({"length": 5.0}, {"inside", "outside", "continuations"}),
+    "t_max": ({"t_max": 6.0}, {"inside", "outside", "continuations"}),
     "rtol": ({"rtol": 1e-5}, {"inside", "outside", "continuations", "separatrices"}),
     "atol": ({"atol": 1e-6}, {"inside", "outside", "continuations", "separatrices"}),
     "pixel": ({"pixel": 1 / 90}, {"inside", "outside", "continuations", "separatrices", "launched"}),
-    "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "outside_sketch", "launched"}),
-    "window": ({"window": (0.1, 0.4, 0.2, 0.5)}, {"inside", "outside", *CLOSELY} | SKETCHES),
-    "count": ({"count": 40}, {"inside", "outside"} | SKETCHES),
-    "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"} | SKETCHES),
+    "view": ({"view": 2.5}, {"nullclines_outside", "conics", "outside", "launched"}),
+    "window": ({"window": (0.1, 0.4, 0.2, 0.5)}, {"inside", "outside", *CLOSELY}),
+    "count": ({"count": 40}, {"inside", "outside"}),
+    "seeds": ({"seeds": [[0.3, 0.2], [1.5, 0.1]]}, {"inside", "outside"}),
     "launch": ({"launch": [[0.2, 0.1]]}, {"launched"}),
-    "the whole picture": ({"window": (-2.0, 2.0, -2.0, 2.0)}, {"inside", "outside"} | SKETCHES),
+    "the whole picture": ({"window": (-2.0, 2.0, -2.0, 2.0)}, {"inside", "outside"}),
     "nothing": ({"a": -2.0, "psi": c2.psi.constant()}, set()),
 }
 

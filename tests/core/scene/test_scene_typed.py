@@ -21,9 +21,9 @@ def scene(**parameters):
     return c2.Scene(typed(**parameters), c2.psi.rational(), (0.5, 0.2), count=24)
 
 
-EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "conics", "outside", "outside_sketch"}
+EQUATOR = {"equator", "equator_cycle", "nullclines_outside", "conics", "outside"}
 SLOW = {"critical", "name", "classification", "certificates", "slow_flow", "cycles", "outcomes"}
-HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside", "inside_sketch",
+HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines_inside", "inside",
               "continuations", "name", "classification", "certificates", "outcomes", "launched",
               "eigendirections"}  # fmt: skip
 PLANE = EQUATOR | HEMISPHERE | {"slow_flow", "location"}
