@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..arguments import short_repr
 from ..arrays import Array, read_only
+from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
@@ -23,7 +24,6 @@ from .curve_numbers import curve_numbers, places
 from .curves import curves_of
 from .cycles.cycle_curves import KIND, cycle_curves
 from .degenerate_lines import degenerate_lines
-from .family import PlaneFamily, Ranges
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .seed_net import NO_SEEDS, CurveSeeds, seeds_beside
@@ -106,7 +106,7 @@ def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None,
     return _curves_over(family_over(system, psi, z, across, up, ranges))
 
 
-def _curves_over(family: PlaneFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
+def _curves_over(family: SystemFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
     lines = degenerate_lines(family)
     found, special = curves_of(family, lines, seeds)
     curves = [
@@ -124,10 +124,11 @@ def _curves_over(family: PlaneFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
     ]
     degenerate = tuple((family.names[line.axis], float(family.values(line.points)[0, line.axis])) for line in lines)
     kinds = tuple(dict.fromkeys(found.unfinished))
-    return Atlas(family.names, family.ranges, tuple(curves), tuple(points), (), kinds, degenerate)
+    (across, up), (first, second) = family.names, family.ranges
+    return Atlas((across, up), (first, second), tuple(curves), tuple(points), (), kinds, degenerate)
 
 
-def _nowhere(family: PlaneFamily, kind: str, plane: Array) -> AtlasCurve:
+def _nowhere(family: SystemFamily, kind: str, plane: Array) -> AtlasCurve:
     """Return a curve that belongs to no place of the portrait."""
     places = read_only(np.full((len(plane), 2), math.nan))
     return AtlasCurve(kind, read_only(family.values(plane)), places, read_only(np.zeros(0)))
@@ -147,7 +148,7 @@ def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atla
     return whole
 
 
-def _with_regions(family: PlaneFamily, found: Atlas) -> Atlas:
+def _with_regions(family: SystemFamily, found: Atlas) -> Atlas:
     still = [one.points for one in found.curves if one.kind not in (KIND, *KINDS)]
     regions, looked = regions_of(family, still, [one.place for one in found.points])
     return replace(found, regions=regions, looked=looked)
@@ -183,7 +184,7 @@ def with_bifurcations_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLik
     return with_connections(system, psi, with_folds_of_cycles(system, psi, found, z), z)
 
 
-def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> PlaneFamily:
+def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> SystemFamily:
     """Check what `atlas` is given, and return what all of it is computed from."""
     slow = tuple(np.ravel(np.asarray(z, float)).tolist())
     system = in_axes_of(system, across, up)
@@ -194,7 +195,7 @@ def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, range
     both = first, second
     if both[0] == both[1]:
         raise ValueError(f"ranges are both of {both[0]!r}; choose two different names.")
-    family = PlaneFamily(system, psi, slow, both, _ranges(system, psi, slow, both, ranges))
+    family = SystemFamily(system, psi, slow, both, _ranges(system, psi, slow, both, ranges))
     _check_somewhere(family)
     return family
 
@@ -208,7 +209,7 @@ def _names_and_ranges(ranges: object) -> tuple[str, str, object]:
     raise ValueError(f'ranges are {short_repr(ranges)}; give two, such as {{"f1": (-2, 2), "f2": (-2, 2)}}.')
 
 
-def _check_somewhere(family: PlaneFamily) -> None:
+def _check_somewhere(family: SystemFamily) -> None:
     """Say what is wrong if U has no value at any of a few places."""
     wrong: ValueError | None = None
     for place in TRIAL_PLACES:

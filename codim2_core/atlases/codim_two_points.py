@@ -11,10 +11,10 @@ import numpy as np
 from ..arrays import Array
 from ..curves.arclength import zero_between
 from ..curves.newton import newton
+from ..families.conditions import EquatorEquations, InteriorEquations
+from ..families.family import SystemFamily
 from ..words import say
-from .conditions import EquatorEquations, InteriorEquations
 from .curve_numbers import lyapunov, trace
-from .family import PlaneFamily
 from .tracing import TracedCurve
 
 SAME_POINT_DISTANCE = 1e-6  # of the ranges: points of one kind nearer to each other are one
@@ -44,7 +44,7 @@ class SpecialPlace:
         return self.v[-2:]
 
 
-def special_points_along(family: PlaneFamily, curve: TracedCurve) -> list[SpecialPlace]:
+def special_points_along(family: SystemFamily, curve: TracedCurve) -> list[SpecialPlace]:
     """Find the special points along one curve."""
     if curve.kind in ("saddle-node", "pitchfork"):
         found = _zeros(curve, lambda v: EquatorEquations(family, v).radial, _corner)
@@ -109,7 +109,7 @@ def _zeros(
     return [make(zero_between(curve.condition, test, points[i], points[i + 1])) for i in rows]
 
 
-def _cusps_of_sets(family: PlaneFamily, curve: TracedCurve) -> list[SpecialPlace]:
+def _cusps_of_sets(family: SystemFamily, curve: TracedCurve) -> list[SpecialPlace]:
     """Find where det J = 0 keeps its place to first order along its own null vector."""
     found = []
     points = curve.points

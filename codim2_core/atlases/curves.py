@@ -10,10 +10,11 @@ import numpy as np
 from ..arrays import Array
 from ..curves.arclength import TracedLine, zero_between
 from ..curves.polyline import distance
-from . import codim_two_points, conditions, plane_conditions, seed_net, tracing
+from ..families import conditions, plane_conditions
+from ..families.family import SystemFamily
+from . import codim_two_points, seed_net, tracing
 from .codim_two_points import SpecialPlace
 from .degenerate_lines import DegenerateLine
-from .family import PlaneFamily
 from .seed_net import NO_SEEDS, CurveSeeds
 from .tracing import TracedCurve, TracedCurves
 
@@ -25,7 +26,7 @@ LINE_DETERMINANT = 1e-9  # of det DU, all along a curve of tr J = 0: there criti
 
 
 def curves_of(
-    family: PlaneFamily, lines: Sequence[DegenerateLine], seeds: CurveSeeds = NO_SEEDS
+    family: SystemFamily, lines: Sequence[DegenerateLine], seeds: CurveSeeds = NO_SEEDS
 ) -> tuple[TracedCurves, list[SpecialPlace]]:
     """All curves, in unknowns of their own, and the special points along them; none that lies on a degenerate line.
 
@@ -75,11 +76,11 @@ def _to_ends(one: TracedCurve, ends: list[Array]) -> TracedCurve:
     return TracedCurve(one.kind, one.condition, TracedLine(points, one.curve.closed, one.curve.ends))
 
 
-def _singular(family: PlaneFamily, one: TracedCurve) -> bool:
+def _singular(family: SystemFamily, one: TracedCurve) -> bool:
     return all(abs(conditions.EquatorEquations(family, v).determinant) < SINGULAR_DETERMINANT for v in one.points)
 
 
-def _with_positive_determinant(family: PlaneFamily, one: TracedCurve) -> list[TracedCurve]:
+def _with_positive_determinant(family: SystemFamily, one: TracedCurve) -> list[TracedCurve]:
     """Parts of a curve along which det J > 0, with the ends at which it is 0."""
 
     def determinant(v: Array) -> float:

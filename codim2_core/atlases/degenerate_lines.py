@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Array
+from ..families.family import SystemFamily
 from ..numerics.root_between import root_between
-from .family import PlaneFamily
 
 PROBE_ANGLES = (
     2.0 * np.pi * (np.arange(7) + 0.37) / 7.0
@@ -53,7 +53,7 @@ class DegenerateLine(NamedTuple):
         return np.asarray(np.abs(plane[..., self.axis] - self.at) <= reach)
 
 
-def degenerate_lines(family: PlaneFamily) -> tuple[DegenerateLine, ...]:
+def degenerate_lines(family: SystemFamily) -> tuple[DegenerateLine, ...]:
     """All degenerate lines; none where the whole plane is degenerate."""
     return tuple(line for axis in (0, 1) for line in _lines_along(family, axis))
 
@@ -65,7 +65,7 @@ def drop_touching(cells: Array, lines: Sequence[DegenerateLine], half: float) ->
     return cells
 
 
-def _lines_along(family: PlaneFamily, axis: int) -> list[DegenerateLine]:
+def _lines_along(family: SystemFamily, axis: int) -> list[DegenerateLine]:
     def speeds(t: float) -> tuple[Array, Array]:
         """Theta and lambda_rho, of all angles and places along the line."""
         place = np.full((2, len(LINE_SAMPLES)), t)

@@ -10,8 +10,8 @@ import numpy as np
 from ..arrays import Array, read_only
 from ..curves.polyline import distance, feet
 from ..diagrams.classes import Classes, classes_over
+from ..families.family import SystemFamily
 from .faces import Face, inside_polygons, middle, net_of
-from .family import PlaneFamily
 from .result import AtlasRegion, SamplingReport
 
 CHORD_DISTANCE = 1e-3  # of the ranges: a point that is as near as this to a curve's chord lies on the curve
@@ -28,7 +28,7 @@ MIN_HALF_WIDTH = 2e-4  # of the ranges: what is nowhere wider than twice this is
 
 
 def regions_of(
-    family: PlaneFamily, curves: Sequence[Array], points: Sequence[tuple[float, float]]
+    family: SystemFamily, curves: Sequence[Array], points: Sequence[tuple[float, float]]
 ) -> tuple[tuple[AtlasRegion, ...], SamplingReport]:
     """All regions, by falling area, and what the portrait is where they were looked at.
 
@@ -68,7 +68,7 @@ def regions_of(
 
 
 def _unlike(
-    family: PlaneFamily, classes: Classes, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
+    family: SystemFamily, classes: Classes, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
 ) -> tuple[tuple[float, float], ...]:
     """Places of a net and along its edges, away from all curves, whose class is not that of their region."""
     codes = classes.decided(family.values(NET)).tolist()

@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 from ..arrays import Array
 from ..curves.newton import Condition
 from ..diagrams.classes import classes_over
+from ..families.family import MAX_RADIUS_SQUARED, MIN_RADIUS_SQUARED, SystemFamily
 from ..layer_problem.critical import critical_sets
 from ..numerics.root_between import root_between
 from ..psi.constructors import many
 from .degenerate_lines import ON_LINE_DISTANCE as BESIDE
 from .degenerate_lines import DegenerateLine, drop_touching
-from .family import MAX_RADIUS_SQUARED, MIN_RADIUS_SQUARED, PlaneFamily
 
 EQUATOR_CELLS, PARAMETER_CELLS = 64, 24  # cells round the equator, and along both parameters beside them
 INTERIOR_CELLS = 16  # cells along each of c, s, u and v
@@ -48,7 +48,7 @@ CELL = np.array([2.0 / INTERIOR_CELLS, 2.0 / INTERIOR_CELLS, 1.0 / INTERIOR_CELL
 AFFINE_CELL = np.array([2.0 / INTERIOR_CELLS, 2.0 / INTERIOR_CELLS, 1.0 / AFFINE_CELLS, 1.0 / AFFINE_CELLS])
 
 
-def on_equator(family: PlaneFamily, lines: Sequence[DegenerateLine] = ()) -> tuple[Array, Array, Array]:
+def on_equator(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -> tuple[Array, Array, Array]:
     """Cells in which Theta and Theta' come to zero, and those in which U does: centres (k, 3) of each.
 
     And steps (k, 2, 2) of the net, from where Theta has no zero, on which the mean of lambda_rho/|Theta| does.
@@ -92,12 +92,12 @@ def _stability_changes(turning: Array, radial: Array, side: Array) -> Array:
     return np.concatenate(found)
 
 
-def cell_within(family: PlaneFamily) -> Array:
+def cell_within(family: SystemFamily) -> Array:
     """Width (4,) of the cells of `interior_cells`."""
     return AFFINE_CELL if family.affine else CELL
 
 
-def interior_cells(family: PlaneFamily, lines: Sequence[DegenerateLine] = ()) -> tuple[Array, Array, Array]:
+def interior_cells(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -> tuple[Array, Array, Array]:
     """Cells in which U comes to zero, and with it det DU, T, or T^2 - 4 sigma det DU: centres (k, 4) of each."""
     if family.affine:
         return np.zeros((0, 4)), *_within_affine(family, lines)
@@ -117,7 +117,7 @@ def interior_cells(family: PlaneFamily, lines: Sequence[DegenerateLine] = ()) ->
     return first, second, third
 
 
-def _within_affine(family: PlaneFamily, lines: Sequence[DegenerateLine]) -> tuple[Array, Array]:
+def _within_affine(family: SystemFamily, lines: Sequence[DegenerateLine]) -> tuple[Array, Array]:
     """Cells of the plane alone, in which T and T^2 - 4 sigma det DU of the one critical set change their signs.
 
     A cell through which that set goes far is halved.
@@ -140,7 +140,7 @@ def _within_affine(family: PlaneFamily, lines: Sequence[DegenerateLine]) -> tupl
     return first, second
 
 
-def _of_set(family: PlaneFamily, place: Array) -> tuple[Array, tuple[Array, Array]]:
+def _of_set(family: SystemFamily, place: Array) -> tuple[Array, tuple[Array, Array]]:
     """Find the critical set e (..., 2) of an affine U, T and T^2 - 4 sigma det DU at places (..., 2) of the square."""
     zero = np.zeros(place.shape[:-1])
     (U, V), ((a, b), (p, q)) = _on_net(family, zero, zero, *np.moveaxis(place, -1, 0))
@@ -154,7 +154,7 @@ def _of_set(family: PlaneFamily, place: Array) -> tuple[Array, tuple[Array, Arra
     return np.stack([c, s], axis=-1), (trace, trace * trace - 4.0 * (1.0 - bend * square) * det)
 
 
-def _bend_on_net(family: PlaneFamily, square: Array, place: Array) -> Array:
+def _bend_on_net(family: SystemFamily, square: Array, place: Array) -> Array:
     """``Ratio.bend`` where |e|^2 is `square` (...), at places (..., 2) of the unit square."""
     psi, modulus = family.psi, np.sqrt(square).ravel()
     if any(family.of_psi):
@@ -185,7 +185,7 @@ def on_steps(condition: Condition, steps: Array) -> Array:
     return np.array(found).reshape(-1, 2)
 
 
-def _on_net(family: PlaneFamily, c: Array, s: Array, u: Array, v: Array) -> tuple[Array, Array]:
+def _on_net(family: SystemFamily, c: Array, s: Array, u: Array, v: Array) -> tuple[Array, Array]:
     """U (2, ...) and its derivatives by e (2, 2, ...), NaN where one is not finite: no cell is begun from there."""
     shape = np.broadcast_shapes(c.shape, s.shape, u.shape, v.shape)
     U, D = family.on_net(c, s, u, v)
@@ -193,7 +193,7 @@ def _on_net(family: PlaneFamily, c: Array, s: Array, u: Array, v: Array) -> tupl
     return np.where(np.isfinite(speeds), speeds, np.nan), np.where(np.isfinite(slopes), slopes, np.nan)
 
 
-def _bends(family: PlaneFamily, square: Array, side: Array) -> Array:
+def _bends(family: SystemFamily, square: Array, side: Array) -> Array:
     """``Ratio.bend`` for each |e|^2 (n, n) and place along the parameter of Psi, (n, n, ..., ...)."""
     kinds, where = np.unique(np.clip(square, MIN_RADIUS_SQUARED, MAX_RADIUS_SQUARED), return_inverse=True)
     places = [np.zeros(2)]
@@ -255,7 +255,7 @@ class CurveSeeds(NamedTuple):
 NO_SEEDS = CurveSeeds((), ())
 
 
-def seeds_beside(family: PlaneFamily, places: Sequence[tuple[float, float]]) -> CurveSeeds:
+def seeds_beside(family: SystemFamily, places: Sequence[tuple[float, float]]) -> CurveSeeds:
     """Return seeds near places (values of the parameters) at which the portrait is not that of the region around.
 
     Along each axis the place nearest to one of them is looked for at which the class changes.
@@ -290,7 +290,7 @@ def _in_square(u: Array) -> bool:
     return bool((u >= 0.0).all() and (u <= 1.0).all())
 
 
-def _equator_seeds(family: PlaneFamily, u: Array) -> list[Array]:
+def _equator_seeds(family: SystemFamily, u: Array) -> list[Array]:
     """Angles at which Theta, or U, is locally least in size, the least first."""
     theta = 2.0 * math.pi * np.arange(SEED_ANGLES) / SEED_ANGLES
     c, s = np.cos(theta), np.sin(theta)
@@ -302,7 +302,7 @@ def _equator_seeds(family: PlaneFamily, u: Array) -> list[Array]:
     return found
 
 
-def _interior_seeds(family: PlaneFamily, u: Array) -> list[Array]:
+def _interior_seeds(family: SystemFamily, u: Array) -> list[Array]:
     system, psi, z = family.at(u)
     sets = sorted(critical_sets(system, psi, z), key=lambda C: abs(C.determinant))
     return [np.array([*C.e, *u]) for C in sets[:MAX_SEEDS]]

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from ..arrays import Array
 from ..curves.arclength import CurveEdge, StepBounds, TracedLine, square_edges, tangent, trace_curve
 from ..curves.newton import Condition, newton
-from . import conditions, seed_net
-from .family import MAX_RADIUS_SQUARED, PlaneFamily
+from ..families import conditions
+from ..families.family import MAX_RADIUS_SQUARED, SystemFamily
+from . import seed_net
 
 EQUATOR_STEPS = StepBounds(0.08, 0.12, 1500, 2.0 * math.pi)
 INTERIOR_STEPS = StepBounds(0.05, 0.12, 1500)
@@ -95,7 +96,7 @@ class CurveKind:
     beside: float = COVERED_CELLS
 
 
-def saddle_nodes(family: PlaneFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
+def saddle_nodes(family: SystemFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
     """Curves on which limit directions meet: saddle-nodes, and where a symmetry holds, pitchforks."""
     plain = CurveKind("saddle-node", conditions.saddle_node(family), _square_edges(3))
     forked = CurveKind(
@@ -108,13 +109,13 @@ def saddle_nodes(family: PlaneFamily, cells: Array, seeds: Sequence[Array] = ())
     return _trace_curves((plain, forked), cells, seed_net.EQUATOR_CELL, EQUATOR_STEPS, seeds)
 
 
-def through_equator(family: PlaneFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
+def through_equator(family: SystemFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
     """Curves on which a critical set comes to the equator."""
     sought = CurveKind("transcritical", conditions.through_equator(family), _square_edges(3))
     return _trace_curves((sought,), cells, seed_net.EQUATOR_CELL, EQUATOR_STEPS, seeds)
 
 
-def folds(family: PlaneFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
+def folds(family: SystemFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
     """Curves on which critical sets meet: folds, and where a symmetry holds, pitchforks."""
     plain = CurveKind("fold of critical sets", conditions.fold(family), _square_edges(4, 1.0))
     forked = CurveKind(
@@ -127,14 +128,16 @@ def folds(family: PlaneFamily, cells: Array, seeds: Sequence[Array] = ()) -> Tra
     return _trace_curves((plain, forked), cells, seed_net.CELL, INTERIOR_STEPS, seeds)
 
 
-def hopfs(family: PlaneFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> TracedCurves:
+def hopfs(family: SystemFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> TracedCurves:
     """Curves on which tr J = 0, of saddles too."""
     sought = CurveKind("Hopf", conditions.hopf(family), _square_edges(4, MAX_RADIUS_SQUARED))
     sure = [*(_seed_beside_corner(family, v, 0.0) for v in corners), *seeds]
     return _all_to_equator(family, _trace_curves((sought,), cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
 
 
-def node_foci(family: PlaneFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> TracedCurves:
+def node_foci(
+    family: SystemFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()
+) -> TracedCurves:
     """Curves on which tr(J)^2 = 4 det J; they end where both are zero."""
 
     def edge(v: Array, sign: float) -> tuple[float, Array]:
@@ -155,7 +158,7 @@ def node_foci(family: PlaneFamily, cells: Array, corners: Sequence[Array], seeds
     return _all_to_equator(family, _trace_curves(both, cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
 
 
-def _seed_beside_corner(family: PlaneFamily, corner: Array, level: float) -> Array | None:
+def _seed_beside_corner(family: SystemFamily, corner: Array, level: float) -> Array | None:
     """Find the place (4,) with T = level sqrt(sigma det DU) a little within a corner."""
     theta, *place = corner.tolist()
     size = math.sqrt(1.0 - CORNER_INSET)
@@ -188,11 +191,11 @@ def _square_edges(n: int, inner: float = math.inf) -> list[CurveEdge]:
     return found
 
 
-def _all_to_equator(family: PlaneFamily, found: TracedCurves) -> TracedCurves:
+def _all_to_equator(family: SystemFamily, found: TracedCurves) -> TracedCurves:
     return TracedCurves([_to_equator(family, one) for one in found.curves], found.unfinished)
 
 
-def _to_equator(family: PlaneFamily, one: TracedCurve) -> TracedCurve:
+def _to_equator(family: SystemFamily, one: TracedCurve) -> TracedCurve:
     """Go on from |e|^2 = NEAR to the equator, where sigma = 0 and with it Theta' = 0."""
     corner, points = conditions.equator_corner(family), one.points
     for end, i in zip(one.curve.ends, (0, -1), strict=True):

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Array
-from .family import PlaneFamily
+from ..families.family import SystemFamily
 
 Indices = NDArray[np.intp]
 
@@ -23,7 +23,7 @@ MAX_HALVINGS = 32  # of an edge, until the border is found on it
 MIN_BEND = 1e-6  # a part of the square; what turns less than this is straight
 
 
-def undefined_borders(family: PlaneFamily) -> list[Array]:
+def undefined_borders(family: SystemFamily) -> list[Array]:
     """Borders, as lines (m, 2) of the unit square; none where U has a value at all places of a net.
 
     The cells of a finer net are cut into triangles: where U has a value at one corner and none at another, a border
@@ -48,7 +48,7 @@ def _net(cells: int) -> Array:
     return np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
-def _is_defined(family: PlaneFamily, at: Array) -> NDArray[np.bool_]:
+def _is_defined(family: SystemFamily, at: Array) -> NDArray[np.bool_]:
     """Whether U has a value at places (k, 2) of the square."""
     c, s = TRIAL_PLACES[:, :, None].swapaxes(0, 1)
     with np.errstate(all="ignore"):
@@ -56,7 +56,7 @@ def _is_defined(family: PlaneFamily, at: Array) -> NDArray[np.bool_]:
     return np.asarray(np.isfinite(U).all(axis=(0, 1)))
 
 
-def _edge_crossings(family: PlaneFamily, start: Array, end: Array, known: NDArray[np.bool_]) -> Array:
+def _edge_crossings(family: SystemFamily, start: Array, end: Array, known: NDArray[np.bool_]) -> Array:
     """Places (k, 2) on edges at which U begins, or ceases, to have a value; `known`: it has one at the start."""
     low, high = np.zeros(len(start)), np.ones(len(start))
     for _ in range(MAX_HALVINGS):

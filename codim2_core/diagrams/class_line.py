@@ -14,11 +14,11 @@ from ..psi.function import Psi
 from ..results import Tabled
 from ..tables import table_number
 from .classes import classes_over
-from .critical import OFF_CENTRE
 from .equilibrium_branches import equilibrium_branches
 
 __all__ = ["ClassInterval", "class_line"]
 
+OFF_CENTRE = 0.4567  # of a stretch: in its middle symmetry likes to put something special
 _SAME_VALUE_SHARE = 1e-9  # of the span: special values nearer to each other than this are one
 
 

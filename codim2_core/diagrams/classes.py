@@ -1,54 +1,33 @@
 """The class of a portrait, all that stays as it is between bifurcations of the equilibria, over any parameters.
 
-A class is a number, `test_functions.UNDEFINED` where U has no value.
+A class is a number, `UNDEFINED` where U has no value.
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import Array
+from ..layer_problem.problem import LayerProblem
 from ..layer_problem.vary import check_varying, vary
 from ..psi.function import Psi
 from ..systems.affine import as_elinear
-from .family import FamilySweep, family
-from .test_functions import UNDEFINED, class_name, classes
-from .typed.state import State
+from .states import State
 
-__all__ = ["AffineClasses", "Classes", "GeneralClasses", "classes_over"]
+__all__ = ["UNDEFINED", "Classes", "classes_over"]
 
 Codes = NDArray[np.int64]
 
-
-@dataclass(frozen=True)
-class AffineClasses:
-    """Classes of an e-linear family: signs of smooth functions, many points at once, all proved.
-
-    Attributes
-    ----------
-    family : Sweep
-    """
-
-    family: FamilySweep
-    unproved = 0
-
-    def decided(self, at: Array) -> Codes:
-        """Return classes at points (k, n)."""
-        return classes(self.family(**dict(zip(self.family.names, at.T, strict=True))))
-
-    def name(self, code: int) -> str:
-        """Name a class."""
-        return class_name(code)
+UNDEFINED = -1  # U has no value there
 
 
-class GeneralClass(NamedTuple):
-    """The class of a general system.
+class PortraitClass(NamedTuple):
+    """The class of a portrait.
 
     Attributes
     ----------
@@ -72,8 +51,8 @@ class GeneralClass(NamedTuple):
         return sum(many for kind, many in self.directions if kind.startswith(f"radially {word}"))
 
 
-class GeneralClasses:
-    """Classes of any system, one point after the other, numbered as they are met.
+class Classes:
+    """Classes of a system over some of its parameters, numbered as they are met.
 
     Parameters
     ----------
@@ -92,7 +71,8 @@ class GeneralClasses:
     def __init__(self, system: Any, psi: Psi, z: Any, names: Sequence[str]) -> None:
         self.unproved = 0
         self._names, self._of = names, (system, psi, z)
-        self._classes: list[GeneralClass] = []
+        self._classes: list[PortraitClass] = []
+        self._plain = as_elinear(system) is not None
 
     def decided(self, at: Array) -> Codes:
         """Return classes at points (k, n)."""
@@ -101,15 +81,17 @@ class GeneralClasses:
     def _decided(self, place: list[float]) -> int:
         try:
             of = self._of
-            for name, value in zip(self._names[:-1], place[:-1], strict=True):
+            for name, value in zip(self._names, place, strict=True):
                 of = vary(*of, name, value)
             system, psi, z = of
-            state = State(system, psi, self._names[-1], place[-1], z)
+            state = State(LayerProblem(system.at(z), psi), place[-1])
         except ValueError:  # U is not finite there
             return UNDEFINED
         arcs = -1 if state.equator.all_directions else len(state.equator.arcs)
         sets = tuple(sorted(C.kind for C in state.critical))
-        portrait = GeneralClass(tuple(sorted(state.part(0).items())), arcs, sets, state.part(2))
+        portrait = PortraitClass(tuple(sorted(state.parts[0].items())), arcs, sets, state.parts[2])
+        if self._plain:  # name and kind of the critical set say all
+            portrait = PortraitClass((("", len(state.equator)),) if len(state.equator) else (), arcs, sets, None)
         self.unproved += not state.proven
         if portrait not in self._classes:
             self._classes.append(portrait)
@@ -117,10 +99,9 @@ class GeneralClasses:
 
     def name(self, code: int) -> str:
         """Name a class, as `Classification.name` names e-linear portraits."""
-        return "undefined" if code == UNDEFINED else _name(self._classes[code])
-
-
-Classes = AffineClasses | GeneralClasses
+        if code == UNDEFINED:
+            return "undefined"
+        return _name(self._classes[code])
 
 
 def classes_over(
@@ -142,13 +123,10 @@ def classes_over(
     ValueError
         A name cannot be varied, a value is beyond what it may be, or z does not fit.
     """
-    linear = as_elinear(system)
-    if linear is not None:
-        return AffineClasses(family(linear, psi, z, *varying, spans=spans))
-    return GeneralClasses(system, psi, z, check_varying(system, psi, z, varying, spans))
+    return Classes(system, psi, z, check_varying(system, psi, z, varying, spans))
 
 
-def _name(portrait: GeneralClass) -> str:
+def _name(portrait: PortraitClass) -> str:
     directions = "∞" if portrait.arcs < 0 else str(sum(many for _, many in portrait.directions))
     kinds = Counter(portrait.sets)
     counted = [kind if many == 1 else f"{many} {_several(kind)}" for kind, many in kinds.items()]

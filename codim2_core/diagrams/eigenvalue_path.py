@@ -14,7 +14,6 @@ from ..layer_problem.vary import vary
 from ..psi.function import Psi
 from ..results import Pictured
 from ..tables import html_table, table_number
-from .test_functions import KINDS, family, linearise
 
 __all__ = ["LinearisationPath", "linearisation_path"]
 
@@ -88,18 +87,19 @@ def linearisation_path(system: Any, psi: Psi, name: str, values: ArrayLike, z: A
     given = np.atleast_1d(np.array(values, float))
     if given.ndim != 1 or not np.isfinite(given).all():
         raise ValueError(f"values of {name} have shape {given.shape}; give a list of finite numbers.")
-    if system.typed is None:
-        path = family(system, psi, z, name, spans=(given,))
-        found = linearise(path(**{path.names[0]: given}))
-        numbers = found.exists, found.trace, found.determinant, found.discriminant
-        kind = tuple(KINDS[i] for i in found.kind.tolist())
-    else:
-        *numbers, kind = _one_by_one(system, psi, name, given, z)
-    exists, trace, determinant, discriminant = numbers
+    exists, kind = np.zeros(len(given), bool), [""] * len(given)
+    trace, determinant, discriminant = np.zeros((3, len(given)))
+    last = np.zeros(2)
+    for i, value in enumerate(given.tolist()):
+        found = critical_sets(*vary(system, psi, z, name, value))
+        if found:
+            C = min(found, key=lambda C, last=last: float(np.hypot(*(C.p - last))))
+            exists[i], kind[i], last = True, C.kind, C.p
+            trace[i], determinant[i], discriminant[i] = C.trace, C.determinant, C.discriminant
     arrays = given, exists, trace, determinant, discriminant, _eigenvalues(trace, determinant, discriminant)
     for array in arrays:
         array.flags.writeable = False
-    return LinearisationPath(name, *arrays, kind)
+    return LinearisationPath(name, *arrays, tuple(kind))
 
 
 def _eigenvalues(trace: Array, determinant: Array, discriminant: Array) -> NDArray[np.complex128]:
@@ -110,17 +110,3 @@ def _eigenvalues(trace: Array, determinant: Array, discriminant: Array) -> NDArr
     first = np.where(real, np.maximum(large, small), half) + 1j * np.where(real, 0.0, root)
     second = np.where(real, np.minimum(large, small), half) - 1j * np.where(real, 0.0, root)
     return np.stack([first, second], axis=-1)
-
-
-def _one_by_one(system: Any, psi: Psi, name: str, values: Array, z: ArrayLike) -> tuple[Any, ...]:
-    exists = np.zeros(len(values), bool)
-    numbers = np.zeros((3, len(values)))
-    kind = [""] * len(values)
-    last = np.zeros(2)
-    for i, value in enumerate(values.tolist()):
-        found = critical_sets(*vary(system, psi, z, name, value))
-        if found:
-            C = min(found, key=lambda C, last=last: float(np.hypot(*(C.p - last))))
-            exists[i], kind[i], last = True, C.kind, C.p
-            numbers[:, i] = C.trace, C.determinant, C.discriminant
-    return exists, *numbers, tuple(kind)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import Array
-from ..continuation.result import CycleBranch, CycleBranches, CyclePoint
+from ..continuation.result import CycleBranches, CyclePoint
 from ..paper import label_of
 from ..psi.function import Psi
 from ..results import Pictured, Result, Tabled
@@ -18,7 +17,6 @@ from ..systems.kinds import AnySystem
 from ..tables import html_table, paragraphs, table_number
 from ..theorems.point_accuracy import PointAccuracy, point_accuracy
 from ..words import say
-from .family import SystemPath, linear_path, values_over
 
 __all__ = ["Branches", "ClosedEquator", "CriticalBranch", "DirectionBranch", "SpecialValue"]
 
@@ -199,25 +197,11 @@ class Branches(Pictured):
 
     def with_cycles(self) -> Branches:
         """Return the same with branches of limit cycles, which take longer."""
-        from ..continuation.branches import continue_cycles  # here: both load the compiler
-        from ..continuation.typed.typed_branches import continue_typed
+        from .cycle_branches import cycle_branches  # here: it loads the compiler
 
-        path = linear_path(self.system, self.psi, self.z, self.along, values_over(self.span))
-        if path is None or self.psi.saturation < math.inf:  # where the section of `continue_cycles` ends at finite |x2|
-            of = self.system, self.psi, self.along, self.span, self.z
-            return replace(self, cycles=continue_typed(*of, self.standing))
         ends = [self.span[0], *(v for gap in self.gaps for v in gap), self.span[1]]
-        parts = [
-            continue_cycles(path.family.system, self.psi, self.along, part, path.family.z, path.family.axes)
-            for part in zip(ends[::2], ends[1::2], strict=True)
-            if part[0] < part[1]
-        ]
-        found, notes = (
-            [_in_own_axes(b, path) for part in parts for b in part],
-            [note for part in parts for note in part.notes],
-        )
-        reason = f" {say('elsewhere')} ".join(dict.fromkeys(part.reason for part in parts))
-        return replace(self, cycles=CycleBranches(self.along, self.span, tuple(found), reason, tuple(notes)))
+        spans = [part for part in zip(ends[::2], ends[1::2], strict=True) if part[0] < part[1]]
+        return replace(self, cycles=cycle_branches(self.system, self.psi, self.along, spans, self.z, self.standing))
 
     def _records(self) -> Iterator[dict[str, Any]]:
         """Return a row for each point of each branch: which branch, the parameter's value, what is there."""
@@ -251,13 +235,3 @@ class Branches(Pictured):
             ("at", self.along, "what happens"), [(*one._row_()[:2], one.sentence) for one in self.special]
         )
         return special + paragraphs([self.cycles.reason, *self.notes])
-
-
-def _in_own_axes(branch: CycleBranch, path: SystemPath) -> CycleBranch:
-    """Return a branch with its places in the axes in which they are told."""
-    angle = path(branch.value).back
-    c, s = np.cos(angle), np.sin(angle)
-    x, y = branch.section.T
-    section = np.stack([c * x - s * y, s * x + c * y], axis=-1) if angle.any() else branch.section
-    section.flags.writeable = False
-    return replace(branch, section=section)

@@ -80,11 +80,12 @@ class Program:
         return bool((np.isin(self.op, _ENTIRE) | divides | whole).all())
 
     def evaluate(self, points: Array) -> Array:
-        """Rows and their exact partial derivatives by c and s on Sigma.
+        """Rows and their exact partial derivatives by c and s.
 
         Parameters
         ----------
-        points : ndarray (k, 2)
+        points : ndarray (k, 2 to 4)
+            Of c and s, and of x and y, which else are 0.
 
         Returns
         -------
@@ -106,7 +107,9 @@ class Program:
         finite = np.isfinite(out)
         for i in np.flatnonzero(finite[:, :, 0].all(axis=1) & ~finite.all(axis=(1, 2))):
             around = np.empty((len(ONE_SIDED_DIRECTIONS), len(self.roots), 3))
-            interpreter.batch(*self.arrays, points[i] + ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS, around)
+            beside = np.repeat(points[i : i + 1], len(ONE_SIDED_DIRECTIONS), axis=0)
+            beside[:, :2] += ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS
+            interpreter.batch(*self.arrays, beside, around)
             mean = around.mean(axis=0)
             spread = np.abs(around - mean).max(axis=0)
             with np.errstate(invalid="ignore"):

@@ -132,12 +132,13 @@ def gradients(op, left, right, number, roots, seed, work, out):
 
 @kernel
 def batch(op, left, right, number, roots, points, out):
-    """Rows and their derivatives by c and s at points (k, 2) of Sigma; out : (k, rows, 3)."""
+    """Rows and their derivatives by c and s at points (k, 2 to 4) of c, s, and x, y or 0; out : (k, rows, 3)."""
     work = np.empty((len(op), 3))
     seed = np.zeros((4, 3))
     seed[0, 1] = seed[1, 2] = 1.0
     for i in range(len(points)):
-        seed[0, 0], seed[1, 0] = points[i, 0], points[i, 1]
+        for j in range(points.shape[1]):
+            seed[j, 0] = points[i, j]
         gradients(op, left, right, number, roots, seed, work, out[i])
 
 

@@ -21,7 +21,7 @@ from ..systems.coefficients import Affine
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from ..tables import html_table, point, table_number
-from .disc_zeros import disc_zeros
+from .disc_zeros import FLAT, disc_zeros
 from .linearisation import (
     Frame,
     LinearisationParts,
@@ -196,8 +196,9 @@ def _general_sets(at: FrozenSystem, psi: Psi) -> tuple[CriticalSet, ...]:
     for e, DU, degenerate, rough, index in zip(*columns, strict=True):
         C = _set_of(at, psi, e, DU, int(index))
         if degenerate and (not rough or (counted and index == 0)):
-            # index 0: a saddle and a node have just met; +1 or -1: three critical sets have
-            C = replace(C, determinant=0.0, kind="saddle-node" if index == 0 else "degenerate")
+            # index 0: a saddle and a node have just met, if one eigenvalue stays; +1 or -1: three critical sets have
+            folds = index == 0 and np.abs(DU).max() > FLAT * at.size
+            C = replace(C, determinant=0.0, kind="saddle-node" if folds else "degenerate")
         elif rough or not _sides_agree(at, psi, C):
             C = replace(C, kind="degenerate")
         sets.append(C)

@@ -26,6 +26,7 @@ TOGETHER = 1e-6  # critical sets closer than this, and not told apart by the sea
 CURVE = 200  # undecided boxes that are no mere neighbours of a point,
 MIN_CURVE_EXTENT = 0.02  # if they extend this far
 REGULAR = 1e-4  # det D_e U, in units of |D_e U|^2, of a zero that is not multiple
+FLAT = 1e-6  # D_e U, in units of U, below which rounding decides its entries at such a zero
 ROUGH = 1e-2  # change of D_e U over `ONE_SIDED_DISTANCE`, in units of itself, of a U that is not differentiable
 INDEX_RADIUS = 2e-6  # radius of the circle around a rough zero on which its index is counted
 CROWDED = 100  # zeros: more effort would only find more of them
@@ -157,6 +158,7 @@ def _slopes(run: Program, points: Array, doubtful: NDArray[np.bool_]) -> tuple[A
         spread = np.abs(sides - DU[i]).max()
         determinants = every[:, 0, 0] * every[:, 1, 1] - every[:, 0, 1] * every[:, 1, 0]
         regular = np.abs(determinants) > REGULAR * np.square(every).sum(axis=(1, 2))
+        regular &= np.abs(every).max(axis=(1, 2)) > FLAT * _field_size(run)
         degenerate[i] = not (regular.all() and np.ptp(np.sign(determinants)) == 0.0)
         # a smooth U changes its slopes by about BESIDE times its size
         rough[i] = degenerate[i] and spread > max(

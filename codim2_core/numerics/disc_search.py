@@ -81,14 +81,22 @@ def _empty(out, rows, half):
 
 @kernel
 def _injective_radius(op, left, right, number, roots, c, s, rows, smallest, boxes, out):
-    """Half-width of a box around the zero (c, s) in which Krawczyk's test proves it and no other; 0 if none."""
+    """Half-width of a box around the zero (c, s) in which Krawczyk's test proves it and no other; 0 if none.
+
+    It is proved where the rounding of U at (c, s), over its slopes, keeps within the box: a U that is 0 in all digits
+    beside a double zero has no zero there.
+    """
     det = rows[0, 1] * rows[1, 2] - rows[0, 2] * rows[1, 1]
     y00, y01, y10, y11 = rows[1, 2] / det, -rows[0, 2] / det, -rows[1, 1] / det, rows[0, 1] / det
+    enclose(op, left, right, number, roots, c, c, s, s, boxes, out)
+    first, second = max(abs(out[0, 0]), abs(out[0, 1])), max(abs(out[1, 0]), abs(out[1, 1]))
+    step = max(abs(y00) * first + abs(y01) * second, abs(y10) * first + abs(y11) * second)
     radius = 1.0
     while radius > smallest:
         enclose(op, left, right, number, roots, c - radius, c + radius, s - radius, s + radius, boxes, out)
-        if _contraction(out, y00, y01, y10, y11) < 0.9:
-            return radius
+        contraction = _contraction(out, y00, y01, y10, y11)
+        if contraction < 0.9:
+            return radius if step <= (1.0 - contraction) * radius else 0.0
         radius *= 0.5
     return 0.0
 

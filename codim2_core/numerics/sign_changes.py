@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..arrays import Array
 
-__all__ = ["Roots", "lowest", "refine_roots", "roots", "sign_changes", "vertex"]
+__all__ = ["Roots", "lowest", "refine_roots", "roots", "sign_changes"]
 
 Function = Callable[[Array], Array]
 
@@ -148,14 +148,6 @@ def _near_zero(offsets: Array, sizes: Array) -> bool:
     lowest = q - slope * slope / (4.0 * bend) if bend > 0.0 else q
     # the parabola is trusted to within a part of its rise over the interval
     return lowest <= 0.3 * (max(p, r) - q)
-
-
-def vertex(grid: Array, y: Array, i: int) -> float:
-    """Place of the extremum of the parabola through points i - 1, i, i + 1; between these, where it has one."""
-    (u, _, w), (p, q, r) = (grid[i - 1 : i + 2] - grid[i]).tolist(), y[i - 1 : i + 2].tolist()
-    left, right = (p - q) / u, (r - q) / w
-    bend, slope = (right - left) / (w - u), (left * w - right * u) / (w - u)
-    return float(grid[i] + min(max(-0.5 * slope / bend, 0.9 * u), 0.9 * w)) if bend else float(grid[i] + 0.5 * w)
 
 
 def _hidden_pairs(

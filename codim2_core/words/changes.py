@@ -166,9 +166,6 @@ SENTENCES: dict[str, Sentence] = {
         ),
         "exponent 0",
     ),
-    "equator neutral": Sentence(
-        "The closed equator is neutral to first order: it changes its stability.", "exponent 0"
-    ),
     "set reaches the equator": Sentence(
         ("A critical set reaches the equator at θ = {theta:.4g}, and the limit direction changes its stability."),
         "e comes to the circle",
@@ -183,13 +180,6 @@ SENTENCES: dict[str, Sentence] = {
         "One limit direction splits into three at {at}: Θ has a triple zero.", "Θ has a triple zero, symmetric"
     ),
     "on the circle": Sentence("For a = d this lies on the circle |f| = |b| (D1).", "a = d"),
-    "border, turns": Sentence(
-        (
-            "|A⁻¹f| = 1: the critical set reaches the equator at θ = {theta:.4g}, and the limit direction there "
-            "changes its radial stability."
-        ),
-        "|A⁻¹f| − 1 changes sign",
-    ),
     "border, turns back": Sentence(
         (
             "|A⁻¹f| = 1: the critical set touches the equator at θ = {theta:.4g} and turns back, so nothing else "

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...arrays import Array, read_only
+from ...families.family import SystemFamily
 from ...layer_problem.problem import LayerProblem
 from ...words import say
-from ..family import PlaneFamily
 from ..result import AtlasCurve, AtlasPoint
 from .connection_seeds import EQUILIBRIUM_KINDS, ConnectionSearch, ConnectionSeed, lines_beside_takens, straight
 from .connection_tracing import ConnectionCurve, trace_connection
@@ -27,7 +27,7 @@ MAX_CURVES = 24  # curves
 
 
 def connection_curves(
-    family: PlaneFamily, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
+    family: SystemFamily, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
 ) -> tuple[list[AtlasCurve], list[AtlasPoint], tuple[str, ...]]:
     """Find connections, the points of codimension two on them, and kinds of which some may be missing.
 
@@ -105,7 +105,7 @@ def _birth_point(one: ConnectionCurve, takens: Sequence[Array], i: int) -> tuple
     return near, 0.5 * (section.origin + pair.leaving.p)
 
 
-def _end_point(family: PlaneFamily, place: Array, kind: str, curves: Sequence[AtlasCurve]) -> AtlasPoint:
+def _end_point(family: SystemFamily, place: Array, kind: str, curves: Sequence[AtlasCurve]) -> AtlasPoint:
     """Say where a curve could be followed no further, and beside what."""
     gaps = {
         one.kind: float(np.hypot(*(family.units(one.points) - place).T).min())
@@ -117,6 +117,6 @@ def _end_point(family: PlaneFamily, place: Array, kind: str, curves: Sequence[At
     return _point(family, "undecided", place, say("connection followed no further", kind=kind))
 
 
-def _point(family: PlaneFamily, kind: str, place: Array, sentence: str) -> AtlasPoint:
+def _point(family: SystemFamily, kind: str, place: Array, sentence: str) -> AtlasPoint:
     across, up = family.values(place).tolist()
     return AtlasPoint(kind, (across, up), sentence)

@@ -13,10 +13,10 @@ import numpy as np
 from ...arrays import Array
 from ...continuation.typed.section_base import correct_zero
 from ...curves.polyline import feet
+from ...families.family import SystemFamily
 from ...layer_problem.problem import LayerProblem
 from ...numerics.root_between import root_between
 from ..cycles.fold_seeds import marks
-from ..family import PlaneFamily
 from ..result import AtlasCurve
 from .saddles import Branch, branches, lines_of
 from .splitting import BranchPair, Splitting, roughly
@@ -124,7 +124,7 @@ class LineSample:
         return branches_, feet
 
 
-def sample(family: PlaneFamily, place: Array) -> LineSample | None:
+def sample(family: SystemFamily, place: Array) -> LineSample | None:
     """Return what a place has; None where U or Psi has no value."""
     try:
         return LineSample(place, LayerProblem(family.frozen(place), family.psi_at(place)))
@@ -132,7 +132,7 @@ def sample(family: PlaneFamily, place: Array) -> LineSample | None:
         return None
 
 
-def straight(family: PlaneFamily, curves: Sequence[AtlasCurve]) -> list[Array]:
+def straight(family: SystemFamily, curves: Sequence[AtlasCurve]) -> list[Array]:
     """Lines across and up the square, with some places at least between any two curves on which saddles come or go."""
     ours = [one for one in curves if one.kind in EQUILIBRIUM_KINDS]
     found = []
@@ -149,7 +149,7 @@ def straight(family: PlaneFamily, curves: Sequence[AtlasCurve]) -> list[Array]:
     return found
 
 
-def lines_beside_takens(family: PlaneFamily, takens: Sequence[Array], curves: Sequence[AtlasCurve]) -> list[Array]:
+def lines_beside_takens(family: SystemFamily, takens: Sequence[Array], curves: Sequence[AtlasCurve]) -> list[Array]:
     """Short lines that leave folds of critical sets through the Hopf curve, beside Bogdanov-Takens points.
 
     In the normal form x' = y, y' = p + q x + x^2 - x y the fold is p = q^2/4, Hopf p = 0, and the loop
@@ -193,7 +193,7 @@ class ConnectionSearch:
         Somewhere there were so many branches that none was followed.
     """
 
-    def __init__(self, family: PlaneFamily, known: Known) -> None:
+    def __init__(self, family: SystemFamily, known: Known) -> None:
         self.family, self.known, self.crowded = family, known, False
 
     def along(self, line: Array) -> Iterator[ConnectionSeed]:

@@ -16,9 +16,9 @@ import numpy as np
 
 from ...arrays import Array
 from ...continuation.typed.section_base import correct_zero, e_at, hemisphere_place
+from ...families.family import SystemFamily
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem
-from ..family import PlaneFamily
 from .saddles import Branch
 
 MAX_CACHE_DISTANCE = 3e-3  # of the square: so far from where it is known a connection is kept
@@ -141,7 +141,7 @@ class Splitting:
         There.
     """
 
-    def __init__(self, family: PlaneFamily, place: Array, pair: BranchPair) -> None:
+    def __init__(self, family: SystemFamily, place: Array, pair: BranchPair) -> None:
         self.family = family
         self._known = [(np.array(place, float), pair)]
         self._slope = np.full(2, math.nan), np.zeros((1, 2)), 0.0  # where it was computed, and how far it serves

@@ -9,8 +9,8 @@ from itertools import islice
 import numpy as np
 
 from ...arrays import Array, read_only
+from ...families.family import SystemFamily
 from ...words import say
-from ..family import PlaneFamily
 from ..result import AtlasCurve, AtlasPoint
 from .fold_seeds import FoldSeed, along_lines, seeds_beside_bautin
 from .fold_tracing import CENTRE, FoldCurve, trace_fold
@@ -23,7 +23,7 @@ SAME_SIZE_RATIO = 0.15  # of the size of cycles
 
 
 def cycle_curves(
-    family: PlaneFamily, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
+    family: SystemFamily, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
 ) -> tuple[list[AtlasCurve], list[AtlasPoint]]:
     """Find folds of cycles, and the places where they could be followed no further.
 

@@ -16,8 +16,8 @@ from ...arrays import Array
 from ...continuation.typed.ray import Ray
 from ...continuation.typed.section_base import HemispherePoint, correct_zero, hemisphere_place
 from ...continuation.typed.typed_turn import TurnOrbit, turn
+from ...families.family import SystemFamily
 from ...systems.frozen import FrozenSystem
-from ..family import PlaneFamily
 
 LOG_SIZE_SCALE = 6.0  # of x: steps along curves are as long in it as in the unit square
 DIFFERENCE_STEP = 1e-6  # for derivatives, which tell the way and not the place
@@ -41,7 +41,7 @@ class EncirclingTurns:
         Whether it is a critical set.
     """
 
-    def __init__(self, family: PlaneFamily, place: Array, e: Array, u: Array, critical: bool = True) -> None:
+    def __init__(self, family: SystemFamily, place: Array, e: Array, u: Array, critical: bool = True) -> None:
         self.family, self.u = family, u
         self._known = [(np.array(place, float), np.array(e, float))]
         self._still = None if critical else hemisphere_place(family.psi_at(place), self._known[0][1])

@@ -15,10 +15,10 @@ from ...continuation.typed.section_base import e_at
 from ...continuation.typed.typed_branches import TypedSearch
 from ...continuation.typed.typed_family import VariedRay
 from ...cycles.ray_section import TurnSection
+from ...families.family import SystemFamily
 from ...layer_problem.critical import critical_sets
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem
-from ..family import PlaneFamily
 from ..result import AtlasCurve
 from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
 from .fold_tracing import CycleStart
@@ -44,7 +44,7 @@ class FoldSeed:
     size: float
 
 
-def seeds_beside_bautin(family: PlaneFamily, place: Array) -> list[FoldSeed]:
+def seeds_beside_bautin(family: SystemFamily, place: Array) -> list[FoldSeed]:
     """Places where the fold may be caught that begins at a generalised Hopf point."""
     at, psi = family.frozen(place), family.psi_at(place)
     critical = critical_sets(at, psi)
@@ -56,12 +56,12 @@ def seeds_beside_bautin(family: PlaneFamily, place: Array) -> list[FoldSeed]:
     return [FoldSeed(CycleStart(around, np.array([math.log(chi) / LOG_SIZE_SCALE, *place])), chi) for chi in RAY_STARTS]
 
 
-def along_lines(family: PlaneFamily, curves: Sequence[AtlasCurve]) -> list[FoldSeed]:
+def along_lines(family: SystemFamily, curves: Sequence[AtlasCurve]) -> list[FoldSeed]:
     """Folds on branches of cycles along some lines across the square, among its curves."""
     return [seed for axis in (0, 1) for at in LINE_OFFSETS for seed in _seeds_along(family, curves, axis, at)]
 
 
-def _seeds_along(family: PlaneFamily, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[FoldSeed]:
+def _seeds_along(family: SystemFamily, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[FoldSeed]:
     def place(value: float) -> Array:
         return np.array([value, at] if axis == 0 else [at, value])
 
@@ -76,13 +76,13 @@ def _seeds_along(family: PlaneFamily, curves: Sequence[AtlasCurve], axis: int, a
     return [_seed(family, ray, turn, place(turn.value)) for ray, turn in folds]
 
 
-def _seed(family: PlaneFamily, ray: VariedRay, turn: ReturnMapPoint, where: Array) -> FoldSeed:
+def _seed(family: SystemFamily, ray: VariedRay, turn: ReturnMapPoint, where: Array) -> FoldSeed:
     e = e_at(family.psi_at(where), ray.foot.place(turn.value).x2)
     around = EncirclingTurns(family, where, e, ray.u, ray.foot.critical)
     return FoldSeed(CycleStart(around, np.array([turn.xi / LOG_SIZE_SCALE, *where])), turn.amplitude)
 
 
-def marks(family: PlaneFamily, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[EquilibriumMark]:
+def marks(family: SystemFamily, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[EquilibriumMark]:
     """Return where curves of equilibria cross a line."""
     found = []
     for curve in curves:

@@ -12,8 +12,8 @@ from ...continuation.typed.ray import best_crossing, room
 from ...continuation.typed.section_base import e_at
 from ...curves.arclength import CurveEdge, StepBounds, square_edges, tangent, trace_one_way
 from ...curves.newton import newton
+from ...families.family import SystemFamily
 from ...layer_problem.critical import critical_sets
-from ..family import PlaneFamily
 from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
 
 CENTRE = "critical set"  # how a curve ends whose cycles shrink to one
@@ -44,7 +44,7 @@ class FoldCurve:
     ends: tuple[str, str]
 
 
-def trace_fold(family: PlaneFamily, start: CycleStart) -> FoldCurve | None:
+def trace_fold(family: SystemFamily, start: CycleStart) -> FoldCurve | None:
     """Return the curve through a start; None if it is not caught."""
     first = newton(start.around.fold, start.v, MAX_SEED_ERROR)
     along = None if first is None else tangent(start.around.fold, first)
@@ -61,7 +61,7 @@ def trace_fold(family: PlaneFamily, start: CycleStart) -> FoldCurve | None:
 
 
 def _one_way(
-    family: PlaneFamily, around: EncirclingTurns, here: Array, along: Array
+    family: SystemFamily, around: EncirclingTurns, here: Array, along: Array
 ) -> tuple[list[tuple[EncirclingTurns, Array]], str]:
     """Places after one, each with its ray, and how the curve ends; "" where it has come round."""
     rows: list[tuple[EncirclingTurns, Array]] = []
@@ -79,7 +79,7 @@ def _one_way(
 
 
 def _again(
-    family: PlaneFamily, around: EncirclingTurns, last: Array, way: Array
+    family: SystemFamily, around: EncirclingTurns, last: Array, way: Array
 ) -> tuple[EncirclingTurns, Array, Array] | None:
     """Find the last cycle on a ray that it crosses better, and the direction there; None if there is none."""
     turned, ray = around.turn(last), around.ray(last[1:])
@@ -104,7 +104,7 @@ def _again(
     return start.around, found, along if float(along[1:] @ way[1:]) > 0.0 else -along
 
 
-def _encircled_points(family: PlaneFamily, place: Array, closed: Array) -> list[EncirclingTurns]:
+def _encircled_points(family: SystemFamily, place: Array, closed: Array) -> list[EncirclingTurns]:
     """Points inside a cycle: critical sets that are no saddles, others, and its middle."""
     psi, nowhere = family.psi_at(place), np.array([1.0, 0.0])
     sets = sorted(critical_sets(family.frozen(place), psi), key=lambda C: C.kind == "saddle")

@@ -287,6 +287,8 @@ class TypedSearch:
     def _band(self, pieces: list[RayPiece]) -> bool:
         """Whether closed orbits of all sizes were followed at one value, a band and no branch; then it is noted."""
         turns = [point.turn for piece in pieces for point in piece.trace.points if point.turn.height > ROUNDING_HEIGHT]
+        if not turns:
+            return False
         first, heights = turns[0].value, [turn.height for turn in turns]
         if (
             any(abs(turn.value - first) > SAME_VALUE_SHARE * self.width for turn in turns)

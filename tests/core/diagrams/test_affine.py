@@ -1,4 +1,4 @@
-"""A general system whose U is affine in (c, s) is followed as an e-linear one, and told in its own axes."""
+"""A general system whose U is affine in (c, s): places are in its own axes, and cycles those of an e-linear one."""
 
 import math
 
@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.diagrams.family import linear_path, values_over
-from codim2_core.diagrams.typed.general_diagram import general_parts
+from codim2_core.diagrams.cycle_branches import normal_forms
 
 PSI = c2.psi.hill(3)
 #: A matrix and f whose cycles are born, fold and become the equator, in axes that turn by p*k + 0.4.
@@ -43,7 +42,7 @@ CASES = {
 def test_everything_told_stands_where_it_is_at_its_value(name):
     system, along, z = CASES[name]
     span = (-1.0, 1.0) if name.startswith("a matrix") else (2.0, 4.0) if along == "n" else SPAN
-    assert linear_path(system, PSI, z, along, values_over(span)) is not None
+    assert normal_forms(system, PSI, along, span, z) is not None
     found = c2.branches(system, PSI, along, span, z)
     assert found.critical
     assert found.limit_directions or found.closed
@@ -78,13 +77,13 @@ def test_everything_told_stands_where_it_is_at_its_value(name):
         assert min(np.hypot(*(line - branch.section[i]).T).min() for line in lines) < 0.02
 
 
-def test_axes_that_turn_too_far_or_jump_stay_on_the_general_path():
-    assert linear_path(turning(20.0), PSI, (), "p", values_over((-0.1, 0.4))) is None
+def test_cycles_in_axes_that_turn_too_far_or_jump_are_followed_on_a_ray():
+    assert normal_forms(turning(20.0), PSI, "p", (-0.1, 0.4), ()) is None
     jump = c2.System(U=("p*c-s+0.1", "c-p*s+0.2"), parameters={"p": 0.1})
-    assert linear_path(jump, PSI, (), "p", values_over((-1.0, 1.0))) is not None  # in the normal form already
+    assert normal_forms(jump, PSI, "p", (-1.0, 1.0), ()) is not None  # in the normal form already
     jump = c2.System(U=("p*c-s+0.1", "(1+0.001*p)*c-p*s+0.2"), parameters={"p": 0.1})
-    assert linear_path(jump, PSI, (), "p", values_over((-1.0, 1.0))) is None
-    assert linear_path(c2.System(U=("p*c*c-s", "c"), parameters={"p": 0.1}), PSI, (), "p", values_over(SPAN)) is None
+    assert normal_forms(jump, PSI, "p", (-1.0, 1.0), ()) is None
+    assert normal_forms(c2.System(U=("p*c*c-s", "c"), parameters={"p": 0.1}), PSI, "p", SPAN, ()) is None
 
 
 def test_a_system_with_a_clock_is_that_of_the_instant_0():
@@ -93,14 +92,3 @@ def test_a_system_with_a_clock_is_that_of_the_instant_0():
     reach = math.sqrt(0.3**2 - 0.1**2)
     assert [one.value for one in first.special if one.kind == "transcritical"] == pytest.approx([-reach, reach])
     assert [one.value for one in first.special] == [one.value for one in second.special]
-
-
-def test_special_values_are_those_of_the_general_path():
-    system = turning(1.5)
-    *_, general = general_parts(system, PSI, "p", SPAN, ())
-    special = c2.branches(system, PSI, "p", SPAN, with_cycles=False).standing
-    assert sorted(one.kind for one in general) == sorted(one.kind for one in special)
-    assert len(special) >= 4
-    for one in special:
-        others = [(other.value, *other.place) for other in general if other.kind == one.kind]
-        assert min(abs(np.array(other) - (one.value, *one.place)).max() for other in others) < 1e-5

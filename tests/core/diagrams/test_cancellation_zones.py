@@ -22,9 +22,15 @@ def test_a_pole_that_is_none_is_passed_and_nothing_beside_it_is_special(span):
     found = c2.branches(REMOVABLE, PSI, "k", span, with_cycles=False)
     gap = lambda k: (math.exp(-1.0) - math.exp(-k)) / (k - 1.0) - (k - 1.0) ** 2 - 1e-6
     expected = [root_scalar(gap, bracket=part, xtol=1e-14).root for part in ((0.15, 0.9), (1.1, 1.9))]
-    assert [one.kind for one in found.special] == ["pitchfork"] * 2
+    forks = [one for one in found.special if one.kind == "pitchfork"]
+    others = [one for one in found.special if one.kind != "pitchfork"]
+    # at theta = 0 and pi both slopes of U are equal where (k - 1)^2 + 1e-6 = 1
+    assert {one.kind for one in others} == {"exchange of limit directions"}
+    for one in others:
+        assert (one.value - 1.0) ** 2 == pytest.approx(1.0 - 1e-6, abs=1e-12)
+        assert one.place[1] == pytest.approx(0.0, abs=1e-12)
     np.testing.assert_allclose(
-        [one.value for one in found.special], expected, rtol=0.0, atol=1e-8
+        [one.value for one in forks], expected, rtol=0.0, atol=1e-8
     )  # as near as a triple zero is told
     for branch in found.limit_directions:  # nothing breaks off at k = 1
         assert min(abs(branch.value[[0, -1]] - 1.0)) > 0.4

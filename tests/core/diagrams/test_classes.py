@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 import codim2_core as c2
 from codim2_core.diagrams.class_line import class_line
-from codim2_core.diagrams.test_functions import class_name, classes, family
+from codim2_core.diagrams.classes import classes_over
 
 PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.custom("1/(1+s)**2"))
 numbers = st.one_of(st.floats(-2, 2).map(lambda v: round(v, 3)), st.sampled_from([-1.0, 0.0, 0.5, 1.0]))
@@ -27,17 +27,14 @@ def exact(system: c2.ELinear | c2.System, psi: c2.Psi, z: tuple[float, ...] = ()
 @settings(max_examples=20, deadline=None)
 @given(st.tuples(*[numbers] * 5), st.sampled_from(PSIS))
 @example((0.219, 0.219, 0.219, 0.0, 0.0), PSIS[0])  # the zeros of Theta are complex, and double
-def test_vectorised_classes_agree_with_the_exact_ones(plane: tuple[float, ...], psi: c2.Psi) -> None:
+def test_classes_are_named_as_the_portrait(plane: tuple[float, ...], psi: c2.Psi) -> None:
     a, b, d, f1, f2 = plane
     frozen = c2.ELinear(a, b, d, f=(f1, f2)).at()
     if c2.classify(frozen, psi).degeneracies:
         return
-    equator = c2.equator_equilibria(frozen)
-    if equator.distance < 1e-9:
-        return
-    # two values, so that the plane is not taken for a single system
-    several = family(frozen, psi, (), "a", "b")(a=np.array([a, a + 1]), b=np.array([b, b + 1]))
-    assert class_name(classes(several)[0]) == exact(frozen, psi)
+    over = classes_over(frozen, psi, (), ("a", "b"), ((a - 1, a + 1), (b - 1, b + 1)))
+    here, _ = over.decided(np.array([[a, b], [a + 0.5, b + 0.5]])).tolist()
+    assert over.name(here) == exact(frozen, psi)
 
 
 FOLDING = c2.System(U=("2*c**2 - c - mu", "-s + k*c*s"), parameters={"mu": 0.5, "k": 0.3})

@@ -106,7 +106,7 @@ def test_poles_are_gaps() -> None:
 def test_persistently_degenerate_systems_have_their_branches() -> None:
     # Theta has a double zero all along: f1 = -b, a = d, f2 = 0
     D = equilibrium_branches(c2.ELinear("z", 1, "z", f=(0, -1)), c2.psi.tanh(), "z1", (-2, 2), z=(1,))
-    assert {b.kind.split(", ")[1] for b in D.limit_directions} == {"angularly non-hyperbolic"}
+    assert {b.kind.split(", ")[1] for b in D.limit_directions} == {"angularly non-hyperbolic: saddle-node"}
     D = equilibrium_branches(c2.ELinear("z", 0, "z"), c2.psi.tanh(), "z1", (-2, 2), z=(1,))
     assert D.limit_directions == ()
     D = equilibrium_branches(c2.ELinear(0, 1, 0, f=(0.2, 0.1)), c2.psi.tanh(), "f1", (-2, 2))
@@ -217,8 +217,8 @@ def test_events_closer_than_a_bracket_are_both_told_with_their_values() -> None:
     D = equilibrium_branches(_TYPED.evolve(**values), c2.psi.tanh(), "a", span)
     a, b, d, *f = values.values()
     wanted = equilibrium_branches(c2.ELinear(a, b, d, f), c2.psi.tanh(), "a", span).special[:2]
-    assert [s.kind for s in D.special] == [s.kind for s in wanted] == ["transcritical", "saddle-node"]
-    assert_allclose([s.value for s in D.special], [s.value for s in wanted], rtol=0.0, atol=1e-11)
+    assert [s.kind for s in D.special[:2]] == [s.kind for s in wanted] == ["transcritical", "saddle-node"]
+    assert_allclose([s.value for s in D.special[:2]], [s.value for s in wanted], rtol=0.0, atol=1e-11)
 
 
 def test_pitchforks_of_a_general_system_are_both_named() -> None:

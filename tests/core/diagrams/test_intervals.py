@@ -171,3 +171,65 @@ def test_two_folds_that_undo_each_other_beside_a_special_value():
     for low, high in pairwise([0.6986, *(s.value for s in special if 0.6986 < s.value < 1.6), 1.6]):
         x = low + (high - low) * PARTS[1:-1]
         assert len({still(system, c2.psi.hill(6), "p", float(v)) for v in x}) == 1
+
+
+SHORT_PAIRS = {
+    "two limit directions, for 1.1e-4 of p": (
+        "0.139 - 0.618*p + 0.338*c - 0.636*s + 1.05*c*s - 0.882*c**2 - 1.151*s**3 + 0.486*p*c - 0.68*p*s*s",
+        "0.868 - 0.734*p - 0.68*c + 0.155*s - 0.521*c*s - 0.273*c**2 - 0.955*s**3 - 0.586*p*c - 0.63*p*s*s",
+        c2.psi.hill(3), "saddle-node", (-0.05849607, -0.05838955),
+    ),
+    "two critical sets, for 3e-4": (
+        "0.933 + 0.302*p + 1.217*c - 1.744*s + 0.187*c*s + 1.152*c**2 - 1.248*s**3 - 0.837*p*c + 0.474*p*s*s",
+        "0.798 - 0.831*p + 0.537*c - 1.424*s + 0.983*c*s + 0.596*c**2 - 0.764*s**3 - 0.559*p*c + 0.531*p*s*s",
+        c2.psi.hill(1), "fold of critical sets", (0.05906645, 0.05936863),
+    ),
+    "two critical sets, one of them born on a kink": (
+        "0.68 + 0.889*p - 0.104*c + 0.657*s - 1.757*c*s + 0.806*c**2 + 0.441*s**3 + 0.986*p*c + 0.644*p*s*s"
+        " - 0.646*abs(c)",
+        "-0.228 + 0.337*p - 1.91*c - 0.153*s - 1.328*c*s - 1.532*c**2 - 1.323*s**3 + 0.536*p*c - 0.741*p*s*s"
+        " - 0.757*abs(c)*c",
+        c2.psi.hill(6), "fold of critical sets", (-0.26140557, -0.26121828),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", SHORT_PAIRS)
+def test_a_pair_that_lives_for_a_thousandth_of_the_span_is_found(name):
+    """The number of what stands still is another one between the two values only."""
+    *U, psi, kind, values = SHORT_PAIRS[name]
+    system = c2.System(U=tuple(U), parameters={"p": 0.0})
+    special = equilibrium_branches(system, psi, "p", (-1.5, 1.6)).special
+    low, high = values
+    near = [s.value for s in special if s.kind == kind and low - 1e-3 < s.value < high + 1e-3]
+    assert near == pytest.approx(values, abs=1e-8)
+
+    def count(value):
+        at = system.evolve(p=value)
+        return len(c2.equator_equilibria(at)), len(c2.critical_sets(at, psi))
+
+    assert count(low - 1e-5) == count(high + 1e-5) != count(0.5 * (low + high))
+
+
+def test_what_touches_zero_is_one_point_whatever_is_rounded():
+    """A centre to first order at f1 = 0; a set on the equator at b = 0; a line of equilibria where det A = b^2 = 0."""
+    kinds = lambda system, psi, name, span: [s.kind for s in equilibrium_branches(system, psi, name, span).special]
+    assert kinds(c2.ELinear(1, 3, -1), c2.psi.constant(), "f1", (-0.5, 0.5)) == ["tr J = 0"]
+    system = c2.ELinear(-0.5, -2.5, -1.0, (-0.5, 0.0))
+    touching = [
+        s for s in equilibrium_branches(system, c2.psi.hill(2), "b", (-2.2, 2.1)).special
+        if s.kind in ("touching the equator", "transcritical")
+    ]  # fmt: skip
+    assert [(s.kind, round(s.value, 9)) for s in touching] == [("touching the equator", 0.0)]
+    found = kinds(c2.ELinear(-2.0, 2.5, 0.0, (-1.0, 0.0)), c2.psi.rational(), "b", (-2.2, 2.1))
+    assert found.count("line of equilibria") == 1
+    assert "touching the equator" not in found
+
+
+def test_a_symmetric_pair_of_bifurcations_is_told_as_two_at_one_value():
+    U = "-0.21 + p - 1.807*c + 1.285*c*c - 1.623*s*s", "s*(0.331 + 1.639*c - 0.571*p - 1.656*s*s)"
+    special = equilibrium_branches(c2.System(U=U, parameters={"p": 0.0}), c2.psi.hill(2), "p", (-1.5, 1.6)).special
+    assert [s.kind for s in special].count("saddle-node") == 2
+    for kind in ("saddle-node", "node-focus", "transcritical"):
+        pair = [s for s in special if s.kind == kind and abs(s.place[1]) > 0.1]
+        assert sum(s.place[1] for s in pair) == pytest.approx(0.0, abs=1e-9)

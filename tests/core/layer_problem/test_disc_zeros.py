@@ -198,3 +198,52 @@ def test_a_fold_close_to_another_critical_set_is_one_of_its_own(apart):
     np.testing.assert_allclose(found.e, [(0.3, 0.0), (0.3 + apart, 0.0)], atol=1e-2 * apart)
     assert found.degenerate.tolist() == [True, False]
     assert found.index.tolist() == [0, 1]
+
+
+R = "0.25", "0.0625", "0.5625", "0.140625"  # squares in binary
+EXACT_FOLDS = [
+    ("c*c-c+0.25+s*s", "s"),
+    ("c*c-c+0.25", "-s"),
+    ("c*c-c+0.25", "s+0.125"),
+    ("c*s-0.25", "c+s-1"),
+    ("(c-0.125)*(c-0.125)", "s"),
+    *((f"c*c+s*s-{r}", f"s-{math.sqrt(float(r))!r}") for r in R),
+    *((f"c*c+s*s-{r}", f"0.1*(c+{math.sqrt(float(r))!r})") for r in R),
+    *((f"c*c+s*s-{r}", f"-2*(c-{math.sqrt(float(r))!r})") for r in R),
+    *((f"s*s-{2 * math.sqrt(float(r))!r}*s+{r}", "c+0.25*s") for r in R),
+]
+
+
+@pytest.mark.parametrize("U", EXACT_FOLDS, ids=str)
+def test_a_fold_whose_formula_is_zero_in_all_digits_over_an_interval_is_one_saddle_node(U):
+    """U is 0 in doubles beside its double zero, where Newton's method ends at once: no zero is proved there."""
+    zeros = zeros_of(*U)
+    assert zeros.degenerate.tolist() == [True]
+    assert zeros.consistent
+    assert [C.kind for C in critical_sets(System(U=U), psi.constant())] == ["saddle-node"]
+
+
+def test_a_slider_that_meets_an_exact_fold_meets_one_critical_set():
+    system = System(U=("c*c+s*s-p", "s-0.5"), parameters={"p": 0.3})
+    assert [len(critical_sets(system.evolve(p=p), psi.constant())) for p in (0.2499, 0.25, 0.2501)] == [0, 1, 2]
+
+
+@pytest.mark.parametrize(
+    "U",
+    [
+        ("c**3", "s**3"),
+        ("c**3", "-s**3"),
+        ("c**3+s**3", "c**3-s**3"),
+        ("c**5", "s**3"),
+        ("c*abs(c)", "-s*abs(s)"),
+        ("c**3-3*c*s*s", "3*c*c*s-s**3"),
+        ("c*c-s*s", "2*c*s"),
+        ("c*(c*c+s*s)", "s*(c*c+s*s)"),
+        ("-s**3", "c**3"),
+        ("(c-0.3)**3", "(s-0.2)**3"),
+        ("c*c", "s*s"),
+    ],
+    ids=str,
+)
+def test_a_jacobian_of_zeros_is_degenerate_and_not_named_by_rounding(U):
+    assert [C.kind for C in critical_sets(System(U=U), psi.constant())] == ["degenerate"]

@@ -210,3 +210,16 @@ def test_the_general_path_tells_what_the_e_linear_one_does(name):
     (general,), (elinear,) = (c2.branches(S, family, "f1", (-1.5, 1.5)).cycles for S in (twin(system, 0.7), system))
     assert [one.kind for one in general.special] == [one.kind for one in elinear.special]
     assert [one.value for one in general.special] == pytest.approx([one.value for one in elinear.special], abs=1e-5)
+
+
+@pytest.mark.parametrize("family", [c2.psi.tanh(), c2.psi.hill(4)], ids=str)
+def test_a_branch_of_the_smallest_heights_alone_is_no_band(family):
+    U = (
+        "p*c + 0.162 - 0.614*s - 1.082*c*c - 0.091*c*s + 0.088*s*s + 0.137*c**3 - 0.311*c*c*s + 0.117*s**3"
+        " + 0.696*sin(3*s)",
+        "(-0.091 + 0.5*p)*s - 0.108 + 1.24*c - 0.006*s*s - 0.761*c**3 - 0.909*c*c*s",
+    )
+    system = c2.System(U=U, parameters={"p": 0.0})
+    found = c2.branches(system, family, "p", (-1.5, 1.5))
+    for value in (-1.2, -0.4, 0.1, 0.35):
+        assert found.cycles.count(value) == len(c2.limit_cycles(system.evolve(p=value), family))

@@ -10,14 +10,14 @@ import numpy as np
 
 from ..arrays import Array
 from ..curves.newton import Condition
-from .family import AXES, PlaneFamily
+from .family import AXES, SystemFamily
 
 MIN_ANGLES, MAX_ANGLES = 64, 2**12  # angles of the mean rule
 MEAN_TOLERANCES = np.array([1e-13, 1e-9, 1e-9])  # of the mean, and of its slopes
 NO_VALUE = np.full(1, math.nan), np.full((1, 2), math.nan)
 
 
-def singular_matrix(family: PlaneFamily) -> Condition:
+def singular_matrix(family: SystemFamily) -> Condition:
     """Det A = 0, of an e-linear system."""
 
     def condition(v: Array) -> tuple[Array, Array]:
@@ -29,7 +29,7 @@ def singular_matrix(family: PlaneFamily) -> Condition:
     return condition
 
 
-def neutral_equator(family: PlaneFamily) -> Condition:
+def neutral_equator(family: SystemFamily) -> Condition:
     """Find where the mean of lambda_rho/|Theta| over the equator is zero, of a closed equator (thm:geneps0(c)).
 
     Means over equally spaced angles, twice as many until they stand; NaNs where there are limit directions.
@@ -56,7 +56,7 @@ def neutral_equator(family: PlaneFamily) -> Condition:
 Means = Callable[[Array, int], "Array | None"]
 
 
-def _means(family: PlaneFamily) -> Means:
+def _means(family: SystemFamily) -> Means:
     rows = family.unit_rows
     slopes = [[row.derivative(name) for name in AXES] for row in rows]
 
@@ -78,7 +78,7 @@ def _means(family: PlaneFamily) -> Means:
     return means
 
 
-def _affine_means(family: PlaneFamily) -> Means:
+def _affine_means(family: SystemFamily) -> Means:
     """Likewise: Theta and lambda_rho are sums of c, s, c^2, c s and s^2 with coefficients that a place decides."""
 
     def means(v: Array, count: int) -> Array | None:

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..curves.newton import Condition
-from .family import PlaneFamily
+from .family import SystemFamily
 
 DIFFERENCE_STEP = 1e-5  # for derivatives of Theta''
 
@@ -42,7 +42,7 @@ class EquatorEquations:
         Derivatives of Theta and Theta' by u and v.
     """
 
-    def __init__(self, family: PlaneFamily, v: Array) -> None:
+    def __init__(self, family: SystemFamily, v: Array) -> None:
         theta, across, up = v.tolist()
         c, s = math.cos(theta), math.sin(theta)
         U, Uc, Us, Uu, Uv, Ucc, Ucs, Ucu, Ucv, Uss, Usu, Usv, *rest = family.jet(c, s, across, up)
@@ -65,7 +65,7 @@ class EquatorEquations:
         )
 
 
-def saddle_node(family: PlaneFamily) -> Condition:
+def saddle_node(family: SystemFamily) -> Condition:
     """Theta = Theta' = 0."""
 
     def condition(v: Array) -> tuple[Array, Array]:
@@ -75,7 +75,7 @@ def saddle_node(family: PlaneFamily) -> Condition:
     return condition
 
 
-def pitchfork(family: PlaneFamily) -> Condition:
+def pitchfork(family: SystemFamily) -> Condition:
     """Theta' = Theta'' = 0: where a symmetry keeps Theta = 0 along the curve, Theta does not tell."""
 
     def condition(v: Array) -> tuple[Array, Array]:
@@ -90,7 +90,7 @@ def pitchfork(family: PlaneFamily) -> Condition:
     return condition
 
 
-def through_equator(family: PlaneFamily) -> Condition:
+def through_equator(family: SystemFamily) -> Condition:
     """U = 0 on the equator."""
 
     def condition(v: Array) -> tuple[Array, Array]:
@@ -100,7 +100,7 @@ def through_equator(family: PlaneFamily) -> Condition:
     return condition
 
 
-def equator_corner(family: PlaneFamily) -> Condition:
+def equator_corner(family: SystemFamily) -> Condition:
     """U = 0 and Theta' = 0 on the equator."""
 
     def condition(v: Array) -> tuple[Array, Array]:
@@ -122,7 +122,7 @@ class InteriorEquations:
     determinant_slopes : list of float (4,)
     """
 
-    def __init__(self, family: PlaneFamily, v: Array) -> None:
+    def __init__(self, family: SystemFamily, v: Array) -> None:
         c, s, across, up = v.tolist()
         U, Uc, Us, Uu, Uv, Ucc, Ucs, Ucu, Ucv, Uss, Usu, Usv, *rest = family.jet(c, s, across, up)
         V, Vc, Vs, Vu, Vv, Vcc, Vcs, Vcu, Vcv, Vss, Vsu, Vsv = rest
@@ -180,7 +180,7 @@ class InteriorEquations:
         return out
 
 
-def fold(family: PlaneFamily) -> Condition:
+def fold(family: SystemFamily) -> Condition:
     """U = 0 and det J = 0."""
 
     def condition(v: Array) -> tuple[Array, Array]:
@@ -190,7 +190,7 @@ def fold(family: PlaneFamily) -> Condition:
     return condition
 
 
-def pitchfork_of_sets(family: PlaneFamily) -> Condition:
+def pitchfork_of_sets(family: SystemFamily) -> Condition:
     """U along the range of DU, det J, and the derivative of that along the null vector of DU.
 
     Where a symmetry keeps U = 0 along the curve, U and det J have no regular zero: the part of U across that range
@@ -211,7 +211,7 @@ def pitchfork_of_sets(family: PlaneFamily) -> Condition:
     return condition
 
 
-def hopf(family: PlaneFamily) -> Condition:
+def hopf(family: SystemFamily) -> Condition:
     """U = 0 and tr J = 0."""
 
     def condition(v: Array) -> tuple[Array, Array]:
@@ -221,7 +221,7 @@ def hopf(family: PlaneFamily) -> Condition:
     return condition
 
 
-def node_focus(family: PlaneFamily) -> Condition:
+def node_focus(family: SystemFamily) -> Condition:
     """U = 0 and tr(J)^2 = 4 det J."""
 
     def condition(v: Array) -> tuple[Array, Array]:

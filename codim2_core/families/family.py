@@ -1,6 +1,6 @@
-"""U on Sigma over the plane of two parameters, with its derivatives by e and by both: what all curves are made of.
+"""U on Sigma over one or two parameters, with its derivatives: what bifurcation points and curves are solved from.
 
-Both parameters run from 0 to 1 over their ranges.
+Each parameter runs from 0 to 1 over its range.
 """
 
 from __future__ import annotations
@@ -14,20 +14,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arrays import Array
+from ..expressions.arrays import program
 from ..expressions.expression import Expression, parse
 from ..expressions.names import SLOW_NAMES
 from ..initial_value.field import function_of, rows_of
 from ..layer_problem.vary import vary
-from ..psi.constructors import with_parameter
+from ..psi.constructors import many, with_parameter
 from ..psi.function import Psi
 
-Ranges = tuple[tuple[float, float], tuple[float, float]]
+Ranges = tuple[tuple[float, float], ...]
 
 DIFFERENCE_STEP = 1e-5  # of ln s and of the parameter of Psi, for derivatives by them
 KINK_OFFSET = 1e-10  # in e, where derivatives are taken for those of a point that has none
 MIN_RADIUS_SQUARED = 1e-16  # |e|^2 below which it counts as this
 MAX_RADIUS_SQUARED = 1.0 - 1e-6  # |e|^2 up to which curves that ask for Psi are followed: they end on the equator
-AXES: tuple[str, str] = ("across_unit", "up_unit")
+AXES: tuple[str, str] = ("x", "y")  # names of the parameters in units of their ranges: free, as x = y = 0 on Sigma
 _TAPE_ROWS = ("row_c", "row_s", "row_f")
 
 
@@ -49,26 +50,26 @@ class EigenvalueRatio(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class PlaneFamily:
-    """A system and Psi over two parameters.
+class SystemFamily:
+    """A system and Psi over one or two parameters.
 
     Attributes
     ----------
     system, psi, z
         As given.
-    names : (str, str)
-    ranges : ((low, high), (low, high))
+    names : tuple of str
+    ranges : tuple of (low, high)
     """
 
     system: Any
     psi: Psi
     z: tuple[float, ...]
-    names: tuple[str, str]
+    names: tuple[str, ...]
     ranges: Ranges
 
     @cached_property
     def rows(self) -> tuple[Expression, Expression]:
-        """U1 and U2 on Sigma, in c, s and the names of both parameters."""
+        """U1 and U2 on Sigma, in c, s and the names of the parameters."""
         first, second = (self._on_sigma(row) for row in _formula_rows(self.system, self.names))
         return first, second
 
@@ -79,7 +80,7 @@ class PlaneFamily:
                 row = row.substitute(name, parse(repr(value), ()))
         return row
 
-    @property
+    @cached_property
     def affine(self) -> bool:
         """Whether U is affine in e: then critical sets do not meet."""
         return all(
@@ -89,26 +90,22 @@ class PlaneFamily:
         )  # fmt: skip
 
     @property
-    def read(self) -> tuple[bool, bool]:
-        """Return which of the two parameters U reads."""
-        first, second = (any(name in row.names for row in self.rows) for name in self.names)
-        return first, second
+    def read(self) -> tuple[bool, ...]:
+        """Return which of the parameters U reads."""
+        return tuple(any(name in row.names for row in self.rows) for name in self.names)
 
     @cached_property
-    def of_psi(self) -> tuple[bool, bool]:
-        """Return which of the two parameters is that of Psi."""
+    def of_psi(self) -> tuple[bool, ...]:
+        """Return which of the parameters is that of Psi."""
         own = self.psi.record.parameter
-        first, second = (
-            own is not None and name == own.name and name not in self.system.variable for name in self.names
-        )
-        return first, second
+        return tuple(own is not None and name == own.name and name not in self.system.variable for name in self.names)
 
     @cached_property
     def unit_rows(self) -> tuple[Expression, Expression]:
         """U1 and U2 over `size`, in c, s and `AXES`, the places in the unit square."""
         found = []
         for row in self.rows:
-            for name, unit, low, width in zip(self.names, AXES, self._low.tolist(), self.widths.tolist(), strict=True):
+            for name, unit, low, width in zip(self.names, AXES, self._low.tolist(), self.widths.tolist(), strict=False):
                 row = row.substitute(name, parse(f"{low!r} + {width!r}*{unit}", AXES))
             found.append(parse(f"value/{self.size!r}", ("value",)).substitute("value", row))
         return found[0], found[1]
@@ -133,7 +130,7 @@ class PlaneFamily:
 
     @cached_property
     def widths(self) -> Array:
-        """Widths of both ranges, (2,)."""
+        """Widths of the ranges, (n,)."""
         return np.array([high - low for low, high in self.ranges])
 
     @cached_property
@@ -141,36 +138,54 @@ class PlaneFamily:
         return np.array([low for low, _ in self.ranges])
 
     def values(self, u: Array) -> Array:
-        """Return the parameters at places (..., 2) of the unit square."""
+        """Return the parameters at places (..., n) of the unit square."""
         return self._low + self.widths * u
 
     def units(self, values: Array) -> Array:
-        """Return places of the unit square from values (..., 2) of the parameters."""
+        """Return places of the unit square from values (..., n) of the parameters."""
         return np.asarray((values - self._low) / self.widths)
+
+    def value(self, u: float) -> float:
+        """Return the parameter of a family of one at a place of its span."""
+        return float(self._low[0] + self.widths[0] * u)
+
+    def unit(self, value: float) -> float:
+        """Return the place in its span of a value of the parameter of a family of one."""
+        return float((value - self._low[0]) / self.widths[0])
 
     @cached_property
     def size(self) -> float:
         """The largest |U| on a coarse net over the disc and the square, or 1: the unit of speed."""
-        sides = *2 * [np.linspace(-1.0, 1.0, 9)], *2 * [np.linspace(0.0, 1.0, 5)]
-        c, s, u, v = (side.ravel() for side in np.meshgrid(*sides))
+        sides = *2 * [np.linspace(-1.0, 1.0, 9)], *len(self.names) * [np.linspace(0.0, 1.0, 5)]
+        c, s, *u = (side.ravel() for side in np.meshgrid(*sides))
         inside = c * c + s * s <= 1.0
-        where = self.values(np.stack([u, v], axis=-1)[inside])
+        where = self.values(np.stack(u, axis=-1)[inside])
         values = {"c": c[inside], "s": s[inside], **dict(zip(self.names, where.T, strict=True))}
         speeds = np.hypot(*(row.evaluate(values) for row in self.rows))
         return float(speeds[np.isfinite(speeds)].max(initial=0.0)) or 1.0
 
-    def on_net(self, c: Array, s: Array, u: Array, v: Array) -> tuple[Array, Array]:
+    def on_net(self, c: Array, s: Array, *u: Array) -> tuple[Array, Array]:
         """Return U (2, ...) over `size` and its derivatives by e (2, 2, ...) at many places at once."""
-        values: dict[str, Any] = dict(zip(("c", "s", *AXES), (c, s, u, v), strict=True))
-        U = [row.evaluate(values) for row in self.unit_rows]
-        D = [[row.derivative(name).evaluate(values) for name in "cs"] for row in self.unit_rows]
-        return np.stack(U), np.stack([np.stack(row) for row in D])
+        places = np.broadcast_arrays(c, s, *u)
+        if self.affine:  # a few numbers, which need no compiler
+            shape, D = places[0].shape, [[row.derivative(name) for name in "cs"] for row in self.unit_rows]
+            values = [_evaluate_row(row, places, shape) for row in (*self.unit_rows, *D[0], *D[1])]
+            return np.stack(values[:2]), np.stack(values[2:]).reshape(2, 2, *shape)
+        rows = program((self.unit_rows, ())).evaluate(np.stack([v.ravel() for v in places], axis=-1))
+        found = np.moveaxis(rows, 0, -1).reshape(2, 3, *places[0].shape)
+        return found[:, 0], found[:, 1:]
 
-    def speed_on_net(self, c: Array, s: Array, u: Array, v: Array) -> Array:
-        """Return U (2, ...) over `size` at many places at once."""
-        values: dict[str, Any] = dict(zip(("c", "s", *AXES), (c, s, u, v), strict=True))
-        shape = np.broadcast_shapes(c.shape, s.shape, u.shape, v.shape)
-        return np.stack([np.broadcast_to(row.evaluate(values), shape) for row in self.unit_rows])
+    def speed_on_net(self, c: Array, s: Array, *u: Array, by: str = "") -> Array:
+        """Return U (2, ...) over `size`, or its derivative by a name, at many places at once."""
+        rows = [row.derivative(by) if by else row for row in self.unit_rows]
+        shape = np.broadcast_shapes(*(np.shape(v) for v in (c, s, *u)))
+        return np.stack([_evaluate_row(row, (c, s, *u), shape) for row in rows])
+
+    def jacobian_factors(self, square: Array, u: Array) -> tuple[Array, Array]:
+        """Return both eigenvalues of D e_Psi, along e and across it, at |e|^2 (k,) and places (k, n)."""
+        modulus = np.sqrt(np.clip(square, MIN_RADIUS_SQUARED, 1.0 - 1e-15))
+        psi = many(self.psi, self.values(u)[:, self.of_psi.index(True)]) if any(self.of_psi) else self.psi
+        return psi.jacobian_factors(psi.radius(modulus, (1.0 - modulus) * (1.0 + modulus)))
 
     def psi_at(self, u: Array) -> Psi:
         """Return Psi at a place of the unit square."""
@@ -213,6 +228,11 @@ class PlaneFamily:
         for name, value in zip(self.names, self.values(u).tolist(), strict=True):
             of = vary(*of, name, value)
         return of
+
+
+def _evaluate_row(row: Expression, places: Sequence[Array], shape: tuple[int, ...]) -> Array:
+    known = dict(zip(("c", "s", *AXES), places, strict=False))
+    return np.broadcast_to(np.asarray(row.evaluate({name: known[name] for name in row.names}), float), shape)
 
 
 def _bend(psi: Psi, square: float) -> tuple[float, float]:
