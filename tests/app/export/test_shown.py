@@ -82,7 +82,7 @@ RESULTS = {
 }
 PICTURED = {
     "atlas", "basins", "basins, nearer", "branches", "continue_cycles", "launched", "limit_cycles",
-    "linearisation_path", "nullclines", "periodic_motion", "preset", "psi", "response_curve", "scene", "separatrices",
+    "linearisation_path", "motion of contacts", "nullclines", "periodic_motion", "preset", "psi", "response_curve", "scene", "separatrices",
     "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories", "bifurcations.closed_equator",
     "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",
 }  # fmt: skip
