@@ -82,9 +82,10 @@ RESULTS = {
 }
 PICTURED = {
     "atlas", "basins", "basins, nearer", "branches", "continue_cycles", "launched", "limit_cycles",
-    "linearisation_path", "motion of contacts", "nullclines", "periodic_motion", "preset", "psi", "response_curve", "scene", "separatrices",
-    "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories", "bifurcations.closed_equator",
-    "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions", "bifurcations.saddle_node",
+    "linearisation_path", "motion of contacts", "nullclines", "periodic_motion", "preset", "psi", "response_curve",
+    "scene", "separatrices", "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories",
+    "bifurcations.closed_equator", "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions",
+    "bifurcations.saddle_node",
 }  # fmt: skip
 #: What is given and not found: equations show as their text.
 GIVEN = {c2.ELinear, c2.System, c2.Coefficients, c2.Frozen, c2.Event, c2.SimulationStatus, c2.PeriodicStatus}
