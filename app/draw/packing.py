@@ -80,7 +80,6 @@ def pack(
     blocks: Blocks,
     window: Rectangle | None = None,
     pixel: float = PACKING_PIXEL,
-    heads: bool = True,
     guards: Pieces | None = None,
 ) -> bytes:
     """Return header and arrays as one buffer.
@@ -93,8 +92,6 @@ def pack(
         What is seen, and the size of a pixel there. Coordinates are then float32: 65536 steps are not enough for every
         window.
     pixel : float
-    heads : bool
-        Whether curves carry the arrowheads that they may have, and are evenly spaced where they are to be.
     guards : (offsets, points), optional
         From which evenly spaced curves keep away.
 
@@ -113,7 +110,7 @@ def pack(
     listing: dict[str, Any] = {}
     parts = [b"", b""]
     if lines:
-        listing["lines"], data = _pack_layers(lines, window, pixel, heads, guards)
+        listing["lines"], data = _pack_layers(lines, window, pixel, guards)
         if window is not None:
             listing["exact"] = True
         parts += (data, b"\0" * (-len(data) % 4))
@@ -129,7 +126,7 @@ def pack(
 
 
 def _pack_layers(
-    lines: Mapping[str, Polylines], window: Rectangle | None, pixel: float, may: bool, guards: Pieces | None
+    lines: Mapping[str, Polylines], window: Rectangle | None, pixel: float, guards: Pieces | None
 ) -> tuple[list[tuple[str, int, int, int | None]], bytes]:
     """Return [name, pieces, points, arrowheads] of each layer, and the data of all.
 
@@ -137,13 +134,12 @@ def _pack_layers(
     """
     rows, heads = [], []
     seen = window or WINDOW
-    if may:
-        lines = {
-            name: Polylines(*evenly(*line[:2], pixel, seen, guards), line.arrows) if line.even else line
-            for name, line in lines.items()
-        }
+    lines = {
+        name: Polylines(*evenly(*line[:2], pixel, seen, guards), line.arrows) if line.even else line
+        for name, line in lines.items()
+    }
     for name, (offsets, points, arrows, _) in lines.items():
-        placed = None if not arrows else arrowheads(offsets, points, pixel, seen) if may else EMPTY_POLYLINE
+        placed = arrowheads(offsets, points, pixel, seen) if arrows else None
         if placed is not None:
             heads.append(placed)
         rows.append((name, len(offsets) - 1, len(points), None if placed is None else len(placed)))

@@ -137,7 +137,12 @@ def _changed_blocks(
         if layer.name not in layers:
             continue
         for part in layer.parts:
-            result = asked.get(part.scene) if ready or not layer.compiled else NOT_DRAWN
+            if layer.compiled and not ready:
+                if layer.optional and part.name not in now:
+                    break
+                result: Any = NOT_DRAWN
+            else:
+                result = asked.get(part.scene)
             if result is LATER:
                 continue
             if result is NOT_DRAWN:

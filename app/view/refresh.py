@@ -21,7 +21,6 @@ from codim2_core.systems.typed import System
 from codim2_core.words import printed_sentence
 
 from ..draw import glyphs
-from ..draw.lines import arrowheads, spacing
 from ..draw.packing import pack
 from ..frame.background_results import Jobs
 from ..frame.budget import BackgroundLayers, Budget, OmittedLayer, PendingLayer, layers_of
@@ -183,15 +182,12 @@ class Frames:
             self._notices.append(left)
 
     def _pack(self, header: dict[str, Any], blocks: Blocks) -> bytes:
-        heads = header.get("ready", True) or (
-            arrowheads.is_warm() and spacing.is_warm()
-        )  # no frame waits for the compiler
         drawn = self._sent.get("cycles") if "cycles" in self.values["layers"] else None
         cycles = getattr(drawn, "cycles", ())  # orbits keep away from these
         guards = glyphs.join([one.points for one in cycles]) if cycles else None
         if self.window is None:
-            return pack(header, blocks, heads=heads, guards=guards)
-        return pack(header, blocks, self.window.rectangle, self.window.pixel, heads, guards)
+            return pack(header, blocks, guards=guards)
+        return pack(header, blocks, self.window.rectangle, self.window.pixel, guards=guards)
 
     def _accept(
         self, good: Mapping[str, Any], sent: Mapping[str, Any], errors: dict[str, str], rest: bool

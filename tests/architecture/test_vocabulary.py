@@ -37,7 +37,6 @@ SHARED = {
     "SENTENCES": "a room's part of the registry of sentences",
     "register": "adds to a list that a program may extend: examples, presets, families, panels",
     "unregister": "takes off such a list",
-    "is_warm": "whether a layer answers without compiling or loading",
     "RTOL": "relative tolerance of an integration, as SciPy has it",
     "ATOL": "absolute tolerance of an integration, as SciPy has it",
     "DIFFERENCE_STEP": "step of a finite difference",

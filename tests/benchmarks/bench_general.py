@@ -1,30 +1,30 @@
-"""What typed systems cost: redraws beside a built-in system of the same size, and their one compilation.
+"""What typed systems cost: redraws next to a built-in system of the same size, and interpreted next to compiled fields.
 
 Run ``python -m tests.benchmarks general [--quick]``.
 """
 
 from __future__ import annotations
 
+import math
+import os
 import random
 import statistics
-import subprocess
-import sys
 import time
+from collections.abc import Callable
+from unittest import mock
 
 import numpy as np
 
 import codim2_core as c2
+from codim2_core.jit import call_at, carray, compile_address
 from codim2_core.orbits.seeds import structured_seeds
 from codim2_core.orbits.trajectories import trajectories
+from codim2_core.stepping import right_hand_side
+from codim2_core.stepping.field_parameters import FACTOR, GAIN
+from codim2_core.stepping.fields_typed import general_field
+from codim2_core.stepping.layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
 
 from .bench_scene import PICTURE
-
-COMPILED = {
-    "e-linear as text": 'c2.System(U=("a*c - b*s", "b*c + d*s"), parameters={"a": -2.0, "b": 0.5, "d": -1.0})',
-    "attracting and repelling directions": "c2.examples.attracting_repelling()",
-    "non-unique sliding": "c2.examples.nonunique_sliding()",
-    "with sin, exp, sqrt": 'c2.System(U=("sin(3*c) - exp(s)/2", "tanh(c) - s + c**3*sqrt(2 + c*s)"))',
-}
 
 
 def as_text(system: c2.ELinear) -> c2.System:
@@ -91,14 +91,45 @@ def stepping(system: c2.ELinear | c2.System, psi: c2.Psi, repeats: int = 40) -> 
     return 1e6 * best
 
 
-def compile_seconds(expression: str) -> float:
-    """Seconds of the compilation of one system in a fresh interpreter that has drawn another one."""
-    code = (
-        "import time; import codim2_core as c2; from codim2_core.orbits.trajectories import warm; p = c2.psi.tanh(); "
-        f"warm(p, c2.System(U=('-c', '-s'))); s = {expression}; t = time.perf_counter(); warm(p, s); "
-        "print(time.perf_counter() - t)"
-    )
-    return float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+def _cubic(state, out, parameters):
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
+    call_at(int(P[GAIN]), state, out, parameters)
+    for lane in range(LANES):
+        px, py, w, gain = S[lane], S[lane + LANES], S[lane + 2 * LANES], D[lane]
+        c, s = gain * px, gain * py
+        u = P[FACTOR] * (0.3 * c - 1.2 * s + 0.1 + 0.7 * c * s * s)
+        v = P[FACTOR] * (1.2 * c - 0.5 * s + 0.2 - c * c * c)
+        q = px * u + py * v
+        D[lane], D[lane + LANES], D[lane + 2 * LANES] = u - px * q, v - py * q, P[lane + SIDE_SIGN] * w * q
+
+
+def _with_functions(state, out, parameters):
+    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
+    call_at(int(P[GAIN]), state, out, parameters)
+    for lane in range(LANES):
+        px, py, w, gain = S[lane], S[lane + LANES], S[lane + 2 * LANES], D[lane]
+        c, s = gain * px, gain * py
+        u = P[FACTOR] * (0.3 * c - 1.2 * s + 0.1 * math.sin(3.0 * s))
+        v = P[FACTOR] * (1.2 * c - 0.5 * s + math.exp(-c * c))
+        q = px * u + py * v
+        D[lane], D[lane + LANES], D[lane + 2 * LANES] = u - px * q, v - py * q, P[lane + SIDE_SIGN] * w * q
+
+
+BY_HAND = {
+    "cubic": (c2.System(U=("0.3*c - 1.2*s + 0.1 + 0.7*c*s*s", "1.2*c - 0.5*s + 0.2 - c**3")), _cubic),
+    "with sin and exp": (c2.System(U=("0.3*c - 1.2*s + 0.1*sin(3*s)", "1.2*c - 0.5*s + exp(-c*c)")), _with_functions),
+}
+
+
+def against_compiled(system: c2.System, by_hand: Callable[..., None]) -> tuple[float, float, float]:
+    """Microseconds of 64 trajectories, interpreted and with a field that Numba compiles, and how far both differ."""
+    psi, seeds, ends = c2.psi.hill(3), structured_seeds(64, 2.0), []
+    compiled, times = compile_address(by_hand, cache=False), []
+    for field in (general_field, lambda: compiled):
+        with mock.patch.object(right_hand_side, "general_field", field):
+            times.append(stepping(system, psi))
+            ends.append(trajectories(system, psi, seeds, t_max=8.0, rtol=1e-8).ends)
+    return *times, float(np.abs(ends[1] - ends[0]).max())
 
 
 def report(quick: bool = False) -> str:
@@ -117,7 +148,9 @@ def report(quick: bool = False) -> str:
         lines.append(
             f"| {name} | {statistics.median(one):.2f} | {statistics.median(two):.2f} | {ratio:.2f} | {steps:.2f} |"
         )
-    lines += ["", "| compilation, once for each system | s |", "|---|---|"]
-    for name, expression in COMPILED.items():
-        lines.append(f"| {name} | {statistics.median(compile_seconds(expression) for _ in range(3)):.2f} |")
+    lines += ["", "| 64 trajectories | interpreted, µs | compiled, µs | ratio | difference |", "|---|---|---|---|---|"]
+    for name, given in BY_HAND.items():
+        one, two, error = against_compiled(*given)
+        lines.append(f"| {name} | {one:.0f} | {two:.0f} | {one / two:.2f} | {error:.0e} |")
+    lines += ["", f"Load {os.getloadavg()[0]:.1f}."]
     return "\n".join(lines) + closed_forms(6 if quick else 40)

@@ -54,11 +54,6 @@ def of_one_type(
     return offsets, points
 
 
-def is_warm() -> bool:
-    """Whether arrowheads are placed at once, without compiling or loading what places them."""
-    return bool(_place_arrowheads.signatures)
-
-
 @kernel
 def _place_arrowheads(offsets, points, clearance, stretch, shortest, tried, left, right, bottom, top):
     """Try places one after the other; a grid of cells as wide as the clearance tells which arrowheads are near."""

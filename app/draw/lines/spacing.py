@@ -21,11 +21,6 @@ from .arrowheads import of_one_type
 SEPARATION, MIN_PIECE = 9.0, 44.0
 
 
-def is_warm() -> bool:
-    """Whether orbits are spaced at once, without compiling or loading what does it."""
-    return bool(_kept_pieces.signatures)
-
-
 def evenly(
     offsets: NDArray[np.int64],
     points: NDArray[np.float64],

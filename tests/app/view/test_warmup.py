@@ -7,15 +7,10 @@ import sys
 import threading
 
 import pytest
-from codim2_app.draw import packing
-from codim2_app.draw.lines import arrowheads, spacing
-from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import ExplorerState
 from codim2_app.view import warmup
 from codim2_app.view.compiling import once, process, steps
 from codim2_app.view.compiling.once import alone, hold_name, lock_path
 from codim2_app.view.compiling.process import CompilerProcess
-from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 from codim2_core.jit import policy
@@ -91,19 +86,6 @@ def test_each_step_is_told_and_held_by_one_process(folder, monkeypatch):
     steps.warm_all(lambda what, seconds, done, of: told.append((what, seconds >= 0.0, done, of)))
     assert found == ["held", "held"]
     assert told == [("one", True, 1, 2), ("two", True, 2, 2)]
-
-
-@pytest.mark.parametrize(("ready", "warm", "heads"), [(False, False, False), (False, True, True), (True, False, True)])
-def test_no_frame_waits_for_the_compiler_of_arrowheads(monkeypatch, ready, warm, heads):
-    placed = []
-    for module in (arrowheads, spacing):
-        monkeypatch.setattr(module, "is_warm", lambda: warm)
-    monkeypatch.setattr(packing, "arrowheads", lambda *given: (placed.append(1), arrowheads.arrowheads(*given))[1])
-    frame = Frames(ExplorerState(), ready=lambda *_: ready).answer({"all": True})
-    assert bool(placed) == heads
-    header, blocks = unpack(frame)
-    assert header["ready"] is ready
-    assert (len(blocks["inside.at"]) > 0) == heads
 
 
 def test_a_server_starts_without_what_its_first_picture_does_not_need():
