@@ -26,6 +26,7 @@ def test_a_phones_settings_are_a_dot_on_the_lecturers_atlas(open_page):
     assert lecturer.find(".crowd-list b").all_text_contents() == ["1"]
     assert phone.name() in lecturer.find(".crowd-list li").text_content()
     lecturer.find(".crowd .phone").dispatch_event("pointerdown")
+    lecturer.until("root.querySelector('[data-control=f1] .number').value === '1.25'")
     lecturer.settle()
     assert lecturer.find("[data-control=f1] .number").input_value() == "1.25"
     assert lecturer.name() == phone.name()
