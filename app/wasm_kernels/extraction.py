@@ -96,7 +96,7 @@ def _compile_everything() -> None:
 
     from ..view.compiling.steps import warm_all
 
-    for psi in (*(make(family.name) for family in FAMILIES.values() if not family.typed), hill(2.5), custom("1 + s")):
+    for psi in (*(make(family.name) for family in FAMILIES.values() if not family.typed), hill(2.5), custom("1/(1+s)")):
         for smooth in (True, False):
             fields.field(psi)
             psi_gain.gains(psi, smooth)
