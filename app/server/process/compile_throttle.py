@@ -1,6 +1,6 @@
 """A thread that compiles stands back while a visitor is answered: both need the interpreter, and would halve it.
 
-Numba tells of each pass of its compiler before it begins; a formula takes some hundreds, of a few milliseconds each.
+Numba tells of each pass of its compiler before it begins; a kernel takes some hundreds, of a few milliseconds each.
 """
 
 from __future__ import annotations
