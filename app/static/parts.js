@@ -100,7 +100,7 @@ export function grabOf(explorer) {
   const {root, values, picture, pointing, requests} = explorer
   return new Grab(root, picture, {
     values, free: () => explorer.eLinear && values.layers.includes("critical") && !explorer.hidden.includes("critical"),
-    move: (place) => { explorer.room?.stray(); requests.set("grab", place) }, settle: () => requests.rest(),
+    move: (place) => { explorer.room?.stray(); requests.set("grab", place); explorer.keepLink() }, settle: () => requests.rest(),
     point: (one) => pointing.show(one), pin: (one) => pointing.toggle(one),
     one: () => pointing.objects.find(({kind}) => kind === "critical") ?? null,
   })

@@ -66,3 +66,22 @@ def test_launched_orbits_and_typed_text_come_back(open_page):
     assert box.input_value() == before
     explorer.click(".redo").kept()
     assert box.input_value() == "-2*c + 0.3"
+
+
+def test_a_drag_of_the_critical_set_is_one_step(open_page):
+    """The server finds f: what it answers belongs to the drag, and not to the step before."""
+    explorer = open_page().open("")
+    mouse, box = explorer.page.mouse, explorer.find(".grab").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    mouse.move(x, y)
+    mouse.down()
+    for k in range(1, 11):
+        mouse.move(x + 8 * k, y + 5 * k)
+    mouse.up()
+    explorer.kept()
+    number = explorer.find("[data-control=f1] .number")
+    assert float(number.input_value()) > 0.0
+    explorer.click(".undo").kept()
+    assert number.input_value() == "-0.5"
+    explorer.click(".redo").kept()
+    assert float(number.input_value()) > 0.0
