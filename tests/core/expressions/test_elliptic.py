@@ -50,7 +50,8 @@ def test_the_slope_is_that_of_the_exact_integral(name, m):
         true = float((exact(name, m + h) - exact(name, m - h)) / (2 * h)) if abs(m) > 1e-4 else None
     plane = parse(f"{name}(c)", ("c", "s"))
     value, slope, other = program(((plane,), ())).evaluate(np.array([[m, 0.0]]))[0, 0]
-    assert (value, other) == (plane.evaluate({"c": m}), 0.0)
+    assert value == pytest.approx(plane.evaluate({"c": m}), rel=BLUR * 2.0**-51)  # compiled code fuses operations
+    assert other == 0.0
     if true is not None:
         assert slope == pytest.approx(true, rel=1e-12)
     derivative = parse(f"{name}(x)", ("x",)).derivative("x")
