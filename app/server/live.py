@@ -105,8 +105,14 @@ class LivePages:
         How many have been sent, were let in, and found no place.
     """
 
-    def __init__(self, most: int, engine: Mapping[str, Any] | None = None, most_of_one: int = MOST_OF_ONE) -> None:
-        self.most, self.most_of_one, self.engine = most, most_of_one, engine
+    def __init__(
+        self,
+        most: int,
+        engine: Mapping[str, Any] | None = None,
+        most_of_one: int = MOST_OF_ONE,
+        counted: Callable[[int], object] = lambda pages: None,  # noqa: ARG005 (called with the pages that are open)
+    ) -> None:
+        self.most, self.most_of_one, self.engine, self._counted = most, most_of_one, engine, counted
         self.open, self.addresses, self.rota = set[LiveConnection](), Counter[str](), Rota()
         self.firsts, self.pages = Kept[bytes](MOST_FIRSTS), Kept[tuple[bytes, bytes, str]](MOST_PAGES)
         self.frames = self.openings = self.refused = 0
@@ -128,12 +134,14 @@ class LivePages:
             resting.close(CLOSE_RESTING, "another page has taken its place")
         self.open.add(page)
         self.addresses[page.address] += 1
+        self._counted(len(self.open))
         return True
 
     def let_out(self, page: LiveConnection) -> None:
         """Have a page's place free."""
         if page in self.open:
             self.open.remove(page)
+            self._counted(len(self.open))
             self.addresses[page.address] -= 1
             if not self.addresses[page.address]:
                 del self.addresses[page.address]

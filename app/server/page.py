@@ -39,7 +39,7 @@ from .metrics import Metrics, MetricsPage
 from .process.clock import keep_steady
 from .process.compile_throttle import stand_back
 from .process.listener import Listener
-from .process.ports import bind, fork
+from .process.ports import Crowds, bind, fork
 from .scripts import ROUTES
 
 #: What the workers find imported.
@@ -188,11 +188,14 @@ def make_server(
         begin()
     parent = os.getpid()
     board = Board(processes)
-    places = LivePages(sessions, engine and {"script": engine.script, "served": served_panels()}, per_address)
-    listen = partial(Listener, counts=Counter(), places=sessions, health=json.dumps(health()))
-    sockets, port = bind(port, address, processes)
-    sockets, number = fork(sockets, address, processes)
+    crowds = Crowds(processes)
+    config = engine and {"script": engine.script, "served": served_panels()}
+    places = LivePages(sessions, config, per_address, crowds.count_pages)
+    listen = partial(Listener, counts=Counter(), places=sessions, health=json.dumps(health()), crowds=crowds)
+    sockets, port = bind(port, address)
+    number = fork(processes)
     board.belong(number)
+    crowds.belong(number)
     kept = Rooms(board, rooms)
     _keep(kept)
     metrics = Metrics(places, turns, kept)

@@ -21,6 +21,7 @@ from ...draw import plane_curves
 from ...draw.packing import Polylines
 from ...draw.thumbnails import thumbnails
 from ...frame.frame_context import FrameContext
+from ...frame.process_load import load
 from ...phrases import say
 from ..panel import Panel
 from .atlas_columns import atlas_columns, short, strip_columns
@@ -28,8 +29,9 @@ from .axes import Axis, available, missing_axes, spans_of, without_parameters
 
 #: Controls of the plane of f: a system that lacks one of them has none.
 MAP_PARAMETERS = ("a", "b", "d", "f1", "f2")
-#: Of the frames of a drag each so many-th brings the curves: they are a quarter of the work of a frame.
-EACH_FRAME = 3
+#: Of the frames of a drag each so many-th brings the curves, which are a tenth of the work of a frame; where the
+#: process is busy for more than this share of its time, none before the drag rests.
+EACH_FRAME, BUSY = 3, 0.6
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
 #: A region of less area than the square of this, of the map's, gets no small portrait; nor a stretch shorter than this.
@@ -73,7 +75,8 @@ def _plane_of_f(draft: FrameContext) -> None:
     matrix = scene.key("matrix")
     moved = 0 if draft.rest or draft.now.get("atlas at") == matrix else draft.now.get("atlas moved", 0) + 1
     draft.now["atlas moved"] = moved
-    if moved % EACH_FRAME == min(moved, 1):
+    busy = load.share > BUSY and "atlas_size" in draft.now
+    if moved % EACH_FRAME == min(moved, 1) and not (moved and busy):
         draft.now["atlas at"] = matrix
         curves = scene["atlas_curves"]
         if draft.fresh("atlas_curves", curves):

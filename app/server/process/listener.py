@@ -18,6 +18,7 @@ from typing import Any
 from tornado.ioloop import IOLoop
 
 from .files import max_files
+from .ports import Crowds
 
 #: Descriptors that are no visitor's: files, workers, and those that wait to be let go.
 RESERVED, MAX_PENDING = 64, 16
@@ -25,6 +26,8 @@ RESERVED, MAX_PENDING = 64, 16
 MAX_PER_PLACE = 8
 #: Seconds for which nobody is accepted when the system has no descriptor left, and between two lines about it.
 PAUSE_SECONDS, TOLD_SECONDS = 1.0, 60.0
+#: Seconds for which a process leaves the next connection to one that has fewer pages, and how often in a row.
+SHARING_SECONDS, MAX_LEFT = 0.005, 20
 #: Seconds for which one who is let go may say what he wants.
 PENDING_SECONDS = 5.0
 HEALTH = re.compile(rb"(GET|HEAD) \S*/health[ ?]")
@@ -63,25 +66,34 @@ class Listener(socket.socket):
         Pages that the process lets in.
     health : str
         What ``/health`` says.
+    crowds : Crowds
+        Of this process and of others that accept at the same socket.
     """
 
-    def __init__(self, listening: socket.socket, counts: Counter[str], places: int, health: str) -> None:
+    def __init__(
+        self, listening: socket.socket, counts: Counter[str], places: int, health: str, crowds: Crowds
+    ) -> None:
         super().__init__(fileno=listening.detach())
         self.setblocking(False)
         self.most = max(1, max_files() - RESERVED)
         self.most_of_one = max(1, min(self.most // 2, MAX_PER_PLACE * places))
         self._health = ANSWER.format(len(health.encode()), health).encode()
-        self._counts = counts
+        self._counts, self._crowds = counts, crowds
+        self._left = 0  # how often in a row the next connection was left to another process
+        self._has_accepted = False  # in this turn of the loop
         self._pending: dict[socket.socket, None] = {}  # in the order in which they came
         self._told = -TOLD_SECONDS
 
     def accept(self) -> tuple[socket.socket, Any]:
         """Return the next connection that may be let in; BlockingIOError if there is none now."""
+        if self._crowds.processes > 1:
+            self._leave_to_others()
         try:
             found, address = super().accept()
         except OSError as error:
             if error.errno in (errno.EMFILE, errno.ENFILE):
-                self._pause()
+                self._tell("no descriptor is left; nobody is accepted for %g s", PAUSE_SECONDS)
+                self._pause(PAUSE_SECONDS)
                 raise BlockingIOError from error
             raise
         if self._counts.total() < self.most and self._counts[address[0]] < self.most_of_one:
@@ -90,11 +102,22 @@ class Listener(socket.socket):
         self._keep_waiting(found)
         raise BlockingIOError
 
-    def _pause(self) -> None:
-        self._tell("no descriptor is left; nobody is accepted for %g s", PAUSE_SECONDS)
+    def _leave_to_others(self) -> None:
+        """Raise BlockingIOError where another process is to accept; one connection a turn, so that all are counted."""
+        self._has_accepted = not self._has_accepted
+        if not self._has_accepted:
+            raise BlockingIOError
+        self._crowds.count_connections(self._counts.total())
+        if not self._crowds.is_smallest() and self._left < MAX_LEFT:
+            self._left, self._has_accepted = self._left + 1, False
+            self._pause(SHARING_SECONDS)
+            raise BlockingIOError
+        self._left = 0
+
+    def _pause(self, seconds: float) -> None:
         loop = IOLoop.current()
         loop.update_handler(self, 0)
-        loop.call_later(PAUSE_SECONDS, lambda: self.fileno() >= 0 and loop.update_handler(self, IOLoop.READ))
+        loop.call_later(seconds, lambda: self.fileno() >= 0 and loop.update_handler(self, IOLoop.READ))
 
     def _tell(self, words: str, *of: Any) -> None:
         if (now := time.monotonic()) - self._told >= TOLD_SECONDS:

@@ -1,37 +1,62 @@
-"""One port for several server processes: each listens by a socket of its own, and the kernel shares visitors out.
+"""One listening socket for several server processes, among which visitors are shared evenly.
 
-By one socket for all, nearly every visitor came to the process that had just been awake, and the others idled.
+The process that has the fewest pages accepts the next connection. Otherwise nearly all would come to the one that had
+just been awake, or, with a socket for each process, as many as chance gives it.
 """
 
 from __future__ import annotations
 
+import mmap
 import socket
-import sys
 
 from tornado.netutil import bind_sockets
 from tornado.process import fork_processes
 
-#: Elsewhere such sockets cannot be, or all visitors come to the last of them.
-CAN_SHARE_PORT = sys.platform == "linux" and hasattr(socket, "SO_REUSEPORT")
 #: Processes that ended and were started again in the life of a server; beyond that it ends, and its host starts it.
 MAX_RESTARTS = 10_000
 
 
-def bind(port: int, address: str, processes: int) -> tuple[list[socket.socket], int]:
-    """Return sockets at an address, and their port; each of several processes can bind it again."""
-    sockets = bind_sockets(port, address, reuse_port=processes > 1 and CAN_SHARE_PORT)
+class Crowds:
+    """How many pages and connections each process has, in memory that all of them see.
+
+    Parameters
+    ----------
+    processes : int
+        That are forked after this has been made.
+    """
+
+    def __init__(self, processes: int = 1) -> None:
+        self.processes = processes
+        self._counts = memoryview(mmap.mmap(-1, 16 * processes)).cast("q")
+        self._mine = 0
+
+    def belong(self, number: int) -> None:
+        """Say which of the processes this is; what another of this number has left is forgotten."""
+        self._mine = number
+        self.count_pages(0)
+        self.count_connections(0)
+
+    def count_pages(self, pages: int) -> None:
+        """Note the pages that this process has."""
+        self._counts[2 * self._mine] = pages
+
+    def count_connections(self, connections: int) -> None:
+        """Note the connections that this process has: between as many pages, they decide."""
+        self._counts[2 * self._mine + 1] = connections
+
+    def is_smallest(self) -> bool:
+        """Whether no process has fewer pages than this one."""
+        counts = self._counts.tolist()
+        crowds = list(zip(counts[::2], counts[1::2], strict=True))
+        return crowds[self._mine] == min(crowds)
+
+
+def bind(port: int, address: str) -> tuple[list[socket.socket], int]:
+    """Return sockets at an address, and their port."""
+    sockets = bind_sockets(port, address)
     return sockets, sockets[0].getsockname()[1]
 
 
-def fork(sockets: list[socket.socket], address: str, processes: int) -> tuple[list[socket.socket], int]:
-    """Fork a server into processes; in each of them return the sockets by which it listens, and its number.
-
-    The first keeps the sockets that all have inherited. The process from which they are forked has them too and never
-    answers: without the first it would be waited for.
-    """
-    if processes == 1:
-        return sockets, 0
-    number = fork_processes(processes, MAX_RESTARTS)
-    if number and CAN_SHARE_PORT:
-        return bind_sockets(sockets[0].getsockname()[1], address, reuse_port=True), number
-    return sockets, number
+def fork(processes: int) -> int:
+    """Fork a server into processes, which inherit its sockets; return the number of each."""
+    return 0 if processes == 1 else fork_processes(processes, MAX_RESTARTS)

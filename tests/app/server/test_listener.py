@@ -7,6 +7,7 @@ from collections import Counter
 
 from codim2_app.server.process import listener
 from codim2_app.server.process.listener import RESERVED, Listener
+from codim2_app.server.process.ports import Crowds
 from tornado.tcpserver import TCPServer
 
 from tests.work import PATIENCE
@@ -35,7 +36,7 @@ def play(doing, most, monkeypatch, places=1000):
     async def play():
         listening = socket.create_server((ONE, 0))
         server = Server()
-        server.add_sockets([Listener(listening, Counter(), places, "well")])
+        server.add_sockets([Listener(listening, Counter(), places, "well", Crowds())])
         (own,) = server._sockets.values()
         try:
             return await doing(own, server)

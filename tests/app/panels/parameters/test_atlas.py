@@ -5,7 +5,8 @@ import time
 import numpy as np
 import pytest
 from codim2_app.draw.packing import INT16_STEP, unpack
-from codim2_app.panels.parameters import atlas_columns
+from codim2_app.frame.process_load import Load
+from codim2_app.panels.parameters import atlas, atlas_columns
 from codim2_app.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
@@ -19,7 +20,8 @@ DEGENERATE = [(0, 0, 0), (1, 0, 1), (1, 0, 0), (0, 0, -1), (1, 1, -1), (-1, 0, 1
 
 
 @pytest.fixture
-def frames():
+def frames(monkeypatch):
+    monkeypatch.setattr(atlas, "load", Load())  # measured by nobody, so that it has time
     made = Frames(ExplorerState())
     made.answer({"all": True})
     return made
@@ -58,6 +60,12 @@ def test_of_a_drag_each_third_frame_brings_curves_and_the_one_at_rest_all(frames
     header, _, names = atlas_of(frames, rest=True)
     assert names == {"saddle_node", "transcritical", "regions"}
     assert "regions" not in header.get("late", [])
+
+
+def test_of_a_drag_in_a_busy_process_only_the_frame_at_rest_brings_curves(frames):
+    atlas.load.share = 0.9
+    assert not any(atlas_of(frames, a=-1.7 - 0.01 * i)[2] for i in range(8))
+    assert atlas_of(frames, rest=True)[2] == {"saddle_node", "transcritical", "regions"}
 
 
 @pytest.mark.parametrize(
