@@ -26,6 +26,8 @@ RATE_TOLERANCE = 1e-3  # of D_e U: the defect of a slide that leaves its critica
 MARGIN_SHARE = 0.25  # of 1 - |e|, in the same unit
 ACROSS = 1e-9  # of U: a larger part across an invariant line is no rounding
 CONTACT = 20.0  # r in units of eps, up to which a regularised motion is held by friction
+SHORTENED, ULPS = 1e-11, 8.0  # of the time: a step before a switch that none can pass; how near that is
+LEAST_STEPS = 4.0  # of the shortest ones: as near is a switch that no step can pass
 RETRY_SHARE = 0.25  # of a part in which a step fails: the next one that is tried
 NODES = 0.5 - 0.5 * np.cos(math.pi * np.arange(DENSE_DEGREE + 1) / DENSE_DEGREE)
 TO_POWERS = np.linalg.inv(NODES[:, None] ** np.arange(DENSE_DEGREE + 1))
@@ -34,7 +36,8 @@ TO_POWERS = np.linalg.inv(NODES[:, None] ** np.arange(DENSE_DEGREE + 1))
 class Cut(NamedTuple):
     """The first place at which steps cannot be kept: the step, its fraction, the next step to try, the switch there.
 
-    `leaves_line`: a load pushes the motion out of its invariant line.
+    `leaves_line`: a load pushes the motion out of its invariant line. `passed`: the state on the other side of a switch
+    that no step can pass.
     """
 
     step: int
@@ -42,6 +45,7 @@ class Cut(NamedTuple):
     h: float
     switch: int | None
     leaves_line: bool = False
+    passed: Array | None = None
 
 
 class Inspection:
@@ -88,12 +92,21 @@ class Inspection:
         self.program = path_program(field.rows)
         self.guards = path_program(field.branch.guards) if field.branch.guards else None
         self.reads_e = any(name in row.names for row in field.rows[2:] for name in ("c", "s"))
+        self.near = 0.0
         self.undecided = 0  # steps that could not be bounded, so that only samples speak for them
 
-    def look(self, steps: StepArray) -> Cut | None:
-        """Return where steps cannot be kept; None if all can."""
+    def look(self, steps: StepArray, ended: tuple[Array, float] | None = None, least: float = 0.0) -> Cut | None:
+        """Return where steps cannot be kept; None if all can.
+
+        `ended`: where no step could be made, and when. `least`: the shortest step that may be made.
+        """
+        self.near = LEAST_STEPS * least
         if not len(steps.lengths):
-            return None
+            if ended is None or self.guards is None:
+                return None
+            state, t = ended
+            e = state[:2] if self.is_slide else self._directions(state[None, :, None])[0, :, 0]
+            return self._unreachable_switch(0, np.concatenate([e, state]), t)
         first = np.concatenate([steps.first[None], steps.ends[:-1]])
         states = np.concatenate([first[:, :, None], steps.polynomials], axis=2)
         if self.at is not None:
@@ -115,7 +128,7 @@ class Inspection:
         if k < whole:
             leaves = self._leaves_line(paths[k], told[0] + 0.5 * told[1])
             cut = Cut(k, float(told[0]), float(RETRY_SHARE * told[1] * steps.lengths[k]), None, leaves)
-        return self._first_switch(paths[: min(k + 1, whole)], cut)
+        return self._first_switch(steps, paths[: min(k + 1, whole)], cut)
 
     def _leaves_line(self, path: Array, u: float) -> bool:
         """Whether U leads out of the invariant line at a place of a step."""
@@ -126,12 +139,13 @@ class Inspection:
         U = np.array(self.field.value(c, s, x, y, *z)[:2])
         return abs(float(self.line.n[0] * U[1] - self.line.n[1] * U[0])) > ACROSS * float(np.abs(U).max())
 
-    def _rises(self, g: int, path: Array, u: float) -> bool:
-        """Whether a guard increases where it is negative: rounding has put it off where its branch began."""
-        c, s, *state = (path @ u ** np.arange(path.shape[1])).tolist()
+    def _guard(self, g: int, at: Array) -> tuple[float, float]:
+        """Return a guard and its rate at (c, s, x, y, z1, ...)."""
+        c, s, *state = at.tolist()
         guard, values = self.field.branch.guards[g], self.field.values((c, s), state)
         rates = dict(zip(list(values)[2:], self.field.value(c, s, *state), strict=True))
-        return sum(float(guard.derivative(name).evaluate(values)) * rates[name] for name in guard.names) > 0.0
+        rate = sum(float(guard.derivative(name).evaluate(values)) * rates[name] for name in guard.names)
+        return float(guard.evaluate(values)), rate
 
     def _directions(self, states: Array) -> Array:
         """Return polynomials (k, 2, d) of e along steps, through its values at d places."""
@@ -163,7 +177,17 @@ class Inspection:
                 changes[held, :2] = 0.0
         return rates, changes, both
 
-    def _first_switch(self, paths: Array, cut: Cut | None) -> Cut | None:
+    def _unreachable_switch(self, k: int, at: Array, t: float) -> Cut | None:
+        """Return a switch that is a rounding of the time after step k: formulas such as sqrt(abs(t)) end there."""
+        near = max(self.near, ULPS * math.ulp(t))
+        for g in range(len(self.field.branch.guards)):
+            value, rate = self._guard(g, at)
+            if 0.0 <= value <= -rate * near:
+                passed = at[2:] + 2.0 * near * np.array(self.field.value(*at.tolist()))
+                return Cut(k, 1.0, 0.0, g, passed=passed)
+        return None
+
+    def _first_switch(self, steps: StepArray, paths: Array, cut: Cut | None) -> Cut | None:
         """Return the first guard that turns negative before a cut, or that cut."""
         if self.guards is None:
             return cut
@@ -172,8 +196,11 @@ class Inspection:
             for g in range(len(self.guards.roots)):
                 here = zeros_along(*self.guards.arrays, path, g, True, found)
                 sooner = here and (cut is None or (k, found[0, 0]) < (cut.step, cut.u))
-                if sooner and not self._rises(g, path, found[0, 0]):
+                at = path @ found[0, 0] ** np.arange(path.shape[1])
+                if sooner and self._guard(g, at)[1] <= 0.0:  # else rounding has put it off where its branch began
                     cut = Cut(k, float(found[0, 0]), 0.0, g)
+            if cut is None and steps.lengths[k] < SHORTENED * (1.0 + abs(steps.starts[k])):
+                cut = self._unreachable_switch(k, path.sum(axis=1), float(steps.starts[k] + steps.lengths[k]))
             if cut is not None and cut.step == k:
                 return cut
         return cut

@@ -185,7 +185,8 @@ class MotionSteps:
 
     def _inspected(self, part: StepArray, inspection: Inspection, farthest: float) -> StepArray:
         """Return the steps to keep, and go back to the end of these; before them rho was at most `farthest`."""
-        cut = inspection.look(part)
+        ended = (self.y, float(self.clock[0])) if self.code == UNDEFINED else None
+        cut = inspection.look(part, ended, float(self.control[LEAST_STEP]))
         if cut is None:
             self._retries = 0
             return part
@@ -198,6 +199,8 @@ class MotionSteps:
         self.switch, self.leaves_line = cut.switch, cut.leaves_line
         self.code = CHUNK_FULL if cut.switch is None and not cut.leaves_line else SWITCHED
         last = len(part.lengths) - 1
+        if cut.passed is not None and last >= 0:
+            part.ends[last] = cut.passed
         self.y[:] = part.ends[last] if last >= 0 else part.first
         self._evaluated += self.clock[3]
         self.clock[:] = self._began if last < 0 else part.starts[last] + part.lengths[last], 0.0, self.clock[2], 0.0

@@ -11,8 +11,8 @@ from ..arrays import Array
 from ..numerics.dense import StepArray
 from ..psi.constructors import constant
 from .field import Field
-from .functions import called_back, functions_of
-from .kernels.slow import SLOPES, SLOW_RATES, VALUE, flow, sets
+from .functions import FieldFunctions, called_back, functions_of
+from .kernels.slow import SLOPES, SLOW_EXTENT, SLOW_RATES, VALUE, flow, sets
 from .line import InvariantLine
 from .motion_steps import MotionSteps
 from .slow_manifold import solve_critical
@@ -69,6 +69,14 @@ class SlowSteps(MotionSteps):
         points, places = points.reshape(-1, points.shape[2]), points.shape[:2]
         e, D = sets(self.S, points)
         return e.reshape(*places, 2), D.reshape(*places, 2, 2)
+
+
+def critical_sets_near(functions: FieldFunctions, points: Array) -> tuple[Array, Array]:
+    """Return the critical sets e (k, 2) near points (k, 2 + m), (e, z), NaN for none, and D_e U (k, 2, 2)."""
+    S = np.zeros(SLOW_EXTENT)
+    functions.enter(S)
+    S[VALUE], S[SLOPES], S[SLOW_RATES] = *functions.addresses[:2].view(float), points.shape[1] - 2
+    return sets(S, points)
 
 
 def steps_of_z(

@@ -61,7 +61,7 @@ class _ReadMotion:
     eps: float
     motion: Dense
     formulas: Field
-    rtol: float
+    turns: tuple[float, ...]  # when a set loses its stability that the motion then passes
 
     @property
     def times(self) -> Array:
@@ -239,46 +239,15 @@ class _ReadMotion:
                 why = _phase_reason(run, "goes on" if k else "starts, follows" if initial else "comes, follows")
                 if initial and not k and not run.attracts[0] and not self.states[0, :2].any():
                     why = say("starts on a repelling set", onto=run.onto)
-                turns = self.decided_by_errors(run)
-                if turns is None:
-                    yield Phase("slide", start, run.t_end, why, run.onto)
-                    continue
-                yield Phase("slide", start, turns, why, run.onto)
-                onto = self.name_past(run, turns)
-                yield Phase("slide", turns, run.t_end, say("errors decide", onto=onto), onto)
+                onto = run.onto
+                for turn in (turn for turn in self.turns if start < turn < run.t_end):
+                    yield Phase("slide", start, turn, why, onto)
+                    start, onto = turn, self.name_past(run, turn)
+                    why = say("passed", onto=onto)
+                yield Phase("slide", start, run.t_end, why, onto)
             t, reason = runs[-1].t_end, say("no longer follows", onto=runs[-1].onto)
         if t < t_end or t == float(self.times[0]) == t_end:
             yield Phase("slip", t, t_end, reason)
-
-    def decided_by_errors(self, run: _Run) -> float | None:
-        """Return when a set that is followed begins to repel a motion that is nearer to it than errors; None if never.
-
-        The distance goes like exp(G/eps), G' the real part of the leading eigenvalue of J. Errors are rtol of what the
-        distance can be: they decide where it falls by more than that, and the motion stays while they grow as much.
-        """
-        if run.e is None:
-            return None
-        found = [self.set_at(self.states[i]) for i in range(run.first, run.last + 1)]
-        if all(one is None or one.attracts for one in found):
-            return None
-        last = min(run.last + 1, len(self.times) - 1)  # it leaves within the step after the run
-        times = self.times[run.first : last + 1]
-        rates = np.array([math.nan if one is None else one.growth for one in found] + [math.nan])[: len(times)]
-        known = np.flatnonzero(np.isfinite(rates))
-        rates = np.interp(np.arange(len(rates)), known, rates[known])
-        turns = np.flatnonzero((rates[:-1] < 0.0) & (rates[1:] > 0.0))
-        zeros = times[turns] + (times[turns + 1] - times[turns]) * rates[turns] / (rates[turns] - rates[turns + 1])
-        at = np.concatenate([times, zeros])
-        order = np.argsort(at, kind="stable")
-        at, rates = at[order], np.concatenate([rates, np.zeros(len(zeros))])[order]
-        G = np.concatenate([[0.0], np.cumsum(0.5 * (rates[1:] + rates[:-1]) * np.diff(at))]) / self.eps
-        folds = -math.log(self.rtol)
-        for turn, zero in zip(turns.tolist(), zeros.tolist(), strict=True):
-            k = int(np.searchsorted(at, zero))
-            if G[:k].max(initial=0.0) - G[k] > folds and G[k:].max() - G[k] > 0.5 * folds:
-                attracts = lambda state: (one := self.set_at(state)) is not None and one.attracts
-                return self.boundary(run.first + turn, attracts)
-        return None
 
     def contact(self, first: int, last: int, runs: list[_Run]) -> float:
         """Return the time at which a contact, from one step end to another, begins."""
@@ -291,22 +260,24 @@ class _ReadMotion:
         return self.boundary(first - 1, self.is_near)
 
 
-def phases_of(system: AnySystem, psi: Psi, eps: float, rtol: float, motion: Dense) -> tuple[Phase, ...]:
+def phases_of(system: AnySystem, psi: Psi, eps: float, motion: Dense, turns: tuple[float, ...]) -> tuple[Phase, ...]:
     """Cut a motion into phases.
 
     Parameters
     ----------
     system : ELinear, System, Coefficients or Frozen
     psi : Psi
-    eps, rtol : float
+    eps : float
     motion : Dense
+    turns : tuple of float
+        When critical sets lose their stability that the motion then passes (`passage`).
 
     Returns
     -------
     tuple of Phase
         Consecutive, from the first to the last time.
     """
-    reader = _ReadMotion(system, psi, eps, motion, field(system), rtol)
+    reader = _ReadMotion(system, psi, eps, motion, field(system), turns)
     phases = list(reader.phases())
     return tuple(replace(one, _place=OfState(motion, psi, eps, one.t_start, one.t_end)) for one in phases)
 

@@ -6,11 +6,11 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import chain, pairwise
+from itertools import pairwise
 from typing import overload
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from ..arguments import checked_times
 from ..arrays import Array
@@ -29,8 +29,8 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
+from .passage import Passage
 from .phases import phases_of
-from .resting_distance import RestingDistance
 from .result import Simulation, SimulationStatus, simulation
 from .variation.regularised import of_regularised
 
@@ -234,7 +234,8 @@ class _RegularisedRun:
         most: int = self.max_steps
         formulas: Field = self.formulas.on_branch(self.e(first), first.tolist())
         line: InvariantLine | None = invariant_line(formulas, state)
-        close: tuple[int, float] | None
+        turns: list[float] = []
+        carried: NDArray[np.complex128] | None = None
         ended: StepArray | None = None
         while t < self.span[1] and status is SimulationStatus.T_END:
             rate = partial(rate_at, formulas, self.psi, self.eps, line)
@@ -243,31 +244,36 @@ class _RegularisedRun:
                 functions_of(formulas, self.psi), rate, self.eps, line, (t, self.span[1]), state, self.rtol,
                 self.atol / self.rtol, most, longest=self.max_step, inspection=inspection,
             )  # fmt: skip
-            resting = self.resting(formulas, line)
-            close = None
+            passage = Passage(
+                formulas, self.psi, self.eps, line, self.span[1], self.rtol, self.atol / self.rtol, carried
+            )
+            began, passed, carried = len(parts), None, None
             try:
                 for part in motion.chunks():
-                    close = None if resting is None else resting.arrival(part)
-                    passage = () if close is None or resting is None else resting.passage(part, *close, most)
-                    onward = iter(passage)
-                    begun = next(onward, None)
-                    close = None if begun is None else close
-                    for steps in chain((part if begun is None else begun,), onward):
+                    passed = passage.pass_by(parts[began:], part, most)
+                    kept = (part,)
+                    if passed is not None:
+                        kept = (passed.before, passed.steps)
+                        carried = passed.logs
+                        if passed.turn is not None:
+                            turns.append(passed.turn)
+                    for steps in kept:
                         ended = _cut_at_event(steps, watch, len(first))
                         parts.append(steps if ended is None else ended)
                         most -= len(steps.lengths)
                         if ended is not None:
+                            status, detail = SimulationStatus.EVENT, watch.reason
                             break
-                    if ended is not None:
-                        status, detail = SimulationStatus.EVENT, watch.reason
-                    if ended is not None or close is not None:
+                    if ended is None and passed is not None and passed.failed is not None:
+                        raise passed.failed
+                    if ended is not None or passed is not None:
                         break
             except TooManyStepsError as error:
-                close, (status, detail) = None, self.end(motion.code, error, first)
+                passed, (status, detail) = None, self.end(motion.code, error, first)
             evaluations, undecided = evaluations + motion.evaluations, undecided + inspection.undecided
             t, state = float(motion.clock[0]), motion.y.copy()
-            if close is not None:
-                t, state = float(parts[-1].starts[-1] + parts[-1].lengths[-1]), parts[-1].ends[-1].copy()
+            if passed is not None:
+                t, state = passed.t_end, passed.steps.ends[-1].copy()
                 continue
             if motion.leaves_line:
                 line = invariant_line(formulas, state, line)
@@ -280,16 +286,14 @@ class _RegularisedRun:
                 break
             if formulas.branch.jumps[motion.switch]:
                 jumps[t] = formulas.jumps_by_time(motion.switch)
+            if not any(len(part.lengths) for part in parts[began:]):
+                carried = passage.carried  # it switches at once, and the distance is still that
             formulas, line = ahead, invariant_line(ahead, state)
         if undecided:
             detail = f"{detail} {say('not bounded', count=undecided)}".strip()
-        return self.told(dense(self.span[0], first, parts), status, detail, evaluations, watch.times, jumps)
-
-    def resting(self, formulas: Field, line: InvariantLine | None) -> RestingDistance | None:
-        """Return what follows the distance to x = y = 0 where that is invariant; None elsewhere."""
-        if line is None or not formulas.rests:
-            return None
-        return RestingDistance(formulas, self.psi, self.eps, line, self.span[1], self.rtol, self.atol / self.rtol)
+        return self.told(
+            dense(self.span[0], first, parts), status, detail, evaluations, watch.times, jumps, tuple(turns)
+        )
 
     def e(self, state: Array) -> list[float]:
         """Return e_Psi (2,) of a state."""
@@ -313,9 +317,10 @@ class _RegularisedRun:
         evaluations: int,
         events: Sequence[Sequence[float]] = (),
         jumps: Mapping[float, bool] | None = None,
+        turns: tuple[float, ...] = (),
     ) -> Simulation:
         """Return the result, whose phases and derivatives are found when they are asked for."""
-        phases = partial(phases_of, self.system, self.psi, self.eps, self.rtol, motion)
+        phases = partial(phases_of, self.system, self.psi, self.eps, motion, turns)
         variation = partial(of_regularised, self.system, self.psi, self.eps, motion, jumps or {})
         return simulation(
             motion, phases, variation, status, detail=detail, eps=self.eps, evaluations=evaluations, events=events

@@ -64,7 +64,7 @@ def place_on_hemisphere(psi: Psi, eps: float, x: float, y: float) -> tuple[Array
     return (p * (float(psi.modulus(r / eps)) * rho / r) if r > 0.0 else np.zeros(2)), p
 
 
-def _inverse_gain(psi: Psi, e: Array) -> tuple[float, Array, Array]:
+def inverse_gain(psi: Psi, e: Array) -> tuple[float, Array, Array]:
     """Return |x2| where e_Psi(x2) = e, its direction, and D e_Psi there."""
     modulus = math.hypot(e[0], e[1])
     zeta = float(psi.radius(modulus))
@@ -76,7 +76,7 @@ def _inverse_gain(psi: Psi, e: Array) -> tuple[float, Array, Array]:
 def jacobian(field: Field, psi: Psi, e: Array, z: Array) -> Array:
     """Return J (2, 2) of the layer problem in kappa_2 at the critical set e."""
     D = field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
-    return D[:2, :2] @ _inverse_gain(psi, e)[2]
+    return D[:2, :2] @ inverse_gain(psi, e)[2]
 
 
 def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> TrackedSet | None:
@@ -98,7 +98,7 @@ def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> T
     distance = float(np.hypot(*(own_p - p)))
     if not distance <= MAX_DISTANCE:
         return None
-    zeta, n, De = _inverse_gain(psi, e)
+    zeta, n, De = inverse_gain(psi, e)
     along = np.outer(n, n)
     D = field.jacobian(float(e[0]), float(e[1]), 0.0, 0.0, z.tolist())
     J = D[:2, :2] @ De

@@ -196,6 +196,9 @@ def _first_defect(op, left, right, number, roots, path, h, rates, changes, both,
             lo = out[r, 2] - (2.0 * moved[own, 2] + bend) / h
             hi = out[r, 3] - (2.0 * moved[own, 2] - bend) / h
             defect += half * max(abs(lo), abs(hi))
+            bound = max(out[r, 1] - box[own, 2] / h, box[own, 3] / h - out[r, 0])  # where a slope has none, as sqrt
+            if not defect <= bound:
+                defect = bound
             sure = sure and _is_small(defect, width * h, rates[r], changes[r], both[r] != 0.0)
         if sure:
             continue

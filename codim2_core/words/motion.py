@@ -274,12 +274,13 @@ SENTENCES: dict[str, Sentence] = {
     "starts, follows": Sentence("The motion starts within O(ε) of Σ, follows {onto} and slides.", "on Σ, ε > 0"),
     "comes, follows": Sentence("It comes within O(ε) of Σ, follows {onto} and slides.", "a slip ends, ε > 0"),
     "goes on": Sentence("It stays within O(ε) of Σ, passes to {onto} and slides.", "from one set to another, ε > 0"),
-    "errors decide": Sentence(
+    "passed": Sentence(
         (
-            "From here {onto} repels, and the motion is closer to it than numerical errors. These may decide "
-            "when and to which side it leaves."
+            "{onto} loses its stability here, but the motion stays near it until repulsion balances attraction "
+            "(way in = way out), or up to a buffer point. A disturbance that is not exponentially small in 1/ε ends "
+            "this sooner."
         ),
-        "a loss of stability after attraction by more than 1/rtol, ε > 0",
+        "a loss of stability with the distance carried as a logarithm, ε > 0",
     ),
     "phases agree": Sentence(
         "The phases are those of the limit ε → 0, from which it differs by O(ε).", "ε > 0 beside the limit"

@@ -27,7 +27,7 @@ ELSEWHERE = {
     "motion/test_delay.py": ("delay, open", "Hopf, delayed", "Hopf, delayed until", "Hopf, delayed until the buffer"),
     "motion/test_fold_classification.py": ("canard point", "folded node", "folded saddle", "folded, degenerate"),
     "motion/test_contact_events.py": ("pole on the hemisphere",),
-    "motion/test_exchange.py": ("transcritical", "pitchfork", "exchange, moving", "errors decide"),
+    "motion/test_exchange.py": ("transcritical", "pitchfork", "exchange, moving", "passed"),
     "motion/test_agreement.py": ("phases agree", "phases agree, less", "phases differ"),
     "initial_value/test_events.py": ("at an event",),
     "motion/test_stiction.py": ("static holds", "static gives way", "static unknown"),
@@ -35,7 +35,7 @@ ELSEWHERE = {
                                   "cycle ends, not decided", "saddle reached"),
     "motion/test_loads.py": ("load jumps", "load switches back", "load sets in", "load switches on a cycle",
                              "not bounded", "variation at a jump"),
-    "motion/test_resting_distance.py": ("starts on a repelling set",),
+    "motion/test_passage.py": ("starts on a repelling set",),
     "motion/test_variation.py": ("variation undefined", "variation on a cycle", "variation past an end",
                                  "variation ends at Sigma"),
 }  # fmt: skip

@@ -31,7 +31,7 @@ from .axes import Axis, available, missing_axes, spans_of, without_parameters
 MAP_PARAMETERS = ("a", "b", "d", "f1", "f2")
 #: Of the frames of a drag each so many-th brings the curves, which are a tenth of the work of a frame; where the
 #: process is busy for more than this share of its time, none before the drag rests.
-EACH_FRAME, BUSY = 3, 0.6
+EACH_FRAME, MAX_SHARE = 3, 0.6
 #: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
 CURVES = ("saddle_node", "transcritical")
 #: A region of less area than the square of this, of the map's, gets no small portrait; nor a stretch shorter than this.
@@ -75,7 +75,7 @@ def _plane_of_f(draft: FrameContext) -> None:
     matrix = scene.key("matrix")
     moved = 0 if draft.rest or draft.now.get("atlas at") == matrix else draft.now.get("atlas moved", 0) + 1
     draft.now["atlas moved"] = moved
-    busy = load.share > BUSY and "atlas_size" in draft.now
+    busy = load.share > MAX_SHARE and "atlas_size" in draft.now
     if moved % EACH_FRAME == min(moved, 1) and not (moved and busy):
         draft.now["atlas at"] = matrix
         curves = scene["atlas_curves"]

@@ -17,7 +17,7 @@ MAX_RESTARTS = 10_000
 
 
 class Crowds:
-    """How many pages and connections each process has, in memory that all of them see.
+    """The number of pages and of connections of each process, in memory that all of them see.
 
     Parameters
     ----------

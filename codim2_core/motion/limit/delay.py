@@ -122,8 +122,10 @@ class Growth:
         self.cuts = np.unique(np.concatenate([times, *(_sign_changes(of, fine) for of in (self.rate, self._focus))]))
         self.at = np.concatenate([[0.0], np.cumsum(self._integrals(self.cuts[:-1], self.cuts[1:]))])
 
-    def way_out(self, unstable: float) -> DelayedExitPoint | None:
+    def way_out(self, unstable: float, rise: float = 0.0) -> DelayedExitPoint | None:
         """Return when the motion leaves the set, which lost its stability at a time; None if not while it is followed.
+
+        `rise` is added to G where a buffer point ends the delay.
 
         Raises
         ------
@@ -133,7 +135,7 @@ class Growth:
         found = [] if end is None else [DelayedExitPoint(end, None)]
         if np.ptp(self.e, axis=0).max() > REST_CHANGE:
             for time, height in self._singular(float(self.motion.times[-1]) if end is None else end):
-                t = self._reaches(self._growth(time.real) + height, max(unstable, time.real))
+                t = self._reaches(self._growth(time.real) + height + rise, max(unstable, time.real))
                 found += [] if t is None else [DelayedExitPoint(t, time)]
         return min(found, key=lambda way: way.t, default=None)
 

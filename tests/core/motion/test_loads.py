@@ -274,3 +274,23 @@ def test_steps_that_no_bound_decides_are_counted():
         assert run.status is SimulationStatus.T_END
         assert "not bounded" in [key for key, _ in recognise(run.message)]
         assert run.states[-1, :2] == pytest.approx([0.0, 0.0], abs=1.1e-5)
+
+
+@pytest.mark.parametrize(
+    ("load", "x", "z"),
+    [  # x = int (load - 1) while it slips, z = int x: by quadrature
+        ("1.5*sqrt(abs(t-4))", 10.180340, 41.060683),
+        ("2 + sqrt(abs(t-4))", 21.7868933, 94.8738),
+        ("2 + abs(t-4)^1.5", 44.1606798, 173.0153),
+        ("0.5 + 0.3*sqrt(abs(t-4))", 0.19903094, 0.2502978),  # it rests from t = 2.36 to 6.78
+    ],
+)
+def test_a_load_with_a_root_at_its_switch_is_followed_through_it(load, x, z):
+    """No step can pass it: the formula of either side is undefined on the other."""
+    system = System(U=(f"-c + {load}", "-s"), W=("x",))
+    for run in (
+        simulate(system, PSI, (0.0, 0.0, 0.0), (0.0, 9.0), eps=1e-9),
+        simulate_nonsmooth(system, (0.0, 0.0, 0.0), (0.0, 9.0)),
+    ):
+        assert run.status is SimulationStatus.T_END
+        assert run.states[-1, [0, 2]] == pytest.approx([x, z], rel=3e-6)
