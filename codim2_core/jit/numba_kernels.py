@@ -13,14 +13,23 @@ from typing import Any
 
 from numba import njit, types
 from numba.core import caching, event
+from numba.core import config as numba_config
 from numba.core.dispatcher import Dispatcher
 
 from ..rebind import rebind
+from . import disk_cache, policy
 from .right_hand_sides import compile_waiting, right_hand_side
 from .stamps import CORE_FOLDER, source_stamp
 from .tiers import TieredKernel
 
 ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep their meaning
+
+config: Any = numba_config  # its names are made at run time
+if config.DISABLE_JIT:  # for a debugger, or to measure coverage: kernels run as Python
+    config.DISABLE_JIT = 0
+    policy.choose_way(policy.PYTHON)
+#: Why no kernel can be kept on disk; "" if it can.
+UNCACHED = disk_cache.prepare()
 
 COMPILING = (
     "compiling kernels, once on this machine: about 10 s for trajectories, 45 s for motions; "
@@ -108,7 +117,7 @@ class _Notice(event.Listener):
         """Say it, if the kernel is one that is kept on disk: what is typed is compiled in a moment."""
         if not self.said and isinstance(event.data["dispatcher"]._cache, caching.FunctionCache):  # noqa: SLF001
             self.said = True
-            logging.getLogger(__name__).warning(COMPILING)
+            logging.getLogger(__name__).warning(" ".join(filter(None, (COMPILING, UNCACHED))))
 
     def on_end(self, event: Any) -> None:
         """Nothing is said."""

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 #: `RENT` runs a kernel as Python until that has taken as long as compiling it does; `COMPILE` compiles it at once;
-#: `LOAD` takes it from the disk only.
-RENT, COMPILE, LOAD = "rent", "compile", "load"
+#: `LOAD` takes it from the disk only; `PYTHON` always runs it as Python.
+RENT, COMPILE, LOAD, PYTHON = "rent", "compile", "load", "python"
 
 
 class NotCompiledError(RuntimeError):
@@ -53,5 +53,5 @@ def leave_to(at_work: Callable[[], bool] | None) -> None:
 
 
 def is_left() -> bool:
-    """Whether another process compiles the kernels of this one."""
-    return _process.at_work is not None and _process.at_work()
+    """Whether another process compiles the kernels of this one, or nobody does."""
+    return current_way() == PYTHON or (_process.at_work is not None and _process.at_work())

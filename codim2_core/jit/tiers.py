@@ -52,6 +52,8 @@ def may_wait(cache: Any, signature: Any, name: str) -> bool:
     NotCompiledError
     """
     way = policy.current_way()
+    if way == policy.PYTHON:
+        return True
     if way == policy.COMPILE or is_on_disk(cache, signature):
         return False
     if way == policy.LOAD and isinstance(cache, FunctionCache):
@@ -121,7 +123,8 @@ class TieredKernel:
 
         def look() -> float:
             now = time.perf_counter()
-            if not self._may_go_on(now - began) or is_on_disk(self.kernel._cache, signature):  # noqa: SLF001
+            loads = policy.current_way() != policy.PYTHON and is_on_disk(self.kernel._cache, signature)  # noqa: SLF001
+            if loads or not self._may_go_on(now - began):
                 raise _GivenUpError
             return now + LOOK_SECONDS
 
