@@ -26,7 +26,7 @@ from .systems.kinds import SYSTEM_KINDS
 
 MAX_NUMBER = 1e150  # of a number: its square is finite
 MOST_VALUES = 1_000_000  # in an array
-MAX_COUNTS: Mapping[str, int] = {"count": 1_000_000_000, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
+MAX_COUNTS: Mapping[str, int] = {"count": 10**12, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
 MOST_HERE: Mapping[tuple[str, str], int] = {("slow_portrait", "count"): 20_001}
 ZERO_TOO = (
     ("periodic_motion", "eps"),

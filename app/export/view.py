@@ -20,7 +20,7 @@ from ..frame.window import Window, resample_for_window
 from ..slow_layers import basins, outcomes
 from ..state.choices import OWN_AXIS as OWN
 from ..state.choices import SLOW_CONTROLS
-from ..state.chosen_system import OWN_SYSTEM, System_, build, parameters_of
+from ..state.chosen_system import OWN_SYSTEM, System_, build, parameter_ranges, parameters_of
 from ..state.controls import first_values
 from ..state.links import Link, PageView, compress_query, read_link, write_link
 
@@ -145,7 +145,7 @@ def typed_view(
     where : sequence of str
         Definitions that they use, ``NAME(z) = …``.
     parameters : mapping of str to float
-        Values by name; 1 where there is none.
+        Values by name.
     z : sequence of float
     psi : Psi
 
@@ -160,6 +160,9 @@ def typed_view(
     found = dict(build(OWN_SYSTEM, texts, {}).parameters)  # says what is wrong with a formula
     if odd := [name for name in parameters if name not in found]:
         raise ValueError(f"{odd[0]!r} is in no formula; there are {', '.join(found) or 'no parameters'}.")
+    declared = parameter_ranges(OWN_SYSTEM, texts)
+    if without := [name for name in found if name not in parameters and name not in declared]:
+        raise ValueError(f"The parameter {without[0]!r} has no value; give one, such as {without[0]}=0.5.")
     if len(z) > len(W):
         raise ValueError(f"z has {len(z)} value(s), but there are {len(W)} slow rates.")
     values: dict[str, Any] = {"system": OWN_SYSTEM, "texts": texts, "parameters": dict(parameters), "psi": psi.family}

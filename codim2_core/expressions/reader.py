@@ -20,6 +20,15 @@ _TOKEN = re.compile(
 # What a text processor writes for what is meant; one character each, so that columns stay right.
 _MEANT = str.maketrans("−–—×·⋅∗÷", "---****/")
 _DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
+#: Other names of functions; and what to write for functions that there are not.
+ALIASES = {"ln": "log", "arctan": "atan", "sgn": "sign", "fabs": "abs"}
+ELSEWHERE = {
+    "asin": "atan(u/sqrt(1 - u^2))", "arcsin": "atan(u/sqrt(1 - u^2))", "acos": "pi/2 - atan(u/sqrt(1 - u^2))",
+    "arccos": "pi/2 - atan(u/sqrt(1 - u^2))", "atan2": "2*atan(u/(v + sqrt(u^2 + v^2)))",
+    "arctan2": "2*atan(u/(v + sqrt(u^2 + v^2)))", "hypot": "sqrt(u^2 + v^2)", "heaviside": "(u > 0)",
+    "step": "(u > 0)", "log10": "log(u)/log(10)", "cbrt": "sign(u)*abs(u)^(1/3)", "sec": "1/cos(u)",
+    "csc": "1/sin(u)", "cot": "1/tan(u)", "ceil": "-floor(-u)", "round": "floor(u + 0.5)", "pow": "u^v",
+}  # fmt: skip
 _CALLED = (*FUNCTIONS, *FUNCTIONS_OF_TWO, "mod")
 _COMPARISONS = ("<", ">", "<=", ">=")
 _LEFT_BINDING = {"+": 1, "-": 1, "*": 2, "/": 2, "**": 4, "^": 4} | dict.fromkeys(_COMPARISONS, 0.5)
@@ -63,6 +72,22 @@ def check_names(names: tuple[str, ...]) -> None:
                 f"{name!r} cannot name a variable; use at most 40 ASCII letters, digits and _, beginning with a "
                 f"letter, and none of {', '.join(_CALLED)}, math or a Python keyword."
             )
+
+
+def unknown_names(text: str) -> list[tuple[str, int]]:
+    """Return the names in a text, in order, each with its column from 1; functions under other names are left out."""
+    found, position, text = list[tuple[str, int]](), 0, text.translate(_MEANT)
+    while position < len(text):
+        match = _TOKEN.match(text, position)
+        if match is None:  # the reader says what has no meaning
+            position += 1
+            continue
+        position = match.end()
+        word = match["name"]
+        called = word in ALIASES or word in ELSEWHERE
+        if word is not None and word[0] != "_" and not (called and text[position:].lstrip()[:1] == "("):
+            found.append((word, match.start("name") + 1))
+    return found
 
 
 def read_formula(text: str, names: tuple[str, ...]) -> Tape:
@@ -240,6 +265,8 @@ class _Reader:
 
     def word(self, word: str, column: int) -> int:
         opens = self.tokens[self.at][1] == "("
+        if opens and word not in self.names:
+            word = ALIASES.get(word, word)
         if word in self.names:
             if opens:
                 raise self.error(column, f"{word} is a variable, not a function", f"write {word}*( for a product")
@@ -252,6 +279,8 @@ class _Reader:
             return self.build.number(CONSTANTS[word])
         near = difflib.get_close_matches(word[:30], [*self.names, *_CALLED], 1)
         mend = f"did you mean {near[0]}?" if near else "use one of the names above"
+        if opens and word in ELSEWHERE:
+            mend = f"write {ELSEWHERE[word]} for {word}({'u, v' if 'v' in ELSEWHERE[word] else 'u'})"
         if word.lower() in ("theta", "phi"):
             mend = self.angle() or mend
         raise self.error(column, f"the name {word[:30]!r} is not known here", mend)

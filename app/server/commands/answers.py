@@ -19,9 +19,11 @@ from .numbers import number, six
 
 def add_classify(commands: Any) -> None:
     """Add `codim2 classify`."""
-    command = commands.add_parser("classify", help="name the portrait of an e-linear system, and say what stands still")
+    command = commands.add_parser(
+        "classify", help="name the portrait of a system, with its limit directions and critical sets"
+    )
+    add_view(command)
     _add_coefficients(command)
-    add_psi(command)
     command.add_argument("--json", action="store_true", help="as JSON")
     command.set_defaults(run=classify)
 
@@ -32,19 +34,28 @@ def add_prove(commands: Any) -> None:
         "prove", help="prove a portrait: its limit directions, critical sets and limit cycles"
     )
     add_view(command)
-    _add_coefficients(command, required=False)
+    _add_coefficients(command)
     command.add_argument("-o", "--output", type=Path, metavar="FILE", help="write the certificate there")
     command.set_defaults(run=prove)
 
 
-def _add_coefficients(command: Any, required: bool = True) -> None:
+def _add_coefficients(command: Any) -> None:
     for name in ("a", "b", "d"):
-        default = None if name == "a" else 0.0
-        command.add_argument(
-            f"-{name}", type=number, required=required and name != "b", default=default, help=f"{name} of A"
-        )
+        default = 0.0 if name == "b" else None
+        command.add_argument(f"-{name}", type=number, default=default, help=f"{name} of A, in place of a view")
     for name in ("f1", "f2"):
         command.add_argument(f"--{name}", type=number, default=0.0)
+
+
+def _chosen_problem(chosen: argparse.Namespace) -> tuple[Any, c2.Psi]:
+    """Return the system, frozen at a z, and Psi that a command names: by coefficients, as a view or by equations."""
+    if (chosen.a is None) != (chosen.d is None):
+        raise ValueError("Only one of -a and -d is given; give both, or a preset, or equations with -U.")
+    if chosen.a is not None:
+        psi = c2.psi.from_text(chosen.psi)
+        return c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2)), psi
+    problem = chosen_view(chosen).scene().problem
+    return problem.at, problem.psi
 
 
 def add_psi(command: argparse.ArgumentParser) -> None:
@@ -65,10 +76,9 @@ def add_presets(commands: Any) -> None:
 
 
 def classify(chosen: argparse.Namespace) -> int:
-    """Print the portrait of one system."""
+    """Print the portrait of a system."""
     try:
-        psi = c2.psi.from_text(chosen.psi)
-        system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
+        system, psi = _chosen_problem(chosen)
         found = c2.classify(system, psi)
     except ValueError as error:
         print(f"codim2: {error}", file=sys.stderr)
@@ -105,21 +115,17 @@ def classify(chosen: argparse.Namespace) -> int:
     for i, theta in enumerate(equator.theta.tolist()):
         rates = f"λ_ρ = {six(equator.lambda_rho[i])}, λ_θ = {six(equator.lambda_theta[i])}"
         print(f"  Q{subscript(i + 1)}: θ = {six(theta)}, {rates}")
-    for C in critical:
+    for i, C in enumerate(critical):
+        name = "C" if len(critical) == 1 else f"C{subscript(i + 1)}"
         place = f"e = ({six(C.e[0])}, {six(C.e[1])})"
-        print(f"  C: {place}, {C.kind}, tr J = {six(C.trace)}, det J = {six(C.determinant)}")
+        print(f"  {name}: {place}, {C.kind}, tr J = {six(C.trace)}, det J = {six(C.determinant)}")
     return 0
 
 
 def prove(chosen: argparse.Namespace) -> int:
     """Print what is proved of a portrait; the status is 0 if it is how many limit cycles there are, else 1."""
     try:
-        if chosen.a is None:
-            problem = chosen_view(chosen).scene().problem
-            system, psi = problem.at, problem.psi
-        else:
-            psi = c2.psi.from_text(chosen.psi)
-            system = c2.ELinear(chosen.a, chosen.b, chosen.d, (chosen.f1, chosen.f2))
+        system, psi = _chosen_problem(chosen)
         found, proved = c2.limit_cycles(system, psi), c2.prove_portrait(system, psi)
     except ValueError as error:
         print(f"codim2: {error}", file=sys.stderr)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
 from typing import Any
 
 import codim2_core as c2
@@ -44,6 +46,9 @@ def census(chosen: argparse.Namespace) -> int:
 
     if chosen.dask and chosen.processes > 1:
         print("codim2: --dask has processes of its own; give no --processes.", file=sys.stderr)
+        return 2
+    if chosen.csv and not os.access(Path(chosen.csv).parent, os.W_OK):
+        print(f"codim2: {chosen.csv} cannot be written; name a file in a folder that is there.", file=sys.stderr)
         return 2
     try:
         with _executor(chosen) as executor:

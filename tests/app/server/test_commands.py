@@ -31,6 +31,40 @@ def test_classify_in_words_and_as_json(capsys):
     assert len(found["limit_directions"]) == 4
 
 
+def test_classify_takes_a_preset_or_equations(capsys):
+    assert main(["classify", "case3-n2"]) == 0
+    preset = c2.presets["case3-n2"]
+    assert capsys.readouterr().out.startswith(c2.classify(preset.system, preset.psi).sentence)
+    assert main(["classify", "-U", "-c + ln(2)*pull; -s", "pull=0.3"]) == 0
+    assert "C: e = (0.207944, 0), stable node" in capsys.readouterr().out
+    done = subprocess.run(
+        [sys.executable, "-m", "codim2_app", "classify", "case1-cm4"], capture_output=True, text=True, check=True
+    )
+    assert "CM4" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["-U", "-2k*c; -s"], "The parameter 'k' has no value; give one, such as k=0.5."),
+        (["-U", "-2k c; -s", "k=1"], "Write k*c for a product."),
+        (["-U", "-c + asin(s); -s"], "Write atan(u/sqrt(1 - u^2)) for asin(u)."),
+        (["-a", "-1"], "Only one of -a and -d is given"),
+    ],
+)
+def test_what_is_missing_or_called_otherwise_is_named(words, said, capsys):
+    assert main(["classify", *words]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_census_of_ten_thousand_million_is_allowed_and_its_file_is_tried_first(capsys, tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(c2, "census", lambda *given, **named: asked.append(given) or (_ for _ in ()).throw(ValueError))
+    assert main(["census", "--count", "1e10", "--csv", str(tmp_path / "no" / "x.csv")]) == 2
+    assert "cannot be written" in capsys.readouterr().err
+    assert not asked
+
+
 @pytest.mark.parametrize("wrong", [["--psi", "hill:many"], ["--psi", "s +"], ["--f1", "nan"]])
 def test_what_cannot_be_used_is_said_in_one_line(wrong, capsys):
     assert main(["classify", "-a", "-2", "-d", "-1", *wrong]) == 2

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core.expressions.expression import ExpressionError, parse
+from codim2_core.expressions.reader import ELSEWHERE
 from tests.work import calls
 
 HOSTILE = [
@@ -122,3 +123,32 @@ def test_where_e_is_known_an_angle_is_told_as_c_and_s():
         with pytest.raises(ExpressionError) as caught:
             parse(text, ("x",))
         assert "for cos(theta)" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "same"),
+    [("ln(s)", "log(s)"), ("arctan(s)", "atan(s)"), ("sgn(s)", "sign(s)"), ("fabs(s)", "abs(s)"), ("ln*s", "ln*s")],
+)
+def test_functions_under_other_names(text, same):
+    names = ("s", "ln")
+    assert parse(text.replace("ln(s)", "ln (s)"), names if "*" in text else ("s",)) == parse(
+        same, names if "*" in text else ("s",)
+    )
+
+
+@pytest.mark.parametrize("name", sorted(ELSEWHERE))
+def test_functions_that_there_are_not_are_written_with_those_that_there_are(name):
+    with pytest.raises(ExpressionError) as error:
+        parse(f"{name}(0.3)", ("s",))
+    written = re.search(r"Write (.*) for ", str(error.value))[1]
+    exact = {"arcsin": math.asin, "arccos": math.acos, "arctan2": math.atan2, "heaviside": lambda u: 1.0 * (u > 0.0),
+             "step": lambda u: 1.0 * (u > 0.0), "sec": lambda u: 1.0 / math.cos(u), "csc": lambda u: 1.0 / math.sin(u),
+             "cot": lambda u: 1.0 / math.tan(u), "round": round,
+             "cbrt": lambda u: math.copysign(abs(u) ** (1.0 / 3.0), u)}  # fmt: skip
+    true = exact.get(name) or getattr(math, name)
+    for u, v in ((0.3, 0.7), (-0.4, 0.6), (0.8, -0.2)):
+        if (name == "pow" and u < 0.0) or (name == "log10" and u < 0.0):
+            continue
+        given = (u, v) if re.search(r"\bv\b", written) else (u,)
+        found = parse(written, ("u", "v")).evaluate({"u": u, "v": v})
+        assert found == pytest.approx(true(*given), rel=1e-14)
