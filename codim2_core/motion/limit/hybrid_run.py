@@ -153,15 +153,14 @@ class HybridRun:
 
     def first(self) -> Decision | None:
         """Decide what follows from a start on Sigma."""
-        stays = self.psi is not None and self.formulas.rests and not self.attracts_at_rest()
+        if self.psi is not None and self.formulas.rests and not self.attracts_at_rest():
+            return self.stay()
         if self.line is not None:
-            return self.stay() if stays else self.in_line(0.0, say("starts in a line"))
+            return self.in_line(0.0, say("starts in a line"))
         held = hold(self.formulas, None, self.state[2:], self.stiction)
         if held is not None:
             return held
         decision = decide_start(self.system, self.psi, self.state[2:])
-        if stays and decision.kind == "leave":
-            return self.stay()
         if self.psi is not None:
             self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=np.zeros(2))
         return self.at_border(decision) if decision.kind == "border" else decision

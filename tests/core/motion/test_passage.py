@@ -98,6 +98,10 @@ def test_it_keeps_its_side_under_every_psi():
         ("0.35*c + 0.82*s + 0.33*c*c - 1.3*s*s", "0.91*c + 0.45*s - 0.54*c*c + 0.58*c*s"),
         ("0.36*c + 0.29*s + 0.03*c*c + 0.55*s*s", "-0.74*c - 0.16*s - 0.48*c*c + 0.6*c*s"),
         ("0.2*c - 0.47*s + 0.24*c*c + 0.76*s*s", "-1.65*c + 0.25*s + 1.22*c*c - 0.3*c*s"),
+        ("c", "s"),  # in all directions alike
+        ("c**3 + 0.5*c", "s"),
+        ("c - 2*s", "2*c + s"),  # it spirals
+        ("c - 2*c**3", "-s"),  # a saddle, next to which two sets attract
     ],
 )
 def test_what_starts_exactly_on_a_repelling_set_stays_in_both(U):
