@@ -15,13 +15,11 @@ from typing import Any
 import numpy as np
 
 from . import tape as tapes
-from .functions import known
 from .reader import ExpressionError, check_names, read_formula
 
 __all__ = ["Expression", "ExpressionError", "parse"]
 
-LONGEST_SOURCE = 100_000
-DEEPEST_SOURCE = 150  # Python's own parser stops at 200 open parentheses
+LONGEST_TEXT = 100_000
 
 
 class Expression:
@@ -143,19 +141,7 @@ class Expression:
     @cached_property
     def text(self) -> str:
         """The formula, which `parse` reads back to an equal one."""
-        return _render(self._tape, python=False)
-
-    def python_source(self) -> str:
-        """One scalar Python expression over the names and ``math.*``, to be compiled (by Numba, say).
-
-        Compile it with IEEE error handling (Numba's ``error_model="numpy"``): plain Python raises at poles.
-
-        Raises
-        ------
-        ValueError
-            The formula, written out, is too long or too deep for a compiler (only high derivatives are).
-        """
-        return _render(self._tape, python=True)
+        return _render(self._tape)
 
 
 def parse(text: str, names: Iterable[str]) -> Expression:
@@ -213,75 +199,42 @@ def _evaluate_tape(tape: tapes.Tape, operations: Mapping[str, Any], known: Mappi
     return results[-1]
 
 
-# Rendered pieces are (text, how tightly it binds, depth of parentheses).
+# Rendered pieces are (text, how tightly it binds).
 _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(1, 6)
-_Piece = tuple[str, int, int]
+_Piece = tuple[str, int]
 
 
-def _render(tape: tapes.Tape, python: bool) -> str:
+def _render(tape: tapes.Tape) -> str:
     pieces: list[_Piece] = []
     for op, *args in tape:
         if op == "num":
-            piece = _number_text(args[0], python)
+            shown = repr(args[0]).removesuffix(".0")
+            piece = (f"({shown})" if args[0] < 0.0 else shown, _ATOM)
         elif op == "name":
-            piece = (args[0], _ATOM, 0)
+            piece = (args[0], _ATOM)
         else:
-            piece = _operation(op, [pieces[i] for i in args], [tape[i] for i in args], python)
-        if len(piece[0]) > LONGEST_SOURCE or (python and piece[2] > DEEPEST_SOURCE):
-            if not python:
-                return f"(a formula of {len(tape)} operations)"
-            raise ValueError(
-                f"written out, a formula of {len(tape)} operations is too long or too deep to compile; shorten it."
-            )
+            piece = _operation(op, [pieces[i] for i in args])
+        if len(piece[0]) > LONGEST_TEXT:
+            return f"(a formula of {len(tape)} operations)"
         pieces.append(piece)
     return pieces[-1][0]
 
 
-def _number_text(value: float, python: bool) -> _Piece:
-    shown = repr(value)
-    if not python:
-        shown = shown.removesuffix(".0")
-    return (f"({shown})", _ATOM, 1) if value < 0.0 else (shown, _ATOM, 0)
+def _wrap(piece: _Piece, least: int) -> str:
+    text, binding = piece
+    return text if binding >= least else f"({text})"
 
 
-def _wrap(piece: _Piece, least: int) -> tuple[str, int]:
-    text, binding, depth = piece
-    return (text, depth) if binding >= least else (f"({text})", depth + 1)
-
-
-def _operation(op: str, pieces: list[_Piece], nodes: list[tapes.Node], python: bool) -> _Piece:
+def _operation(op: str, pieces: list[_Piece]) -> _Piece:
     if op == "neg":
-        text, depth = _wrap(pieces[0], _POWER)
-        return f"-{text}", _SIGN, depth
+        return f"-{_wrap(pieces[0], _POWER)}", _SIGN
     if len(pieces) == 1:
-        text, _, depth = pieces[0]
-        if not python:
-            return f"{op}({text})", _ATOM, depth + 1
-        return known[op].python_source(text), _ATOM, depth + max(1, known[op].source.count("("))
+        return f"{op}({pieces[0][0]})", _ATOM
     if op in tapes.FUNCTIONS_OF_TWO:
-        return f"{op}({pieces[0][0]}, {pieces[1][0]})", _ATOM, max(pieces[0][2], pieces[1][2]) + 1
+        return f"{op}({pieces[0][0]}, {pieces[1][0]})", _ATOM
     if op == "**":
-        return _power(pieces, nodes[1], python)
-    if op == tapes.BESIDE_ZERO:
-        if python:
-            (left, depth_left), (right, depth_right) = _wrap(pieces[0], _ATOM), _wrap(pieces[1], _ATOM)
-            return tapes.BESIDE_ZERO_SOURCE.format(left, right), _ATOM, max(depth_left, depth_right) + 2
-        op = "*"
+        return f"{_wrap(pieces[0], _ATOM)}**{_wrap(pieces[1], _ATOM)}", _POWER
+    op = "*" if op == tapes.BESIDE_ZERO else op
     binding = _SUM if op in "+-" else _PRODUCT
-    (left, depth_left), (right, depth_right) = _wrap(pieces[0], binding), _wrap(pieces[1], binding + 1)
     space = " " if binding == _SUM else ""
-    return f"{left}{space}{op}{space}{right}", binding, max(depth_left, depth_right)
-
-
-def _power(pieces: list[_Piece], exponent: tapes.Node, python: bool) -> _Piece:
-    base, depth = _wrap(pieces[0], _ATOM)
-    value = exponent[1] if exponent[0] == "num" else None
-    if not python:
-        text, depth_exponent = _wrap(pieces[1], _ATOM)
-        return f"{base}**{text}", _POWER, max(depth, depth_exponent)
-    if value is not None and value.is_integer() and value != 0.0:
-        n = int(value)
-        # a literal integer exponent becomes multiplications when compiled
-        return (f"{base}**{n}", _POWER, depth) if n > 0 else (f"(1.0/{base}**{-n})", _ATOM, depth + 1)
-    (left, _, depth_left), (right, _, depth_right) = pieces
-    return f"math.pow({left}, {right})", _ATOM, max(depth_left, depth_right) + 1
+    return f"{_wrap(pieces[0], binding)}{space}{op}{space}{_wrap(pieces[1], binding + 1)}", binding

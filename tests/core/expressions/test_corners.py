@@ -25,8 +25,6 @@ def test_formulas_with_kinks_agree_in_all_their_forms(text, x, y):
     exact = eval(text, {"abs": abs, "min": min, "max": max, "sign": lambda u: (u > 0) - (u < 0)}, {"x": x, "y": y})
     assert expression.evaluate({"x": x, "y": y}) == exact
     assert expression.evaluate({"x": np.array([x]), "y": y}).tolist() == [exact]
-    scope = {"math": math, "min": min, "max": max}
-    assert eval(expression.python_source(), scope, {"x": x, "y": y}) == pytest.approx(exact, rel=1e-15, abs=0)
     if min(abs(x), abs(x - y), abs(x - 2 * y)) > 1e-3:
         h = 1e-7
         difference = expression.evaluate({"x": x + h, "y": y}) - expression.evaluate({"x": x - h, "y": y})
@@ -123,10 +121,9 @@ def test_derivatives_at_corners_are_the_mean_of_the_sides_or_told_to_be_none(tex
         return
     derivative = expression.derivative("x").evaluate({"x": x, "y": y})
     with mpmath.workdps(80):
-        source = expression.python_source()
 
         def sides(h):
-            at = [with_mpmath(source, mpmath.mpf(x) + k * h, mpmath.mpf(y)) for k in (-1, 0, 1)]
+            at = [with_mpmath(expression, mpmath.mpf(x) + k * h, mpmath.mpf(y)) for k in (-1, 0, 1)]
             return [mpmath.mpf(0) if at[1] == at[0] else (at[1] - at[0]) / h, (at[2] - at[1]) / h]
 
         try:

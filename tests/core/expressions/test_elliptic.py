@@ -34,7 +34,7 @@ def test_an_integral_is_what_mpmath_says(name, m):
     expression, true = parse(f"{name}(x)", ("x",)), pytest.approx(float(exact(name, m)), rel=BLUR * 2.0**-51)
     assert expression.evaluate({"x": m}) == true
     assert expression.evaluate({"x": np.array([m])}).tolist() == [true]
-    assert eval(expression.python_source(), {name: known[name].scalar}, {"x": m}) == true
+    assert known[name].scalar(m) == true
 
 
 @pytest.mark.parametrize("name", NAMES)

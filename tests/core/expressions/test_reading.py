@@ -56,7 +56,6 @@ def test_any_text_is_read_or_refused(text):
         return
     assert isinstance(expression.evaluate({"s": 0.7}), float)
     assert isinstance(expression.derivative("s").evaluate({"s": 0.7}), float)
-    compile(expression.python_source(), "formula", "eval")
     assert parse(expression.text, ("s",)) == expression
 
 
@@ -73,8 +72,6 @@ def test_repeated_derivatives_stay_small_or_are_refused():
     with pytest.raises(ValueError, match="more than 20000 operations"):
         differentiate(40)
     assert len(seen) > 3
-    with pytest.raises(ValueError, match="too long"):
-        seen[-1].python_source()
 
 
 @pytest.mark.parametrize("names", [("sin",), ("lambda",), ("math",), ("x y",), ("é",), ("_x",), ("x" * 99,), (3,), "s"])
