@@ -1,4 +1,4 @@
-"""The typed start of the panel "Orbits": the motion from (x, y, z1, ...) in the limit eps -> 0, and for eps > 0."""
+"""The typed start of the panel "Motion": the motion from (x, y, z1, ...) in the limit eps -> 0, and for eps > 0."""
 
 from __future__ import annotations
 

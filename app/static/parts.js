@@ -11,6 +11,7 @@ import {Bench} from "./page/bench.js"
 import {Help} from "./page/help.js"
 import {compressQuery, writeLink} from "./page/links.js"
 import {Opening} from "./page/opening.js"
+import {printable} from "./page/paper.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
 import {Comets} from "./picture/comets.js"
@@ -138,6 +139,7 @@ export function addDialogs(explorer) {
   const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer, lift: config.look.lift, views: explorer.views?.carried}})
   const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await compressQuery(query(), config.link.version)}`}))
   explorer.find(".share").addEventListener("click", () => share.open())
+  printable(explorer, query)
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
 }
 

@@ -37,7 +37,7 @@ export class Headline {
     const {push, held} = pushOf(this.values), {verdict} = this
     const told = verdict && (push < 1e-12 || held > 0 && Number.isFinite(held))
     this.box.hidden = !told
-    this.root.classList.toggle("headless", !told)
+    this.root.classList.toggle("headless", !this.own())
     setMarkup(this.box, told ? pushSentence(push < 1e-12 ? "" : digits(push, 3), digits(held, 3), verdict, push > held, isFriction(this.values)) : "")
   }
 

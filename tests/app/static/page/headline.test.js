@@ -34,8 +34,9 @@ test("it says what becomes of the push, by the kind of C", () => {
 })
 
 test("there is none where the sliders do not set the system, or nothing is decided", () => {
-  assert.equal(shown(VALUES, ["stable node"], false).box.hidden, true)
-  assert.equal(shown(VALUES, ["centre (linear)"]).root.classList.contains("headless"), true)
+  const other = shown(VALUES, ["stable node"], false)
+  assert.deepEqual([other.box.hidden, other.root.classList.contains("headless")], [true, true])
+  assert.equal(shown(VALUES, ["centre (linear)"]).box.hidden, true)
   assert.equal(shown({...VALUES, a: 0, b: 0}).box.hidden, true) // det A = 0: no push decides it
 })
 
