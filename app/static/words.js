@@ -139,14 +139,14 @@ export const SAYS = {
 }
 
 // The first sentence: the push, or "" for none, what can be held, and what becomes of it, as markup.
-export function pushSentence(/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ verdict, /** @type {boolean} */ more, friction = true) {
-  const last = `<strong>${SAYS[verdict]}</strong>`
-  if (!push) return verdict === "sticks" ? "Nothing pushes: it comes to rest and <strong>sticks</strong>." : `Nothing pushes, and it ${last}.`
-  return `You push with <b class="number">${push}</b>. ${friction ? "Friction" : "The contact"} can hold ${more ? "only" : "up to"} <b class="number held">${held}</b> this way, ${more || verdict === "sticks" ? "so" : "yet"} it ${last}.`
+export function pushSentence(/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ words, {more = false, sure = true, friction = true} = {}) {
+  const last = `<strong>${words}</strong>`
+  if (!push) return `Nothing pushes, ${sure ? "so" : "and"} it ${last}.`
+  return `You push with <b class="number">${push}</b>. ${friction ? "Friction" : "The contact"} can hold ${more ? "only" : "up to"} <b class="number held">${held}</b> this way, ${sure ? "so" : "yet"} it ${last}.`
 }
 
 // What the puck does, in words: whether it sticks, and how much of its friction that takes.
-export const stateWords = (/** @type {string} */ verdict, /** @type {number} */ share, /** @type {boolean} */ friction) => [friction ? "" : SAYS.active, SAYS[verdict], friction && verdict === "sticks" ? `${Math.round(100 * share)} % of friction in use` : ""].filter(Boolean).join(", ")
+export const stateWords = (/** @type {string} */ words, /** @type {number | null} */ share, /** @type {boolean} */ friction) => [friction ? "" : SAYS.active, words, share === null ? "" : `${Math.round(100 * share)} % of friction in use`].filter(Boolean).join(", ")
 
 // How much is loaded of the worker that is the server of a page without one.
 export const loadingWords = (/** @type {number} */ bytes, /** @type {number} */ all) => bytes < all ? `Loading the mathematics: ${Math.floor(bytes / 1e6)} of ${Math.ceil(all / 1e6)} MB …` : SAYS.starting

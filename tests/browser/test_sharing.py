@@ -4,6 +4,8 @@ import pytest
 
 from tests.app.static.test_qr_codes import code_of
 
+from .conftest import PHONE
+
 pytestmark = pytest.mark.browser
 
 
@@ -77,9 +79,11 @@ def test_the_printed_page_is_the_picture_its_sentences_values_and_a_code(open_pa
     explorer.page.emulate_media(media="print")
     explorer.page.set_viewport_size({"width": 718, "height": 1047})  # A4 within its margins
     explorer.painted()
-    seen = {name: explorer.find(name).bounding_box() for name in (".headline", ".sentence", ".on-paper canvas", ".on-paper p", ".on-paper img")}
+    names = (".headline", ".sentence", ".on-paper canvas", ".on-paper p", ".on-paper img")
+    seen = {name: explorer.find(name).bounding_box() for name in names}
     for one in seen.values():
-        assert 0 <= one["x"] and one["x"] + one["width"] <= 718
+        assert one["x"] >= 0
+        assert one["x"] + one["width"] <= 718
         assert one["y"] + one["height"] <= 1047
     assert seen[".headline"]["y"] + seen[".headline"]["height"] <= seen[".on-paper canvas"]["y"]
     assert explorer.find(".on-paper p").text_content().startswith("a = −2, b = 0.4, d = −1")

@@ -2,7 +2,7 @@
 // its push follows; an orbit is launched, and it slips along it while a dot runs on the picture.
 
 import {setMarkup, say} from "../dom.js"
-import {SAYS, stateWords} from "../words.js"
+import {SAYS} from "../words.js"
 import {GRIP, frictionOf, momentOf, puckMarkup, slowMotion, unitOf} from "../widgets/puck.js"
 import {isFriction, pushOf} from "./headline.js"
 
@@ -91,7 +91,7 @@ export class Bench {
     if (!moment) this.way = this.middle
     svg.setAttribute("viewBox", `0 0 ${w} ${h}`)
     setMarkup(svg, puckMarkup(w, h, this.shown, values))
-    const told = moment && Math.hypot(...moment.slip) > CREEPS ? SAYS.slipping : moment?.pace < STILL && !moment.done ? SAYS.atRest : stateWords(headline.verdict, pushOf(values).share, isFriction(values))
+    const told = moment && Math.hypot(...moment.slip) > CREEPS ? SAYS.slipping : moment?.pace < STILL && !moment.done ? SAYS.atRest : headline.state
     say(this.words, moment?.pace < STILL && !moment.done ? `${told} · ${SAYS.slowed} ${Math.round(1 / moment.pace)}×` : told)
     this.words.title = isFriction(values) ? "" : SAYS.activeTip
     svg.setAttribute("aria-label", `${SAYS.puckAbove}: ${told}`)

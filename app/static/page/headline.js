@@ -2,7 +2,7 @@
 // Of the e-linear system that the sliders set.
 
 import {setMarkup} from "../dom.js"
-import {digits, pushSentence} from "../words.js"
+import {SAYS, digits, pushSentence, stateWords} from "../words.js"
 
 /** @typedef {import("../widgets/puck.js").Plane} Plane values of the e-linear system */
 
@@ -38,7 +38,8 @@ export class Headline {
     const told = verdict && (push < 1e-12 || held > 0 && Number.isFinite(held))
     this.box.hidden = !told
     this.root.classList.toggle("headless", !this.own())
-    setMarkup(this.box, told ? pushSentence(push < 1e-12 ? "" : digits(push, 3), digits(held, 3), verdict, push > held, isFriction(this.values)) : "")
+    const how = {more: push > held, sure: verdict === "sticks" || push > held, friction: isFriction(this.values)}
+    setMarkup(this.box, told ? pushSentence(push < 1e-12 ? "" : digits(push, 3), digits(held, 3), this.words, how) : "")
   }
 
   /** What becomes of the push, by the kinds of the critical sets of the newest frame; "" where nothing is decided. */
@@ -50,5 +51,14 @@ export class Headline {
     if (kind === "saddle") return "luck"
     if (kind.startsWith("unstable")) return this.cycle ? "circles" : "unheld"
     return ""
+  }
+
+  /** The verdict as it is said: by the headline, and by the puck. */
+  get words() { return {sticks: SAYS.sticks, slips: SAYS.slips, luck: SAYS.luck, circles: SAYS.circles, unheld: SAYS.unheld}[this.verdict] ?? "" }
+
+  /** What the puck does: it sticks with a share of its friction, or slips. */
+  get state() {
+    const friction = isFriction(this.values)
+    return stateWords(this.words, friction && this.verdict === "sticks" ? pushOf(this.values).share : null, friction)
   }
 }
