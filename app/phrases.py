@@ -118,7 +118,7 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "no periodic motion to follow": Sentence(
         (
-            "The motion from the typed start is not seen to repeat itself. In the panel Orbits, choose another start "
+            "The motion from the typed start is not seen to repeat itself. In the panel Motion, choose another start "
             "or follow it longer, or force the system with a sine of t."
         ),
         "a response curve of a motion that comes to rest or leaves",
@@ -171,7 +171,7 @@ SENTENCES: dict[str, Sentence] = {
     "name of the regularisation": Sentence(
         (
             "{name} does not belong in the system, which has no regularisation. Ψ has its own box, and ε is in "
-            "the panel Orbits."
+            "the panel Motion."
         ),
         "a typed name",
     ),

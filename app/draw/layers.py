@@ -240,7 +240,7 @@ _ROWS = (
 #: All layers, in the order of the legend.
 LAYERS: dict[str, Layer] = {layer.name: layer for layer in _ROWS}
 
-#: A motion in the limit and for eps > 0, which the panel "Orbits" draws over the picture, and their colour.
+#: A motion in the limit and for eps > 0, which the panel "Motion" draws over the picture, and their colour.
 TRACES = (Part("limit", "motion", 1.6), Part("motion", "motion", 2.4, dash=(5, 4)))
 TRACE_COLOURS = {"motion": ("#c026d3", "#f0abfc")}
 

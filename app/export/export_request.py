@@ -12,7 +12,7 @@ from ..draw.layers import LAYERS
 from ..draw.packing import Rectangle
 from ..frame.window import Window
 from ..slow_layers.proof import proof
-from ..slow_layers.typed_start import motion
+from ..slow_layers.slip import slip
 from ..state.chosen_system import System_
 from .figure import THEMES, Style, figure
 from .files import DATA
@@ -50,11 +50,14 @@ class ExportRequest:
         Of a figure.
     sliders : tuple of str
         Of a live file; the first of a film.
+    start : str
+        Of a motion: a place of the picture.
     """
 
     kind: str
     style: Style = field(default_factory=Style)
     sliders: tuple[str, ...] = ()
+    start: str = ""
 
     @property
     def job(self) -> str:
@@ -92,7 +95,7 @@ class ExportRequest:
             raise ValueError(f"Give an address of at most {LONGEST_LINK} bytes.")
         legend, poster = bool(request.get("legend", True)), bool(link)
         style = Style(theme=theme, legend=legend, title=poster, caption=poster, link=link)
-        return cls(str(request["kind"]), style, tuple(sliders))
+        return cls(str(request["kind"]), style, tuple(sliders), str(request.get("start", "")))
 
 
 def seen_by(request: Any, values: Mapping[str, Any], system: System_ | None) -> View:
@@ -122,7 +125,7 @@ def make_file(view: View, wish: ExportRequest) -> tuple[str, bytes]:
         "html": lambda one: live(one, wish.sliders),
         "gif": lambda one: film(one, wish.slider, style=wish.moving),
         "proof": lambda one: proof(one.scene()),
-        "motion": lambda one: motion(one.scene(), one.values),
+        "motion": lambda one: slip(one.scene(), wish.start),
     }.get(wish.kind) or DATA[f".{wish.kind}"]
     made = make(view)
     if len(made) > MAX_FILE_BYTES:

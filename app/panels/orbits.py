@@ -1,4 +1,4 @@
-"""The panel "Orbits": what was launched, with where it goes and comes from; the chosen orbit, or start, over time."""
+"""The panel "Motion": what was launched, with where it goes and comes from; the chosen orbit, or start, over time."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def regularised_motion(
 
 PANEL = Panel(
     "orbits",
-    "Orbits",
+    "Motion",
     add,
     "Orbits launched by a click on the picture or from a typed start, over time: in the limit ε → 0, and for ε > 0.",
 )

@@ -17,9 +17,11 @@ from .panel import Panel
 
 #: Modules beside this one that end with a `PANEL`, in the order of the tabs: a new panel is one more name here.
 MODULES = (
-    "parameters.atlas", "numbers", "parameters.planes", "parameters.diagram", "theorems", "along", "solid", "orbits",
-    "parameters.response", "psi", "census", "lessons",
+    "lessons", "parameters.atlas", "numbers", "orbits", "parameters.planes", "parameters.diagram", "theorems", "along",
+    "solid", "parameters.response", "psi", "census",
 )  # fmt: skip
+#: Tabs in sight from the first; the others are one step away.
+FIRST = 4
 #: By key.
 PANELS_BY_NAME: dict[str, Panel] = {}
 #: Layers of the picture that are computed as panels are, by name.

@@ -1,8 +1,7 @@
-"""The typed start of the panel "Orbits": the motion from (x, y, z1, ...) in the limit eps -> 0, and for eps > 0."""
+"""The typed start of the panel "Motion": the motion from (x, y, z1, ...) in the limit eps -> 0, and for eps > 0."""
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -17,9 +16,6 @@ from codim2_core.motion.result import Simulation
 from codim2_core.motion.rolling import rolling
 from codim2_core.orbits.angle_along import LEAST_RADIUS, angle_along
 from codim2_core.psi.function import Psi
-from codim2_core.scene import Scene
-from codim2_core.systems.elinear import ELinear
-from codim2_core.systems.typed import System
 
 from ..frame.frame_context import FrameContext
 from ..state.chosen_system import System_, slow_symbols
@@ -102,14 +98,6 @@ def motion_from_start(
     together = agreement(system, psi, run, limit)
     told = {"agreement": together.sentence, "same": together.same, "ball": _rolling(ball, run, parameters)}
     return {"orbit": orbit, "orbit_motion": {"index": TYPED, "eps": eps, **curves(run), **told}}
-
-
-def motion(scene: Scene, values: Mapping[str, Any]) -> bytes:
-    """Return, as JSON, the motion in the limit as the browser draws it: what the puck beside the picture plays."""
-    system = scene.system
-    assert isinstance(system, ELinear | System)  # a browser shows no other
-    start, t_end = launch_of(values, system)
-    return json.dumps(curves(simulate_nonsmooth(system, start, (0.0, t_end), psi=scene.psi, rtol=RTOL))).encode()
 
 
 def curves(run: Simulation) -> dict[str, Any]:

@@ -29,7 +29,7 @@ import {readFrame} from "./picture/frames.js"
 import {Picture} from "./picture/picture.js"
 import {say} from "./dom.js"
 import {SAYS} from "./words.js"
-import {addDialogs, besideOf, grabOf, handsOf, liftOf, panelsOf, pointingOf, roomOf, tableOf} from "./parts.js"
+import {addDialogs, benchOf, besideOf, grabOf, handsOf, liftOf, panelsOf, pointingOf, roomOf} from "./parts.js"
 
 const FULL = 1013 // as a code of a websocket: all places are taken
 
@@ -77,8 +77,10 @@ export class Explorer {
     this.hands = handsOf(this)
     picture.lift = liftOf(this)
     this.grab = grabOf(this)
-    this.headline = new Headline(this.find(".headline"), values, {own: () => this.eLinear, move: (wanted) => this.move(wanted)})
-    this.table = this.alone ? tableOf(this) : null
+    this.headline = new Headline(root, values, () => this.eLinear)
+    const {bench = null, opening = null} = this.alone ? benchOf(this) : {}
+    this.bench = bench
+    this.opening = opening
     new Sheets(root, () => this.sentences.say())
     keepFolds(root, (name) => JSON.stringify(values[name]) !== JSON.stringify(config.defaults[name]))
     this.theme = new Theme(root, config, (name) => { picture.paint(name); this.beside?.look?.() })
@@ -158,6 +160,7 @@ export class Explorer {
       if (this.config.look.lift) this.picture.lift?.swing(true)
       rest.note("opening", false)
       root.dataset.ready = "true"
+      if (this.opening?.playing) this.opening.play()
     }, 0))
   }
 
@@ -300,7 +303,7 @@ export class Explorer {
     this.requests.restLater(late.length > 0)
     this.inspector.apply(header)
     this.headline.apply(header)
-    this.table?.apply()
+    this.bench?.apply()
     for (const [name, symbol] of header.axes ?? []) this.config.symbols[name] = symbol
     this.panels.apply(frame, late)
     this.requests.arrived(header.id, header.load)
@@ -380,6 +383,7 @@ export async function live() {
   try { await openIn(first, openLine(address).then(withDevice)) } catch (why) {
     if (typeof why !== "number") throw why
     const known = first.querySelector(":scope > [role=alert]") // it is said why already
+    first.querySelector(".codim2").classList.remove("opening", "storied")
     if (!known) setTimeout(() => notice(first.querySelector(".banner"), why === FULL ? first.dataset.full : first.dataset.other, () => location.reload()), 300) // a page that is left needs no words
   }
 }

@@ -7,13 +7,15 @@ import {Grab, KEYS, turnedTo} from "./interaction/grab.js"
 import {Hands} from "./interaction/hands.js"
 import {Pointing} from "./interaction/pointing.js"
 import {Beamer, busy, enlarge} from "./page/beamer.js"
+import {Bench} from "./page/bench.js"
 import {Help} from "./page/help.js"
 import {compressQuery, writeLink} from "./page/links.js"
+import {Opening} from "./page/opening.js"
+import {printable} from "./page/paper.js"
 import {Second, Seconded} from "./page/second.js"
 import {Share} from "./page/share.js"
 import {Comets} from "./picture/comets.js"
 import {Lift} from "./picture/lift.js"
-import {Table} from "./page/table.js"
 import {Views} from "./page/views.js"
 import {Room} from "./room/room.js"
 import {SAYS} from "./words.js"
@@ -39,7 +41,7 @@ export function panelsOf(explorer) {
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),
     crowd: () => explorer.room?.rows ?? null, first: config.defaults, setting: config.setting, families: config.families,
-    parameters: () => explorer.systems.all(), plane: () => explorer.eLinear ? values : null,
+    parameters: () => explorer.systems.all(), slips: (slip) => explorer.bench?.follow(slip),
   }, (name) => explorer.choose("panel", name))
   return {panels, setters}
 }
@@ -76,7 +78,7 @@ export function handsOf(explorer) {
       if (values.panel === "orbits") explorer.panels.draw(values)
     },
     begin: (i) => { spoken.begin(i); explorer.change("orbit", i + 1) },
-    end: () => spoken.end(),
+    end: (launch) => { spoken.end(); if (launch) explorer.bench?.run([launch.x, launch.y]) },
   }, {under: (event) => pointing.under(event), toggle: (one) => pointing.toggle(one), turns})
   explorer.find(".home").addEventListener("click", () => picture.home())
   twoFingers(place, explorer.plot, () => hands.held !== null)
@@ -106,16 +108,16 @@ export function grabOf(explorer) {
   })
 }
 
-/** The puck beside the sphere. @param {Explorer} explorer */
-export function tableOf(explorer) {
-  const {root, config, values, picture, rest} = explorer
-  return new Table(root, config, values, {
-    own: () => explorer.eLinear,
+/** The puck next to the picture, and the first view in which it moves. @param {Explorer} explorer */
+export function benchOf(explorer) {
+  const {root, values, picture, rest} = explorer
+  const bench = new Bench(root, values, explorer.headline, {
     rested: async () => { while (rest.under.has("asked")) await new Promise((done) => setTimeout(done, 50)) },
     take: (wish) => explorer.takes.ask(wish), move: (wanted) => explorer.move(wanted),
-    push: (times) => explorer.headline.scale("push", times, values),
-    trace: (paths, place) => picture.trace(paths, place),
+    trace: (paths, place) => picture.trace(paths, place), equator: () => picture.state.header.equator,
   })
+  const hide = (layers) => { explorer.hidden = layers; explorer.showLayers() }
+  return {bench, opening: new Opening(root, {bench, picture, values, hide})}
 }
 
 /** The room that is opened or entered here. @param {Explorer} explorer */
@@ -137,6 +139,7 @@ export function addDialogs(explorer) {
   const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer, lift: config.look.lift, views: explorer.views?.carried}})
   const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await compressQuery(query(), config.link.version)}`}))
   explorer.find(".share").addEventListener("click", () => share.open())
+  printable(explorer, query)
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })
 }
 

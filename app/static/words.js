@@ -79,21 +79,29 @@ export const SAYS = {
   roomLocal: "Phones cannot reach this page at localhost. Open it at this machine’s own address (codim2 serve --address 0.0.0.0 --allow-origin ADDRESS:PORT).",
   grab: "The critical set C: drag it, or use the arrow keys, and f follows",
   turns: "Drag it or use the arrow keys, and f follows.",
-  grabMe: "drag me out of the sphere",
+  grabMe: "drag C past the rim",
   leftHere: "C has left: sliding ends here",
   lift: "Lift ⤴", flat: "Flat ⤵",
-  push: "the push |f|", held: "what can be balanced in this direction",
-  sticks: "stable sliding along Σ",
-  slips: "nothing slides along Σ",
-  luck: "C is a saddle, and sliding is unstable",
-  circles: "C repels, a stable cycle surrounds it",
-  chatters: "sliding along Σ is unstable",
+  sticks: "sticks",
+  slips: "slips",
+  luck: "sticks only by luck",
+  circles: "sticks, while its friction turns round and round",
+  unheld: "slips, although it could rest at C",
+  slipping: "slipping", atRest: "at rest",
+  active: "active contact",
+  activeTip: "Here A does not oppose every slip (a or d is positive): the contact can drive the puck.",
+  slowed: "slowed",
+  storySlips: "It slips. Friction has its full size and opposes the slip.",
+  storyActive: "It slips. This contact does not oppose every slip: it can drive the puck.",
+  storyVanishes: "Slip vanishes, friction does not: it has its full size and no direction. Look closer …",
+  storyRest: "This is rest, under a microscope. A point inside is a share of the friction.",
+  storyLeaves: "Friction cannot hold this push, so it breaks loose.",
+  rest: "rest", outside: "outside: velocities", inside: "inside: rest, magnified",
   yours: "Yours",
   keptHere: "What you have typed is stored in this browser.",
   keptInPage: "What you have typed is stored until this page is closed.",
   removed: "Removed:",
   putBack: "Put back",
-  ballAbove: "The ball, seen from above",
   puckAbove: "The puck, seen from above: pushed by f, held by friction A e",
   orbit: "Launched orbit",
   pointAt: "Point at the curve or at a mark on Σ for its numbers, or press Enter on the picture to step through them.",
@@ -130,9 +138,15 @@ export const SAYS = {
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
 
-// The first sentence: the push, what can be balanced, and what becomes of it, as markup.
-export const pushSentence = (/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ last, /** @type {boolean} */ more) => `Pushed with |f| = ${push}; ${more ? "only" : "up to"} ${held} can be balanced in this direction: <strong>${last}</strong>.`
-export const noPushSentence = (/** @type {string} */ last) => `Not pushed, f = 0: <strong>${last}</strong>.`
+// The first sentence: the push, or "" for none, what can be held, and what becomes of it, as markup.
+export function pushSentence(/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ words, {more = false, sure = true, friction = true} = {}) {
+  const last = `<strong>${words}</strong>`
+  if (!push) return `Nothing pushes, ${sure ? "so" : "and"} it ${last}.`
+  return `You push with <b class="number">${push}</b>. ${friction ? "Friction" : "The contact"} can hold ${more ? "only" : "up to"} <b class="number held">${held}</b> this way, ${sure ? "so" : "yet"} it ${last}.`
+}
+
+// What the puck does, in words: whether it sticks, and how much of its friction that takes.
+export const stateWords = (/** @type {string} */ words, /** @type {number | null} */ share, /** @type {boolean} */ friction) => [friction ? "" : SAYS.active, words, share === null ? "" : `${Math.round(100 * share)} % of friction in use`].filter(Boolean).join(", ")
 
 // How much is loaded of the worker that is the server of a page without one.
 export const loadingWords = (/** @type {number} */ bytes, /** @type {number} */ all) => bytes < all ? `Loading the mathematics: ${Math.floor(bytes / 1e6)} of ${Math.ceil(all / 1e6)} MB …` : SAYS.starting

@@ -57,7 +57,4 @@ MARKS: tuple[tuple[str, str, str], ...] = (
     ("M0 7H14", "m lines-out", "outside"),
 )
 #: Below the list of portraits while none is chosen.
-OPENING = (
-    "The paper’s e-linear system with four limit directions, all radially attracting, and a stable critical set C: "
-    "whatever comes near Σ slides. Move a slider, or choose a figure."
-)
+OPENING = "Move a slider, or pick an example below."

@@ -21,7 +21,7 @@ from ..draw.packing import unpack
 from ..draw.svg import draw
 from ..draw.theme import MEASURES, custom_properties, themes
 from ..export.printing import has_typst
-from ..panels.registry import PANELS_BY_NAME
+from ..panels.registry import FIRST, PANELS_BY_NAME
 from ..phrases import say
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
@@ -212,6 +212,7 @@ def explorer_html(
         families=FAMILIES,
         layers=LAYERS,
         panels=PANELS_BY_NAME,
+        first_tabs=FIRST,
         outcomes=OUTCOMES,
         systems=titles(),
         slow_controls=SLOW_CONTROLS,

@@ -15,7 +15,14 @@ WINDOW = {"width": 1280, "height": 800}
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
 #: What Chromium says of a script that is fetched first and used last, where other tests have the machine.
 SLOWLY = "was preloaded using link preload but not used within a few seconds"
-VISITED = "try { localStorage.setItem('codim2-welcome', 'seen') } catch { /* forbidden */ }"
+#: A browser that has been here: nothing plays, and what is one step away is open.
+VISITED = """try {
+  for (const name of ["welcome", "opening"]) localStorage.setItem(`codim2-${name}`, "seen")
+  if (!localStorage.getItem("codim2-folds")) {
+    const open = ["tabs", "tools", "legend", "gallery", "atlas"]
+    localStorage.setItem("codim2-folds", JSON.stringify(Object.fromEntries(open.map((name) => [name, true]))))
+  }
+} catch { /* forbidden */ }"""
 #: Open what an element is folded away in.
 UNFOLD = "(it) => { const fold = it.closest('details'); if (fold) fold.open = true }"
 EMPTIED = "() => { try { localStorage.clear(); sessionStorage.clear(); return true } catch { return false } }"

@@ -7,7 +7,7 @@ from codim2_app.state.portraits import portraits
 from codim2_core.figures.presets import presets
 from tests.app.serving import serving
 
-ELSEWHERE = {"n", "z2", "z3", "z4", "log_eps", "t_end"}  # of Hill's Ψ, of other systems, of the panel "Orbits"
+ELSEWHERE = {"n", "z2", "z3", "z4", "log_eps", "t_end"}  # of Hill's Ψ, of other systems, of the panel "Motion"
 SLIDERS = [name for name in NUMBERS if name not in ELSEWHERE]
 
 

@@ -1,5 +1,7 @@
 """The first ten seconds: what the page is about, one thing to do, and the sheet of keys and marks."""
 
+from itertools import pairwise
+
 import pytest
 
 from .conftest import PHONE
@@ -12,7 +14,7 @@ def middle(box):
 
 
 def test_it_says_what_it_is_about_with_the_sliders_in_sight(open_page):
-    explorer = open_page(first_visit=True, viewport={"width": 1440, "height": 900}).open()
+    explorer = open_page(viewport={"width": 1440, "height": 900}).open()
     assert explorer.find("h1").is_visible()
     assert "(x, y)′ = A e + f + z k" in explorer.find(".top math:visible").get_attribute("aria-label")
     for name in ("a", "b", "d", "f1", "f2", "z", "psi"):
@@ -28,26 +30,174 @@ def test_it_says_what_it_is_about_with_the_sliders_in_sight(open_page):
     assert explorer.complaints == []
 
 
-def test_the_puck_slips_and_sticks_beside_the_sphere_and_a_dot_runs_on_it(open_page):
-    explorer = open_page(viewport={"width": 1440, "height": 900}).open("?v=1&B1=0")
-    dot = "picture.above.list.find((item) => item.kind === 'mark')"
-    explorer.fill(".table input", "1.2")
-    assert explorer.find("[data-control=f1] .number").input_value() == "-1.2"
-    explorer.find(".table .play").click()
-    explorer.until(f"Boolean(root.explorer.{dot})")
-    start = explorer.ask(f"[{dot}.x, {dot}.y]")
-    explorer.until("root.explorer.table.player.at > 4")
-    end = explorer.ask(f"[{dot}.x, {dot}.y]")
+CONTROLS = "button, input, select, textarea, summary, a[href], [role=tab]"
+IN_SIGHT = f"""() => [...document.querySelectorAll(".codim2 :is({CONTROLS})")].filter((one) => {{
+  const {{top, bottom, left, width, height}} = one.getBoundingClientRect()
+  const seen = one.checkVisibility({{visibilityProperty: true, opacityProperty: true}})
+  return seen && Math.min(width, height) > 6 && top < innerHeight - 4 && bottom > 0 && left < innerWidth
+}}).length"""
+
+
+@pytest.mark.parametrize("size", [(1024, 768), (1440, 900), (1920, 1080)])
+def test_the_first_view_has_at_most_forty_controls_and_every_slider(open_page, size):
+    explorer = open_page(first_visit=True, viewport=dict(zip(("width", "height"), size, strict=True)))
+    explorer.page.goto(f"{explorer.address}/?v=1")
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    explorer.settle()
+    assert explorer.page.evaluate(IN_SIGHT) <= 40
+    foot = explorer.find(".gallery").bounding_box()["y"]
+    for name in ("a", "b", "d", "f1", "f2", "z", "psi"):
+        box = explorer.find(f"[data-control={name}]").bounding_box()
+        assert box["y"] + box["height"] <= foot
+    assert explorer.find(".puck").bounding_box()["height"] >= 180
+    tabs = explorer.find(".tabs [role=tab]:visible")
+    assert tabs.all_text_contents() == ["Lessons", "Atlas", "Numbers", "Motion"]
+    explorer.find("[data-fold=tabs] summary").click()
+    assert tabs.count() == 12
+    explorer.reload()
+    assert tabs.count() == 12  # remembered
+
+
+def opening(open_page, query="", **options):
+    explorer = open_page(first_visit=True, **options)
+    explorer.page.goto(f"{explorer.address}/{query}")
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    return explorer
+
+
+def test_the_first_visit_begins_with_a_puck_that_comes_to_rest(open_page):
+    explorer = opening(open_page)
+    assert explorer.find(".puck").bounding_box()["height"] > 300
+    assert "opposes the slip" in explorer.find(".story").text_content()
+    explorer.until("root.explorer.picture.lift.opened > 0.02 && root.explorer.picture.lift.opened < 0.98")
+    outside = explorer.ask("picture.place")
+    assert outside[0] ** 2 + outside[1] ** 2 > 1
+    explorer.until("root.querySelector('.story').textContent.includes('microscope')")
+    explorer.until("!root.classList.contains('storied')")
     C = explorer.ask("[picture.state.header.critical.x[0], picture.state.header.critical.y[0]]")
-    assert start[0] ** 2 + start[1] ** 2 > 1
-    assert end == pytest.approx(C, abs=0.01)
-    explorer.type("f2", "0.1")  # another system: what was played is left
-    assert explorer.ask("picture.above.list.length") == 0
+    assert explorer.ask("picture.place") == pytest.approx(C, abs=0.02)
+    assert explorer.find(".headline").text_content().endswith("so it sticks.")
+    explorer.until("!root.classList.contains('opening')")
+    assert explorer.find(".controls").is_visible()
+    assert explorer.ask("picture.lift.shown") is False
+    explorer.page.goto(f"{explorer.address}/")
+    explorer.page.wait_for_selector(".codim2[data-ready]")
+    assert explorer.find(".controls").is_visible()  # once
     assert explorer.complaints == []
 
 
+def test_any_touch_skips_the_opening_and_it_can_be_watched_again(open_page):
+    explorer = opening(open_page, viewport={"width": 1024, "height": 768})
+    explorer.page.mouse.click(300, 300)
+    explorer.until("!root.classList.contains('opening')").settle()
+    assert explorer.ask("root.explorer.values.orbits") == ""  # the touch that skips does nothing else
+    explorer.find(".again").click()
+    explorer.until("root.explorer.bench.moment && root.classList.contains('opening')")
+    explorer.page.keyboard.press("Escape")
+    explorer.until("!root.classList.contains('opening') && !root.explorer.picture.lift.shown")
+    assert explorer.find(".legend").is_visible()
+    assert explorer.complaints == []
+
+
+@pytest.mark.parametrize(
+    ("query", "options"), [("?a=-2", {}), ("", {"reduced_motion": "reduce"}), ("?v=1&embed=1", {})]
+)
+def test_a_link_and_a_visitor_without_motion_see_the_portrait_at_once(open_page, query, options):
+    explorer = opening(open_page, query, **options)
+    assert not explorer.find(".story").is_visible()
+    assert explorer.find(".bokeh").is_visible()
+    if "embed" not in query:
+        assert "friction in use" in explorer.find(".state").text_content()
+
+
+def test_a_phone_has_the_opening_and_the_puck_below_the_picture(open_page):
+    explorer = opening(open_page, **PHONE)
+    boxes = [explorer.find(name).bounding_box() for name in (".puck", ".story", ".skip", ".picture")]
+    for above, below in pairwise(boxes):
+        assert above["y"] + above["height"] <= below["y"] + 1
+    assert boxes[-1]["y"] + boxes[-1]["height"] <= 845
+    explorer.page.touchscreen.tap(200, 200)
+    explorer.until("!root.classList.contains('opening')").settle()
+    puck = explorer.find(".puck").bounding_box()
+    assert puck["height"] >= 180
+    assert puck["y"] + puck["height"] < 800
+    assert explorer.complaints == []
+
+
+#: a, b, d, f1, f2, z, k1.
+RANDOM = [
+    (-2, 0, -1, -0.5, 0, 0, 0),
+    (-2, 0.7, -0.4, 1.1, -0.6, 0.5, 1),
+    (-1, -1.5, -1, 2.4, 0.3, 0, 0),
+    (-0.3, 0, -3, 0.1, 0.2, -1, 0.5),
+    (1, 1.6, -2, -0.5, 0, 0, 0),
+    (1, 0.5, 2, 0.3, 0.1, 0, 0),
+    (-1, 0.1, 2, 0.2, 0.2, 0, 0),
+    (-3, 2, -3, 3.4, -0.2, 1, -2),
+    (-1, 0, -1, 0, 0, 0, 0),
+]
+
+
+def test_the_puck_never_contradicts_the_headline(open_page):
+    explorer = open_page().open("?v=1")
+    for setting in RANDOM:
+        names = ("a", "b", "d", "f1", "f2", "z", "k1")
+        query = "&".join(f"{name}={value}" for name, value in zip(names, setting, strict=True))
+        explorer.open(f"?v=1&{query}")
+        puck, told = explorer.find(".state").text_content(), explorer.find(".headline strong").text_content()
+        share = explorer.ask("Math.hypot(...(picture.state.header.critical.e[0] ?? [9]))")
+        arrows = explorer.find(".puck .arrow").evaluate_all("(all) => all.map((one) => one.classList[1])")
+        assert told in puck
+        assert ("active contact" in puck) == (setting[0] > 0 or setting[2] > 0)
+        if told == "sticks" and "active" not in puck:
+            assert share < 1
+            assert puck == f"sticks, {round(100 * share)} % of friction in use"
+            assert "slip" not in arrows
+        if told == "slips":
+            assert "slip" in arrows
+            assert "in use" not in puck
+    assert explorer.complaints == []
+
+
+def test_the_push_and_c_are_linked_both_ways_and_a_launched_orbit_is_slipped_along(open_page):
+    explorer = open_page().open("?v=1&a=-1&d=-1&f1=-0.4")
+    tip = """(() => {
+        const head = [...root.querySelectorAll(".puck .push path")].at(-1).getBoundingClientRect()
+        return [head.x + head.width / 2, head.y + head.height / 2] })()"""
+    x, y = explorer.ask(tip)
+    explorer.drag((x, y), (x + 10, y - 20), steps=5)
+    f = explorer.ask("[root.explorer.values.f1, root.explorer.values.f2]")
+    assert f[1] > 0.2
+    C = explorer.ask("[picture.state.header.critical.x[0], picture.state.header.critical.y[0]]")
+    assert pytest.approx(f, abs=0.01) == C  # A = -1
+    before = explorer.find(".puck").inner_html()
+    explorer.press(".grab", "Shift+ArrowRight")
+    assert explorer.find(".puck").inner_html() != before
+    assert explorer.ask("root.explorer.values.f1") == pytest.approx(f[0] + 0.1, abs=0.01)
+    place = explorer.ask("""(() => {
+        const {x, y} = picture.pixel(0.8, 1.1), box = root.querySelector(".bokeh").getBoundingClientRect()
+        return [box.x + x, box.y + y] })()""")
+    explorer.page.mouse.click(*place)
+    explorer.until("root.querySelector('.state').textContent.startsWith('slipping') && root.explorer.picture.place")
+    assert explorer.ask("picture.place[1]") == pytest.approx(1.1, abs=0.3)
+    explorer.until("root.querySelector('.state').textContent.startsWith('sticks')")
+
+
+def test_a_push_that_cannot_be_held_breaks_loose(open_page):
+    explorer = open_page().open("?v=1")
+    explorer.find(".bench input").evaluate(
+        "(it) => { it.value = '2.4'; it.dispatchEvent(new Event('input', {bubbles: true})) }"
+    )
+    explorer.until("root.explorer.bench.moment && root.querySelector('.state').textContent.startsWith('slipping')")
+    explorer.until("root.explorer.picture.place?.[0] < -1.3")
+    assert (
+        explorer.find(".headline").text_content()
+        == "You push with 2.40. Friction can hold only 2.00 this way, so it slips."
+    )
+
+
 def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
-    explorer = open_page(first_visit=True).open()
+    explorer = open_page(first_visit=True).open("?v=1")
     invitation = explorer.find(".grab .invitation")
     invitation.wait_for()  # the handle comes once the picture knows its own size
     mouse, start = explorer.page.mouse, explorer.find(".grab").bounding_box()
@@ -63,7 +213,7 @@ def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
     explorer.settle()
     assert explorer.name().startswith("NCM")
     assert explorer.find(".grab-words").is_visible()
-    assert "nothing slides" in explorer.find(".headline").text_content()
+    assert "so it slips" in explorer.find(".headline").text_content()
     mouse.up()
     explorer.kept()
     assert not explorer.find(".grab-words").is_visible()
@@ -76,14 +226,6 @@ def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
     explorer.open()
     assert not invitation.is_visible()  # who has done it is not asked again
     assert explorer.complaints == []
-
-
-def test_a_number_of_the_headline_is_dragged(explorer):
-    number = explorer.find(".dragged[data-number=push]")
-    x, y = middle(number.bounding_box())
-    explorer.drag((x, y), (x + 160, y))
-    assert explorer.find("[data-control=f1] .number").input_value() == "-1"
-    assert number.text_content() == "1.00"
 
 
 def test_nothing_moves_while_a_slider_does(open_page):
@@ -144,3 +286,16 @@ def test_the_sheet_of_keys_and_marks_is_there_on_demand(open_page, options):
     explorer.find(".help").click()
     assert sheet.is_visible()
     assert explorer.complaints == []
+
+
+def test_the_invitation_to_drag_c_comes_once_for_six_seconds_and_in_no_question(open_page):
+    explorer = open_page(first_visit=True).open("?panel=lessons&lesson=04-sliding&quiz=0.3")
+    invitation = explorer.find(".grab .invitation")
+    assert not invitation.is_visible()
+    explorer.page.evaluate("localStorage.removeItem('codim2-welcome')")
+    explorer.open("?v=1")
+    invitation.wait_for()
+    explorer.until("root.querySelector('.grab').classList.contains('known')")
+    assert not invitation.is_visible()
+    explorer.open("?v=1")
+    assert not invitation.is_visible()

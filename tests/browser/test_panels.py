@@ -16,7 +16,7 @@ TOO_WIDE = """() => {
         .filter((e) => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).display !== 'inline')
         .map((e) => e.className) }"""
 
-OWN = ["Atlas", "Numbers", "Planes", "Diagram", "Theorems", "Along z", "3-D", "Orbits", "Response", "Ψ", "Census"]
+OWN = ["Atlas", "Numbers", "Planes", "Diagram", "Theorems", "Along z", "3-D", "Motion", "Response", "Ψ", "Census"]
 
 
 def value(explorer, name):
@@ -251,3 +251,32 @@ def test_theorems_come_with_their_numbers_and_follow(explorer):
     explorer.type("f1", "3")
     assert "This portrait is NCM2." in rows.filter(has_text="Theorem 4.3(c)").text_content()
     assert rows.filter(has_text="✗").count() == 0
+
+
+SPILLS = """() => {
+  const foot = root.querySelector(".gallery").getBoundingClientRect(), page = document.documentElement
+  const over = ["bench", "picture", "legend", "inspector", "tab-row", "panel-atlas .pad"].filter((name) => {
+    const one = root.querySelector(`.${name}`), {bottom, right} = one.getBoundingClientRect()
+    const drawn = !name.endsWith(".pad") || !root.classList.contains("twofold") // there the panels are drawn up by a hand
+    return drawn && one.checkVisibility() && (bottom > foot.top + 1 || right > innerWidth + 1)
+  })
+  const wide = page.scrollHeight > innerHeight || page.scrollWidth > innerWidth || foot.bottom > innerHeight
+  return [...over, ...(wide ? ["page"] : [])]
+}"""
+
+
+@pytest.mark.parametrize("size", [(1024, 768), (1440, 900), (1920, 1080)])
+def test_every_view_fits_its_window(open_page, size):
+    page = open_page(viewport=dict(zip(("width", "height"), size, strict=True))).open("?v=1")
+    page.find("[data-fold=atlas] summary").click()
+    keys = page.find(".gallery [data-preset]").evaluate_all("(all) => all.map((one) => one.dataset.preset)")
+    for key in keys:
+        page.click(f".gallery [data-preset={key}]").painted()
+        assert page.ask(f"({SPILLS})()") == [], key
+    page.find(".reset").click()
+    for tab in page.find(".tabs [role=tab]").all():
+        tab.click()
+        page.settle().painted()
+        assert page.ask(f"({SPILLS})()") == [], tab.text_content()
+    page.open("?v=1&beside=psi%3Dhill%26n%3D3").painted()
+    assert page.ask(f"({SPILLS})()") == []

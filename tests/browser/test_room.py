@@ -43,3 +43,18 @@ def test_a_phones_settings_are_a_dot_on_the_lecturers_atlas(open_page):
     phone.until("root.querySelector('.room-bar [data-room=hide]')")
     assert "has ended" in phone.find(".room-bar").text_content()
     assert lecturer.complaints == phone.complaints == []
+
+
+def test_a_code_that_is_typed_in_share_brings_the_view_too(open_page):
+    lecturer = open_page().open("room")
+    lecturer.until("root.querySelector('dialog.room .qr')?.src")
+    code = lecturer.find(".room-code").text_content()
+    lecturer.find(".room-go").click()
+    lecturer.type("f2", "0.5")
+    lecturer.page.wait_for_timeout(700)  # the board is written twice a second
+    student = open_page().open()
+    student.find(".share").click()
+    student.find(".sharing .code").fill(code)
+    student.find(".sharing .enter-room").click()
+    student.until("root.explorer.values.f2 === 0.5")
+    assert lecturer.complaints == student.complaints == []

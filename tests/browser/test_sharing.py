@@ -4,6 +4,8 @@ import pytest
 
 from tests.app.static.test_qr_codes import code_of
 
+from .conftest import PHONE
+
 pytestmark = pytest.mark.browser
 
 
@@ -68,3 +70,27 @@ def test_an_embedded_page_is_the_picture_and_the_controls_that_it_names(open_pag
     assert whole.locator(".tabs").is_visible()
     assert whole.locator("[data-control=f1] .number").input_value() == "0"
     assert page.complaints == []
+
+
+@pytest.mark.parametrize("options", [{"color_scheme": "dark"}, PHONE])
+def test_the_printed_page_is_the_picture_its_sentences_values_and_a_code(open_page, options):
+    explorer = open_page(**options).open("?v=1&b=0.4")
+    explorer.page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
+    explorer.page.emulate_media(media="print")
+    explorer.page.set_viewport_size({"width": 718, "height": 1047})  # A4 within its margins
+    explorer.painted()
+    names = (".headline", ".sentence", ".on-paper canvas", ".on-paper p", ".on-paper img")
+    seen = {name: explorer.find(name).bounding_box() for name in names}
+    for one in seen.values():
+        assert one["x"] >= 0
+        assert one["x"] + one["width"] <= 718
+        assert one["y"] + one["height"] <= 1047
+    assert seen[".headline"]["y"] + seen[".headline"]["height"] <= seen[".on-paper canvas"]["y"]
+    assert explorer.find(".on-paper p").text_content().startswith("a = −2, b = 0.4, d = −1")
+    for name in (".controls", ".sheets", ".gallery", ".tab-row", ".bokeh", ".tools"):
+        assert not explorer.find(name).is_visible()
+    light = explorer.find(".on-paper canvas").evaluate("(it) => [...it.getContext('2d').getImageData(2, 2, 1, 1).data]")
+    assert light == [255, 255, 255, 255]
+    explorer.page.evaluate("window.dispatchEvent(new Event('afterprint'))")
+    explorer.page.emulate_media(media="screen")
+    assert explorer.find(".codim2").evaluate("(it) => it.classList.contains('dark')") == ("color_scheme" in options)

@@ -61,7 +61,7 @@ def test_play_drifts_along_the_slow_flow_to_its_equilibrium(explorer):
 
 def test_a_motion_plays_in_step_in_all_views(explorer):
     choose(explorer, "ball_in_pool")
-    open_panel(explorer, "Orbits")
+    open_panel(explorer, "Motion")
     explorer.page.wait_for_selector(".phases li:nth-child(2)")
     start = value(explorer, "slow-z")
     explorer.find(".panel-orbits .play").click()

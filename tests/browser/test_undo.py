@@ -85,3 +85,27 @@ def test_a_drag_of_the_critical_set_is_one_step(open_page):
     assert number.input_value() == "-0.5"
     explorer.click(".redo").kept()
     assert float(number.input_value()) > 0.0
+
+
+def test_what_is_typed_and_left_by_a_press_is_a_step_of_its_own(explorer):
+    explorer.type("f1", "-0.9").kept()
+    for entered in (True, False):  # with Enter, or left by the press that takes C
+        box = explorer.find("[data-control=f1] .number")
+        box.fill("-0.7")
+        if entered:
+            box.press("Enter")
+        grab = explorer.find(".grab").bounding_box()
+        x, y = grab["x"] + 17, grab["y"] + 17
+        explorer.drag((x, y), (x + 30, y - 20))
+        explorer.kept()
+        assert explorer.ask("root.explorer.values.f1") != -0.7
+        explorer.find(".undo").click()
+        explorer.until("root.explorer.values.f1 === -0.7").kept()
+        explorer.find(".undo").click()
+        explorer.until("root.explorer.values.f1 === -0.9").kept()
+    explorer.find(".reset").click()
+    grab = explorer.find(".grab").bounding_box()
+    x, y = grab["x"] + 17, grab["y"] + 17
+    explorer.drag((x, y), (x + 30, y - 20))
+    explorer.kept().find(".undo").click()
+    explorer.until("root.explorer.values.f1 === -0.5")

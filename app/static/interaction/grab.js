@@ -6,6 +6,7 @@ import {SAYS} from "../words.js"
 
 const STORE = "codim2-welcome"
 const LATER = 100 // ms until it is placed, where the picture has not been laid out yet
+const INVITES = 6000 // ms, once
 const STILL = 5 // px that a pointer may move in a click
 const STEP = 0.02 // of the picture's unit, by a key; with Shift five times as much
 const DIGITS = 4 // of f
@@ -60,7 +61,7 @@ export class Grab {
     for (const kind of ["pointerenter", "focus"]) on(kind, () => does.point(does.one()))
     for (const kind of ["pointerleave", "blur"]) on(kind, () => does.point(null))
     try { this.handle.classList.toggle("known", Boolean(localStorage.getItem(STORE))) } catch { /* it invites */ }
-    this.later = /** @type {any} */ (null)
+    this.later = this.inviting = /** @type {any} */ (null)
     picture.viewed(() => this.follow())
     if (globalThis.ResizeObserver) new ResizeObserver(() => { clearTimeout(this.later); this.later = setTimeout(() => this.follow(), LATER) }).observe(box)
   }
@@ -77,6 +78,7 @@ export class Grab {
     this.handle.hidden = !seen && !this.held
     this.handle.classList.toggle("gone", Boolean(gone))
     this.handle.classList.toggle("rightward", Boolean(one) && one.x > 0) // its words keep within the sphere
+    if (seen && one && !this.inviting && !this.handle.classList.contains("known")) this.inviting = setTimeout(() => this.know(), INVITES)
     if (seen) this.handle.style.transform = `translate(${at.x.toFixed(1)}px, ${at.y.toFixed(1)}px)`
     this.tell(gone)
   }

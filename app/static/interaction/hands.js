@@ -12,7 +12,7 @@ export class Hands {
   /**
    * @param {any} element that holds the picture
    * @param {{at: (x: number, y: number) => {x: number, y: number, unit: number} | null}} picture
-   * @param {{get: () => string, set: (text: string) => void, begin: (i: number) => void, end: () => void}} orbits
+   * @param {{get: () => string, set: (text: string) => void, begin: (i: number) => void, end: (launch: import("./launches.js").Launch | undefined) => void}} orbits
    * @param {{under: (event: any) => any, toggle: (one: any) => void, turns: (one: any) => ((place: {x: number, y: number}) => void) | null}} objects
    *   that can be pinned; `turns` returns what is called with where one is drawn to, null of one that stays
    */
@@ -79,7 +79,7 @@ export class Hands {
   up(event, done) {
     if (this.held?.id === event.pointerId) {
       event.stopPropagation()
-      if (!this.held.turn) this.orbits.end()
+      if (!this.held.turn) this.orbits.end(readLaunches(this.orbits.get())[this.held.i])
       this.held = null
     }
     const tap = this.tap
@@ -98,6 +98,6 @@ export class Hands {
     const launches = launchedAt(readLaunches(this.orbits.get()), place.x, place.y)
     this.orbits.begin(launches.length - 1)
     this.orbits.set(writeLaunches(launches))
-    this.orbits.end()
+    this.orbits.end(launches.at(-1))
   }
 }

@@ -17,10 +17,10 @@ export const KEYS = [
   ["click on a symbol", "sets the range of its slider"],
   ["l", "lifts the picture onto the hemisphere, or lays it flat; drag, wheel or arrow keys turn it"],
   ["Space", "sends comets along the orbits"],
-  ["b", "fills the screen for the beamer, with large letters; move the pointer to show the controls; Esc ends it"],
+  ["b", "projector mode: full screen, large type; move the pointer to show the controls; Esc ends it"],
   ["p", "shows a panel beside the picture on the beamer"],
   ["k, then → and ←", "saves a view for the beamer, then goes from one saved view to the next; a clicker does the same"],
-  ["two panes", "shows two portraits side by side; “shares” lists the sliders that move both"],
+  ["two panes", "shows two portraits side by side; “linked sliders” lists those that move both"],
 ]
 
 // How eigenvectors are drawn, as in objects.js.

@@ -7,6 +7,9 @@ import {escape, formula, slowWords} from "../words.js"
 export const besides = (sides) => sides?.below && sides.above
   ? `<p class="note sides">A little less ${escape(sides.symbol)}: <b>${escape(sides.below)}</b>. A little more: <b>${escape(sides.above)}</b>.</p>` : ""
 
+/** A portrait's sentence without its name. @param {string} sentence */
+export const bare = (sentence) => sentence.replace(/^(Case \S+, )?\S+\. /, "")
+
 export class Inspector {
   /** @param {() => string[]} symbols of the slow variables of the present system */
   constructor(root, symbols = () => []) {
@@ -23,7 +26,7 @@ export class Inspector {
   portrait({case: which, name, sentence, degeneracies, sides}) {
     say(this.find(".portrait-name"), name)
     say(this.find(".portrait-case"), which ? `Case ${which}` : "")
-    say(this.find(".sentence"), sentence.replace(/^(Case \S+, )?\S+\. /, ""))
+    say(this.find(".sentence"), bare(sentence))
     setMarkup(this.find(".degeneracies"), degeneracies
       .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${formula(words)}</p>`).join("") + besides(sides))
   }

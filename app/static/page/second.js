@@ -3,6 +3,8 @@
 
 import {slidersOf} from "../controls/controls.js"
 import {linkValue} from "./links.js"
+import {bare} from "./inspector.js"
+import {setMarkup} from "../dom.js"
 import {SAYS, escape} from "../words.js"
 
 export const SECOND = "codim2-second" // of the frame: by it the explorer inside knows what it is
@@ -161,7 +163,7 @@ export class Second {
    * @param {{portrait?: any, system?: any, at_rest?: string}} header
    */
   applied({portrait, system, at_rest}) {
-    if (portrait) this.root.querySelector(".first-words").textContent = portrait.sentence
+    if (portrait) setMarkup(this.root.querySelector(".first-words"), `<b>${escape([portrait.name, portrait.case && `Case ${portrait.case}`].filter(Boolean).join(" · "))}</b> ${escape(bare(portrait.sentence))}`)
     if (at_rest !== undefined) { this.find(".at-rest").textContent = at_rest; this.find(".at-rest").hidden = !at_rest }
     if (!system) return
     this.contacts = Object.fromEntries(system.contacts)

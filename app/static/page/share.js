@@ -13,7 +13,7 @@ const MARKUP = `
   <img class="qr" alt="QR code of the link" hidden>
   <div class="rooms"><h2>A room</h2>
     <p class="note">Students join from their phones; each appears as an anonymous dot.</p>
-    <div class="row"><button type="button" class="open-room">Open a room</button> <label>enter one <input type="text" class="code" maxlength="8" size="6" placeholder="code" spellcheck="false" autocomplete="off" autocapitalize="characters"></label><button type="button" class="enter-room">Enter</button></div></div>
+    <div class="row"><button type="button" class="open-room">Open a room</button> <label>or join one: <input type="text" class="code" maxlength="8" size="6" placeholder="code" spellcheck="false" autocomplete="off" autocapitalize="characters"></label><button type="button" class="enter-room">Join</button></div></div>
   <h2>In another page</h2>
   <p class="note"><label>Embed with these sliders: <input type="text" class="names" value="f1,f2" spellcheck="false" autocomplete="off"></label></p>
   <div class="row"><input type="text" class="html" readonly aria-label="HTML of the frame"><button type="button" data-copies="html">Copy</button></div>
@@ -25,7 +25,7 @@ export class Share {
    * @param {HTMLDialogElement} dialog
    * @param {() => string} query of the present view
    * @param {number} version of links
-   * @param {{open: () => void, enter: (code: string) => void} | null} room null where there are none
+   * @param {{open: () => void, enter: (code: string, typed: boolean) => void} | null} room null where there are none
    * @param {(box: HTMLElement) => Promise<void>} more fills what is below the links
    */
   constructor(dialog, query, version, room, more) {
@@ -67,7 +67,7 @@ export class Share {
       const code = this.find(".code").value.trim()
       if (!code) return
       this.dialog.close()
-      this.room?.enter(code)
+      this.room?.enter(code, true)
     }
     this.find(".open-room").addEventListener("click", () => { this.dialog.close(); this.room?.open() })
     this.find(".enter-room").addEventListener("click", enter)

@@ -27,7 +27,12 @@ export function undoable(root, plot, how, rest, does) {
   undo.addEventListener("click", () => steps.undo())
   redo.addEventListener("click", () => steps.redo())
   if (page) window.addEventListener("popstate", (event) => { steps.arrived(event.state); rest.note("history", false) })
-  root.addEventListener("pointerdown", () => { steps.held = true })
+  root.addEventListener("pointerdown", (event) => { // a press begins another act: what was typed before is one of its own
+    const box = root.getRootNode().activeElement
+    if (box?.matches?.("input[type=text], textarea") && box !== event.target) box.blur()
+    if (steps.pending) steps.settle()
+    steps.held = true
+  }, true)
   // before Bokeh hears it: at the end of a pan it lets nobody else hear
   for (const end of ["pointerup", "pointercancel"]) window.addEventListener(end, () => { steps.held = false }, true)
   for (const range of [plot.x_range, plot.y_range]) range.properties.start.change.connect(() => steps.changed())

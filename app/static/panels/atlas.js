@@ -24,6 +24,7 @@ const MARKUP = `${axesMarkup({across: "across", up: "up"}, "atlas_zoom")}
   <p class="pad-key pad-curves"></p>
   <p class="pad-key cycle-curves" data-control="cycle_curves" hidden><label><input type="checkbox">bifurcations of limit cycles (some seconds)</label></p>
   <p class="note atlas-note"></p>
+  <details class="fold" data-fold="atlas"><summary>Axes and regions</summary></details>
   <div class="thumbnails" role="group" aria-label="A portrait of each region"></div>`
 
 class Atlas {

@@ -1,4 +1,4 @@
-// The panel "Orbits": what was launched, where each goes and comes from; hide, name, remove; a start that is typed; and
+// The panel "Motion": what was launched, where each goes and comes from; hide, name, remove; a start that is typed; and
 // the chosen one over time, for ε → 0 and with one tick for ε > 0.
 
 import {slider} from "../controls/controls.js"

@@ -12,7 +12,7 @@ class PsiCurves {
     box.innerHTML = `<svg class="series psi-curves" role="img" aria-label="Ψ, and the smooth step that it makes"></svg>
       <p class="pad-key psi-key"></p>
       <h3>The same system under the friction of physics engines</h3><table class="engines"></table>
-      <p class="note">The slip is ε|x₂|: that at which it creeps where it sticks, and the largest of a chatter. ε is that of “Orbits”. Click a law to draw it.</p>`
+      <p class="note">The slip is ε|x₂|: that at which it creeps where it sticks, and the largest of a chatter. ε is that of “Motion”. Click a law to draw it.</p>`
     this.box = box
     this.tools = tools
     this.engines = []

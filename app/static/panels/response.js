@@ -12,7 +12,7 @@ const HIGHEST = 4 // modulus of a multiplier that the lower plot shows
 
 class Response {
   constructor(box, tools) {
-    box.innerHTML = `${axesMarkup({along: "along"}, "zoom", '<button type="button" class="over-time" title="Start there in the panel Orbits">Show over time</button>')}
+    box.innerHTML = `${axesMarkup({along: "along"}, "zoom", '<button type="button" class="over-time" title="Start there in the panel Motion">Show over time</button>')}
       <svg class="response" role="slider" tabindex="0" aria-label="Response curve: click to set the parameter, or use the arrow keys"></svg>
       <p class="pad-key response-key"></p>
       <p class="note response-here" aria-live="polite"></p>

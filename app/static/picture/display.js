@@ -42,7 +42,7 @@ export function displayList({table, layers, old, header, blocks, theme, measures
   return list
 }
 
-// The motion for ε > 0 and its limit, of the panel "Orbits", as [xs, ys] each, and the moving point.
+// The motion for ε > 0 and its limit, of the panel "Motion", as [xs, ys] each, and the moving point.
 export function traceList(parts, paths, place, theme) {
   const list = []
   for (const part of parts) {

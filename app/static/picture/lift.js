@@ -14,17 +14,22 @@ const BEHIND = 0.02 // depth beyond which a place of the hemisphere faces away
 const FAINT = 0.22, BODY = 0.72 // how what is behind is seen, and how much of it the hemisphere hides
 const FINE = 0.06 // of the disc: a longer step of a line is bent
 const KEYS = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.08], ArrowDown: [0, -0.08]}
+const FADES = new Set(["equator", "critical", "launched", "sense"]) // layers that come into sight with rest
 const AT = {left: 0, across: 1, top: 0, up: 1} // what is placed already, in px
 
 /**
  * How the disc is seen: a share of the way up from the plane, turned.
- * @param {{up: number, azimuth: number, elevation: number, x: number, y: number, scale: number}} camera where its middle is, and its unit, in px
+ * Its microscope is open by a share: a state of rest is drawn at that share of its radius, a velocity as far outside it as
+ * it is large, so that the closed one shows rest as a point in the plane of velocities.
+ * @param {{up: number, azimuth: number, elevation: number, x: number, y: number, scale: number, open?: number, reach?: number}} camera
+ *   where its middle is, and its unit, in px; how far the microscope is open, and the radius that it leaves in its place
  */
-export function projection({up, azimuth, elevation, x: left, y: top, scale}) {
-  const c = Math.cos(azimuth), s = Math.sin(azimuth), ce = Math.cos(elevation), se = Math.sin(elevation)
-  /** @param {number} x @param {number} y @returns {[number, number, number, boolean]} px, px, depth, and whether it is on the hemisphere */
-  return (x, y) => {
-    const r = x * x + y * y, z = r < 1 ? up * Math.sqrt(1 - r) : 0, away = s * x + c * y
+export function projection({up, azimuth, elevation, x: left, y: top, scale, open = 1, reach = 2}) {
+  const c = Math.cos(azimuth), s = Math.sin(azimuth), ce = Math.cos(elevation), se = Math.sin(elevation), spread = (reach - open) / (reach - 1)
+  /** @param {number} u @param {number} v @returns {[number, number, number, boolean]} px, px, depth, and whether it is on the hemisphere */
+  return (u, v) => {
+    const r = u * u + v * v, far = Math.sqrt(r), k = open === 1 || !r ? 1 : r < 1 ? open : (open + (far - 1) * spread) / far
+    const x = k * u, y = k * v, z = r < 1 ? up * Math.sqrt(1 - r) : 0, away = s * x + c * y
     return [left + scale * (c * x - s * y), top - scale * (ce * z + se * away), ce * away - se * z, r < 1]
   }
 }
@@ -37,6 +42,7 @@ export class Lift {
     this.picture = picture
     this.up = 0
     this.way = 0 // whether it goes up, down, or rests
+    this.opened = 1 // how far the microscope of rest is open
     this.azimuth = TURNED[0]
     this.elevation = TURNED[1]
     const box = root.querySelector(".picture")
@@ -96,11 +102,22 @@ export class Lift {
     requestAnimationFrame(step)
   }
 
+  /** Open the microscope of rest so far; 1 is the flat picture. @param {number} share */
+  open(share) {
+    this.opened = share
+    this.canvas.hidden = share === 1
+    if (this.shown) this.paint()
+    else { this.picture.draw(); this.picture.drawTrace() }
+  }
+
+  /** Flat, at once. */
+  flatten() { if (this.way === 1) this.swing(true) }
+
   // From above at first, with the flat picture's size and place.
   get camera() {
     const {clientWidth: w, clientHeight: h} = this.canvas, eased = this.up * this.up * (3 - 2 * this.up), to = (from, end) => from + eased * (end - from)
     const elevation = to(FLAT[1], this.elevation), scale = Math.min(w, h) / (2 * this.picture.view) * to(1, CLOSER)
-    return {up: eased, azimuth: to(FLAT[0], this.azimuth), elevation, x: w / 2, y: h / 2 + 0.3 * eased * scale * Math.cos(elevation), scale}
+    return {open: this.opened, reach: this.picture.view, up: eased, azimuth: to(FLAT[0], this.azimuth), elevation, x: w / 2, y: h / 2 + 0.3 * eased * scale * Math.cos(elevation), scale}
   }
 
   /** Where a place of the disc is seen, in px. @param {number} x @param {number} y */
@@ -130,7 +147,8 @@ export function paintLifted(g, list, camera, {width, height}) {
   plain(page)
   for (const item of lines) stroke(g, item, item.floor, 1)
   for (const item of list) if (item.kind === "sphere") ball(g, item, camera, at, page.colour)
-  for (const item of lines) { stroke(g, item, item.behind, FAINT); stroke(g, item, item.front, 1) }
+  const {open = 1} = camera, seen = Math.max(0, 2 * open - 1) // what is at rest comes into sight
+  for (const item of lines) { stroke(g, item, item.behind, FAINT * seen); stroke(g, item, item.front, seen) }
   const labels = []
   for (const item of list) {
     if (item.kind === "circle") {
@@ -138,18 +156,18 @@ export function paintLifted(g, list, camera, {width, height}) {
       const {behind, front} = split({counts: [129], points: Float32Array.from(ring.flat())}, at, true)
       stroke(g, {...item, dash: []}, behind, FAINT); stroke(g, {...item, dash: []}, front, 1)
     } else if (item.kind === "heads") {
-      for (let i = 0; i < item.angles.length; i++) head(g, {...item, x: item.points[2 * i] * unit(item.points), y: item.points[2 * i + 1] * unit(item.points), angle: item.angles[i] * Math.PI / 32767}, at, plain)
-    } else if (item.kind === "head") head(g, item, at, plain)
+      for (let i = 0; i < item.angles.length; i++) head(g, {...item, x: item.points[2 * i] * unit(item.points), y: item.points[2 * i + 1] * unit(item.points), angle: item.angles[i] * Math.PI / 32767}, at, plain, seen)
+    } else if (item.kind === "head") head(g, item, at, plain, seen)
     else if (item.kind === "path") {
       const places = Array.from(item.x, (x, i) => at(x, item.y[i]))
       plain({...item, x: places.map(([x]) => x), y: places.map(([, y]) => y)})
     } else if (["mark", "ring", "ray"].includes(item.kind)) {
       const [x, y, depth, on] = at(item.x, item.y), turned = item.kind === "ray" ? {angle: along(item, at)} : {}
-      g.globalAlpha = on && depth > BEHIND ? 0.4 : 1
+      g.globalAlpha = FADES.has(item.layer) ? seen : on && depth > BEHIND ? 0.4 : 1
       plain({...item, x, y, ...turned})
       g.globalAlpha = 1
       if (item.kind === "mark") space.box([x, y, item.size, item.size])
-    } else if (item.kind === "label") labels.push(item)
+    } else if (item.kind === "label" && (open === 1 || !FADES.has(item.layer))) labels.push(item)
   }
   for (const item of labels) {
     const place = named(item, at, space, camera)
@@ -197,22 +215,23 @@ function stroke(g, {colour, width, dash}, path, alpha) {
 }
 
 // The hemisphere, lit as the disc is: the equator's near half below, its outline above.
-function ball(g, {colour, light: [lx, ly], stops}, {up, elevation, x, y, scale}, at, paper) {
+function ball(g, {colour, light: [lx, ly], stops}, {up, elevation, x, y, scale, open = 1}, at, paper) {
+  const size = open * scale
   const low = Math.sin(elevation), high = Math.hypot(low, up * Math.cos(elevation)), [sx, sy] = at(lx, ly)
   g.beginPath()
-  g.ellipse(x, y, scale, scale * low, 0, 0, Math.PI)
-  g.ellipse(x, y, scale, scale * high, 0, Math.PI, 2 * Math.PI)
+  g.ellipse(x, y, size, size * low, 0, 0, Math.PI)
+  g.ellipse(x, y, size, size * high, 0, Math.PI, 2 * Math.PI)
   const fill = (style, alpha) => { g.fillStyle = style; g.globalAlpha = alpha; g.fill(); g.globalAlpha = 1 }
-  const shade = g.createRadialGradient(sx, sy, 0, x, y - 0.3 * up * scale * Math.cos(elevation), scale)
+  const shade = g.createRadialGradient(sx, sy, 0, x, y - 0.3 * up * scale * Math.cos(elevation), size)
   for (const [share, density] of stops) shade.addColorStop(share, `${colour}${Math.round(255 * density).toString(16).padStart(2, "0")}`)
   fill(paper, BODY * up)
   fill(shade, 1)
 }
 
 // An arrowhead along its curve, where that is seen.
-function head(g, item, at, plain) {
+function head(g, item, at, plain, seen) {
   const [x, y, depth, on] = at(item.x, item.y)
-  g.globalAlpha = on && depth > BEHIND ? FAINT : 1
+  g.globalAlpha = (on || item.layer === "sense" ? seen : 1) * (on && depth > BEHIND ? FAINT : 1)
   plain({...item, kind: "head", x, y, angle: along(item, at)})
   g.globalAlpha = 1
 }

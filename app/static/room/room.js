@@ -32,7 +32,7 @@ export class Room {
     this.rows = null
     this.code = this.inside = ""
     this.follows = false
-    this.bare = [...new URLSearchParams(globalThis.location?.search).keys()].join() === "room" // the code was typed: it brings the view
+    this.bare = [...new URLSearchParams(globalThis.location?.search).keys()].join() === "room" // and so it brings the view
     this.again = 0 // times that a room is asked for still which is not there
     this.bar.addEventListener("click", (event) => {
       const act = event.target.closest("button")?.dataset.room
@@ -55,7 +55,10 @@ export class Room {
   }
 
   open(key = "") { this.resumes = Boolean(key); this.tools.send({room: {open: key}}) }
-  enter(code) { this.wanted = code; this.tools.send({room: {join: code}}) }
+
+  /** @param {string} code @param {boolean} typed then it brings the view, as an address that has but the code does */
+  enter(code, typed = false) { this.bare ||= typed; this.wanted = code; this.tools.send({room: {join: code}}) }
+
   end() { this.tools.send({room: {close: true}}) }
   leave() { this.keep({}); this.inside = ""; this.follows = false; this.bar.hidden = true; this.tools.send({room: {leave: true}}) }
 

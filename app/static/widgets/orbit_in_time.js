@@ -2,11 +2,10 @@
 // a typed start. ε → 0 is drawn in full, ε > 0 broken. A dot runs along both.
 
 import {Ball} from "./ball.js"
-import {Puck} from "./puck.js"
 import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
 import {Player, sampleAt} from "./player.js"
-import {SAYS, digits, escape, claimNumber, minus, phaseWords} from "../words.js"
+import {digits, escape, claimNumber, minus, phaseWords} from "../words.js"
 
 export const TYPED = -1 // in place of a launched orbit's place: the typed start
 
@@ -30,7 +29,7 @@ export const TYPED = -1 // in place of a launched orbit's place: the typed start
 export const MARKUP = `<section class="orbit-time" hidden>
   <div class="row"><button type="button" class="play" aria-pressed="false">▶ Play</button><button type="button" class="here"></button></div>
   <div class="note now"><p class="orbit-now" aria-live="off"></p><p class="phase-now" aria-live="off"></p></div>
-  <canvas class="ball" hidden role="img"></canvas>
+  <canvas class="ball" hidden role="img" aria-label="The ball, seen from above"></canvas>
   <svg class="series" role="slider" tabindex="0" aria-label="The orbit over time: drag to move along it"></svg>
   <p class="pad-key orbit-key"></p>
   <ul class="phases"></ul>
@@ -70,8 +69,7 @@ export class OrbitInTime {
     this.rows = 3
     this.svg = this.find(".series")
     this.ball = new Ball(tools.root, this.find(".ball"))
-    this.puck = new Puck(tools.root, this.find(".ball"))
-    this.plane = tools.plane
+    this.slips = tools.slips
     this.chart = new Chart(this.svg, {
       aspect: (width) => Math.min((this.rows > 3 ? 1.15 : 0.9) * width, 160 * this.rows),
       onMove: (t) => this.player.scrub(t),
@@ -117,12 +115,8 @@ export class OrbitInTime {
     const phases = orbit.phases ?? motion?.phases ?? []
     this.rolls = [motion, orbit].find((run) => run?.ball) ?? null
     this.find(".phases").innerHTML = phases.map(([kind, from, , why]) => `<li><i class="band ${kind}"></i><span>${digits(from, 4)}</span><span class="note">${phaseWords(kind, this.rolls)}: ${escape(why)}</span></li>`).join("")
-    const plane = orbit.index === TYPED && !this.rolls ? this.plane?.() ?? null : null
-    this.above = this.rolls ? this.ball : plane ? this.puck : null
     if (this.rolls) this.ball.prepare(this.rolls)
-    else if (plane) this.puck.prepare(motion ?? orbit, plane)
-    this.ball.canvas.hidden = !this.above
-    this.ball.canvas.setAttribute("aria-label", plane ? SAYS.puckAbove : SAYS.ballAbove)
+    this.ball.canvas.hidden = !this.rolls
   }
 
   plots(orbit, motion, span) {
@@ -164,7 +158,8 @@ export class OrbitInTime {
     const told = [x, y, theta, radius].map((value, i) => `${words[i].split(" ")[0]} = ${digits(value, 3)}`)
     this.find(".orbit-now").textContent = `${words[4]} = ${digits(at, 3)}: ${told.join(", ")}`
     this.find(".phase-now").textContent = this.phaseAt(at)
-    this.above?.show(this.rolls, at)
+    if (this.rolls) this.ball.show(this.rolls, at)
+    else if (!orbit.fast) this.slips([x, y])
     if (moved && orbit.index === TYPED) this.moved(z)
   }
 
@@ -182,6 +177,7 @@ export class OrbitInTime {
   hide() {
     this.player.toggle(false)
     this.trace(null)
+    this.slips(null)
     this.shown = null
   }
 }

@@ -26,7 +26,7 @@
  * @property {string[]} setting names of the controls that say what is drawn
  * @property {Record<string, any>} families of Psi
  * @property {() => Record<string, number>} parameters of the present system, all of them
- * @property {() => import("./puck.js").Plane | null} plane of the e-linear system that the sliders set; null of another
+ * @property {(slip: number[] | null) => void} slips how the puck next to the picture slips; null leaves it to itself
  * @property {(question: {hide: string[], mark: ((place: {x: number, y: number}) => void) | null} | null) => void} ask a
  *   question: layers and words that would tell its answer are hidden, and `mark` is called for a click on the picture; null
  *   shows all again

@@ -1,4 +1,4 @@
-"""The panel "Orbits": the chosen orbit or start over time, and its motion for eps > 0, against the core."""
+"""The panel "Motion": the chosen orbit or start over time, and its motion for eps > 0, against the core."""
 
 import json
 import math

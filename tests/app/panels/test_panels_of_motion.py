@@ -1,4 +1,4 @@
-"""The panels "Along z", "3-D", "Ψ", and "Orbits" from a typed start: what is sent, against core and closed forms."""
+"""The panels "Along z", "3-D", "Ψ", and "Motion" from a typed start: what is sent, against core and closed forms."""
 
 import json
 

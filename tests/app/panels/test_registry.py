@@ -14,7 +14,7 @@ from codim2_app.view.markup import explorer_html, page_config, script
 def test_tabs_scripts_and_settings_follow_the_registry():
     keys = list(registry.PANELS_BY_NAME)
     page = explorer_html(ExplorerState())
-    assert re.findall(r'role="tab" id="c2-tab-(\w+)"', page) == keys
+    assert re.findall(r'role="tab"(?: class="later")? id="c2-tab-(\w+)"', page) == keys
     assert re.findall(r'role="tabpanel" id="c2-panel-(\w+)"', page) == keys
     assert re.findall(r'^register\("(\w+)"', script(), re.MULTILINE) == keys
     assert {*keys} == {*PANEL_NAMES}  # a state on its own knows the same ones, by their scripts
@@ -25,7 +25,7 @@ def test_tabs_scripts_and_settings_follow_the_registry():
 def test_a_state_knows_the_panels_that_are_registered():
     for key in registry.PANELS_BY_NAME:
         assert clean("panel", key) == key
-    with pytest.raises(InputError, match="'none' given; choose one of atlas, numbers"):
+    with pytest.raises(InputError, match="'none' given; choose one of lessons, atlas, numbers"):
         clean("panel", "none")
 
 

@@ -2,6 +2,7 @@
 
 import gc
 import json
+import math
 import re
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -9,6 +10,7 @@ from queue import Queue
 from threading import Event
 from weakref import ref
 
+import numpy as np
 import pytest
 from codim2_app.draw.theme import themes
 from codim2_app.export import export_request as made
@@ -23,6 +25,7 @@ from codim2_app.view import export_jobs as takings
 from codim2_app.view.export_jobs import ExportJobs
 from codim2_app.view.refresh import Frames
 
+import codim2_core as c2
 from codim2_core.cycles.proof.check import check
 from tests.work import PATIENCE
 
@@ -69,13 +72,42 @@ def test_a_proof_is_taken_with_its_certificate_and_the_program_that_checks_it(ex
     assert (found["whole"], found["certificate"], found["checker"]) == (True, None, None)  # by a theorem
 
 
-def test_the_motion_of_the_typed_start_is_taken_for_the_puck(executor):
-    query = "a=-1&d=-1&f1=-0.5&k1=0&B1=0&t_end=1&launch=0.1,0,0.25"
-    told = json.loads(asked(executor, query, {"id": 7, "kind": "motion"})["file"])
-    x, *_, z = told["states"]
-    assert [phase[0] for phase in told["phases"]] == ["slip", "slide"]
-    assert told["phases"][0][2] == pytest.approx(0.1 / 1.5, abs=1e-5)  # x' = −1 − 0.5
-    assert (x[0], x[-1], z[-1]) == (0.1, 0.0, 0.25)
+SLIPS = "a=-2&b=0.5&d=-1&f1=-0.5&f2=0.2&k1=1&z=0.25&psi=rational"
+
+
+def test_a_motion_is_taken_for_the_puck_from_a_place_of_the_picture(executor):
+    told = json.loads(asked(executor, SLIPS, {"id": 7, "kind": "motion", "start": "1.2,0.9"})["file"])
+    t, x, y, c, s, u, v = (np.array(told[name]) for name in "txycsuv")
+    A, f = np.array([[-2, -0.5], [0.5, -1]]), np.array([-0.25, 0.2])
+    assert (x[0], y[0]) == pytest.approx((0.4, 0.3), abs=1e-4)  # rho = 0.5 in the direction (4, 3)/5
+    e = np.column_stack([c, s])
+    slip = np.column_stack([x, y])
+    moving = np.hypot(x, y) > 0.05
+    assert np.allclose(e[moving], (slip / np.hypot(x, y)[:, None])[moving], atol=0.02)
+    mean = ((e @ A.T + f)[1:] + (e @ A.T + f)[:-1]) / 2
+    assert np.allclose(np.diff(slip, axis=0)[:8], (mean * np.diff(t)[:, None])[:8], atol=1e-3)
+    assert np.allclose(A @ e[-1], -f, atol=0.01)  # at rest friction balances the push
+    critical = c2.critical_sets(c2.ELinear(a=-2, b=0.5, d=-1, f=tuple(f)), c2.psi.rational())
+    assert np.allclose((u[-1], v[-1]), critical[0].p, atol=0.02)
+
+
+def test_a_motion_that_cannot_be_held_leaves_the_picture_and_one_at_rest_is_one(executor):
+    told = json.loads(asked(executor, "a=-1&b=0&d=-1&f1=2&f2=0", {"id": 7, "kind": "motion", "start": "0.5,0"})["file"])
+    assert told["u"][-1] > 2.4
+    assert told["c"][-1] == pytest.approx(1, abs=1e-3)
+    assert told["x"][0] == pytest.approx(told["eps"] / math.sqrt(3), rel=1e-4)  # tan 30° of the hemisphere
+
+
+@pytest.mark.parametrize(
+    ("query", "start", "says"),
+    [
+        ("a=-1", "far", "give a place"),
+        ("a=-1", "9,9", "give a place"),
+        ("preset=nonunique-sliding", "1.2,0.9", "e-linear"),
+    ],
+)
+def test_no_motion_is_taken_from_nowhere_or_of_another_system(executor, query, start, says):
+    assert says in asked(executor, query, {"id": 7, "kind": "motion", "start": start})["error"]
 
 
 def test_a_proof_is_stopped_alone(executor):

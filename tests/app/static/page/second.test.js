@@ -165,9 +165,9 @@ test("below the second picture stand twelve controls at most", () => {
 
 test("the first portrait is named below its picture", () => {
   const one = first()
-  one.second.applied({portrait: {sentence: "Case I."}})
+  one.second.applied({portrait: {name: "CM4", case: "I", sentence: "Case I, CM4. It sticks."}})
   one.second.applied(/** @type {any} */ ({}))
-  assert.equal(one.find(".first-words").textContent, "Case I.")
+  assert.equal(one.find(".first-words").textContent, "CM4 · Case I It sticks.")
 })
 
 test("of a mechanism the second can be at any contact, and what sticks at rest is told; another system takes both away", () => {

@@ -93,6 +93,7 @@ export function drawn(name) {
     move: (wanted) => { said("move")(wanted); Object.assign(values, wanted); panels.draw(values) },
     choose: (it, value) => { said("choose")(it, value); values[it] = value; panels.draw(values) },
     crowd: () => null, drawn: () => DRAWN,
+    slips: () => {},
     trace: (paths, place) => said("trace")(paths && paths.map((path) => path && path.map((column) => column.length)), place?.map((v) => Number(v.toFixed(4)))),
     open: said("open"), ask: said("ask"), cross: said("cross"),
   }, said("choose"))

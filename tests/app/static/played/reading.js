@@ -32,7 +32,7 @@ export function opened(key, values, more = {}, shown = key) {
     valueOf: (it) => values[it] ?? 0, follow: (it, set) => { setters[it] = set },
     move: (wanted) => { said.push(["move", wanted]); Object.assign(values, wanted); panels.draw(values) },
     choose: (it, value) => { said.push(["choose", it, value]); values[it] = value; panels.draw(values) },
-    trace: note("trace"), open: note("open"), ask: (it) => said.push(["ask", it && it.hide]), cross: (place) => { said.push(["cross", place]) }, crowd: () => null, drawn: () => DRAWN, ...more,
+    trace: note("trace"), slips: () => {}, open: note("open"), ask: (it) => said.push(["ask", it && it.hide]), cross: (place) => { said.push(["cross", place]) }, crowd: () => null, drawn: () => DRAWN, ...more,
   }, note("choose"))
   if (shown !== null) panels.show(shown, values)
   return {
