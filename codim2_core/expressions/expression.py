@@ -19,7 +19,7 @@ from .reader import ExpressionError, check_names, read_formula
 
 __all__ = ["Expression", "ExpressionError", "parse"]
 
-LONGEST_TEXT = 100_000
+MAX_WRITTEN = 100_000
 
 
 class Expression:
@@ -214,7 +214,7 @@ def _render(tape: tapes.Tape) -> str:
             piece = (args[0], _ATOM)
         else:
             piece = _operation(op, [pieces[i] for i in args])
-        if len(piece[0]) > LONGEST_TEXT:
+        if len(piece[0]) > MAX_WRITTEN:
             return f"(a formula of {len(tape)} operations)"
         pieces.append(piece)
     return pieces[-1][0]

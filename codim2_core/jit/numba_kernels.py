@@ -13,7 +13,6 @@ from typing import Any
 
 from numba import njit, types
 from numba.core import caching, event
-from numba.core import config as numba_config
 from numba.core.dispatcher import Dispatcher
 
 from ..rebind import rebind
@@ -24,9 +23,8 @@ from .tiers import TieredKernel
 
 ARITHMETIC = {"contract", "reassoc", "nsz", "arcp"}  # NaN and infinity keep their meaning
 
-config: Any = numba_config  # its names are made at run time
-if config.DISABLE_JIT:  # for a debugger, or to measure coverage: kernels run as Python
-    config.DISABLE_JIT = 0
+if disk_cache.config.DISABLE_JIT:  # for a debugger, or to measure coverage: kernels run as Python
+    disk_cache.config.DISABLE_JIT = 0
     policy.choose_way(policy.PYTHON)
 #: Why no kernel can be kept on disk; "" if it can.
 UNCACHED = disk_cache.prepare()

@@ -9,6 +9,7 @@ FOLDERS = {"core": "codim2_core", "app": "app"}
 EVERYWHERE = {"core": ("core/test_read_only.py", "core/test_tables.py")}
 # Beside the tests in the room itself.
 ELSEWHERE: dict[str, tuple[str, ...]] = {
+    "app.__main__": ("app/server/test_commands.py",),
     "core.bifurcations": ("precision/test_bifurcations.py",),
     "core.cycles": ("core/layer_problem/test_given_matrix.py", "precision/test_cycles.py"),
     "core.expressions": ("core/systems",),

@@ -5,6 +5,7 @@ from codim2_app.frame import process_load as module
 @pytest.mark.parametrize(("worked", "share"), [(0.0, 0.0), (0.2, 0.4), (0.5, 1.0)])
 def test_the_load_is_the_share_of_time_at_work(monkeypatch, worked, share):
     clocks = {"perf_counter": 7.0, "taken": 3.0}
+    monkeypatch.setattr(module, "MIN_MEASURED_SECONDS", 0.25)
     monkeypatch.setattr(module.time, "perf_counter", lambda: clocks["perf_counter"])
     monkeypatch.setattr(module, "processor_seconds", lambda: clocks["taken"])
     load = module.Load()

@@ -77,7 +77,7 @@ def test_png_and_pdf(tmp_path, name, begins):
         (["-U", "-mu*c;-s", "nu=1", "-o", "fig.svg"], 2, "there are mu"),
         (["-U", "-mu*c;-s", "mu=a", "-o", "fig.svg"], 2, "give a number"),
         (["-U", "-mu*c;-s", "case1-cm0", "-o", "fig.svg"], 2, "such as mu=0.5"),
-        (["-U", "-mu*c;-s", "-z", "1", "-o", "fig.svg"], 2, "0 slow rates"),
+        (["-U", "-mu*c;-s", "mu=1", "-z", "1", "-o", "fig.svg"], 2, "0 slow rates"),
         (["-U", "-mu*c;-s", "--psi", "sine", "-o", "fig.svg"], 2, "sine"),
     ],
 )
