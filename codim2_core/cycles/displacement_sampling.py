@@ -13,14 +13,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..words import say
-from .global_section import COARSE_RTOL, FINE_RTOL
+from .ray_section import COARSE_RTOL, FINE_RTOL, TurnSection
 
 COARSE_NOISE, FINE_NOISE = 1e-8, 1e-11  # of a displacement at COARSE and FINE
 ERROR_SAFETY = 8.0  # times the estimated error of the cubic
@@ -33,20 +32,9 @@ STEEP = 1e-3  # change of the displacement
 MAX_SAMPLES, MAX_ROUNDS = 900, 24  # samples in all; rounds
 MAX_UNDECIDED_SHARE = 0.25  # share of undecided samples at which looking closer is in vain
 NEAR_FOLD = 1e-6  # displacement at an extremum: a pair of cycles there is not told from none with certainty
+NEAR_LOOP = 1e-3  # displacement of the last orbit that returns: a loop is near
 RISE = 10.0  # times its noise, by which a sample differs from another
 _INSIDE = np.linspace(0.0, 1.0, INTERVAL_PARTS + 1)
-
-
-class ReturnSection(Protocol):
-    """A section with a return map: `global_section.Section`, `ray_section.TurnSection`."""
-
-    def states(self, xi: Array) -> tuple[Array, Array]:
-        """States (n, 3) and q (n,)."""
-        ...
-
-    def displacement(self, xi: Array, rtol: float = ..., backward: bool = ...) -> Array:
-        """Displacement of q over one turn."""
-        ...
 
 
 def differences(q: Array, shift: Array) -> Array:
@@ -172,13 +160,13 @@ class Samples:
 
     Parameters
     ----------
-    section : ReturnSection
+    section : TurnSection
     xi : ndarray (n,)
         Where to begin, in order.
     backward : bool
     """
 
-    def __init__(self, section: ReturnSection, xi: Array, backward: bool = False) -> None:
+    def __init__(self, section: TurnSection, xi: Array, backward: bool = False) -> None:
         self.section, self.backward = section, backward
         self.xi, self.q = xi, section.states(xi)[1]
         self.shift = section.displacement(xi, COARSE_RTOL, backward)
@@ -228,8 +216,9 @@ class Samples:
             each = max(BATCH // len(open_), FEWEST)
             part = np.arange(1, each + 1) / (each + 1)
             left, right = self.xi[open_], self.xi[np.array(open_) + 1]
-            # where the displacement ends, a first look is for its sign
-            rtol = FINE_RTOL if doubtful else COARSE_RTOL
+            # where the displacement ends, a first look is for its sign, which is plain unless a loop is near
+            small = np.abs(self.shift[open_ + [i + 1 for i in open_]]) < NEAR_LOOP
+            rtol = FINE_RTOL if doubtful or small.any() else COARSE_RTOL
             self.refine((left[:, None] + (right - left)[:, None] * part).ravel(), stencil, rtol)
         return False
 
@@ -238,12 +227,6 @@ class Samples:
         steep = abs(self.shift[i + 1] - self.shift[i]) > STEEP
         width = self.xi[i + 1] - self.xi[i]
         return bool(width < (NARROWEST if not steep else steepest * max(1.0, abs(self.xi[i]))))
-
-
-def count_sentence(count: int, way: str, about: str = "") -> str:
-    """Say how many limit cycles were found, and by which way: "section" or "turn"."""
-    found = "no cycle" if not count else "one cycle" if count == 1 else "cycles"
-    return say(f"{found}, {way}", count=count, about=about)
 
 
 def near_fold(q: Array, shift: Array, noise: Array) -> float:

@@ -1,8 +1,8 @@
-"""Compiled first turn of the layer problem about a point of the disc; see `typed_cycles`.
+"""Compiled first turn of the layer problem about a point of the disc; see `cycle_search`.
 
 The angle of p about the point is followed along the orbit, and the turn is complete when it has first changed by 2 pi,
-in either sense. Lanes step as in `global_section_kernel`: a lane that has turned goes back to the start of its step and
-finds the length that ends on the ray, so that the end is as accurate as a step.
+in either sense. Lanes step as in `stepping`: a lane that has turned goes back to the start of its step and finds
+the length that ends on the ray, so that the end is as accurate as a step, not as its dense output.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ import numpy as np
 
 from ..jit import call_field, fast_kernel, inlined_fast_kernel
 from ..stepping.dop853 import advance
-from ..stepping.layout import K0, K12, LANES, NEW, STATE
-from .global_section_kernel import NO_RETURN_YET, OUTWARD, RETURNED, TO_CRITICAL_SET
+from ..stepping.layout import K0, K12, LANES, NEW, STATE, STEP_ROW
 from .return_map_steps import (
     LANE_TOLERANCE_SHARE,
     TRIALS,
@@ -29,6 +28,7 @@ from .return_map_steps import (
     workspace,
 )
 
+RETURNED, TO_CRITICAL_SET, OUTWARD, NO_RETURN_YET = range(4)  # inward: onto C; outward: onto the equator
 DONE, STEPPING, REFINING = range(3)
 MAX_STEP_ANGLE = 2.0  # radians about the point in one step: more could be a turn unseen
 REST_SPEED = 3.0  # times the tolerance: a speed at which an orbit has come to rest
@@ -70,7 +70,9 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
 
     Returns
     -------
-    ends (n, 3), times (n,), codes (n,) of `global_section_kernel`, steps (k, 4): as `global_section_kernel.returns`
+    ends (n, 3), times (n,), codes (n,)
+    steps : (k, 4)
+        Where a step of state 0 starts, and its length.
     """
     n = states.shape[0]
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, NO_RETURN_YET)
@@ -152,3 +154,23 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
             if phase[k] != DONE:
                 times[base + k] = clock[k]
     return ends, times, codes, log[:logged]
+
+
+@fast_kernel
+def single_step(states, lengths, shared, field):
+    """Take one step of given length (n,) from each state (n, 3): for short ones as accurate as the stepping."""
+    n = states.shape[0]
+    out = np.empty((n, 3))
+    S, P = workspace(shared)
+    for base in range(0, n, LANES):
+        load(S, states, base, min(LANES, n - base))
+        for k in range(LANES):
+            for c in range(3):
+                S[STEP_ROW + c * LANES + k] = lengths[min(base + k, n - 1)]
+        call_field(field, S, STATE, K0, P)
+        advance(S, P, field)
+        for k in range(min(LANES, n - base)):
+            to_sphere(S, k)
+            for c in range(3):
+                out[base + k, c] = S[NEW + c * LANES + k]
+    return out
