@@ -35,8 +35,8 @@ MOST_FEET = 12
 FINE_SPACING, AGREED = 0.02, 1e-10  # spacing of the samples about a fixed point; how far two interpolants may differ
 FOLD_NOISE = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
 # Where the expansion at a critical set is measured, in INNER_RADIUS; the smallest cycle it shows, in shares of the
-# reach; the displacement to first order from which no cycle can be so small.
-MEASURED, MIN_CYCLE_RADIUS, MAX_NEWBORN = np.array([2.0, 8.0]), 1e-8, 1e-3
+# reach; the displacement to first order from which it has digits, and from which no cycle can be so small.
+MEASURED, MIN_CYCLE_RADIUS, MIN_NEWBORN, MAX_NEWBORN = np.array([2.0, 8.0]), 1e-8, 1e-13, 1e-3
 
 PERIOD_ANNULUS_NOTE = say("band counted")
 NO_CRITICAL_SET = say("no set to surround")
@@ -121,9 +121,7 @@ def _search_ray(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
         for i, j in changes:
             if shift[i] > 0.0 and np.isfinite(shift[[i, j]]).all():  # attracting
                 at = _interpolate_fixed_point(section, samples, i, j, backward)
-                found = (
-                    _narrow_fixed_points(section, float(xi[i]), float(xi[j]), backward) if at is None else [at]
-                )
+                found = _narrow_fixed_points(section, float(xi[i]), float(xi[j]), backward) if at is None else [at]
                 out += [FixedPoint(at, backward) for at in found]
     return sorted(out, key=lambda crossing: crossing.xi), notes
 
@@ -143,7 +141,7 @@ def _near_hopf(section: TurnSection) -> tuple[float, FixedPoint | None, list[str
     """
     C = section.critical
     linear = 2.0 * math.pi * C.trace / math.sqrt(-C.discriminant) if C.discriminant < 0.0 else 0.0
-    if not 0.0 < abs(linear) < MAX_NEWBORN:
+    if not MIN_NEWBORN < abs(linear) < MAX_NEWBORN:
         return -math.inf, None, []
     for scale in MEASURED * INNER_RADIUS:
         r = scale * np.array([1.0, 2.0, 4.0])

@@ -8,12 +8,12 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.problem import LayerProblem
 from .equator_pull import EQUATOR_CAPTURE_HEIGHT, MIN_HEIGHT, UNDERFLOW_HEIGHT, EquatorPull, equator_pull
+from .heteroclinic_arcs import heteroclinic_arcs
 
 COARSE_RTOL, FINE_RTOL = 1e-9, 1e-13  # tolerances
 INNER_RADIUS, OUTER_HEIGHT, SAMPLE_SPACING = (
@@ -47,23 +47,6 @@ def room(foot: HemispherePoint | CriticalSet, u: Array) -> tuple[float, float]:
     root = math.sqrt(along * along + gap)
     reach = gap / (root + along) if along > 0.0 else root - along
     return reach, gap / reach
-
-
-def loop_arcs(problem: LayerProblem, angles: Array) -> NDArray[np.bool_]:
-    """Whether directions (k,) lie on an arc of the equator along which a loop may go, from one half-saddle to the next.
-
-    A cycle next to such a loop lies so low there that samples on a ray to that arc would not show it.
-    """
-    equator = problem.equator
-    rho, theta = equator.lambda_rho, equator.lambda_theta
-    enters, leaves = (rho > 0.0) & (theta > 0.0), (rho < 0.0) & (theta < 0.0)
-    hidden = np.zeros(len(angles), bool)
-    for i in range(len(rho)):
-        j = (i + 1) % len(rho)
-        if (enters[i] and leaves[j]) or (leaves[i] and enters[j]):
-            width = (equator.theta[j] - equator.theta[i]) % math.tau
-            hidden |= (angles - equator.theta[i]) % math.tau < width
-    return hidden
 
 
 @dataclass(frozen=True)
@@ -101,8 +84,10 @@ class TurnSection:
             free = np.minimum(free, np.hypot(*(d - part[:, None] * u).T))
         reach = np.array([room(self.critical, way)[0] for way in u])
         end = self.critical.p + reach[:, None] * u
-        hidden = loop_arcs(self.problem, np.arctan2(end[:, 1], end[:, 0]))
-        return u[np.lexsort((reach, free, ~hidden))[-1]]
+        # cycles next to a loop through the equator lie so low there that samples on a ray would not show them
+        theta = np.arctan2(end[:, 1], end[:, 0])
+        hidden = np.any([arc.spans(theta) for arc in heteroclinic_arcs(self.problem)], axis=0)
+        return u[np.lexsort((reach, free, ~hidden & np.ones(len(u), bool)))[-1]]
 
     @cached_property
     def kernel(self) -> Any:
@@ -142,18 +127,33 @@ class TurnSection:
         return np.log(r) - np.log(np.maximum(states[:, 2] ** 2 / (r + self.other), 1e-300))
 
     def turn(
-        self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = MAX_STEPS
+        self,
+        states: Array,
+        rtol: float,
+        backward: bool = False,
+        record: int = 0,
+        limit: int = MAX_STEPS,
+        goal: Array | None = None,
+        sense: int = 0,
     ) -> tuple[Array, Array, Any, Any]:
-        """Follow one turn: ends (n, 3), times, codes and recorded steps of `ray_section_kernel.first_turns`."""
-        module, function = self.kernel
+        """Follow one turn: ends (n, 3), times, codes and recorded steps of `ray_section_kernel.first_turns`.
 
-        def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:
+        Or less than a turn: by the angles `goal` (n,), in one sense.
+        """
+        module, function = self.kernel
+        states = np.ascontiguousarray(states)
+        away = float(np.hypot(*(states[:, :2] - self.critical.p).T).min(initial=math.inf))
+        floor = INNER_CAPTURE_RATIO * min(INNER_RADIUS * self.reach, away)
+
+        def follow(rows: Any, sunk: float) -> tuple[Array, Array, Any, Any]:
             return module.first_turns(
-                states,
+                states[rows],
                 self.field_parameters(backward),
                 function.address,
                 np.array(self.critical.p),
-                INNER_CAPTURE_RATIO * INNER_RADIUS * self.reach,
+                np.full(len(states), math.tau)[rows] if goal is None else goal[rows],
+                sense,
+                floor,
                 sunk,
                 MAX_TURN_TIME,
                 rtol,
@@ -166,18 +166,16 @@ class TurnSection:
             max(UNDERFLOW_HEIGHT, MIN_HEIGHT / max(MIN_HEIGHT, float(states[:, 2].min(initial=1.0)))),
         )
         if record:
-            return follow(states, lost)
-        ends, times, codes, steps = follow(states, EQUATOR_CAPTURE_HEIGHT)
+            return follow(slice(None), lost)
+        ends, times, codes, steps = follow(slice(None), EQUATOR_CAPTURE_HEIGHT)
         close = np.flatnonzero(codes == module.OUTWARD)
         if len(close):  # those that the equator may not draw in are followed on, however close they come to it
             again = close[self.pull.may_return(ends[close], self.field, backward)]
             if len(again):
-                ends[again], times[again], codes[again], _ = follow(states[again], lost)
+                ends[again], times[again], codes[again], _ = follow(again, lost)
         return ends, times, codes, steps
 
-    def displacement(
-        self, xi: Array, rtol: float = COARSE_RTOL, backward: bool = False, noise: float = NOISE
-    ) -> Array:
+    def displacement(self, xi: Array, rtol: float = COARSE_RTOL, backward: bool = False, noise: float = NOISE) -> Array:
         """Displacement of q over a turn (n,): -inf to the critical set, +inf elsewhere, NaN undecided.
 
         It is 0 where it is within `noise` times what the tolerance leaves open.

@@ -35,6 +35,12 @@ REST_SPEED = 3.0  # times the tolerance: a speed at which an orbit has come to r
 
 
 @inlined_fast_kernel
+def _beyond(angle, goal, sense):
+    """By how much an angle is beyond its goal: in one sense, or in either if the sense is 0."""
+    return (abs(angle) if sense == 0 else sense * angle) - goal
+
+
+@inlined_fast_kernel
 def _swept_angle(S, centre, k):
     """Angle about the point from STATE to NEW."""
     ax, ay = S[STATE + k] - centre[0], S[STATE + LANES + k] - centre[1]
@@ -45,8 +51,8 @@ def _swept_angle(S, centre, k):
 # In one piece: with the stages of a step, the search for the end and the judging of errors as inlined functions of
 # their own, results were the same and took 7 % longer (median of paired runs, process time).
 @fast_kernel
-def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record):
-    """Follow each state until it has gone once round a point.
+def first_turns(states, shared, field, centre, goal, sense, floor, sunk, t_max, rtol, limit, record):
+    """Follow each state until it has gone round a point by an angle.
 
     Parameters
     ----------
@@ -58,6 +64,10 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
         Address of the field.
     centre : (2,)
         The point, in the disc.
+    goal : (n,)
+        By what angle: 2 pi for a turn.
+    sense : int
+        +1 anticlockwise, -1 clockwise, 0 in either sense.
     floor : float
         Distance from it below which an orbit has gone inward.
     sunk : float
@@ -106,7 +116,7 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
                 finished, code = False, RETURNED
                 if phase[k] == REFINING:
                     tries[k] += 1
-                    g = abs(angle[k] + swept) - math.tau
+                    g = _beyond(angle[k] + swept, goal[base + k], sense)
                     narrow(k, g < 0.0, g, step, low, at_low, high, at_high, side)
                     if abs(g) > 1e-15 and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
                         step[k] = next_length(k, low, at_low, high, at_high)
@@ -120,9 +130,10 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
                     if abs(swept) > MAX_STEP_ANGLE:
                         step[k] *= 0.5
                         continue
-                    if abs(angle[k] + swept) >= math.tau:
-                        low[k], at_low[k] = 0.0, abs(angle[k]) - math.tau
-                        high[k], at_high[k] = h, abs(angle[k] + swept) - math.tau
+                    beyond = _beyond(angle[k] + swept, goal[base + k], sense)
+                    if beyond >= 0.0:
+                        low[k], at_low[k] = 0.0, _beyond(angle[k], goal[base + k], sense)
+                        high[k], at_high[k] = h, beyond
                         step[k] = h * at_low[k] / (at_low[k] - at_high[k])
                         phase[k], tries[k], side[k] = REFINING, 0, 0
                         continue

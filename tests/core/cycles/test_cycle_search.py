@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from codim2_core.cycles import fixed_point_search
+from codim2_core.cycles import cycle_search
 from codim2_core.words import recognise
 
 from .sections import Line
@@ -24,7 +24,7 @@ def test_a_cycle_just_born_is_where_its_expansion_vanishes(sign):
         r = lambda xi: 1.0 / (1.0 + np.exp(-xi))
         section = Line(lambda xi: linear + r(xi) ** 2 * (square + 300.0 * r(xi) + 1e5 * r(xi) ** 2))
         section.critical = SimpleNamespace(trace=linear * omega / (2.0 * math.pi), discriminant=-(omega**2))
-        return fixed_point_search._cycle_near_hopf(section)
+        return cycle_search._near_hopf(section)[1]
 
     found = made(square)
     size = math.sqrt(-linear / square)
