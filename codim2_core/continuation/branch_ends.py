@@ -108,7 +108,7 @@ def equator_end(
 def singular_end(
     name: str, turn: ReturnMapPoint, marked: Sequence[MarkedValue], way: float, width: float
 ) -> BranchEnd | None:
-    """Name the end at a value with det A = 0 close ahead, with a whole line of equilibria through the cycle; or None."""
+    """Name the end at a value with det A = 0 close ahead, with a line of equilibria through the cycle; or None."""
     singular = [m.value for m in marked if m.kind in SINGULAR]
     near = [v for v in singular if 0.0 <= (v - turn.value) * math.copysign(1.0, way) < SINGULAR_DISTANCE * width]
     if not near:

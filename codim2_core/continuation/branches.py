@@ -65,6 +65,7 @@ RAY_GAIN = 1.3  # times as well another ray is crossed that is worth taking
 MAX_RAYS = 12  # of one branch
 BAND_SPREAD = 0.5  # by which ebar differs between the cycles of a band
 SAME_VALUE_SHARE = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
+LOW_SHARE, ROUNDING_OF_HEIGHT = 3.0, 1e-7  # times the height of the last cycle; ebar that p tells
 ROUNDING_HEIGHT = 1e-12  # ebar of a turn of which nothing but rounding is left
 COMPARED_POINTS, CANDIDATE_POINTS = (
     3,
@@ -229,6 +230,8 @@ class BranchSearch:
         tracer, first = begun
         point = tracer.point(*first, (1.0, 0.0))
         onward = self._followed(tracer, point)
+        if self._is_known(onward):  # which was not seen next to a fold
+            return
         if onward[-1].trace.reason == "closed":
             t = point.turn
             end = BranchEnd(CyclePoint("closed", t.value, t.period, t.amplitude, say("branch closed")))
@@ -350,10 +353,7 @@ class BranchSearch:
                 continue
             before, after = (RayPiece(piece.tracer, trace) for trace in cut)
             self.found.append(([*pieces[:k], before], start, self._end([before])))
-            part = after.trace.points[len(after.trace.points) // 4 :]
-            turn = max(part, key=lambda point: abs(point.tangent[1])).turn  # far from a fold
-            line = line_of(piece.tracer, turn)
-            if line is None or not self._known(KnownCycle(line, turn.period), turn.value):
+            if not self._is_known([after]):
                 back = self._end([_reverse_piece(after)])
                 self._keep([after, *pieces[k + 1 :]], back)
             return
@@ -408,13 +408,30 @@ class BranchSearch:
     def _known(self, cycle: LimitCycle | KnownCycle, value: float) -> bool:
         """Whether a branch passes a cycle that was seen."""
         nu = self._nu(value)
-        for pieces, *_ in self.found:
+        for pieces, start, end in self.found:
+            outer = (pieces[0].trace.points[0].turn, start), (pieces[-1].trace.points[-1].turn, end)
+            if any(_lies_beyond(cycle, value, *one) for one in outer):
+                return True
             for piece in pieces:
                 for _, guess in points_at_value(piece.trace, nu):
                     found = run_turns(piece.tracer.corrected(guess))
                     if found is not None and is_same_cycle(found[0], cycle):
                         return True
         return False
+
+    def _is_known(self, pieces: Sequence[RayPiece]) -> bool:
+        """Whether a branch passes cycles of these pieces."""
+        for piece in pieces:
+            points = piece.trace.points
+            some = [points[k * (len(points) - 1) // 4].turn for k in (1, 2, 3)]
+            if any(self._passes(piece.tracer, turn) for turn in some):
+                return True
+        return False
+
+    def _passes(self, tracer: BranchTracer, turn: ReturnMapPoint) -> bool:
+        """Whether a branch passes the cycle of a turn."""
+        line = line_of(tracer, turn)
+        return line is not None and self._known(KnownCycle(line, turn.period), turn.value)
 
     def _branch(self, pieces: list[RayPiece], start: BranchEnd, end: BranchEnd) -> CycleBranch:
         rows: list[PointRow] = [] if start.limit is None else [start.limit]
@@ -425,6 +442,14 @@ class BranchSearch:
         if end.limit is not None:
             rows.append(end.limit)
         return build_branch(self.name, rows, folds, start.point, end.point)
+
+
+def _lies_beyond(cycle: LimitCycle | KnownCycle, value: float, last: ReturnMapPoint, end: BranchEnd) -> bool:
+    """Whether a cycle lies between the last one of a branch and its limit on the equator, lower than is followed."""
+    if not (math.isinf(end.point.period) and min(last.value, end.point.value) <= value):
+        return False
+    height = math.sqrt(max(1.0 - float((cycle.points**2).sum(axis=1).max()), 0.0))
+    return value <= max(last.value, end.point.value) and height < LOW_SHARE * max(last.height, ROUNDING_OF_HEIGHT)
 
 
 def _reverse_piece(piece: RayPiece) -> RayPiece:

@@ -21,7 +21,7 @@ NEWTON_TOLERANCE, MAX_CORRECTION = (
     1e-9,
     0.1,
 )  # of Newton's method for e: its last step (its error is the square), all of its way
-MAX_HALVINGS = 30  # of the way to a value at which it is not found at once: after these it is where it was last
+MAX_HALVINGS = 12  # of the way to a value at which it is not found at once: after these it is where it was last
 MAX_RADIUS = 1.0 - 1e-9  # |e| of a critical set
 
 
@@ -45,6 +45,7 @@ class SectionBase:
     def __init__(self, problem: Problems, value: float, e: Array, critical: bool = True) -> None:
         self.problem, self.critical = problem, critical
         self._values, self._places = [value], [np.array(e, float)]
+        self._found: dict[float, Array] = {}
         self._ends = (-math.inf, math.inf)  # it is no critical set beyond
         self._still = None if critical else hemisphere_place(problem(value).psi, self._places[0])
 
@@ -69,7 +70,11 @@ class SectionBase:
 
     def e(self, value: float) -> Array:
         """(c, s) of the critical set at a value."""
-        value = min(max(value, self._ends[0]), self._ends[1])
+        if value not in self._found:
+            self._found[value] = self._track(min(max(value, self._ends[0]), self._ends[1]))
+        return self._found[value]
+
+    def _track(self, value: float) -> Array:
         i = bisect(self._values, value)
         k = min((k for k in (i - 1, i) if 0 <= k < len(self._values)), key=lambda k: abs(self._values[k] - value))
         here, e = self._values[k], self._places[k]

@@ -197,7 +197,8 @@ def _displacement_ends(xi: Array, shift: Array) -> list[int]:
     finite = np.isfinite(shift)
     last = np.where(finite[1:], shift[1:], shift[:-1])
     least = np.where(np.abs(last) < NEAR_LOOP, LEAST_JUMP_WIDTH * np.maximum(1.0, np.abs(xi[1:])), MIN_JUMP_WIDTH)
-    return np.flatnonzero((finite[1:] != finite[:-1]) & (np.diff(xi) > least)).tolist()
+    jumps = (finite[1:] & np.isinf(shift[:-1])) | (finite[:-1] & np.isinf(shift[1:]))
+    return np.flatnonzero(jumps & (np.diff(xi) > least)).tolist()
 
 
 def _narrow_fixed_points(section: TurnSection, low: float, high: float, backward: bool) -> list[float]:

@@ -33,6 +33,7 @@ MAX_SAMPLES, MAX_ROUNDS = 900, 24  # samples in all; rounds
 MAX_UNDECIDED_SHARE = 0.25  # share of undecided samples at which looking closer is in vain
 NEAR_FOLD = 1e-6  # displacement at an extremum: a pair of cycles there is not told from none with certainty
 NEAR_LOOP = 1e-3  # displacement of the last orbit that returns: a loop is near
+STRIDES = 1, 3, 8, 20  # of samples that are compared
 RISE = 10.0  # times its noise, by which a sample differs from another
 _INSIDE = np.linspace(0.0, 1.0, INTERVAL_PARTS + 1)
 
@@ -229,21 +230,27 @@ class Samples:
         return bool(width < (NARROWEST if not steep else steepest * max(1.0, abs(self.xi[i]))))
 
 
-def near_fold(q: Array, shift: Array, noise: Array) -> float:
-    """Return the smallest size of the displacement at one of its extrema, to within its noise; inf if it has none.
-
-    Extrema of three neighbouring samples by their parabola; where several in a row are zero within noise, and those
-    beside them have one sign, the largest of the row.
-    """
-    with np.errstate(invalid="ignore"):
-        left, right = np.diff(shift)[:-1], np.diff(shift)[1:]
-        rise = np.maximum(abs(left), abs(right))
-        at = np.flatnonzero(np.isfinite(rise) & (left * right <= 0.0) & (rise > RISE * noise[1:-1]))
+def _least_extremum(q: Array, shift: Array, noise: Array) -> float:
+    """Return the smallest size of the extrema of three neighbouring samples, by their parabola; inf without any."""
+    left, right = np.diff(shift)[:-1], np.diff(shift)[1:]
+    at = np.flatnonzero((left * right <= 0.0) & (np.maximum(abs(left), abs(right)) > RISE * noise[1:-1]))
     u, v = q[at] - q[at + 1], q[at + 2] - q[at + 1]
     first, second = -left[at] / u, right[at] / v
     bend, slope = (second - first) / (v - u), (first * v - second * u) / (v - u)
     turned = slope * slope / (4.0 * bend)  # first and second differ, or both were zero, and so the rise
-    least = float(abs(shift[at + 1] - turned).min(initial=math.inf))
+    return float(abs(shift[at + 1] - turned).min(initial=math.inf))
+
+
+def near_fold(q: Array, shift: Array, noise: Array) -> float:
+    """Return the smallest size of the displacement at one of its extrema, to within its noise; inf if it has none.
+
+    Extrema of three neighbouring samples by their parabola, or of each k-th one where neighbours differ by noise; where
+    several in a row are zero within noise, and those beside them have one sign, the largest of the row.
+    """
+    finite = np.concatenate([[False], np.isfinite(shift), [False]]).astype(np.int8)
+    ends = np.flatnonzero(np.diff(finite)).tolist()
+    runs = [slice(*run, k) for run in zip(ends[::2], ends[1::2], strict=True) for k in STRIDES]
+    least = min((_least_extremum(q[run], shift[run], noise[run]) for run in runs), default=math.inf)
     flat = np.concatenate([[False], np.abs(shift) <= RISE * noise, [False]]).astype(np.int8)
     edges = np.flatnonzero(np.diff(flat))
     for low, high in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):

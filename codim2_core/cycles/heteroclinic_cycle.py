@@ -25,7 +25,7 @@ RTOL = 1e-12
 def loop_gap(
     problem: LayerProblem, foot: HemispherePoint | CriticalSet, arc: HeteroclinicArc, rtol: float = RTOL
 ) -> float:
-    """Return the `splitting` of a loop about a point, on the ray that ends in the middle of the equator outside its arc."""
+    """Return the `splitting` of a loop about a point, on the ray to the middle of the equator outside its arc."""
     return splitting(Ray(problem, foot, ray_outside(foot, arc)), arc, rtol)
 
 

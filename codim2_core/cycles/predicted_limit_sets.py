@@ -8,6 +8,8 @@ winds inwards for good.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from ..arrays import Array
@@ -51,7 +53,7 @@ def _predict(problem: LayerProblem, states: Array) -> list[int | None]:
     around = inside.reshape(len(states), len(cycles)).sum(axis=1).tolist()
     # from within, each of these attracts what lies between it and the next one, or repels it
     attracts = [C.kind.startswith("stable"), *(cycle.stable for cycle in cycles)]
-    if any(one == other for one, other in zip(attracts, attracts[1:], strict=False)):
+    if any(one == other for one, other in pairwise(attracts)):
         return undecided
     outer = [i for i, count in enumerate(around) if count == 0]
     inward = dict(zip(outer, _come_nearer(problem, states[outer]), strict=True)) if outer else {}

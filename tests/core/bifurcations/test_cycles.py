@@ -177,8 +177,10 @@ def test_two_cycles_meet_on_a_fold_however_narrow_the_strip_is_in_which_they_are
     line, i = curve.branches[0], int(np.argmin(abs(curve.values[0] - 0.05)))
     along = line[i + 1] - line[i - 1]
     across = np.array([along[1], -along[0]]) / np.hypot(*along)
-    counts = [len(limit_cycles(ELinear(1.0, 1.5, -2.0, tuple(line[i] + h * across)), p)) for h in (-1e-7, 1e-7, 1e-5)]
-    assert counts == [0, 2, 0]
+    counts = [
+        len(limit_cycles(ELinear(1.0, 1.5, -2.0, tuple(line[i] + h * across)), p)) for h in (-1e-5, -1e-7, 1e-7, 1e-5)
+    ]
+    assert counts in ([0, 0, 2, 0], [0, 2, 0, 0])
 
 
 def test_two_cusps_that_one_step_passes_are_both_named():
