@@ -159,7 +159,7 @@ class BranchSearch:
                     self._from_cycle(cycle, value)
         branches = tuple(self._branch(*one) for one in self.found)
         span = {"name": self.name, "low": self.low, "high": self.high}
-        kind = "no branch, typed" if not branches else "one branch, typed" if len(branches) == 1 else "branches, typed"
+        kind = "no branch" if not branches else "one branch" if len(branches) == 1 else "branches"
         reason = say(kind, **span, count=len(branches) or CENSUS_VALUES)
         theorems = [] if branches else [excluding_theorem(self.problem(v)) for v in self._census()]
         if theorems and None not in theorems:
@@ -340,7 +340,7 @@ class BranchSearch:
         near = [mark for mark in self.marked if abs(mark.value - first) <= SAME_VALUE_SHARE * self.width]
         self.used.update(map(id, near))
         value = near[0].value if near else first
-        self.notes.append(say("band at one value, typed", name=self.name, value=value))
+        self.notes.append(say("band at one value", name=self.name, value=value))
         return True
 
     def _keep(self, pieces: list[RayPiece], start: BranchEnd) -> None:

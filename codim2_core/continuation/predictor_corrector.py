@@ -41,7 +41,6 @@ EQUATOR_FOLD_CHANGE, FOLD_CHANGE = (
     1e-12,
 )  # change of nu about a fold near the equator, where exponents tend to 0, and elsewhere
 MAX_POINTS = 600  # points
-SAME_CURVE_SHARE = 1e-4  # of a step: how near the ends of two ways along one branch come to each other's curve
 MAX_PREDICTION_ERROR = 0.3  # distance of a point from its prediction, in steps, beyond which a step is too long
 MIN_TANGENT_COSINE = 0.9  # cosine between successive tangents below which a step is too long
 MAX_BATCH, PREDICTOR_POINTS = 16, 12  # points tried at once; last points that predictions know of
