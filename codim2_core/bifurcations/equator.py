@@ -232,8 +232,8 @@ def _ratio(a: float, b: float, d: float, f: Array, psi: Psi) -> float:
 
 def _loop_arc(problem: LayerProblem) -> HeteroclinicArc | None:
     """Return the arc of a loop about the critical set, about which orbits turn in the sense of b; None without any."""
-    sense = 1 if problem.at.affine[2] > problem.at.affine[1] else -1
-    arcs = heteroclinic_arcs(problem) if problem.critical else ()
+    form, arcs = problem.at.normal_form, heteroclinic_arcs(problem) if problem.critical else ()
+    sense = 1 if form is not None and form.b > 0.0 else -1
     return next((arc for arc in arcs if arc.sense == sense), None)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from ..numerics.line_pair import line_pair
@@ -19,8 +20,6 @@ from .equator_zeros import equator_as_orbit
 __all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
 
 SADDLE_NODE_DISTANCE = 1e-4  # distance from a saddle-node below which the zeros need more than doubles
-MEAN_DIRECTIONS = 512  # of a mean: zeros of Theta with |e| below 0.95 are then far enough from the circle
-DESCENTS = 6  # of Newton's method: from within 2.5 degrees of a minimum
 NEUTRAL_EQUATOR = 2.0**-49  # of the terms of the exponent: zero within rounding
 
 
@@ -122,6 +121,11 @@ def equator_cycle(system: AnySystem, z: ArrayLike = ()) -> EquatorCycle | None:
     neutral = abs(value) <= NEUTRAL_EQUATOR * (abs(a) + abs(d)) * g0
     period = g0 / unit / math.ldexp(1.0, exponent)
     return EquatorCycle(1 if b > 0.0 else -1, period, 0.0 if neutral else value / unit, neutral)
+
+
+_ANGLES = np.arange(72) * (2.0 * math.pi / 72.0)
+_COS, _SIN = np.cos(_ANGLES), np.sin(_ANGLES)
+_SIN2, _COS2 = np.sin(2.0 * _ANGLES), np.cos(2.0 * _ANGLES)
 
 
 def _mean_rule(f2: float, f1: float, difference: float) -> tuple[float, float]:
