@@ -47,7 +47,7 @@ from .continuation_points import (
     points_at_value,
     reversed_trace,
 )
-from .corrector import BranchTracer
+from .corrector import BranchTracer, distance
 from .homoclinic_detection import line_of, split_at_homoclinic
 from .known_cycles import KnownCycle, distance_along_ray, is_same_cycle
 from .lockstep_searches import run_turns
@@ -61,6 +61,7 @@ CACHE_SIZE = 1024  # problems that are kept
 CENSUS_VALUES = 9  # values at which all cycles are looked for
 NARROW_SHARE, MARGIN_SHARE = 0.25, 0.05  # of the span: a narrower part is searched alone; of the part, around it
 NARROWEST_PART, MOST_BETWEEN = 1e-3, 24  # of the span, between special values; of these parts
+TOLD_DISTANCE = 3e-3  # in (chi, nu), in which lines tell the direction of a branch
 RAY_GAIN = 1.3  # times as well another ray is crossed that is worth taking
 MAX_RAYS = 12  # of one branch
 BAND_SPREAD = 0.5  # by which ebar differs between the cycles of a band
@@ -305,7 +306,9 @@ class BranchSearch:
 
     def _again(self, tracer: BranchTracer, trace: ContinuationPoints) -> tuple[BranchTracer, ContinuationPoint] | None:
         """Find the last cycle on another ray that it crosses better; None if there is none."""
-        last, before = trace.points[-1], trace.points[-2]
+        last = trace.points[-1]
+        far = (point for point in reversed(trace.points) if distance(point, last) > TOLD_DISTANCE)
+        before = next(far, trace.points[0])  # the last steps before it is stuck are shorter than lines tell
         line, earlier = line_of(tracer, last.turn), line_of(tracer, before.turn)
         if line is None or earlier is None:
             return None

@@ -26,7 +26,7 @@ def loop_gap(
     problem: LayerProblem, foot: HemispherePoint | CriticalSet, arc: HeteroclinicArc, rtol: float = RTOL
 ) -> float:
     """Return the `splitting` of a loop about a point, on the ray to the middle of the equator outside its arc."""
-    return splitting(Ray(problem, foot, ray_outside(foot, arc)), arc, rtol)
+    return splitting(Ray(problem, HemispherePoint(foot.p, foot.x2), ray_outside(foot, arc)), arc, rtol)
 
 
 def splitting(section: TurnSection, arc: HeteroclinicArc, rtol: float = RTOL) -> float:

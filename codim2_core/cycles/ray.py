@@ -7,7 +7,6 @@ import math
 import numpy as np
 
 from ..arrays import Array
-from ..layer_problem.critical import CriticalSet
 from ..layer_problem.problem import LayerProblem
 from .ray_section import HemispherePoint, TurnSection, room
 
@@ -20,12 +19,12 @@ class Ray(TurnSection):
     Parameters
     ----------
     problem : LayerProblem
-    foot : HemispherePoint or CriticalSet
+    foot : HemispherePoint
     u : ndarray (2,)
         Direction, of length 1.
     """
 
-    def __init__(self, problem: LayerProblem, foot: HemispherePoint | CriticalSet, u: Array) -> None:
+    def __init__(self, problem: LayerProblem, foot: HemispherePoint, u: Array) -> None:
         self.problem, self.at, self.psi, self.critical, self.u = problem, problem.at, problem.psi, foot, u
         self.rate = problem.at.speed
         self.reach, self.other = room(foot, u)

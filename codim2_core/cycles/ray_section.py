@@ -68,8 +68,7 @@ class TurnSection:
     """
 
     def __init__(self, problem: LayerProblem, critical: CriticalSet) -> None:
-        self.problem, self.at, self.psi = problem, problem.at, problem.psi
-        self.critical: CriticalSet | HemispherePoint = critical
+        self.problem, self.at, self.psi, self.critical = problem, problem.at, problem.psi, critical
         self.rate = problem.at.speed
         self._rests = np.array([C.p for C in problem.critical])
         self.u = self._direction([C.p - critical.p for C in problem.critical if C is not critical])
