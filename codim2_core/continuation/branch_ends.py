@@ -185,7 +185,7 @@ def loop_end(
     # What cycles of growing periods tend to holds an equilibrium: one on the equator where there is no saddle within.
     coming_down = sunk or (not saddles and turn.height < last.before.height)
     if coming_down and len(problem.equator) and (settled or 0.0 < abs(turn.value - value) < LIMIT_TOLERANCE * width):
-        return through_equator(name, turn, value)
+        return loop_branch_end(name, turn, value)
     pairs = zip(_gaps(saddles, last.states), _gaps(saddles, last.earlier), strict=True)
     near = sum(now < LOOP_DISTANCE and now < before for now, before in pairs)
     if near and settled:
@@ -194,7 +194,7 @@ def loop_end(
     return None
 
 
-def through_equator(name: str, turn: ReturnMapPoint, value: float) -> BranchEnd:
+def loop_branch_end(name: str, turn: ReturnMapPoint, value: float) -> BranchEnd:
     """Name the end at a loop through the equator, which closes at a value."""
     how = "attracting" if turn.exponent < 0.0 else "repelling"
     return _make_end(LOOP_THROUGH_EQUATOR, say("becomes a loop", how=how, name=name, value=value), turn, value)

@@ -37,7 +37,7 @@ from .branch_ends import (
     loop_value,
     singular_end,
     slow_sequence,
-    through_equator,
+    loop_branch_end,
 )
 from .continuation_points import (
     ContinuationPoint,
@@ -406,7 +406,7 @@ class BranchSearch:
             return found
         centre, estimate = piece.tracer.family.centre, last.value if found is None else found.point.value
         value = loop_value(self.problem, centre, last, states.states, estimate, self.width)
-        return found if value is None else through_equator(self.name, last, value)
+        return found if value is None else loop_branch_end(self.name, last, value)
 
     def _known(self, cycle: LimitCycle | KnownCycle, value: float) -> bool:
         """Whether a branch passes a cycle that was seen."""

@@ -35,7 +35,7 @@ REST_SPEED = 3.0  # times the tolerance: a speed at which an orbit has come to r
 
 
 @inlined_fast_kernel
-def _beyond(angle, goal, sense):
+def _excess_angle(angle, goal, sense):
     """By how much an angle is beyond its goal: in one sense, or in either if the sense is 0."""
     return (abs(angle) if sense == 0 else sense * angle) - goal
 
@@ -116,7 +116,7 @@ def first_turns(states, shared, field, centre, goal, sense, floor, sunk, t_max, 
                 finished, code = False, RETURNED
                 if phase[k] == REFINING:
                     tries[k] += 1
-                    g = _beyond(angle[k] + swept, goal[base + k], sense)
+                    g = _excess_angle(angle[k] + swept, goal[base + k], sense)
                     narrow(k, g < 0.0, g, step, low, at_low, high, at_high, side)
                     if abs(g) > 1e-15 and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
                         step[k] = next_length(k, low, at_low, high, at_high)
@@ -130,9 +130,9 @@ def first_turns(states, shared, field, centre, goal, sense, floor, sunk, t_max, 
                     if abs(swept) > MAX_STEP_ANGLE:
                         step[k] *= 0.5
                         continue
-                    beyond = _beyond(angle[k] + swept, goal[base + k], sense)
+                    beyond = _excess_angle(angle[k] + swept, goal[base + k], sense)
                     if beyond >= 0.0:
-                        low[k], at_low[k] = 0.0, _beyond(angle[k], goal[base + k], sense)
+                        low[k], at_low[k] = 0.0, _excess_angle(angle[k], goal[base + k], sense)
                         high[k], at_high[k] = h, beyond
                         step[k] = h * at_low[k] / (at_low[k] - at_high[k])
                         phase[k], tries[k], side[k] = REFINING, 0, 0
