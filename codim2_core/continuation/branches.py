@@ -33,11 +33,11 @@ from .branch_ends import (
     MarkedValue,
     equator_end,
     hopf_end,
+    loop_branch_end,
     loop_end,
     loop_value,
     singular_end,
     slow_sequence,
-    loop_branch_end,
 )
 from .continuation_points import (
     ContinuationPoint,
@@ -61,6 +61,7 @@ CACHE_SIZE = 1024  # problems that are kept
 CENSUS_VALUES = 9  # values at which all cycles are looked for
 NARROW_SHARE, MARGIN_SHARE = 0.25, 0.05  # of the span: a narrower part is searched alone; of the part, around it
 NARROWEST_PART, MOST_BETWEEN = 1e-3, 24  # of the span, between special values; of these parts
+BESIDE_SADDLE_NODE = 1.5e-3  # of the span
 TOLD_DISTANCE = 3e-3  # in (chi, nu), in which lines tell the direction of a branch
 RAY_GAIN = 1.3  # times as well another ray is crossed that is worth taking
 MAX_RAYS = 12  # of one branch
@@ -168,11 +169,21 @@ class BranchSearch:
         return CycleBranches(self.name, (self.low, self.high), branches, reason, tuple(dict.fromkeys(self.notes)))
 
     def _census(self) -> list[float]:
-        """Return the values at which all cycles are looked for: evenly spaced, and one between special values."""
+        """Return the values at which cycles are looked for: evenly spaced, between special values, beside saddle-nodes.
+
+        Loops through a saddle-node of the equator may leave a cycle on a narrow part of the span.
+        """
         even = np.linspace(self.low, self.high, CENSUS_VALUES).tolist()
         special = sorted({self.low, self.high, *(mark.value for mark in self.marked)})
         between = [0.5 * (one + two) for one, two in pairwise(special) if two - one > NARROWEST_PART * self.width]
-        return [v for v in (*even, *between[:MOST_BETWEEN]) if self.bounds[0] <= v <= self.bounds[1]]
+        beside = [
+            mark.value + side * BESIDE_SADDLE_NODE * self.width
+            for mark in self.marked
+            for side in (-1.0, 1.0)
+            if mark.kind == "saddle-node"
+        ]
+        values = (*even, *between[:MOST_BETWEEN], *(v for v in beside if self.low <= v <= self.high))
+        return [v for v in values if self.bounds[0] <= v <= self.bounds[1]]
 
     def _nu(self, value: float) -> float:
         return (value - self.low) / self.width

@@ -9,7 +9,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
-from codim2_core import ELinear, branches, critical_sets, equator_cycle, equator_equilibria, psi, separatrices
+from codim2_core import ELinear, System, branches, critical_sets, equator_cycle, equator_equilibria, psi, separatrices
 from codim2_core.cycles.limit_cycles import limit_cycles
 from codim2_core.layer_problem.vary import vary
 
@@ -234,3 +234,36 @@ def test_a_fold_next_to_a_point_of_the_branch_is_told():
     assert folds[-2:] == pytest.approx([1.260628045, 1.262375516], abs=1e-8)
     for value in (1.2606, 1.2607):
         assert found.count(value) == len(limit_cycles(system.evolve(f1=value), p))
+
+
+@pytest.mark.parametrize("span", [(-1.2, 0.5), (-1.0, -0.7)])
+def test_a_loop_through_the_equator_is_where_its_branches_meet_on_any_span(span):
+    """Extrapolated from the last cycles it was -0.98101151, and another value on another span."""
+    system = ELinear(0.935, -1.058, -0.622, f=(-0.221, 0.957))
+    (branch,) = continue_cycles(system, psi.hill(3), "f1", span)
+    assert branch.end.kind == "heteroclinic cycle through the equator"
+    assert branch.end.value == pytest.approx(-0.9810675678, abs=1e-9)
+
+
+#: U with a parameter p, Psi, the span, and values of p at which cycles were missed.
+MISSED = {
+    "beside a saddle-node of the equator": (
+        "p*c + 0.416*c - 1.717*s - 0.291*c*c + 0.343*c*s - 0.478*s*s - 0.696*c**3",
+        "0.155*c + (0.592 + p/2)*s - 0.024*c*c - 0.302*c*s + 0.755*s*s - 0.408*s**3",
+        psi.tanh(), (-1.5, 1.5), (-0.48122, -0.485),
+    ),
+    "between special values that are close": (
+        "p*c-2.303*s+0.06*c*c+1.226*c**3+1.272*c*s*s+0.831*sin(3*s)",
+        "(0.12+0.5*p)*s+0.03+0.522*c-1.234*c**3+0.207*c*c*s+0.219*c*s*s-0.13*sin(3*s)",
+        psi.rational(), (-1.5, 1.5), (-0.13, -0.07, -0.02),
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("where", MISSED)
+def test_a_branch_on_a_narrow_part_of_a_span_is_seen(where):
+    *U, family, span, values = MISSED[where]
+    system = System(U=U, parameters={"p": 0.0})
+    found = continue_cycles(system, family, "p", span)
+    for p in values:
+        assert found.count(p) == len(limit_cycles(system.evolve(p=p), family))
