@@ -65,7 +65,8 @@ def test_it_runs_alone(which):
 
 def test_the_checker_fails_where_it_proves_nothing():
     """Its critical sets are a line, and so are its limit directions: it exited with 0."""
-    head = {"U": [[[0.0]], [[0.0]]], "psi": ["rational", 0.0], "critical": []}
+    U = [[[0.0, 0.0, 0.0], [0.0, 0.0], [1.0]], [[0.0, 0.0, 0.0], [0.0, 1.0], [0.0]]]  # c^2 and c s
+    head = {"U": U, "psi": ["rational", 0.0], "critical": []}
     run = subprocess.run([sys.executable, "-I", "-O", SOURCE], input=json.dumps(head), capture_output=True, text=True)
     assert run.stdout.splitlines() == [
         f"{name}: not proved" for name in ("limit directions", "critical sets", "limit cycles")
