@@ -102,7 +102,6 @@ def _compile_everything() -> None:
             psi_gain.gains(psi, smooth)
             psi_gain.gains_of_block(psi, smooth)
             psi_gain.one_gain(psi)
-            fields.field_of_each(psi, same=smooth)
     fields.field_of_gain()
     psi_gain.gains_of_blocks()
     warm_all()

@@ -5,22 +5,26 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..continuation.branches import folds_along
-from ..continuation.parameter_family import AffineCoefficients
-from ..continuation.turn_columns import AMPLITUDE, HEIGHT
-from ..cycles.global_section import Section
-from ..layer_problem.critical import critical_sets
+from ..continuation.branches import CACHE_SIZE, BranchSearch
+from ..continuation.continuation_points import ReturnMapPoint
+from ..continuation.section_base import Problems
+from ..cycles.ray_section import TurnSection
+from ..layer_problem.problem import LayerProblem
+from ..numerics.root_between import root_between
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 from ..words import say
 from .curve import Array, BifurcationCurve, SpecialPoint, matrix, plain_point, read_only_lines
 from .equator import coefficients_at, neutral_loop
-from .fold_of_cycles import FoldEquations
+from .fold_of_cycles import LOG_SIZE_SCALE, FoldEquations
 from .geometry import Geometry
 from .trace_curves import hopf
 
@@ -29,6 +33,7 @@ HOPF_END_AMPLITUDE = 0.05  # amplitude below which a branch that breaks off besi
 RAY_STARTS = 0.02, 0.006, 0.06  # of the reach: places on the section beside a generalised Hopf point that are tried
 ON_CURVE_DISTANCE, SAME_POINT_DISTANCE = 0.08, 1e-9  # in A^-1 f: a curve passes; points are one
 CORNER_RADIUS = 0.03  # in A^-1 f: a branch that breaks off this close to a corner ends there
+LINE_SPAN, LINE_VALUES = (0.01, 0.995), 129  # part of a radius of it that is searched; values for Hopf points
 SEED_LINES = 6  # across the disc of critical sets, on which folds are looked for
 TOUCHING = say("fold ends, saddle-node")
 CUSP = say("cusp of cycles")
@@ -85,6 +90,30 @@ def cycle_folds(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> 
     )
 
 
+class _Mark(NamedTuple):
+    """A Hopf point on a line, as `continuation.branch_ends.MarkedValue`."""
+
+    kind: str
+    value: float
+    place: tuple[float, float]
+
+
+def _marks_along(problem: Problems) -> list[_Mark]:
+    """Return the Hopf points along a line on which there is one critical set."""
+
+    def trace(value: float) -> float:
+        return problem(value).critical[0].trace
+
+    values = np.linspace(*LINE_SPAN, LINE_VALUES).tolist()
+    traces = [trace(v) for v in values]
+    found = [
+        root_between(trace, low, high)
+        for (low, one), (high, two) in pairwise(zip(values, traces, strict=True))
+        if (one < 0.0) != (two < 0.0)
+    ]
+    return [_Mark("Hopf", v, tuple(problem(v).critical[0].p.tolist())) for v in found]
+
+
 @dataclass(frozen=True, eq=False)
 class _FoldCurve:
     """A curve over e, and the generalised Hopf points at which it ends."""
@@ -129,35 +158,51 @@ class _FoldCurves:
 
     def from_lines(self) -> None:
         """Begin at the folds on some lines across the disc that no curve has passed."""
-        angles = [math.pi * (k + 0.5) / SEED_LINES for k in range(SEED_LINES)]
-        units = [np.array([math.cos(angle), math.sin(angle)]) for angle in angles]
-        origin = np.array([*self.plane, 0.0, 0.0])
-        lines = [AffineCoefficients(origin, np.array([0.0, 0.0, 0.0, *(-self.A @ unit)]), self.psi) for unit in units]
-        for unit, found in zip(units, folds_along(lines, 0.01, 0.995), strict=True):
-            for ray, turn in found:
+        for k in range(SEED_LINES):
+            angle = math.pi * (k + 0.5) / SEED_LINES
+            unit = np.array([math.cos(angle), math.sin(angle)])
+            for u, turn in self._folds_along(unit):
                 e = turn.value * unit
                 if not any(_passes_cycle(one, sign * e, turn.amplitude) for one in self.found for sign in (1.0, -1.0)):
-                    self._follow(e, turn.xi, ray)
+                    self._follow(e, turn.xi, u)
+
+    def _folds_along(self, unit: Array) -> list[tuple[Array, ReturnMapPoint]]:
+        """Find the folds on all branches of cycles along a radius of the disc, and the rays they are on."""
+
+        @lru_cache(maxsize=CACHE_SIZE)
+        def problem(value: float) -> LayerProblem:
+            return LayerProblem(coefficients_at(*self.plane, -value * self.A @ unit), self.psi)
+
+        search = BranchSearch(problem, "t", LINE_SPAN, LINE_SPAN, _marks_along(problem))
+        search.run()
+        every = [piece for pieces, *_ in search.found for piece in pieces]
+        return [(piece.tracer.family.u, piece.trace.points[k].turn) for piece in every for k in piece.trace.folds]
 
     def _born(self, e: Array) -> set[int]:
         return {k for k, other in enumerate(self.points) if math.dist(e, other) < SAME_POINT_DISTANCE}
 
-    def _follow(self, e: Array, xi: float, ray: int | None = None) -> bool:
+    def _follow(self, e: Array, xi: float, u: Array | None = None) -> bool:
         """Add the curve through a fold beside a place on a ray, for any that was lost on it; whether there is one."""
-        at = coefficients_at(*self.plane, -self.A @ e)
-        folds = FoldEquations(Section(at, self.psi, critical_sets(at, self.psi)[0], ray))
-        found = folds.trace(np.array([folds.x(xi), *e]), self.corners)
+        if u is None:
+            problem = LayerProblem(coefficients_at(*self.plane, -self.A @ e), self.psi)
+            u = TurnSection(problem, problem.critical[0]).u
+        folds = FoldEquations(self.A, self.psi, u)
+        found = folds.trace(np.array([xi / LOG_SIZE_SCALE, *e]), self.corners)
         if found is None or len(found.points) < 3:
             return False
         cusps = folds.cusps(found.points)
         places = np.insert(found.points, [i + 1 for i, _ in cusps], np.reshape([v for _, v in cusps], (-1, 3)), axis=0)
         special = [("cusp of cycles", v[1:], CUSP) for _, v in cusps]
-        numbers = folds.turns(places)
-        seen = numbers[:, AMPLITUDE] > MIN_AMPLITUDE
-        places, numbers, born = places[seen], numbers[seen], set()
-        e, sizes = places[:, 1:], numbers[:, AMPLITUDE]
+        turns = [folds.turn(v) for v in places]
+        seen = [
+            (v, one.turn) for v, one in zip(places, turns, strict=True) if one and one.turn.amplitude > MIN_AMPLITUDE
+        ]
+        if len(seen) < 2:
+            return False
+        places, cycles, born = np.array([v for v, _ in seen]), [cycle for _, cycle in seen], set()
+        e, sizes = places[:, 1:], np.array([cycle.amplitude for cycle in cycles])
         for i, how in ((0, found.ends[0]), (len(places) - 1, found.ends[1])) if not found.closed else ():
-            last, size, told = self._end(places[i, 1:], numbers[i, AMPLITUDE], numbers[i, HEIGHT], how)
+            last, size, told = self._end(places[i, 1:], cycles[i].amplitude, cycles[i].height, how)
             e, sizes = np.insert(e, i and len(e), last, axis=0), np.insert(sizes, i and len(sizes), size)
             special += [told] if told is not None else []
             born |= self._born(last) | self._born(-last)

@@ -19,9 +19,11 @@ from numpy.typing import ArrayLike
 from ..curves.arclength import StepBounds, trace_curve, zero_between
 from ..curves.newton import finite_differences, newton
 from ..curves.polyline import distance
-from ..cycles.heteroclinic_cycle import heteroclinic_cycles, splitting
+from ..cycles.heteroclinic_arcs import HeteroclinicArc, heteroclinic_arcs
+from ..cycles.heteroclinic_cycle import loop_gap
 from ..layer_problem.equator import equator_cycle
 from ..layer_problem.linearisation import determinant_sign
+from ..layer_problem.problem import LayerProblem
 from ..numerics.root_between import root_between
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
@@ -161,9 +163,9 @@ def heteroclinic(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) ->
 
     def gap_function(rtol: float) -> Callable[[Array], float]:
         def miss(e: Array) -> float:
-            coefficients = coefficients_at(a, b, d, -A @ e)
-            arcs = heteroclinic_cycles(coefficients)
-            return math.atan(splitting(coefficients, psi, arcs[0], rtol)) if arcs else math.nan
+            problem = LayerProblem(coefficients_at(a, b, d, -A @ e), psi)
+            arc = _loop_arc(problem)
+            return math.nan if arc is None else math.atan(loop_gap(problem, problem.critical[0], arc, rtol))
 
         return miss
 
@@ -173,12 +175,12 @@ def heteroclinic(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) ->
     values, special = [], []
     for branch in branches:
         e = -np.linalg.solve(A, branch.T).T
-        row = np.array([_ratio(a, b, d, f) for f in branch])
+        row = np.array([_ratio(a, b, d, f, psi) for f in branch])
         good = np.flatnonzero(np.isfinite(row))
         row = np.interp(np.arange(len(row)), good, row[good])
         values.append(row)
         for i in np.flatnonzero((row[1:] > 1.0) != (row[:-1] > 1.0)):
-            at = -A @ zero_between(condition, lambda v: _ratio(a, b, d, -A @ v) - 1.0, e[i], e[i + 1])
+            at = -A @ zero_between(condition, lambda v: _ratio(a, b, d, -A @ v, psi) - 1.0, e[i], e[i + 1])
             text = say("neutral loop")
             special.append(SpecialPoint("resonant loop", plain_point(at), text))
     sentence = say("loop through the equator") if branches else say("no loop")
@@ -209,9 +211,11 @@ def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | No
     A = np.array([[a, -b], [b, d]])
 
     def misses(e: Array) -> Array:
-        coefficients = coefficients_at(a, b, d, -A @ e)
-        arcs = heteroclinic_cycles(coefficients) if float(e @ e) < 1.0 else ()
-        return np.array([splitting(coefficients, psi, arcs[0], FINE_RTOL), math.log(arcs[0].ratio)]) if arcs else FAILED
+        problem = LayerProblem(coefficients_at(a, b, d, -A @ e), psi)
+        arc = _loop_arc(problem) if float(e @ e) < 1.0 else None
+        if arc is None:
+            return FAILED
+        return np.array([loop_gap(problem, problem.critical[0], arc, FINE_RTOL), math.log(arc.ratio)])
 
     def both(e: Array) -> tuple[Array, Array]:
         here = misses(e)
@@ -221,9 +225,16 @@ def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | No
     return None if e is None else np.asarray(-A @ e, float)
 
 
-def _ratio(a: float, b: float, d: float, f: Array) -> float:
-    arcs = heteroclinic_cycles(coefficients_at(a, b, d, f))
-    return arcs[0].ratio if arcs else math.nan
+def _ratio(a: float, b: float, d: float, f: Array, psi: Psi) -> float:
+    arc = _loop_arc(LayerProblem(coefficients_at(a, b, d, f), psi))
+    return math.nan if arc is None else arc.ratio
+
+
+def _loop_arc(problem: LayerProblem) -> HeteroclinicArc | None:
+    """Return the arc of a loop about the critical set, about which orbits turn in the sense of b; None without any."""
+    form, arcs = problem.at.normal_form, heteroclinic_arcs(problem) if problem.critical else ()
+    sense = 1 if form is not None and form.b > 0.0 else -1
+    return next((arc for arc in arcs if arc.sense == sense), None)
 
 
 def _on_border(plane: Geometry, mean: Callable[[Array], float], A: Array) -> Iterator[Array]:

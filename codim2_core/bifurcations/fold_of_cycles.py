@@ -1,7 +1,7 @@
 """Folds of limit cycles over e = -A^-1 f: where the return map has a double fixed point.
 
-A place is v = (x, e), x one on the section's ray, where x and its xi are zero together. A fold closes, and its exponent
-is zero. In e everything is of size 1, however narrow the ellipse |A^-1 f| = 1 is.
+A place is v = (x, e), x one on a ray from C, its xi over `LOG_SIZE_SCALE`. A fold closes, and its exponent is zero.
+In e everything is of size 1, however narrow the ellipse |A^-1 f| = 1 is.
 """
 
 from __future__ import annotations
@@ -12,18 +12,21 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..continuation.turn_columns import BY_XI, EXPONENT, PARAMETERS, SHIFT
-from ..continuation.turns import integrate_turns
+from ..continuation.section_base import hemisphere_place
+from ..continuation.turns import TurnOrbit, difference, turn
 from ..curves.arclength import CurveEdge, StepBounds, TracedLine, point_across, trace_curve, zero_between
 from ..curves.newton import newton
-from ..cycles.global_section import Section
-from ..cycles.section_batch.sections import Sections
+from ..cycles.ray import Ray
+from ..layer_problem.problem import LayerProblem
+from ..psi.function import Psi
 from .curve import Array
+from .equator import coefficients_at
 
-LOG_SIZE_SCALE = 20.0  # d xi/d x within: what is seen of a fold is not wider in x than in e
+LOG_SIZE_SCALE = 20.0  # xi of x: what is seen of a fold is not wider in x than in e
 STEP_BOUNDS = StepBounds(0.08, 0.4, 120, close=1e-9, enough=1e-7, least=3e-5)
-MIN_LOG_SIZE, MAX_LOG_SIZE = math.log(6e-3) / LOG_SIZE_SCALE, 1.2  # x at which cycles have come to C, to the equator,
-MAX_ZETA = 100.0  # where zeta is this
+# x at which cycles have come to C, and to the equator
+MIN_LOG_SIZE, MAX_LOG_SIZE = math.log(6e-3) / LOG_SIZE_SCALE, 9.0 / LOG_SIZE_SCALE
+PARAMETER_STEP = 1e-6  # of the distance of e from the unit circle, for derivatives of the shift
 CORNER_DISTANCE = 3e-3  # in e: a curve need not be followed closer to a corner
 DIFFERENCE_STEPS = np.diag(
     [1e-5, 1e-8, 1e-8]
@@ -35,53 +38,57 @@ MAX_XI = 690.0
 
 
 class FoldEquations:
-    """Turns on one ray for one a, b, d and Psi, at all f.
+    """Turns on one ray from C for one matrix and Psi, at all f.
 
     Parameters
     ----------
-    section : Section
-        At one f: that at another is on the ray of the same signs.
+    A : ndarray (2, 2)
+        In the normal form.
+    psi : Psi
+    u : ndarray (2,)
+        Direction of the ray.
     """
 
-    def __init__(self, section: Section) -> None:
-        self.section, self.A = section, section.matrix
-        outer = min(float(section.xi_at_radius(np.array([MAX_ZETA]))[0]), MAX_XI)
-        self.widening = max(outer - LOG_SIZE_SCALE * MAX_LOG_SIZE, 0.0) / MAX_LOG_SIZE**2
+    def __init__(self, A: Array, psi: Psi, u: Array) -> None:
+        self.A, self.psi, self.u = A, psi, u
 
-    def x(self, xi: float) -> float:
-        """Return x of a place on the ray."""
-        w = 4.0 * self.widening * max(xi, 0.0) / LOG_SIZE_SCALE**2
-        return 2.0 * xi / (LOG_SIZE_SCALE * (1.0 + math.sqrt(1.0 + w)))
+    def problem(self, e: Array) -> LayerProblem:
+        """Return the layer problem whose critical set has (c, s) = e."""
+        (a, _), (b, d) = self.A.tolist()
+        return LayerProblem(coefficients_at(a, b, d, -self.A @ e), self.psi)
 
-    def turns(self, places: Array) -> Array:
-        """Measure turns from places (k, 3), in `continuation.turn_columns`; NaN where one does not return."""
-        out = np.full((len(places), PARAMETERS + 4), math.nan)
-        xi = (LOG_SIZE_SCALE + self.widening * np.maximum(places[:, 0], 0.0)) * places[:, 0]
-        complement = 1.0 - (places[:, 1:] ** 2).sum(axis=1)
-        there = np.flatnonzero((complement > 0.0) & (np.abs(xi) < MAX_XI))
-        if len(there):
-            e, n = places[there, 1:], len(there)
-            planes = np.column_stack([np.tile(self.section.plane[:3], (n, 1)), -e @ self.A.T])
-            changes = np.zeros((2, n, 5))
-            changes[:, :, 3:] = -self.A.T[:, None]
-            sections = Sections(planes, e, complement[there], self.section.psi, None, np.full(n, self.section.ray))
-            found = integrate_turns(sections, xi[there], np.zeros(n, bool), changes)
-            out[there[found.rows]] = found.numbers
-        return out
+    def turn(self, v: Array) -> TurnOrbit | None:
+        """Follow the turn from a place (3,); None where it does not return."""
+        xi, e = LOG_SIZE_SCALE * float(v[0]), v[1:]
+        if not (e @ e < 1.0 and abs(xi) < MAX_XI):
+            return None
+        foot, beside = hemisphere_place(self.psi, e), []
+        h = PARAMETER_STEP * (1.0 - math.hypot(*e))
+        for way in h * np.eye(2):
+            ends = self.problem(e - way), self.problem(e + way)
+            feet = hemisphere_place(self.psi, e - way), hemisphere_place(self.psi, e + way)
+            beside.append(difference(ends, feet, 2.0 * h, self.u))
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            return turn(Ray(self.problem(e), foot, self.u), xi, math.nan, beside, foot, backward=False)
+
+    def exponent(self, v: Array) -> float:
+        """Return the exponent of a turn; NaN where it does not return."""
+        found = self.turn(v)
+        return math.nan if found is None else found.turn.exponent
 
     def condition(self, v: Array) -> tuple[Array, Array]:
         """Return shift and exponent, both zero on a fold, with derivatives that tell the way."""
-        numbers = self.turns(v + np.vstack([np.zeros(3), DIFFERENCE_STEPS]))
-        here, exponent = numbers[0], numbers[:, EXPONENT]
-        by_x = (LOG_SIZE_SCALE + 2.0 * self.widening * max(v[0], 0.0)) * here[BY_XI]
-        by_v = np.concatenate([[by_x], here[PARAMETERS : PARAMETERS + 2]])
-        return here[[SHIFT, EXPONENT]], np.stack([by_v, (exponent[1:] - exponent[0]) / np.diag(DIFFERENCE_STEPS)])
+        found = self.turn(v)
+        if found is None:
+            return np.full(2, math.nan), np.full((2, 3), math.nan)
+        here = np.array([found.turn.shift, found.turn.exponent])
+        by_v = np.array([LOG_SIZE_SCALE * found.turn.by_xi, *found.by_values])
+        rise = [(self.exponent(v + way) - here[1]) / way.sum() for way in DIFFERENCE_STEPS]
+        return here, np.stack([by_v, np.array(rise)])
 
-    def bends(self, places: Array) -> Array:
-        """Second derivatives of the return map, up to a factor: zero at a cusp, where three cycles are one."""
-        beside = np.concatenate([places + DIFFERENCE_STEPS[0], places - DIFFERENCE_STEPS[0]])
-        after, before = self.turns(beside)[:, EXPONENT].reshape(2, -1)
-        return after - before
+    def bend(self, v: Array) -> float:
+        """Second derivative of the return map, up to a factor: zero at a cusp, where three cycles are one."""
+        return self.exponent(v + DIFFERENCE_STEPS[0]) - self.exponent(v - DIFFERENCE_STEPS[0])
 
     def trace(self, start: Array, corners: Sequence[Array]) -> TracedLine | None:
         """Trace the curve through a fold beside a place (3,), up to corners (2,) in e; None if there is none."""
@@ -95,21 +102,18 @@ class FoldEquations:
 
         Where one step has passed two of them, it has led back in e.
         """
-        bends = self.bends(points)
+        bends = np.array([self.bend(v) for v in points])
         sure = np.flatnonzero(np.abs(bends) > MIN_EXPONENT_CHANGE)
         rows, signs, steps, found = sure.tolist(), bends[sure] < 0.0, np.diff(points[sure, 1:], axis=0), []
         for k, (i, j) in enumerate(pairwise(rows)):
             part = [(points[i], signs[k]), (points[j], signs[k + 1])]
             if 0 < k < len(steps) - 1 and max(steps[k] @ steps[k - 1], steps[k] @ steps[k + 1]) < 0.0:
                 middle = newton(self.condition, 0.5 * (points[i] + points[j]), MAX_SEED_ERROR)
-                part[1:1] = [] if middle is None else [(middle, self._bend(middle) < 0.0)]
+                part[1:1] = [] if middle is None else [(middle, self.bend(middle) < 0.0)]
             for (here, before), (there, after) in pairwise(part):
                 if before != after:
-                    found.append((i, zero_between(self.condition, self._bend, here, there, CUSP_TOLERANCE)))
+                    found.append((i, zero_between(self.condition, self.bend, here, there, CUSP_TOLERANCE)))
         return found
-
-    def _bend(self, v: Array) -> float:
-        return float(self.bends(v[None])[0])
 
 
 def _corner_edges(corners: Sequence[Array]) -> list[CurveEdge]:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..words import say
+from .continuation_points import ReturnMapPoint
 from .result import CycleBranch, CyclePoint
-from .turns import ReturnMapPoint
 
 #: Of one point: value, period, amplitude, exponent, and where the cycle crosses its section.
 PointRow = tuple[float, float, float, float, float, float]

@@ -1,364 +1,470 @@
-"""Branches of limit cycles along one parameter: from where they are born, through folds, to where they end.
+"""Branches of limit cycles along one parameter, from where they are born or seen to where they end.
 
-A cycle is a fixed point of the return map of `cycles`; `turns` has its derivatives and
-`corrector` follows it. Branches are begun at every Hopf point and at every end on the equator
-(`branch_ends`), and at every cycle that is seen at one of several values and that no branch has yet passed: so
-closed branches between two folds are found too.
+They are begun at the Hopf points of the equilibria, and at every cycle that is seen at one of several values and
+that no branch has passed. Each is followed on a ray (`turns`) as long as cycles cross it well; then on another.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
-from functools import partial
-from itertools import chain
-from typing import cast
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..cycles.fixed_point_search import find_fixed_points, sample_return_map, search
-from ..cycles.limit_cycles import reason_for_none
-from ..layer_problem.critical import critical_sets
+from ..arrays import Array
+from ..cycles.limit_cycles import LimitCycle, closed_orbits, excluding_theorem
+from ..cycles.ray import best_crossing
+from ..cycles.ray_section import HemispherePoint, TurnSection, room
+from ..layer_problem.problem import LayerProblem
 from ..layer_problem.vary import limits, vary
 from ..psi.function import Psi
-from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..words import say
 from .branch_arrays import PointRow, build_branch, point_row
-from .branch_ends import BranchEnd, at_equator, at_singular, equator_ends, hopf_ends, loop_ends, values
-from .continuation_points import ContinuationPoints, TurnGuess, points_at_value, reversed_trace
-from .corrector import BranchTracer
-from .existence_interval import admissible_interval
-from .lockstep_searches import run_batched
-from .parameter_family import AffineCoefficients, ParameterFamily, TurnRoutine, reversible, run_batch, side_by_side
-from .predictor_corrector import BAND_HEIGHT, all_traced, trace_branch
+from .branch_ends import (
+    LOOP_THROUGH_EQUATOR,
+    PERIOD_GROWTH,
+    BranchEnd,
+    LastCycles,
+    MarkedValue,
+    equator_end,
+    hopf_end,
+    loop_branch_end,
+    loop_end,
+    loop_value,
+    singular_end,
+    slow_sequence,
+)
+from .continuation_points import (
+    ContinuationPoint,
+    ContinuationPoints,
+    ReturnMapPoint,
+    TurnGuess,
+    points_at_value,
+    reversed_trace,
+)
+from .corrector import BranchTracer, distance
+from .homoclinic_detection import line_of, split_at_homoclinic
+from .known_cycles import KnownCycle, distance_along_ray, is_same_cycle
+from .lockstep_searches import run_turns
+from .predictor_corrector import BAND_HEIGHT, trace_branch
 from .result import CycleBranch, CycleBranches, CyclePoint
-from .turns import ReturnMapPoint
+from .section_base import Problems, SectionBase, e_at
+from .turns import VariedRay
 
-__all__ = ["CycleBranch", "CycleBranches", "CyclePoint", "continue_cycles"]
-
-START_SHARE = 1e-3  # of the reach: where branches start at C
-# |x2| where they start at the equator: where 1 - |e|^2 comes to the second of these, as folds may lie far out
-START_HEIGHTS, MIN_HEIGHT_SQUARED = np.array([5.0, 10.0, 20.0, 50.0, 100.0, 300.0, 1000.0, 3000.0]), 1e-24
-PLANE = ("a", "b", "d", "f1", "f2")
+START_SHARES, START_HEIGHT = (1e-3, 1e-4), 0.05  # of the reach: where branches start at a set; ebar, at the equator
+CACHE_SIZE = 1024  # problems that are kept
 CENSUS_VALUES = 9  # values at which all cycles are looked for
+NARROW_SHARE, MARGIN_SHARE = 0.25, 0.05  # of the span: a narrower part is searched alone; of the part, around it
+NARROWEST_PART, MOST_BETWEEN = 1e-3, 24  # of the span, between special values; of these parts
+BESIDE_SADDLE_NODE = 1.5e-3  # of the span
+TOLD_DISTANCE = 3e-3  # in (chi, nu), in which lines tell the direction of a branch
+RAY_GAIN = 1.3  # times as well another ray is crossed that is worth taking
+MAX_RAYS = 12  # of one branch
+BAND_SPREAD = 0.5  # by which ebar differs between the cycles of a band
+SAME_VALUE_SHARE = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
+LOW_SHARE, ROUNDING_OF_HEIGHT = 3.0, 1e-7  # times the height of the last cycle; ebar that p tells
+ROUNDING_HEIGHT = 1e-12  # ebar of a turn of which nothing but rounding is left
+COMPARED_POINTS, CANDIDATE_POINTS = (
+    3,
+    12,
+)  # points before the last one: with those before it is compared, among these it is chosen
 
-#: A branch: its points, its start and end, and what these are if they are no cycles.
-Entry = tuple[ContinuationPoints, CyclePoint, CyclePoint, BranchEnd | None, BranchEnd | None]
 
-AVOIDED_DISTANCE, SAME_CHI = (
-    0.1,
-    1e-6,
-)  # distances in chi: a branch does not pass near a cycle; a cycle is that of the branch
+@dataclass(frozen=True)
+class RayPiece:
+    """A part of a branch that was followed on one ray."""
+
+    tracer: BranchTracer
+    trace: ContinuationPoints
 
 
 def continue_cycles(
-    system: AnySystem, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike = (), axes: float = 0.0
+    system: AnySystem, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike, marked: Sequence[MarkedValue]
 ) -> CycleBranches:
     """Continue the limit cycles of the layer problem eq:LP along one parameter (sec:case3).
 
-    Branches are begun at Hopf points, at ends on the equator and at the cycles seen at some values: one that begins at
-    none of these and lies between those values is not seen.
-
     Parameters
     ----------
-    system : ELinear, or Coefficients
+    system : ELinear or System, or either frozen at a z
     psi : Psi
     name : str
-        What varies: a, b, d, f1, f2, a parameter of the system, z1, z2, ..., or n of a Hill Psi:
-        see `layer_problem.vary.names`.
     span : (low, high)
     z : (m,) floats
-    axes : float
-        Of an `ELinear.from_matrix`: of its rotations into the normal form, by angles half a turn apart, the one by the
-        angle nearest to this is taken, and places are told in these axes. By `rotation` itself if it is left out.
+    marked : sequence of MarkedValue
+        The special values of the equilibria on the span.
 
     Returns
     -------
     CycleBranches
-
-    Raises
-    ------
-    ValueError
-        The span is not an interval, nothing variable has this name, a value is not allowed, or the system is not
-        e-linear.
     """
-    try:
-        low, high = (float(v) for v in span)
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"span is {span!r}; give two numbers (low, high).") from error
-    if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise ValueError(f"span is {span!r}; give finite numbers low < high.")
 
-    if system.typed is not None or psi.saturation < math.inf:
-        raise ValueError("continue_cycles is for e-linear systems and Psi > 0 (R3); branches continues the others.")
-    straight = None
-    if name in PLANE and name in system.variable and not getattr(system, "given_matrix", None):
-        # nothing else varies: coefficients are checked and evaluated once
-        system, z = (coefficients := cast("Coefficients", system.at(z))), ()
-        slope = np.eye(len(PLANE))[PLANE.index(name)]
-        straight = AffineCoefficients((1.0 - slope) * coefficients.plane, slope, psi)
-    elif name not in system.variable and psi.record.parameter is not None and name == psi.record.parameter.name:
-        system, z = cast("Coefficients", system.at(z)), ()  # only Psi varies
-
-    def inside(value: float) -> tuple[Coefficients, Psi]:
+    @lru_cache(maxsize=CACHE_SIZE)
+    def problem(value: float) -> LayerProblem:
         changed, family_psi, place = vary(system, psi, z, name, value)
-        return changed.at(place).by_rotation_near(axes), family_psi
+        return LayerProblem(changed.at(place), family_psi)
 
-    def at(value: float) -> tuple[Coefficients, Psi]:
-        try:
-            return inside(value)
-        except ValueError:
-            if low <= value <= high:
-                raise
-            return inside(min(max(value, low), high))  # a look beyond the span, where the system ends
-
-    for value in (low, high):
-        at(value)
-    bounds = limits(system, psi, name)
-    part = admissible_interval(ParameterFamily(at, high - low, bounds, straight), low, high)
-    family = ParameterFamily(at, part[1] - part[0], bounds, straight)
-    allowed = family.allowed(values(*part))
-    if all(reversible(at(v)[0]) for v in allowed):
-        settings = (at(float(v)) for v in values(low, high))
-        reasons = dict.fromkeys(reason_for_none(q, critical_sets(q, member)) for q, member in settings)
-        sentence = f" {say('elsewhere')} ".join(r for r in reasons if r)
-        return CycleBranches(name, (low, high), (), sentence or say("no cycle on the span"))
-    middle = allowed[len(allowed) // 2]
-    family.ray = family.section(middle).ray
-    (found,) = run_batched([_BranchSearch(family, name, part, (low, high)).run()], run_batch)
-    return found
+    part = searched_part(problem, span, marked)
+    return replace(BranchSearch(problem, name, part, limits(system, psi, name), marked).run(), span=span)
 
 
-def folds_along(lines: Sequence[AffineCoefficients], low: float, high: float) -> list[list[tuple[int, ReturnMapPoint]]]:
-    """Find the folds on all branches of cycles along each of several lines.
-
-    Parameters
-    ----------
-    lines : sequence of AffineCoefficients
-    low, high : float
-
-    Returns
-    -------
-    list of list of (int, Turn)
-        The ray of each section, and the turn.
-    """
-    searches = []
-    for line in lines:
-        family = ParameterFamily(partial(_system_on, line), high - low, straight=line)
-        allowed = family.allowed(values(low, high))
-        if not all(reversible(family.at(v)[0]) for v in allowed):
-            family.ray = family.section(allowed[len(allowed) // 2]).ray
-            searches.append(_BranchSearch(family, "t", (low, high), (low, high)))
-        else:
-            searches.append(None)
-    run_batched([search.run() for search in searches if search is not None], run_batch)
-    return [
-        []
-        if search is None
-        else [(cast("int", search.family.ray), trace.points[i].turn) for trace, *_ in search.found for i in trace.folds]
-        for search in searches
-    ]
+def searched_part(problem: Problems, span: tuple[float, float], marked: Sequence[MarkedValue]) -> tuple[float, float]:
+    """Return the part of a span on which there may be cycles, if it is a narrow one: else the whole span."""
+    low, high = span
+    edges = sorted({low, high, *(mark.value for mark in marked if low < mark.value < high)})
+    inside = [(one, two) for one, two in pairwise(edges) if _may_have_cycles(problem(0.5 * (one + two)))]
+    if not inside or inside[-1][1] - inside[0][0] > NARROW_SHARE * (high - low):
+        return span
+    margin = MARGIN_SHARE * (inside[-1][1] - inside[0][0])
+    return max(low, inside[0][0] - margin), min(high, inside[-1][1] + margin)
 
 
-def _system_on(line: AffineCoefficients, value: float) -> tuple[Coefficients, Psi]:
-    a, b, d, f1, f2 = (line.origin + value * line.slope).tolist()
-    return Coefficients(a, b, d, f1, f2, np.zeros((0, 2)), np.zeros(0)), line.psi
+def _may_have_cycles(problem: LayerProblem) -> bool:
+    """Whether there is a critical set that a cycle may surround, and no theorem that forbids it."""
+    return any(C.kind != "saddle" for C in problem.critical) and excluding_theorem(problem) is None
 
 
-class _BranchSearch:
+class BranchSearch:
     """One call of `continue_cycles`."""
 
     def __init__(
-        self, family: ParameterFamily, name: str, part: tuple[float, float], span: tuple[float, float]
+        self,
+        problem: Problems,
+        name: str,
+        span: tuple[float, float],
+        bounds: tuple[float, float],
+        marked: Sequence[MarkedValue],
     ) -> None:
-        self.family, self.name, self.span = family, name, span
-        low, high = self.low, self.high = part
-        self.tracer = BranchTracer(family, low, high)
-        self.hopf = hopf_ends(family, low, high)
-        self.closed = equator_ends(family, low, high)
-        self.loops = loop_ends(family, low, high)
+        self.problem, self.name, self.bounds, self.marked = problem, name, bounds, marked
+        self.low, self.high = span
+        self.width = self.high - self.low
+        self.hopf = [m for m in marked if m.kind == "Hopf"]
         self.used: set[int] = set()
-        self.found: list[Entry] = []
-        centres = {end.value for end in self.hopf if reversible(family.at(end.value)[0])}
-        self.notes = [say("band at one value", name=name, value=v) for v in sorted(centres)]
-        self.hopf = [end for end in self.hopf if end.value not in centres]
-        self.closed = [end for end in self.closed if not reversible(family.at(end.value)[0])]
+        self.found: list[tuple[list[RayPiece], BranchEnd, BranchEnd]] = []
+        self.notes: list[str] = []
 
-    def run(self) -> TurnRoutine[CycleBranches]:
-        yield from self._from_ends()
-        yield from self._columns()
-        branches = tuple(self._branch(*entry) for entry in self.found)
-        missed = [e for e in self.loops if id(e) not in self.used]
-        self.notes += [say("loop without a cycle", name=self.name, value=e.value) for e in missed]
+    def run(self) -> CycleBranches:
+        """Find all branches."""
+        for mark in self.hopf:
+            if id(mark) not in self.used:
+                self._from_hopf(mark)
+        for mark in self.marked:
+            if mark.kind == "neutral equator" and id(mark) not in self.used:
+                self._from_equator(mark)
+        for value in self._census():
+            for cycle in self._seen(value):
+                if not self._known(cycle, value):
+                    self._from_cycle(cycle, value)
+        branches = tuple(self._branch(*one) for one in self.found)
+        span = {"name": self.name, "low": self.low, "high": self.high}
         kind = "no branch" if not branches else "one branch" if len(branches) == 1 else "branches"
-        span = {"name": self.name, "low": self.span[0], "high": self.span[1]}
         reason = say(kind, **span, count=len(branches) or CENSUS_VALUES)
-        return CycleBranches(self.name, self.span, branches, reason, tuple(self.notes))
+        theorems = [] if branches else [excluding_theorem(self.problem(v)) for v in self._census()]
+        if theorems and None not in theorems:
+            reason = f" {say('elsewhere')} ".join(dict.fromkeys(one for one in theorems if one))
+        return CycleBranches(self.name, (self.low, self.high), branches, reason, tuple(dict.fromkeys(self.notes)))
+
+    def _census(self) -> list[float]:
+        """Return the values at which cycles are looked for: evenly spaced, between special values, beside saddle-nodes.
+
+        Loops through a saddle-node of the equator may leave a cycle on a narrow part of the span.
+        """
+        even = np.linspace(self.low, self.high, CENSUS_VALUES).tolist()
+        special = sorted({self.low, self.high, *(mark.value for mark in self.marked)})
+        between = [0.5 * (one + two) for one, two in pairwise(special) if two - one > NARROWEST_PART * self.width]
+        beside = [
+            mark.value + side * BESIDE_SADDLE_NODE * self.width
+            for mark in self.marked
+            for side in (-1.0, 1.0)
+            if mark.kind == "saddle-node"
+        ]
+        values = (*even, *between[:MOST_BETWEEN], *(v for v in beside if self.low <= v <= self.high))
+        return [v for v in values if self.bounds[0] <= v <= self.bounds[1]]
 
     def _nu(self, value: float) -> float:
-        return (value - self.low) / (self.high - self.low)
+        return (value - self.low) / self.width
 
-    def _from_ends(self) -> TurnRoutine[None]:
-        """Begin where cycles are smallest or largest, at all such ends side by side."""
-        ends = [*self.hopf, *self.closed]
-        towards = [1.0 if end.kind == "Hopf" else -1.0 for end in ends]
-        firsts = yield from side_by_side([self._first(e, t) for e, t in zip(ends, towards, strict=True)])
-        caught = [i for i, first in enumerate(firsts) if first is not None and -1e-12 <= first[1] <= 1.0 + 1e-12]
-        starts = [
-            self.tracer.point(*cast("tuple[ReturnMapPoint, float]", firsts[i]), (towards[i], 0.0)) for i in caught
+    def _tracer(self, foot: SectionBase, centre: SectionBase, u: Array) -> BranchTracer:
+        return BranchTracer(VariedRay(self.problem, self.width, self.bounds, foot, centre, u), self.low, self.high)
+
+    def _from_hopf(self, mark: MarkedValue) -> None:
+        """Begin where the cycle is smallest; the parameter is then what is solved for."""
+        self.used.add(id(mark))
+        critical = self.problem(mark.value).critical
+        C = min(critical, key=lambda C: math.dist(C.p, mark.place), default=None)
+        if C is None or C.determinant <= 0.0:
+            return
+        foot = SectionBase(self.problem, mark.value, C.e)
+        tracer = self._tracer(foot, foot, TurnSection(self.problem(mark.value), C).u)
+        first = None
+        for share in START_SHARES:
+            guess = TurnGuess(math.log(share), self._nu(mark.value), (1.0, 0.0), backward=False)
+            first = first or run_turns(tracer.corrected(guess))
+        if first is None:
+            self.notes.append(say("birth not caught", kind="Hopf", name=self.name, value=mark.value))
+        elif -1e-12 <= first[1] <= 1.0 + 1e-12:
+            start = hopf_end(self.name, mark.value, self.problem(mark.value), mark.place, first[0].exponent)
+            self._keep(self._followed(tracer, tracer.point(*first, (1.0, 0.0))), start)
+
+    def _from_equator(self, mark: MarkedValue) -> None:
+        """Begin where the cycle is largest, all but the closed equator."""
+        critical = [C for C in self.problem(mark.value).critical if C.kind != "saddle"]
+        for C in critical[:1]:
+            foot = SectionBase(self.problem, mark.value, C.e)
+            u = TurnSection(self.problem(mark.value), C).u
+            reach, other = room(foot.place(mark.value), u)
+            xi = math.log(reach * (reach + other)) - 2.0 * math.log(START_HEIGHT)
+            tracer = self._tracer(foot, foot, u)
+            for guess in (TurnGuess(xi, self._nu(mark.value), (1.0, 0.0), backward) for backward in (False, True)):
+                first = run_turns(tracer.corrected(guess))
+                if first is None or not 0.0 <= first[1] <= 1.0:
+                    continue
+                start = equator_end(self.name, first[0], self.marked, self.width, foot)
+                if start is not None and start.point.value == mark.value:  # a cycle of another branch may be met
+                    self._keep(self._followed(tracer, tracer.point(*first, (-1.0, 0.0))), start)
+                    return
+        self.notes.append(say("birth not caught", kind="equator", name=self.name, value=mark.value))
+
+    def _seen(self, value: float) -> Sequence[LimitCycle]:
+        return closed_orbits(self.problem(value)).cycles
+
+    def _from_cycle(self, cycle: LimitCycle, value: float) -> None:
+        """Begin at a cycle that was seen."""
+        inside = self._feet(value, cycle.points)
+        begun = self._on(value, cycle.points, inside, inside[0], cycle.multiplier > 1.0, (0.0, 1.0))
+        if begun is None:
+            self.notes.append(say("cycle not continued", name=self.name, value=value))
+            return
+        tracer, first = begun
+        point = tracer.point(*first, (1.0, 0.0))
+        onward = self._followed(tracer, point)
+        if self._is_known(onward):  # which was not seen next to a fold
+            return
+        if onward[-1].trace.reason == "closed":
+            t = point.turn
+            end = BranchEnd(CyclePoint("closed", t.value, t.period, t.amplitude, say("branch closed")))
+            self.found.append((onward, end, end))
+            return
+        turned = tracer.point(*first, (-point.tangent[0], -point.tangent[1]))
+        back = self._followed(tracer, turned)
+        start = self._end(back)
+        self._keep([*(_reverse_piece(piece) for piece in reversed(back)), *onward], start)
+
+    def _feet(self, value: float, points: Array) -> list[SectionBase]:
+        """Find points inside a cycle: critical sets that are no saddles, others, and its middle."""
+        sets = sorted(self.problem(value).critical, key=lambda C: C.kind == "saddle")
+        feet = [
+            SectionBase(self.problem, value, C.e)
+            for C in sets
+            if best_crossing(points, HemispherePoint(C.p, C.x2))[0] > -1.0
         ]
-        followed = yield from all_traced(self.tracer, starts)
-        traces = dict(zip(caught, followed, strict=True))
-        for i, end in enumerate(ends):
-            if id(end) in self.used:
-                continue
-            self.used.add(id(end))
-            if found := traces.get(i):
-                trace, other = found
-                if other is None:
-                    self._keep(trace, self._special(end), end)
-                else:
-                    last = ends[caught[other]]
-                    self.used.add(id(last))
-                    self.found.append((trace, self._special(end), self._special(last), end, last))
-            elif firsts[i] is None:
-                self.notes.append(say("birth not caught", kind=end.kind, name=self.name, value=end.value))
+        middle = points[:-1].mean(axis=0)
+        x2 = middle / math.sqrt(1.0 - float(middle @ middle))
+        return [*feet, SectionBase(self.problem, value, e_at(self.problem(value).psi, x2), critical=False)]
 
-    def _first(self, end: BranchEnd, towards: float) -> TurnRoutine[tuple[ReturnMapPoint, float] | None]:
-        """Find the first cycle of a branch: the parameter is what is solved for."""
-        xi, first = math.log(START_SHARE), None
-        if end.kind != "Hopf":
-            section = self.family.section(end.value)
-            outside = int((section.psi.complement(START_HEIGHTS) > MIN_HEIGHT_SQUARED).sum())
-            xi = float(section.xi_at_radius(START_HEIGHTS[[min(outside, len(START_HEIGHTS) - 1)]])[0])
-        for start in (xi, xi - 0.4 * towards * abs(xi)):
-            first = first or (
-                yield from self.tracer.corrected(TurnGuess(start, self._nu(end.value), (1.0, 0.0), backward=False))
-            )
-        return first
+    def _on(
+        self,
+        value: float,
+        points: Array,
+        feet: Sequence[SectionBase],
+        centre: SectionBase,
+        backward: bool,
+        along: tuple[float, float],
+    ) -> tuple[BranchTracer, tuple[ReturnMapPoint, float]] | None:
+        """Find a cycle, known as a line, on the ray that it crosses best."""
+        crossed = [(*best_crossing(points, foot.place(value)), foot) for foot in feet]
+        for quality, index, foot in sorted(crossed, key=lambda one: -one[0]):
+            if quality <= 0.0:
+                break
+            place = foot.place(value)
+            away = points[index] - place.p
+            r = math.hypot(*away)
+            tracer = self._tracer(foot, centre, away / r)
+            reach, _ = room(place, away / r)
+            guess = TurnGuess(math.log(r / max(reach - r, 1e-300)), self._nu(value), along, backward)
+            first = run_turns(tracer.corrected(guess))
+            if first is not None:
+                return tracer, first
+        return None
 
-    def _columns(self) -> TurnRoutine[None]:
-        """Begin at each cycle that no branch has passed."""
-        guesses = [guess for value in values(self.low, self.high, CENSUS_VALUES) for guess in self._unexplained(value)]
-        corrected = yield from side_by_side([self.tracer.corrected(guess) for guess in guesses])
-        firsts, passed = [first for first in corrected if first is not None], len(self.found)
-        known = yield from side_by_side([self._known(first, self.found) for first in firsts])
-        for first, old in zip(firsts, known, strict=True):
-            if old or (yield from self._known(first, self.found[passed:])):
-                continue
-            point = self.tracer.point(*first, (1.0, 0.0))
-            trace = yield from trace_branch(self.tracer, point)
-            if trace.reason == "closed":
-                special = CyclePoint(
-                    "closed", point.turn.value, point.turn.period, point.turn.amplitude, say("branch closed")
-                )
-                self.found.append((trace, special, special, None, None))
-                continue
-            turned = (-point.tangent[0], -point.tangent[1])
-            other = yield from trace_branch(self.tracer, self.tracer.point(*first, turned))
-            start, end = self._end(other)
-            back = reversed_trace(other)
-            joined = ContinuationPoints(
-                back.points[:-1] + trace.points,
-                back.folds + tuple(i + len(back.points) - 1 for i in trace.folds),
-                trace.reason,
-            )
-            self._keep(joined, start, end)
+    def _followed(self, tracer: BranchTracer, point: ContinuationPoint) -> list[RayPiece]:
+        """Follow a branch to its end, on as many rays as it takes."""
+        pieces: list[RayPiece] = []
+        for _ in range(MAX_RAYS):
+            trace = run_turns(trace_branch(tracer, point))
+            if pieces and len(trace.points) == 1:  # no further than the ray before
+                break
+            pieces.append(RayPiece(tracer, trace))
+            if trace.reason != "stuck" or len(trace.points) < 3 or self._at_loop(trace):
+                break
+            again = self._again(tracer, trace)
+            if again is None:
+                break
+            tracer, point = again
+        return pieces
 
-    def _unexplained(self, value: float) -> list[TurnGuess]:
-        """Guess the cycles at a value, if there are others than those of the branches."""
-        if not self.family.allows(value):
-            return []
-        problem = self.family.problem(value)
-        if reason_for_none(self.family.at(value)[0], problem.critical, problem.location) is not None:
-            return []
-        samples, nu = sample_return_map(self.family.section(value)), self._nu(value)
-        expected = sorted(
-            guess.xi for trace, *_ in self.found for _, guess in points_at_value(trace, nu, self.tracer.width)
+    def _at_loop(self, trace: ContinuationPoints) -> bool:
+        """Whether the last cycles differ in their periods, but no longer in their values: another ray shows no more."""
+        last = [point.turn for point in trace.points[-CANDIDATE_POINTS:]]
+        slow, quick = (choose(last, key=lambda turn: turn.period) for choose in (max, min))
+        return (
+            slow.period > PERIOD_GROWTH * quick.period and abs(slow.value - quick.value) < SAME_VALUE_SHARE * self.width
         )
-        places = [(samples.xi[i], samples.xi[j]) for i, j in samples.changes]
-        explained = samples.certain == len(expected) and all(
-            low < xi < high for xi, (low, high) in zip(expected, places, strict=False)
-        )
-        crossings = find_fixed_points(samples, samples.certain) if explained else search(samples)[0]
-        return [TurnGuess(crossing.xi, nu, (0.0, 1.0), crossing.repelling) for crossing in crossings]
 
-    def _known(self, first: tuple[ReturnMapPoint, float], entries: Sequence[Entry]) -> TurnRoutine[bool]:
-        """Whether a branch passes a cycle: its own at this value is computed where that is not plain."""
-        turn, nu = first
-        for chi, guess in chain.from_iterable(points_at_value(trace, nu, self.tracer.width) for trace, *_ in entries):
-            if abs(chi - turn.chi) > AVOIDED_DISTANCE:
+    def _again(self, tracer: BranchTracer, trace: ContinuationPoints) -> tuple[BranchTracer, ContinuationPoint] | None:
+        """Find the last cycle on another ray that it crosses better; None if there is none."""
+        last = trace.points[-1]
+        far = (point for point in reversed(trace.points) if distance(point, last) > TOLD_DISTANCE)
+        before = next(far, trace.points[0])  # the last steps before it is stuck are shorter than lines tell
+        line, earlier = line_of(tracer, last.turn), line_of(tracer, before.turn)
+        if line is None or earlier is None:
+            return None
+        family, value = tracer.family, last.turn.value
+        place = family.foot.place(value)
+        along = line[1] - line[-2]
+        here = abs(float(along[0] * family.u[1] - along[1] * family.u[0])) / max(math.hypot(*along), 1e-300)
+        feet = [family.foot, *self._feet(value, line)]
+        if max(best_crossing(line, foot.place(value))[0] for foot in feet) < RAY_GAIN * here:
+            return None
+        fixed = (0.0, 1.0) if abs(last.tangent[1]) > 0.1 else (1.0, 0.0)
+        found = self._on(value, line, feet, family.centre, last.turn.exponent > 0.0, fixed)
+        if found is None:
+            return None
+        other, (turn, nu) = found
+        place, u = other.family.foot.place(before.turn.value), other.family.u
+        r = distance_along_ray(earlier, place.p, u, turn.chi * room(place, u)[0])
+        towards = (turn.chi - r / room(place, u)[0], nu - before.nu)
+        return other, other.point(turn, nu, towards)
+
+    def _band(self, pieces: list[RayPiece]) -> bool:
+        """Whether closed orbits of all sizes were followed at one value, a band and no branch; then it is noted."""
+        turns = [point.turn for piece in pieces for point in piece.trace.points if point.turn.height > ROUNDING_HEIGHT]
+        if not turns:
+            return False
+        first, heights = turns[0].value, [turn.height for turn in turns]
+        if (
+            any(abs(turn.value - first) > SAME_VALUE_SHARE * self.width for turn in turns)
+            or max(heights) - min(heights) < BAND_SPREAD
+        ):
+            return False
+        near = [mark for mark in self.marked if abs(mark.value - first) <= SAME_VALUE_SHARE * self.width]
+        self.used.update(map(id, near))
+        value = near[0].value if near else first
+        self.notes.append(say("band at one value", name=self.name, value=value))
+        return True
+
+    def _keep(self, pieces: list[RayPiece], start: BranchEnd) -> None:
+        """Keep a branch, in two where it has passed a loop: on its two sides there are different cycles."""
+        if self._band(pieces):
+            return
+        for k, piece in enumerate(pieces):
+            cut = split_at_homoclinic(piece.tracer, piece.trace, self.problem)
+            if cut is None:
                 continue
-            found = yield from self.tracer.corrected(guess)
-            if found is not None and abs(found[0].chi - turn.chi) < SAME_CHI:
+            before, after = (RayPiece(piece.tracer, trace) for trace in cut)
+            self.found.append(([*pieces[:k], before], start, self._end([before])))
+            if not self._is_known([after]):
+                back = self._end([_reverse_piece(after)])
+                self._keep([after, *pieces[k + 1 :]], back)
+            return
+        self.found.append((pieces, start, self._end(pieces)))
+
+    def _end(self, pieces: list[RayPiece]) -> BranchEnd:
+        """Name the end of a branch."""
+        trace = pieces[-1].trace
+        turn = trace.points[-1].turn
+        if trace.reason == "span":
+            text = say("end of the branch span", name=self.name, value=turn.value)
+            return BranchEnd(CyclePoint("span", turn.value, turn.period, turn.amplitude, text))
+        if trace.reason == "C" and self.hopf:
+            mark = min(self.hopf, key=lambda m: abs(m.value - turn.value))
+            self.used.add(id(mark))
+            return hopf_end(self.name, mark.value, self.problem(mark.value), mark.place, turn.exponent)
+        way = trace.points[-1].tangent[1]
+        found = singular_end(self.name, turn, self.marked, way, self.width) if trace.reason == "stuck" else None
+        if found is None and (trace.reason == "equator" or turn.height < BAND_HEIGHT):
+            found = equator_end(self.name, turn, self.marked, self.width, pieces[-1].tracer.family.centre)
+            near = [] if found is None else [m for m in self.marked if m.value == found.point.value]
+            self.used.update(map(id, near))
+        if found is None:
+            found = self._loop(pieces[-1])
+        if found is None:
+            text = say("followed no further", name=self.name, value=turn.value)
+            self.notes.append(text)
+            found = BranchEnd(CyclePoint("undecided", turn.value, turn.period, turn.amplitude, text))
+        return found
+
+    def _loop(self, piece: RayPiece) -> BranchEnd | None:
+        """Name a loop that the last cycles of a branch come to."""
+        turns = [point.turn for point in piece.trace.points if point.turn.height > ROUNDING_HEIGHT]
+        # beyond the slowest of the last ones rounding decides
+        for last in sorted(turns[-1 - CANDIDATE_POINTS :], key=lambda turn: -turn.period):
+            end = turns.index(last)
+            back = turns[: end + 1 - COMPARED_POINTS] or turns[:1]
+            before = next((turn for turn in reversed(back) if PERIOD_GROWTH * turn.period < last.period), back[-1])
+            states, earlier = (piece.tracer.family.course(t.xi, t.value, t.exponent > 0.0) for t in (last, before))
+            if states is not None and earlier is not None:
+                break
+        else:
+            return None
+        told = LastCycles(last, states.states, before, earlier.states, slow_sequence(turns[: end + 1]))
+        found = loop_end(self.name, told, self.problem(last.value), self.marked, self.width)
+        if not (last.height < BAND_HEIGHT if found is None else found.point.kind == LOOP_THROUGH_EQUATOR):
+            return found
+        centre, estimate = piece.tracer.family.centre, last.value if found is None else found.point.value
+        value = loop_value(self.problem, centre, last, states.states, estimate, self.width)
+        return found if value is None else loop_branch_end(self.name, last, value)
+
+    def _known(self, cycle: LimitCycle | KnownCycle, value: float) -> bool:
+        """Whether a branch passes a cycle that was seen."""
+        nu = self._nu(value)
+        for pieces, start, end in self.found:
+            outer = (pieces[0].trace.points[0].turn, start), (pieces[-1].trace.points[-1].turn, end)
+            if any(_lies_beyond(cycle, value, *one) for one in outer):
+                return True
+            for piece in pieces:
+                for _, guess in points_at_value(piece.trace, nu):
+                    found = run_turns(piece.tracer.corrected(guess))
+                    if found is not None and is_same_cycle(found[0], cycle):
+                        return True
+        return False
+
+    def _is_known(self, pieces: Sequence[RayPiece]) -> bool:
+        """Whether a branch passes cycles of these pieces."""
+        for piece in pieces:
+            points = piece.trace.points
+            some = [points[k * (len(points) - 1) // 4].turn for k in (1, 2, 3)]
+            if any(self._passes(piece.tracer, turn) for turn in some):
                 return True
         return False
 
-    def _keep(self, trace: ContinuationPoints, start: CyclePoint, first: BranchEnd | None) -> None:
-        special, last = self._end(trace)
-        self.found.append((trace, start, special, first, last))
+    def _passes(self, tracer: BranchTracer, turn: ReturnMapPoint) -> bool:
+        """Whether a branch passes the cycle of a turn."""
+        line = line_of(tracer, turn)
+        return line is not None and self._known(KnownCycle(line, turn.period), turn.value)
 
-    def _end(self, trace: ContinuationPoints) -> tuple[CyclePoint, BranchEnd | None]:
-        """Name the end of a trace."""
-        last = trace.points[-1]
-        turn, end = last.turn, None
-        if trace.reason == "C":
-            end = min(self.hopf, key=lambda e: abs(e.value - turn.value), default=None)
-        elif trace.reason in ("equator", "stuck"):
-            direction, width = math.copysign(1.0, last.tangent[1]), self.high - self.low
-            reach = width if trace.reason == "equator" else width * (0.02 if turn.height < BAND_HEIGHT else 1e-4)
-            end = at_equator(self.family, turn.value, direction, width, self.closed + self.loops, reach)
-            if trace.reason == "stuck" and end is None:
-                end = at_singular(self.family, turn.value, direction, width)
-        if end is not None:
-            self.used.add(id(end))
-            if end.kind not in ("Hopf", "equator"):
-                end = replace(end, amplitude=turn.amplitude)  # that of the last cycle: the limit's is not known
-            return self._special(end), end
-        kind = "span" if trace.reason == "span" else "undecided"
-        sentence = say("end of the branch span", name=self.name, value=turn.value) if kind == "span" else (
-            say("followed no further", name=self.name, value=turn.value)
-        )  # fmt: skip
-        if kind == "undecided":
-            self.notes.append(sentence)
-        return CyclePoint(kind, turn.value, turn.period, turn.amplitude, sentence), None
+    def _branch(self, pieces: list[RayPiece], start: BranchEnd, end: BranchEnd) -> CycleBranch:
+        rows: list[PointRow] = [] if start.limit is None else [start.limit]
+        folds: list[ReturnMapPoint] = []
+        for i, piece in enumerate(pieces):
+            rows += [point_row(point.turn) for point in piece.trace.points[1 if i else 0 :]]
+            folds += [piece.trace.points[k].turn for k in piece.trace.folds]
+        if end.limit is not None:
+            rows.append(end.limit)
+        return build_branch(self.name, rows, folds, start.point, end.point)
 
-    def _special(self, end: BranchEnd) -> CyclePoint:
-        at: dict[str, object] = {"name": self.name, "value": end.value}
-        if end.kind == "Hopf":
-            text = say("born, supercritical" if end.measure < 0.0 else "born, subcritical", number=end.measure, **at)
-        elif end.kind == "equator":
-            text = say("becomes the equator", **at)
-        elif end.kind == "det A = 0":
-            text = say("meets a line", **at)
-        elif end.kind == "saddle-node on the equator":
-            text = say("meets a saddle-node", **at)
-        else:
-            text = say("becomes a loop", how="attracting" if end.measure > 1.0 else "repelling", **at)
-        return CyclePoint(end.kind, end.value, end.period, end.amplitude, text)
 
-    def _branch(
-        self,
-        trace: ContinuationPoints,
-        start: CyclePoint,
-        end: CyclePoint,
-        first: BranchEnd | None,
-        last: BranchEnd | None,
-    ) -> CycleBranch:
-        """Put in the limits at ends that are no cycles."""
-        rows = [point_row(point.turn) for point in trace.points]
-        if first is not None:
-            rows.insert(0, self._limit(first, rows[0]))
-        if last is not None:
-            rows.append(self._limit(last, rows[-1]))
-        return build_branch(self.name, rows, [trace.points[i].turn for i in trace.folds], start, end)
+def _lies_beyond(cycle: LimitCycle | KnownCycle, value: float, last: ReturnMapPoint, end: BranchEnd) -> bool:
+    """Whether a cycle lies between the last one of a branch and its limit on the equator, lower than is followed."""
+    if not (math.isinf(end.point.period) and min(last.value, end.point.value) <= value):
+        return False
+    height = math.sqrt(max(1.0 - float((cycle.points**2).sum(axis=1).max()), 0.0))
+    return value <= max(last.value, end.point.value) and height < LOW_SHARE * max(last.height, ROUNDING_OF_HEIGHT)
 
-    def _limit(self, end: BranchEnd, beside: PointRow) -> PointRow:
-        """Row of the arrays at an end that is no cycle: C, or a loop on the equator."""
-        found = self.family.problem(end.value).critical
-        x, y = found[0].p.tolist() if end.kind == "Hopf" and found else beside[4:6]
-        exponent = 0.0 if end.kind in ("Hopf", "equator") else math.copysign(math.inf, beside[3])
-        return (end.value, end.period, end.amplitude, exponent, x, y)
+
+def _reverse_piece(piece: RayPiece) -> RayPiece:
+    return RayPiece(piece.tracer, reversed_trace(piece.trace))

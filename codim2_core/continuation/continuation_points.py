@@ -6,7 +6,46 @@ import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from .turns import ReturnMapPoint
+
+@dataclass(frozen=True)
+class ReturnMapPoint:
+    """One turn from a ray, at parameter value `value`; times in tau.
+
+    Attributes
+    ----------
+    xi, value : float
+        Where on the section, and the parameter's value.
+    shift : float
+        xi after the turn minus before it; zero on a cycle.
+    by_xi, by_value : float
+        Derivatives of `shift`, at fixed value and at fixed xi.
+    exponent : float
+        ln of the Floquet multiplier.
+    period : float
+    amplitude : float
+        Largest ``|p - p_C|`` on it in the projected disc.
+    height : float
+        Smallest ebar on it: how near to the equator it comes.
+    rate : float
+        d chi/d xi.
+    chi : float
+        The place on the section, in [0, 1): r over the reach.
+    p : (float, float)
+        Where it crosses the section, in the projected disc.
+    """
+
+    xi: float
+    value: float
+    shift: float
+    by_xi: float
+    by_value: float
+    exponent: float
+    period: float
+    amplitude: float
+    height: float
+    rate: float
+    chi: float
+    p: tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -17,12 +56,11 @@ class ContinuationPoint:
     nu: float
     tangent: tuple[float, float]
 
-    def xi(self, chi: float, change: float) -> float:
-        """Find the xi of a chi nearby, where the value has changed: ln y is nearly linear in both."""
+    def xi(self, chi: float) -> float:
+        """Find the xi of a chi nearby."""
         here = self.turn
         chi = min(max(chi, 0.05 * here.chi), 1.0 - 0.05 * (1.0 - here.chi))
-        logit = math.log(chi / (1.0 - chi)) - math.log(here.chi / (1.0 - here.chi))
-        return here.xi + (logit * here.chi * (1.0 - here.chi) - here.drift * change) / here.rate
+        return here.xi + math.log(chi / (1.0 - chi)) - math.log(here.chi / (1.0 - here.chi))
 
 
 @dataclass(frozen=True)
@@ -51,15 +89,13 @@ def reversed_trace(trace: ContinuationPoints) -> ContinuationPoints:
     return ContinuationPoints(points, tuple(sorted(last - i for i in trace.folds)), "")
 
 
-def points_at_value(trace: ContinuationPoints, nu: float, width: float) -> list[tuple[float, TurnGuess]]:
+def points_at_value(trace: ContinuationPoints, nu: float) -> list[tuple[float, TurnGuess]]:
     """Return the chi at which a branch passes nu, between its points, and guesses of its cycles there.
 
     Parameters
     ----------
     trace : BranchPoints
     nu : float
-    width : float
-        Of the span of values.
     """
     found = []
     for one, two in pairwise(trace.points):
@@ -67,6 +103,6 @@ def points_at_value(trace: ContinuationPoints, nu: float, width: float) -> list[
         if low - 1e-9 <= nu <= high + 1e-9:
             part = (nu - one.nu) / (two.nu - one.nu) if two.nu != one.nu else 0.5
             chi, near = one.turn.chi + part * (two.turn.chi - one.turn.chi), one if part < 0.5 else two
-            guess = TurnGuess(near.xi(chi, (nu - near.nu) * width), nu, (0.0, 1.0), near.turn.exponent > 0.0)
+            guess = TurnGuess(near.xi(chi), nu, (0.0, 1.0), near.turn.exponent > 0.0)
             found.append((chi, guess))
     return found

@@ -1,6 +1,6 @@
 """Closed turns of a family by Newton's method, and what a branch of cycles is at one: its tangent, its folds.
 
-The curve lies in the plane (chi, nu): chi = y/(1 + y) in [0, 1), ``y = u.(x2 - C)`` on the section, and
+The curve lies in the plane (chi, nu): chi in [0, 1) is the place on a ray, in shares of its reach, and
 ``nu = (value - low)/(high - low)``. A fold is an ordinary point of the curve; it is where the Floquet exponent changes
 sign.
 """
@@ -14,10 +14,9 @@ from itertools import accumulate, pairwise
 from typing import Any
 
 from ..numerics.root_between import root_through
-from .continuation_points import ContinuationPoint, TurnGuess
-from .parameter_family import TurnRequest, TurnRoutine
+from .continuation_points import ContinuationPoint, ReturnMapPoint, TurnGuess
+from .lockstep_searches import TurnRequest, TurnRoutine
 from .predictor import CurvePoint, interpolate, predict
-from .turns import ReturnMapPoint
 
 MAX_LOG_Y = 1.0  # in ln y
 MAX_ROUNDS = 7  # of Newton's method
@@ -33,19 +32,18 @@ class BranchTracer:
 
     Parameters
     ----------
-    family : ParameterFamily, or VariedRay
-        Whom turns are asked of.
+    family : VariedRay
+        It follows the turns.
     low, high : float
     """
 
     def __init__(self, family: Any, low: float, high: float) -> None:
         self.family, self.low, self.width = family, low, high - low
 
-    def question(self, guesses: Sequence[TurnGuess], limit: int | None = None) -> TurnRequest:
-        """Ask for one turn from each, within so many steps."""
+    def question(self, guesses: Sequence[TurnGuess]) -> TurnRequest:
+        """Ask for one turn from each."""
         values = [self.low + g.nu * self.width if -700.0 < g.xi < 690.0 else math.nan for g in guesses]
-        limits = None if limit is None else [limit] * len(guesses)
-        return TurnRequest(self.family, [g.xi for g in guesses], values, [g.backward for g in guesses], limits)
+        return TurnRequest(self.family, [g.xi for g in guesses], values, [g.backward for g in guesses])
 
     def corrected(self, guess: TurnGuess) -> TurnRoutine[tuple[ReturnMapPoint, float] | None]:
         """Find the closed turn by one guess, and its nu."""
@@ -66,10 +64,8 @@ class BranchTracer:
             return getattr(two, name) + part * (getattr(two, name) - getattr(one, name))
 
         p = (two.p[0] + part * (two.p[0] - one.p[0]), two.p[1] + part * (two.p[1] - one.p[1]))
-        names = ("by_xi", "by_value", "exponent", "period", "amplitude", "height", "rate", "drift", "chi")
-        return ReturnMapPoint(
-            xi=xi, value=value, shift=0.0, p=p, steps=two.steps, **{name: carried(name) for name in names}
-        )
+        names = ("by_xi", "by_value", "exponent", "period", "amplitude", "height", "rate", "chi")
+        return ReturnMapPoint(xi=xi, value=value, shift=0.0, p=p, **{name: carried(name) for name in names})
 
     @staticmethod
     def backward(turn: ReturnMapPoint, before: bool) -> bool:
@@ -78,7 +74,7 @@ class BranchTracer:
 
     def point(self, turn: ReturnMapPoint, nu: float, towards: tuple[float, float]) -> ContinuationPoint:
         """Give a closed turn the tangent that makes an acute angle with `towards` (chi, nu)."""
-        tc, tn = turn.by_value * self.width - turn.by_xi * turn.drift / turn.rate * self.width, -turn.by_xi / turn.rate
+        tc, tn = turn.by_value * self.width, -turn.by_xi / turn.rate
         length = math.hypot(tc, tn)
         sign = math.copysign(1.0 / length, tc * towards[0] + tn * towards[1])
         return ContinuationPoint(turn, nu, (sign * tc, sign * tn))
@@ -86,12 +82,12 @@ class BranchTracer:
     def along(self, point: ContinuationPoint) -> CurvePoint:
         """Tangent of a point as the derivative of its place."""
         tc, tn = point.tangent
-        return CurvePoint((tc - point.turn.drift * self.width * tn) / point.turn.rate, tc, tn)
+        return CurvePoint(tc / point.turn.rate, tc, tn)
 
     def across(self, point: ContinuationPoint) -> tuple[float, float]:
         """Covector by (xi, nu) of the lengths along the tangent of a point."""
         tc, tn = point.tangent
-        return point.turn.rate * tc, tn + point.turn.drift * self.width * tc
+        return point.turn.rate * tc, tn
 
     def fold(
         self, xi: float, nu: float, near: ContinuationPoint, nearby: float = DIFFERENCE_STEP
@@ -177,7 +173,7 @@ class TurnSearch:
             return self.found
         turn, xi, nu = self.before, self.guess.xi, self.guess.nu
         value = self.tracer.low + nu * self.tracer.width
-        chi = turn.chi + turn.rate * (xi - turn.xi) + turn.drift * (value - turn.value)
+        chi = turn.chi + turn.rate * (xi - turn.xi)
         return (replace(turn, xi=xi, value=value, chi=chi), nu) if 0.0 < chi < 1.0 else None
 
 

@@ -6,7 +6,10 @@ A search is a generator: it yields what it asks for, is sent the answer, and ret
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Sequence
-from typing import TypeVar
+from itertools import chain, islice
+from typing import Any, NamedTuple, TypeVar
+
+from .continuation_points import ReturnMapPoint
 
 QuestionT = TypeVar("QuestionT")
 Answer = TypeVar("Answer")
@@ -79,3 +82,41 @@ def run_batched(
         except StopIteration as end:
             return end.value
         answers = answer(questions)
+
+
+class TurnRequest(NamedTuple):
+    """Turns from each place at each value of a ray that varies.
+
+    Attributes
+    ----------
+    family : VariedRay
+    xi, values : list of float
+    backward : list of bool
+        Followed backward in time, which is accurate where the cycle repels. The result is the same.
+    """
+
+    family: Any
+    xi: list[float]
+    values: list[float]
+    backward: list[bool]
+
+
+#: A search that asks for turns.
+TurnRoutine = Generator[TurnRequest, "list[ReturnMapPoint | None]", ResultT]
+
+
+def side_by_side(searches: Sequence[TurnRoutine[ResultT]]) -> TurnRoutine[list[ResultT]]:
+    """Run searches in one family side by side, as one that asks for all their turns together."""
+    return rounds(searches, _ask_together)
+
+
+def _ask_together(questions: list[TurnRequest]) -> TurnRoutine[list[list[ReturnMapPoint | None]]]:
+    family, *parts = zip(*questions, strict=True)
+    found = iter((yield TurnRequest(family[0], *([*chain.from_iterable(part)] for part in parts))))
+    return [[*islice(found, len(question.xi))] for question in questions]
+
+
+def run_turns(search: TurnRoutine[ResultT]) -> ResultT:
+    """Run one search, whose turns its family follows."""
+    (found,) = run_batched([search], lambda questions: [question.family.answer(question) for question in questions])
+    return found

@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import combinations, pairwise, takewhile
+from dataclasses import dataclass
+from itertools import takewhile
 
 from .continuation_points import ContinuationPoint, ContinuationPoints, TurnGuess
 from .corrector import DIFFERENCE_STEP, MAX_LOG_Y, ArclengthCurve, BranchTracer, TurnSearch, distance
-from .parameter_family import TurnRoutine, side_by_side
+from .lockstep_searches import TurnRoutine, side_by_side
 from .predictor import CurvePoint
 
 MAX_STEP = 0.03  # the longest step
@@ -41,7 +41,6 @@ EQUATOR_FOLD_CHANGE, FOLD_CHANGE = (
     1e-12,
 )  # change of nu about a fold near the equator, where exponents tend to 0, and elsewhere
 MAX_POINTS = 600  # points
-SAME_CURVE_SHARE = 1e-4  # of a step: how near the ends of two ways along one branch come to each other's curve
 MAX_PREDICTION_ERROR = 0.3  # distance of a point from its prediction, in steps, beyond which a step is too long
 MIN_TANGENT_COSINE = 0.9  # cosine between successive tangents below which a step is too long
 MAX_BATCH, PREDICTOR_POINTS = 16, 12  # points tried at once; last points that predictions know of
@@ -49,10 +48,6 @@ TARGET_TURN, TARGET_CORRECTION = (
     0.25,
     0.15,
 )  # turn of the tangent, and first correction in steps, that the next step is to have
-MIN_TURN_BUDGET, TURN_BUDGET_RATIO = (
-    400,
-    4,
-)  # steps of a turn that a point may cost at least, and times those of the point before it
 MAX_HALVINGS = 8  # of an interval in which a fold is not found at once
 EDGE_TOLERANCE = 1e-9  # of the span, by which a cycle may lie beyond it
 KINKED_FOLD_CHANGE = 1e-7  # of the span, by which the value turns back on both sides of a fold found by bisection
@@ -74,65 +69,6 @@ def trace_branch(tracer: BranchTracer, start: ContinuationPoint) -> TurnRoutine[
     while path.open:
         yield from path.go_on()
     return (yield from path.finished())
-
-
-def all_traced(
-    tracer: BranchTracer, starts: Sequence[ContinuationPoint]
-) -> TurnRoutine[list[tuple[ContinuationPoints, int | None] | None]]:
-    """Follow branches from several points side by side; two that meet are one, from the first of them to the other.
-
-    Parameters
-    ----------
-    tracer : BranchTracer
-    starts : sequence of Point
-
-    Returns
-    -------
-    list of (Trace, int or None), or None
-        With the start to which a branch leads, if they have met; None at the place of that other start.
-    """
-    paths, met = [_BranchPath(tracer, start) for start in starts], {}
-    while going := [path for path in paths if path.open]:
-        yield from side_by_side([path.go_on() for path in going])
-        for i, j in combinations(range(len(paths)), 2):
-            if i in met or j in met or not (paths[i] in going or paths[j] in going):
-                continue
-            points = _join_ways(tracer, paths[i].points, paths[j].points)
-            if points is not None:
-                paths[i].points, paths[i].reason, paths[j].reason = points, "met", "met"
-                met[i], met[j] = j, i
-    own = [i for i in range(len(paths)) if met.get(i, i) >= i]
-    traces = yield from side_by_side([paths[i].finished() for i in own])
-    found = {i: (trace, met.get(i)) for i, trace in zip(own, traces, strict=True)}
-    return [found.get(i) for i in range(len(paths))]
-
-
-def _join_ways(
-    tracer: BranchTracer, first: list[ContinuationPoint], other: list[ContinuationPoint]
-) -> list[ContinuationPoint] | None:
-    """Join two ways along one branch whose ends have passed one another; None where they have not."""
-    last = _reverse_point(other[-1])
-    for i, (here, there) in enumerate(pairwise(first)):
-        step = distance(here, there)
-        part = _part(here, there, last)
-        if not 0.0 < part <= 1.0 or distance(here, last) > 1.5 * step:
-            continue
-        course = ArclengthCurve(tracer, first[max(i - 1, 0) : i + 3])
-        length = course.lengths[min(i, 1)] + part * step
-        missed = math.inf, math.inf
-        for _ in range(2):
-            place, _ = course.between(length)
-            missed = last.turn.chi - place.chi, last.nu - place.nu
-            length += missed[0] * last.tangent[0] + missed[1] * last.tangent[1]
-        cosine = here.tangent[0] * last.tangent[0] + here.tangent[1] * last.tangent[1]
-        if cosine > MIN_TANGENT_COSINE and math.hypot(*missed) < SAME_CURVE_SHARE * step:
-            return [*first[: i + 1 if part > 0.2 or i == 0 else i], *map(_reverse_point, reversed(other))]
-    return None
-
-
-def _reverse_point(point: ContinuationPoint) -> ContinuationPoint:
-    """Return the same point on the way back."""
-    return replace(point, tangent=(-point.tangent[0], -point.tangent[1]))
 
 
 def _part(here: ContinuationPoint, there: ContinuationPoint, place: ContinuationPoint) -> float:
@@ -187,8 +123,7 @@ class _BranchPath:
         if not (self.window and (self.window[-1].edge or not self.near)):
             self._predict()
         open_ = [sought.search for sought in self.window if not sought.search.over]
-        limit = max(MIN_TURN_BUDGET, TURN_BUDGET_RATIO * self.points[-1].turn.steps)
-        turns = yield self.tracer.question([search.guess for search in open_], limit)
+        turns = yield self.tracer.question([search.guess for search in open_])
         for search, turn in zip(open_, turns, strict=True):
             search.told(turn)
         self._settle()

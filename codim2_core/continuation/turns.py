@@ -1,164 +1,209 @@
-"""Turns of the return map of the layer problem with their exact derivatives, many at once, for continuation of cycles.
+"""Turns about a point of the layer problem, with their derivatives by place and parameter, for continuation of cycles.
 
-The section is the ray ``e = e_C + r u`` of `cycles.global_section`, ``r = R/(1 + exp(-xi))``; all of it depends
-on the value mu of the parameter that varies. With ``F = x2'``, ``D = D e_Psi`` and ``F x v = F1 v2 - F2 v1``, a
-deviation obeys
+The section is a ray ``p = p_0 + r u``, ``r = reach/(1 + exp(-xi))``, whose foot p_0 moves with the parameter mu while u
+stays; both ends of a turn lie on it. With ``F = x2'`` and ``F x v = F1 v2 - F2 v1`` a deviation obeys
 
-    F x delta(end) = exp(E) F x delta(0) + M,    E = int div dtau,    M = int exp(E(tau, end)) F x U_mu dtau
+    F x delta(end) = exp(E) F x delta(0) + M,    E = int div dtau,    M = int exp(E(tau, end)) F x F_mu dtau
 
-(Liouville's formula, Melnikov's integral), and both ends lie on the section: along ``t = D^-1 u`` when r changes, along
-``s = D^-1 (e_C' + r u') (and Psi')`` when mu changes at fixed r. Hence ``dr(end)/dr = exp(E)`` where the map has a
-fixed point, and ``dr(end)/dmu = ((exp(E) - 1) F x s + M)/(F x t)`` at fixed r.
+(Liouville's formula, Melnikov's integral).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ..arrays import Array
-from ..cycles.periodic_orbit import MOST_STEPS, gauss
-from ..cycles.section_batch.sections import STEP_NODES, Indices, Sections
-from .turn_columns import PARAMETERS, SHIFT
+from ..cycles.periodic_orbit import STEP_NODES, gauss, path
+from ..cycles.ray import Ray
+from ..cycles.ray_section import HemispherePoint, room
+from ..layer_problem.problem import LayerProblem
+from ..psi.function import Psi
+from .continuation_points import ReturnMapPoint
+from .lockstep_searches import TurnRequest
+from .section_base import SectionBase
 
 RTOL = 1e-12  # of one turn
+MAX_EXPONENT = 600.0
+DIFFERENCE_STEP = 1e-5  # of the span, of the differences for derivatives: they tell the way, not the place
 
 
 @dataclass(frozen=True)
-class ReturnMapPoint:
-    """One turn from the section, at parameter value `value`; times in tau.
+class FiniteDifference:
+    """The problem at two values beside one, how these differ, and how the ray moves between them."""
 
-    Attributes
-    ----------
-    xi, value : float
-        Where on the section, and the parameter's value.
-    shift : float
-        ``ln u.(x2 - C)`` after the turn minus before it; zero on a cycle.
-    by_xi, by_value : float
-        Derivatives of `shift`, at fixed value and at fixed xi.
-    exponent : float
-        ln of the Floquet multiplier.
-    period : float
-    amplitude : float
-        Largest ``|p - p_C|`` on it in the projected disc.
-    height : float
-        Smallest ebar on it: how near to the equator it comes.
-    rate : float
-        d chi/d xi, where chi = y/(1 + y) is the place on the section, in [0, 1), ``y = u.(x2 - C)``.
-    drift : float
-        d chi/d value at fixed xi.
-    chi : float
-    p : (float, float)
-        Where it crosses the section, in the projected disc.
-    steps : int
-        Of the integration: what it has cost.
-    """
-
-    xi: float
-    value: float
-    shift: float
-    by_xi: float
-    by_value: float
-    exponent: float
-    period: float
-    amplitude: float
-    height: float
-    rate: float
-    drift: float
-    chi: float
-    p: tuple[float, float]
-    steps: int = 0
+    low: LayerProblem
+    high: LayerProblem
+    width: float
+    moved: Array  # d p_0/d mu
+    widened: float  # d reach/d mu
 
 
 @dataclass(frozen=True)
-class ReturnMapPoints:
-    """Turns side by side, see `ReturnMapPoint`, of those asked for that return.
+class TurnOrbit:
+    """A turn, the states along it (k, 3), and the derivatives of its shift by each parameter."""
 
-    Attributes
-    ----------
-    rows : ndarray of int (k,)
-        Which these are.
-    xi : ndarray (k,)
-    numbers : ndarray (k, PARAMETERS + 2 q)
-        Those of `turn_columns`.
-    p : ndarray (k, 2)
-    steps : ndarray of int (k,)
-    """
-
-    rows: Indices
-    xi: Array
-    numbers: Array
-    p: Array
-    steps: Indices
-
-    def each(self, values: list[float]) -> list[ReturnMapPoint | None]:
-        """One by one, given the value of every turn asked for: None for those that do not return."""
-        found: list[ReturnMapPoint | None] = [None] * len(values)
-        columns = (self.rows, self.xi, self.numbers, self.p, self.steps)
-        for i, xi, row, p, steps in zip(*(v.tolist() for v in columns), strict=True):
-            shift, by_xi, exponent, period, amplitude, height, rate, chi, *more = row
-            by_value, drift = more[0], more[len(more) // 2]
-            found[i] = ReturnMapPoint(
-                xi, values[i], shift, by_xi, by_value, exponent, period, amplitude, height, rate, drift, chi,
-                (p[0], p[1]), steps,
-            )  # fmt: skip
-        return found
+    turn: ReturnMapPoint
+    states: Array
+    by_values: tuple[float, ...]
 
 
-#: Change of |e_Psi| with a parameter, at given zeta (k,) of systems (k,).
-Swelling = Callable[[Array, Indices], Array]
-
-
-def integrate_turns(
-    sections: Sections,
-    xi: Array,
-    backward: NDArray[np.bool_],
-    changes: Array,
-    swelling: Swelling | None = None,
-    limit: int = MOST_STEPS,
-) -> ReturnMapPoints:
-    """Follow one turn from each of n sections.
+def turn(
+    ray: Ray, xi: float, value: float, differences: Sequence[FiniteDifference], centre: HemispherePoint, backward: bool
+) -> TurnOrbit | None:
+    """Follow one turn from a place on a ray; None if it does not return.
 
     Parameters
     ----------
-    sections : Sections
-    xi : ndarray (n,)
-    backward : ndarray of bool (n,)
+    ray : Ray
+        At this value.
+    xi, value : float
+    differences : sequence of FiniteDifference
+        One for each parameter by which it is differentiated; `ReturnMapPoint.by_value` is of the first.
+    centre : HemispherePoint
+        From where the amplitude is measured.
+    backward : bool
         Followed backward in time, which is accurate where the cycle repels. The result is the same.
-    changes : ndarray (q, n, 5)
-        d/dmu of (a, b, d, f1, f2) for the parameters by which turns are differentiated.
-    swelling : callable, optional
-        That of the one parameter, where Psi changes with it.
-    limit : int
-        Steps after which a turn is given up.
     """
-    from ..cycles.section_batch import geometry
-    from .turn_quadratures import turn_quadratures
+    start, _ = ray.states(np.array([xi]))
+    way = path(ray, start[0], RTOL, backward)
+    if way is None:
+        return None
+    sign = -1.0 if backward else 1.0
+    _, weights, matrix = gauss()
+    e, D = _regularised_direction(ray.psi, np.concatenate([way.inner, start, way.end[None]]))
+    F = sign * ray.field(e)
+    J = ray.derivative(e[:-2]) @ D[:-2]
+    rates = (sign * (J[:, 0, 0] + J[:, 1, 1]) / way.inner[:, 2]).reshape(-1, STEP_NODES)
+    whole = way.h * (rates @ weights)
+    exponent = float(whole.sum())
+    if not abs(exponent) < MAX_EXPONENT:
+        return None
+    past = np.concatenate([[0.0], np.cumsum(whole)[:-1]])
+    left = exponent - past[:, None] - way.h[:, None] * (rates @ matrix.T)
+    growth = np.exp(np.minimum(left.ravel(), MAX_EXPONENT))
+    multiplier = math.exp(exponent)
 
-    start, x2 = sections.starts(xi)
-    states = geometry.hemisphere(x2)
-    rows, ways = sections.integrate_turns(states, RTOL, backward, limit)
-    if ways is None:
-        return ReturnMapPoints(rows, np.zeros(0), np.zeros((0, PARAMETERS + 2 * len(changes))), np.zeros((0, 2)), rows)
-    if len(rows) < len(sections):
-        sections, start, x2, changes = sections.select(rows), start[rows], x2[rows], changes[:, rows]
-    every = np.arange(len(rows))
-    places = geometry.distances(ways.inner, states[rows], ways.ends, sections.zeta)
-    whose = np.concatenate([ways.whose, every, every, every])
-    radial, tangential = sections.psi_at(whose).jacobian_factors(places)
-    swell = np.zeros((len(changes), 0))
-    if swelling is not None:
-        swell = swelling(places, rows[whose])[None]
-    _, weights, matrix = gauss(STEP_NODES)
-    rates = np.ascontiguousarray(changes / sections.rate[:, None])
-    numbers = turn_quadratures(
-        sections.plane, rates, sections.rate, sections.e, sections.u, sections.room,
-        sections.x2, x2, start, ways.ends, ways.first, ways.h, ways.inner, radial, tangential, swell,
-        np.where(backward[rows], -1.0, 1.0), weights, matrix,
+    def cross_with_change(k: int, state: Array, v: Array) -> float:
+        """Cross F with the change of x2 that the change v of p makes."""
+        p, h = state[:2], float(state[2])
+        return float(_cross(F[k], (v + p * (p @ v) / (h * h)) / h))
+
+    begin, end = start[0], way.end
+    chi, r = 1.0 / (1.0 + math.exp(-xi)), ray.reach / (1.0 + math.exp(-xi))
+    last = float((end[:2] - ray.critical.p) @ ray.u)
+    rest = float(end[2]) ** 2 / (last + ray.other)
+    across = cross_with_change(-1, end, ray.u)
+    if not (last > 0.0 and rest > 0.0 and across != 0.0):
+        return None
+    steep = 1.0 / last + 1.0 / rest
+    by_r = multiplier * cross_with_change(-2, begin, ray.u) / across
+    by_values = []
+    for beside in differences:
+        melnikov = float(way.weight @ (growth * _cross(sign * F[:-2], _change(way.inner, beside) / ray.rate)))
+        came = multiplier * cross_with_change(-2, begin, beside.moved + chi * beside.widened * ray.u) + melnikov
+        by_values.append(steep * (came - cross_with_change(-1, end, beside.moved)) / across - beside.widened / rest)
+    found = ReturnMapPoint(
+        xi=xi, value=value, shift=math.log(last / rest) - xi,
+        by_xi=steep * by_r * r * (1.0 - chi) - 1.0, by_value=by_values[0] if by_values else math.nan,
+        exponent=sign * exponent, period=float(way.weight.sum()) / ray.rate,
+        amplitude=_farthest(way.inner[:, :2], centre.p), height=float(way.inner[:, 2].min()),
+        rate=chi * (1.0 - chi), chi=chi, p=(float(begin[0]), float(begin[1])),
     )  # fmt: skip
-    good = np.flatnonzero(~np.isnan(numbers[:, SHIFT]))
-    steps = np.diff(ways.first) // STEP_NODES
-    return ReturnMapPoints(rows[good], xi[rows[good]], numbers[good], states[rows[good], :2], steps[good])
+    return TurnOrbit(found, way.inner, tuple(by_values))
+
+
+def _cross(v: Array, w: Array) -> Array:
+    return v[..., 0] * w[..., 1] - v[..., 1] * w[..., 0]
+
+
+def _regularised_direction(psi: Psi, states: Array) -> tuple[Array, Array]:
+    """Compute e_Psi (n, 2) and its derivative by x2 (n, 2, 2) at states (n, 3)."""
+    x2 = states[:, :2] / states[:, 2:]
+    zeta = np.hypot(x2[:, 0], x2[:, 1])
+    unit = x2 / np.maximum(zeta, 1e-300)[:, None]
+    radial, tangential = psi.jacobian_factors(zeta)
+    along = unit[:, :, None] * unit[:, None, :]
+    return unit * psi.modulus(zeta)[:, None], (
+        tangential[:, None, None] * np.eye(2) + (radial - tangential)[:, None, None] * along
+    )
+
+
+def _change(states: Array, beside: FiniteDifference) -> Array:
+    """Differentiate U(e_Psi(x2)) (n, 2) by the parameter at fixed x2."""
+    x2 = states[:, :2] / states[:, 2:]
+    zeta = np.hypot(x2[:, 0], x2[:, 1])
+    unit = x2 / np.maximum(zeta, 1e-300)[:, None]
+    ends = (beside.low, beside.high)
+    low, high = (one.at.U(unit * one.psi.modulus(zeta)[:, None]) for one in ends)
+    return (high - low) / beside.width
+
+
+def _farthest(points: Array, centre: Array) -> float:
+    """Return the largest distance of points of a closed curve from a point, by a parabola about it."""
+    away = np.hypot(*(points - centre).T)
+    i = int(away.argmax())
+    before, top, after = away[i - 1], away[i], away[(i + 1) % len(away)]
+    bend = before - 2.0 * top + after
+    return float(top if bend >= 0.0 else top - (after - before) ** 2 / (8.0 * bend))
+
+
+class VariedRay:
+    """A ray from a foot in a fixed direction, at each value of the parameter.
+
+    Parameters
+    ----------
+    problem : callable
+        value -> LayerProblem.
+    scale : float
+        Size of changes of the value.
+    bounds : (float, float)
+        What the parameter may be.
+    foot, centre : SectionBase
+        From where the ray starts; from where amplitudes are measured.
+    u : ndarray (2,)
+        Its direction.
+    """
+
+    def __init__(
+        self,
+        problem: Callable[[float], LayerProblem],
+        scale: float,
+        bounds: tuple[float, float],
+        foot: SectionBase,
+        centre: SectionBase,
+        u: Array,
+    ) -> None:
+        self.problem, self.scale, self.bounds, self.foot, self.centre, self.u = problem, scale, bounds, foot, centre, u
+
+    def course(self, xi: float, value: float, backward: bool) -> TurnOrbit | None:
+        """Follow one turn; None if it does not return, or the value is not allowed."""
+        low, high = self.bounds
+        if not (math.isfinite(xi) and low <= value <= high):
+            return None
+        before, after = max(value - DIFFERENCE_STEP * self.scale, low), min(value + DIFFERENCE_STEP * self.scale, high)
+        try:
+            ends = self.problem(before), self.problem(after)
+            ray, centre = Ray(self.problem(value), self.foot.place(value), self.u), self.centre.place(value)
+            feet = self.foot.moved(value, (before, after))
+            return turn(ray, xi, value, [difference(ends, feet, after - before, self.u)], centre, backward)
+        except ValueError:  # beyond the span, where the system ends
+            return None
+
+    def answer(self, question: TurnRequest) -> list[ReturnMapPoint | None]:
+        """Follow the turns that are asked for."""
+        asked = zip(question.xi, question.values, question.backward, strict=True)
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            found = [self.course(xi, value, backward) for xi, value, backward in asked]
+        return [None if one is None else one.turn for one in found]
+
+
+def difference(
+    ends: tuple[LayerProblem, LayerProblem], feet: tuple[HemispherePoint, HemispherePoint], width: float, u: Array
+) -> FiniteDifference:
+    """Compare the problem, and the ray, at two values."""
+    reaches = [room(foot, u)[0] for foot in feet]
+    return FiniteDifference(*ends, width, (feet[1].p - feet[0].p) / width, (reaches[1] - reaches[0]) / width)

@@ -13,14 +13,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arrays import Array
 from ..words import say
-from .global_section import COARSE_RTOL, FINE_RTOL
+from .ray_section import COARSE_RTOL, FINE_RTOL, TurnSection
 
 COARSE_NOISE, FINE_NOISE = 1e-8, 1e-11  # of a displacement at COARSE and FINE
 ERROR_SAFETY = 8.0  # times the estimated error of the cubic
@@ -33,20 +32,10 @@ STEEP = 1e-3  # change of the displacement
 MAX_SAMPLES, MAX_ROUNDS = 900, 24  # samples in all; rounds
 MAX_UNDECIDED_SHARE = 0.25  # share of undecided samples at which looking closer is in vain
 NEAR_FOLD = 1e-6  # displacement at an extremum: a pair of cycles there is not told from none with certainty
+NEAR_LOOP = 1e-3  # displacement of the last orbit that returns: a loop is near
+STRIDES = 1, 3, 8, 20  # of samples that are compared
 RISE = 10.0  # times its noise, by which a sample differs from another
 _INSIDE = np.linspace(0.0, 1.0, INTERVAL_PARTS + 1)
-
-
-class ReturnSection(Protocol):
-    """A section with a return map: `global_section.Section`, `ray_section.TurnSection`."""
-
-    def states(self, xi: Array) -> tuple[Array, Array]:
-        """States (n, 3) and q (n,)."""
-        ...
-
-    def displacement(self, xi: Array, rtol: float = ..., backward: bool = ...) -> Array:
-        """Displacement of q over one turn."""
-        ...
 
 
 def differences(q: Array, shift: Array) -> Array:
@@ -172,13 +161,13 @@ class Samples:
 
     Parameters
     ----------
-    section : ReturnSection
+    section : TurnSection
     xi : ndarray (n,)
         Where to begin, in order.
     backward : bool
     """
 
-    def __init__(self, section: ReturnSection, xi: Array, backward: bool = False) -> None:
+    def __init__(self, section: TurnSection, xi: Array, backward: bool = False) -> None:
         self.section, self.backward = section, backward
         self.xi, self.q = xi, section.states(xi)[1]
         self.shift = section.displacement(xi, COARSE_RTOL, backward)
@@ -228,8 +217,9 @@ class Samples:
             each = max(BATCH // len(open_), FEWEST)
             part = np.arange(1, each + 1) / (each + 1)
             left, right = self.xi[open_], self.xi[np.array(open_) + 1]
-            # where the displacement ends, a first look is for its sign
-            rtol = FINE_RTOL if doubtful else COARSE_RTOL
+            # where the displacement ends, a first look is for its sign, which is plain unless a loop is near
+            small = np.abs(self.shift[open_ + [i + 1 for i in open_]]) < NEAR_LOOP
+            rtol = FINE_RTOL if doubtful or small.any() else COARSE_RTOL
             self.refine((left[:, None] + (right - left)[:, None] * part).ravel(), stencil, rtol)
         return False
 
@@ -240,27 +230,27 @@ class Samples:
         return bool(width < (NARROWEST if not steep else steepest * max(1.0, abs(self.xi[i]))))
 
 
-def count_sentence(count: int, way: str, about: str = "") -> str:
-    """Say how many limit cycles were found, and by which way: "section" or "turn"."""
-    found = "no cycle" if not count else "one cycle" if count == 1 else "cycles"
-    return say(f"{found}, {way}", count=count, about=about)
+def _least_extremum(q: Array, shift: Array, noise: Array) -> float:
+    """Return the smallest size of the extrema of three neighbouring samples, by their parabola; inf without any."""
+    left, right = np.diff(shift)[:-1], np.diff(shift)[1:]
+    at = np.flatnonzero((left * right <= 0.0) & (np.maximum(abs(left), abs(right)) > RISE * noise[1:-1]))
+    u, v = q[at] - q[at + 1], q[at + 2] - q[at + 1]
+    first, second = -left[at] / u, right[at] / v
+    bend, slope = (second - first) / (v - u), (first * v - second * u) / (v - u)
+    turned = slope * slope / (4.0 * bend)  # first and second differ, or both were zero, and so the rise
+    return float(abs(shift[at + 1] - turned).min(initial=math.inf))
 
 
 def near_fold(q: Array, shift: Array, noise: Array) -> float:
     """Return the smallest size of the displacement at one of its extrema, to within its noise; inf if it has none.
 
-    Extrema of three neighbouring samples by their parabola; where several in a row are zero within noise, and those
-    beside them have one sign, the largest of the row.
+    Extrema of three neighbouring samples by their parabola, or of each k-th one where neighbours differ by noise; where
+    several in a row are zero within noise, and those beside them have one sign, the largest of the row.
     """
-    with np.errstate(invalid="ignore"):
-        left, right = np.diff(shift)[:-1], np.diff(shift)[1:]
-        rise = np.maximum(abs(left), abs(right))
-        at = np.flatnonzero(np.isfinite(rise) & (left * right <= 0.0) & (rise > RISE * noise[1:-1]))
-    u, v = q[at] - q[at + 1], q[at + 2] - q[at + 1]
-    first, second = -left[at] / u, right[at] / v
-    bend, slope = (second - first) / (v - u), (first * v - second * u) / (v - u)
-    turned = slope * slope / (4.0 * bend)  # first and second differ, or both were zero, and so the rise
-    least = float(abs(shift[at + 1] - turned).min(initial=math.inf))
+    finite = np.concatenate([[False], np.isfinite(shift), [False]]).astype(np.int8)
+    ends = np.flatnonzero(np.diff(finite)).tolist()
+    runs = [slice(*run, k) for run in zip(ends[::2], ends[1::2], strict=True) for k in STRIDES]
+    least = min((_least_extremum(q[run], shift[run], noise[run]) for run in runs), default=math.inf)
     flat = np.concatenate([[False], np.abs(shift) <= RISE * noise, [False]]).astype(np.int8)
     edges = np.flatnonzero(np.diff(flat))
     for low, high in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):

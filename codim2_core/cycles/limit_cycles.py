@@ -1,12 +1,7 @@
 """Limit cycles of the layer problem, as samples of a return map show them, and why there are none where none can be.
 
-In kappa_2 the e-linear layer problem is ``x2' = A (e - e_C)``, e = e_Psi(x2), so on a ray ``e = e_C + r u`` all
-velocities are parallel to A u. For ``a u1^2 + d u2^2 = 0``, real exactly where a and d differ in sign, A u is
-perpendicular to u, ``A u = lambda u_perp`` with ``lambda = b -+ sqrt|a d|``; since D e_Psi is positive definite
-(rem:jaco_properties) every orbit crosses that ray in the one sense sign(b). It reaches from C to the equator: a
-section that no cycle misses, on which the return map is increasing, and defined on an interval.
-
-Everywhere else there is a theorem, see `reason_for_none`.
+Of an e-linear system a theorem may exclude them, see `reason_for_none`; everywhere else they are searched for by the
+first turn of orbits about critical sets, see `cycle_search`.
 """
 
 from __future__ import annotations
@@ -32,11 +27,10 @@ from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
 from ..tables import paragraphs, point, table_number
 from ..words import say
-from .displacement_sampling import count_sentence
-from .fixed_point_search import ReturnMapSamples, sample_return_map, search
-from .global_section import FixedPoint, Section
-from .periodic_orbit import Orbit, orbit
+from .cycle_search import search_cycles
+from .periodic_orbit import Orbit
 from .proof.result import Proof, covers
+from .ray_section import FixedPoint
 
 __all__ = ["LimitCycle", "LimitCycles", "limit_cycles", "reason_for_none"]
 
@@ -192,8 +186,7 @@ def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool 
     -------
     LimitCycles
         Empty, with a reason, wherever a theorem forbids cycles: that costs no integration. Elsewhere the `reason` says
-        how they were searched for: by samples (`fixed_point_search`, `typed_cycles`), which prove nothing
-        of what they do not show.
+        how they were searched for: by samples (`cycle_search`), which prove nothing of what they do not show.
 
     Examples
     --------
@@ -260,60 +253,10 @@ class ClosedOrbits:
 @found_once("closed_orbits")
 def closed_orbits(problem: LayerProblem) -> ClosedOrbits:
     """Find the limit cycles of a layer problem as closed orbits: whatever W is."""
-    at, psi = problem.at, problem.psi
-    coefficients = at.normal_form
-    if coefficients is None:
-        return _general(problem)
-    if at.as_given is None:  # found in the axes of the normal form, and turned back
-        return _rotate_cycles(closed_orbits(LayerProblem(coefficients, psi)), -coefficients.rotation)
-    samples = return_map_samples_of(problem)
-    if isinstance(samples, str):
-        return ClosedOrbits((), (), samples)
-    section = samples.section
-    crossings, notes = search(samples)
-    orbits = [(crossing, orbit(section, crossing)) for crossing in crossings]
-    sense = 1 if coefficients.b > 0.0 else -1
-    kept = [(crossing, found) for crossing, found in orbits if found is not None]
-    cycles = tuple(_cycle(crossing, found, sense) for crossing, found in kept)
-    if len(cycles) < len(orbits):
-        notes = (*notes, say("too many steps to close"))
-    if any(cycle.kind == "semistable" for cycle in cycles):
-        notes = (*notes, SEMISTABLE_NOTE)
-    return ClosedOrbits(cycles, tuple(found for _, found in kept), count_sentence(len(cycles), "section"), notes)
-
-
-@found_once()
-def return_map_samples_of(problem: LayerProblem) -> ReturnMapSamples | str:
-    """Sample the return map of an e-linear layer problem in its own axes, or say why a theorem forbids cycles."""
-    coefficients, critical, location = problem.at.normal_form, problem.critical, problem.location
-    assert coefficients is not None
-    reason = excluding_theorem(problem)
-    return (
-        sample_return_map(Section(coefficients, problem.psi, critical[0], location=location))
-        if reason is None
-        else reason
-    )
-
-
-def _rotate_cycles(found: ClosedOrbits, angle: float) -> ClosedOrbits:
-    """Rotate closed orbits by an angle."""
-    c, s = math.cos(angle), math.sin(angle)
-    turn = np.array([[c, s], [-s, c]])  # from the right
-
-    def rotate(vectors: Array) -> Array:
-        result = vectors @ turn
-        result.flags.writeable = False
-        return result
-
-    cycles = tuple(replace(C, points=rotate(C.points), mean_e=rotate(C.mean_e)) for C in found.cycles)
-    orbits = tuple(replace(o, points=rotate(o.points), mean_e=rotate(o.mean_e), e=rotate(o.e)) for o in found.orbits)
-    return ClosedOrbits(cycles, orbits, found.reason, found.notes)
-
-
-def _general(problem: LayerProblem) -> ClosedOrbits:
-    from .typed_cycles import find
-
-    found, reason, notes = find(problem.at, problem.psi, problem.critical)
+    theorem = excluding_theorem(problem)
+    if theorem is not None:
+        return ClosedOrbits((), (), theorem)
+    found, reason, notes = search_cycles(problem)
     cycles = tuple(_cycle(crossing, closed, sense) for crossing, closed, sense in found)
     if any(cycle.kind == "semistable" for cycle in cycles):
         notes = (*notes, SEMISTABLE_NOTE)

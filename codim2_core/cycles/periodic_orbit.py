@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..arrays import Array
-from .global_section import FINE_RTOL, AnySection, FixedPoint
+from .ray_section import FINE_RTOL, FixedPoint, TurnSection
 
 STEP_NODES = 6
 MOST_STEPS = 8000
@@ -79,17 +79,17 @@ class TurnQuadrature:
     time: float
 
 
-def path(section: AnySection, start: Array, rtol: float, backward: bool) -> TurnQuadrature | None:
+def path(section: TurnSection, start: Array, rtol: float, backward: bool) -> TurnQuadrature | None:
     """Follow one return from a state (3,) of the section; None if MOST_STEPS steps do not bring it round.
 
     Parameters
     ----------
-    section : Section or TurnSection
+    section : TurnSection
     start : ndarray (3,)
     rtol : float
     backward : bool
     """
-    from .global_section_kernel import RETURNED, single_step
+    from .ray_section_kernel import RETURNED, single_step
 
     ends, times, codes, steps = section.turn(start[None, :], rtol, backward, MOST_STEPS, MOST_STEPS)
     if codes[0] != RETURNED:
@@ -97,14 +97,12 @@ def path(section: AnySection, start: Array, rtol: float, backward: bool) -> Turn
     first, h = np.ascontiguousarray(steps[:, :3]), np.ascontiguousarray(steps[:, 3])
     nodes, weights, _ = gauss(STEP_NODES)
     _, function = section.kernel
-    places, whose = np.repeat(first, STEP_NODES, axis=0), np.zeros(STEP_NODES * len(h), np.intp)
-    inner = single_step(
-        places, np.outer(h, nodes).ravel(), section.field_parameters(backward)[None], whose, function.address
-    )
+    places = np.repeat(first, STEP_NODES, axis=0)
+    inner = single_step(places, np.outer(h, nodes).ravel(), section.field_parameters(backward), function.address)
     return TurnQuadrature(first, h, inner, np.outer(h, weights).ravel() / inner[:, 2], ends[0], float(times[0]))
 
 
-def linearisation(section: AnySection, states: Array) -> tuple[Array, Array]:
+def linearisation(section: TurnSection, states: Array) -> tuple[Array, Array]:
     """Compute e (n, 2) and ``D_e U D e_Psi`` (n, 2, 2) in kappa_2, for the scaled field."""
     x2 = states[:, :2] / states[:, 2:]
     zeta = np.hypot(x2[:, 0], x2[:, 1])
@@ -135,12 +133,12 @@ def _normal_growth(J: Array, h: Array, across: Array) -> float:
     return float(np.prod(np.sum(np.roll(across, -1, axis=0) * after, axis=1)))
 
 
-def orbit(section: AnySection, crossing: FixedPoint) -> Orbit | None:
+def orbit(section: TurnSection, crossing: FixedPoint) -> Orbit | None:
     """Follow the cycle through a fixed point of the return map once round.
 
     Parameters
     ----------
-    section : Section or TurnSection
+    section : TurnSection
     crossing : FixedPoint
 
     Returns

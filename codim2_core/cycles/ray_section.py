@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
@@ -10,11 +11,11 @@ import numpy as np
 
 from ..arrays import Array
 from ..layer_problem.critical import CriticalSet
-from ..psi.function import Psi
-from ..systems.frozen import FrozenSystem
-from .equator_pull import EquatorPull, equator_pull
-from .global_section import COARSE_RTOL, integrate_turn
+from ..layer_problem.problem import LayerProblem
+from .equator_pull import EQUATOR_CAPTURE_HEIGHT, MIN_HEIGHT, UNDERFLOW_HEIGHT, EquatorPull, equator_pull
+from .heteroclinic_arcs import heteroclinic_arcs
 
+COARSE_RTOL, FINE_RTOL = 1e-9, 1e-13  # tolerances
 INNER_RADIUS, OUTER_HEIGHT, SAMPLE_SPACING = (
     1e-4,
     1e-5,
@@ -27,39 +28,66 @@ NOISE = 10.0  # times the tolerance: error in p of a turn
 RAY_DIRECTIONS = 16
 
 
+@dataclass(frozen=True)
+class FixedPoint:
+    """A fixed point of the map of first turns: its parameter, and how the displacement meets zero there.
+
+    `born`: just born in a Hopf bifurcation, too small for the sampled map and placed by its expansion at C.
+    """
+
+    xi: float
+    repelling: bool = False
+    touching: bool = False
+    born: bool = False
+
+
+def room(foot: HemispherePoint | CriticalSet, u: Array) -> tuple[float, float]:
+    """Return reach and other of a ray: ``|p + r u|^2 - 1 = (r - reach)(r + other)``."""
+    along, gap = float(u @ foot.p), 1.0 / (1.0 + float(foot.x2 @ foot.x2))  # 1 - |p|^2, to all digits
+    root = math.sqrt(along * along + gap)
+    reach = gap / (root + along) if along > 0.0 else root - along
+    return reach, gap / reach
+
+
+@dataclass(frozen=True)
+class HemispherePoint:
+    """A point of the hemisphere: in the projected disc, and x2."""
+
+    p: Array
+    x2: Array
+
+
 class TurnSection:
-    """A ray from a critical set to the equator, and the map of first turns on it; as `global_section.Section`.
+    """A ray from a critical set to the equator, and the map of first turns on it.
 
     Parameters
     ----------
-    at : Frozen
-    psi : Psi
+    problem : LayerProblem
     critical : CriticalSet
-        Where the ray starts.
-    others : tuple of CriticalSet
-        All critical sets; the ray keeps away from the others.
+        Where the ray starts; it keeps away from the other critical sets.
     """
 
-    def __init__(self, at: FrozenSystem, psi: Psi, critical: CriticalSet, others: tuple[CriticalSet, ...]) -> None:
-        self.at, self.psi, self.critical = at, psi, critical
-        self.rate = at.speed
-        self._rests = np.array([C.p for C in others])
-        self.u = self._direction([C.p - critical.p for C in others if C is not critical])
-        along = float(self.u @ critical.p)
-        gap = 1.0 / (1.0 + float(critical.x2 @ critical.x2))  # 1 - |p|^2, to all digits
-        root = math.sqrt(along * along + gap)
-        # |p + r u|^2 - 1 = (r - reach)(r + other)
-        self.reach = gap / (root + along) if along > 0.0 else root - along
-        self.other = gap / self.reach
+    def __init__(self, problem: LayerProblem, critical: CriticalSet) -> None:
+        self.problem, self.at, self.psi, self.critical = problem, problem.at, problem.psi, critical
+        self.rate = problem.at.speed
+        self._rests = np.array([C.p for C in problem.critical])
+        self.u = self._direction([C.p - critical.p for C in problem.critical if C is not critical])
+        self.reach, self.other = room(critical, self.u)
 
     def _direction(self, away: list[Array]) -> Array:
+        """Choose the ray that keeps farthest from other critical sets; of equal ones the longest."""
         angle = 2.0 * math.pi * (np.arange(RAY_DIRECTIONS) + 0.25) / RAY_DIRECTIONS
         u = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-        room = np.full(RAY_DIRECTIONS, 2.0)
+        free = np.full(RAY_DIRECTIONS, 2.0)
         for d in away:
             part = np.maximum(u @ d, 0.0)
-            room = np.minimum(room, np.hypot(*(d - part[:, None] * u).T))
-        return u[int(np.argmax(room))]
+            free = np.minimum(free, np.hypot(*(d - part[:, None] * u).T))
+        reach = np.array([room(self.critical, way)[0] for way in u])
+        end = self.critical.p + reach[:, None] * u
+        # cycles next to a loop through the equator lie so low there that samples on a ray would not show them
+        theta = np.arctan2(end[:, 1], end[:, 0])
+        hidden = np.any([arc.spans(theta) for arc in heteroclinic_arcs(self.problem)], axis=0)
+        return u[np.lexsort((reach, free, ~hidden & np.ones(len(u), bool)))[-1]]
 
     @cached_property
     def kernel(self) -> Any:
@@ -72,7 +100,7 @@ class TurnSection:
     @cached_property
     def pull(self) -> EquatorPull:
         """Return the first-order return map of orbits close to the equator."""
-        return equator_pull(self.at, None)
+        return equator_pull(self.at, self.problem.location)
 
     def field_parameters(self, backward: bool) -> Array:
         """Parameters of the compiled field that `kernel` keeps alive."""
@@ -99,18 +127,33 @@ class TurnSection:
         return np.log(r) - np.log(np.maximum(states[:, 2] ** 2 / (r + self.other), 1e-300))
 
     def turn(
-        self, states: Array, rtol: float, backward: bool = False, record: int = 0, limit: int = MAX_STEPS
+        self,
+        states: Array,
+        rtol: float,
+        backward: bool = False,
+        record: int = 0,
+        limit: int = MAX_STEPS,
+        goal: Array | None = None,
+        sense: int = 0,
     ) -> tuple[Array, Array, Any, Any]:
-        """Follow one turn: ends (n, 3), times, codes and recorded steps of `ray_section_kernel.first_turns`."""
-        module, function = self.kernel
+        """Follow one turn: ends (n, 3), times, codes and recorded steps of `ray_section_kernel.first_turns`.
 
-        def follow(states: Array, sunk: float) -> tuple[Array, Array, Any, Any]:
+        Or less than a turn: by the angles `goal` (n,), in one sense.
+        """
+        module, function = self.kernel
+        states = np.ascontiguousarray(states)
+        away = float(np.hypot(*(states[:, :2] - self.critical.p).T).min(initial=math.inf))
+        floor = INNER_CAPTURE_RATIO * min(INNER_RADIUS * self.reach, away)
+
+        def follow(rows: Any, sunk: float) -> tuple[Array, Array, Any, Any]:
             return module.first_turns(
-                states,
+                states[rows],
                 self.field_parameters(backward),
                 function.address,
                 np.array(self.critical.p),
-                INNER_CAPTURE_RATIO * INNER_RADIUS * self.reach,
+                np.full(len(states), math.tau)[rows] if goal is None else goal[rows],
+                sense,
+                floor,
                 sunk,
                 MAX_TURN_TIME,
                 rtol,
@@ -118,10 +161,25 @@ class TurnSection:
                 record,
             )
 
-        return integrate_turn(self, follow, states, backward, record > 0)
+        lost = min(
+            EQUATOR_CAPTURE_HEIGHT,
+            max(UNDERFLOW_HEIGHT, MIN_HEIGHT / max(MIN_HEIGHT, float(states[:, 2].min(initial=1.0)))),
+        )
+        if record:
+            return follow(slice(None), lost)
+        ends, times, codes, steps = follow(slice(None), EQUATOR_CAPTURE_HEIGHT)
+        close = np.flatnonzero(codes == module.OUTWARD)
+        if len(close):  # those that the equator may not draw in are followed on, however close they come to it
+            again = close[self.pull.may_return(ends[close], self.field, backward)]
+            if len(again):
+                ends[again], times[again], codes[again], _ = follow(again, lost)
+        return ends, times, codes, steps
 
-    def displacement(self, xi: Array, rtol: float = COARSE_RTOL, backward: bool = False) -> Array:
-        """Displacement of q over a turn (n,): -inf to the critical set, +inf elsewhere, NaN undecided."""
+    def displacement(self, xi: Array, rtol: float = COARSE_RTOL, backward: bool = False, noise: float = NOISE) -> Array:
+        """Displacement of q over a turn (n,): -inf to the critical set, +inf elsewhere, NaN undecided.
+
+        It is 0 where it is within `noise` times what the tolerance leaves open.
+        """
         module, _ = self.kernel
         states, q = self.states(xi)
         ends, _, codes, _ = self.turn(states, rtol, backward)
@@ -130,7 +188,7 @@ class TurnSection:
         inward = (codes == module.TO_CRITICAL_SET) | (np.hypot(*(ends[:, :2] - self.critical.p).T) < AT_REST)
         settled = (gaps.min(axis=1) < AT_REST) | (ends[:, 2] < AT_REST) | (codes == module.OUTWARD)
         # What the tolerance cannot tell from zero is zero: in a band of closed orbits noise has both signs.
-        shift[np.abs(shift) < NOISE * rtol * (1.0 + (1.0 + np.exp(-q)) / self.reach)] = 0.0
+        shift[np.abs(shift) < noise * rtol * (1.0 + (1.0 + np.exp(-q)) / self.reach)] = 0.0
         open_ = codes != module.RETURNED
         shift[open_ & settled] = np.inf
         shift[open_ & inward] = -np.inf

@@ -1,8 +1,8 @@
-"""Compiled first turn of the layer problem about a point of the disc; see `typed_cycles`.
+"""Compiled first turn of the layer problem about a point of the disc; see `cycle_search`.
 
 The angle of p about the point is followed along the orbit, and the turn is complete when it has first changed by 2 pi,
-in either sense. Lanes step as in `global_section_kernel`: a lane that has turned goes back to the start of its step and
-finds the length that ends on the ray, so that the end is as accurate as a step.
+in either sense. Lanes step as in `stepping`: a lane that has turned goes back to the start of its step and finds
+the length that ends on the ray, so that the end is as accurate as a step, not as its dense output.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ import numpy as np
 
 from ..jit import call_field, fast_kernel, inlined_fast_kernel
 from ..stepping.dop853 import advance
-from ..stepping.layout import K0, K12, LANES, NEW, STATE
-from .global_section_kernel import NO_RETURN_YET, OUTWARD, RETURNED, TO_CRITICAL_SET
+from ..stepping.layout import K0, K12, LANES, NEW, STATE, STEP_ROW
 from .return_map_steps import (
     LANE_TOLERANCE_SHARE,
     TRIALS,
@@ -29,9 +28,16 @@ from .return_map_steps import (
     workspace,
 )
 
+RETURNED, TO_CRITICAL_SET, OUTWARD, NO_RETURN_YET = range(4)  # inward: onto C; outward: onto the equator
 DONE, STEPPING, REFINING = range(3)
 MAX_STEP_ANGLE = 2.0  # radians about the point in one step: more could be a turn unseen
 REST_SPEED = 3.0  # times the tolerance: a speed at which an orbit has come to rest
+
+
+@inlined_fast_kernel
+def _excess_angle(angle, goal, sense):
+    """By how much an angle is beyond its goal: in one sense, or in either if the sense is 0."""
+    return (abs(angle) if sense == 0 else sense * angle) - goal
 
 
 @inlined_fast_kernel
@@ -45,8 +51,8 @@ def _swept_angle(S, centre, k):
 # In one piece: with the stages of a step, the search for the end and the judging of errors as inlined functions of
 # their own, results were the same and took 7 % longer (median of paired runs, process time).
 @fast_kernel
-def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, record):
-    """Follow each state until it has gone once round a point.
+def first_turns(states, shared, field, centre, goal, sense, floor, sunk, t_max, rtol, limit, record):
+    """Follow each state until it has gone round a point by an angle.
 
     Parameters
     ----------
@@ -58,6 +64,10 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
         Address of the field.
     centre : (2,)
         The point, in the disc.
+    goal : (n,)
+        By what angle: 2 pi for a turn.
+    sense : int
+        +1 anticlockwise, -1 clockwise, 0 in either sense.
     floor : float
         Distance from it below which an orbit has gone inward.
     sunk : float
@@ -70,7 +80,9 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
 
     Returns
     -------
-    ends (n, 3), times (n,), codes (n,) of `global_section_kernel`, steps (k, 4): as `global_section_kernel.returns`
+    ends (n, 3), times (n,), codes (n,)
+    steps : (k, 4)
+        Where a step of state 0 starts, and its length.
     """
     n = states.shape[0]
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, NO_RETURN_YET)
@@ -104,7 +116,7 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
                 finished, code = False, RETURNED
                 if phase[k] == REFINING:
                     tries[k] += 1
-                    g = abs(angle[k] + swept) - math.tau
+                    g = _excess_angle(angle[k] + swept, goal[base + k], sense)
                     narrow(k, g < 0.0, g, step, low, at_low, high, at_high, side)
                     if abs(g) > 1e-15 and high[k] - low[k] > 4e-16 * high[k] and tries[k] < TRIALS:
                         step[k] = next_length(k, low, at_low, high, at_high)
@@ -118,9 +130,10 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
                     if abs(swept) > MAX_STEP_ANGLE:
                         step[k] *= 0.5
                         continue
-                    if abs(angle[k] + swept) >= math.tau:
-                        low[k], at_low[k] = 0.0, abs(angle[k]) - math.tau
-                        high[k], at_high[k] = h, abs(angle[k] + swept) - math.tau
+                    beyond = _excess_angle(angle[k] + swept, goal[base + k], sense)
+                    if beyond >= 0.0:
+                        low[k], at_low[k] = 0.0, _excess_angle(angle[k], goal[base + k], sense)
+                        high[k], at_high[k] = h, beyond
                         step[k] = h * at_low[k] / (at_low[k] - at_high[k])
                         phase[k], tries[k], side[k] = REFINING, 0, 0
                         continue
@@ -152,3 +165,23 @@ def first_turns(states, shared, field, centre, floor, sunk, t_max, rtol, limit, 
             if phase[k] != DONE:
                 times[base + k] = clock[k]
     return ends, times, codes, log[:logged]
+
+
+@fast_kernel
+def single_step(states, lengths, shared, field):
+    """Take one step of given length (n,) from each state (n, 3): for short ones as accurate as the stepping."""
+    n = states.shape[0]
+    out = np.empty((n, 3))
+    S, P = workspace(shared)
+    for base in range(0, n, LANES):
+        load(S, states, base, min(LANES, n - base))
+        for k in range(LANES):
+            for c in range(3):
+                S[STEP_ROW + c * LANES + k] = lengths[min(base + k, n - 1)]
+        call_field(field, S, STATE, K0, P)
+        advance(S, P, field)
+        for k in range(min(LANES, n - base)):
+            to_sphere(S, k)
+            for c in range(3):
+                out[base + k, c] = S[NEW + c * LANES + k]
+    return out

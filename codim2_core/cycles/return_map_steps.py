@@ -1,4 +1,4 @@
-"""Steps in a lane that both compiled maps share: begin, judge a step, find the length that ends on a section."""
+"""Steps in a lane of the compiled map: begin, judge a step, find the length that ends on a section."""
 
 from __future__ import annotations
 
@@ -7,18 +7,16 @@ import math
 import numpy as np
 
 from ..jit import fast_kernel
-from ..stepping.field_parameters import PSI
 from ..stepping.layout import (
-    EACH,
     ERROR_3,
     ERROR_5,
     GAINS,
     LANES,
     NEW,
+    PARAMETERS,
     SIDE_SIGN,
     STATE,
     STEP_ROW,
-    WITH_EACH,
     WORKSPACE,
 )
 
@@ -29,19 +27,12 @@ TRIALS = 40
 @fast_kernel
 def workspace(shared):
     """Return the workspace and the parameters of a field whose lanes all lie on the hemisphere."""
-    S, P = np.zeros(WORKSPACE), np.zeros(WITH_EACH)
+    S, P = np.zeros(WORKSPACE), np.zeros(PARAMETERS)
     for m in range(SIDE_SIGN):
         P[m] = shared[m]
     for m in range(SIDE_SIGN, GAINS):
         P[m] = -1.0
     return S, P
-
-
-@fast_kernel
-def load_system(P, shared, lane):
-    """Put the numbers of an e-linear system into the lane whose own it is."""
-    for c in range(PSI + 1):
-        P[EACH + c * LANES + lane] = shared[c]
 
 
 @fast_kernel

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..numerics.line_pair import line_pair
 from ..numerics.trigonometric import tangential_zeros
@@ -20,8 +20,6 @@ from .equator_zeros import equator_as_orbit
 __all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
 
 SADDLE_NODE_DISTANCE = 1e-4  # distance from a saddle-node below which the zeros need more than doubles
-MEAN_DIRECTIONS = 512  # of a mean: zeros of Theta with |e| below 0.95 are then far enough from the circle
-DESCENTS = 6  # of Newton's method: from within 2.5 degrees of a minimum
 NEUTRAL_EQUATOR = 2.0**-49  # of the terms of the exponent: zero within rounding
 
 
@@ -125,43 +123,9 @@ def equator_cycle(system: AnySystem, z: ArrayLike = ()) -> EquatorCycle | None:
     return EquatorCycle(1 if b > 0.0 else -1, period, 0.0 if neutral else value / unit, neutral)
 
 
-def exponents(planes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Find the exponent of `equator_cycle` for many (a, b, d, f1, f2) (n, 5) whose equator is closed, by means.
-
-    NaN where the mean over `MEAN_DIRECTIONS` is far from that over half of them: the error is about the square of their
-    difference. Also where the exponent is small beside its terms.
-    """
-    planes = planes / np.abs(planes).max(axis=1, keepdims=True)
-    a, b, d, f1, f2 = (v[:, None] for v in planes.T)
-    theta = np.arange(MEAN_DIRECTIONS) * (2.0 * math.pi / MEAN_DIRECTIONS)
-    c, s = np.cos(theta), np.sin(theta)
-    with np.errstate(all="ignore"):
-        weight = 1.0 / np.abs(b + f2 * c - f1 * s + (d - a) * s * c)
-        terms, sizes = weight * (d * c * c + a * s * s), weight.mean(axis=1) * (np.abs(a) + np.abs(d))[:, 0]
-        mean, half = terms.mean(axis=1), terms[:, ::2].mean(axis=1)
-        sure = (np.abs(mean - half) < 1e-5 * sizes) & (np.abs(mean) > 1e-8 * sizes)
-        return np.where(sure, 2.0 * math.pi * mean, math.nan)
-
-
-def slowest_turn(planes: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Find the least of sign(b) Theta on the equator (n,), for the largest of (a, b, d, f1, f2) (n, 5) as the unit.
-
-    Where it is positive the equator is a closed orbit, within rounding: it changes its sign where equilibria appear.
-    """
-    a, b, d, f1, f2 = (planes / np.abs(planes).max(axis=1, keepdims=True)).T[:, :, None]
-    half, sign, theta = 0.5 * (d - a), np.where(b < 0.0, -1.0, 1.0), _START_ANGLES
-    for _ in range(DESCENTS):  # Newton's method for minima, from all directions
-        c, s = np.cos(theta), np.sin(theta)
-        c2, s2 = (c - s) * (c + s), 2.0 * c * s
-        slope, bend = sign * (-f2 * s - f1 * c + 2.0 * half * c2), sign * (-f2 * c + f1 * s - 4.0 * half * s2)
-        theta = theta - np.clip(slope / np.maximum(np.abs(bend), 1e-3), -0.1, 0.1)
-    turn = sign * (b + f2 * np.cos(theta) - f1 * np.sin(theta) + half * np.sin(2.0 * theta))
-    return turn.min(axis=1)
-
-
-_START_ANGLES = np.arange(72) * (2.0 * math.pi / 72.0)
-_COS, _SIN = np.cos(_START_ANGLES), np.sin(_START_ANGLES)
-_SIN2, _COS2 = np.sin(2.0 * _START_ANGLES), np.cos(2.0 * _START_ANGLES)
+_ANGLES = np.arange(72) * (2.0 * math.pi / 72.0)
+_COS, _SIN = np.cos(_ANGLES), np.sin(_ANGLES)
+_SIN2, _COS2 = np.sin(2.0 * _ANGLES), np.cos(2.0 * _ANGLES)
 
 
 def _mean_rule(f2: float, f1: float, difference: float) -> tuple[float, float]:

@@ -27,7 +27,7 @@ from ..numerics.trigonometric import (
 )
 from ..numerics.trigonometric_exact import quotient, solve_exactly, to_integers
 from ..results import Result, column_rows
-from ..systems.coefficients import Affine, Coefficients
+from ..systems.coefficients import Affine
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
 from ..tables import html_table, paragraphs, table_number
@@ -259,19 +259,6 @@ def equilibria_at(at: FrozenSystem, location: Location | None) -> EquatorEquilib
 
     size = abs(a) + abs(d) + abs(f1) + abs(f2)
     return _collect_equilibria(zeros, radial, size, location, b == 0.0 and (f1 == 0.0 or f2 == 0.0))
-
-
-def number_of_directions(q: Coefficients) -> int:
-    """Count the equilibria on the equator of an e-linear system, without their rates.
-
-    Parameters
-    ----------
-    q : Coefficients
-        Whatever they were made from.
-    """
-    given = q.as_given.given is not None
-    zeros = real_zeros(*_harmonics(q.affine)) if given else tangential_zeros(q.a, q.b, q.d, q.f1, q.f2)
-    return len(zeros.theta)
 
 
 def _harmonics(affine: Affine) -> tuple[float, float, float, float, float]:

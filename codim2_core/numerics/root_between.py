@@ -43,13 +43,3 @@ def root_through(x: Sequence[float] | Array, y: Sequence[float] | Array) -> floa
     return sum(
         float(x[j]) * math.prod(float(-y[k] / (y[j] - y[k])) for k in range(len(y)) if k != j) for j in range(len(y))
     )
-
-
-def vertex_through(x: Sequence[float], y: Sequence[float]) -> float | None:
-    """Return where the parabola through three values reaches zero, if its middle one is the least; or None."""
-    y0, y1, y2 = y
-    s = math.copysign(1.0, y1)
-    bend = s * (y0 - 2.0 * y1 + y2)
-    if s * y0 > s * y1 < s * y2 and bend > 0.0 and s * y1 < (s * (y2 - y0)) ** 2 / (4.0 * bend):
-        return x[1] - 0.5 * (x[2] - x[1]) * s * (y2 - y0) / bend
-    return None

@@ -11,7 +11,7 @@ import numpy as np
 from ..arrays import Array
 from ..curves.polyline import distance
 from ..cycles.limit_cycles import LimitCycles
-from ..cycles.limit_sets_from_return_map import ON_C
+from ..cycles.predicted_limit_sets import ON_C
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.eigendirections import to_disc
 from ..layer_problem.equator import EquatorEquilibria
@@ -122,7 +122,7 @@ def omega_limits(
     backward : bool
         Whether `lines` run against time.
     predict : callable, optional
-        Says of states where their orbits go, as `cycles.limit_sets_from_return_map` does.
+        Says of states where their orbits go, as `cycles.predicted_limit_sets` does.
 
     Returns
     -------

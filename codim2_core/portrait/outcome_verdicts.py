@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import Array
 from ..cycles.limit_cycles import cycles_of, reason_for_none
-from ..cycles.limit_sets_from_return_map import predicted_limit_sets
+from ..cycles.predicted_limit_sets import predicted_limit_sets
 from ..layer_problem.problem import LayerProblem
 from ..orbits.batch_by_psi import batch_by_psi, states_at
 from ..orbits.departures import departures_under

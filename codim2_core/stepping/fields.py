@@ -14,7 +14,7 @@ from typing import Any
 from ..jit import call_at, carray, compile_address, inlined_fast_kernel
 from ..psi.function import Psi
 from .field_parameters import GAIN, PSI
-from .layout import EACH, LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN, WITH_EACH
+from .layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
 from .psi_gain import GainVariants, arguments, gain, kind, variant, write_typed_gains
 
 
@@ -39,15 +39,6 @@ def _psi_field(state, out, parameters):
         write_lane(S, D, P, lane, gain(r2, w, parameter), P[0], P[1], P[2], P[3], P[4])
 
 
-def _field_of_each(state, out, parameters):
-    S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (WITH_EACH,))
-    for lane in range(LANES):
-        r2, w = arguments(S, P, lane)
-        m = EACH + lane
-        a, b, d, f1, f2 = P[m], P[m + LANES], P[m + 2 * LANES], P[m + 3 * LANES], P[m + 4 * LANES]
-        write_lane(S, D, P, lane, gain(r2, w, kind(P[m + PSI * LANES])), a, b, d, f1, f2)
-
-
 def _field_of_gain(state, out, parameters):
     call_at(int(carray(parameters, (PARAMETERS,))[GAIN]), state, out, parameters)
     S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
@@ -62,7 +53,7 @@ def _typed_psi_field(state, out, parameters):
         write_lane(S, D, P, lane, D[lane], P[0], P[1], P[2], P[3], P[4])
 
 
-_compiled, _compiled_of_each = GainVariants(_psi_field, _typed_psi_field), GainVariants(_field_of_each)
+_compiled = GainVariants(_psi_field, _typed_psi_field)
 
 
 def is_compiled(psi: Psi) -> bool:
@@ -89,15 +80,3 @@ def field(psi: Psi) -> Any:
 def field_of_gain() -> Any:
     """Return the same for a gain that is called at its address, in place GAIN of the parameters."""
     return compile_address(_field_of_gain)
-
-
-def field_of_each(psi: Psi, same: bool) -> Any:
-    """Return the same with a system of its own in each lane, see `layout.EACH`.
-
-    Parameters
-    ----------
-    psi : Psi
-    same : bool
-        All lanes have this Psi, and not others of its family.
-    """
-    return _compiled_of_each.get(variant(psi, True, whole=same))

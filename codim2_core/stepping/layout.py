@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from ..jit import kernel
-from .field_parameters import PSI, SHARED_SIZE
+from .field_parameters import SHARED_SIZE
 
 # 32 doubles are four AVX-512 registers a component: stages then hide the latency of one another (measured:
 # 65 ns a step and lane with 8 lanes, 30 with 16, 20 with 32).
@@ -36,9 +36,6 @@ BLOCKS = LANES // BLOCK
 GAINS = SIDE_SIGN + LANES
 PSIS = GAINS + BLOCKS
 PARAMETERS = PSIS + LANES
-# Where lanes have systems of their own: P[EACH + c LANES + lane] is number c of what e-linear fields read.
-EACH = PARAMETERS
-WITH_EACH = EACH + (PSI + 1) * LANES
 
 EQUATOR_ROUNDING = 8.9e-16  # | |p| - 1 | of a seed that was meant to lie on the equator: four roundings
 

@@ -15,9 +15,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-import numpy as np
-
-from ..arrays import Array
 from ..expressions.packed import BOUND, ROWS, at_address, result, row, run_packed
 from ..jit import (
     SCRATCH_SIZE,
@@ -32,7 +29,6 @@ from ..jit import (
     inlined_fast_kernel,
     scratch,
 )
-from ..psi.constructors import with_parameter
 from ..psi.function import Psi
 from ..psi.kernel import UNDERFLOW_BOUND
 from .field_parameters import PSI
@@ -204,14 +200,6 @@ def variant(psi: Psi, smooth: bool, whole: bool = True) -> GainVariant:
 def gain_parameter(psi: Psi) -> float:
     """Return the parameter of Psi as its gain reads it: of a typed one the address of its formula, which Psi keeps."""
     return float(psi.packed.ctypes.data) if psi.record.gain is None else psi.parameter
-
-
-def gain_parameters(psi: Psi, parameters: Array) -> tuple[Array, tuple[Psi, ...]]:
-    """Return the same (k,) of members of the family of psi, and the members, which must outlive their use."""
-    if psi.record.gain is not None:
-        return parameters, ()
-    members = tuple(psi if value == psi.parameter else with_parameter(psi, value) for value in parameters.tolist())
-    return np.array([gain_parameter(one) for one in members]), members
 
 
 class GainVariants:

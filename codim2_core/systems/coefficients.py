@@ -58,7 +58,7 @@ class Coefficients(Listed, ByValue):
     rotation: float = 0.0
     given: Affine | None = None
 
-    _internal_: ClassVar[frozenset[str]] = INTERNAL_OF_FROZEN | {"by_rotation_near", "given", "plane", "varied", "z"}
+    _internal_: ClassVar[frozenset[str]] = INTERNAL_OF_FROZEN | {"given", "plane", "varied", "z"}
     frozen: ClassVar[bool] = True
     clock: ClassVar[str] = ""
     moves_with_z: ClassVar[bool] = False
@@ -137,15 +137,6 @@ class Coefficients(Listed, ByValue):
     def speed(self) -> float:
         """|(a, b, d, f1, f2)|, or 1 where all are zero: the unit of speed of the compiled field."""
         return _speed(self.plane)
-
-    def by_rotation_near(self, angle: float) -> Coefficients:
-        """Return the same system in the axes of the normal form to which the angle nearest to this one turns."""
-        half_turns = round((angle - self.rotation) / math.pi)
-        if self.given is None or not half_turns:
-            return self
-        sign = -1.0 if half_turns % 2 else 1.0
-        rotation = self.rotation + math.pi * half_turns
-        return replace(self, f1=sign * self.f1, f2=sign * self.f2, B=sign * self.B, rotation=rotation)
 
     def varied(self, name: str, value: float) -> Coefficients:
         """Return the same system with one of `variable` changed (not checked)."""

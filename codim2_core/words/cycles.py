@@ -64,10 +64,6 @@ SENTENCES: dict[str, Sentence] = {
         ),
         "a = −d, f on a diagonal",
     ),
-    "too many steps to close": Sentence(
-        "A fixed point of the return map was found, but its cycle takes too many steps to follow.",
-        "a fixed point whose orbit is too long",
-    ),
     "too steep": Sentence(
         (
             "The return map is too steep to be resolved by its samples in some places: limit cycles may be "
@@ -75,11 +71,6 @@ SENTENCES: dict[str, Sentence] = {
         ),
         "samples do not resolve the map",
     ),
-    "identity": Sentence(
-        "The return map is the identity within resolution: closed orbits fill a band (a centre).",
-        "the return map is the identity",
-    ),
-    "band": Sentence("Closed orbits fill a band within resolution.", "closed orbits within resolution"),
     "near a loop": Sentence(
         (
             "A loop through the equator is near: the last orbit that returns misses its start by {gap:.1e} in "
@@ -94,27 +85,12 @@ SENTENCES: dict[str, Sentence] = {
         ),
         "an extremum of the displacement near zero",
     ),
-    "too small, about C": Sentence(
-        "A cycle too small to resolve surrounds C: it was born in a nearby Hopf bifurcation.",
-        "just past a Hopf bifurcation",
-    ),
     "cycles not looked for": Sentence(
         "No search for limit cycles was asked for.", "only what stands still was asked for"
     ),
-    "no cycle on the span": Sentence("There is no limit cycle on the span.", "along one parameter"),
     "band at one value": Sentence(
-        (
-            "{name} = {value:.6g}: the layer problem is reversible, so closed orbits fill a band and none is a "
-            "limit cycle."
-        ),
-        "a centre along one parameter",
-    ),
-    "band at one value, typed": Sentence(
         "{name} = {value:.6g}: closed orbits fill a band within resolution, so none is a limit cycle.",
         "closed orbits at one value of a parameter",
-    ),
-    "loop without a cycle": Sentence(
-        "A loop closes at {name} = {value:.6g}, but no cycle was found beside it.", "along one parameter"
     ),
     "birth not caught": Sentence(
         "The cycle that is born at {kind} {name} = {value:.6g} was not found.", "along one parameter"
@@ -148,55 +124,11 @@ SENTENCES: dict[str, Sentence] = {
         ),
         "the search found some",
     ),
-    "no cycle, section": Sentence(
-        (
-            "No limit cycle was found, but it is not proved that there is none. The return map on a section from "
-            "C to the equator was sampled until resolved."
-        ),
-        "the search found none",
-    ),
-    "one cycle, section": Sentence(
-        (
-            "One limit cycle was found; it is not proved that there are no others. The return map on a section "
-            "from C to the equator was sampled until resolved."
-        ),
-        "the search found one",
-    ),
-    "cycles, section": Sentence(
-        (
-            "{count} limit cycles were found; it is not proved that there are no others. The return map on a "
-            "section from C to the equator was sampled until resolved."
-        ),
-        "the search found some",
-    ),
     "no isolated set to surround": Sentence(
         "There is no limit cycle: it would have to surround an isolated critical set.",
         "det A = 0, or on the equator",
     ),
     "elsewhere": Sentence("Elsewhere on the span:", "between two reasons"),
-    "no branch": Sentence(
-        (
-            "No limit cycle was found for {name} from {low:.6g} to {high:.6g}. There is no Hopf point, no end on "
-            "the equator, and no cycle at {count} sampled values."
-        ),
-        "along one parameter",
-    ),
-    "one branch": Sentence(
-        "One branch of limit cycles was continued, by the return map on a section from C to the equator.",
-        "along one parameter",
-    ),
-    "branches": Sentence(
-        ("{count} branches of limit cycles were continued, by the return map on a section from C to the equator."),
-        "along one parameter",
-    ),
-    "born, supercritical": Sentence(
-        "{name} = {value:.6g}: Hopf bifurcation of C, supercritical (first Lyapunov coefficient {number:.3g}).",
-        "a branch begins",
-    ),
-    "born, subcritical": Sentence(
-        "{name} = {value:.6g}: Hopf bifurcation of C, subcritical (first Lyapunov coefficient {number:.3g}).",
-        "a branch begins",
-    ),
     "born, stable": Sentence(
         "{name} = {value:.6g}: Hopf bifurcation of a critical set, supercritical: the cycle born there is stable.",
         "a branch begins, exponent negative",
@@ -209,17 +141,17 @@ SENTENCES: dict[str, Sentence] = {
         "{name} = {value:.6g}: Hopf bifurcation of a critical set, degenerate: closed orbits fill a band there.",
         "a branch begins, exponent 0",
     ),
-    "no branch, typed": Sentence(
+    "no branch": Sentence(
         (
             "No limit cycle was found for {name} from {low:.6g} to {high:.6g}. None is born at a Hopf point, and "
             "none was found at {count} sampled values."
         ),
         "along one parameter",
     ),
-    "one branch, typed": Sentence(
+    "one branch": Sentence(
         "One branch of limit cycles was continued, by first turns about a point inside them.", "along one parameter"
     ),
-    "branches, typed": Sentence(
+    "branches": Sentence(
         "{count} branches of limit cycles were continued, by first turns about a point inside them.",
         "along one parameter",
     ),

@@ -42,7 +42,6 @@ SHARED = {
     "DIFFERENCE_STEP": "step of a finite difference",
     "FIRST_STEP_SHARE": "first step, as a share of a scale",
     "MIN_STEP": "shortest step along a curve or in time",
-    "MAX_STEPS": "bound on steps in time",
     "STEP_BOUNDS": "`StepBounds` of a kind of curve",
     "MAX_NEWTON": "bound on iterations of Newton's method",
     "NEWTON_TOLERANCE": "last correction of Newton's method",

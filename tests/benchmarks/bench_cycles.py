@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 import codim2_core as c2
-from codim2_core.continuation.branches import continue_cycles
 from codim2_core.diagrams.equilibrium_branches import equilibrium_branches
 
 PERIODS = {3: 0.5044751410092433, 4: 0.6066957493683202}  # of Case III's cycle, by extrapolation at 22 digits
@@ -61,7 +60,7 @@ def branch_rows(repeats: int, quick: bool) -> list[str]:
     ]
     rows = []
     for label, system, name, span in cases[: 1 if quick else None]:
-        cost, found = timed(lambda s=system, n=name, span=span: continue_cycles(s, psi, n, span), repeats)
+        cost, found = timed(lambda s=system, n=name, span=span: c2.branches(s, psi, n, span).cycles, repeats)
         error = branch_error(found, system, psi) if name == "f1" and system is FOLDING else None
         shown = "" if error is None else f"{error:.0e}"
         rows.append(f"| {label}: {len(found)} | {cost:.0f} | {shown} |")

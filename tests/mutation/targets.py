@@ -40,9 +40,7 @@ ELSEWHERE: dict[str, tuple[str, ...]] = {
 
 # Of kernels, which are run as Python: tests that are quick all the same.
 KERNELS = {
-    "core.cycles": tuple(
-        f"core/cycles/test_{name}.py" for name in ("return_map_steps", "global_section_kernel", "ray_section_kernel")
-    ),
+    "core.cycles": tuple(f"core/cycles/test_{name}.py" for name in ("return_map_steps", "ray_section_kernel")),
     "core.initial_value": ("core/initial_value/kernels", "core/initial_value/test_short_motions.py"),
 }
 

@@ -176,5 +176,5 @@ def test_kernels_run_as_python_with_fewer_lanes():
 
 def test_kernels_are_told_from_other_modules():
     assert is_kernel("core.stepping.lanes")
-    assert is_kernel("core.cycles.global_section_kernel")
+    assert is_kernel("core.cycles.ray_section_kernel")
     assert not is_kernel("core.cycles.periodic_orbit")

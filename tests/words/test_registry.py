@@ -71,7 +71,7 @@ def test_every_sentence_is_registered_once():
 def test_every_sentence_is_said_somewhere():
     rooms = (path for path in (ROOT / "codim2_core").iterdir() if path.name != "words")
     sources = "\n".join(path.read_text() for room in rooms for path in [room, *room.rglob("*.py")] if path.is_file())
-    composed = {"becomes homoclinic", "becomes heteroclinic"}  # `continuation.typed.typed_ends`
+    composed = {"becomes homoclinic", "becomes heteroclinic"}  # `continuation.branch_ends`
     composed |= {"no cycle", "one cycle", "cycles", "Hopf", "left", "reached", "along", "along one"}
     said = {key for key in SENTENCES if f'"{key}"' in sources or f"'{key}'" in sources}
     assert {re.split("[,:]", key)[0] for key in SENTENCES.keys() - said} <= composed

@@ -9,6 +9,7 @@ from functools import partial
 import numpy as np
 
 from codim2_core.cycles.limit_cycles import limit_cycles
+from codim2_core.diagrams.bifurcation_diagram import branches
 from codim2_core.figures.presets import presets
 from codim2_core.orbits.trajectories import warm
 from codim2_core.portrait.approach_outcomes import approach_outcomes
@@ -94,11 +95,9 @@ def _warm_outcomes() -> None:
 
 def _warm_branches() -> None:
     """Compile, or load, what follows limit cycles along a parameter, f1 or n."""
-    from codim2_core.continuation.branches import continue_cycles
-
     system = ELinear(1.0, 1.3, -1.2, (0.33, 0.07))
     for name, span in (("f1", (0.32, 0.34)), ("n", (3.0, 3.1))):
-        continue_cycles(system, hill(3.0), name, span)
+        branches(system, hill(3.0), name, span)
 
 
 def _warm_names() -> None:

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from ...arrays import Array
-from ...continuation.typed.section_base import correct_zero
+from ...continuation.section_base import correct_zero
 from ...curves.polyline import feet
 from ...families.family import SystemFamily
 from ...layer_problem.problem import LayerProblem

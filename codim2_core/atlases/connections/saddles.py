@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from ...arrays import Array
-from ...continuation.typed.section_base import correct_zero
+from ...continuation.section_base import correct_zero
 from ...curves.newton import newton
 from ...layer_problem.critical import CriticalSet, set_at
 from ...layer_problem.eigendirections import to_disc

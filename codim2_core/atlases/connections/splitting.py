@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 
 from ...arrays import Array
-from ...continuation.typed.section_base import correct_zero, e_at, hemisphere_place
+from ...continuation.section_base import correct_zero, e_at, hemisphere_place
 from ...families.family import SystemFamily
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem

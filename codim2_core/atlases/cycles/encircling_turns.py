@@ -13,10 +13,12 @@ from copy import copy
 import numpy as np
 
 from ...arrays import Array
-from ...continuation.typed.ray import Ray
-from ...continuation.typed.section_base import HemispherePoint, correct_zero, hemisphere_place
-from ...continuation.typed.typed_turn import TurnOrbit, turn
+from ...continuation.section_base import correct_zero, hemisphere_place
+from ...continuation.turns import TurnOrbit, turn
+from ...cycles.ray import Ray
+from ...cycles.ray_section import HemispherePoint
 from ...families.family import SystemFamily
+from ...layer_problem.problem import LayerProblem
 from ...systems.frozen import FrozenSystem
 
 LOG_SIZE_SCALE = 6.0  # of x: steps along curves are as long in it as in the unit square
@@ -60,7 +62,7 @@ class EncirclingTurns:
             return None
         psi = self.family.psi_at(place)
         foot = self._still or self._followed(at, place)
-        return None if foot is None else Ray(at, psi, foot, self.u)
+        return None if foot is None else Ray(LayerProblem(at, psi), foot, self.u)
 
     def _followed(self, at: FrozenSystem, place: Array) -> HemispherePoint | None:
         nearest = min(self._known, key=lambda one: math.dist(one[0], place))
@@ -77,7 +79,7 @@ class EncirclingTurns:
         if ray is None:
             return None
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            return turn(ray, LOG_SIZE_SCALE * float(v[0]), math.nan, None, ray.critical, False)
+            return turn(ray, LOG_SIZE_SCALE * float(v[0]), math.nan, (), ray.critical, False)
 
     def fold(self, v: Array) -> tuple[Array, Array]:
         """Shift and exponent, both zero on a fold, with their derivatives; NaN where there is no turn."""

@@ -10,15 +10,13 @@ from functools import cache
 import numpy as np
 
 from ...arrays import Array
-from ...continuation.turns import ReturnMapPoint
-from ...continuation.typed.section_base import e_at
-from ...continuation.typed.typed_branches import TypedSearch
-from ...continuation.typed.typed_family import VariedRay
+from ...continuation.branches import BranchSearch
+from ...continuation.continuation_points import ReturnMapPoint
+from ...continuation.section_base import e_at
+from ...continuation.turns import VariedRay
 from ...cycles.ray_section import TurnSection
 from ...families.family import SystemFamily
-from ...layer_problem.critical import critical_sets
-from ...psi.function import Psi
-from ...systems.frozen import FrozenSystem
+from ...layer_problem.problem import LayerProblem
 from ..result import AtlasCurve
 from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
 from .fold_tracing import CycleStart
@@ -29,7 +27,7 @@ RAY_STARTS = 0.03, 0.01, 0.08  # of the reach: places on the ray beside a genera
 
 @dataclass(frozen=True)
 class EquilibriumMark:
-    """A special value of the equilibria along a line, see `continuation.typed.typed_ends.MarkedValue`."""
+    """A special value of the equilibria along a line, see `continuation.branch_ends.MarkedValue`."""
 
     kind: str
     value: float
@@ -46,13 +44,12 @@ class FoldSeed:
 
 def seeds_beside_bautin(family: SystemFamily, place: Array) -> list[FoldSeed]:
     """Places where the fold may be caught that begins at a generalised Hopf point."""
-    at, psi = family.frozen(place), family.psi_at(place)
-    critical = critical_sets(at, psi)
-    neutral = [C for C in critical if C.determinant > 0.0]
+    problem = LayerProblem(family.frozen(place), family.psi_at(place))
+    neutral = [C for C in problem.critical if C.determinant > 0.0]
     C = min(neutral, key=lambda C: abs(C.trace) / math.sqrt(C.determinant), default=None)
     if C is None:
         return []
-    around = EncirclingTurns(family, place, np.asarray(C.e), TurnSection(at, psi, C, critical).u)
+    around = EncirclingTurns(family, place, np.asarray(C.e), TurnSection(problem, C).u)
     return [FoldSeed(CycleStart(around, np.array([math.log(chi) / LOG_SIZE_SCALE, *place])), chi) for chi in RAY_STARTS]
 
 
@@ -66,10 +63,10 @@ def _seeds_along(family: SystemFamily, curves: Sequence[AtlasCurve], axis: int, 
         return np.array([value, at] if axis == 0 else [at, value])
 
     @cache
-    def system_at(value: float) -> tuple[FrozenSystem, Psi]:
-        return family.frozen(place(value)), family.psi_at(place(value))
+    def problem(value: float) -> LayerProblem:
+        return LayerProblem(family.frozen(place(value)), family.psi_at(place(value)))
 
-    search = TypedSearch(system_at, family.names[axis], (0.0, 1.0), (0.0, 1.0), marks(family, curves, axis, at))
+    search = BranchSearch(problem, family.names[axis], (0.0, 1.0), (0.0, 1.0), marks(family, curves, axis, at))
     search.run()
     every = [piece for pieces, *_ in search.found for piece in pieces]
     folds = [(piece.tracer.family, piece.trace.points[k].turn) for piece in every for k in piece.trace.folds]

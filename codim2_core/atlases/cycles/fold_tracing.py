@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...arrays import Array
-from ...continuation.typed.ray import best_crossing, room
-from ...continuation.typed.section_base import e_at
+from ...continuation.section_base import e_at
 from ...curves.arclength import CurveEdge, StepBounds, square_edges, tangent, trace_one_way
 from ...curves.newton import newton
+from ...cycles.ray import best_crossing
+from ...cycles.ray_section import room
 from ...families.family import SystemFamily
 from ...layer_problem.critical import critical_sets
 from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns

@@ -440,5 +440,7 @@ def is_covered(squares, lift, e, step):
 
 
 if __name__ == "__main__":
-    for name, value in check(json.loads(sys.stdin.read())).items():
+    proved = check(json.loads(sys.stdin.read()))
+    for name, value in proved.items():
         print(f"{name}: not proved" if value is None else f"{name}, and no other: {value}")
+    sys.exit(0 if any(value is not None for value in proved.values()) else 1)

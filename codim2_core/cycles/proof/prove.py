@@ -57,6 +57,8 @@ def prove_layer_problem(problem: LayerProblem, cycles: Sequence[FoundCycle]) -> 
     )
     if found["limit cycles"] == len(cycles):
         return Proof(True, (), say("nothing to surround"), json.dumps(head), *shown)
+    if any(cycle.kind == "semistable" for cycle in cycles):  # such a function shows hyperbolic cycles only
+        return Proof(False, nothing, say(why), None, *shown)
     for certificate in _certificates(problem, system, cycles):
         if check(certificate)["limit cycles"] == len(cycles):
             reason = say("proved by a certificate")

@@ -10,7 +10,6 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import bifurcations
-from codim2_core.continuation.branches import continue_cycles
 from codim2_core.diagrams.eigenvalue_path import linearisation_path
 from codim2_core.tables import table_number
 
@@ -36,7 +35,7 @@ RESULTS = {
     "approach_outcomes": lambda: c2.approach_outcomes(FOUR, ONE),
     "basins": lambda: c2.basins(TWO, ONE, 0.0, n=64),
     "basins, nearer": lambda: c2.basins(TWO, ONE, 0.0, n=32, box=(0.0, 0.5, 0.0, 0.5)),
-    "branches": lambda: c2.branches(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
+    "branches": lambda: c2.c2.branches(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
     "compare_laws": lambda: c2.compare_laws(
         CYCLE.system, {"sap": (c2.psi.engine("sap"), 1e-3), "ipc": (c2.psi.engine("ipc"), 1e-3)}
     ),
@@ -77,11 +76,11 @@ RESULTS = {
     "mechanics.contacts": lambda: BLOCKS,
     "contacts at a state": lambda: BLOCKS.decide((0, 0, 0, 0, 0)),
     "motion of contacts": lambda: BLOCKS.simulate_nonsmooth((0, 0, 0, 0, 0), (0, 2)),
-    "continue_cycles": lambda: continue_cycles(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
+    "cycles of branches": lambda: c2.branches(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)).cycles,
     "linearisation_path": lambda: linearisation_path(CYCLE.system, CYCLE.psi, "n", np.linspace(1.0, 4.0, 31)),
 }
 PICTURED = {
-    "atlas", "basins", "basins, nearer", "branches", "continue_cycles", "launched", "limit_cycles",
+    "atlas", "basins", "basins, nearer", "branches", "cycles of branches", "launched", "limit_cycles",
     "linearisation_path", "motion of contacts", "nullclines", "periodic_motion", "preset", "psi", "response_curve",
     "scene", "separatrices", "simulate", "simulate_nonsmooth", "slow_portrait", "trajectories",
     "bifurcations.closed_equator", "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions",

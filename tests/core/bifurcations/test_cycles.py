@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from codim2_core import ELinear, bifurcations, equator_cycle, psi
+from codim2_core import ELinear, bifurcations, branches, equator_cycle, psi
 from codim2_core.bifurcations.geometry import Geometry
-from codim2_core.continuation.branches import continue_cycles
-from codim2_core.cycles.heteroclinic_cycle import heteroclinic_cycles, splitting
+from codim2_core.cycles.heteroclinic_arcs import heteroclinic_arcs
+from codim2_core.cycles.heteroclinic_cycle import loop_gap
 from codim2_core.cycles.limit_cycles import limit_cycles
+from codim2_core.layer_problem.problem import LayerProblem
 
 ABD = (1.0, 1.3, -1.2)
 A = np.array([[1.0, -1.3], [1.3, -1.2]])
@@ -18,6 +19,17 @@ A = np.array([[1.0, -1.3], [1.3, -1.2]])
 
 def system(f):
     return ELinear(*ABD, tuple(f))
+
+
+def continue_cycles(system, p, name, span):
+    return branches(system, p, along=name, span=span).cycles
+
+
+def loops(at, p):
+    """The arcs in the sense in which orbits turn about C, and the gaps of their loops."""
+    problem = LayerProblem(at, p)
+    arcs = [arc for arc in heteroclinic_arcs(problem) if arc.sense == math.copysign(1, at.b)]
+    return [(arc, loop_gap(problem, problem.critical[0], arc)) for arc in arcs]
 
 
 @pytest.fixture(scope="module")
@@ -100,12 +112,12 @@ def test_loops_close_on_their_curve(loop_curve):
     assert len(line) == len(ratio)
     p = psi.hill(3)
     for i in range(2, len(line) - 2, 6):
-        (arc,) = heteroclinic_cycles(system(line[i]).at(()))
-        assert abs(splitting(system(line[i]).at(()), p, arc)) < 1e-8
+        ((arc, gap),) = loops(system(line[i]).at(()), p)
+        assert abs(gap) < 1e-8
         assert arc.ratio == pytest.approx(ratio[i], rel=1e-9)
     assert min(from_nearest(end, corners()) for end in (line[0], line[-1])) < 1e-9
     place = {s.type: s.place for s in loop_curve.special}["resonant loop"]
-    (arc,) = heteroclinic_cycles(system(place).at(()))
+    ((arc, _),) = loops(system(place).at(()), p)
     assert arc.ratio == pytest.approx(1.0, abs=1e-6)
 
 
@@ -165,8 +177,10 @@ def test_two_cycles_meet_on_a_fold_however_narrow_the_strip_is_in_which_they_are
     line, i = curve.branches[0], int(np.argmin(abs(curve.values[0] - 0.05)))
     along = line[i + 1] - line[i - 1]
     across = np.array([along[1], -along[0]]) / np.hypot(*along)
-    counts = [len(limit_cycles(ELinear(1.0, 1.5, -2.0, tuple(line[i] + h * across)), p)) for h in (-1e-7, 1e-7, 1e-5)]
-    assert counts == [0, 2, 0]
+    counts = [
+        len(limit_cycles(ELinear(1.0, 1.5, -2.0, tuple(line[i] + h * across)), p)) for h in (-1e-5, -1e-7, 1e-7, 1e-5)
+    ]
+    assert counts in ([0, 0, 2, 0], [0, 2, 0, 0])
 
 
 def test_two_cusps_that_one_step_passes_are_both_named():

@@ -14,7 +14,7 @@ class Line:
     def states(self, xi):
         return np.zeros((len(xi), 3)), 2.0 * xi
 
-    def displacement(self, xi, rtol=1e-9, backward=False):
+    def displacement(self, xi, rtol=1e-9, backward=False, noise=0.0):
         self.asked.append((len(xi), rtol, backward))
         with np.errstate(all="ignore"):
             return self.given(np.asarray(xi, float)) * (-1.0 if backward else 1.0)

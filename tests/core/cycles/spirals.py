@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from codim2_core import psi
-from codim2_core.cycles.global_section_kernel import returns
 from codim2_core.cycles.ray_section_kernel import first_turns
 from codim2_core.stepping.field_parameters import SHARED_SIZE
 from codim2_core.stepping.fields import field
@@ -39,28 +38,14 @@ def turned(x2, angle):
 
 
 class Spiral:
-    """``A = growth + b J``: orbits turn by b T and grow by exp(growth T). Where u.U = 0, and where they come to it."""
+    """``A = growth + b J``: orbits turn by b T and grow by exp(growth T)."""
 
-    def __init__(self, growth, b, u=(0.8, 0.6), f=(0.0, 0.0)):
-        self.growth, self.b, self.u = growth, b, np.array(u)
+    def __init__(self, growth, b, f=(0.0, 0.0)):
+        self.growth, self.b = growth, b
         self.shared = parameters(growth, b, growth, f)
-        self.sense = math.copysign(1.0, b)
-        # U is x2 turned by arg A; on the section it is u turned by a quarter, in the sense of b
-        self.ray = turned(self.u, self.sense * 0.5 * math.pi - math.atan2(b, growth))
 
     def at(self, x2, T):
         return turned(x2, self.b * T) * np.exp(self.growth * T)[..., None]
-
-    def returns(
-        self, x2, floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500, record=0, centre=(0.0, 0.0), elsewhere=False
-    ):
-        """Follow orbits from points (n, 2) of kappa_2 to their return to the section u.U = 0; steps of the first."""
-        numbers = (np.array([v]) for v in (self.u, centre, self.sense, floor, sunk))
-        own = np.atleast_1d(rtol)
-        ends, times, codes, steps = returns(
-            sphere(x2), self.shared[None], FIELD.address, *numbers, t_max, own, limit, record * len(x2), elsewhere
-        )
-        return ends, times, codes, steps[steps[:, 4] == 0.0][:record, :4]
 
     def turns(self, x2, **options):
         """Follow orbits from points (n, 2) of kappa_2 until they have turned about the critical set."""
@@ -68,11 +53,13 @@ class Spiral:
 
 
 def followed(
-    states, shared, centre=(0.0, 0.0), floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500, record=0
+    states, shared, centre=(0.0, 0.0), goal=math.tau, sense=0, floor=1e-9, sunk=1e-9, t_max=1e3, rtol=RTOL, limit=500,
+    record=0,
 ):  # fmt: skip
     *found, steps = first_turns(
-        states, shared, FIELD.address, np.array(centre), floor, sunk, t_max, rtol, limit, record
-    )
+        states, shared, FIELD.address, np.array(centre), np.full(len(states), goal), sense, floor, sunk, t_max, rtol,
+        limit, record,
+    )  # fmt: skip
     return *found, steps[:, :4]
 
 

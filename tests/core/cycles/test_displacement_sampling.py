@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from codim2_core.cycles.displacement_sampling import Samples, near_fold, zeros
-from codim2_core.cycles.global_section import COARSE_RTOL, FINE_RTOL
+from codim2_core.cycles.ray_section import COARSE_RTOL, FINE_RTOL
 
 from .sections import UNEVEN, Line
 

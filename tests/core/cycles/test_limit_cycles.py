@@ -9,6 +9,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
+import codim2_core as c2
 from codim2_core import ELinear, critical_sets, equator_cycle, equator_equilibria, psi, sliding_flow
 from codim2_core.cycles.limit_cycles import limit_cycles, reason_for_none
 from codim2_core.layer_problem.hemisphere import e_psi
@@ -187,3 +188,72 @@ def test_random_case_III(found):
         assert kinds[-1]  # what does not end on the equator ends on the outermost attractor
     if closed is None and len(equator) and not inside_sources:
         assert not kinds[-1]
+
+
+def test_one_cycle_about_several_sets_is_counted_once():
+    """Level curves of F are invariant, so the cycles are F = 0.0255, about one set each, and 0.0257, about all."""
+    F, Fc, Fs = "((c**2-.16)**2+.16*s**2)", "(4*c*(c**2-.16))", "(.32*s)"
+    E, p = f"(c*{Fc}+s*{Fs})", f"(({F}-.0257)*({F}-.0255))"
+    U = f"-({Fs}-s*{E})-.5*{p}*{Fc}", f"({Fc}-c*{E})-.5*{p}*{Fs}"
+    assert len(c2.limit_cycles(c2.System(U=U), c2.psi.constant())) == 3
+
+
+# a, b, d, f1, f2, Psi, how many cycles: found about the one critical set of systems within 1e-8 of a special value
+NEAR_SPECIAL_VALUES = [
+    (
+        (-1.986879347446464, -2.1204428882401025, 1.4718292840540894, -2.159035208380967, -2.046364883841078),
+        c2.psi.hill(4),
+        1,
+    ),
+    (
+        (1.4090554423755608, -1.8975247399965562, -1.3069815388073591, -1.798896337430398, 1.7885469264654532),
+        c2.psi.hill(3),
+        2,
+    ),
+    (
+        (0.5801042375220418, 1.1519700106600874, -1.1833898616294931, 0.9469438081905298, 0.9183789581261839),
+        c2.psi.exponential(),
+        2,
+    ),
+    (
+        (0.5801042375220418, 1.1519700106600874, -1.1833898616294931, 0.9470545047814423, 0.9183789581261839),
+        c2.psi.exponential(),
+        2,
+    ),
+    (
+        (-0.8499367526055885, 1.3711366273541952, 1.8631606513704286, -0.9018514082046241, 1.1626532904213651),
+        c2.psi.tanh(),
+        1,
+    ),
+    (
+        (-1.48291317496723, 1.2928125193017264, 0.8417970647268962, -1.0057763205216663, 0.9387963043954538),
+        c2.psi.hill(7),
+        1,
+    ),
+    (
+        (-1.48291317496723, 1.2928125193017264, 0.8417970647268962, -1.0057763205216663, 0.9574614799079819),
+        c2.psi.hill(7),
+        1,
+    ),
+    (
+        (1.1550701494262137, -1.5308546080894154, -1.7932412684773502, 0.862870191840281, -0.9755804938172801),
+        c2.psi.tanh(),
+        1,
+    ),
+    (
+        (1.3832632410363972, -1.7435458818471332, -1.5153032466357614, -0.587820829790706, 0.22977378615711783),
+        c2.psi.hill(4),
+        1,
+    ),
+    (
+        (1.8799760595679593, -2.647732532988883, -1.4981195624898842, -0.5583647022468484, -0.10205105316643333),
+        c2.psi.hill(7),
+        1,
+    ),
+]
+
+
+@pytest.mark.parametrize(("plane", "family", "count"), NEAR_SPECIAL_VALUES)
+def test_cycles_next_to_special_values(plane, family, count):
+    found = c2.limit_cycles(c2.ELinear(*plane[:3], plane[3:]), family)
+    assert len(found) == count

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.cycles.global_section import FixedPoint
 from codim2_core.cycles.periodic_orbit import orbit
-from codim2_core.cycles.ray_section import TurnSection
+from codim2_core.cycles.ray_section import FixedPoint, TurnSection
+from codim2_core.layer_problem.problem import LayerProblem
 
 H = 0.36
 
@@ -20,8 +20,8 @@ H = 0.36
 def circle(sign, turn):
     factor = f"({sign})*({H!r} - c**2 - s**2)"
     at = c2.System(U=(f"c*{factor} - ({turn!r})*s", f"s*{factor} + ({turn!r})*c")).at()
-    sets = c2.critical_sets(at, c2.psi.constant())
-    section = TurnSection(at, c2.psi.constant(), sets[0], sets)
+    problem = LayerProblem(at, c2.psi.constant())
+    section = TurnSection(problem, problem.critical[0])
     r = math.sqrt(H)
     return section, math.log(r / (1.0 - r))
 

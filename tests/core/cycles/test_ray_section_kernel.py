@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from codim2_core.cycles.global_section_kernel import NO_RETURN_YET, RETURNED
+from codim2_core.cycles.ray_section_kernel import NO_RETURN_YET, RETURNED
 
 from .spirals import SEVERAL, SPIRALS, Spiral, followed, parameters, plane, sphere, turned
 
@@ -19,7 +19,7 @@ def swept(points, centre=(0.0, 0.0)):
 @SPIRALS
 def test_a_turn_about_the_critical_set_takes_its_time(growth, b):
     own = Spiral(growth, b)
-    x2 = turned(np.geomspace(0.02, 20.0, SEVERAL)[:, None] * own.ray, np.linspace(0.0, 6.0, SEVERAL))
+    x2 = turned(np.geomspace(0.02, 20.0, SEVERAL)[:, None] * np.array([0.8, 0.6]), np.linspace(0.0, 6.0, SEVERAL))
     ends, times, codes, steps = followed(sphere(x2), own.shared)
     period = 2.0 * math.pi / abs(b)
     assert (codes == RETURNED).all()
@@ -46,3 +46,17 @@ def test_a_turn_about_any_point_that_a_closed_orbit_surrounds(b):
         assert codes[0] == NO_RETURN_YET
         assert 30.0 <= times[0] < 30.0 + steps[-1, 3] + 1e-12
         np.testing.assert_allclose(ends[0, :2], turned(begin[0, :2], b * times[0]), rtol=0.0, atol=1e-9)
+
+
+@SPIRALS
+@pytest.mark.parametrize("goal", [0.3, 2.0, 5.5])
+def test_a_part_of_a_turn_takes_its_part_of_the_time_in_the_one_sense_only(growth, b, goal):
+    own = Spiral(growth, b)
+    x2 = np.array([[0.4, 0.1], [-0.7, 0.9]])
+    sense = 1 if b > 0.0 else -1
+    ends, times, codes, _ = followed(sphere(x2), own.shared, goal=goal, sense=sense)
+    assert (codes == RETURNED).all()
+    np.testing.assert_allclose(times, goal / abs(b), rtol=1e-10)
+    np.testing.assert_allclose(plane(ends), own.at(x2, times), rtol=1e-9, atol=1e-12)
+    _, _, codes, _ = followed(sphere(x2), own.shared, goal=goal, sense=-sense, t_max=20.0)
+    assert (codes != RETURNED).all()

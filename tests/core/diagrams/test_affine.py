@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.diagrams.cycle_branches import normal_forms
 
 PSI = c2.psi.hill(3)
 #: A matrix and f whose cycles are born, fold and become the equator, in axes that turn by p*k + 0.4.
@@ -42,7 +41,6 @@ CASES = {
 def test_everything_told_stands_where_it_is_at_its_value(name):
     system, along, z = CASES[name]
     span = (-1.0, 1.0) if name.startswith("a matrix") else (2.0, 4.0) if along == "n" else SPAN
-    assert normal_forms(system, PSI, along, span, z) is not None
     found = c2.branches(system, PSI, along, span, z)
     assert found.critical
     assert found.limit_directions or found.closed
@@ -75,15 +73,6 @@ def test_everything_told_stands_where_it_is_at_its_value(name):
             for cycle in c2.limit_cycles(at(branch.value[i]), c2.psi.hill(branch.value[i]) if along == "n" else PSI)
         ]
         assert min(np.hypot(*(line - branch.section[i]).T).min() for line in lines) < 0.02
-
-
-def test_cycles_in_axes_that_turn_too_far_or_jump_are_followed_on_a_ray():
-    assert normal_forms(turning(20.0), PSI, "p", (-0.1, 0.4), ()) is None
-    jump = c2.System(U=("p*c-s+0.1", "c-p*s+0.2"), parameters={"p": 0.1})
-    assert normal_forms(jump, PSI, "p", (-1.0, 1.0), ()) is not None  # in the normal form already
-    jump = c2.System(U=("p*c-s+0.1", "(1+0.001*p)*c-p*s+0.2"), parameters={"p": 0.1})
-    assert normal_forms(jump, PSI, "p", (-1.0, 1.0), ()) is None
-    assert normal_forms(c2.System(U=("p*c*c-s", "c"), parameters={"p": 0.1}), PSI, "p", SPAN, ()) is None
 
 
 def test_a_system_with_a_clock_is_that_of_the_instant_0():

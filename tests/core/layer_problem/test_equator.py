@@ -8,7 +8,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core.layer_problem.closed_equator import exponents, slowest_turn
 from codim2_core.layer_problem.equator import equator_cycle, equator_equilibria
 from codim2_core.systems.elinear import ELinear
 from tests.core.exact_trigonometric import count_equilibria, polished, theta_coefficients
@@ -170,22 +169,3 @@ def test_an_equator_that_hardly_turns_has_an_infinite_period(size, b):
     assert found.period == math.inf or found.period * abs(b) == pytest.approx(2.0 * math.pi)
     assert found.exponent == math.copysign(math.inf, size)
     assert not found.neutral
-
-
-def test_exponents_of_many_closed_equators_are_those_of_each():
-    planes = np.random.default_rng(4).normal(size=(150, 5)) * [1.0, 3.0, 1.0, 1.0, 1.0]
-    t = np.linspace(0.0, 2.0 * math.pi, 20_001)
-    a, b, d, f1, f2 = planes.T[:, :, None]
-    Theta = np.sign(b) * (b + f2 * np.cos(t) - f1 * np.sin(t) + (d - a) * np.sin(t) * np.cos(t))
-    slowest = Theta.min(axis=1) / np.abs(planes).max(axis=1)
-    np.testing.assert_allclose(slowest_turn(planes), slowest, rtol=0.0, atol=1e-6)
-    planes = planes[slowest > 1e-9]
-    found, undecided = exponents(planes), 0
-    assert len(planes) > 50
-    for plane, value in zip(planes, found, strict=True):
-        own = equator_cycle(ELinear(*plane[:3], tuple(plane[3:]))).exponent
-        undecided += math.isnan(value)
-        assert math.isnan(value) or value == pytest.approx(own, rel=1e-7, abs=1e-9)
-    assert undecided < 3
-    nearly_neutral = np.array([[1.0, 5.0, -1.0, 0.0, 0.0], [1.0, 5.0, -1.0 + 1e-13, 0.0, 0.0]])
-    assert np.isnan(exponents(nearly_neutral)).all()

@@ -60,6 +60,18 @@ def test_it_is_short_and_imports_nothing_of_ours():
 def test_it_runs_alone(which):
     run = subprocess.run([sys.executable, "-I", "-O", SOURCE], input=text(which), capture_output=True, text=True)
     assert run.stdout.splitlines()[-1] == f"limit cycles, and no other: {COUNTS[which]}"
+    assert run.returncode == 0
+
+
+def test_the_checker_fails_where_it_proves_nothing():
+    """Its critical sets are a line, and so are its limit directions: it exited with 0."""
+    U = [[[0.0, 0.0, 0.0], [0.0, 0.0], [1.0]], [[0.0, 0.0, 0.0], [0.0, 1.0], [0.0]]]  # c^2 and c s
+    head = {"U": U, "psi": ["rational", 0.0], "critical": []}
+    run = subprocess.run([sys.executable, "-I", "-O", SOURCE], input=json.dumps(head), capture_output=True, text=True)
+    assert run.stdout.splitlines() == [
+        f"{name}: not proved" for name in ("limit directions", "critical sets", "limit cycles")
+    ]
+    assert run.returncode == 1
 
 
 @given(st.sampled_from(["rational", "exponential", "tanh", "hill"]), st.floats(1, 30), st.floats(1e-4, 1e6))

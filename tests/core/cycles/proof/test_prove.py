@@ -163,3 +163,17 @@ def test_typed_polynomials_are_proved(U, family, sets, cycles):
     assert found.whole, found.reason
     assert len(found.critical_sets) == sets
     assert found.cycles == (True,) * cycles
+
+
+def test_no_function_is_looked_for_where_a_cycle_is_semistable(monkeypatch):
+    """Such a function shows hyperbolic cycles only: the search took 12 s."""
+    from codim2_core.cycles.proof import prove
+
+    def never(*_):
+        raise AssertionError("it was looked for")
+
+    monkeypatch.setattr(prove, "best_function", never)
+    circle = c2.System(U=("c*(c*c + s*s - 0.25)**2 - s", "s*(c*c + s*s - 0.25)**2 + c"))
+    found = c2.limit_cycles(circle, c2.psi.constant(), prove=True)
+    assert [cycle.kind for cycle in found] == ["semistable"]
+    assert not found.proved

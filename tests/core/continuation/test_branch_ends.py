@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from codim2_core.continuation.typed.typed_ends import limit_value, slow_down_at, slow_sequence
+from codim2_core.continuation.branch_ends import limit_value, slow_down_at, slow_sequence
 
 
 def turns(*periods):

@@ -7,10 +7,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from ...curves.polyline import distance
-from ...cycles.limit_cycles import LimitCycle
-from ..turns import ReturnMapPoint
-from .section_base import Array
+from ..arrays import Array
+from ..curves.polyline import distance
+from ..cycles.limit_cycles import LimitCycle
+from .continuation_points import ReturnMapPoint
 
 SAME_PERIOD_SHARE, SAME_CYCLE_DISTANCE = 1e-5, 1e-4  # of the period, and of the disc: two cycles are one
 

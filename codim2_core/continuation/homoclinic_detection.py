@@ -6,19 +6,16 @@ other side of the saddle: so steps may lead over it. Which critical sets a cycle
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from ...cycles.limit_cycles import surrounds
-from ...layer_problem.problem import LayerProblem
-from ..continuation_points import ContinuationPoint, ContinuationPoints, TurnGuess
-from ..corrector import BranchTracer
-from ..lockstep_searches import run_batched
-from ..turns import ReturnMapPoint
-from .section_base import Array
-from .typed_family import run_typed_batch
+from ..arrays import Array
+from ..cycles.limit_cycles import surrounds
+from .continuation_points import ContinuationPoint, ContinuationPoints, ReturnMapPoint, TurnGuess
+from .corrector import BranchTracer
+from .lockstep_searches import run_turns
+from .section_base import Problems
 
 MAX_HALVINGS = 40  # of the step that leads over a loop
 LOOP_TOLERANCE = 1e-9  # of the span: how near to it that is
@@ -31,7 +28,7 @@ def line_of(tracer: BranchTracer, turn: ReturnMapPoint) -> Array | None:
 
 
 def split_at_homoclinic(
-    tracer: BranchTracer, trace: ContinuationPoints, problem: Callable[[float], LayerProblem]
+    tracer: BranchTracer, trace: ContinuationPoints, problem: Problems
 ) -> tuple[ContinuationPoints, ContinuationPoints] | None:
     """Part a trace at the first loop that it has passed; None if it has passed none.
 
@@ -71,9 +68,7 @@ def split_at_homoclinic(
     return None
 
 
-def _count_surrounded(
-    tracer: BranchTracer, turn: ReturnMapPoint, problem: Callable[[float], LayerProblem]
-) -> tuple[int, int] | None:
+def _count_surrounded(tracer: BranchTracer, turn: ReturnMapPoint, problem: Problems) -> tuple[int, int] | None:
     """Count the critical sets that a cycle surrounds, and all; None if there is nothing to tell."""
     critical = problem(turn.value).critical
     line = line_of(tracer, turn) if len(critical) > 1 else None
@@ -86,5 +81,5 @@ def _middle_point(tracer: BranchTracer, here: ContinuationPoint, there: Continua
     guess = TurnGuess(
         0.5 * (here.turn.xi + there.turn.xi), 0.5 * (here.nu + there.nu), (dx, dn), here.turn.exponent > 0.0
     )
-    (found,) = run_batched([tracer.corrected(guess)], run_typed_batch)
+    found = run_turns(tracer.corrected(guess))
     return None if found is None else tracer.point(*found, here.tangent)

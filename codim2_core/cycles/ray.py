@@ -6,10 +6,9 @@ import math
 
 import numpy as np
 
-from ...cycles.ray_section import TurnSection
-from ...psi.function import Psi
-from ...systems.frozen import FrozenSystem
-from .section_base import Array, HemispherePoint
+from ..arrays import Array
+from ..layer_problem.problem import LayerProblem
+from .ray_section import HemispherePoint, TurnSection, room
 
 CROSSING_SLACK = 0.05  # of a turn: what lies so shortly before a crossing is judged by its angle alone
 
@@ -19,25 +18,16 @@ class Ray(TurnSection):
 
     Parameters
     ----------
-    at : FrozenSystem
-    psi : Psi
-    foot : Place
+    problem : LayerProblem
+    foot : HemispherePoint
     u : ndarray (2,)
         Direction, of length 1.
     """
 
-    def __init__(self, at: FrozenSystem, psi: Psi, foot: HemispherePoint, u: Array) -> None:
-        self.at, self.psi, self.critical, self.u = at, psi, foot, u
-        self.rate = at.speed
+    def __init__(self, problem: LayerProblem, foot: HemispherePoint, u: Array) -> None:
+        self.problem, self.at, self.psi, self.critical, self.u = problem, problem.at, problem.psi, foot, u
+        self.rate = problem.at.speed
         self.reach, self.other = room(foot, u)
-
-
-def room(foot: HemispherePoint, u: Array) -> tuple[float, float]:
-    """Return reach and other of a ray: ``|p + r u|^2 - 1 = (r - reach)(r + other)``."""
-    along, gap = float(u @ foot.p), 1.0 / (1.0 + float(foot.x2 @ foot.x2))  # 1 - |p|^2, to all digits
-    root = math.sqrt(along * along + gap)
-    reach = gap / (root + along) if along > 0.0 else root - along
-    return reach, gap / reach
 
 
 def best_crossing(points: Array, foot: HemispherePoint) -> tuple[float, int]:

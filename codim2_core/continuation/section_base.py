@@ -5,31 +5,24 @@ from __future__ import annotations
 import math
 from bisect import bisect
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import Array
-from ...curves.newton import newton
-from ...psi.function import Psi
-from ...systems.frozen import FrozenSystem
+from ..arrays import Array
+from ..curves.newton import newton
+from ..cycles.ray_section import HemispherePoint
+from ..layer_problem.problem import LayerProblem
+from ..psi.function import Psi
+from ..systems.frozen import FrozenSystem
 
-At = Callable[[float], tuple[FrozenSystem, Psi]]
+Problems = Callable[[float], LayerProblem]
 
 NEWTON_TOLERANCE, MAX_CORRECTION = (
     1e-9,
     0.1,
 )  # of Newton's method for e: its last step (its error is the square), all of its way
-MAX_HALVINGS = 30  # of the way to a value at which it is not found at once: after these it is where it was last
+MAX_HALVINGS = 12  # of the way to a value at which it is not found at once: after these it is where it was last
 MAX_RADIUS = 1.0 - 1e-9  # |e| of a critical set
-
-
-@dataclass(frozen=True)
-class HemispherePoint:
-    """A point of the hemisphere: in the projected disc, and x2."""
-
-    p: Array
-    x2: Array
 
 
 class SectionBase:
@@ -40,8 +33,8 @@ class SectionBase:
 
     Parameters
     ----------
-    at : callable
-        value -> (system frozen at it, Psi).
+    problem : callable
+        value -> LayerProblem.
     value : float
     e : ndarray (2,)
         (c, s) there.
@@ -49,26 +42,46 @@ class SectionBase:
         Whether it is a critical set; else x2 stays.
     """
 
-    def __init__(self, at: At, value: float, e: Array, critical: bool = True) -> None:
-        self.at, self.critical = at, critical
+    def __init__(self, problem: Problems, value: float, e: Array, critical: bool = True) -> None:
+        self.problem, self.critical = problem, critical
         self._values, self._places = [value], [np.array(e, float)]
+        self._found: dict[float, Array] = {}
         self._ends = (-math.inf, math.inf)  # it is no critical set beyond
-        self._still = None if critical else hemisphere_place(at(value)[1], self._places[0])
+        self._still = None if critical else hemisphere_place(problem(value).psi, self._places[0])
 
     def place(self, value: float) -> HemispherePoint:
         """Return the base point at a value."""
-        return hemisphere_place(self.at(value)[1], self.e(value)) if self._still is None else self._still
+        return hemisphere_place(self.problem(value).psi, self.e(value)) if self._still is None else self._still
+
+    def moved(self, value: float, values: tuple[float, float]) -> tuple[HemispherePoint, HemispherePoint]:
+        """Return the base point at two values just beside one, to first order in their distance."""
+        if self._still is not None:
+            return self._still, self._still
+        e, (low, high) = self.e(value), (self.problem(v) for v in values)
+        slope = np.zeros(2)
+        if self._ends[0] < value < self._ends[1]:
+            D = self.problem(value).at.DU(e)
+            det = D[0, 0] * D[1, 1] - D[0, 1] * D[1, 0]
+            u, v = (high.at.U(e) - low.at.U(e)) / (values[1] - values[0])
+            if det != 0.0:
+                slope = np.array([D[0, 1] * v - D[1, 1] * u, D[1, 0] * u - D[0, 0] * v]) / det
+        one, two = (hemisphere_place(p.psi, e + (v - value) * slope) for p, v in zip((low, high), values, strict=True))
+        return one, two
 
     def e(self, value: float) -> Array:
         """(c, s) of the critical set at a value."""
-        value = min(max(value, self._ends[0]), self._ends[1])
+        if value not in self._found:
+            self._found[value] = self._track(min(max(value, self._ends[0]), self._ends[1]))
+        return self._found[value]
+
+    def _track(self, value: float) -> Array:
         i = bisect(self._values, value)
         k = min((k for k in (i - 1, i) if 0 <= k < len(self._values)), key=lambda k: abs(self._values[k] - value))
         here, e = self._values[k], self._places[k]
         step, tried = value - here, 0
         while here != value and tried < MAX_HALVINGS:
             there = value if abs(step) >= abs(value - here) else here + step
-            found = correct_zero(self.at(there)[0], e)
+            found = correct_zero(self.problem(there).at, e)
             if found is None:
                 step, tried = 0.5 * (there - here), tried + 1
             else:
