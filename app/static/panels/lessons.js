@@ -79,11 +79,11 @@ class Lessons {
 
   card(part, i) {
     return `<section class="question" data-question="${i}"><p class="ask"><b>Predict.</b> ${part.ask}</p>
-      <button type="button" class="begin">Ask me</button>
+      <button type="button" class="begin">Try a question</button>
       <div class="options" role="group" aria-label="Answers" hidden>${part.mark ? `<button type="button" class="aim" title="${SAYS.aim}">Mark it on the picture</button>` : ""}${part.options.map((words, k) => `<button type="button" data-choice="${k}">${words}</button>`).join("")}</div>
       ${part.hint ? `<details class="clue"><summary>Hint</summary><p>${part.hint}</p></details>` : ""}
       <div class="verdict" role="status" aria-live="polite"></div>
-      ${part.vary ? `<div class="vary" hidden><p><b>Vary.</b> ${part.vary.html} <span class="goal" role="status"></span></p>${part.vary.hint ? `<details class="clue"><summary>Hint</summary><p>${part.vary.hint}</p></details>` : ""}</div>` : ""}</section>`
+      ${part.vary ? `<div class="vary" hidden><p><b>Now you:</b> ${part.vary.html} <span class="goal" role="status"></span></p>${part.vary.hint ? `<details class="clue"><summary>Hint</summary><p>${part.vary.hint}</p></details>` : ""}</div>` : ""}</section>`
   }
 
   // --- questions
@@ -169,7 +169,7 @@ class Lessons {
   showGoal({question: i, reached, now}) {
     const goal = this.section(i)?.querySelector(".goal")
     if (!goal) return
-    setMarkup(goal, reached ? "<b>Done ✓</b>" : `<b>Not yet.</b> ${formula(`Now ${now}.`)}`)
+    setMarkup(goal, reached ? "<b>Done ✓</b>" : `<b>Not yet:</b> ${formula(`${now}.`.replaceAll(": ", " is "))}`)
     if (reached) this.keep(i, "goal")
   }
 

@@ -272,7 +272,7 @@ test("the panel lessons: a question hides, asks, judges and remembers", () => {
   assert.equal(one.find(".score").textContent, "1 of 2 answered")
   assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer"]}})
   one.frame({goal: {question: 0, reached: false, now: "portrait: CM2, λ_ρ: 1"}})
-  assert.equal(section(0).querySelector(".goal").textContent, "Not yet. Now portrait: CM2, λρ: 1.")
+  assert.equal(section(0).querySelector(".goal").textContent, "Not yet: portrait is CM2, λρ is 1.")
   one.frame({goal: {question: 0, reached: true}})
   assert.equal(section(0).querySelector(".goal").textContent, "Done ✓")
   assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer", "goal"]}})
