@@ -1,7 +1,7 @@
 // The menu "Export": files of what is on the screen. It is no part of the page's first load.
 
 import {save} from "./dom.js"
-import {escape} from "./words.js"
+import {SAYS, escape} from "./words.js"
 
 const MARKUP = `
   <h2>Export</h2>
@@ -52,7 +52,7 @@ export function menu(box, {ask, stop, film, theme, address, sliders}) {
   for (const button of buttons) {
     button.onclick = async () => {
       for (const one of buttons) one.disabled = true
-      told.textContent = "Making the file …"
+      told.textContent = SAYS.making
       find(".stop-making").hidden = !FILMS.includes(button.dataset.kind ?? "")
       try { told.textContent = await make(button.dataset.kind) } catch (error) { told.textContent = `It could not be made: ${error.message}.` }
       find(".stop-making").hidden = true

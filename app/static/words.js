@@ -110,6 +110,7 @@ export const SAYS = {
   affine: "The affine combination on Σ that is linear in e",
   selected: "The slow flow on a critical set, selected by the blow-up",
   carried: "The link is copied. Opened in another browser, it adds your work to what was done there.",
+  making: "Making the file …",
   tryAgain: "Try again.",
   tryHint: "Here is a hint; try again.",
   aim: "Click or tap the place in the picture, or move the cross with the arrow keys and press Enter.",

@@ -85,7 +85,7 @@ def test_on_a_phone_a_question_its_sliders_the_picture_and_the_answers_are_in_on
     page.settle()
     box = page.find(".verdict").first.bounding_box()
     foot = page.find(".sheets").bounding_box()["y"]
-    assert box["height"] > 30
+    assert box["height"] > 15
     assert box["y"] + box["height"] <= foot + 1
     page.find(".sheets [data-sheet=controls]").tap()
     assert page.find(".top").is_visible()
