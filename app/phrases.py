@@ -47,10 +47,7 @@ SENTENCES: dict[str, Sentence] = {
         "an exception of the program",
     ),
     "places taken": Sentence(
-        (
-            "All places on this server are taken, so this picture cannot move. Reload the page later: it opens "
-            "when a place is free."
-        ),
+        ("This server is full, so the picture is frozen. Reload the page later: it opens when a place is free."),
         "a page came while there was a place, and its websocket when there was none",
     ),
     "no connection": Sentence(
@@ -118,8 +115,8 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "no periodic motion to follow": Sentence(
         (
-            "The motion from the typed start is not seen to repeat itself. In the panel Motion, choose another start "
-            "or follow it longer, or force the system with a sine of t."
+            "This motion is not periodic. Add a periodic force, for example F*sin(w*t), or choose another start in "
+            "the panel Motion."
         ),
         "a response curve of a motion that comes to rest or leaves",
     ),

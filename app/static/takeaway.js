@@ -1,16 +1,16 @@
 // The menu "Export": files of what is on the screen. It is no part of the page's first load.
 
 import {save} from "./dom.js"
-import {escape} from "./words.js"
+import {SAYS, escape} from "./words.js"
 
 const MARKUP = `
   <h2>Export</h2>
   <p class="note">The files show what is on the screen: its zoom, layers and launched orbits.</p>
-  <div class="row"><label>Look <select class="look"><option value="">as on the screen</option><option value="light">light</option><option value="dark">dark</option><option value="paper">black and white</option></select></label>
+  <div class="row"><label>Colours <select class="look"><option value="">as shown</option><option value="light">light</option><option value="dark">dark</option><option value="paper">black and white</option></select></label>
     <label><input type="checkbox" class="legend-too" checked> legend</label><label title="A poster: title, caption with the equations, and a QR code of this view"><input type="checkbox" class="poster-too"> title, caption, QR code</label></div>
   <div class="row"><button type="button" data-kind="png">PNG</button><label>at <select class="scale" aria-label="Scale of the PNG"><option value="1">×1</option><option value="2" selected>×2</option><option value="4">×4</option><option value="8">×8</option></select></label><button type="button" data-kind="svg">SVG</button><button type="button" data-kind="pdf">PDF</button><button type="button" data-kind="tikz" title="The picture as TikZ: a LaTeX file that pdflatex compiles">TikZ</button></div>
   <div class="row"><button type="button" data-kind="zip" title="All data of the picture: CSV files in a zip">CSV</button><button type="button" data-kind="json" title="All data of the picture as JSON">JSON</button><button type="button" data-kind="npz" title="All data of the picture as NumPy arrays">NPZ</button><button type="button" data-kind="py" title="Code that rebuilds this view">Python</button><button type="button" data-kind="tex" title="A table of limit directions and critical sets">LaTeX table</button></div>
-  <div class="row"><button type="button" data-kind="html" title="One file whose sliders work without a server">Live file</button><button type="button" data-kind="gif" title="A film in which the first of these sliders moves there and back">Film</button><button type="button" data-kind="play" title="A film in which a dot runs along the chosen launched orbit, beside x and y over time">Film of play</button><label>moves <select class="first-slider" aria-label="First slider of the live file"></select></label><label>and <select class="second-slider" aria-label="Second slider of the live file"></select></label></div>
+  <div class="row"><button type="button" data-kind="html" title="One file whose sliders work without a server">Interactive web page (.html)</button><button type="button" data-kind="gif" title="A film in which the first of these sliders moves there and back">Animate a slider (GIF)</button><button type="button" data-kind="play" title="A film in which a dot runs along the chosen launched orbit, beside x and y over time">Animate an orbit (GIF)</button><label>vary <select class="first-slider" aria-label="First slider of the live file"></select></label><label>and <select class="second-slider" aria-label="Second slider of the live file"></select></label></div>
   <p class="note making" role="status"></p><button type="button" class="stop-making" hidden>Stop</button>`
 const PX = 96 / 72 // to a point
 const FILMS = ["gif", "play"], TYPESET = [...FILMS, "pdf"] // what Typst makes on the server
@@ -52,10 +52,11 @@ export function menu(box, {ask, stop, film, theme, address, sliders}) {
   for (const button of buttons) {
     button.onclick = async () => {
       for (const one of buttons) one.disabled = true
-      told.textContent = `Making ${button.textContent} …`
+      told.textContent = SAYS.making
       find(".stop-making").hidden = !FILMS.includes(button.dataset.kind ?? "")
       try { told.textContent = await make(button.dataset.kind) } catch (error) { told.textContent = `It could not be made: ${error.message}.` }
       find(".stop-making").hidden = true
+      told.scrollIntoView?.({block: "nearest"}) // the dialog may be longer than the window
       for (const one of buttons) one.disabled = moving.includes(one.dataset.kind ?? "") && !there.length
       button.focus()
     }

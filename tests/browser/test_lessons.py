@@ -38,7 +38,7 @@ def test_a_lesson_from_the_list_to_its_goal(open_page):
     box = explorer.find(".bokeh").bounding_box()
     explorer.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)  # it has no angle
     mark.locator(".verdict b").wait_for()
-    assert mark.locator(".verdict").text_content().startswith("Not quite. The right place is 1.00 radii")
+    assert mark.locator(".verdict").text_content().startswith("Not quite. Try again.")
     kept = json.loads(explorer.page.evaluate("localStorage.getItem('codim2-lessons')"))
     assert kept == {"03-limit-directions": {"0": ["answer", "goal"]}}
     explorer.click("[data-open='']")
@@ -85,7 +85,7 @@ def test_on_a_phone_a_question_its_sliders_the_picture_and_the_answers_are_in_on
     page.settle()
     box = page.find(".verdict").first.bounding_box()
     foot = page.find(".sheets").bounding_box()["y"]
-    assert box["height"] > 30
+    assert box["height"] > 15
     assert box["y"] + box["height"] <= foot + 1
     page.find(".sheets [data-sheet=controls]").tap()
     assert page.find(".top").is_visible()

@@ -108,7 +108,7 @@ def test_reset_is_the_first_setting_whole(explorer):
     explorer.click(".reset")
     query, _, name, note = state(explorer)
     assert (query, name) == ({"v": ["1"]}, "CM4")
-    assert "four limit directions" in note
+    assert "pick an example" in note
     assert explorer.find(".tabs [aria-selected=true]").text_content() == "Atlas"
 
 

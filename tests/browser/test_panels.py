@@ -257,7 +257,7 @@ SPILLS = """() => {
   const foot = root.querySelector(".gallery").getBoundingClientRect(), page = document.documentElement
   const over = ["bench", "picture", "legend", "inspector", "tab-row", "panel-atlas .pad"].filter((name) => {
     const one = root.querySelector(`.${name}`), {bottom, right} = one.getBoundingClientRect()
-    const drawn = !name.endsWith(".pad") || !root.classList.contains("twofold") // there the panels are drawn up by a hand
+    const drawn = !name.endsWith(".pad") || !root.classList.contains("twofold") // of two, panels are drawn up by a hand
     return drawn && one.checkVisibility() && (bottom > foot.top + 1 || right > innerWidth + 1)
   })
   const wide = page.scrollHeight > innerHeight || page.scrollWidth > innerWidth || foot.bottom > innerHeight

@@ -76,7 +76,7 @@ def test_before_and_after_and_the_papers_beside_ones_own(open_page):
     until(second(page), "values.f1 === -0.5 && values.psi === 'constant'")
     second(page).wait_for_selector(".portrait-name:text-is('CM4')")
     assert page.name() == "CM2"
-    assert page.find(".first-words").text_content().startswith("Case I, CM2. ")
+    assert page.find(".first-words").text_content().startswith("CM2 · Case I ")
     page.choose(".second-what", "case3-n3").kept()
     until(second(page), "values.a === 172 && values.n === 3")
     page.find(".second-bar summary").click()

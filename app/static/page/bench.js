@@ -61,7 +61,7 @@ export class Bench {
     this.slider.value = String(push)
     clearTimeout(this.later)
     const [place] = this.leaving()
-    if (verdict === "slips" && this.before && this.before !== verdict && place && isFriction(values)) this.later = setTimeout(() => { this.before = verdict; this.run(place) }, LOOSE)
+    if (verdict === "slips" && this.before && this.before !== verdict && place && isFriction(values)) this.later = setTimeout(() => { this.before = verdict; if (!this.root.classList.contains("asked")) this.run(place) }, LOOSE)
     else this.before = verdict
     this.draw()
   }

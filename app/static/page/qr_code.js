@@ -1,5 +1,8 @@
 // QR codes of texts (ISO/IEC 18004): bytes, the lowest level of correction, and one mask, since links are compressed.
 
+/** Whether this page has an address that no phone can reach. */
+export const isLocal = () => /^(localhost|127\.|\[::1\])/.test(location.hostname)
+
 /** Bytes of the longest text that has a code. */
 export const MAX_QR_BYTES = 2953
 const MODE_BYTES = 4, LEVEL_LOW = 1, MASK = 0

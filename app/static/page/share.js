@@ -2,7 +2,7 @@
 
 import {copyText} from "../dom.js"
 import {compressQuery} from "./links.js"
-import {MAX_QR_BYTES, qrAddress} from "./qr_code.js"
+import {MAX_QR_BYTES, isLocal, qrAddress} from "./qr_code.js"
 import {SAYS, escape} from "../words.js"
 
 const MARKUP = `
@@ -10,7 +10,7 @@ const MARKUP = `
   <h2>This view as a link</h2>
   <p class="note">The link carries every value, your formulas, launched orbits, the lesson, the zoom and saved views.</p>
   <div class="row"><input type="text" class="address" readonly aria-label="Link of this view"><button type="button" data-copies="address">Copy</button></div>
-  <img class="qr" alt="QR code of the link" hidden>
+  <img class="qr" alt="QR code of the link" hidden><p class="note local" hidden>${SAYS.roomLocal}</p>
   <div class="rooms"><h2>A room</h2>
     <p class="note">Students join from their phones; each appears as an anonymous dot.</p>
     <div class="row"><button type="button" class="open-room">Open a room</button> <label>or join one: <input type="text" class="code" maxlength="8" size="6" placeholder="code" spellcheck="false" autocomplete="off" autocapitalize="characters"></label><button type="button" class="enter-room">Join</button></div></div>
@@ -48,6 +48,7 @@ export class Share {
     const code = this.find(".qr")
     code.hidden = address.length > MAX_QR_BYTES
     if (!code.hidden) code.src = qrAddress(address)
+    this.find(".local").hidden = code.hidden || !isLocal()
     this.frame = () => {
       const names = this.find(".names").value.replace(/[^\w,]/g, "")
       const inner = `${page}?${short}&embed=1${names ? `&controls=${encodeURIComponent(names)}` : ""}`

@@ -7,6 +7,7 @@ import {SAYS, escape, formula, lowerIndices, plain} from "../words.js"
 
 const STORE = "codim2-lessons"
 const FAR = 4, STEP = 0.05 // from the middle, a mark is nearer; as far does the cross go with one key
+const TRIES = 3 // answers until the right one is shown
 const WAYS = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}
 
 class Lessons {
@@ -16,6 +17,9 @@ class Lessons {
     this.lesson = null
     this.facts = {}
     this.asked = "" // which question waits for its answer, as in a link
+    this.of = this.judged = "" // the question that was judged last, and with which answer
+    this.found = false // whether it was right
+    this.misses = 0 // of that question
     this.aimed = null // where the arrow keys have moved the cross
     const brought = new URLSearchParams(globalThis.location?.search).get("done")
     if (brought) this.store(joinProgress(this.progress(), unpackProgress(brought)))
@@ -48,6 +52,9 @@ class Lessons {
     this.ask()
     this.tools.cross(null)
     this.box.scrollTop = 0
+    this.score()
+    const named = new Set([...this.box.querySelectorAll("[data-drag]")].map((/** @type {any} */ one) => one.dataset.drag)) // its sliders come first on a phone
+    for (const control of this.tools.root.querySelectorAll(".controls .control")) control.style.order = named.has(control.dataset.control) ? "-1" : ""
     this.showNumbers()
     const {quiz} = this.tools.values
     if (quiz) this.openQuestion(Number(quiz.split(".")[0]))
@@ -67,16 +74,16 @@ class Lessons {
   page(lesson) {
     let question = -1
     const parts = lesson.parts.map((part) => "html" in part ? `<div class="lesson-text">${part.html}</div>` : this.card(part, ++question))
-    return `<div class="row lesson-head"><button type="button" data-open="">‹ All lessons</button></div><h2>${escape(lesson.title)}</h2>${parts.join("")}`
+    return `<div class="row lesson-head"><button type="button" data-open="">‹ All lessons</button><span class="note score"></span></div><h2>${escape(lesson.title)}</h2>${parts.join("")}`
   }
 
   card(part, i) {
     return `<section class="question" data-question="${i}"><p class="ask"><b>Predict.</b> ${part.ask}</p>
-      <button type="button" class="begin">Ask me</button>
+      <button type="button" class="begin">Try a question</button>
       <div class="options" role="group" aria-label="Answers" hidden>${part.mark ? `<button type="button" class="aim" title="${SAYS.aim}">Mark it on the picture</button>` : ""}${part.options.map((words, k) => `<button type="button" data-choice="${k}">${words}</button>`).join("")}</div>
       ${part.hint ? `<details class="clue"><summary>Hint</summary><p>${part.hint}</p></details>` : ""}
       <div class="verdict" role="status" aria-live="polite"></div>
-      ${part.vary ? `<div class="vary" hidden><p><b>Vary.</b> ${part.vary.html} <span class="goal" role="status"></span></p>${part.vary.hint ? `<details class="clue"><summary>Hint</summary><p>${part.vary.hint}</p></details>` : ""}</div>` : ""}</section>`
+      ${part.vary ? `<div class="vary" hidden><p><b>Now you:</b> ${part.vary.html} <span class="goal" role="status"></span></p>${part.vary.hint ? `<details class="clue"><summary>Hint</summary><p>${part.vary.hint}</p></details>` : ""}</div>` : ""}</section>`
   }
 
   // --- questions
@@ -99,15 +106,15 @@ class Lessons {
     section.querySelector(".verdict").innerHTML = ""
     const vary = section.querySelector(".vary")
     if (vary) vary.hidden = true
-    for (const option of section.querySelectorAll("[data-choice]")) option.classList.remove("right", "wrong")
+    for (const option of section.querySelectorAll("[data-choice]")) { option.classList.remove("right", "wrong"); option.disabled = false }
     this.tools.cross(null)
     this.asks()
   }
 
   // The question that waits for its answer is asked: what would tell it is hidden, and a click marks a place if it is one.
   asks() {
-    const {quiz} = this.tools.values, [i, , ...answer] = quiz.split(".")
-    const part = i && !answer.length && this.lesson?.key ? this.questions()[Number(i)] : undefined
+    const {quiz} = this.tools.values, [i] = quiz.split(".")
+    const part = i && this.open && this.lesson?.key ? this.questions()[Number(i)] : undefined
     if (part) this.ask(quiz, {hide: part.hide, mark: part.mark ? (place) => this.mark(Number(i), place) : null})
     else this.ask()
   }
@@ -131,28 +138,38 @@ class Lessons {
   }
 
   judge({question: i, right, truth, why, explain}) {
-    const section = this.section(i)
+    const section = this.section(i), {quiz} = this.tools.values, [, seed, ...given] = quiz.split("."), answer = given.map(Number)
     if (!section) return
-    this.ask()
+    if (this.of !== `${i}.${seed}`) this.misses = 0
+    if (this.judged !== quiz && !right) this.misses += 1
+    this.of = `${i}.${seed}`
+    this.judged = quiz
+    this.found = right
     section.querySelector(".options").hidden = false
-    const answer = this.tools.values.quiz.split(".").slice(2).map(Number), choice = answer.length > 1 ? -1 : answer[0]
+    const choice = answer.length > 1 ? -1 : answer[0], {open} = this, options = section.querySelectorAll("[data-choice]"), clue = section.querySelector(".clue")
+    this.asks()
     this.tools.cross(answer.length > 1 ? {x: answer[0] / 1000 - FAR, y: answer[1] / 1000 - FAR, right} : null)
-    for (const option of section.querySelectorAll("[data-choice]")) {
+    for (const option of options) {
       const k = Number(option.dataset.choice)
-      option.classList.toggle("right", k === truth)
+      option.classList.toggle("right", k === truth && !open)
       option.classList.toggle("wrong", k === choice && k !== truth)
+      option.disabled = !open
     }
-    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not quite."}</b> ${lowerIndices([why, explain].filter(Boolean).join(" "))}</p>`
+    if (open && this.misses > 1 && clue) clue.open = true
+    section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not quite."}</b> ${open ? this.misses > 1 && clue ? SAYS.tryHint : SAYS.tryAgain : lowerIndices([why, explain].filter(Boolean).join(" "))}</p>`
     const vary = section.querySelector(".vary")
-    if (vary) vary.hidden = false
+    if (vary) vary.hidden = open
     section.querySelector(".verdict").scrollIntoView({block: "nearest"})
-    if (right) this.keep(i, "answer")
+    if (right && this.misses < TRIES) this.keep(i, "answer")
   }
+
+  /** Whether the question waits for an answer, or for a better one. */
+  get open() { return this.tools.values.quiz !== this.judged || !this.found && this.misses < TRIES }
 
   showGoal({question: i, reached, now}) {
     const goal = this.section(i)?.querySelector(".goal")
     if (!goal) return
-    setMarkup(goal, reached ? "<b>Done ✓</b>" : `<b>Not yet.</b> ${formula(`Now ${now}.`)}`)
+    setMarkup(goal, reached ? "<b>Done ✓</b>" : `<b>Not yet:</b> ${formula(`${now}.`.replaceAll(": ", " is "))}`)
     if (reached) this.keep(i, "goal")
   }
 
@@ -166,6 +183,12 @@ class Lessons {
   progress() { try { return JSON.parse(localStorage.getItem(STORE) ?? "{}") } catch { return {} } }
   keep(i, step) {
     this.store(withStep(this.progress(), this.lesson.key, i, step))
+    this.score()
+  }
+
+  score() {
+    const place = this.box.querySelector(".score"), {length} = this.lesson.key ? this.questions() : []
+    if (place) place.textContent = `${progressOf(this.progress(), this.lesson.key, length).answered} of ${length} answered`
   }
 
   store(progress) { try { localStorage.setItem(STORE, JSON.stringify(progress)) } catch { /* storage may be forbidden */ } }

@@ -2,7 +2,7 @@
 
 import {setMarkup} from "../dom.js"
 import {compressQuery} from "../page/links.js"
-import {qrAddress} from "../page/qr_code.js"
+import {isLocal, qrAddress} from "../page/qr_code.js"
 import {SAYS, escape} from "../words.js"
 
 const STORE = "codim2-room" // of this tab: a page that is loaded again is in its room again
@@ -151,8 +151,7 @@ export class Room {
     const page = location.origin + location.pathname
     find(".room-code").textContent = this.code
     find(".room-address").textContent = `${page.replace(/^https?:\/\//, "")}?room=${this.code}`
-    const here = /^(localhost|127\.|\[::1\])/.test(location.hostname)
-    find(".room-local").hidden = !here
+    find(".room-local").hidden = !isLocal()
     find(".room-local").textContent = SAYS.roomLocal
     this.tell()
     if (!this.dialog.open) this.dialog.showModal()

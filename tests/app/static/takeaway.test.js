@@ -98,7 +98,7 @@ test("while a film is drawn it says how far it is, can be stopped, and nothing e
   const one = opened({answer: () => new Promise((go) => { done = go })})
   assert.equal(one.find(".stop-making").hidden, true)
   const film = one.press("gif")
-  assert.deepEqual([one.told(), one.find(".stop-making").hidden, one.disabled().length], ["Making Film …", false, 12])
+  assert.deepEqual([one.told(), one.find(".stop-making").hidden, one.disabled().length], ["Making the file …", false, 12])
   one.progress[0](4, 41)
   assert.equal(one.told(), "Drawing the film: 4 of 41 pictures …")
   one.find(".stop-making").onclick()
@@ -108,7 +108,7 @@ test("while a film is drawn it says how far it is, can be stopped, and nothing e
   assert.deepEqual([one.told(), one.find(".stop-making").hidden, one.disabled(), one.saved], ["The film was stopped.", true, [], []])
   assert.equal(one.document.activeElement, one.button("gif"))
   const file = one.press("tex")
-  assert.deepEqual([one.told(), one.find(".stop-making").hidden], ["Making LaTeX table …", true]) // a table takes no time
+  assert.deepEqual([one.told(), one.find(".stop-making").hidden], ["Making the file …", true]) // a table takes no time
   done(FILE)
   await file
 })

@@ -258,18 +258,21 @@ test("the panel lessons: a question hides, asks, judges and remembers", () => {
   one.fire(section(1).querySelector("[data-choice]"), "click") // of another question than the one that was asked
   assert.deepEqual(one.said(), [])
   one.fire(section(0).querySelectorAll("[data-choice]")[2], "click")
-  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000.2"], ["ask", null]])
-  assert.equal(one.find("[data-fact]").textContent, "CM2")
-  one.frame({judged: {question: 0, right: false, truth: 1, why: "No.", explain: "Because."}})
-  assert.deepEqual(one.said(), [["cross", null]])
+  assert.deepEqual(one.said()[0], ["choose", "quiz", "0.250000.2"])
+  assert.equal(one.find("[data-fact]").textContent, "?") // until it is judged
+  const judged = (right, truth, why = "") => one.frame({judged: {question: 0, right, truth, why, explain: right ? "Yes." : "Because."}})
   const marked = () => [...section(0).querySelectorAll("[data-choice]")].map((it) => it.className)
-  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent, section(0).querySelector(".vary").hidden, kept], [["", "right", "wrong"], "Not quite. No. Because.", false, {}])
+  judged(false, 1, "No.")
+  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent, section(0).querySelector(".vary").hidden, kept], [["", "", "wrong"], "Not quite. Try again.", true, {}])
+  judged(false, 1, "No.") // the same answer once more
   one.set({quiz: "0.250000.1"})
-  one.frame({judged: {question: 0, right: true, truth: 1, explain: "Yes."}})
-  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent], [["", "right", ""], "Right. Yes."])
+  judged(true, 1)
+  assert.deepEqual([marked(), section(0).querySelector(".verdict").textContent, section(0).querySelector(".vary").hidden], [["", "right", ""], "Right. Yes.", false])
+  assert.equal(one.find("[data-fact]").textContent, "CM2")
+  assert.equal(one.find(".score").textContent, "1 of 2 answered")
   assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer"]}})
   one.frame({goal: {question: 0, reached: false, now: "portrait: CM2, λ_ρ: 1"}})
-  assert.equal(section(0).querySelector(".goal").textContent, "Not yet. Now portrait: CM2, λρ: 1.")
+  assert.equal(section(0).querySelector(".goal").textContent, "Not yet: portrait is CM2, λρ is 1.")
   one.frame({goal: {question: 0, reached: true}})
   assert.equal(section(0).querySelector(".goal").textContent, "Done ✓")
   assert.deepEqual(JSON.parse(kept["codim2-lessons"]), {"03-x": {0: ["answer", "goal"]}})
@@ -291,6 +294,22 @@ test("the panel lessons: a question hides, asks, judges and remembers", () => {
   assert.deepEqual(one.said(), [["open", {lesson: "04-y", f1: 1}]])
 })
 
+test("the panel lessons: after three wrong answers the right one is shown, and counts for nothing", () => {
+  const kept = {}, one = opened("lessons", {quiz: "", lesson: "03-x", f1: 0})
+  Object.assign(globalThis.localStorage, {getItem: (name) => kept[name] ?? null, setItem: (name, value) => { kept[name] = value }})
+  one.frame({lesson: LESSON})
+  one.fire(one.find(".begin"), "click")
+  const says = (answer, right = false) => {
+    one.set({quiz: `0.250000.${answer}`})
+    one.frame({judged: {question: 0, right, truth: 1, why: "No.", explain: "Because."}})
+    return one.find(".verdict").textContent
+  }
+  assert.deepEqual([says("2"), says("0"), says("2")], ["Not quite. Try again.", one.find(".clue") ? "Not quite. Here is a hint; try again." : "Not quite. Try again.", "Not quite. No. Because."])
+  assert.deepEqual([...one.find("[data-question]").querySelectorAll("[data-choice]")].map((it) => [it.className, it.disabled]), [["", true], ["right", true], ["wrong", true]])
+  says("1", true)
+  assert.deepEqual(kept, {})
+})
+
 test("the panel lessons: before a question is begun nothing is hidden", () => {
   const asked = [], one = opened("lessons", {quiz: "", lesson: "04-x"}, {ask: (it) => asked.push(it)})
   one.frame({lesson: {key: "04-x", title: "Four", parts: [{ask: "Where?", options: ["here", "there"], hide: ["critical"]}]}})
@@ -310,9 +329,9 @@ test("the panel lessons: a place is marked by a click on the picture, or by arro
   one.fire(one.find(".begin"), "click")
   one.said()
   asked.mark({x: -0.5, y: 0.25})
-  assert.deepEqual([one.said(), asked], [[["choose", "quiz", "0.250000.3500.4250"]], null])
+  assert.deepEqual(one.said()[0], ["choose", "quiz", "0.250000.3500.4250"])
   one.frame({judged: {question: 0, right: false, truth: null, why: "Far.", explain: "There."}})
-  assert.deepEqual([one.said(), one.find(".verdict").textContent], [[["cross", {x: -0.5, y: 0.25, right: false}]], "Not quite. Far. There."])
+  assert.deepEqual([one.said(), one.find(".verdict").textContent], [[["cross", {x: -0.5, y: 0.25, right: false}]], "Not quite. Try again."])
   one.fire(one.find(".begin"), "click")
   one.said()
   asked.mark({x: 4.1, y: 0}) // as far as no link says
@@ -324,6 +343,8 @@ test("the panel lessons: a place is marked by a click on the picture, or by arro
   assert.match(one.find(".verdict").textContent, /arrow keys/)
   key("Enter")
   assert.deepEqual(one.said(), [["choose", "quiz", "0.250000.4150.4100"]])
+  one.frame({judged: {question: 0, right: true, truth: null, explain: "There."}})
+  one.said()
   key("Enter")
   assert.deepEqual(one.said(), []) // it is answered
 })
