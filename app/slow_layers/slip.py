@@ -48,8 +48,8 @@ def slip(scene: Scene, start: str) -> bytes:
     state = EPS * scaling_from_disc((x, y)) if radius < 1.0 - EPS else place * (max(radius - 1.0, EPS) / radius)
     size = max(np.linalg.norm(at.A, 2), np.linalg.norm(at.f), 1e-6)
     frozen = ELinear(a=at.a, b=at.b, d=at.d, f=tuple(at.f))
-    end = LASTS * (float(np.hypot(*state)) + 1.0) / size
-    drawn = simulate(frozen, scene.psi, tuple(state), (0.0, end), eps=EPS, rtol=RTOL).drawn()
+    end = float(LASTS * (np.hypot(*state) + 1.0) / size)
+    drawn = simulate(frozen, scene.psi, state.tolist(), (0.0, end), eps=EPS, rtol=RTOL).drawn()
     far = np.hypot(*drawn.points.T) > PICTURE_REACH
     moves = np.hypot(*(drawn.points - drawn.points[-1]).T) > RESTS
     last = int(np.argmax(far)) + 1 if far.any() else int(np.flatnonzero(moves).max(initial=0)) + 2

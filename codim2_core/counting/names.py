@@ -113,24 +113,10 @@ def _filter(plane, codes, margins):  # (n, 5) a, b, d, f1, f2; codes (n,), margi
 def names(plane: ArrayLike) -> tuple[NDArray[np.int8], NDArray[np.float64], dict[int, tuple[str | None, str]]]:
     """Name the portraits of e-linear systems.
 
-    Parameters
-    ----------
-    plane : (n, 5)
-        a, b, d, f1, f2 of each.
-
-    Returns
-    -------
-    codes : ndarray (n,) of int8
-        Index in `PORTRAIT_NAMES` plus 1; 0 for systems with another name (see the third result).
-    margins : ndarray (n,)
-        How far from its nearest border each lies, 0 to 1; 0.0 where the exact path decided.
-    others : dict
-        By index: (case, name) of what is degenerate, and so in no row of `PORTRAIT_NAMES`.
-
-    Raises
-    ------
-    ValueError
-        The shape is another, or a coefficient is not finite or too large.
+    codes: Index in `PORTRAIT_NAMES` plus 1; 0 for systems with another name (see the third result); margins: How far
+    from its nearest border each lies, 0 to 1; 0.0 where the exact path decided; others: By index: (case, name) of
+    what is degenerate, and so in no row of `PORTRAIT_NAMES`. Raises ValueError: The shape is another, or a
+    coefficient is not finite or too large. Shapes: plane (n, 5).
     """
     values = np.ascontiguousarray(plane, dtype=float)
     if values.ndim != 2 or values.shape[1] != 5:

@@ -108,13 +108,7 @@ def _drawn_again(plan: CensusPlan, places: set[SampleLocation], chunk: int, tota
 
 
 def interval(count: int, total: int) -> tuple[float, float]:
-    """Return Wilson's interval of 95 % confidence of a share.
-
-    Parameters
-    ----------
-    count, total : int
-        0 <= count <= total, total > 0.
-    """
+    """Return Wilson's interval of 95 % confidence of a share."""
     share, z2 = count / total, NORMAL_95**2
     centre = share + z2 / (2 * total)
     half = NORMAL_95 * math.sqrt(share * (1 - share) / total + z2 / (4 * total * total))

@@ -117,12 +117,7 @@ def zero_between(
 ) -> Array:
     """Find the point of a curve between two neighbours at which a function changes its sign.
 
-    Parameters
-    ----------
-    condition, test : callable
-    one, other : ndarray (n,)
-    part : float
-        Of the step, to which it is found.
+    Shapes: one, other (n,).
     """
     chord = other - one
     normal = chord / max(math.sqrt(chord @ chord), 1e-300)
@@ -141,12 +136,7 @@ def zero_between(
 def trace_curve(condition: Condition, start: Array, edges: Sequence[CurveEdge], steps: StepBounds) -> TracedLine | None:
     """Follow a curve both ways from a point on it; None where that is no regular point.
 
-    Parameters
-    ----------
-    condition : callable
-    start : ndarray (n,)
-    edges : sequence of CurveEdge
-    steps : StepBounds
+    Shapes: start (n,).
     """
     along = tangent(condition, start)
     if along is None:

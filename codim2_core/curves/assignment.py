@@ -12,10 +12,7 @@ def assign(cost: Array) -> list[int]:
 
     Shortest augmenting paths, a row after the other (Jonker and Volgenant 1987); O(n^3).
 
-    Parameters
-    ----------
-    cost : ndarray (n, m)
-        n <= m, finite.
+    Shapes: cost (n, m).
     """
     n, m = cost.shape
     costs, of_row, of_column = cost.tolist(), [0.0] * (n + 1), [0.0] * (m + 1)

@@ -40,14 +40,7 @@ def newton(
 ) -> Array | None:
     """Find a common zero of at most n functions of n numbers, by least changes; None if there is none within reach.
 
-    Parameters
-    ----------
-    condition : callable
-    start : ndarray (n,)
-    reach : float
-        How far from the start it may be.
-    close : float
-        Correction at which it stops.
+    Shapes: start (n,).
     """
     v, size = start, math.inf
     for rounds in range(MAX_ROUNDS):

@@ -10,13 +10,7 @@ from ..arrays import Array
 def feet(points: Array, line: Array) -> tuple[Array, Array, Array]:
     """Find the nearest place to points (..., n) on each piece of a polyline (m, n).
 
-    Returns
-    -------
-    parts : ndarray (..., m - 1)
-        Of the piece: 0 at its start, 1 at its end.
-    places : ndarray (..., m - 1, n)
-    gaps : ndarray (..., m - 1)
-        Distances.
+    parts: Of the piece: 0 at its start, 1 at its end; gaps: Distances.
     """
     start, along = line[:-1], np.diff(line, axis=0)
     away = points[..., None, :] - start

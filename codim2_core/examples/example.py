@@ -130,18 +130,7 @@ class Example:
 def examples_at_contacts(
     mechanism: Callable[..., Contacts], titles: Mapping[str, str], title: str, **shared: Any
 ) -> tuple[Example, ...]:
-    """Return an example for each contact of a mechanism, in their order.
-
-    Parameters
-    ----------
-    mechanism : callable
-    titles : mapping of str to str
-        For each contact its key, and what it is called.
-    title : str
-        What people call the mechanism.
-    **shared
-        Fields of `Example` that all have in common.
-    """
+    """Return an example for each contact of a mechanism, in their order."""
     return tuple(
         Example(_system_at_contact(mechanism, i, key), f"{title}: {name}", mechanism=mechanism, **shared)
         for i, (key, name) in enumerate(titles.items())

@@ -82,15 +82,7 @@ class Program:
     def evaluate(self, points: Array) -> Array:
         """Rows and their exact partial derivatives by c and s.
 
-        Parameters
-        ----------
-        points : ndarray (k, 2 to 4)
-            Of c and s, and of x and y, which else are 0.
-
-        Returns
-        -------
-        ndarray (k, rows, 3)
-            Value, derivative by c, derivative by s.
+        Value, derivative by c, derivative by s. Shapes: points (k, 2 to 4).
         """
         out = np.empty((len(points), len(self.roots), 3))
         from . import interpreter  # on first use: it loads the compiler

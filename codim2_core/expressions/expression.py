@@ -73,20 +73,8 @@ class Expression:
     def evaluate(self, values: Mapping[str, Any]) -> Any:
         """Value of the formula, in IEEE arithmetic: inf and nan where it has a pole or is undefined, no warnings.
 
-        Parameters
-        ----------
-        values : mapping of str to float or array
-            At least the names in `names`; arrays broadcast.
-
-        Returns
-        -------
-        float or ndarray
-            An array of the common shape if any value is an array of one or more dimensions, else a float.
-
-        Raises
-        ------
-        ValueError
-            A name has no value, or the arrays do not broadcast.
+        An array of the common shape if any value is an array of one or more dimensions, else a float. Raises
+        ValueError: A name has no value, or the arrays do not broadcast.
         """
         plain = True
         for value in values.values():
@@ -127,10 +115,7 @@ class Expression:
     def derivative(self, name: str) -> Expression:
         """Symbolic partial derivative by `name`, lightly simplified; zero if the formula does not use it.
 
-        Raises
-        ------
-        ValueError
-            The derivative is too long (20000 operations).
+        Raises ValueError: The derivative is too long (20000 operations).
         """
         return _derivative(self, name)
 
@@ -147,23 +132,8 @@ class Expression:
 def parse(text: str, names: Iterable[str]) -> Expression:
     """Read a formula.
 
-    Parameters
-    ----------
-    text : str
-        At most 1000 ASCII characters, 400 operations and 40 levels of nesting; exponents up to 1000.
-    names : tuple of str
-        The variables that the text may use, e.g. ``("s",)``.
-
-    Returns
-    -------
-    Expression
-        The same object for the same text and names.
-
-    Raises
-    ------
-    ValueError
-        An `ExpressionError` with ``text``, ``column`` (from 1) and ``caret``; the message says what was written,
-        where reading stopped, what is allowed, and the mend.
+    The same object for the same text and names. Raises ValueError: An `ExpressionError` with ``text``, ``column``
+    (from 1) and ``caret``; the message says what was written, where reading stopped, what is allowed, and the mend.
     """
     if not isinstance(text, str):
         raise ValueError(f"a formula was expected as text, not {type(text).__name__}; give a string such as '1/(1+s)'.")

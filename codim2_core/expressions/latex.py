@@ -39,14 +39,7 @@ def latex_symbol(name: str, dot: bool = False) -> str:
 
 
 def latex_formula(expression: Expression, named: Mapping[Expression, str] = MappingProxyType({})) -> str:
-    """Return a formula, as it stands between dollars.
-
-    Parameters
-    ----------
-    expression : Expression
-    named : mapping of Expression to str
-        Parts that are written as a name: definitions.
-    """
+    """Return a formula, as it stands between dollars."""
     pieces: list[_Piece] = []
     tape = expression.tape
     for k, (op, *args) in enumerate(tape):

@@ -25,18 +25,7 @@ SQUARE_ROOT = code["sqrt"]
 def pack(program: Program, inputs: int, bound: float = 0.0) -> Array:
     """Return a program as one array; the first rows are those of its variables.
 
-    Parameters
-    ----------
-    program : Program
-    inputs : int
-        The number of its variables.
-    bound : float
-        A number at BOUND, for who runs it.
-
-    Raises
-    ------
-    ValueError
-        More values must be kept at a time than there is room for.
+    Raises ValueError: More values must be kept at a time than there is room for.
     """
     op, left, right, number, roots = (part.tolist() for part in program.arrays)
     last_use = {i: i for i in range(len(op))}

@@ -93,10 +93,7 @@ def unknown_names(text: str) -> list[tuple[str, int]]:
 def read_formula(text: str, names: tuple[str, ...]) -> Tape:
     """Tape of a formula.
 
-    Raises
-    ------
-    ExpressionError
-        A ValueError that says what was written, the column, what is allowed and the mend.
+    Raises ExpressionError: A ValueError that says what was written, the column, what is allowed and the mend.
     """
     return _Reader(text, names).read()
 

@@ -87,21 +87,7 @@ def branch_at(
     known: Sequence[int] = (),
     slip: Sequence[str] = FAST_NAMES[2:],
 ) -> Branch:
-    """Return the branch at a place, or, where a guard vanishes there, the one towards which its rates lead.
-
-    Parameters
-    ----------
-    rows : sequence of Expression
-    names : collection of str
-        A kink or a jump is a switch where its argument reads these names only.
-    values : mapping of str to float
-    rates : mapping of str to float, optional
-        How the values move.
-    known : sequence of int
-        The first choices, where they are known.
-    slip : sequence of str
-        Names that vanish on Sigma: an argument that vanishes with them is no switch, as that of abs(x).
-    """
+    """Return the branch at a place, or, where a guard vanishes there, the one towards which its rates lead."""
     choices: dict[tuple[str, Expression], int] = {}
     guards: dict[tuple[str, Expression], Expression] = {}
     jumps: dict[tuple[str, Expression], bool] = {}

@@ -194,10 +194,7 @@ def derivative(tape: Tape, name: str) -> Tape:
     has a kink there, and the mean of its two slopes is 0), and a factor u = 0 of a product u v with a finite slope,
     since (u v)' = u' v there whatever the slope of v.
 
-    Raises
-    ------
-    ValueError
-        The derivative has more than `MOST_NODES` operations.
+    Raises ValueError: The derivative has more than `MOST_NODES` operations.
     """
     build = Builder(tape, simplify=True)
     apply, zero = build.apply, build.number(0.0)

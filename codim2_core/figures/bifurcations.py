@@ -110,10 +110,6 @@ def bifurcation_presets() -> dict[str, Preset]:
     """Presets of fig:SNBIF, fig:transcrit, D2, fig:intersections and fig:ellipse, by name.
 
     The paper prints no numbers for these sketches: all values here are round ones that give the portrait sketched.
-
-    Returns
-    -------
-    dict of str to Preset
     """
     found: dict[str, Preset] = {}
     for group in (_pitchfork, _saddle_node, _transcritical, _conics, _ellipse):

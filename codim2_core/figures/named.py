@@ -12,10 +12,7 @@ from .presets import presets
 def named_setting(name: str) -> dict[str, Any]:
     """Return what a name stands for: ``{"system": ..., "psi": ..., "z": ...}`` of a preset, "system" of an example.
 
-    Raises
-    ------
-    ValueError
-        There is neither; the message has the names that are like it.
+    Raises ValueError: There is neither; the message has the names that are like it.
     """
     if name in presets:
         found = presets[name]

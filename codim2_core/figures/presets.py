@@ -151,20 +151,8 @@ presets: Mapping[str, Preset] = MappingProxyType(_presets)  # by name, in the or
 def register(preset: Preset) -> Preset:
     """List a preset of your own beside the paper's figures, for this process.
 
-    Parameters
-    ----------
-    preset : Preset
-        With name, group and title.
-
-    Returns
-    -------
-    Preset
-        The same.
-
-    Raises
-    ------
-    ValueError
-        It is no Preset, its name is missing or taken, or its system, Psi and z do not go together.
+    The same. Raises ValueError: It is no Preset, its name is missing or taken, or its system, Psi and z do not go
+    together.
     """
     if not isinstance(preset, Preset):
         raise ValueError(f"preset is of type {type(preset).__name__}; give a Preset.")
@@ -179,10 +167,7 @@ def register(preset: Preset) -> Preset:
 def unregister(name: str) -> None:
     """Take a registered preset off the list; the paper's figures stay.
 
-    Raises
-    ------
-    ValueError
-        There is no such preset, or it is the paper's.
+    Raises ValueError: There is no such preset, or it is the paper's.
     """
     if name not in _presets or name in _LISTED:
         raise ValueError(f"{name!r} is no preset that was registered.")

@@ -28,20 +28,7 @@ def leave(
 ) -> Step | str:
     """Leave Sigma along a limit direction with lambda_rho > 0, or one whose lambda_rho just turns positive.
 
-    Parameters
-    ----------
-    field : Field
-    theta : float
-        Near a zero of Theta at z.
-    t, t_end : float
-    z : ndarray (m,)
-    line : InvariantLine, optional
-        The invariant line that the motion stays in.
-
-    Returns
-    -------
-    Step, or str
-        The first, short step; or why there is none, as a sentence.
+    The first, short step; or why there is none, as a sentence. Shapes: z (m,).
     """
     functions, m = functions_of(field, constant()), len(z)
     S, linear, square = np.zeros(SLOW_EXTENT), np.zeros(2 + m), np.zeros(2 + m)

@@ -72,14 +72,7 @@ class Field:
         return has_switches(self.rows, _state_names(self.m))
 
     def on_branch(self, e: Sequence[float], state: Sequence[float], known: Sequence[int] = ()) -> Field:
-        """Return the smooth branch of the formulas at e (2,) and a state (2 + m,); on a border the one ahead.
-
-        Parameters
-        ----------
-        e, state : sequence of float
-        known : sequence of int
-            The first choices of the branch, where they are known.
-        """
+        """Return the smooth branch of the formulas at e (2,) and a state (2 + m,); on a border the one ahead."""
         if not self.switches:
             return self
         names, rates = _state_names(self.m), self.value(*e, *state)
@@ -97,14 +90,7 @@ class Field:
         return all(name in rates and rates[name].constant is not None for name in guard.names)
 
     def past_switch(self, switch: int, e: Sequence[float], state: Sequence[float]) -> Field | None:
-        """Return the branch that follows this one of a field past a switch; None if that leads back at once.
-
-        Parameters
-        ----------
-        switch : int
-        e, state : sequence of float
-            Where its guard vanishes.
-        """
+        """Return the branch that follows this one of a field past a switch; None if that leads back at once."""
         before, whole = self.branch, self.whole
         assert whole is not None
         after = whole.on_branch(e, state)
@@ -167,15 +153,8 @@ def _coefficients_rows(system: Coefficients, kept: Sequence[str] = ()) -> list[E
 def field(system: AnySystem) -> Field:
     """U and W of any system as functions of numbers; made once for each system.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-        One frozen at a z keeps U and W of that z, whatever z does.
-
-    Raises
-    ------
-    ValueError
-        An ELinear made `from_matrix` whose rotation into the normal form depends on z: its axes turn with z.
+    Raises ValueError: An ELinear made `from_matrix` whose rotation into the normal form depends on z: its axes turn
+    with z.
     """
     if isinstance(system, Coefficients):
         return _make_field(_coefficients_rows(system), len(system.g))
@@ -205,16 +184,7 @@ def backwards_system(system: AnySystem) -> System:
 def rows_of(system: AnySystem, kept: Sequence[str] = ()) -> list[Expression]:
     """Return the formulas of U and W, in which some of the system's numbers keep their names.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    kept : sequence of str
-        Of ``system.variable``.
-
-    Raises
-    ------
-    ValueError
-        As `field`; also where A is given as a matrix and a name is kept of which it is made.
+    Raises ValueError: As `field`; also where A is given as a matrix and a name is kept of which it is made.
     """
     if isinstance(system, Coefficients):
         return _coefficients_rows(system, kept)

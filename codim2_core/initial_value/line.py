@@ -58,11 +58,7 @@ class InvariantLine:
     def onward(self, q: float, z: Array) -> float | None:
         """Return the limit of the layer problem from q: the first zero of n.U, or +-1, an end; None if it rests.
 
-        Parameters
-        ----------
-        q : float
-            -1 <= q <= 1.
-        z : ndarray (m,)
+        Shapes: z (m,).
         """
         rate = self.radial_speed(q, z)
         if not rate:
@@ -82,12 +78,7 @@ def invariant_line(field: Field, state: Array, left: InvariantLine | None = None
 
     z may lie in an invariant subspace: the line is asked for z in the span of z and W there.
 
-    Parameters
-    ----------
-    field : Field
-    state : ndarray (2 + m,)
-    left : InvariantLine, optional
-        One that a load has pushed the motion out of.
+    Shapes: state (2 + m,).
     """
     x, y = state[:2].tolist()
     r = math.hypot(x, y)

@@ -66,17 +66,7 @@ def rate_at(field: Field, psi: Psi | None, eps: float, line: InvariantLine | Non
 def failure(code: int, t: float, state: Array, rate: Callable[[Array], Array], least: float = 0.0) -> Exception | None:
     """Say why a motion has ended before its time; None where it has not.
 
-    Parameters
-    ----------
-    code : int
-        Of `integrate_motion`.
-    t : float
-    state : ndarray (n,)
-        The last ones.
-    rate : callable
-        Of the state.
-    least : float
-        The shortest step.
+    Shapes: state (n,).
     """
     if code == LIMIT:
         return TooManyStepsError()
@@ -153,11 +143,8 @@ class MotionSteps:
     def chunks(self, size: int = STEPS_PER_CALL) -> Iterator[StepArray]:
         """Step to the end, so many steps at a time.
 
-        Raises
-        ------
-        BlowUpError
-            The state grows beyond all bounds in no time.
-        TooManyStepsError, StepsTooShortError
+        Raises BlowUpError: The state grows beyond all bounds in no time. Raises TooManyStepsError,
+        StepsTooShortError.
         """
         n, most = len(self.y), size
         if self.inspection is not None:  # what follows a cut, or a switch, is lost

@@ -66,16 +66,7 @@ class Slopes:
 def slopes_of(system: AnySystem, kept: Sequence[str] = ()) -> Slopes:
     """Return the derivatives of any system's field.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    kept : sequence of str
-        Of ``system.variable``.
-
-    Raises
-    ------
-    ValueError
-        A name is none of the system's; or as `rows_of`.
+    Raises ValueError: A name is none of the system's; or as `rows_of`.
     """
     for name in kept:
         if name not in system.variable:
@@ -91,11 +82,7 @@ def slopes_of(system: AnySystem, kept: Sequence[str] = ()) -> Slopes:
 def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
     """Return e = (x, y)/|(x, y)| (k, 2) of the nonsmooth system and its derivative (k, 2, 2); 0 on Sigma itself.
 
-    Parameters
-    ----------
-    xy : ndarray (k, 2)
-    along : ndarray (2,), optional
-        The invariant line that they stay in: e does not change along it.
+    Shapes: xy (k, 2), along (2,).
     """
     r = np.hypot(*xy.T)[:, None]
     e = np.divide(xy, r, out=np.zeros_like(xy), where=r > 0.0)
@@ -108,11 +95,7 @@ def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
 def smoothed_direction(psi: Psi, eps: float, xy: Array) -> tuple[Array, Array]:
     """Return e_Psi (k, 2), eq:ePsi, and its derivative (k, 2, 2), rem:jaco_properties.
 
-    Parameters
-    ----------
-    psi : Psi
-    eps : float
-    xy : ndarray (k, 2)
+    Shapes: xy (k, 2).
     """
     r = np.hypot(*xy.T)
     radial, tangential = (factor / eps for factor in psi.jacobian_factors(r / eps))

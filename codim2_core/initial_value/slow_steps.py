@@ -89,15 +89,7 @@ def steps_of_z(
     most: int,
     **how: Any,
 ) -> MotionSteps:
-    """Return a motion on Sigma of which only z moves, at a rate that Python gives.
-
-    Parameters
-    ----------
-    rate, slopes : callable
-        z (m,) to its rate (m,), and the derivatives of that (m, m).
-    span, z, rtol, floor, most, how
-        As in `MotionSteps`.
-    """
+    """Return a motion on Sigma of which only z moves, at a rate that Python gives."""
     m = len(z)
 
     def value(*at: float) -> list[float]:

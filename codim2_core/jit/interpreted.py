@@ -60,20 +60,7 @@ def check_clock() -> None:
 
 
 def run(kernel: Any, given: Iterable[Any], due: float, look: Callable[[], float]) -> Any:
-    """Call a kernel as Python.
-
-    Parameters
-    ----------
-    kernel : Dispatcher
-    given : iterable
-    due : float
-        When `look` is called, as `time.perf_counter` tells it; and again when that says.
-    look : callable
-
-    Returns
-    -------
-    What the kernel returns, in Python's own numbers.
-    """
+    """Call a kernel as Python."""
     before = clock.due, clock.look
     clock.due, clock.look = due, look
     try:

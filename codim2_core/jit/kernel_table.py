@@ -75,10 +75,7 @@ class TabledKernel:
     def __call__(self, *given: Any) -> Any:
         """Run it.
 
-        Raises
-        ------
-        NotImplementedError
-            It was not compiled for arguments such as these.
+        Raises NotImplementedError: It was not compiled for arguments such as these.
         """
         types = tuple(
             [

@@ -74,20 +74,7 @@ def compile_address(function: Callable[..., None], cache: bool = True) -> Any:
 
 
 def compile_with_gain(lanes: Callable[..., None], own: Any, whole: bool, cache: bool, **names: Any) -> Any:
-    """Compile a function of lanes, which calls ``gain(r2, w, kind(parameter))``, with a gain in its place.
-
-    Parameters
-    ----------
-    lanes : function
-    own : function
-        The gain of a family.
-    whole : bool
-        The parameter is read as an int.
-    cache : bool
-        The disk cache holds it.
-    **names
-        What the gain reads in place of its module's: functions that run in vector registers.
-    """
+    """Compile a function of lanes, which calls ``gain(r2, w, kind(parameter))``, with a gain in its place."""
     gain = njit(fastmath=ARITHMETIC, error_model="numpy", forceinline=True)(rebind(own, **names))
     written = repr((own.__code__.co_code, own.__code__.co_consts, own.__code__.co_names, whole))
     digest = blake2b(written.encode(), digest_size=8).hexdigest()  # a changed gain is another one

@@ -19,19 +19,7 @@ IMPORT = re.compile(r"^ *from (\.+)([\w.]*) import (?:\(([^)]*)\)|(.*))$", re.MU
 
 @cache
 def source_stamp(path: Path, root: Path = CORE_FOLDER) -> str:
-    """Return a digest of the text of a module and of all modules below a folder that it imports, directly or not.
-
-    Parameters
-    ----------
-    path : Path
-        The module's file.
-    root : Path
-        The folder of the package, whose imports are relative.
-
-    Returns
-    -------
-    str
-    """
+    """Return a digest of the text of a module and of all modules below a folder that it imports, directly or not."""
     reached, waiting = set[Path](), [path]
     while waiting:
         here = waiting.pop()

@@ -47,9 +47,7 @@ def is_on_disk(cache: Any, signature: Any) -> bool:
 def may_wait(cache: Any, signature: Any, name: str) -> bool:
     """Whether a function is neither to be compiled now nor loaded.
 
-    Raises
-    ------
-    NotCompiledError
+    Raises NotCompiledError.
     """
     way = policy.current_way()
     if way == policy.PYTHON:

@@ -12,10 +12,7 @@ CANCELS = 0.05  # of the terms of a difference: below it, it is computed in twic
 def to_all_digits(m11: Any, m12: Any, m21: Any, m22: Any, f1: Any, f2: Any) -> tuple[Any, Any, Any, Any]:
     """Return the gap ``det(A)^2 - |n|^2``, det A and n = adj(A) f, in twice the precision before they are rounded.
 
-    Parameters
-    ----------
-    m11, m12, m21, m22, f1, f2 : float, or ndarray (k,)
-        A, rows first, and f. Scaled, so that nothing over- or underflows.
+    Shapes: m11, m12, m21, m22, f1, f2 (k,).
     """
     det = add_pairs(product(m11, m22), negative(product(m12, m21)))
     n1 = add_pairs(product(m22, f1), negative(product(m12, f2)))

@@ -20,17 +20,7 @@ def cut_that_keeps_names(before: EquatorEquilibria, after: EquatorEquilibria, cu
     As many directions as before are matched with those, in order around, by the least sum of squared angles. Where
     some have met or appeared, the first one is that nearest to the first one before.
 
-    Parameters
-    ----------
-    before, after : EquatorEquilibria
-        Of the system before the change, as they are named there, and after it, in any order.
-    cut : float
-        From which those before are counted.
-
-    Returns
-    -------
-    float
-        0 where that names them so, else `cut` where that does, else the middle of a gap.
+    0 where that names them so, else `cut` where that does, else the middle of a gap.
     """
     if not len(before) or not len(after):
         return cut

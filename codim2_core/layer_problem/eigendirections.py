@@ -76,14 +76,7 @@ class Linearised:
 def of_critical_set(C: CriticalSet) -> Linearised:
     """Return the eigendirections of a critical set, in the disc.
 
-    Parameters
-    ----------
-    C : CriticalSet
-
-    Returns
-    -------
-    Linearised
-        By falling eigenvalue. Of a set whose kind is "degenerate" none: the linearisation does not decide there.
+    By falling eigenvalue. Of a set whose kind is "degenerate" none: the linearisation does not decide there.
     """
     if C.kind == "degenerate":
         return Linearised(())
@@ -115,16 +108,9 @@ def to_disc(x2: Array, vector: tuple[float, float]) -> tuple[float, float]:
 def of_limit_directions(problem: LayerProblem) -> tuple[Linearised, ...]:
     """Return the eigendirections of each limit direction, in order of theta.
 
-    Parameters
-    ----------
-    problem : LayerProblem
-
-    Returns
-    -------
-    tuple of Linearised
-        Of each "equator", then "up" and "outside". Where lambda_theta = -2 lambda_rho (outside lambda_theta =
-        lambda_rho) or an infinite Psi(inf) meets a flow along the equator, orbits come in along the equator alone, and
-        that half-line is left out.
+    Of each "equator", then "up" and "outside". Where lambda_theta = -2 lambda_rho (outside lambda_theta = lambda_rho)
+    or an infinite Psi(inf) meets a flow along the equator, orbits come in along the equator alone, and that half-line
+    is left out.
     """
     on, at, psi = problem.equator, problem.at, problem.psi
     if not len(on):

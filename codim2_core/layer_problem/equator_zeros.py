@@ -84,14 +84,7 @@ def _by_name(parts: tuple[Array, Array, Array, Array, Array], kind: str) -> Arra
 
 @lru_cache(maxsize=512)
 def component_series(key: Hashable, kind: str) -> Series:
-    """Resolve a component of U on the equator.
-
-    Parameters
-    ----------
-    key : `Frozen.key`
-    kind : "theta", "rho", "U1" or "U2"
-        Theta, lambda_rho, U1 or U2.
-    """
+    """Resolve a component of U on the equator."""
     run, degree = program(key), polynomial_degree(key[0])  # type: ignore[index]
     n = 64 if degree is None else max(16, 1 << (2 * degree + 3).bit_length())
     if n > MOST_ANGLES:
@@ -243,14 +236,7 @@ def _odd_about(f: Series, theta: float) -> bool:
 
 @lru_cache(maxsize=256)
 def component_zeros(key: Hashable, kind: str) -> tuple[Array, NDArray[np.int64]]:
-    """Angles at which a component of U vanishes on the equator, and multiplicities; where nullclines end.
-
-    Parameters
-    ----------
-    key : `Frozen.key`
-    kind : "rho", "theta", "U1" or "U2"
-        lambda_rho, Theta, U1 or U2.
-    """
+    """Angles at which a component of U vanishes on the equator, and multiplicities; where nullclines end."""
     if kind == "theta":
         found = equator_zeros(key)
         return found.theta, found.multiplicity

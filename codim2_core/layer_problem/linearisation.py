@@ -98,23 +98,7 @@ def linearisation(
 ) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]:
     """Place and Jacobian of the critical set with ``e_Psi = e``.
 
-    Parameters
-    ----------
-    matrix : (a, b, d)
-        Of moderate size, as products of two of them are formed.
-    psi : Psi
-    e : (c, s)
-    complement : float
-        ``1 - |e|^2`` to full relative accuracy.
-    sign : int, optional
-        Of det A, where it is decided by other numbers than these.
-
-    Returns
-    -------
-    x2, p : (float, float)
-    J : (J11, J12, J21, J22)
-        eq:scjaco, ``A . D e_Psi``; D e_Psi has eigenvalue `radial` along e and `tangential` across it.
-    Frame
+    J: eq:scjaco, ``A . D e_Psi``; D e_Psi has eigenvalue `radial` along e and `tangential` across it.
     """
     a, b, d = matrix
     modulus = math.hypot(*e)

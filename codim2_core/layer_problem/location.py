@@ -73,15 +73,7 @@ class Location:
 def locate(at: FrozenSystem) -> Location:
     """Decide whether, and where, ``A e + f = 0`` in the disc |e| < 1 (thm:lineps1(a)), without dividing by det A.
 
-    Parameters
-    ----------
-    at : Coefficients or Frozen
-        E-linear. What was brought into the normal form by a rotation is decided before it, where nothing is rounded.
-
-    Returns
-    -------
-    Location
-        In the axes of `at`.
+    In the axes of `at`.
     """
     coefficients = at.as_given
     if coefficients is None or coefficients.given is not None:

@@ -19,16 +19,7 @@ TERM_ROUNDING = 2.0**-44  # of the terms that the coefficient is the sum of
 def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
     """First three derivatives of Psi.
 
-    Parameters
-    ----------
-    psi : Psi
-    s : ndarray (m,)
-        Not negative; at 0 some may be infinite.
-
-    Returns
-    -------
-    three ndarrays (m,)
-        As its family has them, or by differentiating its formula.
+    As its family has them, or by differentiating its formula. Shapes: s (m,).
     """
     if psi.record.derivatives is not None:
         return psi.record.derivatives(s, psi.parameter)
@@ -45,22 +36,9 @@ def psi_derivatives(psi: Psi, s: Array) -> tuple[Array, Array, Array]:
 def first_lyapunov(A: Array, psi: Psi, x2: Array, second_U: Array | None = None, third_U: Array | None = None) -> Array:
     """First Lyapunov coefficient at critical sets with tr J = 0 < det J.
 
-    Parameters
-    ----------
-    A : ndarray (2, 2) or (m, 2, 2)
-        D_e U: of all, or of each.
-    psi : Psi
-    x2 : ndarray (m, 2)
-        The critical sets in the scaling chart.
-    second_U, third_U : ndarray (m, 2, 2, 2) and (m, 2, 2, 2, 2), optional
-        Second and third derivatives of U by e there, that of U_i by e_j, e_k, ... in [i, j, k]; zero if left out.
-
-    Returns
-    -------
-    ndarray (m,)
-        In Kuznetsov's normalisation ``<q, q> = <p, q> = 1``, with x2 and the fast time tau as they are. Negative: a
-        stable cycle is born (supercritical). 0.0 where it vanishes within rounding. A cycle at tr J = 2 mu has
-        ``mu + omega l1 r^2 = 0`` to leading order.
+    In Kuznetsov's normalisation ``<q, q> = <p, q> = 1``, with x2 and the fast time tau as they are. Negative: a
+    stable cycle is born (supercritical). 0.0 where it vanishes within rounding. A cycle at tr J = 2 mu has ``mu +
+    omega l1 r^2 = 0`` to leading order. Shapes: A (2, 2), x2 (m, 2), second_U, third_U (m, 2, 2, 2).
     """
     s = (x2**2).sum(axis=1)
     P1, P2, P3 = psi_derivatives(psi, s)

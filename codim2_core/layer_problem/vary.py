@@ -21,18 +21,8 @@ PLANE_COEFFICIENTS = ("a", "b", "d", "f1", "f2")
 def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
     """Names of all that can be varied.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    z : (m,) floats
-        The slow variables, as far as they are given.
-
-    Returns
-    -------
-    tuple of str
-        Of an e-linear system those of a, b, d, f1, f2 that are numbers and not text; then the system's parameters, z1
-        to zm, and that of Psi, such as n of the Hill family (unless one of the system has that name).
+    Of an e-linear system those of a, b, d, f1, f2 that are numbers and not text; then the system's parameters, z1 to
+    zm, and that of Psi, such as n of the Hill family (unless one of the system has that name). Shapes: z (m,).
     """
     found = [*system.variable]
     if not system.frozen:  # else z is chosen
@@ -45,24 +35,8 @@ def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
 def vary(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tuple[Any, Psi, tuple[float, ...]]:
     """Return system, Psi and z with the one thing called `name` set to `value`.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    z : (m,) floats
-    name : str
-        One of `names`; "z" is z1.
-    value : float
-
-    Returns
-    -------
-    system, psi, z
-        Of the given types; what does not change is passed on as it is.
-
-    Raises
-    ------
-    ValueError
-        Nothing variable has this name, or the value is not allowed there.
+    Of the given types; what does not change is passed on as it is. Raises ValueError: Nothing variable has this name,
+    or the value is not allowed there. Shapes: z (m,).
     """
     slow = _slow_values(z)
     if name in system.variable:
@@ -77,19 +51,7 @@ def vary(system: Any, psi: Psi, z: ArrayLike, name: str, value: float) -> tuple[
 def value_of(system: Any, psi: Psi, z: ArrayLike, name: str) -> float:
     """Present value of the thing called `name`.
 
-    Parameters
-    ----------
-    system, psi, z, name
-        As for `vary`.
-
-    Returns
-    -------
-    float
-
-    Raises
-    ------
-    ValueError
-        Nothing variable has this name.
+    Raises ValueError: Nothing variable has this name.
     """
     if name in system.variable:
         return system.value_of(name)
@@ -140,22 +102,10 @@ def check_varying(
 def usual_span(system: Any, psi: Psi, z: ArrayLike, name: str) -> tuple[float, float]:
     """Return the span over which something is looked at that was given none: about its present value.
 
-    Parameters
-    ----------
-    system, psi, z, name
-        As for `vary`.
-
-    Returns
-    -------
-    (low, high)
-        For the parameter of Psi from a third to three times the value, as far as it may go; for a parameter of the
-        system half as far on both sides as it is large, so that it keeps its sign; for a coefficient as far as the
-        largest of them is large; for a slow variable as far as it is large, and at least 1.
-
-    Raises
-    ------
-    ValueError
-        Nothing variable has this name.
+    For the parameter of Psi from a third to three times the value, as far as it may go; for a parameter of the system
+    half as far on both sides as it is large, so that it keeps its sign; for a coefficient as far as the largest of
+    them is large; for a slow variable as far as it is large, and at least 1. Raises ValueError: Nothing variable has
+    this name.
     """
     value, (low, high) = value_of(system, psi, z, name), limits(system, psi, name)
     if name not in system.variable and _of_psi(psi, name):

@@ -19,10 +19,7 @@ def read_measurement(path: str | Path) -> tuple[Array, Array]:
     They are parted by commas, semicolons, tabs or blanks; between semicolons a comma is a decimal one. Empty lines,
     lines that begin with # and a first line of names are passed over.
 
-    Raises
-    ------
-    ValueError
-        There is no such file, it is no text, it is too long, or a line is not of three numbers.
+    Raises ValueError: There is no such file, it is no text, it is too long, or a line is not of three numbers.
     """
     file = Path(path)
     try:

@@ -56,10 +56,7 @@ class Slipping:
 def integrate_slip(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array, most: int) -> Slipping:
     """Follow the slip from a start at the first time until it stops, or until the last time.
 
-    Raises
-    ------
-    TooLongError
-        It takes more than `most` evaluations.
+    Raises TooLongError: It takes more than `most` evaluations.
     """
     from scipy.integrate import solve_ivp
 

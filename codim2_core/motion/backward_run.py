@@ -35,17 +35,7 @@ class Past(NamedTuple):
 
     @classmethod
     def from_run(cls, run: Simulation, system: AnySystem, psi: Psi, rtol: float, atol: float) -> Past:
-        """Return what a motion that was followed backwards, in the time -t, tells of the past.
-
-        Parameters
-        ----------
-        run : Simulation
-        system : ELinear, System, Coefficients or Frozen
-            What was followed backwards.
-        psi : Psi
-        rtol, atol : float
-            Its tolerances: differences of rtol it cannot tell.
-        """
+        """Return what a motion that was followed backwards, in the time -t, tells of the past."""
         growth, most = _growth(run, system, psi, atol / rtol), math.log(AGREE / rtol)
         k = int(np.searchsorted(np.cumsum(growth), most, side="right"))
         if k == len(growth):
@@ -56,16 +46,7 @@ class Past(NamedTuple):
 
     @classmethod
     def upto(cls, run: Simulation, told: Dense, why: str) -> Past:
-        """Return what the first part of a motion that was followed backwards tells.
-
-        Parameters
-        ----------
-        run : Simulation
-        told : Dense
-            The part.
-        why : str
-            The sentence, by its key, that says why no more is told, if there is more.
-        """
+        """Return what the first part of a motion that was followed backwards tells."""
         motion = told.backwards()
         first = float(motion.times[0])
         events = tuple(tuple(t for t in (-times[::-1]).tolist() if t >= first) for times in run.events)

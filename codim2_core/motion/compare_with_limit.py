@@ -46,17 +46,7 @@ def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
     (fig:transcrit) it is ``2 q/(1 + 2 q)`` where ``Psi ~ s^(1 - q/2)``: 4/5 for Psi = 1, near 1 for one that falls
     exponentially. In an invariant line there is no direction to come to, and only the exit through the equator counts.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    limit : Simulation
-        Of `simulate_nonsmooth`.
-
-    Returns
-    -------
-    float
-        In (0, 1].
+    In (0, 1].
     """
     order = 1.0
     in_line = invariant_line(field(system), limit.states[0]) is not None
@@ -80,17 +70,7 @@ def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
 
 
 def agreement(system: AnySystem, psi: Psi, run: Simulation, limit: Simulation) -> Agreement:
-    """Compare the phases of a regularised motion with those of its limit.
-
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    run : Simulation
-        Of `simulate`.
-    limit : Simulation
-        Of `simulate_nonsmooth`, from the same state.
-    """
+    """Compare the phases of a regularised motion with those of its limit."""
     order = limit_order(system, psi, limit)
     end = min(float(run.times[-1]), float(limit.times[-1]))
     own, other = (_until(phases, end) for phases in (run.phases, limit.phases))

@@ -83,19 +83,7 @@ def delay(
 ) -> Delay:
     """Gather a delay.
 
-    Parameters
-    ----------
-    formulas : Field
-    motion : Dense
-        The states (x, y, z).
-    known : (ndarray (k,), ndarray (k, 2))
-        Times of the delay at which e is known, increasing, and e.
-    onto : str
-    times : (t_in, t_hopf, t_end)
-    left : bool
-        Whether the motion leaves the set at ``t_end``.
-    buffer : complex or None
-    bifurcation : str
+    Shapes: known (k,).
     """
     t_in, t_hopf, t_end = times
     z_in, z_hopf, z_end = motion(np.array(times))[:, 2:]

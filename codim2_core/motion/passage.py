@@ -221,9 +221,7 @@ class Passage:
     def near(self, z: Array, order: int = 2) -> _Near:
         """Return the flow near the slow manifold, to O(eps^(order + 1)), at z.
 
-        Raises
-        ------
-        SetLostError
+        Raises SetLostError.
         """
         if self.line is not None and self.formulas.rests:
             return self._at_rest(self.line, z)

@@ -263,19 +263,7 @@ class _ReadMotion:
 def phases_of(system: AnySystem, psi: Psi, eps: float, motion: Dense, turns: tuple[float, ...]) -> tuple[Phase, ...]:
     """Cut a motion into phases.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    eps : float
-    motion : Dense
-    turns : tuple of float
-        When critical sets lose their stability that the motion then passes (`passage`).
-
-    Returns
-    -------
-    tuple of Phase
-        Consecutive, from the first to the last time.
+    Consecutive, from the first to the last time.
     """
     reader = _ReadMotion(system, psi, eps, motion, field(system), turns)
     phases = list(reader.phases())

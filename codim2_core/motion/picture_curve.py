@@ -39,15 +39,7 @@ class Drawn:
 
 
 def drawn_curve(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:
-    """Return a motion as a curve, as `Simulation.drawn` does.
-
-    Parameters
-    ----------
-    motion : Dense
-    phases : sequence of Phase
-        All of them, in order.
-    eps : float
-    """
+    """Return a motion as a curve, as `Simulation.drawn` does."""
     times = _drawing_times(motion, eps)
     states = motion(times)
     points = states[:, :2].copy()

@@ -160,24 +160,8 @@ def simulate_segments(
 ) -> tuple[Simulation, tuple[int, ...], Array]:  # fmt: skip
     """Follow a motion in segments, as multiple shooting does, each from a start of its own.
 
-    Parameters
-    ----------
-    system : ELinear, System, or one of them frozen at a z
-    psi : Psi
-    starts : ndarray (k, 2 + m)
-    times : ndarray (k + 1,)
-        Of the starts, and of the last end.
-    eps, rtol, atol, max_steps, max_step
-        As in `simulate`.
-
-    Returns
-    -------
-    run : Simulation
-        From start to start, up to the first segment that ends before its time.
-    cuts : tuple of int
-        Step ends at which segments begin, and the last.
-    ends : ndarray (k, 2 + m)
-        Of the segments.
+    run: From start to start, up to the first segment that ends before its time; cuts: Step ends at which segments
+    begin, and the last; ends: Of the segments. Shapes: starts (k, 2 + m), times (k + 1,).
     """
     runs: list[Simulation] = []
     for start, span in zip(starts, pairwise(times.tolist()), strict=True):

@@ -265,19 +265,7 @@ def simulation(
     evaluations: int = 0,
     events: Sequence[Sequence[float]] = (),
 ) -> Simulation:
-    """Gather a result.
-
-    Parameters
-    ----------
-    motion, status, eps, evaluations, events
-        As in `Simulation`.
-    phases : callable
-        Makes the phases when they are first asked for.
-    variation : callable
-        Makes the variation by named numbers.
-    detail : str
-        Added to the status as its reason.
-    """
+    """Gather a result."""
     found = tuple(np.array(times) for times in events)
     for array in found:
         array.flags.writeable = False

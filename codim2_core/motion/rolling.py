@@ -41,22 +41,7 @@ class Rolling:
 def rolling(ball: Ball, times: ArrayLike, states: ArrayLike, rate: float = 0.0, radius: float | None = None) -> Rolling:
     """Follow a ball along its motion.
 
-    Parameters
-    ----------
-    ball : Ball
-        What its states say.
-    times : (k,) floats
-        s, not decreasing. Between two of them the velocities are taken as linear, the axis of the turn as constant.
-    states : (k, 2 + m) floats
-        (x, y, z1, …, zm).
-    rate : float
-        Of the plane, rad/s.
-    radius : float, optional
-        m; without it a small part of the way.
-
-    Returns
-    -------
-    Rolling
+    Shapes: times (k,), states (k, 2 + m).
     """
     t, state = np.asarray(times, float), np.asarray(states, float)
     slip, velocity = state[:, :2], state[:, 2:4]

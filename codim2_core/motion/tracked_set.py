@@ -82,12 +82,7 @@ def jacobian(field: Field, psi: Psi, e: Array, z: Array) -> Array:
 def followed_critical_set(field: Field, psi: Psi, eps: float, state: Array) -> TrackedSet | None:
     """Return the critical set within O(eps) of which the state lies, in p; None if there is none.
 
-    Parameters
-    ----------
-    field : Field
-    psi : Psi
-    eps : float
-    state : ndarray (2 + m,)
+    Shapes: state (2 + m,).
     """
     z = state[2:]
     own_e, own_p = place_on_hemisphere(psi, eps, float(state[0]), float(state[1]))

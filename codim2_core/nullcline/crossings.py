@@ -60,20 +60,7 @@ def crossings(
 ) -> list[Crossing]:
     """All crossings of one component.
 
-    Parameters
-    ----------
-    run : Program
-    kind : int
-        As in `trace_nullcline`.
-    outside : bool
-    reach : float
-        Radius to which the outside is followed.
-    nodes : ndarray (n, m, 2)
-        Of a net.
-    parts : ndarray (3, n, m)
-        The component and its gradient at these.
-    size : float
-        Of U.
+    Shapes: nodes (n, m, 2), parts (3, n, m).
     """
     from .trace_nullcline import flat_cells, stationary  # on first use: it loads the compiler
 

@@ -42,19 +42,7 @@ class Conics:
 def conics_of(problem: LayerProblem, view: float = 2.0, pixel: float | None = None) -> Conics:
     """Return the conic (d - a) x y + f2 x - f1 y + b = 0 of the normal form, and the limit directions on it.
 
-    Parameters
-    ----------
-    problem : LayerProblem
-    view : float
-        Half the side of the square that is drawn.
-    pixel : float, optional
-        Of what is looked at more closely: then no chord is farther than a quarter of it from the hyperbola, as long as
-        `MAX_PIECE_POINTS` points of a piece allow.
-
-    Returns
-    -------
-    Conics
-        A system in other axes has the conic of its normal form, turned back (lem:normalform).
+    A system in other axes has the conic of its normal form, turned back (lem:normalform).
     """
     form, theta = problem.at.normal_form, problem.equator.theta
     meeting = _read_only(np.stack([np.cos(theta), np.sin(theta)], axis=-1))

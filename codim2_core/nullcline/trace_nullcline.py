@@ -220,28 +220,8 @@ def _home_ahead(home, X, Y, tx, ty, h):
 def trace_nullcline(op, left, right, number, roots, kind, outside, start, home, crossings, largest, size, out):
     """Follow a curve from a point on it.
 
-    Parameters
-    ----------
-    op, left, right, number, roots
-        A `Program` with two rows.
-    kind : RHO, THETA, U1 or U2
-    outside : bool
-        In the annulus between 1 and `largest` rather than the disc of radius 1.
-    start, home : ndarray (4,)
-        Points on the curve with unit tangents: where to begin, and where a loop closes.
-    crossings : ndarray (k, 3)
-        Middles and radii of circles not to be entered.
-    size : float
-        Of U: what a vanishing gradient is measured by.
-    out : (n, 4)
-        Filled with points and unit tangents.
-
-    Returns
-    -------
-    count : int
-    ending : BORDER, CLOSED, CROSSING or STUCK
-    which : int
-        Index of the crossing, at whose circle the last point lies.
+    which: Index of the crossing, at whose circle the last point lies. Shapes: start, home (4,), crossings (k, 3), out
+    (n, 4).
     """
     seed, work, rows = np.zeros((4, 3)), np.empty((len(op), 3)), np.empty((2, 3))
     floor = 1e-9 * size

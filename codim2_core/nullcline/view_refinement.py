@@ -86,21 +86,7 @@ def on_component(at: FrozenSystem, kind: Kind, inside: bool) -> Callable[[Array]
 def refine_curve(curve: ConicCurve, place: Callable[[Array], Array], t: Array, points: Array, seen: Seen) -> Array:
     """Return picture points along a curve of which t and points are a coarse sample, closer where they are seen.
 
-    Parameters
-    ----------
-    curve : callable
-        From parameters (k,) to points (k, 2).
-    place : callable
-        From these to points of the picture.
-    t : (n,) array
-        Increasing.
-    points : (n, 2) array
-    seen : Seen
-
-    Returns
-    -------
-    (m, 2) array
-        At most `MAX_BRANCH_POINTS`. Both ends stay.
+    At most `MAX_BRANCH_POINTS`. Both ends stay. Shapes: t (n,), points (n, 2).
     """
     ends = points[0], points[-1]
     points = place(curve(t))

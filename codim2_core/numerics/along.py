@@ -95,22 +95,7 @@ def _root(op, left, right, number, roots, path, low, high, before, after, moved,
 def zeros_along(op, left, right, number, roots, path, r, only_first_fall, found):
     """Find where row r changes its sign along a path.
 
-    Parameters
-    ----------
-    op, left, right, number, roots
-        Of `path_program`.
-    path : (V, d)
-        Polynomials of the variables in u, from the constant on, u from 0 to 1.
-    r : int
-    only_first_fall : bool
-        The row is a guard: find where it is first negative.
-    found : (k, 2)
-        Filled with the fractions, and 1 where the row rises, else -1.
-
-    Returns
-    -------
-    int
-        How many there are; -1 where the parts ran out.
+    How many there are; -1 where the parts ran out. Shapes: found (k, 2).
     """
     V, d = path.shape
     moved, box, seed = np.empty((V, d)), np.zeros((V, 6)), np.zeros((V, 3))
@@ -215,25 +200,8 @@ def _first_defect(op, left, right, number, roots, path, h, rates, changes, both,
 def first_defect(op, left, right, number, roots, paths, lengths, rates, changes, both, told):
     """Find the first of some steps that does not solve its equations all along.
 
-    Parameters
-    ----------
-    op, left, right, number, roots
-        Of `path_program`, of the rates of the last variables.
-    paths : (k, V, d)
-        For each step polynomials of c, s, x, y, z1, ... in u, from the constant on.
-    lengths : (k,)
-    rates, changes : (k, rows)
-        A defect is allowed up to this rate, or as far as it changes the state by this much at most.
-    both : (k, rows)
-        1 where both bounds count.
-    told : (4,)
-        Filled with the fraction up to which the step solves them, the width of the part that does not, whether it is
-        a DEFECT, or NONE, and how many steps before it are UNDECIDED.
-
-    Returns
-    -------
-    int
-        Steps before it: k if there is none.
+    Steps before it: k if there is none. Shapes: paths (k, V, d), lengths (k,), rates, changes (k, rows), both (k,
+    rows).
     """
     V, d = paths.shape[1], paths.shape[2]
     scratch = (

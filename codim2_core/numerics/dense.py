@@ -116,19 +116,7 @@ class DenseMotion(Pictured):
     def dense(self, t: ArrayLike) -> Array:
         """State at any time, from the polynomials of the steps.
 
-        Parameters
-        ----------
-        t : float or (...,)
-            Within the span of the motion.
-
-        Returns
-        -------
-        ndarray (..., n)
-
-        Raises
-        ------
-        ValueError
-            t is outside the times covered, or not finite.
+        Raises ValueError: t is outside the times covered, or not finite.
         """
         return self.motion(t)
 
@@ -142,15 +130,7 @@ class DenseMotion(Pictured):
     def to_frame(self, t: ArrayLike | None = None) -> Any:
         """Return the motion as a pandas DataFrame: a row a time, with the state and the phase.
 
-        Parameters
-        ----------
-        t : (k,), optional
-            Times within its span; left out, `times`.
-
-        Raises
-        ------
-        ValueError
-            A time is outside, t is no list of times, or pandas is not installed.
+        Raises ValueError: A time is outside, t is no list of times, or pandas is not installed. Shapes: t (k,).
         """
         when = self.times if t is None else np.asarray(t, float)
         if when.ndim != 1:

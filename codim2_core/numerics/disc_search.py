@@ -146,28 +146,8 @@ def _is_known(found, zeros, c, s, half):
 def search(op, left, right, number, roots, levels, most, budget, found, rest):
     """Find all zeros of U in the closed disc and a little beyond it.
 
-    Parameters
-    ----------
-    op, left, right, number, roots
-        A `Program` with two rows.
-    levels : int
-        Times that a box may be cut.
-    most : int
-        Boxes that may be open at once.
-    budget : int
-        Boxes that may be looked at in all.
-    found : (CAPACITY, 3)
-        Filled with c, s and the half-width of the box in which it is the only zero.
-    rest : (most, 2)
-        Filled with the middles of the boxes that stay undecided.
-
-    Returns
-    -------
-    zeros, undecided : int
-    half : float
-        Half-width of the undecided boxes.
-    complete : bool
-        Every undecided box is in `rest`; not so when `most`, `budget` or the room in `found` ran out.
+    half: Half-width of the undecided boxes; complete: Every undecided box is in `rest`; not so when `most`, `budget`
+    or the room in `found` ran out. Shapes: rest (most, 2).
     """
     boxes = np.empty((len(op), 6))
     work = np.empty((len(op), 3))

@@ -58,28 +58,7 @@ def _only_zero(c, low, high, rising, tolerance):
 def decide_arcs(c, theta, h, least, most, tolerance, first, fourth, simple):
     """Decide arcs, cutting the undecided ones in four, until none is left or they are shorter than `least`.
 
-    Parameters
-    ----------
-    c : ndarray of complex (n + 1,)
-    theta : ndarray (k,)
-        Middles of arcs of half-width h.
-    least : float
-        Half-width.
-    most : int
-        Undecided arcs at which to give up.
-    tolerance : float
-        Of f.
-    first, fourth : float
-        Bounds of f' and f''''.
-    simple : ndarray
-        Filled with the zeros on arcs where f is monotone, from its beginning; NaN after them.
-
-    Returns
-    -------
-    theta : ndarray
-        Middles of the arcs that are left.
-    h : float
-        Their half-width.
+    theta: Middles of the arcs that are left; h: Their half-width. Shapes: c (n + 1,), theta (k,).
     """
     found = 0
     while True:

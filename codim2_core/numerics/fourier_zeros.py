@@ -100,13 +100,7 @@ class Zeros:
 def series(values: Array, size: float, degree: int | None = None) -> Series:
     """Fourier series of a function sampled at an even number N of equally spaced angles from 0.
 
-    Parameters
-    ----------
-    values : ndarray (N,)
-    size : float
-        Size of the terms that the values were summed from.
-    degree : int, optional
-        Of the function, if it is known to be a trigonometric polynomial; N > 2 degree.
+    Shapes: values (N,).
     """
     n = len(values)
     c = np.asarray(np.fft.rfft(values) * (2.0 / n), np.complex128)

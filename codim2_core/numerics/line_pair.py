@@ -33,15 +33,7 @@ def starts_of(
 def line_pair(m: float, c1: float, s1: float, c2: float, s2: float) -> tuple[float, float, float, float, float, float]:
     """Write t as (h cos(theta - nu1) + g1) (h cos(theta - nu2) + g2), always possible with real numbers.
 
-    Parameters
-    ----------
-    m, c1, s1, c2, s2
-        Coefficients of moderate size, c2 and s2 not both 0.
-
-    Returns
-    -------
-    h, g1, nu1, g2, nu2, miss
-        `miss` bounds what of the first harmonic the product leaves over.
+    `miss` bounds what of the first harmonic the product leaves over.
     """
     r = math.hypot(c2, s2)
     psi = 0.5 * math.atan2(s2, c2)

@@ -32,18 +32,7 @@ def refine_roots(function: Function, low: Array, high: Array) -> tuple[Array, ND
 
     Each interval is sampled evenly and, more and more densely, around the zero of the chord.
 
-    Parameters
-    ----------
-    function : callable
-        From (k,) to (k,), vectorised.
-    low, high : ndarray (k,)
-        Ends with values of different sign.
-
-    Returns
-    -------
-    place : ndarray (k,)
-    pole : ndarray of bool (k,)
-        The function grows towards the sign change: no zero, but a pole.
+    pole: The function grows towards the sign change: no zero, but a pole. Shapes: low, high (k,).
     """
     place, pole = 0.5 * (low + high), np.zeros(len(low), bool)
     first = np.zeros(len(low))
@@ -90,17 +79,8 @@ def roots(function: Function, grids: Sequence[Array], values: Sequence[Array]) -
     on the grid, finer and finer grids are laid around it. A pair is missed if the function stays below 1e-13 of its
     largest size between the two, or if it varies over less than a grid step, so that the size has no minimum there.
 
-    Parameters
-    ----------
-    function : callable
-        From (k,) to (k,), vectorised.
-    grids, values : sequences of ndarray (k,)
-        Increasing points, and the function on them.
-
-    Returns
-    -------
-    Roots
-        Changes of sign with a zero, and with a pole; and where the function touches zero without a change of sign.
+    Changes of sign with a zero, and with a pole; and where the function touches zero without a change of sign.
+    Shapes: grids, values (k,).
     """
     low: list[float] = []
     high: list[float] = []

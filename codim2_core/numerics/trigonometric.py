@@ -71,20 +71,7 @@ class TrigonometricZeros(NamedTuple):
 def real_zeros(m0: float, c1: float, s1: float, c2: float, s2: float) -> TrigonometricZeros:
     """Real zeros of m0 + c1 cos + s1 sin + c2 cos 2 theta + s2 sin 2 theta, with multiplicity.
 
-    Parameters
-    ----------
-    m0, c1, s1, c2, s2
-        Finite coefficients; each may be off by one rounding for a zero to be named multiple.
-
-    Returns
-    -------
-    TrigonometricZeros
-        Directions in radians.
-
-    Raises
-    ------
-    ValueError
-        If a coefficient is not finite.
+    Directions in radians. Raises ValueError: If a coefficient is not finite.
     """
     inputs = _check_finite((m0, c1, s1, c2, s2), ("m0", "c1", "s1", "c2", "s2"))
     scale, (m0, c1, s1, c2, s2) = _scale_by_power_of_two(inputs)
@@ -95,20 +82,7 @@ def real_zeros(m0: float, c1: float, s1: float, c2: float, s2: float) -> Trigono
 def tangential_zeros(a: float, b: float, d: float, f1: float, f2: float) -> TrigonometricZeros:
     """Zeros of Theta = (d - a) sin cos + f2 cos - f1 sin + b: the equator's equilibria (eq:equator_zeros).
 
-    Parameters
-    ----------
-    a, b, d, f1, f2
-        Finite coefficients of U = [[a, -b], [b, d]] e + f. Given equal, a and d are taken to be equal.
-
-    Returns
-    -------
-    TrigonometricZeros
-        Directions in radians; `slope` is lambda_theta.
-
-    Raises
-    ------
-    ValueError
-        If a coefficient is not finite.
+    Directions in radians; `slope` is lambda_theta. Raises ValueError: If a coefficient is not finite.
     """
     inputs = _check_finite((b, f2, f1, a, d), ("b", "f2", "f1", "a", "d"))
     if a == d:
@@ -123,20 +97,7 @@ def tangential_zeros(a: float, b: float, d: float, f1: float, f2: float) -> Trig
 def radial_zeros(a: float, d: float, f1: float, f2: float) -> TrigonometricZeros:
     """Zeros of lambda_rho = a cos^2 + d sin^2 + f1 cos + f2 sin: where the radial speed changes sign.
 
-    Parameters
-    ----------
-    a, d, f1, f2
-        Finite coefficients, as for `tangential_zeros` (b does not enter).
-
-    Returns
-    -------
-    TrigonometricZeros
-        Directions in radians.
-
-    Raises
-    ------
-    ValueError
-        If a coefficient is not finite.
+    Directions in radians. Raises ValueError: If a coefficient is not finite.
     """
     inputs = _check_finite((f1, f2, a, d), ("f1", "f2", "a", "d"))
     if a == d:

@@ -65,15 +65,7 @@ def quotient(top: int, bottom: int, exponent: int) -> float:
 
 
 def solve_exactly(inputs: Sequence[float], patterns: Sequence[Sequence[int]]) -> ExactZeros:
-    """Zeros of sum inputs[i] patterns[i] . (1, cos, sin, cos 2, sin 2)/2, with degeneracies named.
-
-    Parameters
-    ----------
-    inputs
-        The coefficients as the user gave them, k finite doubles.
-    patterns
-        k rows of five small integers: twice the weight of that input in (m0, c1, s1, c2, s2).
-    """
+    """Zeros of sum inputs[i] patterns[i] . (1, cos, sin, cos 2, sin 2)/2, with degeneracies named."""
     integers, exponent = to_integers(inputs)
     rows = [[q * k for k in row] for q, row in zip(integers, patterns, strict=True)]
     total = [sum(column) for column in zip(*rows, strict=True)]

@@ -12,16 +12,7 @@ LEAST_RADIUS = 1e-6  # of the picture: nearer to its middle a motion followed to
 def angle_along(points: Array, least: float) -> Array:
     """Return the angle of each point of a curve, which changes by less than pi from one to the next.
 
-    Parameters
-    ----------
-    points : ndarray (k, 2)
-    least : float
-        Distance from the origin below which a point is rounding and has no angle: it gets that of the point before, a
-        curve that begins so the first there is, and one that is all so 0.
-
-    Returns
-    -------
-    ndarray (k,)
+    Shapes: points (k, 2).
     """
     known = np.flatnonzero(np.hypot(points[:, 0], points[:, 1]) >= least)
     if not len(known):

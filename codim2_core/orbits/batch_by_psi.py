@@ -22,18 +22,7 @@ def batch_by_psi(
 
     One alone, and typed ones, of which the field is compiled for the picture, are followed by themselves.
 
-    Parameters
-    ----------
-    at : Coefficients or Frozen
-    psis : sequence of Psi
-    states : sequence of ndarray (k, 3)
-        (p_x, p_y, ebar), those of each Psi.
-    options : Stepping
-
-    Returns
-    -------
-    list of Trajectories
-        Those of each Psi.
+    Those of each Psi. Shapes: states (k, 3).
     """
     every = range(len(psis))
     some = [i for i in every if not psis[i].record.typed]

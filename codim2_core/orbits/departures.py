@@ -51,25 +51,8 @@ def departures_under(
 ) -> list[NDArray[np.float64]]:
     """First states of the orbits that leave limit directions, under each Psi.
 
-    Parameters
-    ----------
-    at : Coefficients or Frozen
-    psis : sequence of Psi
-    theta : (k,)
-        Zeros of Theta with lambda_rho < 0 (backward: > 0), radians.
-    rtol : float
-        The start is low enough for an expansion error of order w^4 below it.
-    backward : bool
-
-    Returns
-    -------
-    list of ndarray (k, 3)
-        (p_x, p_y, ebar).
-
-    Raises
-    ------
-    ValueError
-        A direction is not finite, is no limit direction, or its lambda_rho has the wrong sign.
+    (p_x, p_y, ebar). Raises ValueError: A direction is not finite, is no limit direction, or its lambda_rho has the
+    wrong sign. Shapes: theta (k,).
     """
     try:
         angle = np.array(theta, float).reshape(-1)

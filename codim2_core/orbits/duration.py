@@ -17,13 +17,7 @@ STIFF = 60.0  # ratio of the rates at one equilibrium from which an explicit met
 
 
 def is_stiff(equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> bool:
-    """Whether trajectories creep along a slow direction, at any equilibrium, beside one that is `STIFF` times as fast.
-
-    Parameters
-    ----------
-    equator : EquatorEquilibria
-    critical : tuple of CriticalSet, optional
-    """
+    """Whether trajectories creep along a slow direction, at any equilibrium: another is `STIFF` times as fast."""
     rho, theta = abs(equator.lambda_rho), abs(equator.lambda_theta)
     if (np.maximum(rho, theta) > STIFF * np.minimum(rho, theta)).any():
         return True
@@ -38,17 +32,7 @@ def drawn_duration(at: FrozenSystem, equator: EquatorEquilibria, critical: tuple
     number of times the unit 1/max |U|: in Case III of the paper (sec:case3) 60 times. Time in which there is nothing to
     see costs nothing: halves end when they arrive.
 
-    Parameters
-    ----------
-    at : FrozenSystem
-    equator : EquatorEquilibria
-    critical : tuple of CriticalSet, optional
-        Left out for trajectories outside, which end on the equator or beyond.
-
-    Returns
-    -------
-    float
-        Between `MIN_DURATION` and `MAX_DURATION` over the size of U; rates that would take longer are not waited for.
+    Between `MIN_DURATION` and `MAX_DURATION` over the size of U; rates that would take longer are not waited for.
     """
     size = at.size or 1.0
     rates = np.minimum(abs(equator.lambda_rho), abs(equator.lambda_theta)).tolist()

@@ -66,26 +66,9 @@ class InTime(ByValue):
 def in_time(system: AnySystem, psi: Psi, seed: ArrayLike, span: tuple[float, float], z: ArrayLike = ()) -> InTime:
     """Follow one orbit both ways over its own time; z is frozen.
 
-    Parameters
-    ----------
-    system : ELinear or System, or either frozen at a z
-    psi : Psi
-    seed : (2,)
-        Point of the picture: |p| < 1 on the hemisphere, |p| = 1 + rho outside.
-    span : (float, float)
-        From which time T to which (dT = dt/rho), T = 0 at the seed: the clock of its trajectory.
-    z : (m,) floats
-
-    Returns
-    -------
-    InTime
-        A half on the hemisphere ends 10 eps from Sigma at the latest, or three times as far as the seed; any half after
-        400 steps.
-
-    Raises
-    ------
-    ValueError
-        The seed is no point of the picture, or lies on the equator, where no time t passes; or 0 is not in the span.
+    A half on the hemisphere ends 10 eps from Sigma at the latest, or three times as far as the seed; any half after
+    400 steps. Raises ValueError: The seed is no point of the picture, or lies on the equator, where no time t passes;
+    or 0 is not in the span. Shapes: seed (2,), z (m,).
     """
     start = checked_seeds(np.reshape(np.asarray(seed, float), (-1, 2)))[0]
     first, last = map(float, span)

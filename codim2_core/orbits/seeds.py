@@ -35,15 +35,7 @@ def _ring_sizes(count: int) -> list[int]:
 
 @lru_cache(maxsize=32)
 def structured_seeds(count: int, view: float = 2.0) -> NDArray[np.float64]:
-    """`count` starting points of the picture, (count, 2), outside first; the same ones on each call.
-
-    Parameters
-    ----------
-    count : int
-        0 to 2000.
-    view : float
-        Radius of the view, > 1.
-    """
+    """`count` starting points of the picture, (count, 2), outside first; the same ones on each call."""
     if not 0 <= count <= 2000:
         raise ValueError(f"the number of trajectories is {count}; give 0 to 2000.")
     outside = round(OUTSIDE_SHARE * count)
@@ -57,13 +49,7 @@ def structured_seeds(count: int, view: float = 2.0) -> NDArray[np.float64]:
 
 @lru_cache(maxsize=32)
 def window_seeds(count: int, window: tuple[float, float, float, float]) -> NDArray[np.float64]:
-    """About `count` starting points spread evenly over a rectangle of the picture, (k, 2); the same ones on each call.
-
-    Parameters
-    ----------
-    count : int
-    window : (left, right, bottom, top)
-    """
+    """Return about `count` starting points (k, 2) spread evenly over a rectangle, the same ones on each call."""
     left, right, bottom, top = window
     side = math.sqrt((right - left) * (top - bottom) / max(count, 1))
     columns, rows = max(1, round((right - left) / side)), max(1, round((top - bottom) / side))
@@ -79,10 +65,7 @@ def window_seeds(count: int, window: tuple[float, float, float, float]) -> NDArr
 def checked_seeds(seeds: ArrayLike) -> NDArray[np.float64]:
     """Check seeds: a (k, 2) array of finite picture points; a read-only copy.
 
-    Raises
-    ------
-    ValueError
-        Wrong shape, or a seed that is not finite.
+    Raises ValueError: Wrong shape, or a seed that is not finite.
     """
     try:
         points = np.array(seeds, float)

@@ -241,13 +241,7 @@ def _integrate_implicitly(
 
 
 def warm(psi: Psi | None = None) -> None:
-    """Compile, or load from the disk cache, all that trajectories of e-linear systems with this Psi need.
-
-    Parameters
-    ----------
-    psi : Psi, optional
-        Default Psi = 1.
-    """
+    """Compile, or load from the disk cache, all that trajectories of e-linear systems with this Psi need."""
     from ..psi.constructors import constant
 
     psi = constant() if psi is None else psi
@@ -293,24 +287,9 @@ def continuation(
     -lambda_rho > 0 (backward: where lambda_rho > 0). The orbit that leaves along it is followed from Q itself, from
     a local expansion whose error is below the tolerance.
 
-    Parameters
-    ----------
-    theta : (k,)
-        Limit directions, radians: zeros of Theta with lambda_rho < 0 (backward: > 0).
-    system, psi, z, t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff
-        As in `trajectories`; the time 0 is where the expansion hands over.
-    beside : (j, 2), optional
-        Points of the hemisphere: trajectories from these are followed along with the others.
-
-    Returns
-    -------
-    Trajectories
-        Each starts less than 1e-6 (in |p|) above the equator, at theta; after these come those from `beside`.
-
-    Raises
-    ------
-    ValueError
-        A direction is not a limit direction, or no trajectory of the nonsmooth system arrives along it.
+    Each starts less than 1e-6 (in |p|) above the equator, at theta; after these come those from `beside`. Raises
+    ValueError: A direction is not a limit direction, or no trajectory of the nonsmooth system arrives along it.
+    Shapes: theta (k,).
     """
     options = stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
     at = system.at(z)

@@ -36,20 +36,7 @@ def attracting_set(
 ) -> Attracting | None:
     """Return the attracting set that sliding is on, or goes on with when z drifts.
 
-    Parameters
-    ----------
-    critical : sequence of CriticalSet
-        Of the layer problem at this z.
-    cycles : callable
-        Gives its limit cycles; asked for only where no critical set is stable.
-    last : (2,) floats, optional
-        (c, s) of the set that it was on at the z before: of several stable ones the nearest is followed, without it the
-        first.
-
-    Returns
-    -------
-    Attracting or None
-        None where no critical set and no limit cycle is stable: sliding ends there.
+    None where no critical set and no limit cycle is stable: sliding ends there. Shapes: last (2,).
     """
     stable = [(i, C) for i, C in enumerate(critical) if C.kind.startswith("stable")]
     if stable:

@@ -107,27 +107,7 @@ def omega_limits(
     backward: bool = False,
     predict: Callable[[Array], list[int | None]] | None = None,
 ) -> list[OmegaLimit]:
-    """Return the omega limit sets of trajectories on the hemisphere; those cut off by time are integrated on.
-
-    Parameters
-    ----------
-    at, psi
-        Of the system that `lines` belong to.
-    lines : Trajectories
-    equator, critical
-        Of the same system.
-    cycles : callable
-        Gives its limit cycles; called only if a trajectory ends at no equilibrium.
-    rtol : float
-    backward : bool
-        Whether `lines` run against time.
-    predict : callable, optional
-        Says of states where their orbits go, as `cycles.predicted_limit_sets` does.
-
-    Returns
-    -------
-    list of OmegaLimit
-    """
+    """Return the omega limit sets of trajectories on the hemisphere; those cut off by time are integrated on."""
     statuses, states = list(lines.status), np.array(lines.ends)
     found: list[OmegaLimit | None] = [None] * len(lines)
     length = drawn_time(at, equator)

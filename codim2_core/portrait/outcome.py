@@ -112,20 +112,8 @@ class Outcomes(Several[Outcome]):
     def destination(self, theta: float) -> int | None:
         """Index (from 0) of the limit direction that a trajectory outside, now at angle theta, tends to.
 
-        Parameters
-        ----------
-        theta : float
-            Radians, finite.
-
-        Returns
-        -------
-        int or None
-            None where no Q decides: where there is none, or theta leads to a whole arc of limit directions.
-
-        Raises
-        ------
-        ValueError
-            theta is not finite.
+        None where no Q decides: where there is none, or theta leads to a whole arc of limit directions. Raises
+        ValueError: theta is not finite.
         """
         if not math.isfinite(theta):
             raise ValueError(f"theta is {theta}; give a finite angle in radians.")

@@ -46,22 +46,7 @@ def expansion(
 ) -> tuple[Array, float]:
     """Coefficients (ORDER + 1, 2) of W in powers of sigma, and its defect, for |sigma| <= reach.
 
-    Parameters
-    ----------
-    at : Coefficients or Frozen
-    psi : Psi
-    critical : CriticalSet
-        A saddle.
-    eigenvalue : float
-        One of its eigenvalues; the eigenvector has length 1.
-    reach : float
-        In x2.
-
-    Returns
-    -------
-    ndarray (ORDER + 1, 2)
-    defect : float
-        Largest ``|F(W) - lambda sigma W'|/|lambda|`` at sigma = +-reach: of order reach^(ORDER + 1).
+    defect: Largest ``|F(W) - lambda sigma W'|/|lambda|`` at sigma = +-reach: of order reach^(ORDER + 1).
     """
     J = critical.jacobian
     # The longer row of J - lambda has the eigenvector across it.
@@ -92,15 +77,7 @@ def expansion(
 def manifold_starts(
     at: FrozenSystem, psi: Psi, critical: CriticalSet, eigenvalue: float, tolerance: float
 ) -> tuple[Array, Array]:
-    """Points of the disc (2, 2) on the two halves of a manifold, and unit tangents (2, 2) there at C.
-
-    Parameters
-    ----------
-    at, psi, critical, eigenvalue
-        As in `expansion`.
-    tolerance : float
-        Error allowed, relative to ``hypot(1, |x2|)``; the start distance is chosen for it.
-    """
+    """Points of the disc (2, 2) on the two halves of a manifold, and unit tangents (2, 2) there at C."""
     scale = math.hypot(1.0, float(np.hypot(*critical.x2)))
     reach = FIRST_DISTANCE * scale
     terms, defect = expansion(at, psi, critical, eigenvalue, reach)

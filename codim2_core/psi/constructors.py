@@ -194,10 +194,7 @@ def _member(record: Family, parameter: Any) -> Psi:
 def with_parameter(psi: Psi, value: Any) -> Psi:
     """Return the member of the same family with another parameter.
 
-    Raises
-    ------
-    ValueError
-        The family has none, or the value is not allowed.
+    Raises ValueError: The family has none, or the value is not allowed.
     """
     if psi.record.parameter is None:
         raise ValueError(f"Psi = {psi.text} has no parameter; choose a family that has one, such as psi.hill(2).")
@@ -207,12 +204,7 @@ def with_parameter(psi: Psi, value: Any) -> Psi:
 def many(psi: Psi, values: NDArray[np.float64]) -> Psi:
     """Members of the family of psi, one for each value: a Psi that works on arrays of that length only.
 
-    Parameters
-    ----------
-    psi : Psi
-        Of a family with a parameter.
-    values : ndarray (k,)
-        Allowed values (not checked).
+    Shapes: values (k,).
     """
     record = psi.record
     if record.batched and record.kernel is not None:

@@ -105,20 +105,7 @@ class Psi(Listed):
     def __call__(self, s: Any) -> Any:
         """Psi(s), def:Psi.
 
-        Parameters
-        ----------
-        s : float or array
-            ``s >= 0``; infinity gives `limit`.
-
-        Returns
-        -------
-        float or ndarray
-            As s.
-
-        Raises
-        ------
-        ValueError
-            s is negative or NaN.
+        As s. Raises ValueError: s is negative or NaN.
         """
         return _apply(self.kernel.value, s, "s", math.inf, "s >= 0")
 

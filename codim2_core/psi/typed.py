@@ -154,10 +154,7 @@ class Custom(Kernel):
 def custom_kernel(expression: Expression) -> Custom:
     """Kernel of a typed Psi.
 
-    Raises
-    ------
-    ValueError
-        The Psi is unusable: not finite or negative somewhere, or |e_Psi| does not rise from 0 to 1.
+    Raises ValueError: The Psi is unusable: not finite or negative somewhere, or |e_Psi| does not rise from 0 to 1.
     """
     values = expression.evaluate({"s": PROBES})
     kernel = Custom(expression, _find_saturation(expression, values))

@@ -36,10 +36,7 @@ def follow_in_mujoco(motion: ReferenceMotion) -> Comparison:
 
     It is asked with elliptic cones, impratio 100 and steps of a millisecond, and is else as it comes.
 
-    Raises
-    ------
-    ValueError
-        MuJoCo is not installed, or the motion is none of `FOLLOWED`.
+    Raises ValueError: MuJoCo is not installed, or the motion is none of `FOLLOWED`.
     """
     if motion.key not in FOLLOWED:
         raise ValueError(f"{motion.key} has no model in MuJoCo here; choose one of {', '.join(FOLLOWED)}.")

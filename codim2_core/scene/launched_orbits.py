@@ -89,17 +89,7 @@ def launched_orbits(
 ) -> LaunchedOrbits:
     """Follow orbits through points of the picture, and say where they go and where they come from.
 
-    Parameters
-    ----------
-    problem : LayerProblem
-    seeds : (k, 2)
-        Points of the picture.
-    view, pixel : float
-        Of the picture.
-
-    Returns
-    -------
-    LaunchedOrbits
+    Shapes: seeds (k, 2).
     """
     if not len(seeds):
         return NO_ORBITS

@@ -52,15 +52,7 @@ _SINGULAR = say("affine: none single")
 def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:
     """Return the plane F_C of the e-linear system at z and its meeting point with Sigma.
 
-    Parameters
-    ----------
-    system : ELinear, System, or either frozen at a z
-    z : (m,) floats
-
-    Returns
-    -------
-    AffinePlane or None
-        None for a system that is given by formulas: its W need not be linear in e.
+    None for a system that is given by formulas: its W need not be linear in e. Shapes: z (m,).
     """
     at = system.at(z)
     if not isinstance(at, Coefficients):

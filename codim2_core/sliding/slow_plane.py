@@ -43,22 +43,8 @@ def slow_plane(
 ) -> SlowPlane:
     """Slow flow, eq:RPCM, over a net in the plane of the first two slow variables.
 
-    Parameters
-    ----------
-    system : ELinear or System
-        With m >= 2.
-    psi : Psi
-    spans : ((low, high), (low, high))
-        Of z1 and z2.
-    rest : (m - 2,) floats
-        The other slow variables.
-    count : int
-        Values of each.
-
-    Raises
-    ------
-    ValueError
-        The system has fewer than two slow variables, or `rest` has not m - 2 values.
+    Raises ValueError: The system has fewer than two slow variables, or `rest` has not m - 2 values. Shapes: rest (m -
+    2,).
     """
     if system.m < 2:
         raise ValueError(f"the system has m = {system.m} slow variable(s); a plane needs two or more.")
@@ -93,14 +79,7 @@ def directions_along(
 ) -> DirectionsAlong:
     """Limit directions (zeros of Theta on the equator) at even values of one slow variable.
 
-    Parameters
-    ----------
-    system : ELinear or System
-    span : (low, high)
-    z : (m,) floats
-        The other slow variables; entry `axis` is not used. Left out, they are 0.
-    axis : int
-    count : int
+    Shapes: z (m,).
     """
     others = slow_values(z if np.size(z) else (0.0,) * system.m, system.m)
     columns: list[tuple[float, float, float, float]] = []

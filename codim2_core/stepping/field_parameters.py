@@ -17,18 +17,7 @@ FACTOR, PSI, GAIN, FORMULAS, SHARED_SIZE = 0, 5, 6, 7, 8
 
 
 def field_numbers(at: FrozenSystem, parameter: float, backward: bool, gain: int = 0, formulas: int = 0) -> Array:
-    """Return the parameters (SHARED_SIZE,) of a compiled field, scaled so that |U| is about 1.
-
-    Parameters
-    ----------
-    at : Coefficients or Frozen
-    parameter : float
-        Of Psi, as its gain reads it.
-    backward : bool
-        Against time.
-    gain, formulas : int
-        Addresses of the gain of Psi, and of the packed formulas, of a field that reads them.
-    """
+    """Return the parameters (SHARED_SIZE,) of a compiled field, scaled so that |U| is about 1."""
     sign, unit = -1.0 if backward else 1.0, at.speed
     shared = np.zeros(SHARED_SIZE)
     shared[PSI:] = parameter, gain, formulas  # exact: addresses have fewer than 53 bits

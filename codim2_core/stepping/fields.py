@@ -64,14 +64,7 @@ def is_compiled(psi: Psi) -> bool:
 def field(psi: Psi) -> Any:
     """Return the compiled field for Psi, eq:LP and eq:polar_gen_odes_desing in one chart.
 
-    Parameters
-    ----------
-    psi : Psi
-
-    Returns
-    -------
-    CFunc
-        Its `address` enters the integrator; keep the object alive while that address is in use.
+    Its `address` enters the integrator; keep the object alive while that address is in use.
     """
     return _compiled.get(variant(psi, True))
 

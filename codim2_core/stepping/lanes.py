@@ -197,36 +197,7 @@ def _accept_steps(S, times, accepted):
 def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit, capture, view, distance, longest):
     """Integrate every row of `states`; scaled so that |U| is about 1.
 
-    Parameters
-    ----------
-    states : (n, 3)
-        (px, py, w).
-    signs : (n,)
-        -1 on the hemisphere, +1 outside.
-    shared : (SHARED_SIZE,)
-        Parameters of the field.
-    field : int
-        Address of the field.
-    own : (m, 2)
-        Address and parameter of the gain of each of several Psi, BLOCKS at most, where that of the field is
-        `gains_of_blocks`; else m is 1, and they are not read.
-    until : (m,) of int
-        Where the states of each Psi end; those of one lie together.
-    t_max, rtol, atol : float
-    limit : int
-        Steps tried, a trajectory.
-    capture : float
-        Arc from an attractor at which a trajectory ends.
-    view : float
-        Edge of the view, outside.
-    distance : float
-        Of the polyline from the curve; 0: only the two ends.
-    longest : float
-        Length of a drawn polyline at which its trajectory ends.
-
-    Returns
-    -------
-    points (N, 2), times (N,), offsets (n + 1,), ends (n, 3), codes (n,), evaluations (m,)
+    Shapes: states (n, 3), signs (n,), own (m, 2), until (m,).
     """
     n = states.shape[0]
     draw = distance > 0.0

@@ -177,16 +177,7 @@ ONE = GainVariant(_unit_gain, cached=True)  # of Psi = 1 where the sphere |p|^2 
 
 
 def variant(psi: Psi, smooth: bool, whole: bool = True) -> GainVariant:
-    """Say what is compiled for a Psi.
-
-    Parameters
-    ----------
-    psi : Psi
-    smooth : bool
-        The gain may be left out where it is 1 on the sphere: U is smooth beyond |e| = 1 too.
-    whole : bool
-        A whole parameter may be taken for what it is: it stays whole.
-    """
+    """Say what is compiled for a Psi."""
     record = psi.record
     if record.identity and smooth:
         return ONE
@@ -245,15 +236,7 @@ _compiled = GainVariants(_gains, _typed_gains)
 
 
 def gains(psi: Psi, smooth: bool) -> Any:
-    """Return the compiled gain of all lanes, whose `address` a general system's field calls.
-
-    Parameters
-    ----------
-    psi : Psi
-    smooth : bool
-        U is smooth beyond |e| = 1 too. For Psi = 1 the gain, 1 on the sphere, is then left out; otherwise it holds
-        |e| <= 1 where a step strays off the sphere.
-    """
+    """Return the compiled gain of all lanes, whose `address` a general system's field calls."""
     return _compiled.get(variant(psi, smooth))
 
 

@@ -53,15 +53,7 @@ class CompiledProblem:
 
 
 def problem(at: FrozenSystem, psi: Psi, backward: bool = False) -> CompiledProblem:
-    """Prepare a right-hand side.
-
-    Parameters
-    ----------
-    at : Coefficients or Frozen
-    psi : Psi
-    backward : bool
-        Against time.
-    """
+    """Prepare a right-hand side."""
     if at.typed is None:
         field = fields.field(psi)
         shared = field_numbers(at, gain_parameter(psi), backward)
@@ -71,15 +63,7 @@ def problem(at: FrozenSystem, psi: Psi, backward: bool = False) -> CompiledProbl
 
 
 def problems(at: FrozenSystem, psis: Sequence[Psi], backward: bool = False) -> CompiledProblem:
-    """Prepare a right-hand side whose lanes have a Psi of their own, of at most BLOCKS.
-
-    Parameters
-    ----------
-    at : Coefficients or Frozen
-    psis : sequence of Psi
-    backward : bool
-        Against time.
-    """
+    """Prepare a right-hand side whose lanes have a Psi of their own, of at most BLOCKS."""
     formulas, smooth = (None, True) if at.typed is None else packed_formulas(at.key)
     mixed, each = gains_of_blocks(), [gains_of_block(psi, smooth) for psi in psis]
     own = np.array([(gain.address, gain_parameter(psi)) for gain, psi in zip(each, psis, strict=True)], float)

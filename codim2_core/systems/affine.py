@@ -19,14 +19,7 @@ def in_axes_of(system: Any, *names: str) -> Any:
 
 
 def as_elinear(system: Any) -> ELinear | Coefficients | None:
-    """Return the e-linear system with the same U, without a slow flow; None if U is not affine in (c, s) throughout.
-
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-        The first and the third are returned as they are. A system frozen at one z has no formulas of z any more: only
-        its normal form (`Frozen.normal_form`).
-    """
+    """Return the e-linear system with the same U, without a slow flow; None if U is not affine in (c, s) throughout."""
     typed = system.typed
     if typed is None:
         return system

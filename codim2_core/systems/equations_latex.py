@@ -11,12 +11,7 @@ Sides = tuple[tuple[str, str], ...]
 
 
 def latex_sides(system: Any) -> Sides:
-    """Return left and right sides of a system's equations, and then of its definitions, as LaTeX.
-
-    Parameters
-    ----------
-    system : ELinear or System
-    """
+    """Return left and right sides of a system's equations, and then of its definitions, as LaTeX."""
     alone = system.m - bool(system.clock) == 1  # z beside no other but t
 
     def plain(formula: Expression) -> Expression:

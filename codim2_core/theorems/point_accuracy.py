@@ -82,16 +82,7 @@ class PointAccuracy(Tabled):
 def point_accuracy(
     one: SpecialPoint, system: Any, psi: Psi, z: tuple[float, ...], along: str, scale: float
 ) -> PointAccuracy | None:
-    """Return the accuracy of a special point of equilibria; None if its kind has no defining system here.
-
-    Parameters
-    ----------
-    one : SpecialPoint
-    system, psi, z, along
-        As of `branches`.
-    scale : float
-        By how much the parameter moves in all: differences are taken over a small part of it.
-    """
+    """Return the accuracy of a special point of equilibria; None if its kind has no defining system here."""
 
     def frozen(value: float) -> tuple[FrozenSystem, Psi]:
         varied, its_psi, place = vary(system, psi, z, along, value)

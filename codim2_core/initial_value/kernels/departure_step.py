@@ -46,19 +46,7 @@ def _polish_theta(S, m, theta):
 def leave(S, m, n1, n2, theta, ahead, linear, square):
     """Write the first, short step away from Sigma; return its length, or why there is none.
 
-    Parameters
-    ----------
-    S : (EXTENT,)
-        With z in place.
-    m : int
-    n1, n2 : float
-        Along the invariant line of the motion, or 0.
-    theta : float
-        Near a zero of Theta.
-    ahead : float
-        Time that is left.
-    linear, square : (2 + m,)
-        The terms of the step's polynomial: written.
+    Shapes: linear, square (2 + m,).
     """
     width, in_line = 4 + m, n1 != 0.0 or n2 != 0.0
     if not in_line:

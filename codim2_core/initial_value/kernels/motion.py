@@ -133,29 +133,7 @@ def _turned_explicit(motion, clock, control, bound, reach):
 def integrate_motion(motion, table, work, y, clock, control, starts, lengths, ends, polynomials):
     """Step until the time is over, the steps are used up, or the arrays are full.
 
-    Parameters
-    ----------
-    motion : Motion
-    table : Tableau
-    work : Work
-    y : (n,)
-        The state, which moves on.
-    clock : (4,)
-        Time, what its rounding lost, the end of the time, evaluations so far.
-    control : (CONTROL,)
-        NEXT: the next step. REFINED: 1 where the last one was not accepted. WARY: careful steps left. LEFT: steps
-        left to try. TRIED: how many were. EXTENT: the largest size of the state so far. IMPLICIT: 1 in a slide, or
-        ONLY. COUNT: signs so far that the other method costs less. WORTH: explicit steps that have to lie ahead.
-        FARTHEST: the largest rho so far, of a nonsmooth motion (eps = 0), which has arrived at Sigma where rho is
-        `arrived` of that. LEAST: a shorter step ends the motion. PAID: when the turn to implicit steps has paid.
-        LONGEST_STEP: no step is longer.
-    starts, lengths (k,), ends (k, n), polynomials (k, n, 7)
-        Filled with steps.
-
-    Returns
-    -------
-    (int, int)
-        Why it stopped, and how many steps were filled in.
+    Why it stopped, and how many steps were filled in. Shapes: y (n,).
     """
     filled, fresh, begun, bound, reach, before_h = 0, True, False, math.inf, 0.0, 0.0
     while clock[2] - clock[0] - clock[1] > 0.0:
@@ -244,23 +222,7 @@ def prepare_motion(motion, y, clock, control, t_start, t_end, most, work):
 def follow_steps(fields, numbers, coefficients, S, y, clock, control, starts, lengths, ends, polynomials):
     """Follow one motion for as many steps as the arrays hold.
 
-    Parameters
-    ----------
-    fields : int64 (3,)
-        Addresses, as in `MotionConstants`; they may be of Python.
-    numbers : (5,)
-        eps, rtol, floor, and the invariant line, or 0.
-    coefficients
-        As for `tableau_of`.
-    S : (ROOM,)
-        What the fields read and write.
-    y, clock, control, starts, lengths, ends, polynomials
-        As of `integrate_motion`. At first of control only LEFT, FARTHEST, LEAST, LONGEST, and NEXT and IMPLICIT, or 0.
-
-    Returns
-    -------
-    (int, int)
-        As of `integrate_motion`.
+    As of `integrate_motion`.
     """
     work, table = work_on(S, len(y)), tableau_of(coefficients)
     motion = MotionConstants(

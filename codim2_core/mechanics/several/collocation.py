@@ -44,15 +44,7 @@ def collocate(
     guess: Array,
     scale: Array,
 ) -> Collocated | None:
-    """Return one step from Y, with Y' and e (c, 2) there; None if Newton's method fails.
-
-    Parameters
-    ----------
-    guess : (5, N)
-        Stages less Y.
-    scale : (N,)
-        Error allowed.
-    """
+    """Return one step from Y, with Y' and e (c, 2) there; None if Newton's method fails."""
     table, n = tableau(), len(Y)
     inverse = np.linalg.inv(table.A) / h
     smooth, slip = field.smooth_slopes(Y, e, sticks)

@@ -52,13 +52,7 @@ class Decided(NamedTuple):
 def decide_contacts(M: Array, Q: Array, J: Array, k: Array, r: Array) -> Decided:
     """Return what contacts at their sets do.
 
-    Parameters
-    ----------
-    M : (n, n)
-    Q : (n,)
-    J : (c, 2, n)
-    k : (c, 2)
-    r : (c,), positive
+    Shapes: M (n, n), Q (n,).
     """
     free = np.asarray(np.linalg.solve(M, Q), np.float64)
     if not len(J):

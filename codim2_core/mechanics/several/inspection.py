@@ -51,18 +51,7 @@ class Inspection:
         return path_program(guards).arrays if guards else None
 
     def retry(self, step: Step, stages: Array, here: Local, sticks: Flags, speed: float) -> float | None:
-        """Return the step to try instead, where formulas vary along this one as its stages do not see; else None.
-
-        Parameters
-        ----------
-        step : Step
-        stages : (5, N)
-        here : Local
-            Where the step begins.
-        sticks : (c,)
-        speed : float
-            The largest velocity so far.
-        """
+        """Return the step to try instead, where formulas vary along this one as its stages do not see; else None."""
         from ...numerics.along import first_defect  # on first use: it loads the compiler
 
         moving = self.field.moving

@@ -74,9 +74,7 @@ class ContactRun:
     def run(self) -> None:
         """Go on to the end.
 
-        Raises
-        ------
-        TooManyStepsError, NoFrictionError
+        Raises TooManyStepsError, NoFrictionError.
         """
         span = self.t_end - self.t
         h = self.first = FIRST_SHARE * span

@@ -71,20 +71,7 @@ def cut_at_exit(
 ) -> tuple[Slide, DelayedExitPoint | None]:
     """Cut a slide on an unstable critical set where the motion leaves it.
 
-    Parameters
-    ----------
-    field : Field
-    psi : Psi
-    taken : sequence of Step
-        Of the slide before, from where the motion came to the set to where that lost its stability.
-    places : sequence of ndarray (2,)
-        e at the start and at the end of each of them.
-    part : Slide
-        How the slow flow goes on from there.
-
-    Raises
-    ------
-    NotAnalyticError
+    Raises NotAnalyticError. Shapes: places (2,).
     """
     if not part.taken:
         return part, None
@@ -127,9 +114,7 @@ class Growth:
 
         `rise` is added to G where a buffer point ends the delay.
 
-        Raises
-        ------
-        NotAnalyticError
+        Raises NotAnalyticError.
         """
         end = self._reaches(0.0, unstable)
         found = [] if end is None else [DelayedExitPoint(end, None)]

@@ -38,22 +38,7 @@ def cut_at_delayed_exit(
 ) -> DelayedExit:
     """Cut a slide past the bifurcation where the motion leaves the set.
 
-    Parameters
-    ----------
-    field : Field
-    psi : Psi
-    before : (steps, places)
-        Of the slide to the bifurcation, and e at its start and at the end of each step.
-    part : Slide
-        How the slow flow goes on from there.
-    C : str or None
-        Name of the set.
-    how : str
-        Name of the bifurcation.
-
-    Raises
-    ------
-    NotAnalyticError
+    Raises NotAnalyticError.
     """
     taken, places = before
     part, way = cut_at_exit(field, psi, taken, places, part)
@@ -74,20 +59,7 @@ def departure_point(field: Field, psi: Psi, e: Array, z: Sequence[Array], arriva
 
     A motion keeps the sign of its distance along the leading eigenvalue while that is real.
 
-    Parameters
-    ----------
-    field : Field
-    psi : Psi
-    e : ndarray (2,)
-    z : sequence of ndarray (m,)
-        From where the motion came to the set to where it leaves.
-    arrival : ndarray (k, 2)
-        The orbit of the layer problem by which it came.
-
-    Returns
-    -------
-    ndarray or None
-        None where no side is known: it began on the set, or an eigenvalue turns.
+    None where no side is known: it began on the set, or an eigenvalue turns. Shapes: e (2,), z (m,), arrival (k, 2).
     """
     C, first, left = in_disc(psi, e), None, np.zeros(2)
     for at in z:

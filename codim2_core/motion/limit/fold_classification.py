@@ -54,15 +54,7 @@ class Fold:
 def classify_fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str) -> Fold:
     """Classify the fold at e.
 
-    Parameters
-    ----------
-    formulas : Field
-    e : ndarray (2,)
-    z : ndarray (m,)
-    C : str or None
-        Name of the set.
-    plain : str
-        Which sentence tells of a jump point.
+    Shapes: e (2,), z (m,).
     """
     at = np.concatenate([e, z])
     D, Dz, W, We = _parts(formulas, at)

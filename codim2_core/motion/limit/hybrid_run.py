@@ -84,10 +84,7 @@ class HybridRun:
     def enter_branch(self, e: Array, state: Array, t: float, switch: int | None = None) -> None:
         """Go on with the branch of the formulas ahead of a state, at e, or, where no switch is given, in another line.
 
-        Raises
-        ------
-        StopError
-            The branch ahead leads back at once.
+        Raises StopError: The branch ahead leads back at once.
         """
         left = self.line
         if self.formulas.switches or switch is not None:
@@ -137,10 +134,8 @@ class HybridRun:
     def run(self) -> None:
         """Follow the motion to the end of its time.
 
-        Raises
-        ------
-        AtEventError, StopError, BlowUpError, TooManyStepsError
-            It ends before; what has been followed is kept.
+        Raises AtEventError, StopError, BlowUpError, TooManyStepsError: It ends before; what has been followed is
+        kept.
         """
         on = not self.state[:2].any()
         decision = self.first() if on else self.slip([], say("starts outside"))

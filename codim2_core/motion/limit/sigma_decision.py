@@ -73,13 +73,7 @@ def _name_poles(decide: Callable[..., Decision]) -> Callable[..., Decision]:
 def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Decision:
     """Decide what becomes of a trajectory that arrives at Sigma at angle theta.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi or None
-        None asks whether all the usual ones agree.
-    z : ndarray (m,)
-    theta : float
+    Shapes: z (m,).
     """
     own = LayerProblem(system.at(tuple(z.tolist())), constant() if psi is None else psi)
     outcome = outcome_towards(own, theta, None if psi is None else ())
@@ -94,12 +88,7 @@ def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -
 def decide_from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
     """Decide what becomes of orbits of the layer problem at z that are now at points of the hemisphere.
 
-    Parameters
-    ----------
-    system, psi, z
-        As in `decide_arrival`.
-    points : ndarray (k, 2)
-        In the projected disc, |p| < 1. Where they end at different places the decision is "stop".
+    Shapes: points (k, 2).
     """
     hemisphere = LayerProblem(system.at(tuple(z.tolist())), psi)
     found = omega_limits_of(hemisphere, orbits_to_end(hemisphere, points))
@@ -139,13 +128,7 @@ def _index(label: str | None) -> int:
 
 
 def decide_from_origin(system: AnySystem, psi: Psi, z: Array) -> Decision:
-    """Decide what follows from a state on Sigma: x = y = 0 is p = 0 for every eps, so its orbit of the layer problem.
-
-    Parameters
-    ----------
-    system, psi, z
-        As in `decide_arrival`.
-    """
+    """Decide what follows from a state on Sigma, x = y = 0: for every eps the orbit of the layer problem from p = 0."""
     at = tuple(z.tolist())
     equator = equator_equilibria(system, at)
     sets = critical_sets(system, psi, at)
@@ -171,16 +154,8 @@ def decide_from_origin(system: AnySystem, psi: Psi, z: Array) -> Decision:
 def decide_start(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
     """Decide what follows from a state on Sigma, when nothing is known of how it came there.
 
-    Parameters
-    ----------
-    system, psi, z
-        As in `decide_arrival`.
-
-    Returns
-    -------
-    Decision
-        If psi is given, by the orbit of the layer problem through p = 0. Otherwise sliding if there is one attractor on
-        the open hemisphere; with none, the one way out; else stop.
+    If psi is given, by the orbit of the layer problem through p = 0. Otherwise sliding if there is one attractor on
+    the open hemisphere; with none, the one way out; else stop.
     """
     if psi is not None:
         return decide_from_origin(system, psi, z)

@@ -104,28 +104,7 @@ def slide(
 ) -> Slide:
     """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
 
-    Parameters
-    ----------
-    field : Field
-    psi : Psi
-    e : ndarray (2,)
-        Critical set at z.
-    t, t_end : float
-    z : ndarray (m,)
-    rtol, atol : float
-    most : int
-        Steps.
-    lives : callable, optional
-        For sliding on a limit cycle: whether it is still there at z.
-    line : InvariantLine, optional
-        The invariant line that the motion stays in, stable across it or not.
-    delayed : bool
-        Go on where stability changes: for how long a motion follows is left to `delay`.
-    resting : bool
-        The set does not move: go on with it, also where it meets others.
-    reach : float
-        |e| up to which it slides; above 1 by static friction, see `stiction`.
-    max_step : float
+    Shapes: e (2,), z (m,).
     """
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])

@@ -28,16 +28,7 @@ OTHER_CYCLE_DISTANCE = 0.2  # in the disc: a cycle whose middle has moved furthe
 def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> Slide:
     """Follow the averaged slow flow of a general system.
 
-    Parameters
-    ----------
-    system : System or Frozen
-    psi : Psi
-    index : int
-        Of the cycle, among `limit_cycles` at z.
-    t, t_end : float
-    z : ndarray (m,)
-    most : int
-        Steps.
+    Shapes: z (m,).
     """
     means: list[tuple[Array, Array]] = []
     m, first = len(z), limit_cycles(system, psi, tuple(z.tolist()))[index]

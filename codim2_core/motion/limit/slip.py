@@ -71,21 +71,7 @@ def slip(
 ) -> Slip:
     """Follow the nonsmooth system until it arrives at Sigma, or to the end of the time span.
 
-    Parameters
-    ----------
-    field : Field
-    line : InvariantLine or None
-        The invariant line that the motion stays in.
-    span : (t, t_end)
-    state : ndarray (2 + m,)
-        With (x, y) != 0.
-    rtol, atol : float
-    most : int
-        Steps.
-    largest : float
-        The scale of rho: it has arrived where rho is a small part of that (or of a larger rho met on the way), see
-        `kernels.motion.arrived`.
-    max_step : float
+    Shapes: state (2 + m,).
     """
     rate, functions = partial(rate_at, field, None, 0.0, line), functions_of(field, constant())
     farthest = max(largest, math.hypot(state[0], state[1]))

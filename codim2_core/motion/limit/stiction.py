@@ -64,14 +64,7 @@ def _rest(formulas: Field, line: InvariantLine | None, z: Array) -> tuple[Array,
 def hold(formulas: Field, line: InvariantLine | None, z: Array, reach: float) -> Decision | None:
     """Decide whether static friction holds a state on Sigma; None where it does not.
 
-    Parameters
-    ----------
-    formulas : Field
-    line : InvariantLine or None
-        The invariant line that the motion stays in.
-    z : ndarray (m,)
-    reach : float
-        Static over kinetic friction.
+    Shapes: z (m,).
     """
     found = None if reach == 1.0 else _rest(formulas, line, z)
     if found is None or not math.hypot(*found[0].tolist()) < reach:
@@ -85,13 +78,7 @@ def hold(formulas: Field, line: InvariantLine | None, z: Array, reach: float) ->
 def let_go(system: AnySystem, line: InvariantLine | None, e: Array, z: Array, reach: float) -> Decision:
     """Decide in which direction a contact slips that static friction holds no longer.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    line, z, reach
-        As in `hold`.
-    e : ndarray (2,)
-        The friction that rest asks for, |e| = reach.
+    Shapes: e (2,).
     """
     if line is None:
         equator = equator_equilibria(system, tuple(z.tolist()))

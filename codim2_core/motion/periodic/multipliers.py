@@ -33,17 +33,7 @@ DEFLATED = 1e-11  # what a sweep still turns of a direction into those before it
 
 
 def rate_at(formulas: Field, psi: Psi | None, run: Simulation, i: int) -> Array:
-    """Rate (2 + m,) with which a motion goes on from the end of a step.
-
-    Parameters
-    ----------
-    formulas : Field
-    psi : Psi or None
-        None only in the limit.
-    run : Simulation
-    i : int
-        Of ``run.times``.
-    """
+    """Rate (2 + m,) with which a motion goes on from the end of a step."""
     x, y, *z = run.states[i].tolist()
     if run.eps > 0.0:
         assert psi is not None
@@ -84,25 +74,7 @@ def multipliers(
 ) -> tuple[Complex, Array, int]:  # fmt: skip
     """Return the multipliers of a periodic motion, largest first, their condition, and how many are exactly 0.
 
-    Parameters
-    ----------
-    formulas : Field
-    psi : Psi or None
-    run : Simulation
-        Over one period.
-    variation : Variation
-        Its derivatives, all of them.
-    clocks : ndarray (m,) of bool
-        Slow variables that move at a constant rate. Without any, a shift in time is left out.
-    cuts : sequence of int
-        Step ends at which segments begin; several for eps > 0 only.
-
-    Returns
-    -------
-    multipliers : ndarray (q,) of complex
-    conditions : ndarray (q,)
-        By how much, to first order, an error of the matrix is larger in each of them.
-    lost : int
+    conditions: By how much, to first order, an error of the matrix is larger in each of them. Shapes: clocks (m,).
     """
     n = run.states.shape[1]
     steps = variation.propagators[:, :n, :n]

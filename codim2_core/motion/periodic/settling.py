@@ -25,12 +25,7 @@ RETURN_DISTANCE = 0.05  # of its size: how near to its end a settled motion come
 
 
 def forcing_period(system: AnySystem) -> float | None:
-    """Return the common period of all sines and cosines of a slow variable of constant rate; None without one.
-
-    Parameters
-    ----------
-    system : ELinear, System, or one of them frozen at a z
-    """
+    """Return the common period of all sines and cosines of a slow variable of constant rate; None without one."""
     rows = field(system).rows
     rates = {name: row.constant for name, row in zip(SLOW_NAMES, rows[2:], strict=False) if row.constant}
     frequencies: set[float] = set()
@@ -57,16 +52,7 @@ def settled_motion(
 ) -> tuple[Array, float] | None:
     """Follow a motion until it repeats itself nearly: a state, and a period; None where it is not seen to.
 
-    Parameters
-    ----------
-    system : ELinear, System, or one of them frozen at a z
-    start : (2 + m,)
-    psi : Psi
-    eps : float
-        0 for the limit.
-    t_end : float
-        For how long; if it is forced, at least 40 periods.
-    rtol : float
+    Shapes: start (2 + m,).
     """
 
     def follow(span: float) -> Simulation:

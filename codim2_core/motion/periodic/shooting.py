@@ -103,13 +103,7 @@ class Shooting:
     def follow(self, starts: Array, period: float, rtol: float) -> tuple[Simulation, tuple[int, ...], Array]:
         """Follow a motion over a period: from the starts of its segments (k, 2 + m), the clocks of the first.
 
-        Returns
-        -------
-        run : Simulation
-        cuts : tuple of k + 1 int
-            Step ends at which segments begin, and the last.
-        ends : ndarray (k, 2 + m)
-            Of the segments.
+        cuts: Step ends at which segments begin, and the last; ends: Of the segments.
         """
         options = {"rtol": rtol, "atol": rtol * self.floor, "max_steps": self.max_steps, "max_step": self.max_step}
         if self.eps == 0.0:
@@ -126,10 +120,7 @@ class Shooting:
     def shot(self, starts: Array, period: float, rtol: float) -> Shot:
         """Follow a motion over a period, and differentiate it.
 
-        Raises
-        ------
-        LostError
-            It ends before, or has no derivative.
+        Raises LostError: It ends before, or has no derivative.
         """
         run, cuts, ends = self.follow(np.atleast_2d(starts), period, rtol)
         if run.status is not SimulationStatus.T_END:
@@ -203,13 +194,8 @@ class Shot:
     def slopes(self, free: NDArray[np.bool_], sizes: Array) -> tuple[Array, Array, Array]:
         """Return the derivatives of what is missed of `free`, in units of their sizes.
 
-        Returns
-        -------
-        by_starts : ndarray (k q, k q)
-            By the starts, in those units.
-        by_period : ndarray (k, q)
-        segments : ndarray (k, q, 2 + m + names)
-            By all of a segment's start, and by `names`, in their own units.
+        by_starts: By the starts, in those units; segments: By all of a segment's start, and by `names`, in their own
+        units.
         """
         k, n, q = len(self.ends), len(self.state), int(free.sum())
         steps, count = self.variation.propagators, self.variation.propagators.shape[1]

@@ -18,20 +18,8 @@ def past_jumps(
 ) -> tuple[Array, Array, str]:
     """Pass the jumps of a load: what time alone decides changes nothing but what comes from a change of the clock.
 
-    Parameters
-    ----------
-    fine, coarse : ndarray (k, N, N)
-    times : ndarray (k + 1,)
-    jumps : mapping of float to bool
-        Times of jumps, and whether slow variables of constant rate alone decide them.
-    slopes : Slopes
-
-    Returns
-    -------
-    fine, coarse : ndarray
-        The steps that are known; changes of a clock end at a jump, as columns of zeros.
-    reason : str
-        Why no more are.
+    fine, coarse: The steps that are known; changes of a clock end at a jump, as columns of zeros; reason: Why no more
+    are. Shapes: fine, coarse (k, N, N), times (k + 1,).
     """
     names = {name for name, _ in slopes.kept}
     for t, by_time in jumps.items():
@@ -57,17 +45,7 @@ def chain_propagators(
 ) -> Variation:
     """Make the result of the steps' propagators, up to the first that is undefined.
 
-    Parameters
-    ----------
-    names : tuple of str
-    times : ndarray (k + 1,)
-    fine, coarse : ndarray (k, N, N)
-    rate : ndarray (n,)
-        Of the state at the last of the times; NaN where that is not asked for.
-    reason : str
-        Why there are no more steps.
-    within : ndarray (n, k), optional
-        Basis of the changes that are not left out, if not all.
+    Shapes: times (k + 1,), fine, coarse (k, N, N), rate (n,), within (n, k).
     """
     undefined = np.flatnonzero(~np.isfinite(fine).all(axis=(1, 2)))
     if len(undefined):

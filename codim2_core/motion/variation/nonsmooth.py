@@ -61,23 +61,7 @@ def of_nonsmooth(
     jumps: Mapping[float, bool],
     names: Sequence[str],
 ) -> Variation:
-    """Differentiate a motion by its start, and by numbers of its system.
-
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi or None
-    motion : Dense
-    phases : callable
-        Makes its phases.
-    line : InvariantLine or None
-        The invariant line that it stays in: where the line repels (but see `passage`), changes that leave it are left
-        out.
-    jumps : mapping of float to bool
-        As in `past_jumps`.
-    names : sequence of str
-        Of ``system.variable``.
-    """
+    """Differentiate a motion by its start, and by numbers of its system."""
     course, legs = _Course(slopes_of(system, names), motion, None, jumps), list(_legs(motion, phases()))
     if line is not None and any(
         course.repels(leg, line.n) and not (following and course.shrinks(system, psi, leg, following, line.n))

@@ -30,15 +30,7 @@ def shrinks_across(
 ) -> bool:
     """Whether of a small angle beside a motion nothing is left, to first order, once it has been on Sigma.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi or None
-        None asks whether all the usual ones agree.
-    z : (m,) floats
-        Where it comes to Sigma.
-    arriving, leaving : float
-        Limit directions; None where it slides.
+    Shapes: z (m,).
     """
     problem = LayerProblem(system.at(z), constant() if psi is None else psi)
     equator = problem.equator

@@ -43,18 +43,7 @@ def propagators(jacobian: Jacobian, lengths: Array, sizes: Array, rtol: float, b
     Parts are compared by what they make of the changes that come to them: what an L-stable method damps, more or less
     than the equation does, is not worth a halving.
 
-    Parameters
-    ----------
-    jacobian : callable
-        Steps (p,) and fractions of them (p, s) to J (p, s, N, N).
-    lengths : ndarray (k,)
-        Of the steps.
-    sizes : ndarray (k + 1, N)
-        What small is measured by, at the ends of the steps.
-    rtol : float
-        How far a part and its halves may differ, in those sizes, of the largest change by a change of one size.
-    before : ndarray (N, N)
-        Changes that come to the first step.
+    Shapes: lengths (k,), sizes (k + 1, N), before (N, N).
     """
     if not len(lengths):
         return Propagators(*np.zeros((2, 0, *before.shape)))

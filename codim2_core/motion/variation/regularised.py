@@ -22,19 +22,7 @@ RTOL = 1e-10  # how far a part of a step and its halves may differ
 def of_regularised(
     system: AnySystem, psi: Psi, eps: float, motion: Dense, jumps: Mapping[float, bool], names: Sequence[str]
 ) -> Variation:
-    """Differentiate a motion by its start, and by numbers of its system.
-
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    eps : float
-    motion : Dense
-    jumps : mapping of float to bool
-        As in `past_jumps`.
-    names : sequence of str
-        Of ``system.variable``.
-    """
+    """Differentiate a motion by its start, and by numbers of its system."""
     slopes, states = slopes_of(system, names), motion.states
 
     def jacobian(steps: NDArray[np.intp], u: Array) -> Array:
