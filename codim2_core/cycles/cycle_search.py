@@ -146,8 +146,10 @@ def _near_hopf(section: TurnSection) -> tuple[float, FixedPoint | None, list[str
     for scale in MEASURED * INNER_RADIUS:
         r = scale * np.array([1.0, 2.0, 4.0])
         parts = (section.displacement(np.log(r / (1.0 - r)), FINE_RTOL, noise=0.0) - linear) / r**2
+        if not np.isfinite(parts).all():
+            continue
         square = float(parts @ (8.0, -6.0, 1.0)) / 3.0  # takes out the next two powers of r
-        size = math.sqrt(abs(linear / square)) if square and math.isfinite(square) else math.inf
+        size = math.sqrt(abs(linear / square)) if square else math.inf
         if not size < scale:
             continue
         if square * linear > 0.0:

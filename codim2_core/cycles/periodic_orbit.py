@@ -18,7 +18,7 @@ from .ray_section import FINE_RTOL, FixedPoint, TurnSection
 
 STEP_NODES = 6
 MOST_STEPS = 8000
-CLOSURE_DISTANCE = 1e-11  # on the sphere
+CLOSURE_DISTANCE, MORE_TURNS = 2e-14, 2  # on the sphere; turns after the first one to come so near
 MIN_MULTIPLIER = 1e-300  # multiplier of a relaxation cycle: one that repels more strongly is reported with its inverse
 
 
@@ -151,7 +151,9 @@ def orbit(section: TurnSection, crossing: FixedPoint) -> Orbit | None:
     sign = -1.0 if backward else 1.0
     begin = start[0]
     way = path(section, begin, FINE_RTOL, backward)
-    if way is not None and math.dist(way.end, begin) > CLOSURE_DISTANCE:
+    for _ in range(MORE_TURNS):
+        if way is None or math.dist(way.end, begin) <= CLOSURE_DISTANCE:
+            break
         # The way it is followed the orbit attracts: once more round, from where it came.
         begin = way.end
         way = path(section, begin, FINE_RTOL, backward)

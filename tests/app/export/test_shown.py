@@ -35,7 +35,7 @@ RESULTS = {
     "approach_outcomes": lambda: c2.approach_outcomes(FOUR, ONE),
     "basins": lambda: c2.basins(TWO, ONE, 0.0, n=64),
     "basins, nearer": lambda: c2.basins(TWO, ONE, 0.0, n=32, box=(0.0, 0.5, 0.0, 0.5)),
-    "branches": lambda: c2.c2.branches(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
+    "branches": lambda: c2.branches(CYCLE.system, CYCLE.psi, "n", (2.5, 3.5)),
     "compare_laws": lambda: c2.compare_laws(
         CYCLE.system, {"sap": (c2.psi.engine("sap"), 1e-3), "ipc": (c2.psi.engine("ipc"), 1e-3)}
     ),
