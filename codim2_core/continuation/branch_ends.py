@@ -181,16 +181,18 @@ def loop_end(
     if sunk and meeting is not None and (reached or not settled):
         sentence = say("meets a saddle-node", name=name, value=meeting.value)
         return _make_end("saddle-node on the equator", sentence, turn, meeting.value)
+    near_limit = settled or 0.0 < abs(turn.value - value) < LIMIT_TOLERANCE * width
     saddles = [C.p for C in problem.critical if C.kind == "saddle"]
     # What cycles of growing periods tend to holds an equilibrium: one on the equator where there is no saddle within.
     coming_down = sunk or (not saddles and turn.height < last.before.height)
-    if coming_down and len(problem.equator) and (settled or 0.0 < abs(turn.value - value) < LIMIT_TOLERANCE * width):
+    if coming_down and len(problem.equator) and near_limit:
         return loop_branch_end(name, turn, value)
     pairs = zip(_gaps(saddles, last.states), _gaps(saddles, last.earlier), strict=True)
     near = sum(now < LOOP_DISTANCE and now < before for now, before in pairs)
-    if near and settled:
+    if near and near_limit:
         kind = "homoclinic" if near == 1 else "heteroclinic"
-        return _make_end(f"{kind} cycle", say(f"becomes {kind}", name=name, value=turn.value), turn, turn.value)
+        at = turn.value if settled else value
+        return _make_end(f"{kind} cycle", say(f"becomes {kind}", name=name, value=at), turn, at)
     return None
 
 

@@ -190,26 +190,48 @@ def test_branches_pass_as_many_cycles_as_there_are(what):
         assert cycles.count(p) == len(c2.limit_cycles(system.evolve(p=p), psi, (0.0,)))
 
 
-#: a, b, d, f2, Psi; of which the general path told something else along f1 once.
+LOOP_END = "heteroclinic cycle through the equator"
+#: a, b, d, f2, Psi, and special points along f1 by the section of e-linear systems: where first turns erred once.
 TWINS = {
-    "a saddle-node behind a loop": (1.184, 0.972, -0.714, -0.405, c2.psi.rational()),
-    "a loop within rounding": (1.665, 1.485, -1.25, 0.955, c2.psi.tanh()),
-    "a loop that is come to slowly": (0.254, -0.554, -0.424, 0.59, c2.psi.rational()),
-    "a loop reached on a second ray": (0.827, 0.636, -0.408, 0.668, c2.psi.hill(3)),
-    "a loop beyond which no ray leads": (1.518, 1.302, -1.114, 0.609, c2.psi.tanh()),
-    "two folds within a step": (1.368, -1.154, -0.861, -0.562, c2.psi.rational()),
-    "no fold by rounding where a cycle becomes the equator": (0.264, 0.33, -0.226, -0.163, c2.psi.tanh()),
-    "a loop through the equator however high": (0.722, -0.663, -0.54, -0.689, c2.psi.hill(3)),
-}
+    "a saddle-node behind a loop": (
+        1.184, 0.972, -0.714, -0.405, c2.psi.rational(),
+        [("Hopf", -0.4437243606), ("saddle-node on the equator", -0.4392948859)],
+    ),
+    "a loop within rounding": (
+        1.665, 1.485, -1.25, 0.955, c2.psi.tanh(), [("Hopf", 1.076032916), (LOOP_END, 1.075828473)],
+    ),
+    "a loop that is come to slowly": (
+        0.254, -0.554, -0.424, 0.59, c2.psi.rational(),
+        [("Hopf", -0.5486660973), ("fold of cycles", -0.5486486322), (LOOP_END, -0.5539182552)],
+    ),
+    "a loop reached on a second ray": (
+        0.827, 0.636, -0.408, 0.668, c2.psi.hill(3), [("Hopf", 0.8913636816), (LOOP_END, 0.8929875537)],
+    ),
+    "a loop beyond which no ray leads": (
+        1.518, 1.302, -1.114, 0.609, c2.psi.tanh(), [("Hopf", 0.7094619183), (LOOP_END, 0.7094612041)],
+    ),
+    "two folds within a step": (
+        1.368, -1.154, -0.861, -0.562, c2.psi.rational(),
+        [("Hopf", 0.6192034789), ("fold of cycles", 0.6186910493), ("fold of cycles", 0.6188995189),
+         (LOOP_END, 0.6168848345)],
+    ),
+    "no fold by rounding where a cycle becomes the equator": (
+        0.264, 0.33, -0.226, -0.163, c2.psi.tanh(), [("Hopf", -0.1384648567), ("equator", -0.1252226403)],
+    ),
+    "a loop through the equator however high": (
+        0.722, -0.663, -0.54, -0.689, c2.psi.hill(3), [("Hopf", 0.7662471938), (LOOP_END, 0.7723450217)],
+    ),
+}  # fmt: skip
 
 
+@pytest.mark.parametrize("angle", [0.0, 0.7])
 @pytest.mark.parametrize("name", TWINS)
-def test_the_general_path_tells_what_the_e_linear_one_does(name):
-    a, b, d, f2, family = TWINS[name]
+def test_first_turns_tell_what_the_global_section_did(name, angle):
+    a, b, d, f2, family, special = TWINS[name]
     system = c2.ELinear(a, b, d, (0.0, f2))
-    (general,), (elinear,) = (c2.branches(S, family, "f1", (-1.5, 1.5)).cycles for S in (twin(system, 0.7), system))
-    assert [one.kind for one in general.special] == [one.kind for one in elinear.special]
-    assert [one.value for one in general.special] == pytest.approx([one.value for one in elinear.special], abs=1e-5)
+    (branch,) = c2.branches(twin(system, angle) if angle else system, family, "f1", (-1.5, 1.5)).cycles
+    assert [one.kind for one in branch.special] == [kind for kind, _ in special]
+    assert [one.value for one in branch.special] == pytest.approx([value for _, value in special], abs=2e-9)
 
 
 @pytest.mark.parametrize("family", [c2.psi.tanh(), c2.psi.hill(4)], ids=str)
