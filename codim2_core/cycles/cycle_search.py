@@ -199,7 +199,9 @@ def _displacement_ends(xi: Array, shift: Array) -> list[int]:
     finite = np.isfinite(shift)
     last = np.where(finite[1:], shift[1:], shift[:-1])
     least = np.where(np.abs(last) < NEAR_LOOP, LEAST_JUMP_WIDTH * np.maximum(1.0, np.abs(xi[1:])), MIN_JUMP_WIDTH)
-    jumps = (finite[1:] & np.isinf(shift[:-1])) | (finite[:-1] & np.isinf(shift[1:]))
+    beyond = np.where(finite[1:], shift[:-1], shift[1:])
+    # to -inf, onto the critical set, it goes continuously
+    jumps = (finite[1:] != finite[:-1]) & np.isinf(beyond) & ~((beyond < 0.0) & (last < 0.0))
     return np.flatnonzero(jumps & (np.diff(xi) > least)).tolist()
 
 

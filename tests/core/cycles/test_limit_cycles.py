@@ -257,3 +257,10 @@ NEAR_SPECIAL_VALUES = [
 def test_cycles_next_to_special_values(plane, family, count):
     found = c2.limit_cycles(c2.ELinear(*plane[:3], plane[3:]), family)
     assert len(found) == count
+
+
+def test_nothing_is_in_doubt_in_the_case_of_the_paper():
+    """Backward in time orbits fall onto C within a turn: where they do, samples were looked at ever closer, in vain."""
+    found = c2.limit_cycles(c2.ELinear(172, 186, -200, (-86, -93)), c2.psi.hill(3))
+    assert len(found) == 1
+    assert found.notes == ()
