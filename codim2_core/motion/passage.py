@@ -53,6 +53,9 @@ class SetLostError(Exception):
     """There is no critical set near where it was."""
 
 
+LOST = (SetLostError, np.linalg.LinAlgError)
+
+
 @dataclass(frozen=True)
 class _Near:
     """The flow near a slow manifold at a z: M (2,), the eigenvalues (2,) of J, its eigenvectors in columns, z'.
@@ -143,7 +146,7 @@ class Passage:
             u = self._arrival(part, k) if arrives[k] else 0.0
             until = part.upto(k, u)
             state, t = until.ends[-1] if len(until.lengths) else part.first, float(part.starts[k] + u * part.lengths[k])
-            with suppress(SetLostError):
+            with suppress(*LOST):
                 logs = self._logs([*parts, until], state)
                 if arrives[k] or logs.real.max() < DEEP:
                     passed = self._steps(until, [*parts, until], state, t, logs, most)
@@ -308,7 +311,7 @@ class Passage:
                 left = shown.end if u < 1.0 and cut is None else None
                 if u < 1.0:
                     break
-        except SetLostError:
+        except LOST:
             pass
         except TooManyStepsError as error:
             failed = error
@@ -331,7 +334,7 @@ class Passage:
         if self.line is not None or len(taken) < 2 or not np.ptp(places, axis=0).any():
             return None
         before = [step for part in parts for step in part][-self.followed :]
-        with suppress(NotAnalyticError, SetLostError):
+        with suppress(NotAnalyticError, *LOST):
             first = [self._place(step.first[2:]) for step in reversed(before)][::-1]
             growth = Growth(self.formulas.whole or self.formulas, self.psi, [*before, *taken], [*first, *places])
             # What the buffer leaves behind, w of ``eps w' = lambda w - eps M'`` past its saddle point, lambda = 0.

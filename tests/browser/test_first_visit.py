@@ -143,7 +143,7 @@ def test_the_puck_never_contradicts_the_headline(open_page):
     for setting in RANDOM:
         names = ("a", "b", "d", "f1", "f2", "z", "k1")
         query = "&".join(f"{name}={value}" for name, value in zip(names, setting, strict=True))
-        explorer.open(f"?v=1&{query}")
+        explorer.open(f"?v=1&{query}").painted()
         puck, told = explorer.find(".state").text_content(), explorer.find(".headline strong").text_content()
         share = explorer.ask("Math.hypot(...(picture.state.header.critical.e[0] ?? [9]))")
         arrows = explorer.find(".puck .arrow").evaluate_all("(all) => all.map((one) => one.classList[1])")
@@ -171,7 +171,7 @@ def test_the_push_and_c_are_linked_both_ways_and_a_launched_orbit_is_slipped_alo
     C = explorer.ask("[picture.state.header.critical.x[0], picture.state.header.critical.y[0]]")
     assert pytest.approx(f, abs=0.01) == C  # A = -1
     before = explorer.find(".puck").inner_html()
-    explorer.press(".grab", "Shift+ArrowRight")
+    explorer.press(".grab", "Shift+ArrowRight").painted()
     assert explorer.find(".puck").inner_html() != before
     assert explorer.ask("root.explorer.values.f1") == pytest.approx(f[0] + 0.1, abs=0.01)
     place = explorer.ask("""(() => {

@@ -38,6 +38,7 @@ export class Bench {
     this.way = /** @type {number[]} */ ([0, 0]) // from the middle of the table to where the puck is, in px
     this.runs = 0
     this.of = "" // of which values the motion is that runs
+    this.next = 0
     this.before = "" // the verdict of the frame before
     this.slider.addEventListener("input", () => {
       const {p, q, push} = pushOf(values), [x, y] = push < 1e-9 ? [1, 0] : [p / push, q / push]
@@ -63,7 +64,8 @@ export class Bench {
     const [place] = this.leaving()
     if (verdict === "slips" && this.before && this.before !== verdict && place && isFriction(values)) this.later = setTimeout(() => { this.before = verdict; if (!this.root.classList.contains("asked")) this.run(place) }, LOOSE)
     else this.before = verdict
-    this.draw()
+    cancelAnimationFrame(this.next) // the next request goes first
+    this.next = requestAnimationFrame(() => this.draw())
   }
 
   get key() { const {a, b, d, psi, psi_text: text, n} = this.values, {p, q} = pushOf(this.values); return JSON.stringify([a, b, d, p, q, psi, text, n]) }
