@@ -32,13 +32,7 @@ def regions_of(
 ) -> tuple[tuple[AtlasRegion, ...], SamplingReport]:
     """All regions, by falling area, and what the portrait is where they were looked at.
 
-    Parameters
-    ----------
-    family : Family
-    curves : sequence of ndarray (m, 2)
-        In values of the parameters.
-    points : sequence of (float, float)
-        Curves that meet in one of them do so exactly.
+    Shapes: curves (m, 2).
     """
     lines = [family.units(line) for line in curves]
     marks = family.units(np.reshape(points, (-1, 2)))

@@ -60,12 +60,7 @@ class HalfEdge:
 
 
 def arrangement(plane: Geometry) -> list[HalfEdge]:
-    """Return the half-arcs of both curves; twins are neighbours in the list (2i, 2i + 1).
-
-    Parameters
-    ----------
-    plane : Geometry
-    """
+    """Return the half-arcs of both curves; twins are neighbours in the list (2i, 2i + 1)."""
     vertices: list[tuple[float, float]] = []
 
     def vertex(point: tuple[float, float]) -> int:
@@ -127,14 +122,7 @@ def _add_arcs(
 
 
 def face_borders(halves: list[HalfEdge], plane: Geometry) -> list[tuple[Array, float]]:
-    """Return the borders of all faces, each with its signed area (negative: the outside of a connected piece).
-
-    Parameters
-    ----------
-    halves : list of HalfEdge
-        As `arrangement` gives them.
-    plane : Geometry
-    """
+    """Return the borders of all faces, each with its signed area (negative: the outside of a connected piece)."""
     follow: dict[int, int] = {}
     for ordered in _anticlockwise(halves, plane):
         # arriving by the twin of ordered[i], the next arc with the face on the left is the one clockwise of it

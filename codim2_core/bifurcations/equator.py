@@ -195,18 +195,7 @@ def neutral_loop(a: float, b: float, d: float, psi: Psi, f: Array) -> Array | No
 
     Newton's method for both conditions in A^-1 f.
 
-    Parameters
-    ----------
-    system : ELinear, or Coefficients
-        Its f does not matter.
-    psi : Psi
-    z : (m,) floats
-    f : ndarray (2,)
-        Where to begin.
-
-    Returns
-    -------
-    ndarray (2,) or None
+    Shapes: z (m,), f (2,).
     """
     A = np.array([[a, -b], [b, d]])
 

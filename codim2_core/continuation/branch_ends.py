@@ -207,24 +207,7 @@ def loop_value(
 ) -> float | None:
     """Find the value at which the loop through the equator closes that the last cycle of a branch comes to.
 
-    Parameters
-    ----------
-    problem : callable
-        value -> LayerProblem.
-    centre : SectionBase
-        A point inside the cycles.
-    last : ReturnMapPoint
-    states : ndarray (k, 3)
-        Along it, forward or backward in time.
-    estimate : float
-        Where the loop may be.
-    width : float
-        Of the span.
-
-    Returns
-    -------
-    float, or None
-        None where the branches of its half-saddles are not seen to meet.
+    None where the branches of its half-saddles are not seen to meet. Shapes: states (k, 3).
     """
     low = states[int(states[:, 2].argmin()), :2]
     theta = np.array([math.atan2(low[1], low[0])])

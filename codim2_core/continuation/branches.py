@@ -88,19 +88,7 @@ def continue_cycles(
 ) -> CycleBranches:
     """Continue the limit cycles of the layer problem eq:LP along one parameter (sec:case3).
 
-    Parameters
-    ----------
-    system : ELinear or System, or either frozen at a z
-    psi : Psi
-    name : str
-    span : (low, high)
-    z : (m,) floats
-    marked : sequence of MarkedValue
-        The special values of the equilibria on the span.
-
-    Returns
-    -------
-    CycleBranches
+    Shapes: z (m,).
     """
 
     @lru_cache(maxsize=CACHE_SIZE)

@@ -90,13 +90,7 @@ def reversed_trace(trace: ContinuationPoints) -> ContinuationPoints:
 
 
 def points_at_value(trace: ContinuationPoints, nu: float) -> list[tuple[float, TurnGuess]]:
-    """Return the chi at which a branch passes nu, between its points, and guesses of its cycles there.
-
-    Parameters
-    ----------
-    trace : BranchPoints
-    nu : float
-    """
+    """Return the chi at which a branch passes nu, between its points, and guesses of its cycles there."""
     found = []
     for one, two in pairwise(trace.points):
         low, high = sorted((one.nu, two.nu))

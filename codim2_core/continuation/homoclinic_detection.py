@@ -32,17 +32,7 @@ def split_at_homoclinic(
 ) -> tuple[ContinuationPoints, ContinuationPoints] | None:
     """Part a trace at the first loop that it has passed; None if it has passed none.
 
-    Parameters
-    ----------
-    tracer : BranchTracer
-    trace : Trace
-    problem : callable
-        value -> layer problem.
-
-    Returns
-    -------
-    before, after : Trace
-        Both with points close to the loop.
+    Both with points close to the loop.
     """
     rounds = [_count_surrounded(tracer, point.turn, problem) for point in trace.points]
     for i in range(1, len(rounds)):

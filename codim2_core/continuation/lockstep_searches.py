@@ -24,16 +24,7 @@ def rounds(
 ) -> Generator[ItemT, Told, list[ResultT]]:
     """Run searches side by side, and ask what those that go on ask.
 
-    Parameters
-    ----------
-    searches : sequence of generators
-    ask : generator function
-        Yields what it asks for, of the questions of a round, and returns their answers in the same order.
-
-    Returns
-    -------
-    list
-        What each has found.
+    What each has found.
     """
     found: dict[int, ResultT] = {}
     asked: dict[int, QuestionT] = {}
@@ -59,16 +50,7 @@ def run_batched(
 ) -> list[ResultT]:
     """Run searches side by side until all have ended.
 
-    Parameters
-    ----------
-    searches : sequence of generators
-    answer : callable
-        What it returns for questions of several searches, in their order.
-
-    Returns
-    -------
-    list
-        What each has found.
+    What each has found.
     """
 
     def as_they_are(questions: list[QuestionT]) -> Generator[list[QuestionT], list[Answer], list[Answer]]:

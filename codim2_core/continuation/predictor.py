@@ -29,21 +29,7 @@ def predict(
     steps: Sequence[float],
     behind: int,
 ) -> list[CurvePoint]:
-    """Predict points after the last one; fewer than asked for where the section ends before.
-
-    Parameters
-    ----------
-    lengths : sequence of float
-        Of the curve up to each of its points.
-    places, tangents : sequence of CurvePoint
-        Of these points.
-    rate : float
-        d chi/d xi at the last one.
-    steps : sequence of float
-        From the last point to the first one wanted, and so on.
-    behind : int
-        How many points it is told by, at most: more tell more, if they are exact.
-    """
+    """Predict points after the last one; fewer than asked for where the section ends before."""
     rows = [len(lengths) - 1]
     for i in range(len(lengths) - 2, -1, -1):
         if len(rows) == behind:
@@ -63,19 +49,7 @@ def interpolate(
     rate: float,
     where: Sequence[float],
 ) -> list[CurvePoint]:
-    """Find the curve through some points at other lengths; as far as the section goes.
-
-    Parameters
-    ----------
-    lengths : sequence of float
-        Of the curve up to each of the points.
-    places, tangents : sequence of CurvePoint
-        Of these points, the first of them the nearest to what is wanted.
-    rate : float
-        d chi/d xi at the first one.
-    where : sequence of float
-        Lengths at which it is wanted.
-    """
+    """Find the curve through some points at other lengths; as far as the section goes."""
     chi = places[0].chi
     # xi goes to infinity at C and at the equator: with chi there is what is left of it beside these two logarithms
     outer = 1.0 if chi < 0.5 else (1.0 / rate - 1.0 / chi) * (1.0 - chi)
@@ -97,17 +71,7 @@ def interpolate(
 def _hermite(at: Array, values: Array, slopes: Array, where: Array) -> Array:
     """Evaluate the polynomial of degree 2 m - 1 with given values and slopes at m places, by Newton's differences.
 
-    Parameters
-    ----------
-    at : ndarray (m,)
-        The places, all different.
-    values, slopes : ndarray (m, q)
-    where : ndarray (k,)
-        Where it is wanted.
-
-    Returns
-    -------
-    ndarray (k, q)
+    Shapes: at (m,), values, slopes (m, q), where (k,).
     """
     x = np.repeat(at, 2)
     column = np.repeat(values, 2, axis=0)

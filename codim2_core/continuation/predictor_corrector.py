@@ -58,13 +58,7 @@ LEAST_EXPONENT_RATIO = (
 
 
 def trace_branch(tracer: BranchTracer, start: ContinuationPoint) -> TurnRoutine[ContinuationPoints]:
-    """Follow a branch from a point along its tangent until it ends.
-
-    Parameters
-    ----------
-    tracer : BranchTracer
-    start : Point
-    """
+    """Follow a branch from a point along its tangent until it ends."""
     path = _BranchPath(tracer, start)
     while path.open:
         yield from path.go_on()

@@ -54,20 +54,7 @@ class TurnOrbit:
 def turn(
     ray: Ray, xi: float, value: float, differences: Sequence[FiniteDifference], centre: HemispherePoint, backward: bool
 ) -> TurnOrbit | None:
-    """Follow one turn from a place on a ray; None if it does not return.
-
-    Parameters
-    ----------
-    ray : Ray
-        At this value.
-    xi, value : float
-    differences : sequence of FiniteDifference
-        One for each parameter by which it is differentiated; `ReturnMapPoint.by_value` is of the first.
-    centre : HemispherePoint
-        From where the amplitude is measured.
-    backward : bool
-        Followed backward in time, which is accurate where the cycle repels. The result is the same.
-    """
+    """Follow one turn from a place on a ray; None if it does not return."""
     start, _ = ray.states(np.array([xi]))
     way = path(ray, start[0], RTOL, backward)
     if way is None:

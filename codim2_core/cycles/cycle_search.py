@@ -46,17 +46,7 @@ ONLY_SADDLES = say("only saddles")
 def search_cycles(problem: LayerProblem) -> tuple[list[tuple[FixedPoint, Orbit, int]], str, tuple[str, ...]]:
     """Search for limit cycles.
 
-    Parameters
-    ----------
-    problem : LayerProblem
-
-    Returns
-    -------
-    cycles : list of (FixedPoint, Orbit, sense)
-        sense is +1 anticlockwise, -1 clockwise.
-    reason : str
-        Why there is none, or how those there are were found.
-    notes : tuple of str
+    cycles: sense is +1 anticlockwise, -1 clockwise; reason: Why there is none, or how those there are were found.
     """
     critical = problem.critical
     if not critical:
@@ -131,13 +121,8 @@ def _near_hopf(section: TurnSection) -> tuple[float, FixedPoint | None, list[str
 
     Its first term is exact; c is measured well outside the cycle, where rounding (1e-16/r) does not matter yet.
 
-    Returns
-    -------
-    xi : float
-        So far there is no other one; -inf where the expansion says nothing.
-    newborn : FixedPoint or None
-    notes : list of str
-        That there is one below `MIN_CYCLE_RADIUS`, where the trace of J has lost its digits.
+    xi: So far there is no other one; -inf where the expansion says nothing; notes: That there is one below
+    `MIN_CYCLE_RADIUS`, where the trace of J has lost its digits.
     """
     C = section.critical
     linear = 2.0 * math.pi * C.trace / math.sqrt(-C.discriminant) if C.discriminant < 0.0 else 0.0

@@ -49,17 +49,8 @@ def differences(q: Array, shift: Array) -> Array:
 def cubics(q: Array, shift: Array) -> tuple[Array, Array]:
     """Approximate one run of samples between its samples.
 
-    Parameters
-    ----------
-    q, shift : ndarray (n,)
-        n >= 5, in order.
-
-    Returns
-    -------
-    values : ndarray (n - 1, PARTS + 1)
-        Of the cubic of each interval, at even places from its one end to the other.
-    error : ndarray (n - 1, PARTS + 1)
-        How far the displacement may be from it, by the fourth divided differences of the samples about it.
+    values: Of the cubic of each interval, at even places from its one end to the other; error: How far the
+    displacement may be from it, by the fourth divided differences of the samples about it. Shapes: q, shift (n,).
     """
     n = len(q)
     first = np.clip(np.arange(n - 1) - 1, 0, n - 4)  # of the four samples
@@ -81,14 +72,7 @@ def cubics(q: Array, shift: Array) -> tuple[Array, Array]:
 def unresolved_intervals(q: Array, shift: Array, noise: Array) -> list[int]:
     """Find the intervals i, between samples i and i + 1, on which zeros may be hidden.
 
-    Parameters
-    ----------
-    q : ndarray (n,)
-        In order; not all evenly spaced.
-    shift : ndarray (n,)
-        The displacement; not finite where orbits do not return.
-    noise : ndarray (n,)
-        What it is not known better than.
+    Shapes: q (n,), shift (n,), noise (n,).
     """
     out: list[int] = []
     finite = np.isfinite(shift)
@@ -127,19 +111,9 @@ def _doubtful(values: Array, doubt: Array) -> NDArray[np.bool_]:
 def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], list[int], bool]:
     """Return where the displacement changes sign, and where it touches zero, within resolution.
 
-    Parameters
-    ----------
-    q, shift, noise : ndarray (n,)
-        As of `unresolved_intervals`; infinities have a sign as well.
-
-    Returns
-    -------
-    changes : list of (i, j)
-        Samples of opposite sign, with none between that can be told from zero.
-    touching : list of int
-        Samples that cannot be told from zero, between two of the same sign: a fold.
-    band : bool
-        Whether there is a whole interval that cannot be told from zero: a band of closed orbits.
+    changes: Samples of opposite sign, with none between that can be told from zero; touching: Samples that cannot be
+    told from zero, between two of the same sign: a fold; band: Whether there is a whole interval that cannot be told
+    from zero: a band of closed orbits. Shapes: q, shift, noise (n,).
     """
     decided = np.flatnonzero(np.abs(shift) > noise)
     inward = shift[decided] < 0.0
@@ -193,15 +167,7 @@ class Samples:
         self.fine = np.concatenate([self.fine, np.full(len(xi), rtol == FINE_RTOL)])[order]
 
     def resolve(self, ends: Callable[[Array, Array], list[int]], steepest: float = NARROWEST_STEEP) -> bool:
-        """Sample closer until every interval is resolved; whether that came about.
-
-        Parameters
-        ----------
-        ends : callable
-            xi, shift -> further intervals to look into: where the displacement ends.
-        steepest : float
-            Width in xi below which a steep interval, and so a jump, is left as it is.
-        """
+        """Sample closer until every interval is resolved; whether that came about."""
         for _ in range(MAX_ROUNDS):
             doubtful = [
                 i for i in unresolved_intervals(self.q, self.shift, self.noise) if not self._narrow(i, steepest)

@@ -48,14 +48,7 @@ class EquatorPull:
     def may_return(self, states: Array, field: Callable[[Array], Array], backward: bool) -> NDArray[np.bool_]:
         """Say which orbits do not, or may not, come down to the equator for good.
 
-        Parameters
-        ----------
-        states : (n, 3)
-            (p_x, p_y, ebar), close to the equator.
-        field : callable
-            U (n, 2) at e (n, 2), forward in time.
-        backward : bool
-            Time runs backward.
+        Shapes: states (n, 3).
         """
         draws, sign = self.draws[backward], -1.0 if backward else 1.0
         if self.everywhere or not draws.any():

@@ -32,19 +32,8 @@ def loop_gap(
 def splitting(section: TurnSection, arc: HeteroclinicArc, rtol: float = RTOL) -> float:
     """By how much the branches of Q and P miss each other on a ray, in its coordinate ``ln(r/(reach - r))``.
 
-    Parameters
-    ----------
-    section : TurnSection
-        Its ray ends outside the arc.
-    arc : HeteroclinicArc
-        Of the same problem.
-    rtol : float
-
-    Returns
-    -------
-    float
-        Negative where the branch of Q passes inside that of P, and so spirals inwards; positive where it goes to the
-        equator. Infinite where one of them does not reach the ray. NaN where the sign is not decided either.
+    Negative where the branch of Q passes inside that of P, and so spirals inwards; positive where it goes to the
+    equator. Infinite where one of them does not reach the ray. NaN where the sign is not decided either.
     """
     out, back = (_first_crossing(section, arc, rtol, backward) for backward in (False, True))
     return math.nan if math.isinf(out) and math.isinf(back) else out - back

@@ -131,16 +131,7 @@ def surrounds(line: Array, place: Array) -> bool:
 def reason_for_none(
     coefficients: Coefficients, critical: tuple[CriticalSet, ...], location: Location | None = None
 ) -> str | None:
-    """Return the theorem that excludes limit cycles, or None; then a, d differ in sign and det A > 0.
-
-    Parameters
-    ----------
-    coefficients : Coefficients
-    critical : tuple of CriticalSet
-        Of the same system.
-    location : Location, optional
-        That of `locate`, where it is known already.
-    """
+    """Return the theorem that excludes limit cycles, or None; then a, d differ in sign and det A > 0."""
     a, _, d, f1, f2 = coefficients.plane
     if not critical:
         existence = (locate(coefficients) if location is None else location).existence

@@ -82,12 +82,7 @@ class TurnQuadrature:
 def path(section: TurnSection, start: Array, rtol: float, backward: bool) -> TurnQuadrature | None:
     """Follow one return from a state (3,) of the section; None if MOST_STEPS steps do not bring it round.
 
-    Parameters
-    ----------
-    section : TurnSection
-    start : ndarray (3,)
-    rtol : float
-    backward : bool
+    Shapes: start (3,).
     """
     from .ray_section_kernel import RETURNED, single_step
 
@@ -136,15 +131,7 @@ def _normal_growth(J: Array, h: Array, across: Array) -> float:
 def orbit(section: TurnSection, crossing: FixedPoint) -> Orbit | None:
     """Follow the cycle through a fixed point of the return map once round.
 
-    Parameters
-    ----------
-    section : TurnSection
-    crossing : FixedPoint
-
-    Returns
-    -------
-    Orbit, or None
-        None if MOST_STEPS steps do not bring it round.
+    None if MOST_STEPS steps do not bring it round.
     """
     start, _ = section.states(np.array([crossing.xi]))
     backward = crossing.repelling  # so that errors fade

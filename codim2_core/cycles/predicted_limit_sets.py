@@ -23,11 +23,7 @@ ON_C = -1
 def predicted_limit_sets(problem: LayerProblem, states: Array) -> list[int | None]:
     """Say to which cycle (from 0, innermost first) orbits go, or `ON_C`; None where the cycles do not decide it.
 
-    Parameters
-    ----------
-    problem : LayerProblem
-    states : ndarray (n, 3)
-        (p_x, p_y, ebar) on the hemisphere.
+    Shapes: states (n, 3).
     """
     told, question = _predictions(problem), states.tobytes()
     if question not in told:

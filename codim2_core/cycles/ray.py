@@ -36,17 +36,7 @@ def best_crossing(points: Array, foot: HemispherePoint) -> tuple[float, int]:
     An orbit from there turns by 2 pi about the point just when it is back, and not sooner, if no earlier point of the
     cycle is as far round. It crosses well if that is so by far, and if it crosses at a large angle.
 
-    Parameters
-    ----------
-    points : ndarray (m, 2)
-        Closed, the last point is the first.
-    foot : Place
-
-    Returns
-    -------
-    quality : float
-        Negative if the cycle does not go round the point once.
-    index : int
+    quality: Negative if the cycle does not go round the point once. Shapes: points (m, 2).
     """
     away = points - foot.p
     angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))

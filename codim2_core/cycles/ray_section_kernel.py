@@ -54,35 +54,7 @@ def _swept_angle(S, centre, k):
 def first_turns(states, shared, field, centre, goal, sense, floor, sunk, t_max, rtol, limit, record):
     """Follow each state until it has gone round a point by an angle.
 
-    Parameters
-    ----------
-    states : (n, 3)
-        (px, py, w), w > 0.
-    shared : (SHARED_SIZE,)
-        Parameters of the field, of size about 1.
-    field : int
-        Address of the field.
-    centre : (2,)
-        The point, in the disc.
-    goal : (n,)
-        By what angle: 2 pi for a turn.
-    sense : int
-        +1 anticlockwise, -1 clockwise, 0 in either sense.
-    floor : float
-        Distance from it below which an orbit has gone inward.
-    sunk : float
-        Fraction of the first w below which an orbit has gone outward.
-    t_max, rtol : float
-    limit : int
-        Steps tried.
-    record : int
-        Room for the steps of state 0; 0 records nothing.
-
-    Returns
-    -------
-    ends (n, 3), times (n,), codes (n,)
-    steps : (k, 4)
-        Where a step of state 0 starts, and its length.
+    steps: Where a step of state 0 starts, and its length. Shapes: states (n, 3), centre (2,), goal (n,).
     """
     n = states.shape[0]
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, NO_RETURN_YET)

@@ -47,15 +47,7 @@ class Candidate:
 def candidates(family: SystemFamily, states: Sequence[State], starts: Iterable[Array], reach: float) -> list[Candidate]:
     """Solve for all bifurcations of equilibria from the equilibria of some states, and from two further arrays.
 
-    Parameters
-    ----------
-    family : SystemFamily
-        Of one parameter.
-    states : sequence of State
-    starts : two ndarrays (2, k) and (3, k)
-        Extrema of Theta, and minima of |U|.
-    reach : float
-        How far from a start along the parameter a candidate may be.
+    Shapes: starts (2, k).
     """
     extrema, slow = starts
     directions, sets = _starting_points(family, states)

@@ -52,24 +52,8 @@ def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: Array
 
     They end at the special values of `bifurcation_diagram`; in between, the class is computed once.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    name : str
-        One of `layer_problem.vary.names`.
-    span : (low, high)
-    z : (m,) floats
-
-    Returns
-    -------
-    tuple of ClassInterval
-        By rising values; neighbours differ.
-
-    Raises
-    ------
-    ValueError
-        The name cannot be varied, the span is empty, or z does not fit.
+    By rising values; neighbours differ. Raises ValueError: The name cannot be varied, the span is empty, or z does
+    not fit. Shapes: z (m,).
     """
     found = equilibrium_branches(system, psi, name, span, z)
     low, high = found.span

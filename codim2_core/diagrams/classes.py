@@ -109,19 +109,7 @@ def classes_over(
 ) -> Classes:
     """Return the classes of a system over some names.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    z : (m,) floats
-    varying : sequence of str
-        Different ones of `layer_problem.vary.names`.
-    spans : sequence of (low, high)
-
-    Raises
-    ------
-    ValueError
-        A name cannot be varied, a value is beyond what it may be, or z does not fit.
+    Raises ValueError: A name cannot be varied, a value is beyond what it may be, or z does not fit. Shapes: z (m,).
     """
     return Classes(system, psi, z, check_varying(system, psi, z, varying, spans))
 

@@ -22,17 +22,7 @@ def cycle_branches(
     z: tuple[float, ...],
     marked: Sequence[MarkedValue],
 ) -> CycleBranches:
-    """Continue the limit cycles along one parameter.
-
-    Parameters
-    ----------
-    system, psi, along, z
-        As of `branches`.
-    spans : sequence of (low, high)
-        In order; between them the system is not defined.
-    marked : sequence of MarkedValue
-        Special values of the equilibria.
-    """
+    """Continue the limit cycles along one parameter."""
     parts = [continue_cycles(system, psi, along, span, z, marked) for span in spans]
     if len(parts) == 1:
         return parts[0]

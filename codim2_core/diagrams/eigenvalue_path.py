@@ -64,25 +64,9 @@ class LinearisationPath(Pictured):
 def linearisation_path(system: Any, psi: Psi, name: str, values: ArrayLike, z: ArrayLike = ()) -> LinearisationPath:
     """Trace, determinant and eigenvalues of the critical set along one parameter (fig:bads).
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    name : str
-        One of `layer_problem.vary.names`, such as n of a Hill Psi.
-    values : (k,) floats
-        In any order.
-    z : (m,) floats
-
-    Returns
-    -------
-    LinearisationPath
-        Where a general system has several critical sets, the one nearest (in p) to the last; first the innermost.
-
-    Raises
-    ------
-    ValueError
-        The name cannot be varied, a value is not finite or beyond what it may be, or z does not fit.
+    Where a general system has several critical sets, the one nearest (in p) to the last; first the innermost. Raises
+    ValueError: The name cannot be varied, a value is not finite or beyond what it may be, or z does not fit. Shapes:
+    values (k,), z (m,).
     """
     given = np.atleast_1d(np.array(values, float))
     if given.ndim != 1 or not np.isfinite(given).all():

@@ -35,19 +35,7 @@ class NeighbouringPortraits:
 def sides(system: Any, psi: Psi, z: ArrayLike = (), name: str = "") -> NeighbouringPortraits | None:
     """Return the names of the portraits a little below and a little above the present value of one thing.
 
-    Parameters
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    z : (m,) floats
-    name : str
-        As in `vary.names`: a coefficient, a slow variable "z1", the parameter of Psi or of the system. Where the
-        system lacks it, the first that it has is taken.
-
-    Returns
-    -------
-    NeighbouringPortraits or None
-        None if nothing can be varied.
+    None if nothing can be varied. Shapes: z (m,).
     """
     known = names(system, psi, z)
     if name not in known:

@@ -33,16 +33,7 @@ def single_values(
 ) -> list[SpecialValue]:
     """Name crossings, touches, values with det A = 0 or with all directions, and what parts no names.
 
-    Parameters
-    ----------
-    family : SystemFamily
-        Of one parameter.
-    states : States
-    found : sequence of Candidate
-    named : sequence of SpecialValue
-        Where the class changes.
-    u : ndarray (n,)
-        Places along the span, in order.
+    Shapes: u (n,).
     """
     everywhere = _all_directions(family, u)
     out = [_special(family, "all directions", v, (0.0, 0.0), say("nothing turns at f = 0")) for v in everywhere]

@@ -32,12 +32,6 @@ def connection_curves(
     """Find connections, the points of codimension two on them, and kinds of which some may be missing.
 
     These were seen and not followed, or not looked for where there are too many saddles.
-
-    Parameters
-    ----------
-    family : Family
-    curves, points : sequence of AtlasCurve, of AtlasPoint
-        Of the equilibria.
     """
     takens = [family.units(np.array(point.place)) for point in points if point.kind == BOGDANOV_TAKENS]
     found: list[ConnectionCurve] = []

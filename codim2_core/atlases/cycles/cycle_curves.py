@@ -29,12 +29,6 @@ def cycle_curves(
 
     They are begun at generalised Hopf points, and at the folds on branches of cycles along two lines each way: one
     that meets none of these is missed.
-
-    Parameters
-    ----------
-    family : Family
-    curves, points : sequence of AtlasCurve, of AtlasPoint
-        Of the equilibria.
     """
     born = [family.units(np.array(point.place)) for point in points if point.kind == GENERALISED_HOPF]
     found: list[FoldCurve] = []

@@ -33,14 +33,7 @@ NO_POINTS = np.zeros((0, 2))
 
 
 def prove_layer_problem(problem: LayerProblem, cycles: Sequence[FoundCycle]) -> Proof:
-    """Look for a certificate of a portrait: of its limit directions, critical sets and just these limit cycles.
-
-    Parameters
-    ----------
-    problem : LayerProblem
-    cycles : sequence of FoundCycle
-        From the inside to the outside.
-    """
+    """Look for a certificate of a portrait: of its limit directions, critical sets and just these limit cycles."""
     nothing, given = tuple(False for _ in cycles), polynomials_of(problem.at)
     if given is None:
         return Proof(False, nothing, say("proofs of polynomials only"))

@@ -239,12 +239,7 @@ def loops(system: ScaledLayerProblem, cycle: Array, stable: bool) -> Iterator[Ar
 
     An orbit of the field that is turned by an angle goes once round C, and back along the section of `limit_cycles`.
 
-    Parameters
-    ----------
-    system : ScaledLayerProblem
-    cycle : ndarray (m, 2)
-        In e.
-    stable : bool
+    Shapes: cycle (m, 2).
     """
     lift = np.linalg.inv(system.chart)
     x, y, w = lift @ np.vstack([cycle.T, np.ones(len(cycle))])
