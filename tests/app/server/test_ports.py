@@ -10,6 +10,8 @@ from tornado.websocket import websocket_connect
 
 from tests.work import PATIENCE
 
+from .test_first_page import talk
+
 PROCESSES, PAGES = 3, 9
 #: A busy machine may keep the smallest process from its next page for long: the others wait.
 CODE = """import sys
@@ -44,7 +46,7 @@ def test_pages_are_shared_evenly_among_the_processes():
             assert said, "the server has ended"
             port = re.search(r"http://[^/]*:(\d+)/", said)[1] if "http://" in said else port
             listening += "version" in said
-        assert asyncio.run(shares(int(port))) == [PAGES // PROCESSES] * PROCESSES
+        assert talk(shares(int(port))) == [PAGES // PROCESSES] * PROCESSES
     finally:
         process.terminate()
         process.wait(PATIENCE)
