@@ -17,7 +17,7 @@ from codim2_core.examples import catalogue
 from codim2_core.examples.offered import keys_at_contacts
 from codim2_core.expressions.expression import ExpressionError, parse
 from codim2_core.expressions.names import FAST_NAMES, TIME
-from codim2_core.expressions.reader import unknown_names
+from codim2_core.expressions.reader import names_in
 from codim2_core.expressions.tape import CONSTANTS, FUNCTIONS
 from codim2_core.paper import cite
 from codim2_core.systems.elinear import ELinear
@@ -144,7 +144,7 @@ def _typed_system(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     names: list[str] = []
     own = {box.name for box in BOXES[choice]}
     for box, text in (*boxes.items(), *(("where", formula) for formula in definitions.values())):
-        for word, column in unknown_names(text):
+        for word, column in names_in(text):
             if word not in known and (why := _name_conflict(word, own)):
                 raise TextError(box, why, column)
             if word not in known and word not in names and word.lower() != "theta":  # the reader says: write c

@@ -74,7 +74,7 @@ def check_names(names: tuple[str, ...]) -> None:
             )
 
 
-def unknown_names(text: str) -> list[tuple[str, int]]:
+def names_in(text: str) -> list[tuple[str, int]]:
     """Return the names in a text, in order, each with its column from 1; functions under other names are left out."""
     found, position, text = list[tuple[str, int]](), 0, text.translate(_MEANT)
     while position < len(text):

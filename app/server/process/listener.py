@@ -91,6 +91,7 @@ class Listener(socket.socket):
         try:
             found, address = super().accept()
         except OSError as error:
+            self._has_accepted = False
             if error.errno in (errno.EMFILE, errno.ENFILE):
                 self._tell("no descriptor is left; nobody is accepted for %g s", PAUSE_SECONDS)
                 self._pause(PAUSE_SECONDS)
