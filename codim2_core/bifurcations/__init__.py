@@ -1,4 +1,4 @@
-"""Bifurcations of the e-linear system in the plane (f1, f2), for given a, b, d and Psi (sec:bifurcations).
+"""Bifurcations of the e-linear system in the plane (f1, f2), for given a, b, d and Psi (Section 4.4).
 
 The saddle-node curve of equator equilibria and the ellipse |A^-1 f| = 1 are closed forms and cut the plane into the
 regions of `regions`, which do not depend on Psi. `hopf` and `node_focus` depend on Psi (Case III), one root a point.

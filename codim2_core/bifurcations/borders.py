@@ -23,7 +23,7 @@ _CUSP = {
 
 
 def saddle_node(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
-    """Saddle-nodes of equator equilibria, where Theta has a double zero (fig:SNBIF, eq:tangencies).
+    """Saddle-nodes of equator equilibria, where Theta has a double zero (Figure 20, (4.12)).
 
     ``f1 = b sin(theta) - (a - d) cos(theta)^3``, ``f2 = (a - d) sin(theta)^3 - b cos(theta)``; an astroid when b = 0.
 
@@ -94,7 +94,7 @@ def saddle_node(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifurcatio
 
 
 def critical_boundary(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
-    """Ellipse |A^-1 f| = 1, on which the critical set reaches the equator (fig:ellipse, fig:transcrit).
+    """Ellipse |A^-1 f| = 1, on which the critical set reaches the equator (Figure 14, Figure 19).
 
     It is the image of the unit circle under -A.
 

@@ -41,7 +41,7 @@ RESONANT = say("fold ends, neutral loop")
 
 
 def cycle_folds(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
-    """Folds of limit cycles in (f1, f2): a stable and an unstable cycle meet and vanish (sec:case3).
+    """Folds of limit cycles in (f1, f2): a stable and an unstable cycle meet and vanish (Section 4.3.3).
 
     Curves are begun at the generalised Hopf points of `hopf`, and at the folds found on some lines across the disc of
     critical sets; each is followed to both ends.

@@ -62,7 +62,7 @@ def coefficients_at(a: float, b: float, d: float, f: Sequence[float] | Array) ->
 
 
 def closed_equator(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
-    """Return the curve on which the closed equator changes stability and emits a limit cycle (thm:geneps0(c)).
+    """Return the curve on which the closed equator changes stability and emits a limit cycle (Theorem 3.1(c)).
 
     The exponent, d times the integral of cos^2/|Theta| plus a times that of sin^2/|Theta|, is zero.
 
@@ -119,10 +119,10 @@ def closed_equator(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifurca
 
 
 def heteroclinic(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
-    """Heteroclinic cycles through the equator: loops of two half-saddles, from which limit cycles are born (sec:case3).
+    """Heteroclinic cycles through the equator: loops of two half-saddles, which bear limit cycles (Section 4.3.3).
 
     A homoclinic orbit proper is not possible: the one critical set of an e-linear system lies inside every cycle
-    (thm:lineps1, index). A limit cycle dies in a loop of an orbit from a half-saddle Q of the equator to another, P,
+    (Theorem 4.1, index). A limit cycle dies in a loop of an orbit from a half-saddle Q of the equator to another, P,
     and the arc of the equator from P to Q.
 
     Parameters

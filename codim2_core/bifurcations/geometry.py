@@ -1,6 +1,6 @@
 """The saddle-node curve and the ellipse |A^-1 f| = 1 in the plane (f1, f2), in closed form.
 
-With k = a - d the curve eq:tangencies is ``f(theta) = (b sin - k cos^3, k sin^3 - b cos)``. Its derivative is
+With k = a - d the curve (4.12) is ``f(theta) = (b sin - k cos^3, k sin^3 - b cos)``. Its derivative is
 ``(cos, sin) r`` with ``r = b + 3 k sin cos``: theta is the direction of its tangent and r its radius of curvature,
 so cusps are the zeros of r. On it ``A e(theta) + f = Lambda e(theta)`` with ``Lambda = d cos^2 + a sin^2``, hence
 
@@ -59,7 +59,7 @@ class Geometry:
         return max(abs(self.a), abs(self.d)) <= 1e-3 * abs(self.b)
 
     def saddle_node(self, theta: Array) -> Array:
-        """Points (m, 2) of the saddle-node curve, eq:tangencies."""
+        """Points (m, 2) of the saddle-node curve, (4.12)."""
         c, s = np.cos(theta), np.sin(theta)
         return np.stack([self.b * s - self.k * c**3, self.k * s**3 - self.b * c], axis=-1)
 

@@ -1,4 +1,4 @@
-"""Values of the parameter of Psi, such as n of the Hill family, at which the critical set changes kind (fig:bads)."""
+"""Values of the parameter of Psi, such as n of the Hill family, at which the critical set changes kind (Figure 17)."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class ParameterChange(Tabled):
 
 
 def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> Results[ParameterChange]:
-    """`parameter_changes` of the Hill family eq:bad_reg. The paper's Case III changes at n = 284/129 (Hopf).
+    """`parameter_changes` of the Hill family (4.28). The paper's Case III changes at n = 284/129 (Hopf).
 
     Parameters
     ----------

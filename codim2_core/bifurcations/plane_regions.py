@@ -37,7 +37,7 @@ class Region(Tabled):
     Attributes
     ----------
     name : str
-        "CM0", "CM2", "CM4", "NCM2" or "NCM4", as `classify` names it (fig:sketches, fig:3cases).
+        "CM0", "CM2", "CM4", "NCM2" or "NCM4", as `classify` names it (Figure 15, Figure 16).
     inside : (f1, f2)
         A point of the region, far from its border.
     boundary : tuple of ndarray (m, 2)

@@ -1,7 +1,7 @@
-"""Hopf and node-focus curves of the critical set: where the trace of J (eq:scjaco) reaches a level.
+"""Hopf and node-focus curves of the critical set: where the trace of J (3.23) reaches a level.
 
 Let ``e = m (cos t, sin t)`` be the critical set, ``f = -A e``, and sigma(m) the ratio of the radial to the tangential
-eigenvalue of D e_Psi (rem:jaco_properties). Then, with p = a + d, k = a - d,
+eigenvalue of D e_Psi (Remark 3.2). Then, with p = a + d, k = a - d,
 
     tr J / tangential = (p (1 + sigma) - k (1 - sigma) cos 2t)/2,      det J / tangential^2 = sigma det A.
 
@@ -203,7 +203,7 @@ def _circles(level: _TraceLevel, m: Array, function: Callable[[Array], Array]) -
 
 
 def hopf(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
-    """Hopf curve of the layer problem in (f1, f2): tr J = 0 with det J > 0; Case III only (sec:case3).
+    """Hopf curve of the layer problem in (f1, f2): tr J = 0 with det J > 0; Case III only (Section 4.3.3).
 
     Parameters
     ----------
@@ -309,7 +309,7 @@ def _bautin(level: _TraceLevel, e: Array, values: Array) -> list[SpecialPoint]:
 
 
 def node_focus(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
-    """Node-focus curve in (f1, f2): the discriminant tr(J)^2 - 4 det J = 0 with det J > 0 (fig:bads).
+    """Node-focus curve in (f1, f2): the discriminant tr(J)^2 - 4 det J = 0 with det J > 0 (Figure 17).
 
     It is no bifurcation (both sides are topologically the same), but the picture changes its looks.
 

@@ -1,4 +1,4 @@
-"""The paper's three systems (sec:examples) and others that people meet, each with its source.
+"""The paper's three systems (Section 5) and others that people meet, each with its source.
 
 All are in the units of their parameters; `catalogue` lists them with the ranges in which they are interesting.
 """

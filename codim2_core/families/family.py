@@ -208,7 +208,7 @@ class SystemFamily:
 
     @cached_property
     def turns(self) -> bool:
-        """Whether the portrait's axes are turned from those of `rows`, by lem:normalform."""
+        """Whether the portrait's axes are turned from those of `rows`, by Lemma B.1."""
         return getattr(self.system, "given_matrix", None) is not None
 
     def frozen(self, u: Array) -> Any:

@@ -37,7 +37,7 @@ def _state_names(m: int) -> tuple[str, ...]:
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """U and W of eq:vf as functions of numbers.
+    """U and W of (2.7) as functions of numbers.
 
     Attributes
     ----------

@@ -84,10 +84,10 @@ def simulate_nonsmooth(
     max_steps: int = MAX_STEPS,
     max_step: float = math.inf,
 ) -> Simulation | tuple[Simulation, ...]:
-    """Follow one motion of eq:vf itself, as the limit eps -> 0 of the regularised system.
+    """Follow one motion of (2.7) itself, as the limit eps -> 0 of the regularised system.
 
     Outside Sigma the system slips; it arrives at Sigma in finite time along a limit direction; the orbit that continues
-    it on the hemisphere decides what follows (thm:geneps0(b), sec:geneps1): sliding on the critical set that it comes
+    it on the hemisphere decides what follows (Theorem 3.1(b), Section 3.2): sliding on the critical set that it comes
     to, with its slow flow, or crossing. Sliding ends where the critical set does: it leaves folds, but stops at those
     where the slow flow turns too and terms of order eps decide (`limit.fold_classification`). Where the set only
     becomes unstable (Hopf), the motion stays near it until it has been repelled as much as it was attracted, or to
@@ -96,7 +96,7 @@ def simulate_nonsmooth(
 
     The regularised motion differs from it by O(eps), as long as it does not leave Sigma. Leaving along a limit
     direction, also after a crossing, it differs by O(eps^min(1, |lambda_theta|/lambda_rho)), outside an invariant line;
-    after an exit through the equator (fig:transcrit) by O(eps^(2 q/(1 + 2 q))) where Psi ~ s^(1 - q/2): 4/5 for
+    after an exit through the equator (Figure 19) by O(eps^(2 q/(1 + 2 q))) where Psi ~ s^(1 - q/2): 4/5 for
     Psi = 1, near 1 for one that falls exponentially. See `compare_with_limit.limit_order`.
 
     Parameters

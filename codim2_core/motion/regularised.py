@@ -89,7 +89,7 @@ def simulate(
     max_steps: int = MAX_STEPS,
     max_step: float = math.inf,
 ) -> Simulation | tuple[Simulation, ...]:
-    """Follow one motion of the regularised system: eq:vf with e replaced by e_Psi, eq:ePsi.
+    """Follow one motion of the regularised system: (2.7) with e replaced by e_Psi, (2.19).
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def simulate(
     state0 : (2 + m,), or (k, 2 + m)
         (x, y, z1, ..., zm); x = y = 0 is allowed. Rows are as many motions.
     t_span : (t_start, t_end)
-        In the time t of eq:vf. If it decreases, what is returned is the past of state0: the motion that begins at
+        In the time t of (2.7). If it decreases, what is returned is the past of state0: the motion that begins at
         t_end, runs forward like any other, and comes to state0 at t_start.
     eps : float
         1e-14 <= eps <= 1e6.

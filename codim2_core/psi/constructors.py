@@ -60,7 +60,7 @@ def exponential() -> Psi:
 
 
 def tanh() -> Psi:
-    """``Psi = s/sinh(sqrt s)^2``, for which ``|e_Psi| = tanh zeta``, fig:component.
+    """``Psi = s/sinh(sqrt s)^2``, for which ``|e_Psi| = tanh zeta``, Figure 5.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def tanh() -> Psi:
 
 
 def hill(n: float) -> Psi:
-    """``Psi = 3/(3 + (4s)^n)``, the family of case III, fig:bads.
+    """``Psi = 3/(3 + (4s)^n)``, the family of case III, Figure 17.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def hill(n: float) -> Psi:
 def custom(text: str) -> Psi:
     """Psi from text in s, such as ``"1/(1+s)**2"``; see `parse` for what can be written.
 
-    Conditions of def:Psi that it breaks while it stays usable are reported by `Psi.check`.
+    Conditions of Definition 2.3 that it breaks while it stays usable are reported by `Psi.check`.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def custom(text: str) -> Psi:
     ------
     ValueError
         The text cannot be read, or Psi is unusable: not positive and finite for all s >= 0, or ``|e_Psi|`` does not
-        rise from 0 to 1 (then no inverse exists, lem:ePsi(c)).
+        rise from 0 to 1 (then no inverse exists, Lemma 2.6(c)).
 
     Examples
     --------

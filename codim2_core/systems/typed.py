@@ -1,4 +1,4 @@
-"""Any system of the paper's form, eq:vf: ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)``, typed as text.
+"""Any system of the paper's form, (2.7): ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)``, typed as text.
 
 The text is read by `expressions.expression.parse` against a whitelist and never evaluated as Python. The system is
 immutable; `System.at` freezes it at one z, which is all that the hemisphere there depends on.
@@ -25,7 +25,7 @@ from .typed_formulas import Formulas
 
 
 class System(Listed, Formulas):
-    """A system ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)`` with ``e = (c, s) = (x, y)/|(x, y)|``, eq:vf.
+    """A system ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)`` with ``e = (c, s) = (x, y)/|(x, y)|``, (2.7).
 
     Parameters
     ----------
@@ -104,7 +104,7 @@ class System(Listed, Formulas):
 
     @property
     def equations(self) -> Equations:
-        """Left and right sides of eq:vf, ("x", ...), ("y", ...), ("z1", ...): what is typed in t is written in t."""
+        """Left and right sides of (2.7), ("x", ...), ("y", ...), ("z1", ...): what is typed in t is written in t."""
         U, W = self.without_clock
         return with_left_sides((*U, *W))
 

@@ -69,7 +69,7 @@ class Coulomb:
 
 
 class Regularised:
-    """``e_Psi``, def:MPsi, of every contact."""
+    """``e_Psi``, Definition 2.4, of every contact."""
 
     def __init__(self, psi: Psi, eps: float) -> None:
         self._psi, self.eps = psi, eps

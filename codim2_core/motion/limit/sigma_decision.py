@@ -1,4 +1,4 @@
-"""Decide what follows on Sigma in the limit eps -> 0, by the hemisphere: sec:geneps1."""
+"""Decide what follows on Sigma in the limit eps -> 0, by the hemisphere: Section 3.2."""
 
 from __future__ import annotations
 
