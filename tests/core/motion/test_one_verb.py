@@ -1,4 +1,4 @@
-"""`simulate` for eps > 0 and, with eps = 0, for the limit; the functions of motions take their arguments in one order."""
+"""`simulate` with eps = 0 is the limit; all functions of motions take their arguments in one order."""
 
 import inspect
 import math
