@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import reprlib
+from difflib import get_close_matches
 from functools import cache
 from typing import Any
 
@@ -145,6 +146,9 @@ def from_text(text: str) -> Psi:
     name, _, number = text.partition(":")
     record = FAMILIES.get(name)
     if record is None or record.typed:
+        near = get_close_matches(name, [key for key, one in FAMILIES.items() if not one.typed], n=1, cutoff=0.7)
+        if near and "(" not in text:
+            raise ValueError(f"{text[:40]!r} is no family of Psi and no formula in s; the nearest name is {near[0]}.")
         identity = next(one for one in FAMILIES.values() if one.identity)
         return make(identity.name) if text == identity.formula else custom(text)
     if number and record.parameter is None:

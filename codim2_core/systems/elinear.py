@@ -25,6 +25,7 @@ from .bounds import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
 from .coefficients import Coefficients
 from .equations import Equations, equations_text, linear_rows, negative, with_left_sides
 from .equations_latex import equations_latex
+from .exchange import Exchange
 from .normal_form import in_normal_form, rotate_f
 from .parameters import Parameters
 
@@ -79,7 +80,7 @@ def _grid(values: Any, what: str, shape_text: str, columns: int | None) -> tuple
 
 
 @dataclass(frozen=True)
-class ELinear(Listed):
+class ELinear(Listed, Exchange):
     """The normal form of the e-linear system, (4.1) with (4.2).
 
     Parameters

@@ -18,13 +18,14 @@ from ..results import Listed
 from .bounds import slow_values
 from .equations import Equations, equations_text, with_left_sides
 from .equations_latex import equations_latex
+from .exchange import Exchange
 from .parameters import Parameters
 from .reading import parameter
 from .typed_at_z import Frozen
 from .typed_formulas import Formulas
 
 
-class System(Listed, Formulas):
+class System(Listed, Formulas, Exchange):
     """A system ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)`` with ``e = (c, s) = (x, y)/|(x, y)|``, (2.7).
 
     Parameters
@@ -116,6 +117,12 @@ class System(Listed, Formulas):
 
     def _repr_latex_(self) -> str:
         return equations_latex(self)
+
+    def __repr__(self) -> str:
+        U, W = ([row.text for row in rows] for rows in self.without_clock)
+        given = [f"U={tuple(U)}", *([f"W={tuple(W)}"] if W else [])]
+        given += [f"parameters={dict(self.parameters)}"] if self.parameters else []
+        return f"System({', '.join(given)})"
 
     def __str__(self) -> str:
         return equations_text(self.equations, self.parameters)

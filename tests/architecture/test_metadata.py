@@ -18,7 +18,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 OWN = {"codim2_core", "codim2_app", "tests"}
 # Run as programs, needed by a library that is imported, or asked for by pytest.importorskip.
 COMMANDS = {
-    "mujoco", "pyright", "pytest-xdist", "ruff", "pre-commit", "import-linter", "ipywidgets",
+    "mujoco", "pyright", "pytest-xdist", "ruff", "pre-commit", "import-linter", "ipywidgets", "sympy",
     "jupyter-bokeh",
 }  # fmt: skip
 # Left out of the extras: the notebook tests are skipped where JupyterLab, which brings them, is missing; CI has it.
@@ -85,8 +85,10 @@ def test_every_dependency_has_a_least_version():
 def test_the_core_alone_asks_for_what_it_imports_and_else_is_the_same_project():
     core = tomllib.loads((ROOT / ".github" / "core" / "pyproject.toml").read_text("utf-8"))
     project, whole = core["project"], PROJECT["project"]
-    asked = [*project["dependencies"], *project["optional-dependencies"]["frames"]]
+    extras = project["optional-dependencies"]
+    asked = [*project["dependencies"], *extras["frames"]]
     assert set(asked) <= set(whole["dependencies"])
+    assert extras["symbolic"] == whole["optional-dependencies"]["symbolic"]
     assert {one.split(">=")[0] for one in asked} == imported("codim2_core")
     for name in ("dynamic", "requires-python", "license", "authors"):
         assert project[name] == whole[name]
