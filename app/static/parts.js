@@ -36,7 +36,7 @@ export function panelsOf(explorer) {
       setters[name] = before ? (value) => { before(value); set(value) } : set
     },
     take: (wish, progress) => explorer.takes.ask({theme: explorer.theme.name, ...wish}, progress), film: config.film, untake: (kind) => explorer.takes.stop(kind),
-    trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarge(explorer.picture.list, 1 / explorer.picture.times),
+    trace: (paths, place, said) => explorer.picture.trace(paths, place, said), drawn: () => enlarge(explorer.picture.list, 1 / explorer.picture.times),
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),

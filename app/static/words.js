@@ -43,6 +43,7 @@ export const SAYS = {
   noCriticalSet: "There is no critical set on the hemisphere.",
   slidingEnds: "Sliding ends here: no critical set and no limit cycle attracts.",
   slowRest: "The slow flow has come to rest: z′ = 0.",
+  pictureAt: "the picture is at",
   rangeEnds: "The range ends here.",
   number: "Type a number such as −0.5.",
   range: "Type a number with the range of its slider, such as 0.3 in [0, 1].",
