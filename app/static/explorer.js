@@ -87,6 +87,8 @@ export class Explorer {
     if (config.look.seen.length) picture.seen = config.look.seen
     this.room = this.alone && !config.worker ? roomOf(this) : null
     if (config.page) addDialogs(this)
+    const bars = [...root.querySelectorAll(".banner, .room-bar")] // what they take is no part of the page's height
+    if (globalThis.ResizeObserver) for (const bar of bars) new ResizeObserver(() => root.style.setProperty("--bars", `${bars.reduce((sum, one) => sum + one.offsetHeight, 0)}px`)).observe(bar)
     this.beside = besideOf(this)
     this.showRefused()
     this.steps = undoable(root, plot, {browsed: config.page && !this.inside, page: config.page}, rest, {

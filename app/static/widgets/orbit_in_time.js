@@ -54,8 +54,8 @@ export function angleTicks([low, high]) {
 
 /** The part of a motion in the picture that is at about this z. @param {{states: number[][], picture: number[][]}} run @param {number[]} z */
 function nearTo({states, picture}, z) {
-  const gaps = states.slice(4).map((column, i) => [column, z[i], NEAR * (Math.max(...column) - Math.min(...column))])
-  return picture.map((column) => column.map((value, k) => gaps.every(([all, here, most]) => Math.abs(all[k] - here) <= most) ? value : NaN))
+  const slow = states.slice(4).map((all, i) => ({all, here: z[i], most: NEAR * (Math.max(...all) - Math.min(...all))}))
+  return picture.map((column) => column.map((value, k) => slow.every(({all, here, most}) => Math.abs(all[k] - here) <= most) ? value : NaN))
 }
 
 export class OrbitInTime {
