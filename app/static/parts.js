@@ -136,8 +136,8 @@ export function roomOf(explorer) {
 export function addDialogs(explorer) {
   const {root, config, picture, theme} = explorer
   new Help(root, explorer.find("dialog.helping"))
-  const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer, lift: config.look.lift, views: explorer.views?.carried}})
-  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await compressQuery(query(), config.link.version)}`}))
+  const query = (goal = explorer.values.goal) => writeLink({...explorer.values, goal}, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer, lift: config.look.lift, views: explorer.views?.carried}})
+  const share = new Share(explorer.find("dialog.sharing"), query, config.goals ?? [], config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await compressQuery(query(), config.link.version)}`}))
   explorer.find(".share").addEventListener("click", () => share.open())
   printable(explorer, query)
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })

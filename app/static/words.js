@@ -101,6 +101,7 @@ export const SAYS = {
   storyLeaves: "Friction cannot hold this push, so it breaks loose.",
   rest: "rest", outside: "outside: velocities", inside: "inside: rest, magnified",
   starters: "Examples to start from …",
+  challenge: "Challenge:", met: "Done with", metAlready: "It is so already.", notMet: "Not yet:", fewest: "Your fewest:", startAgain: "Start again", endChallenge: "End the challenge",
   yours: "Yours",
   keptHere: "What you have typed is stored in this browser.",
   keptInPage: "What you have typed is stored until this page is closed.",
@@ -144,6 +145,8 @@ export const SAYS = {
   itsParameters: "its parameters",
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
+
+export const sliders = (/** @type {number} */ count) => count === 1 ? "one slider" : `${count} sliders`
 
 // The first sentence: the push, or "" for none, what can be held, and what becomes of it, as markup.
 export function pushSentence(/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ words, {more = false, sure = true, friction = true} = {}) {

@@ -21,6 +21,7 @@ from ..draw.packing import unpack
 from ..draw.svg import draw
 from ..draw.theme import MEASURES, custom_properties, themes
 from ..export.printing import has_typst
+from ..panels.challenge import GOALS
 from ..panels.registry import FIRST, PANELS_BY_NAME
 from ..phrases import PAGE_TITLE, say
 from ..slow_layers.outcomes import WORDS as OUTCOMES
@@ -120,6 +121,7 @@ def front_end_constants() -> dict[str, Any]:
             choice: [{"name": b.name, "label": b.label, "text": b.text, "lines": b.lines} for b in boxes]
             for choice, boxes in BOXES.items()
         },
+        "goals": list(GOALS.items()),
         "starters": {OWN_SYSTEM: {title: dict(texts) for title, texts in STARTERS.items()}},
         "presets": {item["key"]: {**item, "values": _differences(first, item["key"])} for item in portraits()},
         "themes": themes(),
