@@ -7,6 +7,9 @@ from __future__ import annotations
 
 from codim2_core.words.sentence import Sentence
 
+#: What the page asks; also the title of a file that is none of the paper's figures.
+PAGE_TITLE = "When friction stops pointing anywhere"
+
 SENTENCES: dict[str, Sentence] = {
     "left out": Sentence("These layers are not drawn: {names}. {why}.", "layers that are not drawn"),
     "too long a layer": Sentence("Computing it takes longer than {seconds:g} s", "a layer of typed formulas"),

@@ -18,7 +18,7 @@ HOOKS = {
     "case1-cm4": "Everything sticks",
     "case1-cm0": "Spirals in, forever turning",
     "case2-saddle": "A saddle: sticks only by luck",
-    "case3-n3": "It neither rests nor leaves",
+    "case3-cycle": "It neither rests nor leaves",
     "transcritical-after": "Pushed too hard: it slips",
     "ball-stick": "A ball in a pool of water",
     "nonunique-sliding": "Two answers at once",

@@ -96,7 +96,8 @@ def figure(view: View, style: Style | None = None, heading: str = "") -> str:
     y = 0.0
     if style.title:
         name = header["portrait"]["name"]
-        title = f"{heading}: {name}" if heading else view.title or name
+        own = view.title if view.values["preset"] else f"{view.title}: {name}"
+        title = f"{heading}: {name}" if heading else own
         parts.append(vector.words(left + side / 2, 14.0, escape(title), 12.0, "middle", bold=True))
         y = TITLE
     drawn = content(buffer, layers, place, style.labels)

@@ -38,7 +38,7 @@ def figure_page(view: View, sliders: Sequence[str], explorer: str) -> bytes:
     view = replace(view, values={**view.values, "ranges": {**view.values["ranges"], **given}})
     query = f"{view.query}&controls={','.join(one.name.removeprefix(OWN) for one in chosen)}"
     told = "; ".join(filter(None, (system_words(view), psi_words(view), place_words(view))))
-    title, folder = view.title or "codim2", explorer.rstrip("/")
+    title, folder = view.title, explorer.rstrip("/")
     picture = re.sub(r"^<\?xml.*?\?>\s*", "", figure(view, STYLE))
     body = (
         f'<div data-codim2="{escape(query)}">{picture}</div>\n'

@@ -19,7 +19,7 @@ from codim2_core import __version__
 from ..draw.bundle import bundle
 from ..draw.layers import layer_table
 from ..draw.mathml import plain_symbol
-from ..draw.packing import pack, unpack
+from ..draw.packing import pack
 from ..draw.theme import MEASURES, themes
 from ..state.animation_pacing import paced_values
 from ..state.chosen_system import parameters_of
@@ -172,8 +172,6 @@ def _page(
     view: View, chosen: Sequence[Slider], places: Sequence[Sequence[float]], packed: tuple[list[int], bytes]
 ) -> str:
     sizes, frames = packed
-    header, _ = unpack(_frame(view))
-    title = view.title or header["portrait"]["name"] or "codim2"
     settings: dict[str, Any] = {
         "sliders": [
             {"name": slider.name, "symbol": slider.symbol, "values": values, "at": _nearest_index(values, view, slider)}
@@ -187,7 +185,7 @@ def _page(
     told = "; ".join(filter(None, (system_words(view), psi_words(view), place_words(view))))
     at_first = f'<p class="note">At first: {escape(told)}. Made by codim2 {__version__}.</p>'
     return html_page(
-        title,
+        view.title,
         '<canvas role="img" aria-label="The projected hemisphere: phase portrait">'
         f'</canvas><div class="sliders"></div><p class="sentence" aria-live="polite"></p>{at_first}\n'
         f'<script type="application/json" id="settings">{data}</script>\n'

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
+from codim2_core.examples import catalogue
 from codim2_core.figures.presets import presets
 from codim2_core.psi.function import Psi
 from codim2_core.scene import Scene
@@ -17,6 +18,7 @@ from ..draw.theme import HALF_VIEW
 from ..frame.frame_contents import make_frame
 from ..frame.scenes import make_scene
 from ..frame.window import Window, resample_for_window
+from ..phrases import PAGE_TITLE
 from ..slow_layers import basins, outcomes
 from ..state.choices import OWN_AXIS as OWN
 from ..state.choices import SLOW_CONTROLS
@@ -55,9 +57,10 @@ class View:
 
     @property
     def title(self) -> str:
-        """Return the title of the portrait in the paper; empty if it is none of the paper's."""
+        """Return the title of the portrait in the paper, or of the example, or what the page asks."""
         preset = presets.get(self.values["preset"])
-        return preset.title if preset else ""
+        example = catalogue.get("" if self.system else self.values["system"])
+        return preset.title if preset else example.title if example else PAGE_TITLE
 
     @property
     def query(self) -> str:

@@ -44,7 +44,7 @@ def pose(question: LessonQuestion, values: Mapping[str, Any], seed: int) -> dict
     for _ in range(MOST_DRAWN):
         drawn = {name: _draw_value(chance, value) for name, value in question.draw.items()}
         scene = make_scene({**values, **portrait_of(drawn.get("preset")), **drawn})
-        if _holds(question.require, scene, default=True) and not goal_is_reached(question, scene):
+        if holds(question.require, scene, default=True) and not goal_is_reached(question, scene):
             admitted = drawn
             if not _varies(question) or wanted == _answer(question, scene):
                 return drawn
@@ -54,13 +54,14 @@ def pose(question: LessonQuestion, values: Mapping[str, Any], seed: int) -> dict
     return admitted
 
 
-def _holds(condition: FactCondition | None, scene: Scene, default: bool = False) -> bool:
+def holds(condition: FactCondition | None, scene: Scene, default: bool = False) -> bool:
+    """Say whether a condition holds in a scene."""
     return default if condition is None else condition(facts_of(scene, condition.names))
 
 
 def _answer(question: LessonQuestion, scene: Scene) -> int | None:
     """Return the index of the option that holds, one more where a place is to be marked instead."""
-    holding = [i for i, option in enumerate(question.options) if _holds(option.when, scene)]
+    holding = [i for i, option in enumerate(question.options) if holds(option.when, scene)]
     return holding[0] if holding else len(question.options) if question.mark else None
 
 
@@ -108,11 +109,11 @@ def right_option(question: LessonQuestion, facts: Mapping[str, Fact]) -> int | N
 
 def goal_is_reached(question: LessonQuestion, scene: Scene) -> bool:
     """Say whether the present scene reaches the goal of `vary`."""
-    return question.vary is not None and _holds(question.vary.goal, scene)
+    return question.vary is not None and holds(question.vary.goal, scene)
 
 
-def stands(question: LessonQuestion, scene: Scene) -> str:
-    """Return where the present scene stands with what the goal of `vary` reads."""
-    names = sorted(question.vary.goal.names) if question.vary else []
+def stands(goal: FactCondition, scene: Scene) -> str:
+    """Return where the present scene stands with what a goal reads."""
+    names = sorted(goal.names)
     facts = facts_of(scene, names)
     return ", ".join(f"{FACTS[name][0]}: {fill_facts(f'{{{name}}}', facts)}" for name in names)

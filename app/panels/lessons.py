@@ -118,7 +118,7 @@ def _add_quiz(draft: FrameContext, lesson: Lesson, quiz: Quiz) -> None:
             draft.now["answered"] = (lesson.key, quiz.question, said["right"])
             draft.header["judged"] = {"question": quiz.question, **said}
     if question.vary is not None and (draft.ready or not question.vary.goal.names & COMPILED):
-        now = stands(question, draft.scene)
+        now = stands(question.vary.goal, draft.scene)
         draft.header["goal"] = {
             "question": quiz.question,
             "reached": goal_is_reached(question, draft.scene),

@@ -13,6 +13,7 @@ from ..frame.faults import FAILURES, sentence_of
 from ..frame.frame_context import FrameContext
 from ..slow_layers import basins, outcomes
 from ..state.controls import set_options
+from . import challenge
 from .panel import Panel
 
 #: Modules beside this one that end with a `PANEL`, in the order of the tabs: a new panel is one more name here.
@@ -52,6 +53,7 @@ def add(draft: FrameContext) -> None:
     wanted = [
         PANELS_BY_NAME[draft.values["panel"]].add,
         *(LAYERS[name] for name in LAYERS if name in draft.values["layers"]),
+        *([challenge.add] if draft.values["goal"] else []),
     ]
     for each in dict.fromkeys(wanted):
         had = dict(draft.now)

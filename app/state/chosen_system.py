@@ -75,13 +75,36 @@ BOXES: Mapping[str, tuple[Box, ...]] = MappingProxyType(
             Box("where", "where", ""),
         ),
         OWN_SYSTEM: (
-            Box("U1", "ẋ = U₁", "-c*(c - chi(z)/2)*(c + chi(z)/2)"),
-            Box("U2", "ẏ = U₂", "-k*s"),
-            Box("W", "ż = W", "-2*c + 1/4", 2),
-            Box("where", "where", "chi(z) = (1 + 2*z^2)/(1 + z^2)", 2),
+            Box("U1", "ẋ = U₁", "-mu*c + f"),
+            Box("U2", "ẏ = U₂", "-mu*s"),
+            Box("W", "ż = W", ""),
+            Box("where", "where", "mu = 1 in [0, 3]\nf = 0.5 in [-2, 2]", 2),
         ),
     }
 )
+#: What else a system of one's own can begin with: title, and the text of each box that is another one.
+STARTERS: Mapping[str, Mapping[str, str]] = MappingProxyType(
+    {
+        "Dry friction and a push": {},
+        "Two coefficients of friction": {
+            "U1": "-mu1*c + f", "U2": "-mu2*s",
+            "where": "mu1 = 2 in [0, 3]\nmu2 = 1 in [0, 3]\nf = 0.5 in [-2, 2]",
+        },
+        "Friction that also deflects": {
+            "U1": "-mu*c - k*s + f", "U2": "k*c - mu*s",
+            "where": "mu = 1 in [0, 3]\nk = 0.5 in [-2, 2]\nf = 0.5 in [-2, 2]",
+        },
+        "A push that grows": {"U1": "-mu*c + z", "W": "1", "where": "mu = 1 in [0, 3]"},
+        "A push that swings": {
+            "U1": "-mu*c + F*sin(w*t)",
+            "where": "mu = 1 in [0, 3]\nF = 1.5 in [0, 4]\nw = 1 in [0.2, 5]",
+        },
+        "Two answers at once": {
+            "U1": "-c*(c - chi(z)/2)*(c + chi(z)/2)", "U2": "-k*s", "W": "-2*c + 1/4",
+            "where": "chi(z) = (1 + 2*z^2)/(1 + z^2)",
+        },
+    }
+)  # fmt: skip
 
 
 def titles() -> dict[str, str]:
@@ -134,7 +157,8 @@ def _typed_system(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     for box, text in texts:
         if len(text) > LONGEST_TEXT:
             raise TextError(box, f"The text has {len(text)} characters; write at most {LONGEST_TEXT}.", LONGEST_TEXT)
-    declared, rest = _read_declarations(boxes.pop("where", ""))
+    where = boxes.pop("where", "")
+    declared, rest = _read_declarations(where)
     definitions = _definitions(rest)
     if choice == TYPED and definitions:
         raise TextError("where", "Coefficients take no definitions; write a line such as mu = 0.3 in [0, 1].")
@@ -152,7 +176,8 @@ def _typed_system(choice: str, texts: tuple[tuple[str, str], ...]) -> System_:
     if len(names) > MOST_PARAMETERS:
         shown = ", ".join(names[:6])
         raise TextError(next(iter(boxes)), f"There are {len(names)} names ({shown}, …); use at most {MOST_PARAMETERS}.")
-    if unused := [name for name in declared if name not in names]:
+    given = {texts_of(choice, starter)["where"] for starter in STARTERS.values() if choice == OWN_SYSTEM}
+    if where not in given and (unused := [name for name in declared if name not in names]):
         raise TextError("where", f"{unused[0]} is in no formula: use it, or take its line away.")
     parameters = {name: declared[name][0] if name in declared else PARAMETER for name in names}
     make = _elinear if choice == TYPED else _own_system

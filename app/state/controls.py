@@ -110,6 +110,7 @@ class ExplorerState(param.Parameterized):
     )
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")
     quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the lesson; a mark is X.Y.")
+    goal = param.String("", label="Challenge", doc="A condition that is to be met, such as name == 'NCM4'; or none.")
     t_end = _number_parameter(8.0, 0, 40, "until t", "How long a motion is followed.")
     cut = Angle(0.0, label="Cut", doc="Limit directions are counted from this angle: Q₁ is the first at or after it.")
     ranges = param.Dict({}, label="Ranges", doc="Ranges of sliders, by name: [low, high].")

@@ -18,7 +18,7 @@ from urllib.parse import parse_qsl, urlencode
 
 from ..draw.theme import MAX_HALF_VIEW, NEAREST
 from ..phrases import say
-from .chosen_system import BOXES, NORMAL
+from .chosen_system import BOXES, NORMAL, OWN_SYSTEM, STARTERS
 from .cleaning import LONGEST_TEXT, InputError, clean
 from .controls import CONTROL_NAMES, ExplorerState, preset_values
 from .system_opening_values import opening_values
@@ -37,7 +37,7 @@ DEFAULTS_BY_VERSION: Mapping[int, Mapping[str, Any]] = MappingProxyType(
             ],
             "preset": "", "panel": "atlas", "along": "f1", "zoom": 0, "across": "f1", "cycle_curves": "hide",
             "atlas_zoom": 0, "up": "f2", "solid": "sphere", "drift": "z", "log_eps": -2.0, "launch": "0.6, 0.8, 0",
-            "orbits": "", "orbit": 1, "pinned": "", "orbit_eps": "hide", "lesson": "", "quiz": "", "t_end": 8.0,
+            "orbits": "", "orbit": 1, "pinned": "", "orbit_eps": "hide", "lesson": "", "quiz": "", "goal": "", "t_end": 8.0,
             "beside": "", "ranges": {}, "census": "normal", "census_size": 1, "cut": 0.0,
         },
     }
@@ -131,6 +131,8 @@ def read_link(query: str | Mapping[str, str]) -> Link:
                 good[name] = clean(name, text)
             except InputError as error:
                 errors.append(InputError(error.control, str(error), text[:LONGEST_TEXT]))
+    if good.get("system") == OWN_SYSTEM and good.get("texts"):  # of a release that began with other formulas
+        good["texts"] = {**STARTERS["Two answers at once"], **good["texts"]}
     unknown = [name[:20] for name in given if name not in CONTROL_NAMES and not name.startswith("bokeh-")]
     if unknown:
         shown = ", ".join(map(repr, unknown[:3])) + (f" and {len(unknown) - 3} more" if len(unknown) > 3 else "")

@@ -25,9 +25,9 @@ def edited_range(values: Mapping[str, Any], name: str, first: tuple[float, float
 
 
 def _round_up(size: float) -> float:
-    """Return 1, 2 or 5 times a power of ten, at least 1.2 times the size; 0 for 0."""
+    """Return a round number, at least 1.2 times the size; 0 for 0."""
     if size == 0.0:
         return 0.0
     target = 1.2 * size
     power = 10.0 ** math.floor(math.log10(target))
-    return next((power * k for k in (1, 2, 5) if power * k >= target), 10.0 * power)
+    return next((float(f"{power * k:.2g}") for k in (1, 1.5, 2, 3, 4, 5, 6, 8) if power * k >= target), 10.0 * power)

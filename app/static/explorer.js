@@ -14,6 +14,7 @@ import {SystemChooser, TYPED} from "./controls/system.js"
 import {YoursList} from "./controls/yours_list.js"
 import {letScroll} from "./interaction/gestures.js"
 import {OrbitWords} from "./interaction/orbit_words.js"
+import {Challenge} from "./page/challenge.js"
 import {DeviceSwitch, isWanted} from "./page/device.js"
 import {keepFolds} from "./page/folds.js"
 import {Headline} from "./page/headline.js"
@@ -80,6 +81,7 @@ export class Explorer {
     this.headline = new Headline(root, values, () => this.eLinear)
     const {bench = null, opening = null} = this.alone ? benchOf(this) : {}
     this.bench = bench
+    this.challenge = this.alone ? new Challenge(root, values, config.setting, (wanted) => this.put(wanted)) : null
     this.opening = opening
     new Sheets(root, () => this.sentences.say())
     keepFolds(root, (name) => JSON.stringify(values[name]) !== JSON.stringify(config.defaults[name]))
@@ -87,6 +89,8 @@ export class Explorer {
     if (config.look.seen.length) picture.seen = config.look.seen
     this.room = this.alone && !config.worker ? roomOf(this) : null
     if (config.page) addDialogs(this)
+    const bars = [...root.querySelectorAll(".banner, .room-bar")] // what they take is no part of the page's height
+    if (globalThis.ResizeObserver) for (const bar of bars) new ResizeObserver(() => root.style.setProperty("--bars", `${bars.reduce((sum, one) => sum + one.offsetHeight, 0)}px`)).observe(bar)
     this.beside = besideOf(this)
     this.showRefused()
     this.steps = undoable(root, plot, {browsed: config.page && !this.inside, page: config.page}, rest, {
@@ -304,6 +308,7 @@ export class Explorer {
     this.inspector.apply(header)
     this.headline.apply(header)
     this.bench?.apply()
+    this.challenge?.apply(header)
     for (const [name, symbol] of header.axes ?? []) this.config.symbols[name] = symbol
     this.panels.apply(frame, late)
     this.requests.arrived(header.id, header.load)

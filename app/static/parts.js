@@ -36,7 +36,7 @@ export function panelsOf(explorer) {
       setters[name] = before ? (value) => { before(value); set(value) } : set
     },
     take: (wish, progress) => explorer.takes.ask({theme: explorer.theme.name, ...wish}, progress), film: config.film, untake: (kind) => explorer.takes.stop(kind),
-    trace: (paths, place) => explorer.picture.trace(paths, place), drawn: () => enlarge(explorer.picture.list, 1 / explorer.picture.times),
+    trace: (paths, place, said) => explorer.picture.trace(paths, place, said), drawn: () => enlarge(explorer.picture.list, 1 / explorer.picture.times),
     open: (wanted) => explorer.put(wanted),
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),
@@ -136,8 +136,8 @@ export function roomOf(explorer) {
 export function addDialogs(explorer) {
   const {root, config, picture, theme} = explorer
   new Help(root, explorer.find("dialog.helping"))
-  const query = () => writeLink(explorer.values, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer, lift: config.look.lift, views: explorer.views?.carried}})
-  const share = new Share(explorer.find("dialog.sharing"), query, config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await compressQuery(query(), config.link.version)}`}))
+  const query = (goal = explorer.values.goal) => writeLink({...explorer.values, goal}, picture.window && picture.seen, {...config, look: {embed: false, controls: [], beamer: config.look.beamer, lift: config.look.lift, views: explorer.views?.carried}})
+  const share = new Share(explorer.find("dialog.sharing"), query, config.goals ?? [], config.link.version, explorer.room, (box) => explorer.takes.open(box, {theme: () => theme.name, sliders: () => slidersOf(root), film: config.film, address: async () => `${location.origin}${location.pathname}?${await compressQuery(query(), config.link.version)}`}))
   explorer.find(".share").addEventListener("click", () => share.open())
   printable(explorer, query)
   explorer.find(".whole")?.addEventListener("click", (event) => { event.currentTarget.href = `?${query()}` })

@@ -43,6 +43,8 @@ export const SAYS = {
   noCriticalSet: "There is no critical set on the hemisphere.",
   slidingEnds: "Sliding ends here: no critical set and no limit cycle attracts.",
   slowRest: "The slow flow has come to rest: z′ = 0.",
+  pictureAt: "the picture is at",
+  drivenMass: "Show a mass that is driven periodically",
   rangeEnds: "The range ends here.",
   number: "Type a number such as −0.5.",
   range: "Type a number with the range of its slider, such as 0.3 in [0, 1].",
@@ -83,11 +85,12 @@ export const SAYS = {
   leftHere: "C has left: sliding ends here",
   lift: "Lift ⤴", flat: "Flat ⤵",
   sticks: "sticks",
+  sticksLater: "sticks once slip stops",
   slips: "slips",
   luck: "sticks only by luck",
   circles: "sticks, while its friction turns round and round",
   unheld: "slips, although it could rest at C",
-  slipping: "slipping", atRest: "at rest",
+  slipping: "slipping", still: "still slipping", atRest: "at rest", instant: "at rest for an instant",
   active: "active contact",
   activeTip: "Here A does not oppose every slip (a or d is positive): the contact can drive the puck.",
   slowed: "slowed",
@@ -97,6 +100,14 @@ export const SAYS = {
   storyRest: "This is rest, under a microscope. A point inside is a share of the friction.",
   storyLeaves: "Friction cannot hold this push, so it breaks loose.",
   rest: "rest", outside: "outside: velocities", inside: "inside: rest, magnified",
+  starters: "Examples to start from …",
+  challenge: "Challenge:",
+  met: "Done with",
+  metAlready: "It is so already.",
+  notMet: "Not yet:",
+  fewest: "Your fewest:",
+  startAgain: "Start again",
+  endChallenge: "End the challenge",
   yours: "Yours",
   keptHere: "What you have typed is stored in this browser.",
   keptInPage: "What you have typed is stored until this page is closed.",
@@ -140,6 +151,8 @@ export const SAYS = {
   itsParameters: "its parameters",
   typed: "c and s are the components of e; the letter e alone is the number 2.718…",
 }
+
+export const sliders = (/** @type {number} */ count) => count === 1 ? "one slider" : `${count} sliders`
 
 // The first sentence: the push, or "" for none, what can be held, and what becomes of it, as markup.
 export function pushSentence(/** @type {string} */ push, /** @type {string} */ held, /** @type {string} */ words, {more = false, sure = true, friction = true} = {}) {

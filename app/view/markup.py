@@ -21,11 +21,12 @@ from ..draw.packing import unpack
 from ..draw.svg import draw
 from ..draw.theme import MEASURES, custom_properties, themes
 from ..export.printing import has_typst
+from ..panels.challenge import GOALS
 from ..panels.registry import FIRST, PANELS_BY_NAME
-from ..phrases import say
+from ..phrases import PAGE_TITLE, say
 from ..slow_layers.outcomes import WORDS as OUTCOMES
 from ..state.choices import MAX_TRAJECTORIES, SETTING, SLOW_CONTROLS
-from ..state.chosen_system import BOXES, titles
+from ..state.chosen_system import BOXES, OWN_SYSTEM, STARTERS, titles
 from ..state.controls import NUMBERS, ExplorerState, first_values, preset_values
 from ..state.links import SYSTEM_DEFAULTS, VERSION, Link, PageView
 from ..state.portraits import portrait_keys, portraits
@@ -120,6 +121,8 @@ def front_end_constants() -> dict[str, Any]:
             choice: [{"name": b.name, "label": b.label, "text": b.text, "lines": b.lines} for b in boxes]
             for choice, boxes in BOXES.items()
         },
+        "goals": list(GOALS.items()),
+        "starters": {OWN_SYSTEM: {title: dict(texts) for title, texts in STARTERS.items()}},
         "presets": {item["key"]: {**item, "values": _differences(first, item["key"])} for item in portraits()},
         "themes": themes(),
         "measures": MEASURES,
@@ -208,6 +211,7 @@ def explorer_html(
         portraits=[(group, list(items)) for group, items in groups],
         count=len(portrait_keys()),
         gallery=[] if locked or (look and look.embed) else gallery(),
+        title=PAGE_TITLE,
         equation=EQUATION,
         families=FAMILIES,
         layers=LAYERS,

@@ -126,7 +126,7 @@ class _Reader:
     def error(self, column: int, what: str, mend: str) -> ExpressionError:
         words = [*self.names, *(name for name in CONSTANTS if name not in self.names)]
         start = max(0, column - 31)
-        shown = ascii(self.text[start : start + 60])
+        shown = ascii(" ".join(self.text[start : start + 60].split()))
         shown = ("..." if start else "") + shown + ("..." if len(self.text) > start + 60 else "")
         allowed = f"numbers, {', '.join(words)}, + - * / ** ( ) | | and {' '.join(_CALLED)}"
         advice = mend[0].upper() + mend[1:] + "." * (not mend.endswith("?"))

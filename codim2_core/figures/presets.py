@@ -127,6 +127,12 @@ def _case_three(add: Add) -> None:
         group="Case III: a and d of opposite sign, det A > 0", label="fig:bad_sketches, fig:bads",
         a=172.0, b=186.0, d=-200.0, f1=-86.0, f2=-93.0, launch=(0.4, 0.4, 0.0), t_end=0.4,
     )  # fmt: skip
+    add(
+        "case3-cycle", replace(three, label="sec:case3", launch=(), t_end=8.0),
+        title="A limit cycle around C", a=2.4, b=3.9, d=-2.2, f1=0.6, f2=1.5, family="hill", parameter=3.0,
+        portrait=("III", "CM0", "unstable focus"),
+        note="Neither C nor the equator attracts: friction turns round and round along a stable limit cycle.",
+    )  # fmt: skip
     case3 = (
         (1, "stable node", "tr J < 0, Δ > 0."),
         (2, "stable focus", "tr J < 0, Δ < 0."),

@@ -176,9 +176,40 @@ def test_the_push_and_c_are_linked_both_ways_and_a_launched_orbit_is_slipped_alo
         const {x, y} = picture.pixel(0.8, 1.1), box = root.querySelector(".bokeh").getBoundingClientRect()
         return [box.x + x, box.y + y] })()""")
     explorer.page.mouse.click(*place)
-    explorer.until("root.querySelector('.state').textContent.startsWith('slipping') && root.explorer.picture.place")
+    explorer.until(
+        "root.querySelector('.state').textContent.startsWith('still slipping') && root.explorer.picture.place"
+    )
+    assert explorer.find(".headline strong").text_content() == "sticks once slip stops"
     assert explorer.ask("picture.place[1]") == pytest.approx(1.1, abs=0.3)
     explorer.until("root.querySelector('.state').textContent.startsWith('sticks')")
+    assert explorer.find(".headline strong").text_content() == "sticks"
+
+
+def test_the_headline_and_a_puck_that_moves_agree_in_words(open_page):
+    explorer = open_page().open("?v=1")
+    read = """async (root, place) => { // frames come as fast as they are drawn
+        const read = (name) => root.querySelector(name).textContent, said = new Set()
+        const own = window.requestAnimationFrame
+        let now = 0
+        window.requestAnimationFrame = (call) => setTimeout(() => call(now += 60), 0)
+        const frame = () => said.add(`${read(".state").split(" ·")[0]} | ${read(".headline strong")}`)
+        await root.explorer.bench.run(place, {frame})
+        window.requestAnimationFrame = own
+        return [...said] }"""
+    for setting, place in zip(RANDOM, [(1.3, 0.9), (-1.2, 1.1), (0.4, -1.5)] * 3, strict=True):
+        names = ("a", "b", "d", "f1", "f2", "z", "k1")
+        query = "&".join(f"{name}={value}" for name, value in zip(names, setting, strict=True))
+        explorer.open(f"?v=1&{query}")
+        said = explorer.find(".codim2").evaluate(read, list(place))
+        assert said
+        for one in said:
+            puck, headline = one.split(" | ")
+            if puck == "slipping":
+                assert headline.startswith("slips"), one
+            if headline == "slips":
+                assert puck in ("slipping", "at rest for an instant", "slips"), one
+            if headline.startswith("sticks") and "luck" not in headline:
+                assert (puck == "still slipping") == ("once slip stops" in headline), one
 
 
 def test_a_push_that_cannot_be_held_breaks_loose(open_page):

@@ -41,6 +41,20 @@ def test_a_phones_settings_are_a_dot_on_the_lecturers_atlas(open_page):
     assert lecturer.complaints == phone.complaints == []
 
 
+@pytest.mark.parametrize("size", [(1024, 768), (1440, 900)])
+def test_a_room_and_a_banner_take_their_height_from_the_page(open_page, size):
+    page = open_page(viewport=dict(zip(("width", "height"), size, strict=True))).open("?preset=none")
+    page.until("!root.querySelector('.banner').hidden")
+    page.find(".share").click()
+    page.find(".sharing .open-room").click()
+    page.until("root.querySelector('dialog.room .qr')?.src")
+    page.find(".room-go").click()
+    page.painted()
+    lowest = page.find(".gallery").evaluate("(it) => it.getBoundingClientRect().bottom")
+    assert lowest <= size[1] + 1
+    page.find("[data-room=end]").click()
+
+
 def test_a_code_that_is_typed_in_share_brings_the_view_too(open_page):
     lecturer = open_page().open("room")
     lecturer.until("root.querySelector('dialog.room .qr')?.src")

@@ -177,3 +177,13 @@ def test_a_pinned_card_leaves_the_picture_to_be_seen_and_the_open_tab_is_in_view
     assert page.find(".card.pinned").evaluate("(e) => e.scrollWidth <= e.clientWidth + 1")
     tab, strip = page.find("#c2-tab-orbits").bounding_box(), page.find(".tabs").bounding_box()
     assert strip["x"] <= tab["x"] < tab["x"] + tab["width"] <= strip["x"] + strip["width"]
+
+
+def test_a_panel_has_half_of_the_phone_and_a_lessons_own_slider_comes_first(open_page):
+    page = open_page(**PHONE).open("?panel=solid")
+    assert page.find(".inspector").bounding_box()["height"] >= 0.5 * 844
+    page.open("?lesson=07-psi-matters").click(".question .begin >> nth=0")
+    page.until("root.explorer.values.psi === 'hill'")
+    n, a = page.find("[data-control=n]").bounding_box(), page.find("[data-control=a]").bounding_box()
+    assert 0 <= n["x"] < a["x"]
+    assert page.complaints == []

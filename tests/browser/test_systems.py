@@ -30,6 +30,17 @@ def test_an_example_brings_its_equations_sliders_and_place(explorer):
     assert explorer.name() == "CM2"
 
 
+@pytest.mark.parametrize("size", [(1024, 768), (1440, 900), (390, 844)])
+def test_equations_and_numbers_are_seen_whole(open_page, size):
+    page = open_page(viewport=dict(zip(("width", "height"), size, strict=True))).open("?system=spinning_disc")
+    if size[0] < 800:
+        page.click("button[data-sheet=controls]")
+    assert page.find(".equations").evaluate("(box) => box.scrollHeight <= box.clientHeight")
+    page.type("parameter-k", "-0.123456")
+    cut = "(all) => all.filter((it) => it.offsetWidth && it.scrollWidth > it.clientWidth).map((it) => it.value)"
+    assert page.find(".controls input.number").evaluate_all(cut) == []
+
+
 @pytest.mark.slow
 def test_a_box_is_as_high_as_its_formula(explorer):
     choose(explorer, "own")

@@ -43,6 +43,17 @@ def test_cm4_directions_are_those_of_d2_as_corrected():
     np.testing.assert_allclose(directions("case1-cm4").theta, expected, rtol=1e-15)
 
 
+def test_the_cycle_of_the_gallery_is_as_round_as_it_is_wide():
+    preset = c2.presets["case3-cycle"]
+    (cycle,) = c2.limit_cycles(preset.system, preset.psi)
+    x, y = cycle.points.T
+    area = 0.5 * abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
+    around = np.hypot(*np.diff(cycle.points, axis=0).T).sum()
+    assert cycle.stable
+    assert area > 0.15 * np.pi  # of the disc's; that of case3-n3 is 0.03
+    assert 4 * np.pi * area / around**2 > 0.85
+
+
 def test_cm2_as_printed_sits_on_the_pitchfork():
     found = directions("case1-cm2-paper")
     np.testing.assert_allclose(found.theta, [0.0, np.pi], rtol=0.0, atol=1e-15)

@@ -38,6 +38,7 @@ export class NumberControl {
       this.number.value = plain(this.slider.valueAsNumber)
       onValue(this.name, this.slider.valueAsNumber)
     })
+    this.slider?.addEventListener("change", () => this.place(this.slider.valueAsNumber)) // back within its own range it is as fine as before
     const typed = () => {
       const text = this.number.value, {value, ends} = readTyped(text) ?? {}
       if (/\bin\b/.test(text)) {

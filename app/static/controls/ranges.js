@@ -3,7 +3,7 @@
 export function roundUp(size) {
   if (size === 0) return 0
   const power = 10 ** Math.floor(Math.log10(1.2 * size))
-  return [1, 2, 5, 10].map((k) => k * power).find((v) => v >= 1.2 * size)
+  return [1, 1.5, 2, 3, 4, 5, 6, 8, 10].map((k) => Number((k * power).toPrecision(2))).find((v) => v >= 1.2 * size)
 }
 
 // A slider's range, widened to hold a value; the same rule as in slider_range.py.

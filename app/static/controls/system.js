@@ -66,17 +66,22 @@ export class SystemChooser {
 
   set(values) {
     for (const [name, control] of Object.entries(this.sliders)) control.set(values.parameters[name] ?? this.defaults[name])
-    for (const {name, text} of this.config.boxes[this.choice] ?? []) {
+    for (const {name, text, lines} of this.config.boxes[this.choice] ?? []) {
       const area = this.find(`textarea[data-box=${name}]`), wanted = values.texts[name] ?? text
-      if (area && area.value !== wanted) area.value = wanted
+      if (area && area.value !== wanted) { area.value = wanted; area.rows = Math.max(lines, wanted.split("\n").length) }
     }
   }
 
   makeBoxes() {
     const boxes = this.config.boxes[this.choice] ?? []
-    this.find(".boxes").innerHTML = boxes.map(({name, label, lines}) => `<div class="control typed" data-box="${name}">
+    const starters = Object.keys(this.config.starters?.[this.choice] ?? {})
+    this.find(".boxes").innerHTML = (starters.length ? `<select class="starters" aria-label="${SAYS.starters}"><option value="">${SAYS.starters}</option>${starters.map((title) => `<option value="${title}">${title}</option>`).join("")}</select>` : "") + boxes.map(({name, label, lines}) => `<div class="control typed" data-box="${name}">
       <label for="c2-box-${name}">${label}</label><textarea id="c2-box-${name}" data-box="${name}" rows="${lines}" spellcheck="false" autocapitalize="off" autocomplete="off"></textarea>
       <p class="error" role="alert" hidden></p></div>`).join("") + (boxes.length ? `<p class="note">${SAYS.typed}</p>` : "")
+    this.find(".starters")?.addEventListener("change", (/** @type {any} */ event) => {
+      const texts = this.config.starters[this.choice][event.target.value]
+      if (texts) this.setAll({texts, parameters: {}, ranges: this.rangesWhere((name) => !ofSystem(name)), z: 0, across: "z", up: "n", along: "z"}) // the server has others where it lacks these
+    })
     for (const {name, text} of boxes) {
       const box = this.find(`[data-box=${name}].control`), area = box.querySelector("textarea")
       area.value = this.values.texts[name] ?? text

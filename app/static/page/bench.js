@@ -93,7 +93,9 @@ export class Bench {
     if (!moment) this.way = this.middle
     svg.setAttribute("viewBox", `0 0 ${w} ${h}`)
     setMarkup(svg, puckMarkup(w, h, this.shown, values))
-    const told = moment && Math.hypot(...moment.slip) > CREEPS ? SAYS.slipping : moment?.pace < STILL && !moment.done ? SAYS.atRest : headline.state
+    const slips = moment !== null && Math.hypot(...moment.slip) > CREEPS, stays = headline.verdict !== "slips" && headline.verdict !== "unheld"
+    headline.moves(slips)
+    const told = slips ? stays ? SAYS.still : SAYS.slipping : moment?.pace < STILL && !moment.done ? stays ? SAYS.atRest : SAYS.instant : headline.state
     say(this.words, moment?.pace < STILL && !moment.done ? `${told} · ${SAYS.slowed} ${Math.round(1 / moment.pace)}×` : told)
     this.words.title = isFriction(values) ? "" : SAYS.activeTip
     svg.setAttribute("aria-label", `${SAYS.puckAbove}: ${told}`)

@@ -28,12 +28,24 @@ export class Headline {
     this.own = own
     this.kinds = /** @type {string[]} */ ([])
     this.cycle = false
+    this.moving = false // the puck slips, whatever becomes of it at rest
   }
 
   /** @param {any} header of a frame */
   apply(header) {
     if (header.critical) this.kinds = header.critical.kind
     if (header.cycles) this.cycle = header.cycles.kind.includes("stable")
+    this.write()
+  }
+
+  /** @param {boolean} moving whether the puck next to it slips now */
+  moves(moving) {
+    if (moving === this.moving) return
+    this.moving = moving
+    this.write()
+  }
+
+  write() {
     const {push, held} = pushOf(this.values), {verdict} = this
     const told = verdict && (push < 1e-12 || held > 0 && Number.isFinite(held))
     this.box.hidden = !told
@@ -54,7 +66,10 @@ export class Headline {
   }
 
   /** The verdict as it is said: by the headline, and by the puck. */
-  get words() { return {sticks: SAYS.sticks, slips: SAYS.slips, luck: SAYS.luck, circles: SAYS.circles, unheld: SAYS.unheld}[this.verdict] ?? "" }
+  get words() {
+    const said = {sticks: SAYS.sticks, slips: SAYS.slips, luck: SAYS.luck, circles: SAYS.circles, unheld: SAYS.unheld}[this.verdict] ?? ""
+    return this.moving && this.verdict !== "luck" ? said.replace(SAYS.sticks, SAYS.sticksLater) : said
+  }
 
   /** What the puck does: it sticks with a share of its friction, or slips. */
   get state() {

@@ -10,6 +10,7 @@ const MARKUP = `
   <h2>This view as a link</h2>
   <p class="note">The link carries every value, your formulas, launched orbits, the lesson, the zoom and saved views.</p>
   <div class="row"><input type="text" class="address" readonly aria-label="Link of this view"><button type="button" data-copies="address">Copy</button></div>
+  <p class="note"><label>With a challenge: <select class="goal"><option value="">none</option></select></label></p>
   <img class="qr" alt="QR code of the link" hidden><p class="note local" hidden>${SAYS.roomLocal}</p>
   <div class="rooms"><h2>A room</h2>
     <p class="note">Students join from their phones; each appears as an anonymous dot.</p>
@@ -23,14 +24,16 @@ const MARKUP = `
 export class Share {
   /**
    * @param {HTMLDialogElement} dialog
-   * @param {() => string} query of the present view
+   * @param {(goal?: string) => string} query of the present view, with a challenge
+   * @param {[string, string][]} goals in words, and as conditions
    * @param {number} version of links
    * @param {{open: () => void, enter: (code: string, typed: boolean) => void} | null} room null where there are none
    * @param {(box: HTMLElement) => Promise<void>} more fills what is below the links
    */
-  constructor(dialog, query, version, room, more) {
+  constructor(dialog, query, goals, version, room, more) {
     this.dialog = dialog
     this.query = query
+    this.goals = goals
     this.version = version
     this.room = room
     this.more = more
@@ -40,7 +43,7 @@ export class Share {
   async open() {
     if (!this.dialog.firstElementChild) this.make()
     this.find(".told").textContent = ""
-    const query = this.query()
+    const query = this.query(this.find(".goal").value || undefined)
     const short = await compressQuery(query, this.version)
     const page = location.origin + location.pathname
     const address = `${page}?${short}`
@@ -64,6 +67,8 @@ export class Share {
   make() {
     this.dialog.innerHTML = MARKUP
     this.find(".rooms").hidden = !this.room
+    this.find(".goal").insertAdjacentHTML("beforeend", this.goals.map(([words, goal]) => `<option value="${escape(goal)}">${escape(words)}</option>`).join(""))
+    this.find(".goal").addEventListener("change", () => this.open())
     const enter = () => {
       const code = this.find(".code").value.trim()
       if (!code) return

@@ -18,6 +18,8 @@ const CURVE_OF = {
 // Shown where they are asked for: they take seconds.
 const OF_CYCLES = ["cycle_folds", "homoclinic", "heteroclinic", "connection"], POINTS_OF_CYCLES = ["undecided", "neutral loop"]
 
+const EDGE = 0.95 // of half the plane of f: the point is seen
+
 const MARKUP = `${axesMarkup({across: "across", up: "up"}, "atlas_zoom")}
   <svg class="pad" role="application" tabindex="0" aria-label="The atlas: two parameters with the regions of one portrait each. Drag the handle, or use the arrow keys"></svg>
   <p class="pad-key pad-names"></p>
@@ -157,7 +159,8 @@ class Atlas {
   chartOfPlane(values) {
     const {f1, f2, k1, k2, z} = values
     const {size, regions, curves, points} = this.plane
-    if (!this.pad.dragging) this.reach = reachFor(Math.max(size, Math.abs(f1), Math.abs(f2), 0.5))
+    const here = [f1 + k1 * z, f2 + k2 * z]
+    if (!this.pad.dragging) this.reach = Math.max(reachFor(Math.max(size, 0.5)), ...[f1, f2, ...here].map((v) => Math.abs(v) / EDGE)) // it grows with the point, and never jumps
     const ofCycles = this.possible && values.cycle_curves === "show" && !this.staleCycles ? this.cycles : null
     const now = [curves, this.stale, ofCycles]
     if (!this.shownOf || now.some((v, i) => v !== this.shownOf[i])) {
@@ -169,7 +172,7 @@ class Atlas {
     const path = k1 || k2 ? [-far, far].map((t) => [f1 + t * k1, f2 + t * k2]) : null
     return {
       box: [[-this.reach, this.reach], [-this.reach, this.reach]], regions, curves: this.shown, points: this.shownPoints,
-      handle: [f1, f2], here: [f1 + k1 * z, f2 + k2 * z], path,
+      handle: [f1, f2], here, path,
     }
   }
 

@@ -83,8 +83,12 @@ class Orbits {
   draw(values) {
     if (values) this.open = true
     this.show()
-    if (this.open) this.showInTime()
+    if (!this.open) return
+    this.showInTime()
+    this.inTime.stand()
   }
+
+  forget() { this.inTime.rewind() }
 
   close() {
     this.open = false

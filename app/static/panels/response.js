@@ -17,7 +17,7 @@ class Response {
       <p class="pad-key response-key"></p>
       <p class="note response-here" aria-live="polite"></p>
       <ol class="along-points response-points"></ol>
-      <p class="note response-note" role="status"></p>`
+      <p class="note response-note" role="status"></p><p class="response-none" hidden><button type="button">${SAYS.drivenMass}</button></p>`
     this.tools = tools
     this.find = (name) => box.querySelector(name)
     this.list = new AxisChoice("along", this.find("select.along"), tools)
@@ -34,6 +34,7 @@ class Response {
       onMark: ([mark]) => this.go(mark.go),
     })
     this.find(".over-time").addEventListener("click", () => this.overTime())
+    this.find(".response-none button").addEventListener("click", () => tools.open({system: "driven_mass", texts: {}, parameters: {}, preset: ""}))
     this.find(".response-points").addEventListener("click", (event) => {
       const item = event.target.closest("button")
       if (item) this.go(Number(item.dataset.value))
@@ -73,6 +74,7 @@ class Response {
     const old = late.includes("response")
     this.svg.classList.toggle("old", old && !this.fits())
     this.find(".response-note").textContent = old ? SAYS.following : this.why ?? ""
+    this.find(".response-none").hidden = old || !this.why
     if (this.values) this.draw(this.values)
   }
 

@@ -42,14 +42,21 @@ export function displayList({table, layers, old, header, blocks, theme, measures
   return list
 }
 
-// The motion for ε > 0 and its limit, of the panel "Motion", as [xs, ys] each, and the moving point.
-export function traceList(parts, paths, place, theme) {
-  const list = []
+const FAINT = 0.25 // of a motion where it is at another z than the picture
+
+// The motion for ε > 0 and its limit, of the panel "Motion", as [xs, ys] each, and the moving point with its words; where
+// `near` has a path too, all else of it is faint.
+export function traceList(parts, paths, place, theme, {words = "", near = /** @type {any} */ ({})} = {}) {
+  const list = /** @type {any[]} */ ([])
   for (const part of parts) {
-    const path = paths?.[part.name]
-    if (path) list.push({kind: "path", layer: "trace", part: part.name, x: path[0], y: path[1], colour: theme[part.colour], width: part.width, dash: part.dash})
+    const path = paths?.[part.name], way = near[part.name]
+    for (const [[x, y], alpha] of path ? way ? [[path, FAINT], [way, 1]] : [[path, 1]] : []) list.push({kind: "path", layer: "trace", part: part.name, x, y, colour: theme[part.colour], width: part.width, dash: part.dash, alpha})
   }
-  if (paths && place) list.push({kind: "mark", layer: "trace", shape: "circle", x: place[0], y: place[1], size: 12, width: 2.4, colour: theme.page, fill: theme.motion})
+  if (paths && place) {
+    const [x, y] = place
+    list.push({kind: "mark", layer: "trace", shape: "circle", x, y, size: 12, width: 2.4, colour: theme.page, fill: theme.motion})
+    if (words) list.push({kind: "label", layer: "trace", text: words, x, y, dx: x > 1 ? -12 : 12, dy: 18, align: x > 1 ? "right" : "left", size: 13, colour: theme.motion, back: theme.page})
+  }
   return list
 }
 

@@ -12,7 +12,8 @@ const FLAT = [0, Math.PI / 2], LOWEST = 0.05
 const CLOSER = 1.16 // times as large as the flat picture
 const BEHIND = 0.02 // depth beyond which a place of the hemisphere faces away
 const FAINT = 0.22, BODY = 0.72 // how what is behind is seen, and how much of it the hemisphere hides
-const FINE = 0.06 // of the disc: a longer step of a line is bent
+const FINE = 0.05 // of the sphere's radius: a longer step of a line on it is bent
+const MOST_HALVINGS = 10
 const KEYS = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.08], ArrowDown: [0, -0.08]}
 const FADES = new Set(["equator", "critical", "launched", "sense"]) // layers that come into sight with rest
 const AT = {left: 0, across: 1, top: 0, up: 1} // what is placed already, in px
@@ -183,9 +184,9 @@ function split({counts, points}, at, rim = false) {
   for (const count of counts) {
     let part = "", p = 0, q = 0
     for (let i = from; i < from + 2 * count; i += 2) {
-      const u = size * points[i], v = size * points[i + 1], steps = i > from && Math.ceil(Math.hypot(u - p, v - q) / FINE) || 1
-      for (let k = 1; k <= steps; k++) {
-        const share = k / steps, [x, y, depth, on] = at(p + share * (u - p), q + share * (v - q))
+      const u = size * points[i], v = size * points[i + 1]
+      for (const share of i > from ? bends(p, q, u, v) : [1]) {
+        const [x, y, depth, on] = at(p + share * (u - p), q + share * (v - q))
         const now = !on && !rim ? "floor" : depth > BEHIND ? "behind" : "front"
         if (part && part !== now) made[part].push(x, y)
         if (part !== now) made[now].push(NaN)
@@ -198,6 +199,22 @@ function split({counts, points}, at, rim = false) {
     from += 2 * count
   }
   return made
+}
+
+const height = (/** @type {number} */ x, /** @type {number} */ y) => Math.sqrt(Math.max(0, 1 - x * x - y * y))
+
+// Where a straight step of the disc is bent, as shares of it, until its pieces are short on the sphere: near the rim they
+// are steep.
+function bends(p, q, u, v) {
+  const shares = /** @type {number[]} */ ([])
+  const halve = (from, low, to, high, left) => {
+    if (!left || (to - from) ** 2 * ((u - p) ** 2 + (v - q) ** 2) + (high - low) ** 2 <= FINE * FINE) { shares.push(to); return }
+    const half = (from + to) / 2, top = height(p + half * (u - p), q + half * (v - q))
+    halve(from, low, half, top, left - 1)
+    halve(half, top, to, high, left - 1)
+  }
+  halve(0, height(p, q), 1, height(u, v), MOST_HALVINGS)
+  return shares
 }
 
 function stroke(g, {colour, width, dash}, path, alpha) {

@@ -138,8 +138,9 @@ const PAINTERS = {
   },
 
   // A curve that may be interrupted, where a coordinate is NaN.
-  path(ctx, {x, y, colour, width, dash}, {left, across, top, up}) {
+  path(ctx, {x, y, colour, width, dash, alpha = 1}, {left, across, top, up}) {
     stroke(ctx, colour, width, dash)
+    ctx.globalAlpha = alpha
     ctx.beginPath()
     let pen = false
     for (let i = 0; i < x.length; i++) {
@@ -149,6 +150,7 @@ const PAINTERS = {
       pen = true
     }
     ctx.stroke()
+    ctx.globalAlpha = 1
   },
 
   heads(ctx, {points, angles, colour, size}, {left, across, top, up}) {

@@ -19,6 +19,7 @@ export class Picture {
     this.state = {table: layers, layers: [], old: [], header: {}, blocks: {}, theme: themes.light, measures, sense: true, times: 1}
     this.parts = new Set(["basins", ...layers.flatMap((layer) => layer.parts.map((part) => part.name))])
     this.paths = this.place = null
+    this.moment = /** @type {any} */ ({})
     this.pointed = []
     this.comets = /** @type {any[]} */ ([])
     this.crossed = /** @type {{x: number, y: number, right?: boolean} | null} */ (null)
@@ -71,16 +72,17 @@ export class Picture {
     this.put(this.drawn)
   }
 
-  // A motion and its limit, as [xs, ys], and the moving point; null clears them.
-  trace(paths, place) {
+  // A motion and its limit, as [xs, ys], and the moving point with its words; null clears them.
+  trace(paths, place, {words = "", near = /** @type {any[]} */ ([])} = {}) {
     if (!paths && !this.paths) return
     this.paths = paths && {motion: paths[0], limit: paths[1]}
     this.place = place
+    this.moment = {words, near: {motion: near[0], limit: near[1]}}
     this.drawTrace()
   }
 
   drawTrace() {
-    this.above.list = enlarge([...this.comets, ...this.pointed, ...crossList(this.crossed, this.state.theme), ...traceList(this.traces, this.paths, this.place, this.state.theme)], this.times)
+    this.above.list = enlarge([...this.comets, ...this.pointed, ...crossList(this.crossed, this.state.theme), ...traceList(this.traces, this.paths, this.place, this.state.theme, this.moment)], this.times)
     this.put(this.above)
   }
 

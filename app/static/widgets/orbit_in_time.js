@@ -5,9 +5,10 @@ import {Ball} from "./ball.js"
 import {Chart} from "../chart/chart.js"
 import {spanOf} from "../chart/scale.js"
 import {Player, sampleAt} from "./player.js"
-import {digits, escape, claimNumber, minus, phaseWords} from "../words.js"
+import {SAYS, digits, escape, claimNumber, minus, phaseWords, slowName} from "../words.js"
 
 export const TYPED = -1 // in place of a launched orbit's place: the typed start
+const NEAR = 0.06 // of what z runs through: so near it is at the picture's z
 
 /** @typedef {[string, number, number, string]} Phase kind, from, to, why it began */
 /**
@@ -51,6 +52,12 @@ export function angleTicks([low, high]) {
   return Array.from({length: last - first + 1}, (_, i) => /** @type {[number, string]} */ ([(first + i) * step, word(Math.round((first + i) * step / (Math.PI / 2)))]))
 }
 
+/** The part of a motion in the picture that is at about this z. @param {{states: number[][], picture: number[][]}} run @param {number[]} z */
+function nearTo({states, picture}, z) {
+  const slow = states.slice(4).map((all, i) => ({all, here: z[i], most: NEAR * (Math.max(...all) - Math.min(...all))}))
+  return picture.map((column) => column.map((value, k) => slow.every(({all, here, most}) => Math.abs(all[k] - here) <= most) ? value : NaN))
+}
+
 export class OrbitInTime {
   /**
    * @param {any} box that holds the markup
@@ -63,6 +70,8 @@ export class OrbitInTime {
     this.trace = tools.trace
     this.slowSymbols = tools.slowSymbols
     this.moved = moved
+    this.values = tools.values
+    this.stood = /** @type {number[] | null} */ (null) // the picture's z when it was last shown
     this.orbit = /** @type {InTime | null} */ (null)
     this.motion = /** @type {Regularised | null} */ (null)
     this.shown = null
@@ -154,13 +163,30 @@ export class OrbitInTime {
     const [x, y, theta, radius, ...z] = sampleAt(run.t, run.states, at)
     this.chart.at(at)
     this.svg.setAttribute("aria-valuenow", at)
-    this.trace([motion?.picture, orbit.index === TYPED ? orbit.picture : undefined], sampleAt(run.t, run.picture, at))
-    const told = [x, y, theta, radius].map((value, i) => `${words[i].split(" ")[0]} = ${digits(value, 3)}`)
+    const typed = orbit.index === TYPED, drawn = [motion, typed ? orbit : null]
+    this.stood = null // no call of `stand` from within
+    if (moved && typed) this.moved(z)
+    this.stood = this.slow
+    const there = z.slice(0, 4).map((value, i) => `${this.slowSymbols()[i] ?? slowName(i)} = ${digits(value, 3)}`), here = this.slow.slice(0, there.length).map((value) => digits(value, 3))
+    const place = there.every((one, i) => one.endsWith(` = ${here[i]}`)) ? there.join(", ") : `${there.join(", ")}; ${SAYS.pictureAt} ${here.join(", ")}`
+    this.trace(drawn.map((one) => one?.picture), sampleAt(run.t, run.picture, at), {words: place, near: drawn.map((one) => one && typed ? nearTo(one, z) : undefined)})
+    const told = [x, y, theta, radius].map((value, i) => `${words[i].split(" ")[0]} = ${digits(value, 3)}`).concat(there)
     this.find(".orbit-now").textContent = `${words[4]} = ${digits(at, 3)}: ${told.join(", ")}`
     this.find(".phase-now").textContent = this.phaseAt(at)
     if (this.rolls) this.ball.show(this.rolls, at)
     else if (!orbit.fast) this.slips([x, y])
-    if (moved && orbit.index === TYPED) this.moved(z)
+  }
+
+  // Of the picture, as it is now.
+  get slow() { return [0, 1, 2, 3].map((i) => this.values[slowName(i)] ?? 0) }
+
+  /** The picture may be at another z. */
+  stand() { if (this.shown && this.stood && String(this.stood) !== String(this.slow)) this.point() }
+
+  rewind() {
+    this.player.over(this.player.start, this.player.end)
+    this.player.at = this.player.start
+    if (this.shown) this.point()
   }
 
   phaseAt(at) {

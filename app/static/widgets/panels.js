@@ -18,7 +18,7 @@
  * @property {(wish: Record<string, any>, progress?: (done: number, all: number) => void) => Promise<any>} take ask for a file of what is shown: {name, type, file} or {error}
  * @property {boolean} film whether films can be had
  * @property {(kind: string) => void} untake the last wish of this kind is no longer wanted
- * @property {(paths: any, place?: number[]) => void} trace a motion in the picture, or clear it with null
+ * @property {(paths: any, place?: number[], said?: {words: string, near: any[]}) => void} trace a motion in the picture, or clear it with null
  * @property {() => any[]} drawn what the picture shows, from bottom to top
  * @property {(wanted: Record<string, any>) => void} open many values at once, as choosing a portrait does
  * @property {() => import("../room/crowd.js").Row[] | null} crowd the phones in the lecturer's room; null without one

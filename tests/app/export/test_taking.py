@@ -18,6 +18,18 @@ def test_it_is_the_portrait_in_letters_figures_and_dashes(query, name):
     assert found == [f"{name}{moves}.gif" for moves in ("", "-n", "-own-mu")]
 
 
+@pytest.mark.parametrize(
+    ("query", "title"),
+    [
+        ("v=1", "When friction stops pointing anywhere: CM4"), ("case1-cm4", "CM4: four limit directions"),
+        ("system=spinning_annulus", "Sliding, spinning annulus: "),
+    ],
+)  # fmt: skip
+def test_a_poster_of_whatever_is_shown_has_a_title_that_says_what_it_is(query, title):
+    poster = make_file(view_of(query), ExportRequest.read({"kind": "svg", "link": "https://h/"}))[1].decode()
+    assert f">{title}" in poster
+
+
 def test_a_poster_has_a_title_a_caption_and_the_code_of_its_address():
     link = "https://h/?v=1&preset=case3-n2"
     view = view_of("case3-n2")

@@ -5,6 +5,7 @@ import pytest
 from codim2_app.state.chosen_system import (
     BOXES,
     OWN_SYSTEM,
+    STARTERS,
     TYPED,
     TextError,
     build,
@@ -30,6 +31,17 @@ def test_every_choice_opens_with_a_picture_and_a_control_for_each_of_its_names(c
     assert told["equations"].startswith("<math")
 
 
+@pytest.mark.parametrize("title", [*STARTERS])
+def test_a_system_of_ones_own_begins_with_friction_or_another_example(title):
+    system = build(OWN_SYSTEM, STARTERS[title], {})
+    made = np.array([system.at((0.3,) * system.m).U(e) for e in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0))])
+    assert np.isfinite(made).all()
+    assert made[2][1] < 0.0  # it opposes the slip
+    first = build(OWN_SYSTEM, {}, {})
+    assert (first.m, dict(first.parameters)) == (0, {"mu": 1.0, "f": 0.5})
+    assert dict(build(OWN_SYSTEM, {"U1": "-2*c"}, {}).parameters) == {"mu": 1.0}  # what is no longer read is no fault
+
+
 def test_a_name_that_is_typed_becomes_a_parameter():
     system = build(
         OWN_SYSTEM, {"U1": "k2*c - amp*sin(z)", "U2": "-s", "W": "0", "where": ""}, {"amp": 0.5, "gone": 3.0}
@@ -39,7 +51,7 @@ def test_a_name_that_is_typed_becomes_a_parameter():
 
 
 def test_definitions_may_be_used_and_their_names_become_parameters_too():
-    system = build(OWN_SYSTEM, {"U1": "-c*q(z)", "where": "q(z) = 1 + w*z^2"}, {"w": 2.0, "k": 0.5})
+    system = build(OWN_SYSTEM, {"U1": "-c*q(z)", "where": "q(z) = 1 + w*z^2"}, {"w": 2.0, "mu": 0.5})
     assert system.at((3.0,)).U((1.0, 1.0)).tolist() == [-19.0, -0.5]
 
 

@@ -43,6 +43,18 @@ function control(ranged = true) {
   }
 }
 
+test("a slider that was widened for a typed value is as fine as before once it is let go within its own range", () => {
+  const one = control()
+  const fine = one.slider.step
+  one.type("300")
+  assert.deepEqual([one.range(), one.slider.step > fine], [[-400, 400], true])
+  one.slider.value = "1.5"
+  one.fire(one.slider, "input")
+  assert.deepEqual(one.range(), [-400, 400]) // not while it is in hand
+  one.fire(one.slider, "change")
+  assert.deepEqual([one.range(), one.slider.step, one.slider.value], [[-4, 4], fine, "1.5"])
+})
+
 test("a number with its range sets both; the range alone leaves the number; what is no range is said", () => {
   const one = control()
   one.type("1.5 in [1, 3]")

@@ -114,6 +114,19 @@ test("a wheel rolls the strip where it does not fit, and the page otherwise", ()
   assert.deepEqual(wheel(0, 30), [false, 10])
 })
 
+test("a system of one's own begins with an example", () => {
+  const swing = {U1: "-c + sin(t)"}
+  const one = wired({starters: {own: {Plain: {}, Swing: swing}}})
+  type(one, "select.system", "own")
+  one.tick(20); asked(one); one.answer({system: OWN})
+  assert.deepEqual([...one.root.querySelectorAll(".starters option")].map((it) => it.textContent).slice(1), ["Plain", "Swing"])
+  type(one, ".starters", "Swing")
+  one.tick(20)
+  const [sent] = asked(one)
+  assert.deepEqual([sent.texts, sent.parameters, sent.z], [swing, {}, 0])
+  assert.equal(one.find("textarea").value, "-c + sin(t)")
+})
+
 test("a system of one's own: its texts, parameters and slow variables, kept while another one is chosen", () => {
   const kept = {"codim2-typed": '{"own": {"texts": {"U1": "c*c"}}}'}
   const one = wired({values: {...wired().root.explorer.values, z3: 0, z4: 0}}, FIRST, {sessionStorage: memory(kept)}), {symbols} = one.tools

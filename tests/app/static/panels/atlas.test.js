@@ -56,6 +56,14 @@ test("the panel atlas: the plane of f, its curves, f where z is 0, and f(z) on t
   near(plots(one.find(".pad"))[0].path.map(([x]) => x), [0.6, 0.6])
 })
 
+test("the panel atlas: the plane of f grows with a point that leaves it, and never jumps", () => {
+  const one = atlas({k1: 0, k2: 0, z: 0})
+  one.frame(PLANE, BLOCKS)
+  const scales = [2.6, 2.7, 2.8, 2.9, 3, 3.1, 3.5].map((f1) => { one.set({f1}); const [{x}] = plots(one.find(".pad")); return x.back(1) - x.back(0) })
+  assert.equal(scales[0], scales[1])
+  for (const [i, scale] of scales.entries()) if (i) assert.ok(scales[i - 1] / scale < 1.14, `${scales}`)
+})
+
 test("the panel atlas: curves of cycles are shown where they were asked for, those of another Ψ are not", () => {
   const one = atlas({cycle_curves: "show"})
   const shown = () => plots(one.find(".pad"))[0].lines.map(({name}) => name)

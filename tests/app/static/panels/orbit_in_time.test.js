@@ -70,6 +70,17 @@ test("outside: lengths and time as they are, the motion for ε broken and longer
   near(place, [0.05, 0.55], 0.01) // after the orbit has ended on Sigma the motion goes on
 })
 
+test("the dot says at which z it is, and at which the picture is where that is another; all of its path that is at another z is faint", () => {
+  const one = showing({orbit: LIMIT}, {orbit: 0}), svg = one.find(".orbit-time .series"), last = () => one.said().findLast(([what]) => what === "trace")
+  const [, paths, , {words, near: [, [xs]]}] = last()
+  assert.equal(words, "z = 0.50")
+  assert.deepEqual([paths[1], xs.map(Number.isNaN)], [LIMIT.picture, [false, true, true]])
+  one.fire(svg, "keydown", {key: "End"})
+  one.set({z: 1.25})
+  assert.match(last()[3].words, /^z = 0.50; the picture is at 1.25$/)
+  assert.match(one.find(".orbit-now").textContent, /, z = 0.50$/)
+})
+
 test("a motion that is hidden, or of other values, is not drawn; one that fails says why", () => {
   const one = showing({orbit: OUTSIDE, orbit_motion: MOTION}, {orbit: 2})
   assert.equal(plots(one.find(".orbit-time .series")).length, 3)

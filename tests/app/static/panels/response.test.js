@@ -32,4 +32,7 @@ test("the panel response: why there is none", () => {
   one.frame({unable: {response: "It comes to rest."}, axes: [["own:w", "w"]]})
   assert.equal(one.find(".response-note").textContent, "It comes to rest.")
   assert.ok(one.find(".over-time").hidden)
+  one.said()
+  one.fire(one.find(".response-none button"), "click")
+  assert.deepEqual(one.said().map(([what, {system}]) => [what, system]), [["open", "driven_mass"]])
 })

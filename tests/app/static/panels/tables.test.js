@@ -138,7 +138,7 @@ test("the panel numbers: the arrow along z starts at z and points as z′ does",
     const [, from, to] = numbers(".z-arrow", "d"), [, tip] = numbers(".z-head", "d")
     return {from, to, tip, dot: Number(one.find(".z-dot")?.getAttribute("cy")), words: one.find(".slow").textContent.replaceAll(/\s+/g, " ")}
   }
-  const at = (v) => 75 - 58 * v / 5 // the axis shows −5 to 5, z upward
+  const at = (v) => 75 - 58 * v / 4 // the axis shows −4 to 4, z upward
   let now = read([0.5, -1])
   assert.deepEqual([now.from, now.dot], [at(2), at(2)])
   assert.ok(Math.abs(now.tip - (at(2) - 14 - 44 / 3)) < 1e-9 && now.tip < now.to && now.to < now.from)

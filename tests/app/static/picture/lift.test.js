@@ -42,6 +42,16 @@ test("a line is bent over the hemisphere: faint behind, on the floor outside", (
   assert.ok(front.length > 10 && Math.abs(top - 30) < 2 && floor.some(([, y]) => y > 100) && floor.some(([, y]) => y < 60), `${top}`)
 })
 
+test("a line that ends at the rim stays round down to it: no piece turns by more than a few degrees", () => {
+  const points = [[0.45, -0.3], [0.6, -0.31], [0.8, -0.32], [0.94, -0.33]]
+  const {strokes: [[, front]]} = drawn([{...CURVE, counts: [4], points: Float32Array.from(points.flat())}], {...ABOVE, up: 1, elevation: 0.3})
+  const turns = front.slice(2).map(([x, y], i) => {
+    const [a, b, c] = [front[i], front[i + 1], [x, y]], way = (p, q) => Math.atan2(q[1] - p[1], q[0] - p[0])
+    return Math.abs(way(b, c) - way(a, b))
+  })
+  assert.ok(Math.max(...turns) < 0.09, `${turns}`)
+})
+
 test("names keep clear of one another, and a nullcline's is left out where the hemisphere hides it", () => {
   const name = (text, x, y, more = {}) => ({kind: "label", text, x, y, dx: 13, dy: 0, align: "left", size: 12, colour: "c", back: "p", ...more})
   const {texts} = drawn([name("Q₁", 0.9, 0.1), name("Q₂", 0.9, 0.12), name("ρ′ = 0", 0, 1.3, {dx: 0})], {...ABOVE, up: 1, elevation: 0.2})

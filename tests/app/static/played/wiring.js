@@ -13,7 +13,7 @@ register("numbers", (box, given) => { tools = given; return new Numbers(box, giv
 
 const slider = (name) => `<div class="control" data-control="${name}"><label for="c2-${name}">${name}</label><input type="range" id="c2-${name}" min="-4" max="4" step="0.01" value="0"><input type="text" class="number"><p class="error" hidden></p></div>`
 
-const MARKUP = `<div id="codim2-first"><div class="codim2"><div class="banner" hidden></div><div class="room-bar" hidden></div><form class="controls">
+const MARKUP = `<div id="codim2-first"><div class="codim2"><div class="banner" hidden></div><div class="room-bar" hidden></div><div class="goal-bar" hidden></div><form class="controls">
 <div data-control="preset"><select class="preset"><option value="">none</option><option value="one">One</option></select></div><button class="reset"></button><p class="preset-note"></p>
 <div class="system-box"><div data-control="system"><select class="system"><option value="normal">N</option><option value="own">O</option></select><p class="error" hidden></p></div><div class="equations"></div><p class="system-note"></p><div class="boxes" data-control="texts"><p class="error" hidden></p></div><div class="parameters" data-control="parameters"></div><details class="yours" hidden><summary></summary><ul></ul><p class="note"></p></details></div>
 <fieldset class="slow-controls" hidden><div class="sliders"></div></fieldset>
