@@ -1,5 +1,7 @@
 """A lecturer's page and a phone in one room."""
 
+import pytest
+
 
 def test_a_phones_settings_are_a_dot_on_the_lecturers_atlas(open_page):
     lecturer = open_page().open("room")
