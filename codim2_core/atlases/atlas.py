@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..arguments import short_repr
 from ..arrays import Array, read_only
+from ..families.disc import disc_family
 from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
@@ -21,7 +22,7 @@ from ..systems.kinds import AnySystem
 from .codim_two_points import crossings, each_once
 from .connections.connection_curves import KINDS, connection_curves
 from .curve_numbers import curve_numbers, places
-from .curves import curves_of
+from .curves import curves_of, within
 from .cycles.cycle_curves import KIND, cycle_curves
 from .degenerate_lines import degenerate_lines
 from .regions import regions_of
@@ -107,12 +108,14 @@ def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None,
 
 
 def _curves_over(family: SystemFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
-    lines = degenerate_lines(family)
-    found, special = curves_of(family, lines, seeds)
+    chart = disc_family(family) or family
+    lines = degenerate_lines(family) if chart is family else ()
+    found, special = curves_of(chart, lines, seeds)
+    kept = found.curves if chart is family else [part for one in found.curves for part in within(one, chart, family)]
     curves = [
-        AtlasCurve(one.kind, read_only(family.values(one.plane)),
-                   read_only(places(family, one)), read_only(curve_numbers(family, one)))
-        for one in found.curves
+        AtlasCurve(one.kind, read_only(chart.values(one.plane)),
+                   read_only(places(chart, one)), read_only(curve_numbers(chart, one)))
+        for one in kept
     ]  # fmt: skip
     curves += [_nowhere(family, "degenerate", line.points) for line in lines]
     curves += [_nowhere(family, "undefined", line) for line in undefined_borders(family)]
@@ -120,12 +123,18 @@ def _curves_over(family: SystemFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
     points = [
         AtlasPoint(one.kind, (float(at[0]), float(at[1])), one.sentence)
         for one in each_once(special + met)
-        for at in [family.values(one.plane)]
+        for at in [chart.values(one.plane)]
+        if chart is family or _is_in_range(family, at)
     ]
     degenerate = tuple((family.names[line.axis], float(family.values(line.points)[0, line.axis])) for line in lines)
     kinds = tuple(dict.fromkeys(found.unfinished))
     (across, up), (first, second) = family.names, family.ranges
     return Atlas((across, up), (first, second), tuple(curves), tuple(points), (), kinds, degenerate)
+
+
+def _is_in_range(family: SystemFamily, values: Array) -> bool:
+    place = family.units(values)
+    return bool(place.min() >= 0.0 and place.max() <= 1.0)
 
 
 def _nowhere(family: SystemFamily, kind: str, plane: Array) -> AtlasCurve:

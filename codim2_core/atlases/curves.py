@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from ..arrays import Array
-from ..curves.arclength import TracedLine, zero_between
+from ..curves.arclength import TracedLine, point_across, zero_between
 from ..curves.polyline import distance
 from ..families import conditions, plane_conditions
 from ..families.family import SystemFamily
@@ -22,6 +22,7 @@ LAST_STEP = 0.04  # of the ranges: last step of the curve of a neutral equator, 
 POINT_SIZE = 1e-7  # of the ranges: a curve that keeps within this is a point
 SAME_CURVE_DISTANCE = 1e-6  # two curves of one kind that are as near as this everywhere are one
 SINGULAR_DETERMINANT = 1e-9  # of det DU, all along a curve through the equator: there critical sets fill a line
+MAX_STEP, MAX_HALVINGS = 0.06, 12  # of the ranges, of a curve from another chart; how often its steps are halved
 LINE_DETERMINANT = 1e-9  # of det DU, all along a curve of tr J = 0: there critical sets fill a line
 
 
@@ -34,12 +35,18 @@ def curves_of(
     """
     on, through, turning = seed_net.on_equator(family, lines)
     folds, hopfs, foci = seed_net.interior_cells(family, lines)
-    found = _true(
-        tracing.saddle_nodes(family, on, seeds.equator) + tracing.through_equator(family, through, seeds.equator), lines
-    )
+    if family.slant is not None:
+        found = tracing.closed_form_borders(family)
+    else:
+        found = _true(
+            tracing.saddle_nodes(family, on, seeds.equator) + tracing.through_equator(family, through, seeds.equator),
+            lines,
+        )
     points = [point for one in found.curves for point in codim_two_points.special_points_along(family, one)]
     corners = codim_two_points.corners(points)
-    if family.affine:
+    if family.slant is not None:
+        more = TracedCurves([])
+    elif family.affine:
         kept = [one for one in found.curves if one.kind != "transcritical" or not _singular(family, one)]
         found = TracedCurves(kept, found.unfinished)
         singular = plane_conditions.singular_matrix(family)
@@ -74,6 +81,57 @@ def _to_ends(one: TracedCurve, ends: list[Array]) -> TracedCurve:
         if end == "lost" and near is not None and math.dist(near, points[i]) < LAST_STEP:
             points = np.concatenate([near[None], points] if i == 0 else [points, near[None]])
     return TracedCurve(one.kind, one.condition, TracedLine(points, one.curve.closed, one.curve.ends))
+
+
+def within(one: TracedCurve, chart: SystemFamily, family: SystemFamily) -> list[TracedCurve]:
+    """Return the parts of a curve over one chart of the plane that lie in the square of another, as finely as there."""
+
+    def inset(points: Array) -> Array:
+        place = family.units(chart.values(points[..., -2:]))
+        return np.asarray(np.minimum(place.min(axis=-1), 1.0 - place.max(axis=-1)))
+
+    points = _refine(one, lambda v: family.units(chart.values(v[..., -2:])))
+    inside = inset(points) >= 0.0
+    if inside.all():
+        return [TracedCurve(one.kind, one.condition, TracedLine(points, one.curve.closed, one.curve.ends))]
+    if one.curve.closed and inside[0]:  # begin outside
+        first = int(np.argmin(inside))
+        points = np.concatenate([points[first:], points[1 : first + 1] + (points[-1] - points[0])])
+        inside = np.concatenate([inside[first:], inside[1 : first + 1]])
+    found = []
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int))).reshape(-1, 2)
+    for i, j in edges.tolist():
+        part, ends = [*points[i:j]], list(one.curve.ends)
+        if i > 0:
+            part.insert(0, zero_between(one.condition, lambda v: float(inset(v)), points[i - 1], points[i]))
+            ends[0] = "edge"
+        if j < len(points):
+            part.append(zero_between(one.condition, lambda v: float(inset(v)), points[j - 1], points[j]))
+            ends[1] = "edge"
+        found.append(TracedCurve(one.kind, one.condition, TracedLine(np.array(part), False, (ends[0], ends[1]))))
+    return found
+
+
+def _refine(one: TracedCurve, place: Callable[[Array], Array]) -> Array:
+    """Return points along a curve, more of them where it crosses the unit square of places in long steps."""
+    points = one.points
+    for _ in range(MAX_HALVINGS):
+        at = place(points)
+        low, high = np.minimum(at[1:], at[:-1]), np.maximum(at[1:], at[:-1])
+        met = (high >= 0.0).all(axis=1) & (low <= 1.0).all(axis=1)
+        long = np.flatnonzero(met & (np.hypot(*(high - low).T) > MAX_STEP)).tolist()
+        if not long:
+            break
+        chords = points[1:] - points[:-1]
+        middles = [
+            point_across(one.condition, points[i] + 0.5 * chords[i], chords[i] / math.sqrt(chords[i] @ chords[i]))
+            for i in long
+        ]
+        kept = [(i + 1, v) for i, v in zip(long, middles, strict=True) if v is not None]
+        if not kept:
+            break
+        points = np.insert(points, [i for i, _ in kept], [v for _, v in kept], axis=0)
+    return points
 
 
 def _singular(family: SystemFamily, one: TracedCurve) -> bool:
