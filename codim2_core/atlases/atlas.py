@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..arguments import short_repr
 from ..arrays import Array, read_only
-from ..families.disc import disc_family
+from ..families.disc import borders, disc_family
 from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
@@ -43,6 +43,7 @@ TRIAL_PLACES = (
     (0.29, 0.79),
     (0.71, 0.89),
 )  # where U is tried, in the unit square
+WHOLE_MARGIN = 0.02  # of the width of an ellipse: how far the plane is looked at beyond it
 DEFAULT_HALF_RANGE = (
     2.0  # range on either side of a parameter's value where none is given, or the value if that is more
 )
@@ -166,11 +167,10 @@ def _with_regions(family: SystemFamily, found: Atlas) -> Atlas:
 def with_folds_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
     """Return an atlas with its folds of limit cycles, of the same system, psi and z; they cut no region.
 
-    They are begun at generalised Hopf points, and at the folds on branches of cycles along two lines each way: one
+    They are begun at generalised Hopf points, and at the folds on branches of cycles along some lines each way: one
     that meets none of these is missed, and where branches see no cycle no fold is seen.
     """
-    curves, points = cycle_curves(family_over(system, psi, z, *found.names, found.ranges), found.curves, found.points)
-    return replace(found, curves=found.curves + tuple(curves), points=found.points + tuple(points))
+    return _with_more(family_over(system, psi, z, *found.names, found.ranges), found, _folds)
 
 
 def with_connections(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
@@ -178,9 +178,27 @@ def with_connections(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> 
 
     Those are loops of critical sets that are saddles, heteroclinic cycles through the equator, and single connections.
     They are begun where the branches of two saddles change sides on some lines across the plane, and beside
-    Bogdanov-Takens points: a curve that meets none of these is missed, and so is an orbit that winds about on its way.
+    Bogdanov-Takens points and saddle-nodes on the equator: a curve that meets none of these is missed, and so is an
+    orbit that winds about on its way.
     """
+    return _with_more(family_over(system, psi, z, *found.names, found.ranges), found, _connections)
+
+
+def with_bifurcations_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
+    """Return an atlas with the connections of saddles, and folds of the limit cycles that are born from them."""
     family = family_over(system, psi, z, *found.names, found.ranges)
+    return _with_more(family, found, _connections, _folds)
+
+
+More = Callable[[SystemFamily, Atlas], Atlas]
+
+
+def _folds(family: SystemFamily, found: Atlas) -> Atlas:
+    curves, points = cycle_curves(family, found.curves, found.points)
+    return replace(found, curves=found.curves + tuple(curves), points=found.points + tuple(points))
+
+
+def _connections(family: SystemFamily, found: Atlas) -> Atlas:
     curves, points, missed = connection_curves(family, found.curves, found.points)
     return replace(
         found, curves=found.curves + tuple(curves), points=found.points + tuple(points),
@@ -188,9 +206,61 @@ def with_connections(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> 
     )  # fmt: skip
 
 
-def with_bifurcations_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
-    """Return an atlas with folds of limit cycles, and the connections of saddles they are born from and die in."""
-    return with_connections(system, psi, with_folds_of_cycles(system, psi, found, z), z)
+def _with_more(family: SystemFamily, found: Atlas, *steps: More) -> Atlas:
+    """Return an atlas with what some steps find: over the disc of critical sets, where the family has that chart."""
+    chart = disc_family(family)
+    if chart is None:
+        for step in steps:
+            found = step(family, found)
+        return found
+    whole = known = _curves_over(_around_disc(chart))
+    for step in steps:
+        whole = step(chart, whole)
+    curves = [part for one in whole.curves[len(known.curves) :] for part in _cut(one, family)]
+    points = [one for one in whole.points[len(known.points) :] if _is_in_range(family, np.array(one.place))]
+    return replace(
+        found, curves=found.curves + tuple(curves), points=found.points + tuple(points),
+        unfinished=tuple(dict.fromkeys(found.unfinished + whole.unfinished)),
+    )  # fmt: skip
+
+
+def _around_disc(chart: SystemFamily) -> SystemFamily:
+    """Return the family over a rectangle around the ellipse of a chart of `disc_family`."""
+    line = chart.values(borders(chart)[1][:, 1:])
+    low, high = line.min(axis=0), line.max(axis=0)
+    margin = WHOLE_MARGIN * (high - low)
+    spans = zip((low - margin).tolist(), (high + margin).tolist(), strict=True)
+    return replace(chart, slant=None, ranges=tuple(spans))
+
+
+def _cut(one: AtlasCurve, family: SystemFamily) -> list[AtlasCurve]:
+    """Return the parts of a curve within the ranges of a family, cut where its chords cross the border."""
+    place = family.units(one.points)
+    rows = [np.column_stack([one.points, one.places, one.numbers if len(one.numbers) else np.zeros(len(place))])]
+    for axis in (0, 1):
+        for level, sign in ((0.0, 1.0), (1.0, -1.0)):
+            rows = [part for row in rows for part in _beyond(row, sign * (family.units(row[:, :2])[:, axis] - level))]
+    return [
+        AtlasCurve(one.kind, read_only(row[:, :2]), read_only(row[:, 2:4]),
+                   read_only(row[:, 4] if len(one.numbers) else np.zeros(0)))
+        for row in rows
+    ]  # fmt: skip
+
+
+def _beyond(row: Array, height: Array) -> list[Array]:
+    """Return the parts of a line (m, n) along which heights (m,) at its points are not negative."""
+    inside = height >= 0.0
+    found = []
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int))).reshape(-1, 2)
+    for i, j in edges.tolist():
+        part = [*row[i:j]]
+        if i > 0:
+            part.insert(0, row[i - 1] + height[i - 1] / (height[i - 1] - height[i]) * (row[i] - row[i - 1]))
+        if j < len(row):
+            part.append(row[j - 1] + height[j - 1] / (height[j - 1] - height[j]) * (row[j] - row[j - 1]))
+        if len(part) > 1:
+            found.append(np.array(part))
+    return found
 
 
 def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> SystemFamily:

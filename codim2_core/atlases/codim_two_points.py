@@ -20,6 +20,7 @@ from .tracing import TracedCurve
 SAME_POINT_DISTANCE = 1e-6  # of the ranges: points of one kind nearer to each other are one
 MIN_END_DISTANCE = 1e-7  # and so far from an end of both curves they cross
 MAX_CORRECTION = 0.05  # that Newton's method may go from where two polylines cross
+ZERO_VALUE = 1e-9  # of a function along a curve, in units of the largest |U|: less is zero
 UNREPORTED_KINDS = ("node-focus", "det A = 0")  # kinds whose crossings are no news
 
 
@@ -104,6 +105,8 @@ def _zeros(
     points = curve.points
     values = np.array([test(v) for v in points]) if values is None else values
     known = np.isfinite(values)
+    if not np.abs(values[known]).max(initial=0.0) > ZERO_VALUE:  # zero all along, and rounding
+        return []
     turned = known[1:] & known[:-1] & (np.sign(values[1:]) * np.sign(values[:-1]) < 0.0)
     rows = np.flatnonzero(turned).tolist()
     return [make(zero_between(curve.condition, test, points[i], points[i + 1])) for i in rows]

@@ -12,8 +12,9 @@ from ..curves.arclength import TracedLine, point_across, zero_between
 from ..curves.polyline import distance
 from ..families import conditions, plane_conditions
 from ..families.family import SystemFamily
+from ..families.first_lyapunov import lyapunov
 from . import codim_two_points, seed_net, tracing
-from .codim_two_points import SpecialPlace
+from .codim_two_points import ZERO_VALUE, SpecialPlace
 from .degenerate_lines import DegenerateLine
 from .seed_net import NO_SEEDS, CurveSeeds
 from .tracing import TracedCurve, TracedCurves
@@ -63,7 +64,22 @@ def curves_of(
     more += TracedCurves([_to_ends(one, ends) for one in turned.curves], turned.unfinished)
     more = _true(more, lines)
     points += [point for one in more.curves for point in codim_two_points.special_points_along(family, one)]
+    points = _without_centres(family, more.curves, points)
     return found + more, [one for one in points if not any(line.holds(one.plane) for line in lines)]
+
+
+def _without_centres(
+    family: SystemFamily, curves: Sequence[TracedCurve], points: list[SpecialPlace]
+) -> list[SpecialPlace]:
+    """Leave out generalised Hopf points on a curve of centres: no fold of cycles begins there."""
+    lines = [
+        one.plane for one in curves
+        if one.kind == "Hopf" and np.nanmax(np.abs(lyapunov(family, one.points)), initial=0.0) < ZERO_VALUE
+    ]  # fmt: skip
+    return [
+        one for one in points
+        if one.kind != "generalised Hopf" or not any(distance(one.plane, line) < POINT_SIZE for line in lines)
+    ]  # fmt: skip
 
 
 def _true(found: TracedCurves, lines: Sequence[DegenerateLine]) -> TracedCurves:

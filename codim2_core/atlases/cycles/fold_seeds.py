@@ -22,7 +22,7 @@ from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
 from .fold_tracing import CycleStart
 
 LINE_OFFSETS = (0.2871, 0.7137)  # of the square, across and up
-RAY_STARTS = 0.03, 0.01, 0.08  # of the reach: places on the ray beside a generalised Hopf point that are tried
+RAY_STARTS = 0.02, 0.006, 0.06, 2e-3, 7e-4  # of the reach: places on the ray beside a generalised Hopf point that are tried
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,10 @@ def seeds_beside_bautin(family: SystemFamily, place: Array) -> list[FoldSeed]:
     if C is None:
         return []
     around = EncirclingTurns(family, place, np.asarray(C.e), TurnSection(problem, C).u)
-    return [FoldSeed(CycleStart(around, np.array([math.log(chi) / LOG_SIZE_SCALE, *place])), chi) for chi in RAY_STARTS]
+    return [
+        FoldSeed(CycleStart(around, np.array([math.log(chi) / LOG_SIZE_SCALE, *place]), fixed=True), chi)
+        for chi in RAY_STARTS
+    ]
 
 
 def along_lines(family: SystemFamily, curves: Sequence[AtlasCurve]) -> list[FoldSeed]:
