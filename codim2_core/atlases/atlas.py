@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..arguments import short_repr
 from ..arrays import Array, read_only
+from ..curves.polyline import distance
 from ..families.disc import borders, disc_family
 from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
@@ -43,6 +44,7 @@ TRIAL_PLACES = (
     (0.29, 0.79),
     (0.71, 0.89),
 )  # where U is tried, in the unit square
+IMAGE_DISTANCE, SAME_POINT_DISTANCE = 2e-3, 1e-5  # of the square: all points of a curve so near to another: it is the same; points
 WHOLE_MARGIN = 0.02  # of the width of an ellipse: how far the plane is looked at beyond it
 DEFAULT_HALF_RANGE = (
     2.0  # range on either side of a parameter's value where none is given, or the value if that is more
@@ -216,12 +218,43 @@ def _with_more(family: SystemFamily, found: Atlas, *steps: More) -> Atlas:
     whole = known = _curves_over(_around_disc(chart))
     for step in steps:
         whole = step(chart, whole)
-    curves = [part for one in whole.curves[len(known.curves) :] for part in _cut(one, family)]
-    points = [one for one in whole.points[len(known.points) :] if _is_in_range(family, np.array(one.place))]
+    both = _with_images(chart, whole.curves[len(known.curves) :])
+    curves = [part for one in both for part in _cut(one, family)]
+    told = _points_with_images(chart, whole.points[len(known.points) :])
+    points = [one for one in told if _is_in_range(family, np.array(one.place))]
     return replace(
         found, curves=found.curves + tuple(curves), points=found.points + tuple(points),
         unfinished=tuple(dict.fromkeys(found.unfinished + whole.unfinished)),
     )  # fmt: skip
+
+
+def _with_images(chart: SystemFamily, curves: Sequence[AtlasCurve]) -> list[AtlasCurve]:
+    """Return curves over a symmetric family with their mirror images, each once."""
+    middle = chart.values(np.full(2, 0.5))
+    images = [
+        AtlasCurve(one.kind, read_only(2.0 * middle - one.points), read_only(-one.places), one.numbers)
+        for one in curves
+    ]
+    kept: list[tuple[AtlasCurve, Array]] = []
+    for one in sorted([*curves, *images], key=lambda one: -len(one.points)):
+        plane = chart.units(one.points)
+        few = plane[np.linspace(0, len(plane) - 1, 9).astype(int)]
+        if not any(one.kind == other.kind and (distance(few, line) < IMAGE_DISTANCE).all() for other, line in kept):
+            kept.append((one, plane))
+    return [one for one, _ in kept]
+
+
+def _points_with_images(chart: SystemFamily, points: Sequence[AtlasPoint]) -> list[AtlasPoint]:
+    """Return points over a symmetric family with their mirror images, each once."""
+    kept: list[AtlasPoint] = []
+    for one in points:
+        for place in (chart.units(np.array(one.place)), 1.0 - chart.units(np.array(one.place))):
+            if not any(
+                one.kind == other.kind and math.dist(place, chart.units(np.array(other.place))) < SAME_POINT_DISTANCE
+                for other in kept
+            ):
+                kept.append(replace(one, place=tuple(chart.values(place).tolist())))
+    return kept
 
 
 def _around_disc(chart: SystemFamily) -> SystemFamily:

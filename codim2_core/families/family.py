@@ -138,6 +138,11 @@ class SystemFamily:
             rows += [row, *once, *twice]
         return function_of(rows, names)
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether a half turn of the square about its middle turns the portrait, and changes nothing else."""
+        return self.slant is not None
+
     @cached_property
     def widths(self) -> Array:
         """Widths of the ranges, (n,)."""

@@ -43,7 +43,8 @@ def connection_curves(
     search = ConnectionSearch(family, is_known)
     corners = [family.units(np.array(point.place)) for point in points if point.kind == CORNER]
     borders = [family.units(one.points) for one in curves if one.kind in ("saddle-node", "transcritical")]
-    lines = [*lines_beside_takens(family, takens, curves), *rings_about_corners(corners, borders)]
+    some = [corner for corner in corners if not (family.symmetric and corner[1] < 0.5)]
+    lines = [*lines_beside_takens(family, takens, curves), *rings_about_corners(some, borders)]
     for line in [*lines, *straight(family, curves)]:
         for seed in search.along(line):
             one = trace_connection(seed) if seed.settled and len(found) < MAX_CURVES else None

@@ -152,7 +152,7 @@ def straight(family: SystemFamily, curves: Sequence[AtlasCurve]) -> list[Array]:
     ours = [one for one in curves if one.kind in EQUILIBRIUM_KINDS]
     found = []
     for axis in (0, 1):
-        for at in LINE_OFFSETS:
+        for at in LINE_OFFSETS[2 * family.symmetric :]:
             met = [0.0, *(mark.value for mark in marks(family, ours, axis, at)), 1.0]
             pieces = [
                 low + np.array(PIECE_SAMPLES) * (high - low)

@@ -29,7 +29,7 @@ def cycle_curves(
     """Find folds of cycles, and the points of codimension two on them.
 
     They are begun at generalised Hopf points, and at the folds on branches of cycles along some lines each way: one
-    that meets none of these is missed.
+    that meets none of these is missed. Over a family that is symmetric one of each pair is found.
     """
     known = {
         kind: [family.units(np.array(point.place)) for point in points if point.kind == kind]
@@ -39,7 +39,7 @@ def cycle_curves(
     found: list[FoldCurve] = []
     missed = []
     for place in known[GENERALISED_HOPF]:
-        if not any(_comes_to(one, place) for one in found):
+        if not (family.symmetric and place[1] < 0.5) and not any(_comes_to(one, place) for one in found):
             caught = (trace_fold(family, seed.start, corners) for seed in seeds_beside_bautin(family, place))
             first = next((one for one in caught if one is not None), None)
             if first is None:

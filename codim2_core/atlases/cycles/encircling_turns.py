@@ -21,7 +21,7 @@ from ...families.family import SystemFamily
 from ...layer_problem.problem import LayerProblem
 from ...systems.frozen import FrozenSystem
 
-LOG_SIZE_SCALE = 12.0  # of x: steps along curves are as long in it as in the unit square
+LOG_SIZE_SCALE = 20.0  # of x: steps along curves are as long in it as in the unit square
 PARAMETER_STEP = 1e-6  # of the square, and of the foot's distance from the equator, for derivatives of the shift
 DIFFERENCE_STEPS = np.diag([1e-5, 1e-8, 1e-8])  # for those of the exponent: it may change within a small part of it
 MAX_RAY_COORDINATE = 57.0  # |x|
@@ -42,10 +42,20 @@ class EncirclingTurns:
         Direction of the ray.
     critical : bool
         Whether it is a critical set.
+    centre : EncirclingTurns or None
+        From whose point the size of a cycle is measured, if not from its own.
     """
 
-    def __init__(self, family: SystemFamily, place: Array, e: Array, u: Array, critical: bool = True) -> None:
-        self.family, self.u = family, u
+    def __init__(
+        self,
+        family: SystemFamily,
+        place: Array,
+        e: Array,
+        u: Array,
+        critical: bool = True,
+        centre: EncirclingTurns | None = None,
+    ) -> None:
+        self.family, self.u, self.centre = family, u, centre
         self._known = [(np.array(place, float), np.array(e, float))]
         self._still = None if critical else hemisphere_place(family.psi_at(place), self._known[0][1])
 
@@ -79,11 +89,13 @@ class EncirclingTurns:
         ray = self.ray(v[1:]) if abs(v[0]) < MAX_RAY_COORDINATE else None
         if ray is None:
             return None
+        outer = None if self.centre is None else self.centre.ray(v[1:])
+        middle = ray.critical if outer is None else outer.critical
         differences = self._differences(ray, v[1:]) if slopes else []
         if differences is None:
             return None
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            return turn(ray, LOG_SIZE_SCALE * float(v[0]), math.nan, differences, ray.critical, False)
+            return turn(ray, LOG_SIZE_SCALE * float(v[0]), math.nan, differences, middle, False)
 
     def _differences(self, ray: Ray, place: Array) -> list[FiniteDifference] | None:
         """Compare the problem on both sides of a place, along each axis."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -21,7 +21,7 @@ from ...curves.arclength import (
     zero_between,
 )
 from ...curves.newton import newton
-from ...cycles.ray import best_crossing
+from ...cycles.ray import crossing_qualities
 from ...cycles.ray_section import room
 from ...families.family import SystemFamily
 from ...layer_problem.critical import critical_sets
@@ -29,7 +29,8 @@ from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
 
 CENTRE = "critical set"  # how a curve ends whose cycles shrink to one
 CORNER = "corner"  # and one that comes to a saddle-node on the equator
-STEP_BOUNDS = StepBounds(0.04, 0.3, 300, close=1e-9, enough=1e-7, least=2e-5)
+STEP_BOUNDS = StepBounds(0.04, 0.3, 300, close=1e-9, enough=1e-7, least=5e-4)
+SHORT_STEPS = replace(STEP_BOUNDS, least=2e-5)  # where no other ray is better
 CORNER_DISTANCE = 1.5e-3  # of the square: a curve need not be followed closer to a corner
 MIN_EXPONENT_CHANGE = 1e-9  # a difference of exponents that may be rounding's
 CUSP_TOLERANCE = 1e-7  # of a step: to which a cusp is found, and the square of it in the plane
@@ -39,6 +40,7 @@ MIN_LOG_SIZE, MAX_LOG_SIZE = (
 )  # x at which cycles have come to the point, to the equator
 MAX_SEED_ERROR = 0.3  # in (x, u, v), that a start may be off
 MAX_RAYS = 8  # of a curve, each way
+MIN_QUALITY, MIN_GAIN = 0.015, 1.0  # of a crossing; of the exponent that a ray is to save
 RAY_GAIN = 1.3  # times as well another ray is crossed that is worth taking
 
 
@@ -133,16 +135,21 @@ def _one_way(
 ) -> tuple[list[tuple[EncirclingTurns, Array]], str]:
     """Places after one, each with its ray, and how the curve ends; "" where it has come round."""
     rows: list[tuple[EncirclingTurns, Array]] = []
-    end = "lost"
+    end, bounds = "lost", STEP_BOUNDS
     for _ in range(MAX_RAYS):
-        points, end = trace_one_way(around.fold, here, along, edges, STEP_BOUNDS)
+        points, end = trace_one_way(around.fold, here, along, edges, bounds)
         rows += [(around, v) for v in points]
-        if end != "lost" or len(points) < 2:
+        if end != "lost":
             break
-        again = _again(family, around, points[-1], points[-1] - points[-2])
-        if again is None:
+        last, before = (points[-1], points[-2]) if len(points) > 1 else (points[0], here) if points else (here, None)
+        way = along if before is None else last - before
+        again = _again(family, around, last, way)
+        if again is not None:
+            (around, here, along), bounds = again, STEP_BOUNDS
+        elif bounds is SHORT_STEPS:
             break
-        around, here, along = again
+        else:
+            here, along, bounds = last, way / max(math.hypot(*way), 1e-300), SHORT_STEPS
     return rows, end
 
 
@@ -154,14 +161,24 @@ def _again(
     if turned is None or ray is None:
         return None
     closed = np.concatenate([turned.states, turned.states[:1]])[:, :2]
-    arounds = [around, *_encircled_points(family, last[1:], closed)]
+    arounds = [around, *_encircled_points(family, last[1:], closed, around.centre or around)]
     rays = [one.ray(last[1:]) for one in arounds]
-    crossed = [(*best_crossing(closed, found.critical), one) for one, found in zip(arounds, rays, strict=True) if found]
-    quality, index, best = max(crossed, key=lambda one: one[0])
+    crossed = [(crossing_qualities(closed, found.critical), one) for one, found in zip(arounds, rays, strict=True) if found]
     step = closed[1] - closed[-2]
     here = abs(float(step[0] * around.u[1] - step[1] * around.u[0])) / max(math.hypot(*step), 1e-300)
-    if quality < RAY_GAIN * here:
-        return None
+    # from a state a change grows by exp(left - min left) on its way, and by exp(max left - left) comes what is new
+    uneven = np.abs(turned.left - 0.5 * (turned.left.max() + turned.left.min()))
+    gain, index, best = max(
+        ((float(uneven[-1] - at[i]), i, one) for quality, one in crossed
+         for at in [np.where(quality > MIN_QUALITY, uneven, math.inf)] for i in [int(at.argmin())]),
+        key=lambda one: one[0],
+    )  # fmt: skip
+    if gain < MIN_GAIN:
+        quality, index, best = max(
+            ((float(quality.max()), int(quality.argmax()), one) for quality, one in crossed), key=lambda one: one[0]
+        )
+        if quality < RAY_GAIN * here:
+            return None
     start = _start_on_ray(best, last[1:], closed[index])
     if start is None:
         return None
@@ -172,15 +189,17 @@ def _again(
     return start.around, found, along if float(along[1:] @ way[1:]) > 0.0 else -along
 
 
-def _encircled_points(family: SystemFamily, place: Array, closed: Array) -> list[EncirclingTurns]:
+def _encircled_points(
+    family: SystemFamily, place: Array, closed: Array, centre: EncirclingTurns
+) -> list[EncirclingTurns]:
     """Points inside a cycle: critical sets that are no saddles, others, and its middle."""
     psi, nowhere = family.psi_at(place), np.array([1.0, 0.0])
     sets = sorted(critical_sets(family.frozen(place), psi), key=lambda C: C.kind == "saddle")
     middle = closed[:-1].mean(axis=0)
     x2 = middle / math.sqrt(max(1.0 - float(middle @ middle), 1e-300))
     return [
-        *(EncirclingTurns(family, place, np.asarray(C.e), nowhere) for C in sets),
-        EncirclingTurns(family, place, e_at(psi, x2), nowhere, critical=False),
+        *(EncirclingTurns(family, place, np.asarray(C.e), nowhere, True, centre) for C in sets),
+        EncirclingTurns(family, place, e_at(psi, x2), nowhere, False, centre),
     ]
 
 
