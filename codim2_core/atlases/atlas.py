@@ -13,22 +13,23 @@ from numpy.typing import ArrayLike
 from ..arguments import short_repr
 from ..arrays import Array, read_only
 from ..curves.polyline import distance
-from ..families.disc import borders, disc_family
+from ..families.disc import borders, disc_family, force_matrix
 from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
 from ..systems.affine import in_axes_of
 from ..systems.kinds import AnySystem
-from .codim_two_points import crossings, each_once
+from .codim_two_points import SpecialPlace, crossings, each_once
 from .connections.connection_curves import KINDS, connection_curves
 from .curve_numbers import curve_numbers, places
-from .curves import curves_of, within
+from .curves import border_curves, curves_of, within
 from .cycles.cycle_curves import KIND, cycle_curves
-from .degenerate_lines import degenerate_lines
+from .degenerate_lines import DegenerateLine, degenerate_lines
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .seed_net import NO_SEEDS, CurveSeeds, seeds_beside
+from .tracing import TracedCurves
 from .undefined_regions import undefined_borders
 
 __all__ = [
@@ -44,7 +45,8 @@ TRIAL_PLACES = (
     (0.29, 0.79),
     (0.71, 0.89),
 )  # where U is tried, in the unit square
-IMAGE_DISTANCE, SAME_POINT_DISTANCE = 2e-3, 1e-5  # of the square: all points of a curve so near to another: it is the same; points
+IMAGE_DISTANCE = 2e-3  # of the square: a curve whose points all lie so near to another is the same
+SAME_POINT_DISTANCE = 1e-5  # of the square: likewise of points
 WHOLE_MARGIN = 0.02  # of the width of an ellipse: how far the plane is looked at beyond it
 DEFAULT_HALF_RANGE = (
     2.0  # range on either side of a parameter's value where none is given, or the value if that is more
@@ -110,11 +112,29 @@ def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None,
     return _curves_over(family_over(system, psi, z, across, up, ranges))
 
 
+def borders_over(family: SystemFamily) -> Atlas:
+    """Return the curves and points of a plane that are known in closed form: of a family with `force_matrix`."""
+    chart = disc_family(family) or family
+    return _atlas_of(family, chart, *border_curves(chart), (), True)
+
+
 def _curves_over(family: SystemFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
     chart = disc_family(family) or family
-    lines = degenerate_lines(family) if chart is family else ()
-    found, special = curves_of(chart, lines, seeds)
-    kept = found.curves if chart is family else [part for one in found.curves for part in within(one, chart, family)]
+    closed_form = force_matrix(family) is not None
+    lines = () if closed_form else degenerate_lines(family)
+    return _atlas_of(family, chart, *curves_of(chart, lines, closed_form, seeds), lines, closed_form)
+
+
+def _atlas_of(
+    family: SystemFamily,
+    chart: SystemFamily,
+    found: TracedCurves,
+    special: Sequence[SpecialPlace],
+    lines: Sequence[DegenerateLine],
+    closed_form: bool,
+) -> Atlas:
+    """Return an atlas of curves and special points that were found over a chart."""
+    kept = [part for one in found.curves for part in within(one, chart, family)] if closed_form else found.curves
     curves = [
         AtlasCurve(one.kind, read_only(chart.values(one.plane)),
                    read_only(places(chart, one)), read_only(curve_numbers(chart, one)))
@@ -122,12 +142,12 @@ def _curves_over(family: SystemFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
     ]  # fmt: skip
     curves += [_nowhere(family, "degenerate", line.points) for line in lines]
     curves += [_nowhere(family, "undefined", line) for line in undefined_borders(family)]
-    met = [one for one in crossings(found.curves) if not any(line.holds(one.plane) for line in lines)]
+    met = [one for one in crossings(found.curves, not closed_form) if not any(line.holds(one.plane) for line in lines)]
     points = [
         AtlasPoint(one.kind, (float(at[0]), float(at[1])), one.sentence)
-        for one in each_once(special + met)
+        for one in each_once([*special, *met])
         for at in [chart.values(one.plane)]
-        if chart is family or _is_in_range(family, at)
+        if not closed_form or _is_in_range(family, at)
     ]
     degenerate = tuple((family.names[line.axis], float(family.values(line.points)[0, line.axis])) for line in lines)
     kinds = tuple(dict.fromkeys(found.unfinished))
@@ -153,7 +173,7 @@ def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atla
     """
     family = family_over(system, psi, z, *found.names, found.ranges)
     whole = _with_regions(family, found)
-    if whole.looked.unlike and (seeds := seeds_beside(family, whole.looked.unlike)) != NO_SEEDS:
+    if whole.looked.unlike and (seeds := seeds_beside(disc_family(family) or family, whole.looked.unlike)) != NO_SEEDS:
         again = _with_regions(family, _curves_over(family, seeds))
         if len(again.looked.unlike) < len(whole.looked.unlike):
             return again

@@ -28,24 +28,24 @@ LINE_DETERMINANT = 1e-9  # of det DU, all along a curve of tr J = 0: there criti
 
 
 def curves_of(
-    family: SystemFamily, lines: Sequence[DegenerateLine], seeds: CurveSeeds = NO_SEEDS
+    family: SystemFamily, lines: Sequence[DegenerateLine], closed_form: bool, seeds: CurveSeeds = NO_SEEDS
 ) -> tuple[TracedCurves, list[SpecialPlace]]:
     """All curves, in unknowns of their own, and the special points along them; none that lies on a degenerate line.
 
-    They are begun in cells of the net, and from the seeds.
+    They are begun in cells of the net, and from the seeds; borders in `closed_form` are those of `families.disc`.
     """
     on, through, turning = seed_net.on_equator(family, lines)
     folds, hopfs, foci = seed_net.interior_cells(family, lines)
-    if family.slant is not None:
-        found = tracing.closed_form_borders(family)
+    if closed_form:
+        found, points = border_curves(family)
     else:
         found = _true(
             tracing.saddle_nodes(family, on, seeds.equator) + tracing.through_equator(family, through, seeds.equator),
             lines,
         )
-    points = [point for one in found.curves for point in codim_two_points.special_points_along(family, one)]
+        points = _points_along(family, found)
     corners = codim_two_points.corners(points)
-    if family.slant is not None:
+    if closed_form:
         more = TracedCurves([])
     elif family.affine:
         kept = [one for one in found.curves if one.kind != "transcritical" or not _singular(family, one)]
@@ -57,15 +57,24 @@ def curves_of(
     turning_points = tracing.hopfs(family, hopfs, corners, seeds.within)
     real = [part for one in turning_points.curves for part in _with_positive_determinant(family, one)]
     more += TracedCurves(real, turning_points.unfinished) + tracing.node_foci(family, foci, corners, seeds.within)
-    meetings = codim_two_points.crossings([one for one in found.curves if one.kind == "saddle-node"])
+    meetings = codim_two_points.crossings([one for one in found.curves if one.kind == "saddle-node"], not closed_form)
     ends = [v[1:] for v in corners] + [one.plane for one in meetings]
     neutral = plane_conditions.neutral_equator(family)
     turned = tracing.in_the_plane("neutral equator", neutral, seed_net.on_steps(neutral, turning))
     more += TracedCurves([_to_ends(one, ends) for one in turned.curves], turned.unfinished)
     more = _true(more, lines)
-    points += [point for one in more.curves for point in codim_two_points.special_points_along(family, one)]
+    points += _points_along(family, more)
     points = _without_centres(family, more.curves, points)
     return found + more, [one for one in points if not any(line.holds(one.plane) for line in lines)]
+
+
+def border_curves(family: SystemFamily) -> tuple[TracedCurves, list[SpecialPlace]]:
+    """Return the borders that are known in closed form, and the special points along them."""
+    return tracing.closed_form_borders(family), codim_two_points.closed_form_points(family)
+
+
+def _points_along(family: SystemFamily, found: TracedCurves) -> list[SpecialPlace]:
+    return [point for one in found.curves for point in codim_two_points.special_points_along(family, one)]
 
 
 def _without_centres(

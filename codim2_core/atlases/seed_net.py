@@ -31,6 +31,7 @@ AFFINE_CELLS, MAX_HALVINGS = (
 )  # cells along u and v where U is affine in e: its one zero is known; how often they are halved
 MAX_E = 100.0  # e beyond this counts as this
 CELL_CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])
+NEUTRAL_MEAN = 1e-12  # of a mean of lambda_rho/|Theta|: less is zero, as where a symmetry keeps it
 MAX_NEUTRAL_STEPS = 32  # on which the curve of a neutral equator is looked for
 TRIAL_SUMS = 12  # of functions that are tried in a cell
 MIN_SUM_SHARE = 0.1  # of what a sum of them changes by in a cell: so far from zero it has none there
@@ -81,7 +82,7 @@ def _stability_changes(turning: Array, radial: Array, side: Array) -> Array:
     closed = (turning * way > 0.0).all(axis=0)
     mean = (radial / np.where(closed, turning * way, 1.0)).mean(axis=0)
     there = np.take_along_axis(radial, (turning * way).argmin(axis=0)[None], axis=0)[0]
-    value = np.where(closed, mean, there)
+    value = np.where(closed, np.where(np.abs(mean) > NEUTRAL_MEAN, mean, 0.0), there)
     place = np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1)
     found = []
     for one, other in (((slice(1, None),), (slice(-1),)), ((slice(None), slice(1, None)), (slice(None), slice(-1)))):

@@ -3,28 +3,27 @@
 Over f the critical set is e = -A^-1 f, so all but saddle-nodes of limit directions happens in the disc |e| < 1. There
 everything has the size 1, however narrow the ellipse |A^-1 f| = 1 is. With n = e and t across it the borders are
 
-    saddle-nodes    f = (t.A t - n.A n) n - (t.A n) t,        critical sets at the equator    f = -A n  (sec:bifurcations).
+    saddle-nodes f = (t.A t - n.A n) n - (t.A n) t,    critical sets at the equator f = -A n    (sec:bifurcations).
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from itertools import pairwise
 
 import numpy as np
 
 from ..arrays import Array
-from ..numerics.root_between import root_between
 from .family import SystemFamily
 
 MIN_DETERMINANT = 1e-12  # of the square of the largest entry: a matrix with less counts as singular
 BORDER_ANGLES = 361  # along each border
+MEETING_SHARE = 1e-12  # relative, of what has two zeros that have all but met
 MIN_BORDER_SIZE = 1e-12  # of the largest entry: the curve of saddle-nodes is a point where all of it is smaller
 
 
 def force_matrix(family: SystemFamily) -> tuple[Array, Array, Array] | None:
-    """Return A, f0 and F of U = A e + f0 + F v over parameters v, None for any other family.
+    """Return A, f0 and F of U = A e + f0 + F v over parameters v, F regular; None for any other family.
 
     Shapes: A (2, 2), f0 (2,), F (2, 2).
     """
@@ -37,7 +36,7 @@ def force_matrix(family: SystemFamily) -> tuple[Array, Array, Array] | None:
     nothing = dict.fromkeys(("c", "s", *family.names), 0.0)
     f0 = [float(row.evaluate({name: nothing[name] for name in row.names})) for row in family.rows]
     matrix, forces = (np.array([[float(v.evaluate({})) for v in row] for row in rows]) for rows in (A, F))
-    return matrix, np.array(f0), forces
+    return (matrix, np.array(f0), forces) if _relative_determinant(forces) > MIN_DETERMINANT else None
 
 
 def disc_family(family: SystemFamily) -> SystemFamily | None:
@@ -46,7 +45,7 @@ def disc_family(family: SystemFamily) -> SystemFamily | None:
     if found is None:
         return None
     A, f0, F = found
-    if min(_relative_determinant(A), _relative_determinant(F)) < MIN_DETERMINANT:
+    if not _relative_determinant(A) > MIN_DETERMINANT:
         return None
     at = np.linalg.solve(F, A)  # v = -F^-1 (f0 + A e), e = 2 u - 1
     return replace(family, slant=(at.sum(axis=1) - np.linalg.solve(F, f0), -2.0 * at))
@@ -66,39 +65,65 @@ def saddle_node_force(A: Array, theta: Array) -> Array:
 
 
 def cusps(A: Array) -> list[float]:
-    """Return the angles in [0, 2 pi] at which Theta has a triple zero: Theta'' = 0 on the curve of saddle-nodes.
+    """Return the angles in [0, 2 pi) at which Theta has a triple zero, four or none; two where it is fourfold.
 
-    There Theta'' is 3 t.(A + A^T) n/2 more than the average turning (A21 - A12)/2, up to its sign.
+    On the curve of saddle-nodes Theta'' is what A turns, less 3 times what it shears.
     """
-    turning, shear = 0.5 * (A[1, 0] - A[0, 1]), 0.5 * (A[0, 1] + A[1, 0])
+    turning, shear, stretch = 0.5 * (A[1, 0] - A[0, 1]), 0.5 * (A[0, 1] + A[1, 0]), 0.5 * (A[1, 1] - A[0, 0])
+    return _zeros(turning, -3.0 * shear, -3.0 * stretch)
 
-    def third(theta: float) -> float:
-        c, s = math.cos(2.0 * theta), math.sin(2.0 * theta)
-        return turning - 3.0 * (shear * c + 0.5 * (A[1, 1] - A[0, 0]) * s)
 
-    grid = np.linspace(0.0, 2.0 * math.pi, BORDER_ANGLES)
-    values = [third(theta) for theta in grid.tolist()]
-    return [
-        root_between(third, low, high, 1e-15)
-        for (low, one), (high, two) in pairwise(zip(grid.tolist(), values, strict=True))
-        if (one < 0.0) != (two < 0.0)
-    ]
+def corners(A: Array) -> list[float]:
+    """Return the angles in [0, 2 pi) at which the borders touch, lambda_rho = t.A t = 0: four, two or none."""
+    shear, stretch = 0.5 * (A[0, 1] + A[1, 0]), 0.5 * (A[1, 1] - A[0, 0])
+    return _zeros(0.5 * (A[0, 0] + A[1, 1]), stretch, -shear)
+
+
+def _zeros(mean: float, cosine: float, sine: float) -> list[float]:
+    """Zeros in [0, 2 pi) of ``mean + cosine cos 2 theta + sine sin 2 theta``; two that have all but met are one."""
+    size, phase = math.hypot(cosine, sine), math.atan2(sine, cosine)
+    if size == 0.0 or not abs(mean) <= size * (1.0 + MEETING_SHARE):
+        return []
+    ratio = -mean / size
+    half = 0.0 if 1.0 - ratio <= MEETING_SHARE else math.pi if 1.0 + ratio <= MEETING_SHARE else math.acos(ratio)
+    ways = (1.0,) if half in (0.0, math.pi) else (1.0, -1.0)
+    return sorted((0.5 * (phase + way * half) + turn) % math.tau for way in ways for turn in (0.0, math.pi))
+
+
+def border_points(family: SystemFamily) -> tuple[Array, Array]:
+    """Return cusps (k, 3) and corners (m, 3) of the borders of a family with `force_matrix`, as (theta, u, v)."""
+    found = force_matrix(family)
+    assert found is not None
+    A, f0, F = found
+    both = []
+    for angles in (cusps(A), corners(A)):
+        theta = np.array(angles)
+        f = saddle_node_force(A, theta)
+        both.append(np.column_stack([theta, family.units(np.linalg.solve(F, (f - f0).T).T)]))
+    return both[0], both[1]
 
 
 def borders(family: SystemFamily) -> tuple[Array, Array]:
-    """Return both borders over the square of critical sets, as (theta, u, v): saddle-nodes, and the unit circle.
+    """Return both borders over the square of a family with `force_matrix`, as (theta, u, v), closed.
 
-    Shapes: (m, 3) each, closed; the first one is empty where it is one point.
+    Saddle-nodes of limit directions, none where these are one point; and critical sets at the equator, none where A is
+    singular: there the whole of a line of them comes at once. Shapes: (m, 3) each.
     """
     found = force_matrix(family)
     assert found is not None
-    A = found[0]
-    theta = np.linspace(0.0, 2.0 * math.pi, BORDER_ANGLES)
-    circle = np.column_stack([theta, 0.5 * (1.0 + np.stack([np.cos(theta), np.sin(theta)], axis=-1))])
-    circle[-1, 1:] = circle[0, 1:]
+    A, f0, F = found
+
+    def line(theta: Array, f: Array) -> Array:
+        places = np.column_stack([theta, family.units(np.linalg.solve(F, (f - f0).T).T)])
+        places[-1, 1:] = places[0, 1:]
+        return places
+
+    nothing, even = np.zeros((0, 3)), np.linspace(0.0, 2.0 * math.pi, BORDER_ANGLES)
+    theta = np.unique([*even, *corners(A)])
+    ellipse = line(theta, -np.stack([np.cos(theta), np.sin(theta)], axis=-1) @ A.T)
     theta = np.unique([*theta, *cusps(A)])
     f = saddle_node_force(A, theta)
-    if not np.abs(f).max() > MIN_BORDER_SIZE * np.abs(A).max():
-        return np.zeros((0, 3)), circle
-    f[-1] = f[0]
-    return np.column_stack([theta, 0.5 * (1.0 - np.linalg.solve(A, f.T).T)]), circle
+    return (
+        line(theta, f) if np.abs(f).max() > MIN_BORDER_SIZE * np.abs(A).max() else nothing,
+        ellipse if _relative_determinant(A) > MIN_DETERMINANT else nothing,
+    )

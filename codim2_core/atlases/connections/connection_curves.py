@@ -11,7 +11,14 @@ from ...arrays import Array, read_only
 from ...families.family import SystemFamily
 from ...words import say
 from ..result import AtlasCurve, AtlasPoint
-from .connection_seeds import EQUILIBRIUM_KINDS, ConnectionSearch, ConnectionSeed, lines_beside_takens, rings_about_corners, straight
+from .connection_seeds import (
+    EQUILIBRIUM_KINDS,
+    ConnectionSearch,
+    ConnectionSeed,
+    lines_beside_takens,
+    rings_about_corners,
+    straight,
+)
 from .connection_tracing import ConnectionCurve, trace_connection
 from .splitting import BranchPair
 

@@ -136,7 +136,9 @@ class BranchPair:
     @property
     def ratio(self) -> float:
         """Product of the ratios of both saddles, of a loop that of its saddle."""
-        return self.leaving.ratio if self.leaving.same_saddle(self.entering) else self.leaving.ratio * self.entering.ratio
+        return (
+            self.leaving.ratio if self.leaving.same_saddle(self.entering) else self.leaving.ratio * self.entering.ratio
+        )
 
 
 def cycle_arcs(leaving: Branch, entering: Branch) -> list[HeteroclinicArc]:

@@ -85,7 +85,7 @@ class EncirclingTurns:
         return hemisphere_place(self.family.psi_at(place), e)
 
     def turn(self, v: Array, slopes: bool = False) -> TurnOrbit | None:
-        """Follow one turn, with the derivatives of its shift by both parameters if asked; None if it does not return."""
+        """Follow one turn, with derivatives of its shift by both parameters if asked; None if it does not return."""
         ray = self.ray(v[1:]) if abs(v[0]) < MAX_RAY_COORDINATE else None
         if ray is None:
             return None
@@ -115,7 +115,7 @@ class EncirclingTurns:
         return math.nan if found is None else found.turn.exponent
 
     def fold(self, v: Array) -> tuple[Array, Array]:
-        """Return shift and exponent, both zero on a fold, with derivatives that tell the way; NaN where there is no turn."""
+        """Return shift and exponent, both zero on a fold, with derivatives that tell the way; NaN without a turn."""
         found = self.turn(v, slopes=True)
         if found is None:
             return np.full(2, math.nan), np.full((2, 3), math.nan)

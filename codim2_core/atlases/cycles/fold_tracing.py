@@ -35,7 +35,7 @@ CORNER_DISTANCE = 1.5e-3  # of the square: a curve need not be followed closer t
 MIN_EXPONENT_CHANGE = 1e-9  # a difference of exponents that may be rounding's
 CUSP_TOLERANCE = 1e-7  # of a step: to which a cusp is found, and the square of it in the plane
 MIN_LOG_SIZE, MAX_LOG_SIZE = (
-    math.log(3e-4) / LOG_SIZE_SCALE,
+    math.log(1.5e-3) / LOG_SIZE_SCALE,
     9.0 / LOG_SIZE_SCALE,
 )  # x at which cycles have come to the point, to the equator
 MAX_SEED_ERROR = 0.3  # in (x, u, v), that a start may be off
@@ -163,7 +163,9 @@ def _again(
     closed = np.concatenate([turned.states, turned.states[:1]])[:, :2]
     arounds = [around, *_encircled_points(family, last[1:], closed, around.centre or around)]
     rays = [one.ray(last[1:]) for one in arounds]
-    crossed = [(crossing_qualities(closed, found.critical), one) for one, found in zip(arounds, rays, strict=True) if found]
+    crossed = [
+        (crossing_qualities(closed, found.critical), one) for one, found in zip(arounds, rays, strict=True) if found
+    ]
     step = closed[1] - closed[-2]
     here = abs(float(step[0] * around.u[1] - step[1] * around.u[0])) / max(math.hypot(*step), 1e-300)
     # from a state a change grows by exp(left - min left) on its way, and by exp(max left - left) comes what is new
