@@ -12,8 +12,7 @@ from numpy.typing import ArrayLike
 
 from ..arguments import short_repr
 from ..arrays import Array, read_only
-from ..curves.polyline import distance
-from ..families.disc import borders, disc_family, force_matrix
+from ..families.disc import disc_family, force_matrix
 from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
@@ -23,9 +22,10 @@ from ..systems.kinds import AnySystem
 from .codim_two_points import SpecialPlace, crossings, each_once
 from .connections.connection_curves import KINDS, connection_curves
 from .curve_numbers import curve_numbers, places
-from .curves import border_curves, curves_of, within
+from .curves import border_curves, curves_of, parts_within
 from .cycles.cycle_curves import KIND, cycle_curves
 from .degenerate_lines import DegenerateLine, degenerate_lines
+from .disc_atlas import clip_curve, curves_with_images, family_around_disc, is_in_range, points_with_images
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .seed_net import NO_SEEDS, CurveSeeds, seeds_beside
@@ -45,9 +45,6 @@ TRIAL_PLACES = (
     (0.29, 0.79),
     (0.71, 0.89),
 )  # where U is tried, in the unit square
-IMAGE_DISTANCE = 2e-3  # of the square: a curve whose points all lie so near to another is the same
-SAME_POINT_DISTANCE = 1e-5  # of the square: likewise of points
-WHOLE_MARGIN = 0.02  # of the width of an ellipse: how far the plane is looked at beyond it
 DEFAULT_HALF_RANGE = (
     2.0  # range on either side of a parameter's value where none is given, or the value if that is more
 )
@@ -134,7 +131,7 @@ def _atlas_of(
     closed_form: bool,
 ) -> Atlas:
     """Return an atlas of curves and special points that were found over a chart."""
-    kept = [part for one in found.curves for part in within(one, chart, family)] if closed_form else found.curves
+    kept = [part for one in found.curves for part in parts_within(one, chart, family)] if closed_form else found.curves
     curves = [
         AtlasCurve(one.kind, read_only(chart.values(one.plane)),
                    read_only(places(chart, one)), read_only(curve_numbers(chart, one)))
@@ -147,17 +144,12 @@ def _atlas_of(
         AtlasPoint(one.kind, (float(at[0]), float(at[1])), one.sentence)
         for one in each_once([*special, *met])
         for at in [chart.values(one.plane)]
-        if not closed_form or _is_in_range(family, at)
+        if not closed_form or is_in_range(family, at)
     ]
     degenerate = tuple((family.names[line.axis], float(family.values(line.points)[0, line.axis])) for line in lines)
     kinds = tuple(dict.fromkeys(found.unfinished))
     (across, up), (first, second) = family.names, family.ranges
     return Atlas((across, up), (first, second), tuple(curves), tuple(points), (), kinds, degenerate)
-
-
-def _is_in_range(family: SystemFamily, values: Array) -> bool:
-    place = family.units(values)
-    return bool(place.min() >= 0.0 and place.max() <= 1.0)
 
 
 def _nowhere(family: SystemFamily, kind: str, plane: Array) -> AtlasCurve:
@@ -235,85 +227,17 @@ def _with_more(family: SystemFamily, found: Atlas, *steps: More) -> Atlas:
         for step in steps:
             found = step(family, found)
         return found
-    whole = known = _curves_over(_around_disc(chart))
+    whole = known = _curves_over(family_around_disc(chart))
     for step in steps:
         whole = step(chart, whole)
-    both = _with_images(chart, whole.curves[len(known.curves) :])
-    curves = [part for one in both for part in _cut(one, family)]
-    told = _points_with_images(chart, whole.points[len(known.points) :])
-    points = [one for one in told if _is_in_range(family, np.array(one.place))]
+    both = curves_with_images(chart, whole.curves[len(known.curves) :])
+    curves = [part for one in both for part in clip_curve(one, family)]
+    told = points_with_images(chart, whole.points[len(known.points) :])
+    points = [one for one in told if is_in_range(family, np.array(one.place))]
     return replace(
         found, curves=found.curves + tuple(curves), points=found.points + tuple(points),
         unfinished=tuple(dict.fromkeys(found.unfinished + whole.unfinished)),
     )  # fmt: skip
-
-
-def _with_images(chart: SystemFamily, curves: Sequence[AtlasCurve]) -> list[AtlasCurve]:
-    """Return curves over a symmetric family with their mirror images, each once."""
-    middle = chart.values(np.full(2, 0.5))
-    images = [
-        AtlasCurve(one.kind, read_only(2.0 * middle - one.points), read_only(-one.places), one.numbers)
-        for one in curves
-    ]
-    kept: list[tuple[AtlasCurve, Array]] = []
-    for one in sorted([*curves, *images], key=lambda one: -len(one.points)):
-        plane = chart.units(one.points)
-        few = plane[np.linspace(0, len(plane) - 1, 9).astype(int)]
-        if not any(one.kind == other.kind and (distance(few, line) < IMAGE_DISTANCE).all() for other, line in kept):
-            kept.append((one, plane))
-    return [one for one, _ in kept]
-
-
-def _points_with_images(chart: SystemFamily, points: Sequence[AtlasPoint]) -> list[AtlasPoint]:
-    """Return points over a symmetric family with their mirror images, each once."""
-    kept: list[AtlasPoint] = []
-    for one in points:
-        for place in (chart.units(np.array(one.place)), 1.0 - chart.units(np.array(one.place))):
-            if not any(
-                one.kind == other.kind and math.dist(place, chart.units(np.array(other.place))) < SAME_POINT_DISTANCE
-                for other in kept
-            ):
-                kept.append(replace(one, place=tuple(chart.values(place).tolist())))
-    return kept
-
-
-def _around_disc(chart: SystemFamily) -> SystemFamily:
-    """Return the family over a rectangle around the ellipse of a chart of `disc_family`."""
-    line = chart.values(borders(chart)[1][:, 1:])
-    low, high = line.min(axis=0), line.max(axis=0)
-    margin = WHOLE_MARGIN * (high - low)
-    spans = zip((low - margin).tolist(), (high + margin).tolist(), strict=True)
-    return replace(chart, slant=None, ranges=tuple(spans))
-
-
-def _cut(one: AtlasCurve, family: SystemFamily) -> list[AtlasCurve]:
-    """Return the parts of a curve within the ranges of a family, cut where its chords cross the border."""
-    place = family.units(one.points)
-    rows = [np.column_stack([one.points, one.places, one.numbers if len(one.numbers) else np.zeros(len(place))])]
-    for axis in (0, 1):
-        for level, sign in ((0.0, 1.0), (1.0, -1.0)):
-            rows = [part for row in rows for part in _beyond(row, sign * (family.units(row[:, :2])[:, axis] - level))]
-    return [
-        AtlasCurve(one.kind, read_only(row[:, :2]), read_only(row[:, 2:4]),
-                   read_only(row[:, 4] if len(one.numbers) else np.zeros(0)))
-        for row in rows
-    ]  # fmt: skip
-
-
-def _beyond(row: Array, height: Array) -> list[Array]:
-    """Return the parts of a line (m, n) along which heights (m,) at its points are not negative."""
-    inside = height >= 0.0
-    found = []
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(int))).reshape(-1, 2)
-    for i, j in edges.tolist():
-        part = [*row[i:j]]
-        if i > 0:
-            part.insert(0, row[i - 1] + height[i - 1] / (height[i - 1] - height[i]) * (row[i] - row[i - 1]))
-        if j < len(row):
-            part.append(row[j - 1] + height[j - 1] / (height[j - 1] - height[j]) * (row[j] - row[j - 1]))
-        if len(part) > 1:
-            found.append(np.array(part))
-    return found
 
 
 def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> SystemFamily:

@@ -23,7 +23,10 @@ LAST_STEP = 0.04  # of the ranges: last step of the curve of a neutral equator, 
 POINT_SIZE = 1e-7  # of the ranges: a curve that keeps within this is a point
 SAME_CURVE_DISTANCE = 1e-6  # two curves of one kind that are as near as this everywhere are one
 SINGULAR_DETERMINANT = 1e-9  # of det DU, all along a curve through the equator: there critical sets fill a line
-MAX_STEP, MAX_HALVINGS = 0.06, 12  # of the ranges, of a curve from another chart; how often its steps are halved
+MAX_CHART_STEP, MAX_CHART_HALVINGS = (
+    0.06,
+    12,
+)  # of the ranges, of a curve from another chart; how often its steps are halved
 LINE_DETERMINANT = 1e-9  # of det DU, all along a curve of tr J = 0: there critical sets fill a line
 
 
@@ -34,11 +37,12 @@ def curves_of(
 
     They are begun in cells of the net, and from the seeds; borders in `closed_form` are those of `families.disc`.
     """
-    on, through, turning = seed_net.on_equator(family, lines)
     folds, hopfs, foci = seed_net.interior_cells(family, lines)
     if closed_form:
+        turning = seed_net.stability_steps(family)
         found, points = border_curves(family)
     else:
+        on, through, turning = seed_net.on_equator(family, lines)
         found = _true(
             tracing.saddle_nodes(family, on, seeds.equator) + tracing.through_equator(family, through, seeds.equator),
             lines,
@@ -108,7 +112,7 @@ def _to_ends(one: TracedCurve, ends: list[Array]) -> TracedCurve:
     return TracedCurve(one.kind, one.condition, TracedLine(points, one.curve.closed, one.curve.ends))
 
 
-def within(one: TracedCurve, chart: SystemFamily, family: SystemFamily) -> list[TracedCurve]:
+def parts_within(one: TracedCurve, chart: SystemFamily, family: SystemFamily) -> list[TracedCurve]:
     """Return the parts of a curve over one chart of the plane that lie in the square of another, as finely as there."""
 
     def inset(points: Array) -> Array:
@@ -140,11 +144,11 @@ def within(one: TracedCurve, chart: SystemFamily, family: SystemFamily) -> list[
 def _refine(one: TracedCurve, place: Callable[[Array], Array]) -> Array:
     """Return points along a curve, more of them where it crosses the unit square of places in long steps."""
     points = one.points
-    for _ in range(MAX_HALVINGS):
+    for _ in range(MAX_CHART_HALVINGS):
         at = place(points)
         low, high = np.minimum(at[1:], at[:-1]), np.maximum(at[1:], at[:-1])
         met = (high >= 0.0).all(axis=1) & (low <= 1.0).all(axis=1)
-        long = np.flatnonzero(met & (np.hypot(*(high - low).T) > MAX_STEP)).tolist()
+        long = np.flatnonzero(met & (np.hypot(*(high - low).T) > MAX_CHART_STEP)).tolist()
         if not long:
             break
         chords = points[1:] - points[:-1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
@@ -14,15 +15,22 @@ from ..systems.coefficients import Coefficients
 
 MAX_TURN = math.tau / 360  # the tangent turns by at most this from point to point
 
-Matrix = tuple[float, float, float]
+PlaneMatrix = tuple[float, float, float]
 
 
-def coefficients_of(matrix: Matrix, f: tuple[float, float] | Array = (0.0, 0.0)) -> Coefficients:
+def coefficients_of(matrix: PlaneMatrix, f: tuple[float, float] | Array = (0.0, 0.0)) -> Coefficients:
     """Return the system of a matrix and f, with numbers only."""
     return Coefficients(*matrix, float(f[0]), float(f[1]), np.zeros((0, 2)), np.zeros(0))
 
 
-def saddle_node_lines(entries: Matrix) -> list[Array]:
+def border_places(entries: PlaneMatrix, angles: Callable[[Array], list[float]]) -> list[tuple[float, float]]:
+    """Return the places on the curve of saddle-nodes at its cusps, or its corners."""
+    a, b, d = entries
+    A = np.array([[a, -b], [b, d]])
+    return [(float(f1) + 0.0, float(f2) + 0.0) for f1, f2 in saddle_node_force(A, np.array(angles(A)))]
+
+
+def saddle_node_lines(entries: PlaneMatrix) -> list[Array]:
     """Return the curve of saddle-nodes in pieces (m, 2) between its cusps; a point where nothing turns at f = 0."""
     a, b, d = entries
     if a == d and b == 0.0:
@@ -37,7 +45,7 @@ def saddle_node_lines(entries: Matrix) -> list[Array]:
     return found
 
 
-def critical_lines(entries: Matrix) -> list[Array]:
+def critical_lines(entries: PlaneMatrix) -> list[Array]:
     """Return the ellipse |A^-1 f| = 1; a segment, or a point, where det A = 0. Shapes: (m, 2)."""
     a, b, d = entries
     A = np.array([[a, -b], [b, d]])

@@ -19,7 +19,7 @@ from ..tables import table_number
 from ..words import say
 
 KINDS = ("Hopf", "node-focus")
-PIECES = 7  # of all values allowed, searched one after the other: evenly in the logarithm where all are positive
+SPAN_PIECES = 7  # of all values allowed, searched one after the other: evenly in the logarithm where all are positive
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,9 +105,9 @@ def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = (
     at = system.at(z)
     if not any(C.kind != "saddle" for C in critical_sets(at, with_parameter(psi, shape.low))):
         return Results()
-    ends = np.linspace(shape.low, shape.high, PIECES + 1)
+    ends = np.linspace(shape.low, shape.high, SPAN_PIECES + 1)
     if shape.low > 0.0:
-        ends = np.geomspace(shape.low, shape.high, PIECES + 1)
+        ends = np.geomspace(shape.low, shape.high, SPAN_PIECES + 1)
     pieces = (equilibrium_branches(at, psi, shape.name, span, ()).special for span in pairwise(ends.tolist()))
     found = [(one.value, one.kind) for special in pieces for one in special if one.kind in KINDS]
     changes = []

@@ -8,38 +8,38 @@ from ..arrays import Array
 from ..atlases.atlas import Atlas, borders_over, curves_over, family_over, with_bifurcations_of_cycles, with_connections
 from ..psi.constructors import constant
 from ..psi.function import Psi
-from .borders import Matrix, coefficients_of
+from .borders import PlaneMatrix, coefficients_of
 
-MARGIN = 1.05  # of the largest |f| that the borders may have: how far the plane is looked at
+RANGE_MARGIN = 1.05  # of the largest |f| that the borders may have: how far the plane is looked at
 KEPT_PLANES = 32
 NAMES = ("f1", "f2")
 
 
-def whole_ranges(matrix: Matrix) -> tuple[tuple[float, float], tuple[float, float]]:
+def whole_ranges(matrix: PlaneMatrix) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return ranges of f1 and f2 that hold both borders."""
-    reach = MARGIN * sum(abs(v) for v in matrix) or 1.0
+    reach = RANGE_MARGIN * sum(abs(v) for v in matrix) or 1.0
     return (-reach, reach), (-reach, reach)
 
 
-def border_atlas(matrix: Matrix) -> Atlas:
+def border_atlas(matrix: PlaneMatrix) -> Atlas:
     """Return both borders, saddle-nodes and the ellipse |A^-1 f| = 1, with the special points on them."""
     return borders_over(family_over(coefficients_of(matrix), constant(), (), *NAMES, whole_ranges(matrix)))
 
 
 @lru_cache(maxsize=KEPT_PLANES)
-def plane_atlas(matrix: Matrix, psi: Psi) -> Atlas:
+def plane_atlas(matrix: PlaneMatrix, psi: Psi) -> Atlas:
     """Return all curves of the plane but those of cycles."""
     return curves_over(coefficients_of(matrix), psi, *NAMES, whole_ranges(matrix))
 
 
 @lru_cache(maxsize=KEPT_PLANES)
-def connection_atlas(matrix: Matrix, psi: Psi) -> Atlas:
+def connection_atlas(matrix: PlaneMatrix, psi: Psi) -> Atlas:
     """Return all curves of the plane with the connections of half-saddles."""
     return with_connections(coefficients_of(matrix), psi, plane_atlas(matrix, psi))
 
 
 @lru_cache(maxsize=KEPT_PLANES)
-def cycle_atlas(matrix: Matrix, psi: Psi) -> Atlas:
+def cycle_atlas(matrix: PlaneMatrix, psi: Psi) -> Atlas:
     """Return all curves of the plane with those of cycles."""
     return with_bifurcations_of_cycles(coefficients_of(matrix), psi, plane_atlas(matrix, psi))
 

@@ -10,19 +10,21 @@ from numpy.typing import ArrayLike
 from ..arrays import Array
 from ..atlases.atlas import Atlas
 from ..atlases.cycles.fold_seeds import HALF_OFFSETS
+from ..families.disc import corners, cusps
 from ..layer_problem.linearisation import determinant_sign
 from ..psi.constructors import constant
 from ..psi.function import Psi
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 from ..words import say
-from .borders import Matrix, critical_lines, saddle_node_lines
+from .borders import PlaneMatrix, border_places, critical_lines, saddle_node_lines
 from .curve import BifurcationCurve, SpecialPoint, matrix, read_only_lines
 from .plane import border_atlas, connection_atlas, cycle_atlas, lines_of, plane_atlas
 
 ON_ELLIPSE = 1e-7  # of |A^-1 f| - 1: on the ellipse
 SEED_LINES = 2 * len(HALF_OFFSETS)  # across half of the disc of critical sets, on which folds are looked for
-FOLD_POINTS = ("cusp of cycles", "touching", "resonant loop", "equator", "undecided")
+FOLD_POINTS = ("cusp of cycles", "touching", "resonant loop", "equator")
+LOST_FOLDS = (say("fold followed no further"), say("fold not caught"))
 
 
 def saddle_node(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
@@ -66,7 +68,7 @@ def saddle_node(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifurcatio
             (point,), (), say("two for every f"),
         )  # fmt: skip
     atlas = border_atlas((a, b, d))
-    tips = [one.place for one in atlas.points if one.kind == "cusp"]
+    tips = border_places((a, b, d), cusps)
     if len(tips) == 2:
         special = [SpecialPoint("quadruple zero", place, say("two cusps have met")) for place in tips]
     else:
@@ -84,7 +86,7 @@ def saddle_node(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifurcatio
     )  # fmt: skip
 
 
-def _crossings(atlas: Atlas, entries: Matrix, *, on_ellipse: bool) -> list[tuple[float, float]]:
+def _crossings(atlas: Atlas, entries: PlaneMatrix, *, on_ellipse: bool) -> list[tuple[float, float]]:
     """Return the places where the borders cross: the ellipse with the other one, or that one with itself."""
     a, b, d = entries
     A, det = np.array([[a, -b], [b, d]]), a * d + b * b
@@ -135,17 +137,12 @@ def critical_boundary(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifu
         sentence = say("line on a segment") if a or b or d else say("still at f = 0")
         lines = read_only_lines(critical_lines((a, b, d)))
         return BifurcationCurve("transcritical", name, label, lines, (), (), sentence)
-    atlas = border_atlas((a, b, d))
+    touching = border_places((a, b, d), corners)
+    crossing = _crossings(border_atlas((a, b, d)), (a, b, d), on_ellipse=True)
     special = [
-        *(
-            SpecialPoint("saddle-node on the equator", one.place, say("reaches where they meet"))
-            for one in atlas.points if one.kind == "saddle-node on the equator"
-        ),
-        *(
-            SpecialPoint("saddle-node elsewhere", place, say("reaches, and elsewhere they meet"))
-            for place in _crossings(atlas, (a, b, d), on_ellipse=True)
-        ),
-    ]  # fmt: skip
+        *(SpecialPoint("saddle-node on the equator", at, say("reaches where they meet")) for at in touching),
+        *(SpecialPoint("saddle-node elsewhere", at, say("reaches, and elsewhere they meet")) for at in crossing),
+    ]
     name = "transcritical: the circle |f| = |b|, also the saddle-node curve" if a == d == 0.0 else "transcritical"
     lines = read_only_lines(critical_lines((a, b, d)))
     return BifurcationCurve("transcritical", name, label, lines, tuple(special), (), say("reaches the equator"))
@@ -379,7 +376,11 @@ def cycle_folds(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> 
         return BifurcationCurve("fold of cycles", "folds of cycles: none", label, (), sentence=reason)
     atlas = cycle_atlas((a, b, d), psi)
     lines, sizes = lines_of(atlas, "fold of cycles")
-    special = [SpecialPoint(one.kind, one.place, one.sentence) for one in atlas.points if one.kind in FOLD_POINTS]
+    special = [
+        SpecialPoint(one.kind, one.place, one.sentence)
+        for one in atlas.points
+        if one.kind in FOLD_POINTS or one.sentence in LOST_FOLDS
+    ]
     return BifurcationCurve(
         "fold of cycles", "folds of cycles" if lines else "folds of cycles: none", label, read_only_lines(lines),
         tuple(special), read_only_lines(sizes),

@@ -19,11 +19,13 @@ from ..results import Pictured, Results, Tabled
 from ..systems.coefficients import Coefficients
 from ..systems.elinear import ELinear
 from ..tables import point
-from .borders import Matrix, coefficients_of
+from .borders import PlaneMatrix, coefficients_of
 from .curve import matrix
 from .plane import NAMES, border_atlas
 
-MARGIN = 0.15  # of the largest |f| on the borders, and of the largest entry: how far the plane goes on beyond them
+PLANE_MARGIN = (
+    0.15  # of the largest |f| on the borders, and of the largest entry: how far the plane goes on beyond them
+)
 SEGMENT_STEP = 0.1  # of its room: how far a place on a line of equilibria is moved off it
 MIN_WIDTH = 1e-6  # of the largest entry: one with less counts as 0, so that no sliver is a region
 
@@ -100,7 +102,7 @@ def regions(system: ELinear | Coefficients, z: ArrayLike = ()) -> Regions:
     a, b, d = (0.0 if abs(v) <= MIN_WIDTH * size else v for v in entries)
     atlas = border_atlas((a, b, d))
     points = np.concatenate([np.zeros((1, 2)), *(one.points for one in atlas.curves)])
-    reach = 1.15 * np.abs(points).max(axis=0) + MARGIN * (size or 1.0)
+    reach = 1.15 * np.abs(points).max(axis=0) + PLANE_MARGIN * (size or 1.0)
     family = family_over(coefficients_of((a, b, d)), constant(), (), *NAMES, [(-v, v) for v in reach.tolist()])
     lines, marks = (
         [family.units(one.points) for one in atlas.curves],
@@ -118,7 +120,7 @@ def regions(system: ELinear | Coefficients, z: ArrayLike = ()) -> Regions:
     return Regions(sorted(found, key=lambda one: not one.bounded))
 
 
-def _off_segment(entries: Matrix, f: Array, room: float) -> Array:
+def _off_segment(entries: PlaneMatrix, f: Array, room: float) -> Array:
     """Return a place, moved off the line {A e} where det A = 0 and it lies on that."""
     if locate(coefficients_of(entries, f)).existence is not Existence.SINGULAR_LINE:
         return f

@@ -99,7 +99,7 @@ def border_points(family: SystemFamily) -> tuple[Array, Array]:
     for angles in (cusps(A), corners(A)):
         theta = np.array(angles)
         f = saddle_node_force(A, theta)
-        both.append(np.column_stack([theta, family.units(np.linalg.solve(F, (f - f0).T).T)]))
+        both.append(np.column_stack([theta, family.units(np.asarray(np.linalg.solve(F, (f - f0).T).T, float))]))
     return both[0], both[1]
 
 
@@ -114,7 +114,7 @@ def borders(family: SystemFamily) -> tuple[Array, Array]:
     A, f0, F = found
 
     def line(theta: Array, f: Array) -> Array:
-        places = np.column_stack([theta, family.units(np.linalg.solve(F, (f - f0).T).T)])
+        places = np.column_stack([theta, family.units(np.asarray(np.linalg.solve(F, (f - f0).T).T, float))])
         places[-1, 1:] = places[0, 1:]
         return places
 

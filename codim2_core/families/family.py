@@ -161,7 +161,7 @@ class SystemFamily:
     def units(self, values: Array) -> Array:
         """Return places of the unit square from values (..., n) of the parameters."""
         if self.slant is not None:
-            return np.asarray(np.linalg.solve(self.slant[1], (values - self.slant[0])[..., None])[..., 0])
+            return np.asarray(np.linalg.solve(self.slant[1], (values - self.slant[0])[..., None])[..., 0], float)
         return np.asarray((values - self._low) / self.widths)
 
     def value(self, u: float) -> float:

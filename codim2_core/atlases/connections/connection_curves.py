@@ -23,7 +23,7 @@ from .connection_tracing import ConnectionCurve, trace_connection
 from .splitting import BranchPair
 
 LOOP, CYCLE, CONNECTION = KINDS = "homoclinic loop", "heteroclinic cycle", "saddle connection"
-BOGDANOV_TAKENS, CORNER = "Bogdanov–Takens", "saddle-node on the equator"
+BOGDANOV_TAKENS, SADDLE_NODE_CORNER = "Bogdanov–Takens", "saddle-node on the equator"
 BOGDANOV_TAKENS_DISTANCE, MAX_LOOP_SIZE = (
     0.05,
     0.3,
@@ -48,7 +48,7 @@ def connection_curves(
         return any(one.passes(place, pair) for one in found)
 
     search = ConnectionSearch(family, is_known)
-    corners = [family.units(np.array(point.place)) for point in points if point.kind == CORNER]
+    corners = [family.units(np.array(point.place)) for point in points if point.kind == SADDLE_NODE_CORNER]
     borders = [family.units(one.points) for one in curves if one.kind in ("saddle-node", "transcritical")]
     some = [corner for corner in corners if not (family.symmetric and corner[1] < 0.5)]
     lines = [*lines_beside_takens(family, takens, curves), *rings_about_corners(some, borders)]

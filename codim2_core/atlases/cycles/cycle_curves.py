@@ -15,11 +15,12 @@ from .fold_seeds import FoldSeed, along_lines, seeds_beside_bautin
 from .fold_tracing import CENTRE, CORNER, FoldCurve, trace_fold
 
 KIND = "fold of cycles"
-GENERALISED_HOPF, CORNER_POINT, NEUTRAL_LOOP = "generalised Hopf", "saddle-node on the equator", "neutral loop"
+GENERALISED_HOPF, SADDLE_NODE_CORNER, NEUTRAL_LOOP = "generalised Hopf", "saddle-node on the equator", "neutral loop"
 ON_CURVE_DISTANCE = 0.03  # of the square: a curve passes a start, or ends at a point of codimension two, so near to it
 MAX_POINT_SIZE, MAX_END_SIZE = 0.02, 0.05  # of cycles that are all but a critical set; that break off beside one
 SAME_SIZE_RATIO = 0.15  # of the size of cycles
 CORNER_RADIUS = 0.015  # of the square: a curve that breaks off so near to a corner ends there
+BIRTH_DISTANCE = 1e-5  # of the square, from the point at which a curve ends
 LOOP_HEIGHT, LOOP_DISTANCE = 0.1, 0.08  # ebar of cycles that are all but a loop; of the square, from a neutral one
 
 
@@ -33,9 +34,9 @@ def cycle_curves(
     """
     known = {
         kind: [family.units(np.array(point.place)) for point in points if point.kind == kind]
-        for kind in (GENERALISED_HOPF, CORNER_POINT, NEUTRAL_LOOP)
+        for kind in (GENERALISED_HOPF, SADDLE_NODE_CORNER, NEUTRAL_LOOP)
     }
-    corners = known[CORNER_POINT]
+    corners = known[SADDLE_NODE_CORNER]
     found: list[FoldCurve] = []
     missed = []
     for place in known[GENERALISED_HOPF]:
@@ -89,6 +90,8 @@ def _extend_to_ends(
         at, kind, text = _end(end, last, size, float(one.heights[i]), known)
         if at is not None:
             size = 0.0 if kind == GENERALISED_HOPF else size
+            away = np.hypot(*(plane - at).T) > BIRTH_DISTANCE  # beside a birth rounding decides
+            plane, sizes = plane[away], sizes[away]
             plane = np.concatenate([at[None], plane] if i == 0 else [plane, at[None]])
             sizes = np.concatenate([[size], sizes] if i == 0 else [sizes, [size]])
         if text:
@@ -111,7 +114,7 @@ def _end(
         born = nearest(GENERALISED_HOPF, ON_CURVE_DISTANCE)
         if born is not None:
             return born, GENERALISED_HOPF, ""
-    corner = nearest(CORNER_POINT, CORNER_RADIUS)
+    corner = nearest(SADDLE_NODE_CORNER, CORNER_RADIUS)
     if corner is not None:
         return corner, "touching", say("fold ends, saddle-node")
     # towards a neutral loop the fold runs along the curve of loops, closer than any power
