@@ -17,7 +17,7 @@ from .fold_tracing import CENTRE, CORNER, FoldCurve, trace_fold
 KIND = "fold of cycles"
 GENERALISED_HOPF, SADDLE_NODE_CORNER, NEUTRAL_LOOP = "generalised Hopf", "saddle-node on the equator", "neutral loop"
 ON_CURVE_DISTANCE = 0.03  # of the square: a curve passes a start, or ends at a point of codimension two, so near to it
-MAX_POINT_SIZE, MAX_END_SIZE = 0.02, 0.05  # of cycles that are all but a critical set; that break off beside one
+MAX_END_SIZE = 0.05  # of cycles that break off beside a critical set
 SAME_SIZE_RATIO = 0.15  # of the size of cycles
 CORNER_RADIUS = 0.015  # of the square: a curve that breaks off so near to a corner ends there
 BIRTH_DISTANCE = 1e-5  # of the square, from the point at which a curve ends
