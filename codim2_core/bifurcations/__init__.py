@@ -10,13 +10,18 @@ from __future__ import annotations
 
 from ..arguments import checked_functions
 from ..figures.named import named_setting
-from .borders import critical_boundary, saddle_node
 from .curve import BifurcationCurve, SpecialPoint
-from .cycles import cycle_folds
-from .equator import closed_equator, heteroclinic
 from .parameter_changes import ParameterChange, hill_changes, parameter_changes
-from .plane_regions import Region, regions
-from .trace_curves import hopf, node_focus
+from .plane_curves import (
+    closed_equator,
+    critical_boundary,
+    cycle_folds,
+    heteroclinic,
+    hopf,
+    node_focus,
+    saddle_node,
+)
+from .regions import Region, regions
 
 __all__ = [
     "BifurcationCurve",

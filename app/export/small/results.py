@@ -12,7 +12,7 @@ import numpy as np
 
 from codim2_core.atlases.result import Atlas
 from codim2_core.bifurcations.curve import BifurcationCurve
-from codim2_core.bifurcations.plane_regions import Regions
+from codim2_core.bifurcations.regions import Regions
 from codim2_core.continuation.result import CycleBranches
 from codim2_core.cycles.limit_cycles import LimitCycles
 from codim2_core.diagrams.eigenvalue_path import LinearisationPath
