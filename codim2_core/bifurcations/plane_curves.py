@@ -287,7 +287,7 @@ def closed_equator(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifurca
 
 
 def heteroclinic(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
-    """Heteroclinic cycles through the equator: loops of two half-saddles, from which limit cycles are born (Section 4.3.3).
+    """Heteroclinic cycles through the equator: loops of two half-saddles, which bear limit cycles (Section 4.3.3).
 
     A homoclinic orbit proper is not possible: the one critical set of an e-linear system lies inside every cycle
     (Theorem 4.1, index). A limit cycle dies in a loop of an orbit from a half-saddle Q of the equator to another, P,
