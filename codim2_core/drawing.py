@@ -6,6 +6,7 @@ the core alone has been copied, a notebook shows the tables.
 
 from __future__ import annotations
 
+from base64 import b64encode
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -44,6 +45,14 @@ def save(result: Any, path: str | Path) -> None:
         raise ValueError(f"A {what} has no picture; draw its Scene, or write its table with to_csv.") from None
     printing = import_module(f"{DRAWER}.export.printing")
     Path(path).write_bytes(picture.encode() if kind == ".svg" else getattr(printing, kind[1:])(picture))
+
+
+def image(result: Any) -> str:
+    """Return the picture of a result as an HTML image, which notebooks that are not trusted show too; "" without."""
+    picture = result._repr_svg_()
+    if not picture:
+        return ""
+    return f'<img alt="{type(result).__name__}" src="data:image/svg+xml;base64,{b64encode(picture.encode()).decode()}">'
 
 
 def svg(result: Any) -> str | None:

@@ -116,7 +116,7 @@ class Result(Listed, ByValue):
         return html_table(tuple(row), [tuple(map(str, row.values()))])
 
     def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + self._tables_()
+        return drawing.image(self) + self._tables_()
 
 
 class Pictured(Result):

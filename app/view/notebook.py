@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Mapping
 from numbers import Real
 from typing import Any
@@ -69,8 +70,10 @@ def explorer(
     >>> view = explorer(a=-1, b=1, d=-1, f=(0, 0))
     >>> view = explorer("case1-cm0")
     """
-    from . import warmup
+    from . import extensions, warmup
 
+    for sentence in extensions.load():
+        warnings.warn(sentence, stacklevel=2)
     layout = {name: state.pop(name) for name in LAYOUT & state.keys()}
     linked = {name: value for name, value in state.items() if name in SHARED_CONTROLS and resolve_ref(value)}
     state = {name: resolve_value(value) if name in linked else value for name, value in state.items()}

@@ -114,11 +114,8 @@ class LimitCycles(Several[LimitCycle], Pictured):
     proved: Proof | None = None
 
     def _tables_(self) -> str:
-        return (
-            (self._repr_svg_() or "")
-            + result_rows(self)
-            + paragraphs([self.reason, *self.notes] if self.proved is None else [self.proved.reason, *self.notes])
-        )
+        reason = self.reason if self.proved is None else self.proved.reason
+        return result_rows(self) + paragraphs([reason, *self.notes])
 
 
 def surrounds(line: Array, place: Array) -> bool:

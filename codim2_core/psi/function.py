@@ -71,7 +71,7 @@ class Psi(Listed):
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + paragraphs([f"Ψ(s) = {self.words}"])
+        return drawing.image(self) + paragraphs([f"Ψ(s) = {self.words}"])
 
     @property
     def words(self) -> str:

@@ -290,7 +290,7 @@ class Scene(Listed, Mapping[str, Any]):
     def _repr_html_(self) -> str:
         results = (self["classification"], self["equator"], self["critical"])
         tables = "".join(result._repr_html_() for result in results)
-        return (self._repr_svg_() or "") + tables
+        return drawing.image(self) + tables
 
     def __iter__(self) -> Iterator[str]:
         return iter(layers)

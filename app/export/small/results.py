@@ -42,7 +42,7 @@ from .sketch import BASIN_COLOURS, Cells, Curves, LineChart, RegionChart, Sketch
 
 #: px of the screen.
 SKETCH_SIDE = 360
-MAX_SVG_BYTES = 45_000  # bytes
+MAX_SVG_BYTES = 36_000  # bytes: as text of an HTML image a third more
 #: Starting points and pixel of a small portrait; the next ones are tried where it is too large.
 SKETCHED = ((40, 1 / 90), (16, 1 / 50), (0, 1 / 50))
 #: Curves that are drawn, and points of all of them.
