@@ -52,7 +52,9 @@ def image(result: Any) -> str:
     picture = result._repr_svg_()
     if not picture:
         return ""
-    return f'<img alt="{type(result).__name__}" src="data:image/svg+xml;base64,{b64encode(picture.encode()).decode()}"/>'
+    return (
+        f'<img alt="{type(result).__name__}" src="data:image/svg+xml;base64,{b64encode(picture.encode()).decode()}"/>'
+    )
 
 
 def svg(result: Any) -> str | None:

@@ -28,6 +28,7 @@ from ..state.cleaning import InputError, clean
 from ..state.controls import CONTROL_NAMES, ExplorerState
 from .cell import running_kernel
 from .explorer import ExplorerView
+from .own_parameters import with_parameters
 from .shared import SHARED_CONTROLS
 
 LAYOUT = frozenset({"sizing_mode", "width", "height", "margin", "styles", "stylesheets"})
@@ -99,7 +100,7 @@ def explorer(
         values = {**_values_of(system, values), **values}
     _bring_resources()
     warmup.start()
-    view = ExplorerView(ExplorerState.from_values(values), system, **layout)
+    view = with_parameters(ExplorerView, system)(ExplorerState.from_values(values), system, **layout)
     refused = view.refused
     if refused:
         raise ValueError(" ".join(refused))
