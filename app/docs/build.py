@@ -140,6 +140,8 @@ def _write_sources(source: Path, portraits: bool, live: str) -> None:
             page.write_text(running.run_page(text, page.name), encoding="utf-8")
         paper_figures.write_drawings(source / "_static" / "paper")
     write = lambda name, text: (source / f"{name}.md").write_text(text, encoding="utf-8")
+    citing = source / "citing.md"
+    write("citing", citing.read_text(encoding="utf-8").replace("VERSION", __version__))
     write("lessons", lesson_pages.lessons_page())
     for key in built_in():
         write(f"lesson-{key}", lesson_pages.lesson_page(key, explorer, portraits))

@@ -18,6 +18,7 @@ from markdown_it import MarkdownIt
 from mdit_py_plugins.anchors import anchors_plugin
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
+from codim2_core import __version__
 from codim2_core.figures.presets import presets
 
 from ..lessons.library import built_in
@@ -70,6 +71,7 @@ def _reader() -> MarkdownIt:
 def sources() -> dict[str, str]:
     """Return the Markdown of all pages, by their names."""
     found = {path.stem: path.read_text(encoding="utf-8") for path in sorted(TEXT_FOLDER.glob("*.md"))}
+    found["citing"] = found["citing"].replace("VERSION", __version__)
     found["gallery"] = gallery.gallery_page()
     found["paper-figures"] = paper_figures.figures_page(found["paper-figures"], EXPLORER, pictures=True)
     found["lessons"] = lesson_pages.lessons_page()

@@ -81,7 +81,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         raise RuntimeError('a worker imports the script that serves; put the call under if __name__ == "__main__":')
     if chosen.lessons is not None and not _offer_lessons(chosen.lessons):
         return 1
-    for sentence in (*unknown_settings(), *extensions.load()):
+    for sentence in (*unknown_settings(), *extensions.register_all()):
         print(f"codim2: {sentence}", file=sys.stderr)
     docs_folder.serve_folder(chosen.docs)
     if chosen.docs is not None and docs_folder.site() is None:

@@ -33,7 +33,7 @@ def _load() -> None:
 
 
 prepare()
-extensions.load()
+extensions.register_all()
 numba_context: Any = cpu_target.target_context
 numba_context.refresh()  # imports all that Numba needs before it loads a first kernel, most of a second
 _load()

@@ -12,7 +12,7 @@ GROUP = "codim2"
 
 
 @cache
-def load() -> tuple[str, ...]:
+def register_all() -> tuple[str, ...]:
     """Call the functions of all packages, once; return a sentence for each that fails, and go on without it."""
     failed = []
     for one in entry_points(group=GROUP):

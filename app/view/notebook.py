@@ -73,7 +73,7 @@ def explorer(
     """
     from . import extensions, warmup
 
-    for sentence in extensions.load():
+    for sentence in extensions.register_all():
         warnings.warn(sentence, stacklevel=2)
     layout = {name: state.pop(name) for name in LAYOUT & state.keys()}
     linked = {name: value for name, value in state.items() if name in SHARED_CONTROLS and resolve_ref(value)}

@@ -98,7 +98,7 @@ def test_the_core_alone_asks_for_what_it_imports_and_else_is_the_same_project():
 
 
 def test_what_is_cited_is_this_program():
-    cited = yaml.safe_load((ROOT / ".github" / "CITATION.cff").read_text("utf-8"))
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
     page = (ROOT / "app" / "docs" / "text" / "citing.md").read_text("utf-8")
     assert (cited["cff-version"], cited["type"]) == ("1.2.0", "software")
     assert cited["version"] == codim2_core.__version__

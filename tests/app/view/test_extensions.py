@@ -13,7 +13,7 @@ ASK = """
 import sys
 sys.path.insert(0, {folder!r})
 from codim2_app.view import extensions
-print(extensions.load())
+print(extensions.register_all())
 from codim2_core import classify, psi
 from codim2_app.state.chosen_system import titles
 print("curling_stone" in titles(), classify("curling_stone", "ice").name, psi.from_text("ice").family)
