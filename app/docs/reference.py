@@ -155,9 +155,14 @@ def _summary(value: Any) -> str:
     return f"``{type(value).__name__}``"
 
 
-def escape_bars(_app: Any, _what: str, _name: str, _value: Any, _options: Any, lines: list[str]) -> None:
-    """Let bars of a docstring, as in |p|, be those of a modulus; called by autodoc."""
+def escape_bars(_app: Any, what: str, _name: str, _value: Any, _options: Any, lines: list[str]) -> None:
+    """Let bars of a docstring, as in |p|, be those of a modulus; called by autodoc.
+
+    Napoleon takes what is before the colon of a property's first line for its type: there it is a dash.
+    """
     lines[:] = map(_escape_bars, lines)
+    if what == "property" and lines:
+        lines[0] = lines[0].replace(": ", " – ")
 
 
 def _escape_bars(line: str) -> str:

@@ -124,6 +124,7 @@ def test_labels_are_told_as_they_are_printed(built):
     told = {name: page.text for name, page in pages.items() if name.startswith(("api-", "reference-"))}
     for name, text in told.items():
         assert not re.search(r"\b(fig|thm|sec|tab):[a-zA-Z]", text), name
+        assert not re.search(r">Type<span|>Type:<", text), name  # of a property that is cut in two at its colon
     assert "Theorem 3.1" in told["api-equator_cycle.html"]
     assert "Theorem 3.1" in told["reference-portraits.html"]
 
