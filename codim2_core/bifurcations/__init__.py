@@ -41,3 +41,8 @@ __all__ = [
 ]
 
 globals().update(checked_functions(__name__, globals(), __all__, named_setting))
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for the Tab key."""
+    return list(__all__)

@@ -51,3 +51,8 @@ def __getattr__(name: str) -> Callable[..., ELinear | System]:
     if name in catalogue:
         return catalogue[name].make
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for the Tab key."""
+    return list(__all__)

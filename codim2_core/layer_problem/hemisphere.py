@@ -175,3 +175,8 @@ def outside_flow(coefficients: FrozenSystem, theta: ArrayLike) -> tuple[Array, A
 
 
 globals().update(checked_functions(__name__, globals(), __all__))
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for the Tab key."""
+    return list(__all__)

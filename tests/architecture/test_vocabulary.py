@@ -26,6 +26,7 @@ REFUSED = set(
 SHARED = {
     "__all__": "Python's own",
     "__getattr__": "Python's own",
+    "__dir__": "Python's own",
     "add": "a panel's, or a slow layer's, part of a frame: `registry` calls it",
     "PANEL": "a panel's row of the registry",
     "EXAMPLE": "an example's row of the list",
