@@ -44,7 +44,7 @@ def test_ci_runs_the_test_command_of_the_readme():
 
 
 def test_the_readme_and_the_changes_are_short():
-    assert len(README.splitlines()) <= 100
+    assert len(README.split()) <= 800  # with the code
     assert len((TEXT / "changelog.md").read_text().splitlines()) <= 60
 
 
@@ -58,12 +58,8 @@ def test_pictures_and_links_are_in_the_repository(page):
         assert target.startswith("http") or (path.parent / target).is_file(), target
 
 
-@pytest.mark.parametrize(
-    ("text", "line"),
-    [(README, r"\|.*`{}`.*\|"), (CONTRIBUTING, r"(core|app|    )\s+(\w+ \| )*{}\b")],
-    ids=["README", "CONTRIBUTING"],
-)
-def test_every_room_is_named_and_on_its_floor(text, line):
+def test_every_room_is_named_and_on_its_floor():
+    text, line = CONTRIBUTING, r"(core|app|    )\s+(\w+ \| )*{}\b"
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"]
     for one in contracts:
         if one["type"] != "layers":
