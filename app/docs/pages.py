@@ -107,7 +107,7 @@ def _function_entry(module: Any, name: str, heading: str) -> str:
     plain = [one.replace(annotation=inspect.Parameter.empty) for one in called.parameters.values()]
     called = called.replace(parameters=plain, return_annotation=inspect.Signature.empty)
     members = _members(value) if inspect.isclass(value) else ()
-    return "\n".join([f"{heading}{name}\n\n```python\n{name}{called}\n```\n", *_paragraphs(value), *members])
+    return "\n".join([f"{heading}{name}\n\n```py\n{name}{called}\n```\n", *_paragraphs(value), *members])
 
 
 def _members(kind: type) -> Iterator[str]:
