@@ -19,11 +19,12 @@ from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
 from ..systems.affine import in_axes_of
 from ..systems.kinds import AnySystem
+from .class_borders import class_borders
 from .codim_two_points import SpecialPlace, crossings, each_once
 from .connections.connection_curves import KINDS, connection_curves
 from .curve_numbers import curve_numbers, places
 from .curves import border_curves, curves_of, parts_within
-from .cycles.cycle_curves import KIND, cycle_curves
+from .cycles.cycle_curves import KIND, NEUTRAL_LOOP, cycle_curves
 from .degenerate_lines import DegenerateLine, degenerate_lines
 from .disc_atlas import clip_curve, curves_with_images, family_around_disc, is_in_range, points_with_images
 from .regions import regions_of
@@ -168,6 +169,13 @@ def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atla
     if whole.looked.unlike and (seeds := seeds_beside(disc_family(family) or family, whole.looked.unlike)) != NO_SEEDS:
         again = _with_regions(family, _curves_over(family, seeds))
         if len(again.looked.unlike) < len(whole.looked.unlike):
+            whole = again
+    if whole.looked.unlike and not family.affine:
+        known = [family.units(one.points) for one in whole.curves]
+        lines = class_borders(family, whole.looked.unlike, known)
+        more = tuple(_nowhere(family, "change of critical sets", line) for line in lines)
+        again = _with_regions(family, replace(whole, curves=whole.curves + more))
+        if len(again.looked.unlike) < len(whole.looked.unlike):
             return again
     return whole
 
@@ -227,7 +235,9 @@ def _with_more(family: SystemFamily, found: Atlas, *steps: More) -> Atlas:
         for step in steps:
             found = step(family, found)
         return found
-    whole = known = _curves_over(family_around_disc(chart))
+    known = _curves_over(family_around_disc(chart))
+    loops = tuple(one for one in found.points if one.kind == NEUTRAL_LOOP)  # of an earlier step
+    whole = known = replace(known, points=known.points + loops)
     for step in steps:
         whole = step(chart, whole)
     both = curves_with_images(chart, whole.curves[len(known.curves) :])
