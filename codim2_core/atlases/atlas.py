@@ -46,6 +46,9 @@ TRIAL_PLACES = (
     (0.29, 0.79),
     (0.71, 0.89),
 )  # where U is tried, in the unit square
+MAX_UNLIKE_SHARE = (
+    0.25  # of the places looked at: where more are in the wrong region no border is followed by bisection
+)
 DEFAULT_HALF_RANGE = (
     2.0  # range on either side of a parameter's value where none is given, or the value if that is more
 )
@@ -64,10 +67,10 @@ def atlas(
     Each curve is the set of zeros of equations in the two parameters and a place, an angle of the equator or a point
     within it, and is followed by pseudo-arclength; its points are zeros to the last digits. Where to begin is looked
     for on a net: 64 angles by 24 x 24 values of the parameters on the equator, 16 in each direction within. A curve
-    that keeps within one cell may be missed, and what happens where U has a corner, as abs(c) at 0, is not followed;
-    the result says of which kinds some may be missing, and at how many places its regions were looked at and found
-    to be others. The regions are the faces into which the curves cut the plane, each named by the portrait at a place
-    well inside it.
+    that keeps within one cell may be missed; what no equation of a regular curve has, as a change where U has a corner,
+    is followed by bisection as far as that leads; the result says of which kinds some may be missing, and at how many
+    places its regions were looked at and found to be others. The regions are the faces into which the curves cut the
+    plane, each named by the portrait at a place well inside it.
 
     Parameters
     ----------
@@ -170,7 +173,7 @@ def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atla
         again = _with_regions(family, _curves_over(family, seeds))
         if len(again.looked.unlike) < len(whole.looked.unlike):
             whole = again
-    if whole.looked.unlike and not family.affine:
+    if 0 < len(whole.looked.unlike) < MAX_UNLIKE_SHARE * whole.looked.places:
         known = [family.units(one.points) for one in whole.curves]
         lines = class_borders(family, whole.looked.unlike, known)
         more = tuple(_nowhere(family, "change of critical sets", line) for line in lines)

@@ -7,6 +7,7 @@ portrait changes all the same.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import count
 
 import numpy as np
 
@@ -18,9 +19,10 @@ from ..families.family import SystemFamily
 MAX_PLACES = 4  # beside which a border is looked for
 FIRST_REACH, MAX_REACH = 1e-3, 0.6  # of the square, along each axis
 KNOWN_DISTANCE = 4e-3  # of the square: a border that lies so near to a curve, or to another border, is known
-STEP, MIN_STEP = 0.01, 1e-3  # of the square, along a border
-MAX_STEPS = 240  # each way
-HALVINGS = 9  # of a step: to so small a part a border is found
+BORDER_STEP, MIN_BORDER_STEP = 0.01, 1e-3  # of the square, along a border
+MAX_BORDER_STEPS = 240  # each way
+MAX_PORTRAITS, NOT_ASKED = 2000, -2  # that are looked at in all; what each is after these
+STEP_HALVINGS = 9  # of a step: to so small a part a border is found
 MIN_COSINE = 0.7  # between directions of a border, from one step to the next
 
 ClassAt = Callable[[Array], int]
@@ -33,8 +35,10 @@ def class_borders(family: SystemFamily, unlike: Sequence[tuple[float, float]], k
     """
     classes = classes_over(family.system, family.psi, family.z, family.names, family.ranges)
 
+    asked = count(1)
+
     def class_at(u: Array) -> int:
-        return int(classes.decided(family.values(u)[None])[0])
+        return int(classes.decided(family.values(u)[None])[0]) if next(asked) < MAX_PORTRAITS else NOT_ASKED
 
     found: list[Array] = []
     for place in unlike[:MAX_PLACES]:
@@ -65,7 +69,7 @@ def _border_along(class_at: ClassAt, own: int, start: Array, way: Array) -> Arra
 
 def _bisect(class_at: ClassAt, own: int, inside: Array, outside: Array) -> Array:
     """Return the border between a place of a class and one of another."""
-    for _ in range(HALVINGS):
+    for _ in range(STEP_HALVINGS):
         middle = 0.5 * (inside + outside)
         inside, outside = (middle, outside) if class_at(middle) == own else (inside, middle)
     return 0.5 * (inside + outside)
@@ -77,8 +81,8 @@ def _follow_border(class_at: ClassAt, start: Array, out: Array, sense: float) ->
     The classes on its two sides may change, where other curves cross it.
     """
     points: list[Array] = []
-    here, step = start, STEP
-    while len(points) < MAX_STEPS and step >= MIN_STEP:
+    here, step = start, BORDER_STEP
+    while len(points) < MAX_BORDER_STEPS and step >= MIN_BORDER_STEP:
         middle = here + step * sense * np.array([-out[1], out[0]])
         if not _in_square(middle):
             edge = _on_frame(here, middle)
@@ -93,7 +97,7 @@ def _follow_border(class_at: ClassAt, start: Array, out: Array, sense: float) ->
             continue
         here, out = there, onward
         points.append(here)
-        step = min(1.5 * step, STEP)
+        step = min(1.5 * step, BORDER_STEP)
     return points
 
 

@@ -23,8 +23,8 @@ SCATTER = np.array(
 SCATTERED_PLACES = 40
 EDGE_INSET = 5e-4  # of the ranges: how far from their borders these are looked along
 EDGE_OFFSETS = np.array([EDGE_INSET, 1.0 - EDGE_INSET])
-NET = np.concatenate([
-    (0.7 + np.arange(1, SCATTERED_PLACES + 1)[:, None] * SCATTER) % 1.0,
+NET: Array = np.concatenate([
+    np.asarray((0.7 + np.arange(1, SCATTERED_PLACES + 1)[:, None] * SCATTER) % 1.0, float),
     *(np.stack(np.meshgrid(one, other, indexing="ij"), axis=-1).reshape(-1, 2)
       for one, other in ((EDGE_OFFSETS, NET_OFFSETS), (NET_OFFSETS, EDGE_OFFSETS), (EDGE_OFFSETS, EDGE_OFFSETS))),
 ])  # fmt: skip
