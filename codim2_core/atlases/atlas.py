@@ -17,7 +17,7 @@ from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
-from ..systems.affine import in_axes_of
+from ..systems.affine import as_elinear, in_axes_of
 from ..systems.kinds import AnySystem
 from .class_borders import class_borders
 from .codim_two_points import SpecialPlace, crossings, each_once
@@ -184,7 +184,9 @@ def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atla
 
 
 def _with_regions(family: SystemFamily, found: Atlas) -> Atlas:
-    still = [one.points for one in found.curves if one.kind not in (KIND, *KINDS)]
+    # a neutral equator is in no name of an e-linear portrait, and of a reversible one it lies on the Hopf curve
+    uncut = (KIND, *KINDS, *(("neutral equator",) if as_elinear(family.system) is not None else ()))
+    still = [one.points for one in found.curves if one.kind not in uncut]
     regions, looked = regions_of(family, still, [one.place for one in found.points])
     return replace(found, regions=regions, looked=looked)
 
