@@ -192,8 +192,9 @@ def _seed_beside_corner(family: SystemFamily, corner: Array, level: float) -> Ar
 
 def in_the_plane(kind: str, condition: Condition, cells: Array) -> TracedCurves:
     """Curves of a function of both parameters alone; none where it is zero all about, and its slope is rounding's."""
-    regular = CurveKind(kind, condition, _square_edges(2), lambda v: np.abs(condition(v)[1]).max() > MIN_SLOPE)
-    return _trace_curves((regular,), cells, seed_net.PLANE_CELL, PLANE_STEPS)
+    if len(cells) and np.abs(condition(cells[len(cells) // 2])[1]).max() < MIN_SLOPE:
+        return TracedCurves([])
+    return _trace_curves((CurveKind(kind, condition, _square_edges(2)),), cells, seed_net.PLANE_CELL, PLANE_STEPS)
 
 
 def _square_edges(n: int, inner: float = math.inf) -> list[CurveEdge]:
