@@ -134,8 +134,7 @@ class ExplorerView(JSComponent, ControlTypes):
             super().__setattr__(name, value)
             return
         near = get_close_matches(name, [*SHARED_CONTROLS, *self._own], n=3)
-        like = f" The nearest names are {', '.join(near)}." if near else ""
-        raise AttributeError(f"{name!r} is no parameter of this explorer.{like} view.param lists all.")
+        raise AttributeError(f"{name!r} is no parameter of this explorer; near it are: {', '.join(near) or 'none'}")
 
     @property
     def scene(self) -> Scene:

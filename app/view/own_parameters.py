@@ -14,7 +14,7 @@ def with_parameters(kind: type, system: System_ | None) -> type:
     names = [] if system is None else [name for name in system.variable if not hasattr(kind, name)]
     if system is None or not names:
         return kind
-    declared = {name: param.Number(system.value_of(name), label=name, doc="Of the system.") for name in names}
+    declared = {name: param.Number(system.value_of(name), label=name) for name in names}
     hidden = {**kind._rename, **dict.fromkeys(names)}  # noqa: SLF001  # type: ignore[attr-defined]
     return type(kind.__name__, (kind,), {**declared, "_rename": hidden, "_own": tuple(names), "__doc__": kind.__doc__})
 

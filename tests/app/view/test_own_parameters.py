@@ -26,7 +26,7 @@ def test_a_parameter_is_set_watched_linked_and_kept():
 
 def test_a_name_that_nothing_reads_is_refused_and_the_near_ones_named():
     view = explorer(SYSTEM)
-    with pytest.raises(AttributeError, match=r"no parameter of this explorer\. The nearest names are push"):
+    with pytest.raises(AttributeError, match=r"no parameter of this explorer; near it are: push"):
         view.pusch = 1.0
     view.trajectories = 12
     assert view.state.trajectories == 12
