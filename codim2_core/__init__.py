@@ -1,7 +1,7 @@
 """The dynamics near isolated codimension-2 discontinuity sets: the numerical core.
 
 Follows N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, "Regularisation of isolated codimension-2
-discontinuity sets"; docstrings give the paper's equation labels.
+discontinuity sets". Numbers in docstrings, such as (2.7) or Theorem 3.1, are the paper's.
 
 A public name is imported when it is first asked for (PEP 562): a program loads what it uses.
 """
@@ -27,14 +27,13 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.contact_events import contact_events
     from .motion.delay import Delay
     from .motion.limit.predicted_delays import delays
-    from .motion.nonsmooth import simulate_nonsmooth
     from .motion.periodic.lyapunov import LyapunovExponents, lyapunov_exponents
     from .motion.periodic.response import response_curve
     from .motion.periodic.response_result import ResponseCurve
     from .motion.periodic.result import PeriodicMotion, PeriodicStatus
     from .motion.periodic.search import periodic_motion
-    from .motion.regularised import simulate
     from .motion.result import Phase, Simulation, SimulationStatus
+    from .motion.simulate import simulate, simulate_nonsmooth
     from .motion.variation.result import Variation
     from .nullcline.nullclines import NullclineBranch, nullclines
     from .orbits.trajectories import Trajectories, trajectories
@@ -158,14 +157,13 @@ _HOMES = {
     "motion.contact_events": "contact_events",
     "motion.delay": "Delay",
     "motion.limit.predicted_delays": "delays",
-    "motion.nonsmooth": "simulate_nonsmooth",
     "motion.periodic.lyapunov": "LyapunovExponents lyapunov_exponents",
     "motion.periodic.response": "response_curve",
     "motion.periodic.response_result": "ResponseCurve",
     "motion.periodic.result": "PeriodicMotion PeriodicStatus",
     "motion.periodic.search": "periodic_motion",
-    "motion.regularised": "simulate",
     "motion.result": "Phase Simulation SimulationStatus",
+    "motion.simulate": "simulate simulate_nonsmooth",
     "motion.variation.result": "Variation",
     "nullcline.nullclines": "NullclineBranch nullclines",
     "orbits.trajectories": "Trajectories trajectories",

@@ -28,11 +28,13 @@ MAX_NUMBER = 1e150  # of a number: its square is finite
 MOST_VALUES = 1_000_000  # in an array
 MAX_COUNTS: Mapping[str, int] = {"count": 10**12, "n": 4096, "max_steps": 100_000_000, "seed": 2**63 - 1}
 MOST_HERE: Mapping[tuple[str, str], int] = {("slow_portrait", "count"): 20_001}
-ZERO_TOO = (
-    ("periodic_motion", "eps"),
-    ("response_curve", "eps"),
-    ("lyapunov_exponents", "eps"),
-)  # stands for a limit there
+#: Functions for which eps = 0 is the limit, and their arguments in the order that leaves out psi.
+MOTIONS: Mapping[str, tuple[str, ...]] = {
+    "simulate": ("system", "state0", "t_span"),
+    "periodic_motion": ("system", "state0", "period", "psi", "eps"),
+    "lyapunov_exponents": ("system", "state0", "period", "psi", "eps"),
+    "response_curve": ("system", "state0", "period", "along", "span", "psi", "eps"),
+}
 #: Functions of the plane (f1, f2) that take a, b, d in the place of a system.
 PLANE_FUNCTIONS = frozenset({
     "saddle_node", "critical_boundary", "closed_equator", "regions", "hopf", "node_focus", "cycle_folds",
@@ -264,9 +266,11 @@ BY_ANNOTATION: Mapping[str, Check] = {
 def _check(owner: str, parameter: inspect.Parameter) -> Check:
     """Return the check of one parameter of a public function."""
     name, annotation = parameter.name, str(parameter.annotation).removesuffix(" | None")
+    if name == "psi" and owner in MOTIONS:
+        return lambda name, value: None if value is None else psi(name, value)
     if name in BY_NAME:
         return BY_NAME[name]
-    if (owner, name) in ZERO_TOO:
+    if owner in MOTIONS and name == "eps":
         return _real
     if annotation == "int":
         most = MOST_HERE.get((owner, name), MAX_COUNTS.get(name, 1_000_000))
@@ -280,6 +284,17 @@ def _system_of_numbers(given: tuple[Any, ...], named: dict[str, Any]) -> tuple[t
         return (ELinear(*given[:3]), *given[3:]), named
     if not given and {"a", "b", "d"} <= named.keys():
         return (ELinear(*(named.pop(name) for name in ("a", "b", "d"))),), named
+    return given, named
+
+
+def _with_psi(
+    order: tuple[str, ...], given: tuple[Any, ...], named: dict[str, Any]
+) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    """Return the arguments of a motion with psi, which is None where it is left out of the second place."""
+    if 1 < len(given) <= len(order) and not (given[1] is None or isinstance(given[1], Psi | str)):
+        given, named = (), {**dict(zip(order, given, strict=False)), **named}
+    if len(given) < 2:
+        named.setdefault("psi", None)
     return given, named
 
 
@@ -300,11 +315,14 @@ def with_checks(function: Callable[..., Any], module: str, named_setting: Settin
     may = [frozenset(parameters) - {name for name, *_ in in_order[:n]} for n in range(len(in_order) + 1)]
     must = [{name for name in names if defaults[name] is inspect.Parameter.empty} for names in may]
 
+    order = MOTIONS.get(function.__name__)
     takes_numbers = function.__name__ in PLANE_FUNCTIONS
     by_name = named_setting if next(iter(parameters), "") == "system" else None
 
     @wraps(function)
     def door(*given: Any, **named: Any) -> Any:
+        if order is not None:
+            given, named = _with_psi(order, given, named)
         if takes_numbers:
             given, named = _system_of_numbers(given, named)
         if by_name is not None and isinstance(asked := given[0] if given else named.get("system"), str):

@@ -6,7 +6,9 @@ the core alone has been copied, a notebook shows the tables.
 
 from __future__ import annotations
 
+from base64 import b64encode
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 #: The package that draws: ``holoviews(scene)`` is an overlay, ``svg(result)`` a small picture,
@@ -14,34 +16,45 @@ from typing import Any
 DRAWER = "codim2_app"
 
 
-def overlay(scene: Any) -> Any:
-    """Return the picture of a scene as a HoloViews overlay.
-
-    Raises
-    ------
-    ValueError
-        The app is not there.
-    """
+def _drawer() -> Any:
     try:
-        drawer = import_module(DRAWER)
+        return import_module(DRAWER)
     except ImportError:
-        raise ValueError(f"Scene.plot is drawn by {DRAWER}, which is missing: pip install codim2.") from None
-    return drawer.holoviews(scene)
+        raise ValueError(f"Pictures are drawn by {DRAWER}, which is missing: pip install codim2.") from None
+
+
+def overlay(scene: Any) -> Any:
+    """Return the picture of a scene as a HoloViews overlay; raises ValueError without the app."""
+    return _drawer().holoviews(scene)
 
 
 def plot(result: Any, ax: Any) -> Any:
-    """Draw a small picture of a result into Matplotlib axes, and return them.
+    """Draw a small picture of a result into Matplotlib axes, and return them; raises ValueError without them."""
+    return _drawer().plot(result, ax)
 
-    Raises
-    ------
-    ValueError
-        Matplotlib or the app is not there.
-    """
+
+def save(result: Any, path: str | Path) -> None:
+    """Write the picture of a result as SVG, PNG or PDF; raises ValueError for other names, or without the app."""
+    kind = Path(path).suffix.lower()
+    if kind not in (".svg", ".png", ".pdf"):
+        raise ValueError(f"path is {str(path)!r}; give a name that ends with .svg, .png or .pdf.")
     try:
-        drawer = import_module(DRAWER)
-    except ImportError:
-        raise ValueError(f"plot is drawn by {DRAWER}, which is missing: pip install codim2.") from None
-    return drawer.plot(result, ax)
+        picture = _drawer().svg(result)
+    except TypeError:
+        what = type(result).__name__
+        raise ValueError(f"A {what} has no picture; draw its Scene, or write its table with to_csv.") from None
+    printing = import_module(f"{DRAWER}.export.printing")
+    Path(path).write_bytes(picture.encode() if kind == ".svg" else getattr(printing, kind[1:])(picture))
+
+
+def image(result: Any) -> str:
+    """Return the picture of a result as an HTML image, which notebooks that are not trusted show too; "" without."""
+    picture = result._repr_svg_()
+    if not picture:
+        return ""
+    return (
+        f'<img alt="{type(result).__name__}" src="data:image/svg+xml;base64,{b64encode(picture.encode()).decode()}"/>'
+    )
 
 
 def svg(result: Any) -> str | None:

@@ -1,7 +1,7 @@
 """Printed names of the paper's labels.
 
-Docstrings and the attribute `label` of results give the labels of the paper's source, which outlive a renumbering; a
-person who reads is told "Figure 13" or "Theorem 3.1(b)". `tests/paper` numbers the labels by the class's rules.
+Docstrings name sections, theorems and equations as the paper prints them: (2.7) is an equation. The attribute `label`
+of results gives labels of the paper's source. `tests/paper` numbers these by the rules of the paper's class.
 """
 
 from __future__ import annotations
@@ -79,6 +79,35 @@ PRINTED: dict[str, tuple[str, str]] = {
     "fig:simNCM2": ("Figure 24(d)", ""),
     "fig:simNCM4": ("Figure 24(e)", ""),
     "fig:sim_5cases": ("Figure 24", "Case I, computed"),
+    "eq:vf": ("(2.7)", ""),
+    "eq:polar_gen_odes_desing": ("(2.12)", ""),
+    "eq:equator_equilibria": ("(2.15)", ""),
+    "eq:ePsi": ("(2.19)", ""),
+    "eq:RPCM": ("(2.29)", ""),
+    "eq:RPSF": ("(2.30)", ""),
+    "eq:blowup_def": ("(3.3)", ""),
+    "eq:entrychart": ("(3.6)", ""),
+    "eq:scalingchart": ("(3.7)", ""),
+    "eq:coordinatechange": ("(3.8)", ""),
+    "eq:xi": ("(3.10)", ""),
+    "eq:critical_set": ("(3.22)", ""),
+    "eq:scjaco": ("(3.23)", ""),
+    "eq:LP": ("(3.26)", ""),
+    "eq:ode_normal_form": ("(4.1)", ""),
+    "eq:matrix_normal_form": ("(4.2)", ""),
+    "eq:lin_limit_vector": ("(4.3)", ""),
+    "eq:lin_limit_plane": ("(4.4)", ""),
+    "eq:Fsigma": ("(4.5)", ""),
+    "eq:equator_zeros": ("(4.9)", ""),
+    "eq:conic11": ("(4.10)", ""),
+    "eq:conic12": ("(4.11)", ""),
+    "eq:tangencies": ("(4.12)", ""),
+    "eq:lincriticalset": ("(4.15)", ""),
+    "eq:linslowflow": ("(4.17)", ""),
+    "eq:linLP": ("(4.19)", ""),
+    "eq:bad_reg": ("(4.28)", ""),
+    "eq:ex4p5": ("(5.12)", ""),
+    "eq:exmult": ("(5.16)", ""),
 }
 #: What changes along a parameter and on curves of an atlas, each kind once: where the paper has it (`label_of`).
 CHANGES: dict[str, str] = {
@@ -110,8 +139,7 @@ def label_of(kind: str) -> str:
     return next((row.label for row in SPECIAL_KINDS if row.kind == kind), None) or CHANGES[kind]
 
 
-_LABEL = re.compile(r"((?:fig|sec|thm|prop|lem|tab|def|rem):\w+)(\(\w\))?")
-_EQUATION = re.compile(r"(?:, )?\(?eq:\w+\)?")
+_LABEL = re.compile(r"((?:fig|sec|thm|prop|lem|tab|def|rem|eq):\w+)(\(\w\))?")
 
 
 def cite(labels: str, *, titled: bool = False) -> str:
@@ -120,7 +148,7 @@ def cite(labels: str, *, titled: bool = False) -> str:
     Parameters
     ----------
     labels : str
-        Text with labels such as "thm:geneps0(b)"; all else is kept. Equations, which have no table, are left out.
+        Text with labels such as "thm:geneps0(b)"; all else is kept.
     titled : bool
         Whether the title of the first is added.
 
@@ -146,7 +174,7 @@ def cite(labels: str, *, titled: bool = False) -> str:
             raise ValueError(f"{match[1]!r} is no label that is listed; choose one of {', '.join(PRINTED)}.")
         return PRINTED[match[1]][0] + (match[2] or "")
 
-    text = _LABEL.sub(print_label, _EQUATION.sub("", labels))
+    text = _LABEL.sub(print_label, labels)
     first = _LABEL.search(labels)
     title = PRINTED[first[1]][1] if titled and first else ""
     return f"{text}: {title}" if title else text

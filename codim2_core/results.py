@@ -30,7 +30,10 @@ class Listed:
 
 
 class Result(Listed, ByValue):
-    """A result: a frozen dataclass whose fields say all that it is, and by which it is compared."""
+    """A result: a frozen dataclass whose fields say all that it is, and by which it is compared.
+
+    It has a length, an index and an iterator: over what it holds, else over the rows of `to_frame`, as dictionaries.
+    """
 
     __slots__ = ()
 
@@ -47,6 +50,18 @@ class Result(Listed, ByValue):
     def _records(self) -> Iterator[dict[str, Any]]:
         yield record(self)
 
+    def __len__(self) -> int:
+        return sum(1 for _ in self._records())
+
+    def __iter__(self) -> Iterator[Any]:
+        return iter(self._records())
+
+    def __getitem__(self, i: Any) -> Any:
+        return list(self._records())[i]
+
+    def __bool__(self) -> bool:
+        return True
+
     def to_frame(self) -> Any:
         """Return a pandas DataFrame.
 
@@ -60,26 +75,6 @@ class Result(Listed, ByValue):
     def to_csv(self, path: str | Path) -> None:
         """Write what `to_frame` has as CSV."""
         write_csv(path, self._records())
-
-    def _repr_svg_(self) -> str | None:
-        return None
-
-    def _tables_(self) -> str:
-        """Return what a notebook shows below the picture, as HTML."""
-        row = record(self)
-        return html_table(tuple(row), [tuple(map(str, row.values()))])
-
-    def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + self._tables_()
-
-
-class Pictured(Result):
-    """A result that has a picture."""
-
-    __slots__ = ()
-
-    def _repr_svg_(self) -> str | None:
-        return drawing.svg(self)
 
     def plot(self, ax: Any = None) -> Any:
         """Draw the picture into Matplotlib axes, and return them.
@@ -102,19 +97,35 @@ class Pictured(Result):
         Parameters
         ----------
         path : str or Path
-            The name of an SVG file.
+            A name that ends with .svg, .png or .pdf.
 
         Raises
         ------
         ValueError
-            The name ends otherwise, nothing is to be drawn, or the app, which draws, is not installed.
+            The name ends otherwise, or the app, which draws, or for PNG and PDF Typst, is not installed, or there
+            is no picture of this result.
         """
-        if Path(path).suffix.lower() != ".svg":
-            raise ValueError(f"path is {str(path)!r}; give a name that ends with .svg.")
-        picture = self._repr_svg_()
-        if picture is None:
-            raise ValueError("There is nothing to draw, or the app that draws is missing: pip install codim2.")
-        Path(path).write_text(picture, encoding="utf-8")
+        drawing.save(self, path)
+
+    def _repr_svg_(self) -> str | None:
+        return None
+
+    def _tables_(self) -> str:
+        """Return what a notebook shows below the picture, as HTML."""
+        row = record(self)
+        return html_table(tuple(row), [tuple(map(str, row.values()))])
+
+    def _repr_html_(self) -> str:
+        return drawing.image(self) + self._tables_()
+
+
+class Pictured(Result):
+    """A result that has a picture."""
+
+    __slots__ = ()
+
+    def _repr_svg_(self) -> str | None:
+        return drawing.svg(self)
 
 
 class Tabled(Result):
@@ -136,8 +147,8 @@ class OfOneKind(Result):
 
     __slots__ = ()
 
-    def __iter__(self) -> Iterator[Any]:
-        raise NotImplementedError
+    def __bool__(self) -> bool:
+        return len(self) > 0
 
     @property
     def kinds(self) -> tuple[str, ...]:

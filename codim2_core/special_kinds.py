@@ -1,7 +1,7 @@
 """Kinds of special values that two numbers of an object decide: a row each, in this one place.
 
-A row is a test function (Kuznetsov 2004, Section 10.2) of tr J and det J of a critical set (eq:scjaco), or of
-lambda_rho and lambda_theta of a limit direction (thm:geneps0), with its name, its sentence, and where the paper has it.
+A row is a test function (Kuznetsov 2004, Section 10.2) of tr J and det J of a critical set (3.23), or of
+lambda_rho and lambda_theta of a limit direction (Theorem 3.1), with its name, its sentence, and where the paper has it.
 Diagrams solve for the zeros of all rows alike (`families.special_points`). Where a row parts what a critical set is
 called, the value counts if the names on its two sides differ; of any other row every simple zero counts. Tables,
 exports, the page and its marks take what they say of a kind from here.

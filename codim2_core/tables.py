@@ -75,7 +75,11 @@ def frame(records: Iterable[Mapping[str, Any]] | Mapping[str, Any]) -> Any:
         import pandas
     except ImportError:
         raise ValueError("pandas is not installed, of which to_frame makes a DataFrame: pip install pandas.") from None
-    return pandas.DataFrame(records if isinstance(records, Mapping) else list(records))
+    made = pandas.DataFrame(records if isinstance(records, Mapping) else list(records))
+    for name, column in made.items():  # numbers of which some are not there
+        if column.dtype.kind == "O" and all(one is None or isinstance(one, int | float) for one in column):
+            made[name] = column.astype(float)
+    return made
 
 
 def _table_row(kind: str, cells: Sequence[str]) -> str:

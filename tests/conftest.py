@@ -12,7 +12,6 @@ from hypothesis.internal.conjecture import providers
 from hypothesis.internal.constants_ast import Constants
 
 from tests import tiers
-from tests.leftovers import pytest_sessionfinish, pytest_sessionstart  # noqa: F401
 
 # Where this is set, as in containers, each process, a test's server too, would compile all that it imports.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
@@ -37,9 +36,9 @@ def pytest_cmdline_main(config: pytest.Config) -> None:
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
-    """Leave out the slow folders unless they are asked for, and for the inner loop all that are not its own."""
-    folder = collection_path.is_dir() and collection_path.parent == tiers.TESTS
-    return True if folder and not tiers.wants(config, collection_path.name) else None
+    """Leave out the slow folders, unless the command names one or a mark."""
+    slow = collection_path.is_dir() and collection_path.parent == tiers.TESTS and collection_path.name in tiers.SLOW
+    return True if slow and tiers.leaves_out_slow(config) else None
 
 
 @pytest.hookimpl(wrapper=True)

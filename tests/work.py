@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import asyncio
 import gc
 import sys
 import time
-from collections.abc import Callable
-from typing import TypeVar
+from collections.abc import Callable, Coroutine
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeVar
 
 T = TypeVar("T")
 #: Seconds that a test waits for anything: five times what a worker may take, as where other work has the machine.
 PATIENCE = 300.0
+
+
+def talk(doing: Coroutine[Any, Any, T]) -> T:
+    """Run a coroutine in a thread of its own: Playwright's loop may be running in this one."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, doing).result()
 
 
 def wait_until(condition: Callable[[], T], patience: float = PATIENCE) -> T:

@@ -17,6 +17,7 @@ from typing import Any
 
 from codim2_core import __version__
 
+from ..lessons.library import built_in
 from . import gallery, lesson_pages, mathematics, paper_figures, reference, running, validation
 
 TEXT_FOLDER = Path(__file__).parent / "text"
@@ -53,9 +54,9 @@ SETTINGS: Mapping[str, Any] = {
 
 
 def setup(site: Any) -> None:
-    """Tell Sphinx, which calls this, how formulas are written and what the paper's labels are called in print."""
+    """Tell Sphinx, which calls this, how formulas and bars are written."""
     site.add_html_math_renderer("mathml", (mathematics.inline, None), (mathematics.block, None))
-    site.connect("autodoc-process-docstring", reference.print_labels, priority=400)
+    site.connect("autodoc-process-docstring", reference.escape_bars, priority=400)
 
 
 def build(target: Path, *, portraits: bool = True, live: str = "") -> list[str]:
@@ -137,8 +138,15 @@ def _write_sources(source: Path, portraits: bool, live: str) -> None:
         for page in source.glob("*.md"):
             text = page.read_text(encoding="utf-8")
             page.write_text(running.run_page(text, page.name), encoding="utf-8")
-    lesson_pages.write_lessons(source, explorer, portraits)
-    paper_figures.write_figures(source, explorer, portraits)
+        paper_figures.write_drawings(source / "_static" / "paper")
+    write = lambda name, text: (source / f"{name}.md").write_text(text, encoding="utf-8")
+    citing = source / "citing.md"
+    write("citing", citing.read_text(encoding="utf-8").replace("VERSION", __version__))
+    write("lessons", lesson_pages.lessons_page())
+    for key in built_in():
+        write(f"lesson-{key}", lesson_pages.lesson_page(key, explorer, portraits))
+    figures = (source / "paper-figures.md").read_text(encoding="utf-8")
+    write("paper-figures", paper_figures.figures_page(figures, explorer, portraits))
     reference.write_reference(source)
     validation.write_validation(source)
 

@@ -1,34 +1,29 @@
-"""The site below /docs/, as `codim2 docs` has built it; where it has not been, a page that says how."""
+"""Serve /docs/: the site as `codim2 docs` has built it, or each page made when it is read."""
 
 from __future__ import annotations
 
 import mimetypes
 
+from tornado.ioloop import IOLoop
 from tornado.web import HTTPError, RequestHandler
 
 from .docs_folder import site
-
-UNBUILT = (
-    "<!DOCTYPE html><html lang=en><meta charset=utf-8><title>codim2: no documentation</title>"
-    "<main><h1>The documentation is not built here</h1><p>On this server: <code>pip install 'codim2[docs]' &amp;&amp; "
-    'codim2 docs</code>, and start it again.</p><p><a href="../">To the explorer</a></p></main></html>'
-)
-
 
 #: Of a worker's script: what it loads is compiled in the browser.
 WORKER_POLICY = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'"
 
 
 class Docs(RequestHandler):
-    """Answers ``docs/PATH`` with a file of the site."""
+    """Answers ``docs/PATH``."""
 
-    def get(self, path: str) -> None:
+    async def get(self, path: str) -> None:
         """Send a file, whole, so that its inline scripts can be allowed by their hashes; 404 where there is none."""
-        folder = site()
         self.set_header("Cache-Control", "no-cache")
+        folder = site()
         if folder is None:
-            self.set_status(404)
-            self.finish(UNBUILT)
+            self._send(
+                *await IOLoop.current().run_in_executor(None, _make_file, path, self.get_query_argument("q", ""))
+            )
             return
         try:
             file = (folder / path / ("index.html" if path.endswith("/") or not path else "")).resolve()
@@ -37,11 +32,29 @@ class Docs(RequestHandler):
             raise HTTPError(404) from None
         if not found:
             raise HTTPError(404)
-        kind = mimetypes.guess_type(file.name)[0] or "application/octet-stream"
-        self.set_header("Content-Type", f"{kind}; charset=utf-8" if kind.startswith("text/") else kind)
         if file.name == "worker.js":
             self.set_header("Content-Security-Policy", WORKER_POLICY)
-        self.finish(file.read_bytes())
+        self._send(file.name, file.read_bytes())
+
+    def _send(self, name: str, content: bytes | None) -> None:
+        if content is None:
+            raise HTTPError(404)
+        kind = mimetypes.guess_type(name)[0] or "application/octet-stream"
+        self.set_header("Content-Type", f"{kind}; charset=utf-8" if kind.startswith("text/") else kind)
+        self.finish(content)
+
+
+def _make_file(path: str, words: str) -> tuple[str, bytes | None]:
+    """Return the name of a file and what it holds, None for nothing; `words` are looked for."""
+    from . import pages  # on first use: few visitors read
+
+    if path.startswith("_static/"):
+        name = path.removeprefix("_static/")
+        styles = (pages.TEXT_FOLDER / "_static" / "pages.css").read_bytes() if name == "pages.css" else None
+        return name, styles or pages.picture(name)
+    if words and path in ("", "index.html"):
+        return "search.html", pages.search(words)
+    return "page.html", pages.page(path.removesuffix(".html") or "index")
 
 
 class ToDocs(RequestHandler):

@@ -27,7 +27,7 @@ _SPAN = np.linspace(-1.0, 1.0, 201)
 
 
 def coulomb_line() -> str:
-    """Draw friction with one degree of freedom, fig:friction (a)."""
+    """Draw friction with one degree of freedom, Figure 1 (a)."""
     drawn = Drawing(1.5).arrow((-1.4, 0), (1.4, 0), "soft", 1.0).arrow((0, -1.3), (0, 1.3), "soft", 1.0)
     drawn.line([(-1.3, 0.7), (0, 0.7)], "rho", 2.4).line([(0, -0.7), (1.3, -0.7)], "rho", 2.4).dot((0, 0), "attr", 6)
     drawn.text((1.4, 0), "v", off=(-4, -8)).text((0, 1.3), "F").text((-1.3, 0.7), "F = µN")
@@ -35,7 +35,7 @@ def coulomb_line() -> str:
 
 
 def coulomb_plane() -> str:
-    """Draw friction with two degrees of freedom, fig:friction (b): the vectors U of the system U = −e."""
+    """Draw friction with two degrees of freedom, Figure 1 (b): the vectors U of the system U = −e."""
     at = c2.ELinear(-1.0, 0.0, -1.0).at()
     drawn = Drawing(1.5).arrow((-1.4, 0), (1.4, 0), "soft", 1.0).arrow((0, -1.4), (0, 1.4), "soft", 1.0)
     for radius, count in ((0.65, 8), (1.25, 14)):
@@ -46,7 +46,7 @@ def coulomb_plane() -> str:
 
 
 def codimension_one_twice() -> str:
-    """Draw two discontinuity sets of codimension 1 that meet, fig:codim1vcodim2 (a)."""
+    """Draw two discontinuity sets of codimension 1 that meet, Figure 2 (a)."""
     drawn = Drawing(1.5).line([(-1.4, 0), (1.4, 0)], "rho", 2.4).line([(0, -1.4), (0, 1.4)], "rho", 2.4)
     for x, y in ((1, 1), (-1, 1), (-1, -1), (1, -1)):
         field = np.array([-0.6 * x, -0.35 * y]) if x * y > 0 else np.array([-0.35 * x, -0.6 * y])
@@ -61,7 +61,7 @@ def codimension_one_twice() -> str:
 
 
 def codimension_two() -> str:
-    """Draw motions that reach an isolated set of codimension 2, fig:codim1vcodim2 (b)."""
+    """Draw motions that reach an isolated set of codimension 2, Figure 2 (b)."""
     preset = c2.presets["case1-cm4"]
     drawn = Drawing(1.5)
     for theta in 2.0 * np.pi * (np.arange(16) + 0.5) / 16:
@@ -73,7 +73,7 @@ def codimension_two() -> str:
 
 
 def filippov_line() -> str:
-    """Draw sliding and crossing at a set of codimension 1, fig:generic_nonuniqueness_of_sliding (a)."""
+    """Draw sliding and crossing at a set of codimension 1, Figure 3 (a)."""
     drawn = Drawing(1.6)
     for x, above, below, said in ((-1.1, -1, 1, "stable"), (0.0, 1, -1, "unstable"), (1.1, -1, -1, "crossing")):
         drawn.line([(x - 0.45, 0), (x + 0.45, 0)], "attr", 2.6)
@@ -103,14 +103,14 @@ def _limit_vectors(drawn: Drawing, axes: tuple[int, ...]) -> Drawing:
 
 
 def filippov_space() -> str:
-    """Draw limit vectors with their two candidates, fig:generic_nonuniqueness_of_sliding (b)."""
+    """Draw limit vectors with their two candidates, Figure 3 (b)."""
     drawn = Drawing(1.7, LYING).arrow((0, 0, -1.5), (0, 0, 1.5), "attr", 2.0)
     drawn.line(vectors(SADDLE_OF_VECTORS, c2.psi.constant(), (0.0,))["curve"], "rho", 1.0)
     return _limit_vectors(drawn, (0, 1, 2)).text((0, 0, -1.5), "Σ").svg()
 
 
 def filippov_onto(axis: int) -> str:
-    """Draw their projection onto the plane of z and x or y, fig:generic_nonuniqueness_of_sliding (c) and (d)."""
+    """Draw their projection onto the plane of z and x or y, Figure 3 (c) and (d)."""
     flat = np.array([[0.0, 1.0], [1.0, 0.0]])  # z lies
     drawn = Drawing(1.7, flat).arrow((0, -1.5), (0, 1.5), "attr", 2.0).arrow((-1.4, 0), (1.4, 0), "soft", 1.0)
     drawn.text((0, 1.5), "z, Σ", "end", (0, 18)).text((1.4, 0), "xy"[axis])
@@ -118,7 +118,7 @@ def filippov_onto(axis: int) -> str:
 
 
 def straightened() -> str:
-    """Draw Σ, the straight one, and the direction e, fig:straight."""
+    """Draw Σ, the straight one, and the direction e, Figure 4."""
     drawn = Drawing(1.5, SPACE).line([(0, 0, -1.2), (0, 0, 1.3)], "attr", 2.4).text((0, 0, 1.3), "Σ: x = y = 0")
     drawn.arrow((0, 0, 0), (1.5, 0, 0), "soft", 1.0).arrow((0, 0, 0), (0, 1.5, 0), "soft", 1.0).ring(0.0, "rho")
     theta = 0.9
@@ -129,7 +129,7 @@ def straightened() -> str:
 
 
 def component() -> str:
-    """Draw L_Ψ(l; ε) for Ψ = s/sinh²√s, fig:component."""
+    """Draw L_Ψ(l; ε) for Ψ = s/sinh²√s, Figure 5."""
     psi = c2.psi.tanh()
     lines = [(f"ε = {eps:g}", _SPAN, np.sign(_SPAN) * psi.modulus(np.abs(_SPAN) / eps)) for eps in (0.5, 0.15, 0.03)]
     return line_chart(LineChart(lines, "l", "L"))[0]
@@ -144,7 +144,7 @@ def _dome(drawn: Drawing) -> Drawing:
 
 
 def hemisphere() -> str:
-    """Draw the hemisphere with both charts, fig:insert_sphere: a place of the scaling chart and its image."""
+    """Draw the hemisphere with both charts, Figure 6: a place of the scaling chart and its image."""
     drawn = _dome(Drawing(1.85, SPACE))
     square = [(-1.2, -1.2, 1), (1.2, -1.2, 1), (1.2, 1.2, 1), (-1.2, 1.2, 1), (-1.2, -1.2, 1)]
     drawn.line(square, "rho").text((-1.2, -1.2, 1), "κ₂: ε̄ = 1", off=(0, 22))
@@ -156,7 +156,7 @@ def hemisphere() -> str:
 
 
 def up_the_side() -> str:
-    """Draw a motion with ε > 0 that travels up the side of the sphere, fig:side_of_sphere."""
+    """Draw a motion with ε > 0 that travels up the side of the sphere, Figure 7."""
     preset, eps = c2.presets["case1-cm4"], 0.05
     run = c2.simulate(preset.system, psi=preset.psi, eps=eps, state0=(0.7, -0.35), t_span=(0.0, 3.0))
     lifted = np.column_stack([run.states[:, :2], np.full(len(run.times), eps)])
@@ -166,7 +166,7 @@ def up_the_side() -> str:
 
 
 def entry_chart(key: str) -> str:
-    """Draw limit directions with the arrows of the entry chart at ε₁ = 0, fig:eps0: along ρ and along θ."""
+    """Draw limit directions with the arrows of the entry chart at ε₁ = 0, Figure 8: along ρ and along θ."""
     preset = c2.presets[key]
     drawn, t = Drawing(1.9), np.linspace(0.0, 2.0 * np.pi, 181)
     drawn.line(np.column_stack([np.cos(t), np.sin(t)]), "ink", 1.8)
@@ -188,13 +188,13 @@ def entry_chart(key: str) -> str:
 
 
 def scaling_chart(key: str) -> str:
-    """Draw the inside of the disc alone, fig:eps1_combi."""
+    """Draw the inside of the disc alone, Figure 9."""
     view = view_of(f"preset={key}&layers=inside,separatrices,equator,critical")
     return figure(view, Style(size=90.0, legend=False))
 
 
 def limit_plane(key: str) -> str:
-    """Draw the curve of limit vectors, and the combination on Σ, fig:whylinear."""
+    """Draw the curve of limit vectors, and the combination on Σ, Figure 12."""
     preset = c2.presets[key]
     found = vectors(preset.system, preset.psi, preset.z or (0.0,))
     reach = 1.15 * float(np.abs(found["plane"]).max())
@@ -206,7 +206,7 @@ def limit_plane(key: str) -> str:
 
 
 def ellipse(key: str) -> str:
-    """Draw the ellipse |A⁻¹h| = 1 and the force, fig:ellipse."""
+    """Draw the ellipse |A⁻¹h| = 1 and the force, Figure 14."""
     preset = c2.presets[key]
     boundary = c2.bifurcations.critical_boundary(c2.ELinear(preset.a, preset.b, preset.d))
     drawn = Drawing(2.6).arrow((-2.5, 0), (2.5, 0), "soft", 1.0).arrow((0, -2.5), (0, 2.5), "soft", 1.0)
@@ -216,7 +216,7 @@ def ellipse(key: str) -> str:
 
 
 def trace_and_determinant() -> str:
-    """Draw the path of (det J, tr J) as n grows, and the parabola where a node becomes a focus, fig:bads (a)."""
+    """Draw the path of (det J, tr J) as n grows, and the parabola where a node becomes a focus, Figure 17 (a)."""
     found = _eigenvalue_path()
     det = np.linspace(0.0, 1.1 * float(found.determinant.max()), 60)
     kinds = [(found.kind[i], found.determinant[i : j + 1], found.trace[i : j + 1]) for i, j in found.pieces]
@@ -226,7 +226,7 @@ def trace_and_determinant() -> str:
 
 
 def eigenvalues() -> str:
-    """Draw the eigenvalues of J over n, fig:bads (b)."""
+    """Draw the eigenvalues of J over n, Figure 17 (b)."""
     found = _eigenvalue_path()
     parts = (("real parts", found.eigenvalues.real), ("imaginary parts", found.eigenvalues.imag))
     return line_chart(LineChart([(name, found.values, part[:, k]) for name, part in parts for k in (0, 1)], "n", ""))[0]
@@ -238,13 +238,13 @@ def _eigenvalue_path() -> LinearisationPath:
 
 
 def regularisations() -> str:
-    """Draw Ψ(s; n) for n = 1, …, 4, fig:bads (c)."""
+    """Draw Ψ(s; n) for n = 1, …, 4, Figure 17 (c)."""
     s = np.linspace(0.0, 1.0, 101)
     return line_chart(LineChart([(f"n = {n}", s, c2.psi.hill(n)(s)) for n in (1, 2, 3, 4)], "s", "Ψ"))[0]
 
 
 def along_z(key: str, span: tuple[float, float], marked: Mapping[str, float] = MappingProxyType({})) -> str:
-    """Draw hemispheres stacked along z, with limit directions on the cylinder and critical sets within: fig:ballpool3d.
+    """Draw hemispheres stacked along z, with limit directions on the cylinder and critical sets within: Figure 22.
 
     `marked`: values of z whose ring is drawn.
     """

@@ -27,24 +27,24 @@ MOVES = "A click lets it move: drag C or a limit direction. Its title opens it i
 SCRIPT = '<script type="module" src="{}figures.js"></script>'
 
 
-def write_gallery(folder: Path, live: str = "") -> None:
-    """Write the page, and each portrait light and dark, into a folder of sources.
+def portrait_svg(key: str, theme: str) -> str:
+    """Return the picture of a portrait, theme "light" or "dark"."""
+    return figure(view_of(key), Style(size=SIZE, theme=theme, legend=False))
 
-    Parameters
-    ----------
-    folder : Path
-    live : str
-        Where the site has an explorer without a server, such as "explorer-files/"; "" if it has none.
-    """
+
+def gallery_page(live: str = "") -> str:
+    """Return the page as Markdown; `live`: where the site has an explorer without a server, "" if it has none."""
+    return GALLERY_HEAD.format(click=MOVES if live else OPENS) + "".join(_groups(live))
+
+
+def write_gallery(folder: Path, live: str = "") -> None:
+    """Write the page, and each portrait light and dark, into a folder of sources."""
     pictures = folder / "portraits"
     pictures.mkdir()
     for key in presets:
-        view = view_of(key)
         for theme in ("light", "dark"):
-            drawn = figure(view, Style(size=SIZE, theme=theme, legend=False))
-            (pictures / f"{key}-{theme}.svg").write_text(drawn, encoding="utf-8")
-    text = GALLERY_HEAD.format(click=MOVES if live else OPENS) + "".join(_groups(live))
-    (folder / "gallery.md").write_text(text, encoding="utf-8")
+            (pictures / f"{key}-{theme}.svg").write_text(portrait_svg(key, theme), encoding="utf-8")
+    (folder / "gallery.md").write_text(gallery_page(live), encoding="utf-8")
 
 
 def _groups(live: str) -> Iterator[str]:

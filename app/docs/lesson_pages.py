@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from pathlib import Path
 from typing import Any
 
 import yaml
@@ -38,24 +37,20 @@ be dragged, and its questions are judged by the system on your own sliders.
 """
 
 
-def write_lessons(folder: Path, explorer: str, pictures: bool) -> None:
-    """Write a page for each lesson, and their list, into a folder of sources.
-
-    Parameters
-    ----------
-    folder : Path
-    explorer : str
-        The address of the explorer, as seen from the site.
-    pictures : bool
-        Whether the site has the gallery's pictures.
-    """
-    rows = []
-    for number, (key, lesson) in enumerate(built_in().items(), 1):
-        text = (LESSON_FOLDER / f"{key}.md").read_text(encoding="utf-8")
-        (folder / f"lesson-{key}.md").write_text(_lesson_page(text, key, lesson, explorer, pictures), encoding="utf-8")
-        rows.append(f"| {number} | [{lesson.title}](lesson-{key}.md) | {lesson.summary} |")
+def lessons_page() -> str:
+    """Return the list of lessons as Markdown."""
+    rows = (
+        f"| {number} | [{lesson.title}](lesson-{key}.md) | {lesson.summary} |"
+        for number, (key, lesson) in enumerate(built_in().items(), 1)
+    )
     pages = "\n".join(f"lesson-{key}" for key in built_in())
-    (folder / "lessons.md").write_text(LESSONS.format(rows="\n".join(rows), pages=pages), encoding="utf-8")
+    return LESSONS.format(rows="\n".join(rows), pages=pages)
+
+
+def lesson_page(key: str, explorer: str, pictures: bool) -> str:
+    """Return a lesson as Markdown; `explorer`: its address from the site; `pictures`: whether the site has any."""
+    text = (LESSON_FOLDER / f"{key}.md").read_text(encoding="utf-8")
+    return _lesson_page(text, key, built_in()[key], explorer, pictures)
 
 
 def _lesson_page(text: str, key: str, lesson: Lesson, explorer: str, pictures: bool) -> str:

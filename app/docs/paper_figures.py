@@ -16,29 +16,24 @@ from codim2_core.paper import PRINTED
 _FIGURES = re.compile(r"^## (fig:\w+)$(.*?)^```figures\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-def write_figures(folder: Path, explorer: str, pictures: bool) -> None:
-    """Complete the page in a folder of sources, and write its drawings.
-
-    Parameters
-    ----------
-    folder, explorer, pictures
-        As for `lesson_pages.write_lessons`.
-    """
-    if pictures:
-        from .drawn_figures import DRAWN  # most of its time is the import of what it draws
-
-        drawings = folder / "_static" / "paper"
-        drawings.mkdir()
-        for name, draw in DRAWN.items():
-            (drawings / f"{name}.svg").write_text(draw(), encoding="utf-8")
-    page = folder / "paper-figures.md"
+def figures_page(text: str, explorer: str, pictures: bool) -> str:
+    """Return the page as Markdown, each figure with its pictures; `explorer`: its address from the site."""
 
     def section(match: re.Match[str]) -> str:
         label, seen, parts = match.groups()
         printed, title = PRINTED[label]
         return f"## {printed}: {title}\n{seen}{_cards(parts.split(), title, explorer, pictures)}"
 
-    page.write_text(_FIGURES.sub(section, page.read_text(encoding="utf-8")), encoding="utf-8")
+    return _FIGURES.sub(section, text)
+
+
+def write_drawings(folder: Path) -> None:
+    """Write the drawings of the page into a folder."""
+    from .drawn_figures import DRAWN  # most of its time is the import of what it draws
+
+    folder.mkdir()
+    for name, draw in DRAWN.items():
+        (folder / f"{name}.svg").write_text(draw(), encoding="utf-8")
 
 
 def _cards(parts: list[str], title: str, explorer: str, pictures: bool) -> str:

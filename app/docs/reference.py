@@ -1,7 +1,4 @@
-"""The public names of both packages by topic, a page a function with its results, for Sphinx's autodoc.
-
-Docstrings are printed with the paper's labels as the paper prints them.
-"""
+"""The public names of both packages by topic, a page a function with its results, for Sphinx's autodoc."""
 
 from __future__ import annotations
 
@@ -11,14 +8,10 @@ from collections.abc import Iterable, Iterator
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 import codim2_core
-from codim2_core.paper import PRINTED
 
-_LABEL = re.compile(r"\b(" + "|".join(map(re.escape, sorted(PRINTED, key=len, reverse=True))) + r")\b")
-#: An equation's label that a first line could do without.
-_EQUATION = re.compile(r"(?:,? \(?eq:[\w:]+(?: with eq:\w+)?\)?)(?=[.,;]|$)")
 _CODE = re.compile(r"(`+[^`]*`+)")
 
 #: Topics of the core: title, what is found there, and its pages, each a function (or a class) with what it returns.
@@ -79,18 +72,34 @@ MODULES = {
 }
 
 
-def write_reference(folder: Path) -> None:
-    """Write the pages of the reference into a folder of sources."""
+class Topic(NamedTuple):
+    """A topic: its pages, each a function with what it returns, and the other names of its module."""
+
+    key: str
+    title: str
+    about: str
+    module: ModuleType
+    pages: list[list[str]]
+    others: Iterable[str] = ()
+    prefix: str = ""
+
+    def page(self, names: list[str]) -> str:
+        """Return the name of the page of a function."""
+        return f"api-{self.prefix}{names[0].lower()}"
+
+
+def topics() -> Iterator[Topic]:
+    """Yield all topics of the reference."""
     for key, (title, about, pages) in TOPICS.items():
-        _write_topic(folder, key, title, about, codim2_core, [page.split() for page in pages])
+        yield Topic(key, title, about, codim2_core, [page.split() for page in pages])
     for key, title in MODULES.items():
         module = getattr(codim2_core, key)
         own = sorted((name for name in module.__all__ if name not in codim2_core.__all__), key=str.lower)
-        about = f"``codim2_core.{key}``: {_first_line(module)}"
-        _write_topic(folder, key, title, about, module, *_split_functions(module, own), prefix=f"{key}-")
+        about = f"``codim2_core.{key}``: {first_line(module)}"
+        yield Topic(key, title, about, module, *_split_functions(module, own), prefix=f"{key}-")
     app = import_module(__name__.partition(".")[0])  # its face imports what is asked for: no circle
     about = "What ``codim2_app`` adds in a notebook: the live page, pictures and tables."
-    _write_topic(folder, "app", "In a notebook", about, app, [[name] for name in app.__all__], prefix="app-")
+    yield Topic("app", "In a notebook", about, app, [[name] for name in app.__all__], prefix="app-")
 
 
 def _split_functions(module: ModuleType, names: Iterable[str]) -> tuple[list[list[str]], list[str]]:
@@ -99,28 +108,21 @@ def _split_functions(module: ModuleType, names: Iterable[str]) -> tuple[list[lis
     return [[name] for name in functions], [name for name in names if name not in functions]
 
 
-def _write_topic(
-    folder: Path,
-    key: str,
-    title: str,
-    about: str,
-    module: ModuleType,
-    pages: list[list[str]],
-    others: Iterable[str] = (),
-    prefix: str = "",
-) -> None:
-    """Write the page of a topic, which lists its own, and these."""
-    rows = []
-    for names in pages:
-        page = f"api-{prefix}{names[0].lower()}"
-        (folder / f"{page}.rst").write_text("\n".join(_function_page(module, names)), encoding="utf-8")
-        rows.append((page, names[0], _first_line(getattr(module, names[0]))))
-    parts = [f"{title}\n{'=' * 2 * len(title)}\n\n{about}\n", f".. currentmodule:: {module.__name__}\n"]
-    parts += [f":doc:`{name} <{page}>`\n   {line}\n" for page, name, line in rows]
-    parts += _entries(module, others)
-    hidden = "\n".join(f"   {page}" for page, *_ in rows)
-    parts.append(f".. toctree::\n   :hidden:\n\n{hidden}\n")
-    (folder / f"reference-{key}.rst").write_text("\n".join(parts), encoding="utf-8")
+def write_reference(folder: Path) -> None:
+    """Write the pages of the reference, for autodoc, into a folder of sources."""
+    for topic in topics():
+        module, rows = topic.module, []
+        for names in topic.pages:
+            page = topic.page(names)
+            (folder / f"{page}.rst").write_text("\n".join(_function_page(module, names)), encoding="utf-8")
+            rows.append((page, names[0], first_line(getattr(module, names[0]))))
+        parts = [f"{topic.title}\n{'=' * 2 * len(topic.title)}\n\n{topic.about}\n"]
+        parts.append(f".. currentmodule:: {module.__name__}\n")
+        parts += [f":doc:`{name} <{page}>`\n   {line}\n" for page, name, line in rows]
+        parts += _entries(module, topic.others)
+        hidden = "\n".join(f"   {page}" for page, *_ in rows)
+        parts.append(f".. toctree::\n   :hidden:\n\n{hidden}\n")
+        (folder / f"reference-{topic.key}.rst").write_text("\n".join(parts), encoding="utf-8")
 
 
 def _function_page(module: ModuleType, names: list[str]) -> Iterator[str]:
@@ -139,12 +141,12 @@ def _entries(module: ModuleType, names: Iterable[str]) -> Iterator[str]:
             yield f".. py:data:: {name}\n\n   {_summary(value)}\n"
 
 
-def _first_line(value: Any) -> str:
-    """Return the first line of what a docstring says, with the paper's labels in print; of a value, what it is."""
+def first_line(value: Any) -> str:
+    """Return the first sentence of a docstring; of a value, what it is."""
     if not (inspect.isroutine(value) or inspect.isclass(value) or inspect.ismodule(value)):
         return _summary(value)
     text = (inspect.getdoc(value) or "").split("\n\n")[0].replace("\n", " ")
-    return _print_label_line(_EQUATION.sub("", text))
+    return _escape_bars(text)
 
 
 def _summary(value: Any) -> str:
@@ -153,13 +155,14 @@ def _summary(value: Any) -> str:
     return f"``{type(value).__name__}``"
 
 
-def print_labels(_app: Any, _what: str, _name: str, _value: Any, _options: Any, lines: list[str]) -> None:
-    """Put what the paper's labels are called in print into a docstring, whose |p| is a modulus; called by autodoc."""
-    lines[:] = map(_print_label_line, lines)
+def escape_bars(_app: Any, what: str, _name: str, _value: Any, _options: Any, lines: list[str]) -> None:
+    """Let bars of a docstring, as in |p|, be those of a modulus; called by autodoc.
 
-
-def _print_label_line(line: str) -> str:
-    return _escape_bars(_LABEL.sub(lambda found: PRINTED[found[1]][0], line))
+    Napoleon takes what is before the colon of a property's first line for its type: there it is a dash.
+    """
+    lines[:] = map(_escape_bars, lines)
+    if what == "property" and lines:
+        lines[0] = lines[0].replace(": ", " – ")
 
 
 def _escape_bars(line: str) -> str:

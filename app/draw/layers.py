@@ -175,7 +175,7 @@ _ROWS = (
                     owners=lambda result: [f"L{i + 1}" for i in range(len(result.cycles))]),),
         tip="Isolated closed orbits of the layer problem.",
     ),
-    # nullclines have the paper's colours (matlab1 to matlab4 of fig:sim_5cases), lighter on dark
+    # nullclines have the paper's colours (matlab1 to matlab4 of Figure 24), lighter on dark
     Layer(
         "rho", "ρ-nullclines", 30, first=True, parts=_nullcline("rho", ("rho", "rho"), (1.8, 1.8), "rho"),
         colours={"rho": ("#0072bd", "#4aa8e8")},

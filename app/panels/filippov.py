@@ -1,7 +1,7 @@
 """The Filippov convention in three dimensions: limit vectors, their combinations on Sigma, and what the blowup selects.
 
-The view of fig:generic_nonuniqueness_of_sliding and fig:whylinear, within the panel "3-D": the curve of limit vectors
-F*(theta) = (U1, U2, W1), eq:lin_limit_vector, the axis Sigma (U = 0), and on it the candidates; for the e-linear system
+The view of Figure 3 and Figure 12, within the panel "3-D": the curve of limit vectors
+F*(theta) = (U1, U2, W1), (4.3), the axis Sigma (U = 0), and on it the candidates; for the e-linear system
 the plane of affine combinations, and its one point on Sigma.
 """
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from codim2_core.layer_problem.hemisphere import scaling_from_disc
-from codim2_core.motion.regularised import simulate
+from codim2_core.motion.simulate import simulate
 from codim2_core.orbits.angle_along import LEAST_RADIUS, angle_along
 from codim2_core.orbits.in_time import in_time
 from codim2_core.psi.function import Psi

@@ -1,4 +1,4 @@
-"""The panel "Ψ": Psi itself, its smooth step L_Psi(l; eps) (fig:component), and the friction of physics engines.
+"""The panel "Ψ": Psi itself, its smooth step L_Psi(l; eps) (Figure 5), and the friction of physics engines.
 
 Of an engine's law it says whether the system sticks under it or chatters: Psi decides.
 """

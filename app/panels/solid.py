@@ -1,7 +1,7 @@
-"""The panel "3-D": the hemisphere of the blowup, and hemispheres along z (fig:insert_sphere, fig:epsboth_3D).
+"""The panel "3-D": the hemisphere of the blowup, and hemispheres along z (Figure 6, Figure 11).
 
 The hemisphere is the picture, which the browser lifts by ebar = sqrt(1 - |p|^2). Along z discs are stacked, with the
-limit directions on the cylinder around them and the critical sets inside (fig:ballpool3d): their lines are sent once,
+limit directions on the cylinder around them and the critical sets inside (Figure 22): their lines are sent once,
 and turned in the browser.
 """
 

@@ -14,7 +14,7 @@ CertificateRow = tuple[str, str, str, str, list[tuple[str, float]]]
 
 
 def add(draft: FrameContext) -> None:
-    """Add the certificates in the order of the paper, once the integrator is ready: prop:LC asks for cycles."""
+    """Add the certificates in the order of the paper, once the integrator is ready: Proposition 4.2 asks for cycles."""
     scene = draft.scene
     if not draft.ready or not draft.fresh("certificates", scene["certificates"]):
         return

@@ -18,6 +18,7 @@ from typing import Any
 
 from ..docs import docs_folder
 from ..frame.dask_executor import ClusterError, dask_executor
+from ..view import extensions
 from .commands.answers import add_classify, add_presets, add_prove
 from .commands.builds import add_docs, add_kernels, add_notebooks, add_static
 from .commands.count import add_census
@@ -80,7 +81,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         raise RuntimeError('a worker imports the script that serves; put the call under if __name__ == "__main__":')
     if chosen.lessons is not None and not _offer_lessons(chosen.lessons):
         return 1
-    for sentence in unknown_settings():
+    for sentence in (*unknown_settings(), *extensions.register_all()):
         print(f"codim2: {sentence}", file=sys.stderr)
     docs_folder.serve_folder(chosen.docs)
     if chosen.docs is not None and docs_folder.site() is None:

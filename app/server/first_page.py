@@ -10,7 +10,6 @@ from typing import Any
 import bokeh
 from tornado.web import RequestHandler
 
-from ..docs.docs_folder import site
 from ..view import warmup
 from ..view.first_markup import MARKUP, TITLE, policy
 from ..view.markup import explorer_html, markup_of_frame, page_frame
@@ -76,9 +75,9 @@ class Page(RequestHandler):
         first = self.places.firsts.get(key)
         if first is None and not key:  # the page that most begin with
             first = open_page(query, self.places)[2]
-        shown = explorer_html(link.state, {}, (), link.look, site() is not None)
+        shown = explorer_html(link.state, {}, (), link.look, docs=True)
         if first is not None:
-            shown = markup_of_frame(link, first, site() is not None)
+            shown = markup_of_frame(link, first, docs=True)
         text = _page_frame().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
         page = text.replace(MARKUP, shown).encode()
         made = page, gzip.compress(page, 6, mtime=0), policy(page, self.ancestors)

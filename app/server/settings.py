@@ -13,7 +13,7 @@ from typing import Any
 
 LEVELS = ("debug", "info", "warning", "error")
 #: Of the tests and the continuous integration: no settings of the server.
-OTHERS = frozenset({"CODIM2_CHROMIUM", "CODIM2_PAPER", "CODIM2_NGINX", "CODIM2_TEST_RUN", "CODIM2_BEFORE"})
+OTHERS = frozenset({"CODIM2_CHROMIUM", "CODIM2_PAPER", "CODIM2_NGINX", "CODIM2_BEFORE"})
 
 
 _NAME = r"(\*|[\w.*-]+|\[[0-9a-fA-F:.]+\])"

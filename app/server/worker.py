@@ -14,6 +14,7 @@ from codim2_core.scene import Scene
 
 from ..export import export_request  # noqa: F401 (what a browser takes away is made there)
 from ..panels import registry  # noqa: F401 (its panels' functions are what is asked for)
+from ..view import extensions
 from .kernel_cache import prepare
 
 #: The layers whose kernels are loaded; one system's are those of all, but for what its formulas are compiled to.
@@ -32,6 +33,7 @@ def _load() -> None:
 
 
 prepare()
+extensions.register_all()
 numba_context: Any = cpu_target.target_context
 numba_context.refresh()  # imports all that Numba needs before it loads a first kernel, most of a second
 _load()

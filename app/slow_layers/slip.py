@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from codim2_core.layer_problem.hemisphere import scaling_from_disc
-from codim2_core.motion.regularised import simulate
+from codim2_core.motion.simulate import simulate
 from codim2_core.scene import Scene
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.elinear import ELinear

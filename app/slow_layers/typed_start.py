@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 from codim2_core.examples import Ball, catalogue
+from codim2_core.motion.argument_checks import LARGEST_EPS, SMALLEST_EPS
 from codim2_core.motion.compare_with_limit import agreement
-from codim2_core.motion.nonsmooth import simulate_nonsmooth
-from codim2_core.motion.regularised import LARGEST_EPS, SMALLEST_EPS, simulate
 from codim2_core.motion.result import Simulation
 from codim2_core.motion.rolling import rolling
+from codim2_core.motion.simulate import simulate, simulate_nonsmooth
 from codim2_core.orbits.angle_along import LEAST_RADIUS, angle_along
 from codim2_core.psi.function import Psi
 

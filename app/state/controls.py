@@ -33,7 +33,7 @@ class Angle(param.Number):
 
 
 class ExplorerState(param.Parameterized):
-    """Values of all controls. The defaults are the paper's fig:simCM4 (preset case1-cm4)."""
+    """Values of all controls. The defaults are the paper's Figure 24(c) (preset case1-cm4)."""
 
     a = _number_parameter(-2.0, -4, 4, "a", "First entry of A = [[a, −b], [b, d]].")
     b = _number_parameter(0.0, -4, 4, "b", "Rotation in A = [[a, −b], [b, d]].")

@@ -37,8 +37,8 @@ DEFAULTS_BY_VERSION: Mapping[int, Mapping[str, Any]] = MappingProxyType(
             ],
             "preset": "", "panel": "atlas", "along": "f1", "zoom": 0, "across": "f1", "cycle_curves": "hide",
             "atlas_zoom": 0, "up": "f2", "solid": "sphere", "drift": "z", "log_eps": -2.0, "launch": "0.6, 0.8, 0",
-            "orbits": "", "orbit": 1, "pinned": "", "orbit_eps": "hide", "lesson": "", "quiz": "", "t_end": 8.0,
-            "goal": "", "beside": "", "ranges": {}, "census": "normal", "census_size": 1, "cut": 0.0,
+            "orbits": "", "orbit": 1, "pinned": "", "orbit_eps": "hide", "lesson": "", "quiz": "", "goal": "",
+            "t_end": 8.0, "beside": "", "ranges": {}, "census": "normal", "census_size": 1, "cut": 0.0,
         },
     }
 )  # fmt: skip

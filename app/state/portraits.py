@@ -17,7 +17,7 @@ WITH_OUTCOMES = [
     "outside", "inside", "continuations", "cycles", "rho", "theta", "lines", "equator", "critical",
     "outcomes", "basins",
 ]  # fmt: skip
-#: Layers of fig:intersections: the two conics and where they meet.
+#: Layers of Figure 13: the two conics and where they meet.
 CONICS = ["conics", "equator", "critical"]
 #: What opens the view of a preset.
 VIEWS: dict[str, dict[str, Any]] = {

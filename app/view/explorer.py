@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from difflib import get_close_matches
 from functools import partial
 from os import PathLike
 from pathlib import Path
@@ -41,6 +42,7 @@ from ..state.controls import CONTROL_NAMES, ExplorerState
 from .answers import AnswerQueue
 from .cell import Cell, running_kernel
 from .markup import SCRIPT_FOLDER, digest, edition, explorer_html, first_words, offered_text, script, settings
+from .own_parameters import join_parameters
 from .refresh import Frames
 from .shared import SHARED_CONTROLS, ControlTypes, declare, join
 from .warmup import is_ready
@@ -83,6 +85,9 @@ class ExplorerView(JSComponent, ControlTypes):
     markup = param.String("")
     latest = param.Bytes(b"")  # the last frame, where a page is told of parameters only
 
+    _own: ClassVar[tuple[str, ...]] = ()  # parameters of its system
+    _made = False
+
     _esm = script()
 
     @classmethod
@@ -119,6 +124,18 @@ class ExplorerView(JSComponent, ControlTypes):
         super().__init__(picture=picture, **opening, **layout, **{**drawn, **linked})
         self.state.param.watch(self._follow, list(CONTROL_NAMES))
         join(self, self.state)
+        if self._own:
+            join_parameters(self, self._own)
+        self._made = True
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Refuse a name that nothing reads."""
+        if not (self._made and name[0] != "_") or hasattr(self, name):
+            super().__setattr__(name, value)
+            return
+        near = get_close_matches(name, [*SHARED_CONTROLS, *self._own], n=3)
+        like = f" The nearest names are {', '.join(near)}." if near else ""
+        raise AttributeError(f"{name!r} is no parameter of this explorer.{like} view.param lists all.")
 
     @property
     def scene(self) -> Scene:
@@ -133,7 +150,7 @@ class ExplorerView(JSComponent, ControlTypes):
     def clone(self, **params: Any) -> ExplorerView:
         """Return another explorer of the same system, at the present values, with some parameters changed."""
         state = ExplorerState(**self.state.values())
-        return ExplorerView(state, self._system, **{**self._given_params, **params})
+        return type(self)(state, self._system, **{**self._given_params, **params})
 
     def _opening(self) -> dict[str, Any]:
         """Return what a browser starts from: the values of the controls, the first frame and the markup."""

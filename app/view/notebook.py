@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Mapping
 from numbers import Real
 from typing import Any
@@ -27,6 +28,7 @@ from ..state.cleaning import InputError, clean
 from ..state.controls import CONTROL_NAMES, ExplorerState
 from .cell import running_kernel
 from .explorer import ExplorerView
+from .own_parameters import with_parameters
 from .shared import SHARED_CONTROLS
 
 LAYOUT = frozenset({"sizing_mode", "width", "height", "margin", "styles", "stylesheets"})
@@ -69,8 +71,10 @@ def explorer(
     >>> view = explorer(a=-1, b=1, d=-1, f=(0, 0))
     >>> view = explorer("case1-cm0")
     """
-    from . import warmup
+    from . import extensions, warmup
 
+    for sentence in extensions.register_all():
+        warnings.warn(sentence, stacklevel=2)
     layout = {name: state.pop(name) for name in LAYOUT & state.keys()}
     linked = {name: value for name, value in state.items() if name in SHARED_CONTROLS and resolve_ref(value)}
     state = {name: resolve_value(value) if name in linked else value for name, value in state.items()}
@@ -96,7 +100,7 @@ def explorer(
         values = {**_values_of(system, values), **values}
     _bring_resources()
     warmup.start()
-    view = ExplorerView(ExplorerState.from_values(values), system, **layout)
+    view = with_parameters(ExplorerView, system)(ExplorerState.from_values(values), system, **layout)
     refused = view.refused
     if refused:
         raise ValueError(" ".join(refused))

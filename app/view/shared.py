@@ -58,6 +58,7 @@ class ControlTypes:
     orbit_eps: str
     lesson: str
     quiz: str
+    goal: str
     t_end: float
     cut: float
     ranges: dict[str, Any]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,21 +12,24 @@ from numpy.typing import ArrayLike
 
 from ..arguments import short_repr
 from ..arrays import Array, read_only
+from ..families.disc import disc_family, force_matrix
 from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
 from ..systems.affine import in_axes_of
 from ..systems.kinds import AnySystem
-from .codim_two_points import crossings, each_once
+from .codim_two_points import SpecialPlace, crossings, each_once
 from .connections.connection_curves import KINDS, connection_curves
 from .curve_numbers import curve_numbers, places
-from .curves import curves_of
+from .curves import border_curves, curves_of, parts_within
 from .cycles.cycle_curves import KIND, cycle_curves
-from .degenerate_lines import degenerate_lines
+from .degenerate_lines import DegenerateLine, degenerate_lines
+from .disc_atlas import clip_curve, curves_with_images, family_around_disc, is_in_range, points_with_images
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
 from .seed_net import NO_SEEDS, CurveSeeds, seeds_beside
+from .tracing import TracedCurves
 from .undefined_regions import undefined_borders
 
 __all__ = [
@@ -106,21 +109,42 @@ def curves_over(system: Any, psi: Psi, across: str, up: str, ranges: Any = None,
     return _curves_over(family_over(system, psi, z, across, up, ranges))
 
 
+def borders_over(family: SystemFamily) -> Atlas:
+    """Return the curves and points of a plane that are known in closed form: of a family with `force_matrix`."""
+    chart = disc_family(family) or family
+    return _atlas_of(family, chart, *border_curves(chart), (), True)
+
+
 def _curves_over(family: SystemFamily, seeds: CurveSeeds = NO_SEEDS) -> Atlas:
-    lines = degenerate_lines(family)
-    found, special = curves_of(family, lines, seeds)
+    chart = disc_family(family) or family
+    closed_form = force_matrix(family) is not None
+    lines = () if closed_form else degenerate_lines(family)
+    return _atlas_of(family, chart, *curves_of(chart, lines, closed_form, seeds), lines, closed_form)
+
+
+def _atlas_of(
+    family: SystemFamily,
+    chart: SystemFamily,
+    found: TracedCurves,
+    special: Sequence[SpecialPlace],
+    lines: Sequence[DegenerateLine],
+    closed_form: bool,
+) -> Atlas:
+    """Return an atlas of curves and special points that were found over a chart."""
+    kept = [part for one in found.curves for part in parts_within(one, chart, family)] if closed_form else found.curves
     curves = [
-        AtlasCurve(one.kind, read_only(family.values(one.plane)),
-                   read_only(places(family, one)), read_only(curve_numbers(family, one)))
-        for one in found.curves
+        AtlasCurve(one.kind, read_only(chart.values(one.plane)),
+                   read_only(places(chart, one)), read_only(curve_numbers(chart, one)))
+        for one in kept
     ]  # fmt: skip
     curves += [_nowhere(family, "degenerate", line.points) for line in lines]
     curves += [_nowhere(family, "undefined", line) for line in undefined_borders(family)]
-    met = [one for one in crossings(found.curves) if not any(line.holds(one.plane) for line in lines)]
+    met = [one for one in crossings(found.curves, not closed_form) if not any(line.holds(one.plane) for line in lines)]
     points = [
         AtlasPoint(one.kind, (float(at[0]), float(at[1])), one.sentence)
-        for one in each_once(special + met)
-        for at in [family.values(one.plane)]
+        for one in each_once([*special, *met])
+        for at in [chart.values(one.plane)]
+        if not closed_form or is_in_range(family, at)
     ]
     degenerate = tuple((family.names[line.axis], float(family.values(line.points)[0, line.axis])) for line in lines)
     kinds = tuple(dict.fromkeys(found.unfinished))
@@ -141,7 +165,7 @@ def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atla
     """
     family = family_over(system, psi, z, *found.names, found.ranges)
     whole = _with_regions(family, found)
-    if whole.looked.unlike and (seeds := seeds_beside(family, whole.looked.unlike)) != NO_SEEDS:
+    if whole.looked.unlike and (seeds := seeds_beside(disc_family(family) or family, whole.looked.unlike)) != NO_SEEDS:
         again = _with_regions(family, _curves_over(family, seeds))
         if len(again.looked.unlike) < len(whole.looked.unlike):
             return again
@@ -157,11 +181,10 @@ def _with_regions(family: SystemFamily, found: Atlas) -> Atlas:
 def with_folds_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
     """Return an atlas with its folds of limit cycles, of the same system, psi and z; they cut no region.
 
-    They are begun at generalised Hopf points, and at the folds on branches of cycles along two lines each way: one
+    They are begun at generalised Hopf points, and at the folds on branches of cycles along some lines each way: one
     that meets none of these is missed, and where branches see no cycle no fold is seen.
     """
-    curves, points = cycle_curves(family_over(system, psi, z, *found.names, found.ranges), found.curves, found.points)
-    return replace(found, curves=found.curves + tuple(curves), points=found.points + tuple(points))
+    return _with_more(family_over(system, psi, z, *found.names, found.ranges), found, _folds)
 
 
 def with_connections(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
@@ -169,9 +192,27 @@ def with_connections(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> 
 
     Those are loops of critical sets that are saddles, heteroclinic cycles through the equator, and single connections.
     They are begun where the branches of two saddles change sides on some lines across the plane, and beside
-    Bogdanov-Takens points: a curve that meets none of these is missed, and so is an orbit that winds about on its way.
+    Bogdanov-Takens points and saddle-nodes on the equator: a curve that meets none of these is missed, and so is an
+    orbit that winds about on its way.
     """
+    return _with_more(family_over(system, psi, z, *found.names, found.ranges), found, _connections)
+
+
+def with_bifurcations_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
+    """Return an atlas with the connections of saddles, and folds of the limit cycles that are born from them."""
     family = family_over(system, psi, z, *found.names, found.ranges)
+    return _with_more(family, found, _connections, _folds)
+
+
+More = Callable[[SystemFamily, Atlas], Atlas]
+
+
+def _folds(family: SystemFamily, found: Atlas) -> Atlas:
+    curves, points = cycle_curves(family, found.curves, found.points)
+    return replace(found, curves=found.curves + tuple(curves), points=found.points + tuple(points))
+
+
+def _connections(family: SystemFamily, found: Atlas) -> Atlas:
     curves, points, missed = connection_curves(family, found.curves, found.points)
     return replace(
         found, curves=found.curves + tuple(curves), points=found.points + tuple(points),
@@ -179,9 +220,24 @@ def with_connections(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> 
     )  # fmt: skip
 
 
-def with_bifurcations_of_cycles(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atlas:
-    """Return an atlas with folds of limit cycles, and the connections of saddles they are born from and die in."""
-    return with_connections(system, psi, with_folds_of_cycles(system, psi, found, z), z)
+def _with_more(family: SystemFamily, found: Atlas, *steps: More) -> Atlas:
+    """Return an atlas with what some steps find: over the disc of critical sets, where the family has that chart."""
+    chart = disc_family(family)
+    if chart is None:
+        for step in steps:
+            found = step(family, found)
+        return found
+    whole = known = _curves_over(family_around_disc(chart))
+    for step in steps:
+        whole = step(chart, whole)
+    both = curves_with_images(chart, whole.curves[len(known.curves) :])
+    curves = [part for one in both for part in clip_curve(one, family)]
+    told = points_with_images(chart, whole.points[len(known.points) :])
+    points = [one for one in told if is_in_range(family, np.array(one.place))]
+    return replace(
+        found, curves=found.curves + tuple(curves), points=found.points + tuple(points),
+        unfinished=tuple(dict.fromkeys(found.unfinished + whole.unfinished)),
+    )  # fmt: skip
 
 
 def family_over(system: Any, psi: Psi, z: ArrayLike, across: str, up: str, ranges: Any) -> SystemFamily:

@@ -12,6 +12,7 @@ from ..arrays import Array
 from ..curves.arclength import zero_between
 from ..curves.newton import newton
 from ..families.conditions import EquatorEquations, InteriorEquations
+from ..families.disc import border_points
 from ..families.family import SystemFamily
 from ..words import say
 from .curve_numbers import lyapunov, trace
@@ -20,6 +21,7 @@ from .tracing import TracedCurve
 SAME_POINT_DISTANCE = 1e-6  # of the ranges: points of one kind nearer to each other are one
 MIN_END_DISTANCE = 1e-7  # and so far from an end of both curves they cross
 MAX_CORRECTION = 0.05  # that Newton's method may go from where two polylines cross
+ZERO_VALUE = 1e-9  # of a function along a curve, in units of the largest |U|: less is zero
 UNREPORTED_KINDS = ("node-focus", "det A = 0")  # kinds whose crossings are no news
 
 
@@ -70,6 +72,12 @@ def special_points_along(family: SystemFamily, curve: TracedCurve) -> list[Speci
     return []
 
 
+def closed_form_points(family: SystemFamily) -> list[SpecialPlace]:
+    """Return the cusps and corners of borders that are known in closed form."""
+    tips, touching = border_points(family)
+    return [*(_cusp(v) for v in tips), *(_corner(v) for v in touching)]
+
+
 def _corner(v: Array) -> SpecialPlace:
     return SpecialPlace("saddle-node on the equator", say("two borders touch", theta=_angle(v)), v)
 
@@ -104,6 +112,8 @@ def _zeros(
     points = curve.points
     values = np.array([test(v) for v in points]) if values is None else values
     known = np.isfinite(values)
+    if not np.abs(values[known]).max(initial=0.0) > ZERO_VALUE:  # zero all along, and rounding
+        return []
     turned = known[1:] & known[:-1] & (np.sign(values[1:]) * np.sign(values[:-1]) < 0.0)
     rows = np.flatnonzero(turned).tolist()
     return [make(zero_between(curve.condition, test, points[i], points[i + 1])) for i in rows]
@@ -125,15 +135,15 @@ def _cusps_of_sets(family: SystemFamily, curve: TracedCurve) -> list[SpecialPlac
     return found
 
 
-def crossings(curves: Sequence[TracedCurve]) -> list[SpecialPlace]:
-    """Find where two curves cross, or one crosses itself, at two places of the portrait."""
+def crossings(curves: Sequence[TracedCurve], bounded: bool = True) -> list[SpecialPlace]:
+    """Find where two curves cross, or one itself, at two places of the portrait; in the unit square if bounded."""
     found = []
     told = [one for one in curves if one.kind not in UNREPORTED_KINDS]
     for i, one in enumerate(told):
         for other in told[i:]:
             for j, k in _crossing_pieces(one, other):
                 at = _solve_crossing(one, other, j, k)
-                if at is not None:
+                if at is not None and not (bounded and _is_outside(at)):
                     kinds = sorted((one.kind, other.kind))
                     found.append(SpecialPlace("crossing", say("two at once", one=kinds[0], other=kinds[1]), at))
     return found
@@ -173,7 +183,7 @@ def _solve_crossing(one: TracedCurve, other: TracedCurve, j: int, k: int) -> Arr
 
     start = np.concatenate([one.points[j, : n - 2], other.points[k, : m - 2], one.plane[j]])
     found = newton(both, start, MAX_CORRECTION * 10.0)
-    if found is None or found[-2:].min() < -MIN_END_DISTANCE or found[-2:].max() > 1.0 + MIN_END_DISTANCE:
+    if found is None:
         return None
     if (
         n == m
@@ -182,6 +192,10 @@ def _solve_crossing(one: TracedCurve, other: TracedCurve, j: int, k: int) -> Arr
     ):
         return None  # one place: what happens there is told as a point along one of them
     return found[-2:]
+
+
+def _is_outside(at: Array) -> bool:
+    return bool(at.min() < -MIN_END_DISTANCE or at.max() > 1.0 + MIN_END_DISTANCE)
 
 
 def _distances(away: Array, n: int) -> Array:

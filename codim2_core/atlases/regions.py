@@ -61,6 +61,15 @@ def regions_of(
     return tuple(sorted(out, key=lambda region: -region.area)), looked
 
 
+def faces_between(lines: Sequence[Array], marks: Array) -> list[tuple[Face, Array, float]]:
+    """Return the faces between lines of the unit square that can be seen, a place in each, and how far its border is.
+
+    Shapes: lines (m, 2), marks (k, 2), that lie on some of them.
+    """
+    found = [(face, *middle(face)) for face in net_of([_insert_marks(line, marks) for line in lines]).faces()]
+    return [one for one in found if one[2] > MIN_HALF_WIDTH]
+
+
 def _unlike(
     family: SystemFamily, classes: Classes, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
 ) -> tuple[tuple[float, float], ...]:

@@ -31,10 +31,14 @@ AFFINE_CELLS, MAX_HALVINGS = (
 )  # cells along u and v where U is affine in e: its one zero is known; how often they are halved
 MAX_E = 100.0  # e beyond this counts as this
 CELL_CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])
+NEUTRAL_MEAN = 1e-12  # of a mean of lambda_rho/|Theta|: less is zero, as where a symmetry keeps it
 MAX_NEUTRAL_STEPS = 32  # on which the curve of a neutral equator is looked for
 TRIAL_SUMS = 12  # of functions that are tried in a cell
 MIN_SUM_SHARE = 0.1  # of what a sum of them changes by in a cell: so far from zero it has none there
-NET_OFFSET = 0.37  # of a cell: the net of e lies beside round numbers, on which degenerate systems like to lie
+NET_OFFSET, UP_OFFSET = (
+    0.37,
+    0.21,
+)  # of a cell: the net of e lies beside round numbers, on which degenerate systems like to lie
 
 MAX_PLACES = 8  # from which curves are looked for
 MAX_WAY = 0.5  # of the ranges, along each axis
@@ -51,7 +55,7 @@ AFFINE_CELL = np.array([2.0 / INTERIOR_CELLS, 2.0 / INTERIOR_CELLS, 1.0 / AFFINE
 def on_equator(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -> tuple[Array, Array, Array]:
     """Cells in which Theta and Theta' come to zero, and those in which U does: centres (k, 3) of each.
 
-    And steps (k, 2, 2) of the net, from where Theta has no zero, on which the mean of lambda_rho/|Theta| does.
+    And `stability_steps`.
     """
     theta = (np.arange(EQUATOR_CELLS + 1) + NET_OFFSET) * EQUATOR_CELL[0]
     side = np.linspace(0.0, 1.0, PARAMETER_CELLS + 1)
@@ -61,7 +65,19 @@ def on_equator(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -> tu
     slope = s * s * a - s * c * (b + p) + c * c * q - radial
     grids = theta, side, side
     on, through = (drop_touching(_cells(of, grids), lines, 0.5 / PARAMETER_CELLS) for of in ((turning, slope), (U, V)))
-    return on, through, _drop_degenerate(_stability_changes(turning[:-1], radial[:-1], side), lines)
+    return on, through, _drop_degenerate(_stability_changes(turning[:-1], radial[:-1], side, side), lines)
+
+
+def stability_steps(family: SystemFamily) -> Array:
+    """Return steps (k, 2, 2) of a net, from closed equators, on which the mean of lambda_rho/|Theta| changes its sign.
+
+    Of a symmetric family: the net lies beside the lines on which a symmetry keeps that zero.
+    """
+    theta = (np.arange(EQUATOR_CELLS) + NET_OFFSET) * EQUATOR_CELL[0]
+    across, up = ((np.arange(PARAMETER_CELLS + 2) - offset) / PARAMETER_CELLS for offset in (NET_OFFSET, UP_OFFSET))
+    c, s = np.cos(theta)[:, None, None], np.sin(theta)[:, None, None]
+    (U, V), _ = _on_net(family, c, s, across[:, None], up)
+    return _stability_changes(c * V - s * U, c * U + s * V, across, up)
 
 
 def _drop_degenerate(steps: Array, lines: Sequence[DegenerateLine]) -> Array:
@@ -72,7 +88,7 @@ def _drop_degenerate(steps: Array, lines: Sequence[DegenerateLine]) -> Array:
     return steps
 
 
-def _stability_changes(turning: Array, radial: Array, side: Array) -> Array:
+def _stability_changes(turning: Array, radial: Array, across: Array, up: Array) -> Array:
     """Find the steps of the net, from closed equators, on which these change their stability.
 
     Where Theta gets a zero the mean goes to infinity, with the sign of lambda_rho there.
@@ -81,8 +97,8 @@ def _stability_changes(turning: Array, radial: Array, side: Array) -> Array:
     closed = (turning * way > 0.0).all(axis=0)
     mean = (radial / np.where(closed, turning * way, 1.0)).mean(axis=0)
     there = np.take_along_axis(radial, (turning * way).argmin(axis=0)[None], axis=0)[0]
-    value = np.where(closed, mean, there)
-    place = np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1)
+    value = np.where(closed, np.where(np.abs(mean) > NEUTRAL_MEAN, mean, 0.0), there)
+    place = np.stack(np.meshgrid(across, up, indexing="ij"), axis=-1)
     found = []
     for one, other in (((slice(1, None),), (slice(-1),)), ((slice(None), slice(1, None)), (slice(None), slice(-1)))):
         turned = value[one] * value[other] < 0.0

@@ -13,6 +13,7 @@ from ..arrays import Array
 from ..curves.arclength import CurveEdge, StepBounds, TracedLine, square_edges, tangent, trace_curve
 from ..curves.newton import Condition, newton
 from ..families import conditions
+from ..families.disc import borders
 from ..families.family import MAX_RADIUS_SQUARED, SystemFamily
 from . import seed_net
 
@@ -107,6 +108,16 @@ def saddle_nodes(family: SystemFamily, cells: Array, seeds: Sequence[Array] = ()
         COVERED_FORK_CELLS,
     )
     return _trace_curves((plain, forked), cells, seed_net.EQUATOR_CELL, EQUATOR_STEPS, seeds)
+
+
+def closed_form_borders(family: SystemFamily) -> TracedCurves:
+    """Curves of saddle-nodes, and of a critical set at the equator, over a family of `disc_family`."""
+    kinds = ("saddle-node", conditions.saddle_node(family)), ("transcritical", conditions.through_equator(family))
+    lines = zip(kinds, borders(family), strict=True)
+    return TracedCurves([
+        TracedCurve(kind, condition, TracedLine(line, True, ("", "")))
+        for (kind, condition), line in lines if len(line)
+    ])  # fmt: skip
 
 
 def through_equator(family: SystemFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
@@ -101,17 +100,3 @@ def read_only_lines(arrays: Iterable[Array]) -> tuple[Array, ...]:
         array.flags.writeable = False
         out.append(array)
     return tuple(out)
-
-
-def plain_point(f: Array | tuple[float, float]) -> tuple[float, float]:
-    """Round -0 to 0 and make plain floats."""
-    return float(f[0]) + 0.0, float(f[1]) + 0.0
-
-
-def angles_of_cosine(ratio: float, middle: float) -> list[float]:
-    """Find the four angles in [0, 2 pi) with ``cos(2 theta - middle) = ratio``; none if ratio is beyond +-1."""
-    if not abs(ratio) <= 1.0:
-        return []
-    half = math.acos(ratio)
-    found = ((0.5 * (middle + sign * half) + turn) % (2 * math.pi) for sign in (1, -1) for turn in (0.0, math.pi))
-    return sorted(found)

@@ -86,7 +86,7 @@ class RayPiece:
 def continue_cycles(
     system: AnySystem, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike, marked: Sequence[MarkedValue]
 ) -> CycleBranches:
-    """Continue the limit cycles of the layer problem eq:LP along one parameter (sec:case3).
+    """Continue the limit cycles of the layer problem (3.26) along one parameter (Section 4.3.3).
 
     Shapes: z (m,).
     """

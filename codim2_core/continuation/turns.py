@@ -44,11 +44,15 @@ class FiniteDifference:
 
 @dataclass(frozen=True)
 class TurnOrbit:
-    """A turn, the states along it (k, 3), and the derivatives of its shift by each parameter."""
+    """A turn, the states along it (k, 3), the derivatives of its shift by each parameter, and what is left.
+
+    left: The exponent from each state to the end: there a change has grown by as much, (k,).
+    """
 
     turn: ReturnMapPoint
     states: Array
     by_values: tuple[float, ...]
+    left: Array
 
 
 def turn(
@@ -100,7 +104,7 @@ def turn(
         amplitude=_farthest(way.inner[:, :2], centre.p), height=float(way.inner[:, 2].min()),
         rate=chi * (1.0 - chi), chi=chi, p=(float(begin[0]), float(begin[1])),
     )  # fmt: skip
-    return TurnOrbit(found, way.inner, tuple(by_values))
+    return TurnOrbit(found, way.inner, tuple(by_values), left.ravel())
 
 
 def _cross(v: Array, w: Array) -> Array:

@@ -1,7 +1,7 @@
 """Names of e-linear portraits by the million: a compiled filter, and the exact path for what it does not decide.
 
-A portrait's name (fig:sketches, fig:3cases) needs four signs: those of a and d with det A (tab:cases), that of
-|A^-1 f| - 1 (thm:lineps1), and whether Theta has 0, 2 or 4 zeros, which is the sign of the discriminant of the quartic
+A portrait's name (Figure 15, Figure 16) needs four signs: those of a and d with det A (Table 1), that of
+|A^-1 f| - 1 (Theorem 4.1), and whether Theta has 0, 2 or 4 zeros, which is the sign of the discriminant of the quartic
 
     N(t) = (b - f2) t^4 - 2 (f1 + d - a) t^3 + 2 b t^2 - 2 (f1 - d + a) t + (b + f2),   t = tan(theta/2),
 
@@ -25,7 +25,7 @@ PORTRAIT_NAMES: tuple[tuple[str, str], ...] = tuple(
     (case, f"{exists}{count}") for case in ("I", "II", "III") for exists in ("NCM", "CM") for count in (0, 2, 4)
 )
 #: Codes of names that index theory excludes: U turns w times along the equator, w is the sum of the indices of the
-#: critical sets (a saddle's in Case II), and n limit directions allow |w - 1| <= n/2 (sec:geneps0).
+#: critical sets (a saddle's in Case II), and n limit directions allow |w - 1| <= n/2 (Section 3.1).
 IMPOSSIBLE = tuple(
     code
     for code, (case, name) in enumerate(PORTRAIT_NAMES, 1)

@@ -67,7 +67,7 @@ class Census(Result):
     seed : int
     contradictions : int
         Systems that are not degenerate and whose critical sets do not have the indices that U turns along the equator
-        (sec:geneps0): each would be an error of this software.
+        (Section 3.1): each would be an error of this software.
     """
 
     table: tuple[CensusRow, ...]

@@ -27,7 +27,7 @@ ON_THE_WAY = np.linspace(0.0, 1.0, 17)  # where lambda_rho is looked at between 
 class EquatorPull:
     """The first-order return map just above the equator.
 
-    There theta turns as on the equator, and ``ebar' = -lambda_rho ebar`` (eq:LP): an orbit comes to the next
+    There theta turns as on the equator, and ``ebar' = -lambda_rho ebar`` (3.26): an orbit comes to the next
     equilibrium on its way, which draws it in where lambda_rho > 0; but first ebar grows where lambda_rho < 0. A closed
     equator draws none in within a turn, however strong.
 

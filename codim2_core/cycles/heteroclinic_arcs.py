@@ -1,6 +1,6 @@
 """Arcs of the equator along which a heteroclinic cycle through the equator may go.
 
-Such a loop goes along the equator from a half-saddle P to the next one, Q (thm:geneps0(b)), and back to P over the
+Such a loop goes along the equator from a half-saddle P to the next one, Q (Theorem 3.1(b)), and back to P over the
 hemisphere:
 
     P:  lambda_rho > 0, lambda_theta > 0 (orbits come down to it);    Q:  lambda_rho < 0, lambda_theta < 0.

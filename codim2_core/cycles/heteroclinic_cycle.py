@@ -17,9 +17,10 @@ from ..layer_problem.problem import LayerProblem
 from ..orbits.departures import departures
 from .heteroclinic_arcs import HeteroclinicArc
 from .ray import Ray
-from .ray_section import HemispherePoint, TurnSection
+from .ray_section import MAX_STEPS, HemispherePoint, TurnSection
 
 RTOL = 1e-12
+LOOP_STEPS = 8 * MAX_STEPS  # orbits past two half-saddles take longer than a turn
 
 
 def loop_gap(
@@ -55,6 +56,6 @@ def _first_crossing(section: TurnSection, arc: HeteroclinicArc, rtol: float, bac
     x, y = state[0, :2] - section.critical.p
     turned = math.atan2(section.u[1], section.u[0]) - math.atan2(y, x)
     goal = np.array([(sense * turned) % math.tau])
-    ends, _, codes, _ = section.turn(state, rtol, backward, goal=goal, sense=sense)
+    ends, _, codes, _ = section.turn(state, rtol, backward, goal=goal, sense=sense, limit=LOOP_STEPS)
     lost = {module.TO_CRITICAL_SET: -math.inf, module.OUTWARD: math.inf, module.NO_RETURN_YET: math.nan}
     return lost.get(int(codes[0]), float(section.coordinate(ends)[0]))

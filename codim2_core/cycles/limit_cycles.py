@@ -42,7 +42,7 @@ SEMISTABLE_NOTE = say("semistable")
 
 @dataclass(frozen=True, eq=False)
 class LimitCycle(Tabled):
-    """A limit cycle of the layer problem eq:LP; arrays are read-only.
+    """A limit cycle of the layer problem (3.26); arrays are read-only.
 
     Attributes
     ----------
@@ -61,9 +61,9 @@ class LimitCycle(Tabled):
     direction : int
         +1 anticlockwise, -1 clockwise.
     mean_e : ndarray (2,)
-        Mean of e_Psi over a period; in an e-linear system ``-A^-1 f`` by prop:LC.
+        Mean of e_Psi over a period; in an e-linear system ``-A^-1 f`` by Proposition 4.2.
     slow_flow : ndarray (m,)
-        Mean of z' over a period; in an e-linear system ``B mean_e + g``, that on the critical set, by prop:LC.
+        Mean of z' over a period; in an e-linear system ``B mean_e + g``, that on the critical set, by Proposition 4.2.
     closure : float
         Distance on the sphere between the start and the end of one period.
     """
@@ -114,11 +114,8 @@ class LimitCycles(Several[LimitCycle], Pictured):
     proved: Proof | None = None
 
     def _tables_(self) -> str:
-        return (
-            (self._repr_svg_() or "")
-            + result_rows(self)
-            + paragraphs([self.reason, *self.notes] if self.proved is None else [self.proved.reason, *self.notes])
-        )
+        reason = self.reason if self.proved is None else self.proved.reason
+        return result_rows(self) + paragraphs([reason, *self.notes])
 
 
 def surrounds(line: Array, place: Array) -> bool:
@@ -160,7 +157,7 @@ def excluding_theorem(problem: LayerProblem) -> str | None:
 
 
 def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool = False) -> LimitCycles:
-    """Find the limit cycles of the layer problem, eq:LP, sec:case3 (the closed equator is not one of them).
+    """Find the limit cycles of the layer problem, (3.26), Section 4.3.3 (the closed equator is not one of them).
 
     Parameters
     ----------

@@ -38,11 +38,21 @@ def best_crossing(points: Array, foot: HemispherePoint) -> tuple[float, int]:
 
     quality: Negative if the cycle does not go round the point once. Shapes: points (m, 2).
     """
+    quality = crossing_qualities(points, foot)
+    best = int(quality.argmax())
+    return float(quality[best]), best
+
+
+def crossing_qualities(points: Array, foot: HemispherePoint) -> Array:
+    """Return how well a cycle crosses the ray from a point through each of its own points, see `best_crossing`.
+
+    Shapes: points (m, 2), result (m - 1,).
+    """
     away = points - foot.p
     angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))
     turned = angle[-1] - angle[0]
     if abs(abs(turned) - 2.0 * math.pi) > 0.1:
-        return -1.0, 0
+        return np.full(len(points) - 1, -1.0)
     sense, count = math.copysign(1.0, turned), len(points) - 1
     angle = sense * angle[:-1]
     along = np.roll(points[:-1], -1, axis=0) - np.roll(points[:-1], 1, axis=0)
@@ -52,6 +62,4 @@ def best_crossing(points: Array, foot: HemispherePoint) -> tuple[float, int]:
     highest = np.maximum.accumulate(twice)
     recent = max(1, int(CROSSING_SLACK * count))
     lead = angle - highest[count - recent : 2 * count - recent]
-    quality = np.where(angle >= highest[count:], np.minimum(sine, lead), -1.0)
-    best = int(quality.argmax())
-    return float(quality[best]), best
+    return np.where(angle >= highest[count:], np.minimum(sine, lead), -1.0)

@@ -48,7 +48,7 @@ class ClassInterval(Tabled):
 
 
 def class_line(system: Any, psi: Psi, name: str, span: Sequence[float], z: ArrayLike = ()) -> tuple[ClassInterval, ...]:
-    """Stretches of equal class along one parameter (sec:bifurcations).
+    """Stretches of equal class along one parameter (Section 4.4).
 
     They end at the special values of `bifurcation_diagram`; in between, the class is computed once.
 

@@ -1,4 +1,4 @@
-"""The path of the critical set's linearisation as one parameter varies: the trails of fig:bads."""
+"""The path of the critical set's linearisation as one parameter varies: the trails of Figure 17."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ __all__ = ["LinearisationPath", "linearisation_path"]
 
 @dataclass(frozen=True, eq=False)
 class LinearisationPath(Pictured):
-    """The critical set's linearisation (eq:scjaco) along one parameter.
+    """The critical set's linearisation (3.23) along one parameter.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class LinearisationPath(Pictured):
 
 
 def linearisation_path(system: Any, psi: Psi, name: str, values: ArrayLike, z: ArrayLike = ()) -> LinearisationPath:
-    """Trace, determinant and eigenvalues of the critical set along one parameter (fig:bads).
+    """Trace, determinant and eigenvalues of the critical set along one parameter (Figure 17).
 
     Where a general system has several critical sets, the one nearest (in p) to the last; first the innermost. Raises
     ValueError: The name cannot be varied, a value is not finite or beyond what it may be, or z does not fit. Shapes:

@@ -67,7 +67,7 @@ class SpecialValue(Tabled):
 
 @dataclass(frozen=True, eq=False)
 class DirectionBranch(Result):
-    """A limit direction along a piece on which its stability does not change (eq:equator_zeros).
+    """A limit direction along a piece on which its stability does not change (4.9).
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class DirectionBranch(Result):
 
 @dataclass(frozen=True, eq=False)
 class ClosedEquator(Result):
-    """The equator as a closed orbit along a piece on which its stability does not change (thm:geneps0(c)).
+    """The equator as a closed orbit along a piece on which its stability does not change (Theorem 3.1(c)).
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ class ClosedEquator(Result):
 
 @dataclass(frozen=True, eq=False)
 class CriticalBranch(Result):
-    """A critical set along a piece on which its kind does not change (eq:critical_set).
+    """A critical set along a piece on which its kind does not change (3.22).
 
     Attributes
     ----------

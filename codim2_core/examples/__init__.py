@@ -1,4 +1,4 @@
-"""The paper's three systems (sec:examples) and others that people meet, each with its source.
+"""The paper's three systems (Section 5) and others that people meet, each with its source.
 
 All are in the units of their parameters; `catalogue` lists them with the ranges in which they are interesting.
 """
@@ -51,3 +51,8 @@ def __getattr__(name: str) -> Callable[..., ELinear | System]:
     if name in catalogue:
         return catalogue[name].make
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for the Tab key."""
+    return list(__all__)

@@ -1,4 +1,4 @@
-"""Attracting and repelling directions, sec:mateslidecross, eq:ex4p5: some approaches cross, others slide."""
+"""Attracting and repelling directions, Section 5.2, (5.12): some approaches cross, others slide."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from .example import Example
 
 
 def attracting_repelling() -> System:
-    """Attracting and repelling directions, sec:mateslidecross, eq:ex4p5: some approaches cross, others slide.
+    """Attracting and repelling directions, Section 5.2, (5.12): some approaches cross, others slide.
 
     Examples
     --------

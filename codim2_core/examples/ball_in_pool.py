@@ -1,4 +1,4 @@
-"""Ball at the bottom of a pool, sec:ballpool: slips, sticks and rolls."""
+"""Ball at the bottom of a pool, Section 5.1: slips, sticks and rolls."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from .example import GRAVITY, Ball, Example, check_physics
 
 
 def ball_in_pool(mu: float = 0.2, m: float = 1.0, K: float = 1.0, g: float = GRAVITY) -> ELinear:
-    """Ball at the bottom of a pool, sec:ballpool: slips, sticks and rolls.
+    """Ball at the bottom of a pool, Section 5.1: slips, sticks and rolls.
 
     (x, y) is the velocity at the point of contact, z the velocity of the centre of mass, m/s. It sticks where
     ``|z| < z_crit = 7 mu m g/(2 K)`` and then slows down as exp(-5 K t/(7 m)).

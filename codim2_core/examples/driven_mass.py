@@ -31,7 +31,7 @@ def driven_mass(F: float = 1.0, omega: float = 2.0, S: float = 0.5, k: float = 1
     >>> import math
     >>> import codim2_core as c2
     >>> mass, start = c2.examples.driven_mass(), c2.examples.catalogue["driven_mass"].launch
-    >>> found = c2.periodic_motion(mass, start, math.pi)
+    >>> found = c2.periodic_motion(mass, None, start, math.pi)
     >>> round(math.hypot(*found.state0[2:4]), 7), bool(max(abs(found.multipliers)) < 1.0)
     (0.2886751, True)
     """

@@ -1,4 +1,4 @@
-"""Sliding that depends on the direction of approach, sec:nonunique, eq:exmult: two stable critical sets."""
+"""Sliding that depends on the direction of approach, Section 5.3, (5.16): two stable critical sets."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from .example import Example
 
 
 def nonunique_sliding() -> System:
-    """Sliding that depends on the direction of approach, sec:nonunique, eq:exmult: two stable critical sets.
+    """Sliding that depends on the direction of approach, Section 5.3, (5.16): two stable critical sets.
 
     Examples
     --------

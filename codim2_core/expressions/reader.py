@@ -21,7 +21,7 @@ _TOKEN = re.compile(
 _MEANT = str.maketrans("−–—×·⋅∗÷", "---****/")
 _DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
 #: Other names of functions; and what to write for functions that there are not.
-ALIASES = {"ln": "log", "arctan": "atan", "sgn": "sign", "fabs": "abs"}
+ALIASES = {"ln": "log", "arctan": "atan", "sgn": "sign", "fabs": "abs", "Abs": "abs", "Max": "max", "Min": "min"}
 ELSEWHERE = {
     "asin": "atan(u/sqrt(1 - u^2))", "arcsin": "atan(u/sqrt(1 - u^2))", "acos": "pi/2 - atan(u/sqrt(1 - u^2))",
     "arccos": "pi/2 - atan(u/sqrt(1 - u^2))", "atan2": "2*atan(u/(v + sqrt(u^2 + v^2)))",

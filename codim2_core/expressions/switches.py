@@ -49,6 +49,14 @@ class Branch:
         nearest = round(float(argument.evaluate(values)))
         return nearest if nearest > choice else choice - 1
 
+    def returns_to(self, before: Branch, switch: int, values: Mapping[str, float], rates: Mapping[str, float]) -> bool:
+        """Whether this branch ends at once where it begins, at a switch of the branch before at which rows jump."""
+        argument = before.arguments[switch]
+        if not before.jumps[switch] or argument not in self.arguments:
+            return False
+        guard = self.guards[self.arguments.index(argument)]
+        return sum(float(guard.derivative(name).evaluate(values)) * rates[name] for name in guard.names) < 0.0
+
 
 def kinks(rows: Sequence[Expression], names: Collection[str]) -> Rows:
     """Return the arguments of every abs, and the differences within every min and max, that read some names."""

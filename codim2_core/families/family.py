@@ -59,6 +59,8 @@ class SystemFamily:
         As given.
     names : tuple of str
     ranges : tuple of (low, high)
+    slant : (ndarray (2,), ndarray (2, 2)) or None
+        Parameters ``origin + matrix u`` at a place u of the unit square, where this is no rectangle of the ranges.
     """
 
     system: Any
@@ -66,6 +68,7 @@ class SystemFamily:
     z: tuple[float, ...]
     names: tuple[str, ...]
     ranges: Ranges
+    slant: tuple[Array, Array] | None = None
 
     @cached_property
     def rows(self) -> tuple[Expression, Expression]:
@@ -103,10 +106,17 @@ class SystemFamily:
     @cached_property
     def unit_rows(self) -> tuple[Expression, Expression]:
         """U1 and U2 over `size`, in c, s and `AXES`, the places in the unit square."""
+        if self.slant is None:
+            places = [f"{low!r} + {high - low!r}*{unit}" for (low, high), unit in zip(self.ranges, AXES, strict=False)]
+        else:
+            places = [
+                f"{low!r} + {first!r}*x + {second!r}*y"
+                for low, (first, second) in zip(*(part.tolist() for part in self.slant), strict=True)
+            ]
         found = []
         for row in self.rows:
-            for name, unit, low, width in zip(self.names, AXES, self._low.tolist(), self.widths.tolist(), strict=False):
-                row = row.substitute(name, parse(f"{low!r} + {width!r}*{unit}", AXES))
+            for name, place in zip(self.names, places, strict=True):
+                row = row.substitute(name, parse(place, AXES))
             found.append(parse(f"value/{self.size!r}", ("value",)).substitute("value", row))
         return found[0], found[1]
 
@@ -128,6 +138,11 @@ class SystemFamily:
             rows += [row, *once, *twice]
         return function_of(rows, names)
 
+    @property
+    def symmetric(self) -> bool:
+        """Whether a half turn of the square about its middle turns the portrait, and changes nothing else."""
+        return self.slant is not None
+
     @cached_property
     def widths(self) -> Array:
         """Widths of the ranges, (n,)."""
@@ -139,10 +154,14 @@ class SystemFamily:
 
     def values(self, u: Array) -> Array:
         """Return the parameters at places (..., n) of the unit square."""
+        if self.slant is not None:
+            return np.asarray(self.slant[0] + u @ self.slant[1].T)
         return self._low + self.widths * u
 
     def units(self, values: Array) -> Array:
         """Return places of the unit square from values (..., n) of the parameters."""
+        if self.slant is not None:
+            return np.asarray(np.linalg.solve(self.slant[1], (values - self.slant[0])[..., None])[..., 0], float)
         return np.asarray((values - self._low) / self.widths)
 
     def value(self, u: float) -> float:
@@ -208,7 +227,7 @@ class SystemFamily:
 
     @cached_property
     def turns(self) -> bool:
-        """Whether the portrait's axes are turned from those of `rows`, by lem:normalform."""
+        """Whether the portrait's axes are turned from those of `rows`, by Lemma B.1."""
         return getattr(self.system, "given_matrix", None) is not None
 
     def frozen(self, u: Array) -> Any:

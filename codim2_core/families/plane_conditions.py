@@ -30,7 +30,7 @@ def singular_matrix(family: SystemFamily) -> Condition:
 
 
 def neutral_equator(family: SystemFamily) -> Condition:
-    """Find where the mean of lambda_rho/|Theta| over the equator is zero, of a closed equator (thm:geneps0(c)).
+    """Find where the mean of lambda_rho/|Theta| over the equator is zero, of a closed equator (Theorem 3.1(c)).
 
     Means over equally spaced angles, twice as many until they stand; NaNs where there are limit directions.
     """

@@ -107,7 +107,7 @@ def _ellipse(add: Add) -> None:
 
 
 def bifurcation_presets() -> dict[str, Preset]:
-    """Presets of fig:SNBIF, fig:transcrit, D2, fig:intersections and fig:ellipse, by name.
+    """Presets of Figure 20, Figure 19, D2, Figure 13 and Figure 14, by name.
 
     The paper prints no numbers for these sketches: all values here are round ones that give the portrait sketched.
     """

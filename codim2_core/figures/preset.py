@@ -80,7 +80,7 @@ class Preset:
 
     def _repr_html_(self) -> str:
         said = paragraphs([f"{self.title} ({cite(self.label)})" if self.label else self.title, self.note])
-        return (self._repr_svg_() or "") + said
+        return drawing.image(self) + said
 
     @property
     def system(self) -> ELinear | System:

@@ -7,11 +7,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from difflib import get_close_matches
 from types import MappingProxyType
 
 from .bifurcations import bifurcation_presets
 from .examples import example_presets
 from .preset import Add, Preset, collector
+
+
+class Named(dict[str, Preset]):
+    """Presets by name; one that is missing is told with the names that are like it."""
+
+    def __missing__(self, name: str) -> Preset:
+        near = get_close_matches(str(name), self, n=3) or tuple(self)[:3]
+        raise KeyError(f"{name!r} is no preset; the nearest names are {', '.join(near)}.")
 
 
 def _case_one(add: Add) -> None:
@@ -146,7 +155,7 @@ def _collect_presets() -> dict[str, Preset]:
     found: dict[str, Preset] = {}
     for group in (_case_one, _case_two, _case_three):
         group(collector(found))
-    return found | bifurcation_presets() | example_presets()
+    return Named(found | bifurcation_presets() | example_presets())
 
 
 _presets = _collect_presets()

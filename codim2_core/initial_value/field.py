@@ -37,7 +37,7 @@ def _state_names(m: int) -> tuple[str, ...]:
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """U and W of eq:vf as functions of numbers.
+    """U and W of (2.7) as functions of numbers.
 
     Attributes
     ----------
@@ -98,13 +98,8 @@ class Field:
             # Rounding hides that it has changed, or the guard touches 0 with a rate of 0.
             other = before.next_choice(switch, self.values(e, state))
             after = whole.on_branch(e, state, (*before.choices[:switch], other))
-        if before.jumps[switch]:
-            guard = after.branch.guards[switch]
-            rates = dict(zip(_state_names(self.m), after.value(*e, *state), strict=True))
-            values = self.values(e, state)
-            if sum(guard.derivative(name).evaluate(values) * rates[name] for name in guard.names) < 0.0:
-                return None
-        return after
+        rates = dict(zip(_state_names(self.m), after.value(*e, *state), strict=True))
+        return None if after.branch.returns_to(before, switch, self.values(e, state), rates) else after
 
     @cached_property
     def rests(self) -> bool:

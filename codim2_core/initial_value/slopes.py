@@ -17,7 +17,7 @@ from .field import rows_of
 
 @dataclass(frozen=True, eq=False)
 class Slopes:
-    """U and W of eq:vf and their exact derivatives as functions of arrays.
+    """U and W of (2.7) and their exact derivatives as functions of arrays.
 
     Attributes
     ----------
@@ -93,7 +93,7 @@ def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
 
 
 def smoothed_direction(psi: Psi, eps: float, xy: Array) -> tuple[Array, Array]:
-    """Return e_Psi (k, 2), eq:ePsi, and its derivative (k, 2, 2), rem:jaco_properties.
+    """Return e_Psi (k, 2), (2.19), and its derivative (k, 2, 2), Remark 3.2.
 
     Shapes: xy (k, 2).
     """

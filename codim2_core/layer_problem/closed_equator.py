@@ -1,4 +1,4 @@
-"""The equator as a closed orbit, where Theta has no zero (thm:geneps0(c)): period and stability, closed forms."""
+"""The equator as a closed orbit, where Theta has no zero (Theorem 3.1(c)): period and stability, closed forms."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ NEUTRAL_EQUATOR = 2.0**-49  # of the terms of the exponent: zero within rounding
 
 @dataclass(frozen=True, eq=False)
 class EquatorCycle(Result):
-    """The equator as a closed orbit (thm:geneps0(c)).
+    """The equator as a closed orbit (Theorem 3.1(c)).
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ class EquatorCycle(Result):
 
 
 def equator_cycle(system: AnySystem, z: ArrayLike = ()) -> EquatorCycle | None:
-    """Find the closed orbit on the equator, or None if the equator has equilibria (thm:geneps0(c)).
+    """Find the closed orbit on the equator, or None if the equator has equilibria (Theorem 3.1(c)).
 
     lambda_rho = (d cos^2 + a sin^2) - Theta', and Theta'/|Theta| integrates to 0 over a turn: the exponent is
     d times the integral of cos^2/|Theta| plus a times that of sin^2/|Theta|. With 1/|Theta| written as

@@ -1,6 +1,6 @@
 """Critical sets: the equilibria of the layer problem, with their linearisation.
 
-Where they are is `location`'s for the e-linear system (thm:lineps1), that of `disc_zeros` for typed formulas.
+Where they are is `location`'s for the e-linear system (Theorem 4.1), that of `disc_zeros` for typed formulas.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ PLACED = 4 * 2.0**-52  # of |e|, to which the place of a zero is known
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CriticalSet(Tabled):
-    """A critical set C of the layer problem, eq:critical_set, with its linearisation eq:scjaco.
+    """A critical set C of the layer problem, (3.22), with its linearisation (3.23).
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class CriticalSet(Tabled):
         "stable node", "stable focus", "unstable node", "unstable focus", "saddle", or "centre (linear)"; in general
         systems also "saddle-node" (det J = 0: two critical sets have just met) and "degenerate" (more than two).
     slow_flow : ndarray (m,)
-        z' on it, eq:linslowflow; independent of Psi.
+        z' on it, (4.17); independent of Psi.
     """
 
     _head_ = ("e", "kind", "tr J", "det J", "slow flow z′")
@@ -105,9 +105,9 @@ class CriticalSets(Results[CriticalSet]):
 
 
 def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> CriticalSets:
-    """All isolated critical sets at z, eq:critical_set.
+    """All isolated critical sets at z, (3.22).
 
-    For an e-linear system none or one (thm:lineps1(a), eq:lincriticalset), in closed form. For a general system all
+    For an e-linear system none or one (Theorem 4.1(a), (4.15)), in closed form. For a general system all
     zeros of U in the open disc, by increasing c, then s, from a search that proves them complete (`disc_zeros`).
 
     Parameters

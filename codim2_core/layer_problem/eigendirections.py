@@ -1,7 +1,7 @@
 """Along which directions of the picture orbits come to equilibria, and leave them: eigenvectors, projected.
 
-At a critical set they are those of J (eq:scjaco) in kappa_2, carried to the disc by the differential of
-``p = x2/sqrt(1 + |x2|^2)``. At a limit direction Q (thm:geneps0) there are three: along the equator (lambda_theta), up
+At a critical set they are those of J (3.23) in kappa_2, carried to the disc by the differential of
+``p = x2/sqrt(1 + |x2|^2)``. At a limit direction Q (Theorem 3.1) there are three: along the equator (lambda_theta), up
 the hemisphere (-lambda_rho) and outwards (lambda_rho). On the hemisphere the one that goes up is vertical; what is seen
 of it is the projection of its invariant curve ``theta = theta_0 + k w^2``, w = ebar (see `orbits.departures`): as
 ``|p| = 1 - w^2/2 + ...``, the curve comes in along ``-e + 2 k e_perp``, with

@@ -1,7 +1,7 @@
 """The equator of the blown-up hemisphere: its equilibria (limit directions), or its closed orbit.
 
-On the equator theta' = Theta (eq:equator_zeros); an equilibrium Q there has the eigenvalues lambda_theta =
-dTheta/dtheta along the equator, lambda_rho outwards and -lambda_rho up the hemisphere (thm:geneps0).
+On the equator theta' = Theta (4.9); an equilibrium Q there has the eigenvalues lambda_theta =
+dTheta/dtheta along the equator, lambda_rho outwards and -lambda_rho up the hemisphere (Theorem 3.1).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ SINGULAR_ROUNDING = (
 
 @dataclass(frozen=True, eq=False)
 class EquatorEquilibria(Result):
-    """Equilibria on the equator, Q1, Q2, ... in increasing theta (thm:geneps0, eq:equator_equilibria).
+    """Equilibria on the equator, Q1, Q2, ... in increasing theta (Theorem 3.1, (2.15)).
 
     Attributes
     ----------
@@ -212,7 +212,7 @@ def arcs_of(arcs: NDArray[np.float64]) -> list[str]:
 
 
 def equator_equilibria(system: AnySystem, z: ArrayLike = ()) -> EquatorEquilibria:
-    """Equilibria on the equator at z (eq:equator_zeros), with multiplicity; of an e-linear system at most 4.
+    """Equilibria on the equator at z (4.9), with multiplicity; of an e-linear system at most 4.
 
     Parameters
     ----------

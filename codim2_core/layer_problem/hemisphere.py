@@ -1,7 +1,7 @@
 """The blown-up hemisphere: the charts kappa_1 and kappa_2, the disc that shows it, and the flow on it.
 
 With ``rho = sqrt(x^2 + y^2 + eps^2)`` the point (x, y, eps) is ``rho (p, ebar)`` on the hemisphere
-``|p|^2 + ebar^2 = 1``, eq:blowup_def, and p in the closed unit disc is its projection. The equator is |p| = 1.
+``|p|^2 + ebar^2 = 1``, (3.3), and p in the closed unit disc is its projection. The equator is |p| = 1.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ __all__ = [
 
 
 def disc_from_scaling(x2: ArrayLike) -> Array:
-    """``p = x2/sqrt(1 + |x2|^2)``: from the scaling chart kappa_2, eq:scalingchart, to the disc. Shapes (..., 2).
+    """``p = x2/sqrt(1 + |x2|^2)``: from the scaling chart kappa_2, (3.7), to the disc. Shapes (..., 2).
 
     Examples
     --------
@@ -75,7 +75,7 @@ def height(p: ArrayLike) -> Array:
 
 
 def entry_from_scaling(x2: ArrayLike, rho_2: float = 0.0) -> tuple[Array, Array, Array]:
-    """``kappa_12``, eq:coordinatechange: from kappa_2 to the entry chart kappa_1.
+    """``kappa_12``, (3.8): from kappa_2 to the entry chart kappa_1.
 
     The angle is the two-argument arctangent (the paper prints arctan(y2/x2), which loses the quadrant).
 
@@ -102,9 +102,9 @@ def entry_from_scaling(x2: ArrayLike, rho_2: float = 0.0) -> tuple[Array, Array,
 
 
 def disc_from_entry(epsilon_1: ArrayLike, theta: ArrayLike) -> Array:
-    """``p = xi (cos theta, sin theta)``, ``xi = sqrt(1 - epsilon_1^2)``: from kappa_1, eq:entrychart, to the disc.
+    """``p = xi (cos theta, sin theta)``, ``xi = sqrt(1 - epsilon_1^2)``: from kappa_1, (3.6), to the disc.
 
-    The paper prints xi = (1 - epsilon_1)^(1/2) at eq:xi; the square is missing there.
+    The paper prints xi = (1 - epsilon_1)^(1/2) at (3.10); the square is missing there.
 
     Examples
     --------
@@ -120,7 +120,7 @@ def disc_from_entry(epsilon_1: ArrayLike, theta: ArrayLike) -> Array:
 
 
 def e_psi(psi: Psi, p: ArrayLike) -> Array:
-    """``e_Psi`` at points of the closed disc, eq:ePsi with |(x, y, eps)| = 1. Shapes (..., 2).
+    """``e_Psi`` at points of the closed disc, (2.19) with |(x, y, eps)| = 1. Shapes (..., 2).
 
     Examples
     --------
@@ -140,7 +140,7 @@ def e_psi(psi: Psi, p: ArrayLike) -> Array:
 
 
 def flow(coefficients: FrozenSystem, psi: Psi, p: ArrayLike) -> Array:
-    """``p' = U - p (p.U)``, U at e_Psi(p): the layer problem eq:LP on the disc, in the time T (dT = dt/rho).
+    """``p' = U - p (p.U)``, U at e_Psi(p): the layer problem (3.26) on the disc, in the time T (dT = dt/rho).
 
     One smooth field on the closed disc: charts kappa_1 and kappa_2 together. Shapes (..., 2).
 
@@ -159,7 +159,7 @@ def flow(coefficients: FrozenSystem, psi: Psi, p: ArrayLike) -> Array:
 
 
 def outside_flow(coefficients: FrozenSystem, theta: ArrayLike) -> tuple[Array, Array]:
-    """``(rho'/rho, theta')`` outside, eq:polar_gen_odes_desing: lambda_rho(theta) and Theta(theta), each (...,).
+    """``(rho'/rho, theta')`` outside, (2.12): lambda_rho(theta) and Theta(theta), each (...,).
 
     Examples
     --------
@@ -175,3 +175,8 @@ def outside_flow(coefficients: FrozenSystem, theta: ArrayLike) -> tuple[Array, A
 
 
 globals().update(checked_functions(__name__, globals(), __all__))
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for the Tab key."""
+    return list(__all__)

@@ -1,4 +1,4 @@
-"""The Jacobian of a critical set, eq:scjaco, and the determinants behind it, without cancellation."""
+"""The Jacobian of a critical set, (3.23), and the determinants behind it, without cancellation."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def matrix_determinant(m11: float, m12: float, m21: float, m22: float) -> tuple[
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """The Jacobian eq:scjaco in the axes along e and across it, where D e_Psi is diagonal.
+    """The Jacobian (3.23) in the axes along e and across it, where D e_Psi is diagonal.
 
     ``J = [[along, *], [*, across]]``; written so, trace and determinant have no cancellation that the coefficients
     do not have: b, however large, stays out of the trace.
@@ -98,7 +98,7 @@ def linearisation(
 ) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]:
     """Place and Jacobian of the critical set with ``e_Psi = e``.
 
-    J: eq:scjaco, ``A . D e_Psi``; D e_Psi has eigenvalue `radial` along e and `tangential` across it.
+    J: (3.23), ``A . D e_Psi``; D e_Psi has eigenvalue `radial` along e and `tangential` across it.
     """
     a, b, d = matrix
     modulus = math.hypot(*e)

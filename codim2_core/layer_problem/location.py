@@ -1,4 +1,4 @@
-"""Solve A e + f = 0 in the disc: the critical set of the e-linear system, thm:lineps1.
+"""Solve A e + f = 0 in the disc: the critical set of the e-linear system, Theorem 4.1.
 
 The solution is ``e = -A^-1 f = -n/det A`` with ``n = adj(A) f``, and a critical set exists iff ``|n| < |det A|``. That
 form never divides by det A. Signs that rounding could blur are decided in exact rational arithmetic of the given
@@ -71,7 +71,7 @@ class Location:
 
 
 def locate(at: FrozenSystem) -> Location:
-    """Decide whether, and where, ``A e + f = 0`` in the disc |e| < 1 (thm:lineps1(a)), without dividing by det A.
+    """Decide whether, and where, ``A e + f = 0`` in the disc |e| < 1 (Theorem 4.1(a)), without dividing by det A.
 
     In the axes of `at`.
     """

@@ -1,4 +1,4 @@
-"""The first Lyapunov coefficient of the layer problem ``x2' = U(e_Psi(x2))`` where tr J = 0 (eq:linLP, eq:LP).
+"""The first Lyapunov coefficient of the layer problem ``x2' = U(e_Psi(x2))`` where tr J = 0 ((4.19), (3.26)).
 
 With ``e_Psi = x h(|x|^2)`` and ``h(s) = (s + Psi(s))^(-1/2)`` the second and third differentials of e_Psi are exact
 polynomials in h', h'', h''' and hence in the first three derivatives of Psi.

@@ -48,31 +48,31 @@ def found_once(
 
 @found_once("location", of_psi=False)
 def find_location(problem: LayerProblem) -> Location | None:
-    """Decide where A e + f = 0, thm:lineps1(a); None if U is not e-linear."""
+    """Decide where A e + f = 0, Theorem 4.1(a); None if U is not e-linear."""
     return None if problem.at.affine is None else locate(problem.at)
 
 
 @found_once("equator", of_psi=False)
 def find_equator(problem: LayerProblem) -> EquatorEquilibria:
-    """Find the limit directions, eq:equator_equilibria."""
+    """Find the limit directions, (2.15)."""
     return equilibria_at(problem.at, problem.location).counted_from(problem.cut)
 
 
 @found_once("equator_cycle", of_psi=False)
 def find_equator_cycle(problem: LayerProblem) -> EquatorCycle | None:
-    """Describe the equator as a closed orbit, thm:geneps0(c); None where it has equilibria."""
+    """Describe the equator as a closed orbit, Theorem 3.1(c); None where it has equilibria."""
     on = problem.equator
     return None if len(on) or on.all_directions else equator_cycle(problem.at)
 
 
 @found_once("critical")
 def find_critical(problem: LayerProblem) -> tuple[CriticalSet, ...]:
-    """Find the critical sets, eq:critical_set."""
+    """Find the critical sets, (3.22)."""
     return sets_at(problem.at, problem.psi, problem.location)
 
 
 class LayerProblem:
-    """The layer problem eq:LP of a system frozen at z, under Psi.
+    """The layer problem (3.26) of a system frozen at z, under Psi.
 
     What a module above this one finds in it (`found_once`) is kept here too: whoever is given the problem finds nothing
     twice.
@@ -136,20 +136,20 @@ class LayerProblem:
 
     @property
     def location(self) -> Location | None:
-        """Return the solution of A e + f = 0, thm:lineps1(a); None if U is not e-linear."""
+        """Return the solution of A e + f = 0, Theorem 4.1(a); None if U is not e-linear."""
         return find_location(self)
 
     @property
     def equator(self) -> EquatorEquilibria:
-        """The limit directions, eq:equator_equilibria."""
+        """The limit directions, (2.15)."""
         return find_equator(self)
 
     @property
     def equator_cycle(self) -> EquatorCycle | None:
-        """The equator as a closed orbit, thm:geneps0(c); None where it has equilibria."""
+        """The equator as a closed orbit, Theorem 3.1(c); None where it has equilibria."""
         return find_equator_cycle(self)
 
     @property
     def critical(self) -> tuple[CriticalSet, ...]:
-        """The critical sets, eq:critical_set."""
+        """The critical sets, (3.22)."""
         return find_critical(self)

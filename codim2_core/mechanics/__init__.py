@@ -29,3 +29,8 @@ __all__ = [
 ]
 
 globals().update(checked_functions(__name__, globals(), ["fit"]))
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for the Tab key."""
+    return list(__all__)

@@ -1,4 +1,4 @@
-"""A mechanism with one contact point and dry friction as a system of the paper's form, eq:vf.
+"""A mechanism with one contact point and dry friction as a system of the paper's form, (2.7).
 
 With velocities v, kinetic energy v·Mv/2, applied force Q, slip (x, y) = J v - w, where w is the velocity of the other
 body at the point, and friction -N mu e, ``M v' = Q - J^T N mu e``. So ``(x, y)' = J v' + J' v - w'``, and as many
@@ -176,7 +176,7 @@ class Mechanism(ByValue, Parts):
 
     @cached_property
     def system(self) -> ELinear | System:
-        """The system of eq:vf: an `ELinear` where U and W are linear in e with no shear, else a `System`."""
+        """The system of (2.7): an `ELinear` where U and W are linear in e with no shear, else a `System`."""
         algebra = self._algebra
         speeds = self._speeds((*(algebra.times(self._normal, part) for part in self._coulomb), self._normal))
         U = [algebra.formula(entry) for entry in self._slip_rates(speeds)[:2]]

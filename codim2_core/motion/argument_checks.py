@@ -8,7 +8,23 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arrays import Array
+from ..psi.function import Psi
 from ..systems.kinds import AnySystem
+
+SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
+MAX_STEPS = 20_000
+
+
+def checked_eps(eps: float | None, psi: Psi | None, stiction: float = 1.0) -> float:
+    """Check eps: 0 or None for the limit, which alone may go without Psi, and alone knows stiction."""
+    eps = eps or 0.0
+    if eps != 0.0 and not SMALLEST_EPS <= eps <= LARGEST_EPS:
+        raise ValueError(f"eps is {eps!r}; give 0 for the limit, or {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
+    if eps > 0.0 and psi is None:
+        raise ValueError(f"psi is None and eps is {eps:g}; give the regularisation, or eps = 0 for the limit.")
+    if eps > 0.0 and stiction > 1.0:
+        raise ValueError(f"stiction is {stiction:g} and eps is {eps:g}; leave one out: it is known in the limit alone.")
+    return float(eps)
 
 
 def checked_span(t_span: ArrayLike) -> tuple[float, float]:

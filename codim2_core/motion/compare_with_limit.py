@@ -15,7 +15,7 @@ from ..systems.kinds import AnySystem
 from ..words import say
 from .result import Phase, Simulation
 
-NEUTRAL_RATIO = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (fig:transcrit)
+NEUTRAL_RATIO = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (Figure 19)
 FAR_OUT = 1e6  # zeta at which the power with which Psi falls is read off
 _VERB = {"slip": "slips", "slide": "slides", "cross": "crosses Σ"}
 
@@ -43,7 +43,7 @@ def limit_order(system: AnySystem, psi: Psi, limit: Simulation) -> float:
 
     It is 1, but lower if the motion leaves Sigma: along a limit direction, the orbits of the hemisphere come to the
     direction as eps^(|lambda_theta|/lambda_rho), so that the order is at most that ratio; through the equator
-    (fig:transcrit) it is ``2 q/(1 + 2 q)`` where ``Psi ~ s^(1 - q/2)``: 4/5 for Psi = 1, near 1 for one that falls
+    (Figure 19) it is ``2 q/(1 + 2 q)`` where ``Psi ~ s^(1 - q/2)``: 4/5 for Psi = 1, near 1 for one that falls
     exponentially. In an invariant line there is no direction to come to, and only the exit through the equator counts.
 
     In (0, 1].

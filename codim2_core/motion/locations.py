@@ -1,7 +1,7 @@
 """Locate a phase of a motion: its e, and its p in the projected disc, at any time; and its origin.
 
 Regularised, both are those of the state. In the limit eps -> 0 they are those of the set that is followed, and what
-happens in no time, the orbit of the layer problem up the hemisphere (fig:side_of_sphere), is kept as a path.
+happens in no time, the orbit of the layer problem up the hemisphere (Figure 7), is kept as a path.
 """
 
 from __future__ import annotations

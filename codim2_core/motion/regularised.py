@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import pairwise
-from typing import overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from ..arguments import checked_times
 from ..arrays import Array
-from ..initial_value.events import Event, Events, EventWatch, checked_events, reverse_event
+from ..initial_value.events import Event, EventWatch, reverse_event
 from ..initial_value.field import Field, backwards, field
 from ..initial_value.functions import functions_of
 from ..initial_value.inspection import Inspection
@@ -27,131 +24,11 @@ from ..numerics.radau import BlowUpError, Step, TooManyStepsError
 from ..psi.function import Psi
 from ..systems.kinds import AnySystem
 from ..words import say
-from .argument_checks import checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
 from .passage import Passage
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation
 from .variation.regularised import of_regularised
-
-__all__ = ["simulate"]
-
-
-SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
-MAX_STEPS = 20_000
-
-
-@overload
-def simulate(  # pyright: ignore[reportOverlappingOverload] (rows are told from a row by their own entries)
-    system: AnySystem,
-    psi: Psi,
-    state0: Sequence[Sequence[float]],
-    t_span: ArrayLike,
-    *,
-    eps: float,
-    rtol: float = ...,
-    atol: float = ...,
-    events: Events = ...,
-    times: ArrayLike | None = ...,
-    max_steps: int = ...,
-    max_step: float = ...,
-) -> tuple[Simulation, ...]: ...
-
-
-@overload
-def simulate(
-    system: AnySystem,
-    psi: Psi,
-    state0: ArrayLike,
-    t_span: ArrayLike,
-    *,
-    eps: float,
-    rtol: float = ...,
-    atol: float = ...,
-    events: Events = ...,
-    times: ArrayLike | None = ...,
-    max_steps: int = ...,
-    max_step: float = ...,
-) -> Simulation: ...
-
-
-def simulate(
-    system: AnySystem,
-    psi: Psi,
-    state0: ArrayLike,
-    t_span: ArrayLike,
-    *,
-    eps: float,
-    rtol: float = 1e-8,
-    atol: float = 1e-10,
-    events: Events = (),
-    times: ArrayLike | None = None,
-    max_steps: int = MAX_STEPS,
-    max_step: float = math.inf,
-) -> Simulation | tuple[Simulation, ...]:
-    """Follow one motion of the regularised system: eq:vf with e replaced by e_Psi, eq:ePsi.
-
-    Parameters
-    ----------
-    system : ELinear, System, or one of them frozen at a z
-    psi : Psi
-    state0 : (2 + m,), or (k, 2 + m)
-        (x, y, z1, ..., zm); x = y = 0 is allowed. Rows are as many motions.
-    t_span : (t_start, t_end)
-        In the time t of eq:vf. If it decreases, what is returned is the past of state0: the motion that begins at
-        t_end, runs forward like any other, and comes to state0 at t_start.
-    eps : float
-        1e-14 <= eps <= 1e6.
-    rtol, atol : float
-        Error allowed in a step: rtol rho for x and y, rho = sqrt(x^2 + y^2 + eps^2), and rtol |z| + atol for z.
-        rtol from 1e-13 to 0.01.
-    events : sequence of Event, or of callables (t, state) to float
-        Their zeros are found in the dense output, also several in one step; an `Event` may be terminal.
-    times : (k,) floats, optional
-        Within the span: those of the result, as far as the motion comes; left out, the ends of the steps.
-    max_steps : int
-        Steps tried before the motion is given up, with a status that says so.
-    max_step : float
-        The longest step, as in SciPy.
-
-    Returns
-    -------
-    Simulation, or tuple of k Simulation
-        Its phases are read off the motion when they are first asked for: "slide" where it follows a critical set or a
-        limit cycle of the layer problem within O(eps). If it grows beyond bounds, or the step limit is reached, it
-        holds what was followed till then. What slides forgets where it came from: a past begins where differences of
-        rtol at state0 would have grown to a hundredth, and the status says so.
-
-    Raises
-    ------
-    ValueError
-        An argument is invalid, the field is not finite at state0, or an event does not return a finite number.
-
-    Examples
-    --------
-    >>> from codim2_core import examples, psi
-    >>> run = simulate(examples.ball_in_pool(K=0.0), psi.constant(), (1.0, 0.0, 1.0, 0.0), (0.0, 0.5), eps=1e-6)
-    >>> [phase.kind for phase in run.phases]
-    ['slip', 'slide']
-
-    Where it came from:
-
-    >>> past = simulate(examples.ball_in_pool(K=0.0), psi.constant(), (0.5, 0.0, 1.0, 0.0), (0.0, -0.1), eps=1e-6)
-    >>> past.states[-1].tolist(), past.states[0].round(6).tolist()
-    ([0.5, 0.0, 1.0, 0.0], [1.1867, 0.0, 1.1962, 0.0])
-    """
-    if not SMALLEST_EPS <= eps <= LARGEST_EPS:
-        raise ValueError(f"eps is {eps!r}; allowed is {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
-    span = checked_span(t_span)
-    when = checked_times(times, span)
-    checked_tolerances(rtol, atol, max_steps, max_step)
-    asked = _RegularisedRun(
-        system, field(system), psi, float(eps), span, rtol, atol, checked_events(events), max_steps, max_step
-    )
-    states = checked_states(with_time(state0, system, span[0]), asked.formulas.m)
-    runs = asked.runs(states) if span[0] < span[1] else _pasts(asked, states)
-    runs = tuple(run.sample(when) for run in runs)
-    return runs[0] if np.ndim(state0) < 2 else runs
 
 
 def simulate_segments(
@@ -163,11 +40,11 @@ def simulate_segments(
     run: From start to start, up to the first segment that ends before its time; cuts: Step ends at which segments
     begin, and the last; ends: Of the segments. Shapes: starts (k, 2 + m), times (k + 1,).
     """
+    whole = (float(times[0]), float(times[-1]))
+    asked = RegularisedRun(system, field(system), psi, eps, whole, rtol, atol, (), max_steps, max_step)
     runs: list[Simulation] = []
     for start, span in zip(starts, pairwise(times.tolist()), strict=True):
-        runs.append(
-            simulate(system, psi, start, span, eps=eps, rtol=rtol, atol=atol, max_steps=max_steps, max_step=max_step)
-        )
+        runs.append(replace(asked, span=span).one(start))
         if runs[-1].status is not SimulationStatus.T_END:
             break
     motions = [run.motion for run in runs]
@@ -176,9 +53,6 @@ def simulate_segments(
         StepArray(m.states[0], m.times[:-1], m.lengths, np.vstack([m.states[1:-1], last]), m.polynomials)
         for m, last in zip(motions, following, strict=True)
     ]
-    asked = _RegularisedRun(
-        system, field(system), psi, eps, (float(times[0]), float(times[-1])), rtol, atol, (), max_steps, math.inf
-    )
     motion, status = dense(float(times[0]), starts[0], parts), runs[-1].status
     detail = runs[-1].reason.removeprefix(status.value).strip()
     run = asked.told(motion, status, detail, sum(run.evaluations for run in runs))
@@ -187,7 +61,7 @@ def simulate_segments(
 
 
 @dataclass(frozen=True, eq=False)
-class _RegularisedRun:
+class RegularisedRun:
     """Arguments common to all motions of one call: `system` names the phases, `formulas` are integrated."""
 
     system: AnySystem
@@ -202,8 +76,17 @@ class _RegularisedRun:
     max_step: float
 
     def runs(self, states: Array) -> tuple[Simulation, ...]:
-        """Follow all motions."""
-        return tuple(map(self.one, states))
+        """Follow all motions; where the span goes back, as they run, as far as states say where they came from."""
+        if self.span[0] < self.span[1]:
+            return tuple(map(self.one, states))
+        back = replace(
+            self,
+            formulas=backwards(self.formulas),
+            span=(-self.span[0], -self.span[1]),
+            events=tuple(map(reverse_event, self.events)),
+        )
+        pasts = (Past.from_run(back.one(state), self.system, self.psi, self.rtol, self.atol) for state in states)
+        return tuple(self.told(*past) for past in pasts)
 
     def one(self, first: Array) -> Simulation:
         """Follow one motion step by step, from switch to switch of its formulas."""
@@ -309,18 +192,6 @@ class _RegularisedRun:
         return simulation(
             motion, phases, variation, status, detail=detail, eps=self.eps, evaluations=evaluations, events=events
         )
-
-
-def _pasts(asked: _RegularisedRun, states: Array) -> tuple[Simulation, ...]:
-    """Follow motions backwards, and return them as they run, as far as their states tell where they came from."""
-    back = replace(
-        asked,
-        formulas=backwards(asked.formulas),
-        span=(-asked.span[0], -asked.span[1]),
-        events=tuple(map(reverse_event, asked.events)),
-    )
-    pasts = [Past.from_run(run, asked.system, asked.psi, asked.rtol, asked.atol) for run in back.runs(states)]
-    return tuple(asked.told(*past) for past in pasts)
 
 
 def _cut_at_event(part: StepArray, watch: EventWatch, n: int) -> StepArray | None:

@@ -1,4 +1,4 @@
-"""Find the critical set that a state of the regularised motion follows, if any: sec:geneps1, thm:geneps1.
+"""Find the critical set that a state of the regularised motion follows, if any: Section 3.2, Theorem 3.3.
 
 The motion slides where it lies on a slow manifold, and that is O(eps) away from the critical set: in the chart
 kappa_2, where ``eps x2' = U(e_Psi(x2), eps x2, z)`` up to the time, it is ``x2 = X(z) + eps X1(z) + O(eps^2)`` with

@@ -1,4 +1,4 @@
-"""Limit directions as meeting points of a hyperbola with the unit circle (fig:intersections)."""
+"""Limit directions as meeting points of a hyperbola with the unit circle (Figure 13)."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MAX_PARAMETER_STEP = 0.5  # step of t on the hyperbola (e^t, e^-t)
 
 @dataclass(frozen=True, eq=False)
 class Conics:
-    """The conic Theta = 0, eq:conic11, and where it meets the unit circle, eq:conic12.
+    """The conic Theta = 0, (4.10), and where it meets the unit circle, (4.11).
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Conics:
 def conics_of(problem: LayerProblem, view: float = 2.0, pixel: float | None = None) -> Conics:
     """Return the conic (d - a) x y + f2 x - f1 y + b = 0 of the normal form, and the limit directions on it.
 
-    A system in other axes has the conic of its normal form, turned back (lem:normalform).
+    A system in other axes has the conic of its normal form, turned back (Lemma B.1).
     """
     form, theta = problem.at.normal_form, problem.equator.theta
     meeting = _read_only(np.stack([np.cos(theta), np.sin(theta)], axis=-1))

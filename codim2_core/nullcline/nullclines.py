@@ -1,4 +1,4 @@
-"""Nullclines on the hemisphere and outside it, as separate branches (fig:sim_5cases)."""
+"""Nullclines on the hemisphere and outside it, as separate branches (Figure 24)."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class NullclineBranch(Tabled):
     Attributes
     ----------
     kind : "rho", "theta", "U1" or "U2"
-        rho' = 0, theta' = 0, or the lines U1 = 0, U2 = 0 of fig:sim_5cases.
+        rho' = 0, theta' = 0, or the lines U1 = 0, U2 = 0 of Figure 24.
     inside : bool
         On the hemisphere (|p| <= 1), or outside it. Outside, U1 and U2 continue as the straight lines
         ``a x - b y = -f1`` and ``b x + d y = -f2`` (construction lines: the paper prints +f1 and +f2). In a general

@@ -1,6 +1,6 @@
 """Radau IIA of order 9 (five stages) for ``Y' = F(Y)``: one implicit method for slip, entry, sliding and exit.
 
-Near Sigma the vector field of eq:vf changes over distances of eps (or of rho itself in the nonsmooth system), while z
+Near Sigma the vector field of (2.7) changes over distances of eps (or of rho itself in the nonsmooth system), while z
 moves over distances of 1: stiff while sliding, and smooth while slipping. The method is L-stable, so that steps are as
 long as the solution is smooth. Its polynomial through the stages is the dense output.
 """

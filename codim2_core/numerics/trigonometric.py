@@ -1,6 +1,6 @@
 """All real zeros of a trigonometric polynomial of degree 2, with multiplicity, for every input.
 
-The equilibria on the equator (eq:equator_zeros) and the directions of zero radial speed are zeros of
+The equilibria on the equator (4.9) and the directions of zero radial speed are zeros of
 
     t(theta) = m0 + c1 cos(theta) + s1 sin(theta) + c2 cos(2 theta) + s2 sin(2 theta).
 
@@ -80,7 +80,7 @@ def real_zeros(m0: float, c1: float, s1: float, c2: float, s2: float) -> Trigono
 
 
 def tangential_zeros(a: float, b: float, d: float, f1: float, f2: float) -> TrigonometricZeros:
-    """Zeros of Theta = (d - a) sin cos + f2 cos - f1 sin + b: the equator's equilibria (eq:equator_zeros).
+    """Zeros of Theta = (d - a) sin cos + f2 cos - f1 sin + b: the equator's equilibria (4.9).
 
     Directions in radians; `slope` is lambda_theta. Raises ValueError: If a coefficient is not finite.
     """

@@ -1,4 +1,4 @@
-"""Local expansion of the orbit that leaves a limit direction up the hemisphere, thm:geneps0(b).
+"""Local expansion of the orbit that leaves a limit direction up the hemisphere, Theorem 3.1(b).
 
 Write ``p = sqrt(1 - w^2) (cos theta, sin theta)``, w = ebar. At a limit direction theta_0, Theta = 0, and
 ``theta' = Theta - w^2 Psi Theta_e/2 + ...`` with ``Theta_e = (-sin, cos).D_e U (cos, sin)`` (A for D_e U in the

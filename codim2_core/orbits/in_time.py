@@ -34,8 +34,8 @@ class InTime(ByValue):
     Attributes
     ----------
     fast : bool
-        The orbit lies on the hemisphere: times are tau = t/eps and lengths are in eps, eq:LP. Outside they are as they
-        are, eq:vf with z frozen.
+        The orbit lies on the hemisphere: times are tau = t/eps and lengths are in eps, (3.26). Outside they are as they
+        are, (2.7) with z frozen.
     time : ndarray (k,)
         0 at the seed.
     xy : ndarray (k, 2)
@@ -86,7 +86,7 @@ def in_time(system: AnySystem, psi: Psi, seed: ArrayLike, span: tuple[float, flo
 
 
 def _on_hemisphere(at: FrozenSystem, psi: Psi, start: Array, end: float) -> tuple[Array, Array, Array, Array]:
-    """Follow (x2, tau) over T: dx2 = U dtau, dtau = dT/ebar, ebar = 1/sqrt(1 + |x2|^2), eq:LP in kappa_2.
+    """Follow (x2, tau) over T: dx2 = U dtau, dtau = dT/ebar, ebar = 1/sqrt(1 + |x2|^2), (3.26) in kappa_2.
 
     Not p, of which x2 = p/ebar is taken: an error of p in its own direction is 1/ebar^3 times as large in x2, a
     thousand times at 10 eps.

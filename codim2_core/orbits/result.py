@@ -80,6 +80,12 @@ class Trajectories(Pictured):
         which = np.repeat(np.arange(len(self)), np.diff(self.offsets))
         return column_rows({"trajectory": which, "T": self.clock, "x": self.buffer[:, 0], "y": self.buffer[:, 1]})
 
+    def __iter__(self) -> Iterator[Array]:
+        return iter(self.points)
+
+    def __getitem__(self, i: int) -> Array:
+        return self.points[i]
+
     def __len__(self) -> int:
         return len(self.codes)
 

@@ -77,7 +77,7 @@ def trajectories(
     step_limit: int = DEFAULT_MAX_STEPS,
     stiff: bool = False,
 ) -> Trajectories:
-    """Follow trajectories from points of the picture: eq:LP on the hemisphere, eq:polar_gen_odes_desing outside.
+    """Follow trajectories from points of the picture: (3.26) on the hemisphere, (2.12) outside.
 
     Parameters
     ----------
@@ -281,7 +281,7 @@ def continuation(
     stiff: bool = False,
     beside: Array | None = None,
 ) -> Trajectories:
-    """Continue trajectories that arrive at limit directions up the hemisphere, fig:side_of_sphere, thm:geneps0(b).
+    """Continue trajectories that arrive at limit directions up the hemisphere, Figure 7, Theorem 3.1(b).
 
     Where lambda_rho < 0 the equilibrium Q of the equator has one invariant direction up the hemisphere, with rate
     -lambda_rho > 0 (backward: where lambda_rho > 0). The orbit that leaves along it is followed from Q itself, from

@@ -2,9 +2,9 @@
 
 Outside, a system that does not depend on x, y is the same at every distance, so the angle alone decides which limit
 direction a trajectory tends to; otherwise it does so near Sigma, and that is what is said here. Where lambda_rho < 0
-there it reaches Sigma, goes up the hemisphere from Q (thm:geneps0(b), fig:side_of_sphere), and what attracts it there
-is the outcome: a critical set or a limit cycle means sliding (thm:geneps1, prop:LC), another limit direction means
-crossing.
+there it reaches Sigma, goes up the hemisphere from Q (Theorem 3.1(b), Figure 7), and what attracts it there
+is the outcome: a critical set or a limit cycle means sliding (Theorem 3.3, Proposition 4.2), another limit direction
+means crossing.
 """
 
 from __future__ import annotations
@@ -164,7 +164,7 @@ def _compare_families(
     if not verdicts:
         return replace(outcome, depends_on_psi=None)
     depends = any((verdict, onto) != (outcome.verdict, outcome.onto) for _, verdict, onto in verdicts)
-    # in the e-linear system C is where it is for every Ψ, and prop:LC gives its slow flow to every cycle around it
+    # an e-linear system has its C for every Ψ, and Proposition 4.2 gives its slow flow to every cycle around it
     alike = depends and elinear and {outcome.verdict, *(verdict for _, verdict, _ in verdicts)} <= {"slide", "cycle"}
     reason = f"{outcome.reason} {say('alike')}" if alike else outcome.reason
     return replace(outcome, depends_on_psi=depends, families=tuple(verdicts), slides_alike=alike, reason=reason)

@@ -23,7 +23,7 @@ class Attracting:
     e : ndarray (2,)
         (c, s) on it; its mean over a period of a cycle.
     slow_flow : ndarray (m,)
-        z' on it (eq:linslowflow), over a cycle the mean (prop:LC).
+        z' on it (4.17), over a cycle the mean (Proposition 4.2).
     """
 
     name: str

@@ -1,6 +1,6 @@
 """Basins on the projected disc: which critical set, cycle or limit direction the layer problem leads to from where.
 
-Where several critical sets attract, their basins decide which slow flow follows (sec:nonunique). Cells are refined
+Where several critical sets attract, their basins decide which slow flow follows (Section 5.3). Cells are refined
 only where neighbours lead elsewhere.
 """
 
@@ -82,7 +82,7 @@ def basins(
     cycles: LimitCycles | None = None,
     box: Box = DISC,
 ) -> Basins:
-    """Find the basins on the projected disc, eq:LP.
+    """Find the basins on the projected disc, (3.26).
 
     Parameters
     ----------

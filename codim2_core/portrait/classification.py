@@ -73,10 +73,10 @@ class Classification(Result):
     Attributes
     ----------
     case : "I", "II", "III" or None
-        tab:cases; None on the borders between the cases, and for systems that are not e-linear.
+        Table 1; None on the borders between the cases, and for systems that are not e-linear.
     name : str
         "CM" or "NCM" (critical set or none) and the number of distinct equilibria on the equator, as in
-        fig:sketches: "CM0", "CM2", "CM4", "NCM2", "NCM4"; other numbers only where `degeneracies` says why. For a
+        Figure 15: "CM0", "CM2", "CM4", "NCM2", "NCM4"; other numbers only where `degeneracies` says why. For a
         system that is not e-linear a count, such as "2 critical sets, 6 limit directions"; with "found" where that
         there are no more is not proved.
     sentence : str

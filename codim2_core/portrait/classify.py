@@ -1,4 +1,4 @@
-"""The portrait's name: case (tab:cases), name (fig:sketches, fig:3cases), degeneracies, and a student's sentence."""
+"""The portrait's name: case (Table 1), name (Figure 15, Figure 16), degeneracies, and a student's sentence."""
 
 from __future__ import annotations
 
@@ -124,7 +124,7 @@ def _consequence(
     if kind.startswith("stable"):
         if not arrives:
             return say("stable, unreached", kind=kind)
-        if case == "I":  # all that arrives ends on C, thm:case1(a)
+        if case == "I":  # all that arrives ends on C, Theorem 4.3(a)
             return say("stable sliding", kind=kind)
         return say("stable in part", kind=kind)
     if kind == "saddle":
@@ -184,10 +184,10 @@ def classify(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Classification:
     Parameters
     ----------
     system : ELinear or System, or either frozen at a z
-        A general system that is affine in (c, s) is named as its e-linear normal form (lem:normalform); any other
+        A general system that is affine in (c, s) is named as its e-linear normal form (Lemma B.1); any other
         has no case, and its name counts the critical sets and limit directions.
     psi : Psi
-        Decides the kind of the critical sets and the limit cycles (Case III: sec:case3), never the name.
+        Decides the kind of the critical sets and the limit cycles (Case III: Section 4.3.3), never the name.
     z : (m,) floats
 
     Returns

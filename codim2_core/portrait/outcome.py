@@ -41,7 +41,7 @@ class Outcome(Tabled):
     leaving : float or None
         Direction in which it leaves Sigma, for "cross".
     slow_flow : ndarray (m,) or None
-        z' while sliding; on a cycle its mean, in the e-linear system the same by prop:LC.
+        z' while sliding; on a cycle its mean, in the e-linear system the same by Proposition 4.2.
     reason : str
     depends_on_psi : bool or None
         Whether other regularisations give another outcome; None where they were not asked.
@@ -76,7 +76,7 @@ class Outcome(Tabled):
 
     @property
     def slides(self) -> bool | None:
-        """Whether it ends up sliding; crossing includes turning away from Sigma, as in sec:mateslidecross.
+        """Whether it ends up sliding; crossing includes turning away from Sigma, as in Section 5.2.
 
         None where it is undecided.
         """

@@ -32,7 +32,7 @@ def separatrices(
     tolerance: float = 1e-6,
     cycles: LimitCycles | None = None,
 ) -> Separatrices:
-    """Separatrices of the critical sets that are saddles, and of the half-saddles on the equator, thm:geneps0(b).
+    """Separatrices of the critical sets that are saddles, and of the half-saddles on the equator, Theorem 3.1(b).
 
     Branches of C start on a polynomial of order `saddle_manifold.ORDER` (5) of the invariant manifold, those of Q
     on an expansion of order 2 in ebar (`orbits.departures`), each at a distance where its error is below rtol.

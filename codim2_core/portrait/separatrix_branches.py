@@ -1,7 +1,7 @@
 """Branches of invariant manifolds, each followed from its saddle to where it ends.
 
 On the hemisphere an equilibrium Q of the equator has the eigenvalues lambda_theta along the equator and -lambda_rho
-up it (thm:geneps0(b)), outside it lambda_theta and lambda_rho: it is a half-saddle on the hemisphere where
+up it (Theorem 3.1(b)), outside it lambda_theta and lambda_rho: it is a half-saddle on the hemisphere where
 ``lambda_theta lambda_rho > 0`` and outside where ``lambda_theta lambda_rho < 0``. Outside, the branch is exactly
 the ray theta = theta_i, unless U depends on x or y. Where Theta has a multiple zero, its branch bounds the sectors
 there and is followed too.

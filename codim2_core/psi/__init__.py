@@ -35,3 +35,8 @@ def __getattr__(name: str) -> Callable[..., Psi]:
     if name in FAMILIES:
         return partial(make, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for the Tab key."""
+    return list(__all__)

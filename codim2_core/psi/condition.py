@@ -1,4 +1,4 @@
-"""A condition of def:Psi, and the five together."""
+"""A condition of Definition 2.3, and the five together."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..tables import table_number
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Condition(Tabled):
-    """One condition of def:Psi.
+    """One condition of Definition 2.3.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Condition(Tabled):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PsiCheck(Result):
-    """R1 to R5 of def:Psi for one Psi; iterates over the five."""
+    """R1 to R5 of Definition 2.3 for one Psi; iterates over the five."""
 
     R1: Condition
     R2: Condition

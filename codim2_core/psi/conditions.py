@@ -1,4 +1,4 @@
-"""The conditions R1 to R5 of def:Psi: by mathematics for the built-in families, by probing for typed text."""
+"""The conditions R1 to R5 of Definition 2.3: by mathematics for the built-in families, by probing for typed text."""
 
 from __future__ import annotations
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import reprlib
+from difflib import get_close_matches
 from functools import cache
 from typing import Any
 
@@ -60,7 +61,7 @@ def exponential() -> Psi:
 
 
 def tanh() -> Psi:
-    """``Psi = s/sinh(sqrt s)^2``, for which ``|e_Psi| = tanh zeta``, fig:component.
+    """``Psi = s/sinh(sqrt s)^2``, for which ``|e_Psi| = tanh zeta``, Figure 5.
 
     Examples
     --------
@@ -75,7 +76,7 @@ def tanh() -> Psi:
 
 
 def hill(n: float) -> Psi:
-    """``Psi = 3/(3 + (4s)^n)``, the family of case III, fig:bads.
+    """``Psi = 3/(3 + (4s)^n)``, the family of case III, Figure 17.
 
     Parameters
     ----------
@@ -99,7 +100,7 @@ def hill(n: float) -> Psi:
 def custom(text: str) -> Psi:
     """Psi from text in s, such as ``"1/(1+s)**2"``; see `parse` for what can be written.
 
-    Conditions of def:Psi that it breaks while it stays usable are reported by `Psi.check`.
+    Conditions of Definition 2.3 that it breaks while it stays usable are reported by `Psi.check`.
 
     Parameters
     ----------
@@ -109,7 +110,7 @@ def custom(text: str) -> Psi:
     ------
     ValueError
         The text cannot be read, or Psi is unusable: not positive and finite for all s >= 0, or ``|e_Psi|`` does not
-        rise from 0 to 1 (then no inverse exists, lem:ePsi(c)).
+        rise from 0 to 1 (then no inverse exists, Lemma 2.6(c)).
 
     Examples
     --------
@@ -145,6 +146,9 @@ def from_text(text: str) -> Psi:
     name, _, number = text.partition(":")
     record = FAMILIES.get(name)
     if record is None or record.typed:
+        near = get_close_matches(name, [key for key, one in FAMILIES.items() if not one.typed], n=1, cutoff=0.7)
+        if near and "(" not in text:
+            raise ValueError(f"{text[:40]!r} is no family of Psi and no formula in s; the nearest name is {near[0]}.")
         identity = next(one for one in FAMILIES.values() if one.identity)
         return make(identity.name) if text == identity.formula else custom(text)
     if number and record.parameter is None:

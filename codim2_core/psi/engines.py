@@ -1,6 +1,6 @@
 """The friction of physics engines as regularisations: the law of each, its source, and eps from its settings.
 
-An engine's friction is ``-mu N e``, e a function of the slip velocity v: ``e = e_Psi(v; eps)``, eq:ePsi. Under a load
+An engine's friction is ``-mu N e``, e a function of the slip velocity v: ``e = e_Psi(v; eps)``, (2.19). Under a load
 that the friction could carry it does not stick but creeps, with the slip ``eps x2`` of the critical set.
 """
 

@@ -1,6 +1,6 @@
-"""Regularisation functions Psi, def:Psi, and the regularised direction ``e_Psi``, def:MPsi.
+"""Regularisation functions Psi, Definition 2.3, and the regularised direction ``e_Psi``, Definition 2.4.
 
-With ``zeta^2 = x2^2 + y2^2`` in the scaling chart, ``|e_Psi| = zeta/sqrt(zeta^2 + Psi(zeta^2))``, eq:ePsi at eps = 1.
+With ``zeta^2 = x2^2 + y2^2`` in the scaling chart, ``|e_Psi| = zeta/sqrt(zeta^2 + Psi(zeta^2))``, (2.19) at eps = 1.
 
 How far double precision reaches: ``1 - |e_Psi|^2 = Psi/(zeta^2 + Psi)`` falls as fast as Psi does. Written as
 ``|e_Psi|`` itself, it rounds to 1 from zeta of about 5.7 (exponential), 19 (tanh), 0.5 e^(18/(n+1)) (Hill, large n)
@@ -40,7 +40,7 @@ LARGE = 1e20  # beyond this s, w^2 Psi(s) is lost next to |p|^2 = w^2 s
 
 @dataclass(frozen=True)
 class Psi(Listed):
-    """A regularisation function, def:Psi. Made by `constant`, `rational`, ..., `custom`; equal if the formula is.
+    """A regularisation function, Definition 2.3. Made by `constant`, `rational`, ..., `custom`.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class Psi(Listed):
         return drawing.svg(self)
 
     def _repr_html_(self) -> str:
-        return (self._repr_svg_() or "") + paragraphs([f"Ψ(s) = {self.words}"])
+        return drawing.image(self) + paragraphs([f"Ψ(s) = {self.words}"])
 
     @property
     def words(self) -> str:
@@ -103,7 +103,7 @@ class Psi(Listed):
     @overload
     def __call__(self, s: Vector) -> Array: ...
     def __call__(self, s: Any) -> Any:
-        """Psi(s), def:Psi.
+        """Psi(s), Definition 2.3.
 
         As s. Raises ValueError: s is negative or NaN.
         """
@@ -133,7 +133,7 @@ class Psi(Listed):
     @overload
     def modulus(self, zeta: Vector) -> Array: ...
     def modulus(self, zeta: Any) -> Any:
-        """``|e_Psi| = zeta/sqrt(zeta^2 + Psi(zeta^2))``, eq:ePsi, in [0, 1]; 1 only by rounding.
+        """``|e_Psi| = zeta/sqrt(zeta^2 + Psi(zeta^2))``, (2.19), in [0, 1]; 1 only by rounding.
 
         Parameters
         ----------
@@ -171,7 +171,7 @@ class Psi(Listed):
     @overload
     def radius(self, modulus: Vector, complement: Vector | None = None) -> Array: ...
     def radius(self, modulus: Any, complement: Any = None) -> Any:
-        """Find the zeta with ``|e_Psi| = modulus``: the inverse of `modulus`, one-to-one by lem:ePsi(c).
+        """Find the zeta with ``|e_Psi| = modulus``: the inverse of `modulus`, one-to-one by Lemma 2.6(c).
 
         Parameters
         ----------
@@ -215,7 +215,7 @@ class Psi(Listed):
     @overload
     def jacobian_factors(self, zeta: Vector) -> tuple[Array, Array]: ...
     def jacobian_factors(self, zeta: Any) -> Any:
-        """Eigenvalues of ``D e_Psi(x2, y2; 1)``, rem:jaco_properties: along (x2, y2) and across it.
+        """Eigenvalues of ``D e_Psi(x2, y2; 1)``, Remark 3.2: along (x2, y2) and across it.
 
         ``radial = (Psi - zeta^2 Psi')/(zeta^2 + Psi)^(3/2)`` and ``tangential = 1/sqrt(zeta^2 + Psi)``.
 
@@ -258,7 +258,7 @@ class Psi(Listed):
         return _apply(self.kernel.kappa, zeta, "zeta", MAX_FLOAT, "0 <= zeta < inf")
 
     def check(self) -> PsiCheck:
-        """Whether Psi meets R1 to R5 of def:Psi, and where it does not.
+        """Whether Psi meets R1 to R5 of Definition 2.3, and where it does not.
 
         Returns
         -------

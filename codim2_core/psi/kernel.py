@@ -1,4 +1,4 @@
-"""The interface of the arithmetic of a family of Psi, def:Psi, for one float or for arrays.
+"""The interface of the arithmetic of a family of Psi, Definition 2.3, for one float or for arrays.
 
 Everything about ``|e_Psi|`` is written in zeta with two functions that neither overflow nor cancel,
 

@@ -6,3 +6,8 @@ from .catalogue import catalogue
 from .record import Comparison, ExactValue, ReferenceMotion
 
 __all__ = ["Comparison", "ExactValue", "ReferenceMotion", "catalogue"]
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for the Tab key."""
+    return list(__all__)

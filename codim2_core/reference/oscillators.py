@@ -57,7 +57,7 @@ def _driven_round() -> Sequence[float]:
         U=("-z1 - S*c + F*cos(w*z3)", "-z2 - S*s + F*sin(w*z3)"), W=("x", "y", "1"),
         parameters={"F": _F, "S": _S, "w": _W},
     )  # fmt: skip
-    found = periodic_motion(mass, (0.0, -0.5, -0.3, 0.05, 0.0), 2.0 * math.pi / _W, rtol=RTOL, atol=ATOL)
+    found = periodic_motion(mass, None, (0.0, -0.5, -0.3, 0.05, 0.0), 2.0 * math.pi / _W, rtol=RTOL, atol=ATOL)
     first, _, third, _ = sorted(found.multipliers.tolist(), key=lambda one: (-abs(one), -one.imag))
     return math.hypot(*found.state0[2:4]), first.real, first.imag, third.real, third.imag
 
@@ -87,7 +87,7 @@ def _amplitude(w: float, S: float) -> float:
 def _to_and_fro(w: float, S: float) -> Sequence[float]:
     mass = System(U=("-z1 - S*c + cos(w*z2)", "-s"), W=("x", "1"), parameters={"S": S, "w": w})
     start = (0.0, 0.0, _amplitude(w, S) * 0.99, 0.3)
-    run = periodic_motion(mass, start, 2.0 * math.pi / w, rtol=RTOL, atol=ATOL).run
+    run = periodic_motion(mass, None, start, 2.0 * math.pi / w, rtol=RTOL, atol=ATOL).run
     turns = [phase.t_start for phase in run.phases if phase.kind == "cross"]
     return (max(abs(float(run.dense(t)[2])) for t in turns) if turns else math.nan,)
 
@@ -150,7 +150,9 @@ STATIC_ABOVE_KINETIC = ReferenceMotion(
 
 def _regularised_stick_slip() -> Sequence[float]:
     system, start = _stick_slip_system(), (0.05, 0.0, 1.0)
-    return [periodic_motion(system, start, 11.5, constant(), eps, rtol=RTOL, atol=ATOL).period for eps in (1e-3, 1e-2)]
+    return [
+        periodic_motion(system, constant(), start, 11.5, eps=eps, rtol=RTOL, atol=ATOL).period for eps in (1e-3, 1e-2)
+    ]
 
 
 _RUNGE_KUTTA = "explicit Runge–Kutta of order 8 to 3e-14"

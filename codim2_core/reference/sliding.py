@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 from ..examples.example import GRAVITY
 from ..examples.tilting_block import tilting_block
 from ..examples.unit_vector_control import unit_vector_control
-from ..motion.nonsmooth import simulate_nonsmooth
 from ..motion.result import Simulation
+from ..motion.simulate import simulate_nonsmooth
 from ..systems.kinds import AnySystem
 from ..systems.typed import System
 from .record import ATOL, RTOL, ReferenceMotion, closed_form

@@ -41,7 +41,7 @@ class LimitSet:
     onto : str or None
         For an orbit from outside that reaches Sigma: what it slides on, or leaves along, then.
     after : float or None
-        For an orbit from outside that reaches Sigma: the time t of eq:vf until then (before the seed: since then).
+        For an orbit from outside that reaches Sigma: the time t of (2.7) until then (before the seed: since then).
         None where the line ends before, as it winds for too long.
     sentence : str
     """

@@ -8,8 +8,9 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
-from ..bifurcations import BifurcationCurve, Region, critical_boundary, regions, saddle_node
-from ..bifurcations.equator import coefficients_at
+from ..bifurcations.borders import coefficients_of, critical_lines, saddle_node_lines
+from ..bifurcations.curve import BifurcationCurve, read_only_lines
+from ..bifurcations.regions import Region, regions
 from ..cycles.limit_cycles import closed_orbits, cycles_of
 from ..layer_problem.eigendirections import find_eigendirections
 from ..layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
@@ -84,8 +85,11 @@ def _atlas_curves(setting: SceneSetting) -> tuple[BifurcationCurve, BifurcationC
     matrix = _matrix(setting)
     if matrix is None:
         return None
-    system = coefficients_at(*matrix, (0.0, 0.0))
-    return saddle_node(system), critical_boundary(system)
+    node, ellipse = (read_only_lines(of(matrix)) for of in (saddle_node_lines, critical_lines))
+    return (
+        BifurcationCurve("saddle-node", "saddle-node", "fig:SNBIF, eq:tangencies", node),
+        BifurcationCurve("transcritical", "transcritical", "fig:ellipse, fig:transcrit", ellipse),
+    )
 
 
 def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
@@ -96,7 +100,7 @@ def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
 @lru_cache(maxsize=64)
 def regions_of(matrix: tuple[float, float, float]) -> tuple[Region, ...]:
     """Return the regions of a plane: the same for all who open one address, of whose first picture they take half."""
-    return regions(coefficients_at(*matrix, (0.0, 0.0)))
+    return regions(coefficients_of(matrix))
 
 
 def _launched_layer(setting: SceneSetting) -> LaunchedOrbits:

@@ -7,7 +7,9 @@ and going back to a setting just seen is free.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Hashable, Iterator, Mapping
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 from weakref import ref
@@ -29,6 +31,7 @@ from ..results import Listed
 from ..systems.bounds import slow_values
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import SYSTEM_KINDS, AnySystem
+from ..tables import frame, write_csv
 from .layer_table import ELINEAR_ONLY, INPUTS, LAYER_OF_FUNCTION, layers
 from .memory import ABSENT, Memory
 
@@ -214,7 +217,7 @@ class Scene(Listed, Mapping[str, Any]):
         self._own[name] = result
         return result
 
-    def plot(self) -> Any:
+    def to_holoviews(self) -> Any:
         """Return the picture as a HoloViews overlay, to add to, restyle and lay out.
 
         It is drawn by ``codim2_app.holoviews``, which loads HoloViews' Bokeh backend if none is loaded.
@@ -230,6 +233,54 @@ class Scene(Listed, Mapping[str, Any]):
         """
         return drawing.overlay(self)
 
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the picture into Matplotlib axes, and return them; without axes, return `to_holoviews`.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+
+        Raises
+        ------
+        ValueError
+            Matplotlib, or the app, which draws, is not installed.
+        """
+        return self.to_holoviews() if ax is None else drawing.plot(self, ax)
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture; the name ends with .svg, .png or .pdf.
+
+        Raises
+        ------
+        ValueError
+            The name ends otherwise, or the app, which draws, or for PNG and PDF Typst, is not installed.
+        """
+        drawing.save(self, path)
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        equator = self["equator"]
+        for i, (theta, outwards, along) in enumerate(
+            zip(equator.theta.tolist(), equator.lambda_rho.tolist(), equator.lambda_theta.tolist(), strict=True), 1
+        ):
+            kind = f"{'attracts' if outwards < 0.0 else 'repels'}, {'attracts' if along < 0.0 else 'repels'} along"
+            yield {"name": f"Q{i}", "kind": kind, "p_1": math.cos(theta), "p_2": math.sin(theta)}
+        for i, C in enumerate(self["critical"], 1):
+            yield {"name": f"C{i}", "kind": C.kind, "p_1": float(C.p[0]), "p_2": float(C.p[1])}
+
+    def to_frame(self) -> Any:
+        """Return limit directions and critical sets, with their places in the projected disc, as a pandas DataFrame.
+
+        Raises
+        ------
+        ValueError
+            pandas is not installed.
+        """
+        return frame(self._records())
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write what `to_frame` has as CSV."""
+        write_csv(path, self._records())
+
     def __repr__(self) -> str:
         return f"Scene({self.system!r}, {self.psi!r}, z={self.z})"
 
@@ -239,7 +290,7 @@ class Scene(Listed, Mapping[str, Any]):
     def _repr_html_(self) -> str:
         results = (self["classification"], self["equator"], self["critical"])
         tables = "".join(result._repr_html_() for result in results)
-        return (self._repr_svg_() or "") + tables
+        return drawing.image(self) + tables
 
     def __iter__(self) -> Iterator[str]:
         return iter(layers)

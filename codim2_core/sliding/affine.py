@@ -1,4 +1,4 @@
-"""Affine combinations of limit vectors in the e-linear system: a plane, and its point on Sigma (fig:whylinear)."""
+"""Affine combinations of limit vectors in the e-linear system: a plane, and its point on Sigma (Figure 12)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..words import say
 
 @dataclass(frozen=True, eq=False)
 class AffinePlane:
-    """The plane of affine combinations of limit vectors, eq:lin_limit_plane, and its point on Sigma, eq:Fsigma.
+    """The plane of affine combinations of limit vectors, (4.4), and its point on Sigma, (4.5).
 
     Attributes
     ----------

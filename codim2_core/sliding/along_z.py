@@ -62,7 +62,7 @@ def slow_portrait(
     *,
     count: int = 81,
 ) -> SlowPortrait:
-    """Sliding, crossing and unstable intervals of one slow variable, with the slow flow and its equilibria, eq:RPCM.
+    """Sliding, crossing and unstable intervals of one slow variable, with the slow flow and its equilibria, (2.29).
 
     Parameters
     ----------

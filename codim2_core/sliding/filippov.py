@@ -2,7 +2,7 @@
 
 Filippov's sliding vectors are the convex combinations of the limit vectors ``(U, W)(e)``, |e| = 1, that are tangent
 to Sigma: the means of W over those probability measures on the circle whose mean of U vanishes. They form a convex
-set, in general more than one point (fig:generic_nonuniqueness_of_sliding); the regularisation selects W at a zero of
+set, in general more than one point (Figure 3); the regularisation selects W at a zero of
 U in the disc, which need not even be among them. For an e-linear system both are ``-B A^-1 f + g``.
 """
 
@@ -73,9 +73,9 @@ class FilippovSliding(Result):
 
 
 def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
-    """All candidates of the Filippov convention for z' on Sigma, fig:generic_nonuniqueness_of_sliding.
+    """All candidates of the Filippov convention for z' on Sigma, Figure 3.
 
-    The convention is that of sec:nonsmoothdynamics.
+    The convention is that of Section 2.1.
 
     Parameters
     ----------

@@ -15,10 +15,10 @@ from ..systems.kinds import AnySystem
 
 
 def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | None:
-    """Z' along the critical sets, eq:RPSF: W at the zeros of U, whatever Psi is.
+    """Z' along the critical sets, (2.30): W at the zeros of U, whatever Psi is.
 
-    For an e-linear system, which has at most one, it is ``-B A^-1 f + g`` (eq:linslowflow): the Filippov convention,
-    and the mean of z' over a limit cycle of the layer problem (prop:LC).
+    For an e-linear system, which has at most one, it is ``-B A^-1 f + g`` (4.17): the Filippov convention,
+    and the mean of z' over a limit cycle of the layer problem (Proposition 4.2).
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | 
     -------
     ndarray (m,), or (k, m) for a general system, or None
         A general system has a row for each critical set, in the order of `critical_sets`: where rows differ, sliding
-        is not unique (sec:nonunique). None where there is no critical set: nothing slides there.
+        is not unique (Section 5.3). None where there is no critical set: nothing slides there.
 
     Examples
     --------

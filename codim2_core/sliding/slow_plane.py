@@ -41,7 +41,7 @@ def slow_plane(
     rest: ArrayLike = (),
     count: int = 15,
 ) -> SlowPlane:
-    """Slow flow, eq:RPCM, over a net in the plane of the first two slow variables.
+    """Slow flow, (2.29), over a net in the plane of the first two slow variables.
 
     Raises ValueError: The system has fewer than two slow variables, or `rest` has not m - 2 values. Shapes: rest (m -
     2,).

@@ -22,7 +22,7 @@ class SlowBranch(Result):
     e, p : ndarray (k, 2)
         Its place, and that in the projected disc.
     flow : ndarray (k, m)
-        z' on it, eq:RPCM.
+        z' on it, (2.29).
     kind : str
         As `CriticalSet.kind`; it is the same along the branch.
     """
@@ -46,7 +46,7 @@ class SlowPoint(Tabled):
     Attributes
     ----------
     kind : str
-        "equator" (a critical set passes through the equator, fig:transcrit), "fold", "Hopf", "node-focus", or
+        "equator" (a critical set passes through the equator, Figure 19), "fold", "Hopf", "node-focus", or
         "equilibrium" of the slow flow.
     z : float
     e : (c, s)

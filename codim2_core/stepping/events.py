@@ -114,7 +114,7 @@ def left_view(S, lane, view):
 
 @fast_kernel
 def winding(P, field, scratch):
-    """-1, 0 or +1: the closed equator repels, is absent or neutral, attracts on the hemisphere (thm:geneps0(c)).
+    """-1, 0 or +1: the closed equator repels, is absent or neutral, attracts on the hemisphere (Theorem 3.1(c)).
 
     Outside it is the opposite. The sign of the integral of lambda_rho/|Theta|, by the trapezoidal rule.
     """

@@ -62,7 +62,7 @@ def is_compiled(psi: Psi) -> bool:
 
 
 def field(psi: Psi) -> Any:
-    """Return the compiled field for Psi, eq:LP and eq:polar_gen_odes_desing in one chart.
+    """Return the compiled field for Psi, (3.26) and (2.12) in one chart.
 
     Its `address` enters the integrator; keep the object alive while that address is in use.
     """

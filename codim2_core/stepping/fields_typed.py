@@ -43,7 +43,7 @@ def _interpreted_field(state, out, parameters):
 
 @lru_cache(maxsize=1)
 def general_field() -> Any:
-    """Return the field of general systems, eq:vf: on the hemisphere U(e_Psi, 0, 0, z), outside U(p, rho p, z)."""
+    """Return the field of general systems, (2.7): on the hemisphere U(e_Psi, 0, 0, z), outside U(p, rho p, z)."""
     return compile_address(_interpreted_field)
 
 

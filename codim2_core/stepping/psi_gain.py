@@ -1,4 +1,4 @@
-"""The gain of Psi compiled: ``e_Psi = gain p``, ``gain = 1/sqrt(|p|^2 + w^2 Psi(|p|^2/w^2))``, eq:ePsi.
+"""The gain of Psi compiled: ``e_Psi = gain p``, ``gain = 1/sqrt(|p|^2 + w^2 Psi(|p|^2/w^2))``, (2.19).
 
 Outside, where w is rho, ``gain = 1/|p|``. A family brings its gain as a plain function of scalars (`Family.gain`). It
 is inlined into the fields of e-linear systems, and made into a function of all lanes at an address, which the field

@@ -1,4 +1,4 @@
-"""A typed system whose U is affine in (c, s) for all parameters, as the e-linear system that it is (lem:normalform)."""
+"""A typed system whose U is affine in (c, s) for all parameters, as the e-linear system that it is (Lemma B.1)."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ class Coefficients(Listed, ByValue):
     B : ndarray (m, 2)
     g : ndarray (m,)
     rotation : float
-        The angle phi, in radians, of the rotation into the normal form (lem:normalform); 0 if none was needed.
+        The angle phi, in radians, of the rotation into the normal form (Lemma B.1); 0 if none was needed.
     given : tuple of 6 floats or None
         ``(A11, A12, A21, A22, f1, f2)`` before that rotation, which rounds; None where there was none.
     """
@@ -91,7 +91,7 @@ class Coefficients(Listed, ByValue):
 
     @property
     def A(self) -> NDArray[np.float64]:
-        """The matrix A, eq:matrix_normal_form, (2, 2)."""
+        """The matrix A, (4.2), (2, 2)."""
         return np.array([[self.a, -self.b], [self.b, self.d]])
 
     @property

@@ -1,4 +1,4 @@
-"""The e-linear system in its normal form, eq:ode_normal_form with eq:matrix_normal_form.
+"""The e-linear system in its normal form, (4.1) with (4.2).
 
 ``(x, y)' = A e + f`` and ``z' = B e + g`` with ``e = (x, y)/|(x, y)|`` and ``A = [[a, -b], [b, d]]``.
 Every coefficient is a number, or text in the slow variables ``z1 … zm`` and in named parameters.
@@ -25,6 +25,7 @@ from .bounds import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
 from .coefficients import Coefficients
 from .equations import Equations, equations_text, linear_rows, negative, with_left_sides
 from .equations_latex import equations_latex
+from .exchange import Exchange
 from .normal_form import in_normal_form, rotate_f
 from .parameters import Parameters
 
@@ -79,8 +80,8 @@ def _grid(values: Any, what: str, shape_text: str, columns: int | None) -> tuple
 
 
 @dataclass(frozen=True)
-class ELinear(Listed):
-    """The normal form of the e-linear system, eq:ode_normal_form with eq:matrix_normal_form.
+class ELinear(Listed, Exchange):
+    """The normal form of the e-linear system, (4.1) with (4.2).
 
     Parameters
     ----------
@@ -165,7 +166,7 @@ class ELinear(Listed):
         g: Any = None,
         parameters: Mapping[str, float] | None = None,
     ) -> ELinear:
-        """Bring any A into the normal form by the rotation of lem:normalform.
+        """Bring any A into the normal form by the rotation of Lemma B.1.
 
         With ``2 phi = atan2(A12 + A21, A22 - A11)`` (two arguments, see the errata), ``R(phi) A R(phi)^T``
         has the form [[a, -b], [b, d]], f becomes ``R f`` and B becomes ``B R^T``. The angle is
@@ -198,7 +199,7 @@ class ELinear(Listed):
 
     @cached_property
     def equations(self) -> Equations:
-        """Left and right sides of eq:vf, ("x", ...), ("y", ...), ("z1", ...): in the axes in which it was given."""
+        """Left and right sides of (2.7), ("x", ...), ("y", ...), ("z1", ...): in the axes in which it was given."""
         matrix = self.given_matrix or ((self.a, negative(self.b)), (self.b, self.d))
         B, g = self.B or ((0.0, 0.0),) * self.m, self.g or (0.0,) * self.m
         rows = [(*row, constant) for row, constant in zip((*matrix, *B), (*self.f, *g), strict=True)]
@@ -273,7 +274,7 @@ class ELinear(Listed):
         return replace(self, **{"f": tuple(f), "parameters": parameters, **changed_fields})
 
     def rotated(self) -> ELinear:
-        """Return a system made `from_matrix` as the a, b, d, f, B that it is in its normal form (lem:normalform).
+        """Return a system made `from_matrix` as the a, b, d, f, B that it is in its normal form (Lemma B.1).
 
         Raises
         ------

@@ -39,7 +39,7 @@ class FrozenSystem(Protocol):
     slow_key : hashable
         What decides the slow flow on a given critical set.
     normal_form : Coefficients or None
-        U in the normal form of the e-linear system (lem:normalform), in axes of its own; None if U is not e-linear.
+        U in the normal form of the e-linear system (Lemma B.1), in axes of its own; None if U is not e-linear.
     as_given : Coefficients or None
         The normal form where it has the same axes.
     affine : tuple of 6 floats or None

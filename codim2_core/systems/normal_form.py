@@ -1,4 +1,4 @@
-"""The rotation of the plane that brings a matrix into the normal form A = [[a, -b], [b, d]], lem:normalform."""
+"""The rotation of the plane that brings a matrix into the normal form A = [[a, -b], [b, d]], Lemma B.1."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .coefficients import Affine
 def in_normal_form(
     a11: float, a12: float, a21: float, a22: float
 ) -> tuple[float, float, float, float, tuple[float, float]]:
-    """Return (a, b, d, phi, (cos phi, sin phi)) of R(phi) A R(phi)^T = [[a, -b], [b, d]], lem:normalform.
+    """Return (a, b, d, phi, (cos phi, sin phi)) of R(phi) A R(phi)^T = [[a, -b], [b, d]], Lemma B.1.
 
     Rotation leaves the antisymmetric part b = (A21 - A12)/2 and the trace alone and diagonalises the symmetric
     part, whose eigenvalues are mean -+ half the length of (A12 + A21, A22 - A11). Where these nearly cancel, the

@@ -59,7 +59,7 @@ def texts(rows: Any, what: str) -> tuple[Text, ...]:
         return ()
     if isinstance(rows, (str, Expression, float, int)) or not hasattr(rows, "__iter__"):
         rows = (rows,)
-    rows = tuple(rows)
+    rows = tuple(str(row) if hasattr(row, "free_symbols") else row for row in rows)  # SymPy's
     for row in rows:
         if not isinstance(row, (str, Expression, float, int)):
             raise ValueError(f"{what} has the entry {short_repr(row)}; give formulas as text, such as '-c + z'.")

@@ -1,4 +1,4 @@
-"""Any system of the paper's form, eq:vf: ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)``, typed as text.
+"""Any system of the paper's form, (2.7): ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)``, typed as text.
 
 The text is read by `expressions.expression.parse` against a whitelist and never evaluated as Python. The system is
 immutable; `System.at` freezes it at one z, which is all that the hemisphere there depends on.
@@ -18,14 +18,15 @@ from ..results import Listed
 from .bounds import slow_values
 from .equations import Equations, equations_text, with_left_sides
 from .equations_latex import equations_latex
+from .exchange import Exchange
 from .parameters import Parameters
 from .reading import parameter
 from .typed_at_z import Frozen
 from .typed_formulas import Formulas
 
 
-class System(Listed, Formulas):
-    """A system ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)`` with ``e = (c, s) = (x, y)/|(x, y)|``, eq:vf.
+class System(Listed, Formulas, Exchange):
+    """A system ``(x, y)' = U(e, x, y, z)``, ``z' = W(e, x, y, z)`` with ``e = (c, s) = (x, y)/|(x, y)|``, (2.7).
 
     Parameters
     ----------
@@ -104,7 +105,7 @@ class System(Listed, Formulas):
 
     @property
     def equations(self) -> Equations:
-        """Left and right sides of eq:vf, ("x", ...), ("y", ...), ("z1", ...): what is typed in t is written in t."""
+        """Left and right sides of (2.7), ("x", ...), ("y", ...), ("z1", ...): what is typed in t is written in t."""
         U, W = self.without_clock
         return with_left_sides((*U, *W))
 
@@ -116,6 +117,12 @@ class System(Listed, Formulas):
 
     def _repr_latex_(self) -> str:
         return equations_latex(self)
+
+    def __repr__(self) -> str:
+        U, W = ([row.text for row in rows] for rows in self.without_clock)
+        given = [f"U={tuple(U)}", *([f"W={tuple(W)}"] if W else [])]
+        given += [f"parameters={dict(self.parameters)}"] if self.parameters else []
+        return f"System({', '.join(given)})"
 
     def __str__(self) -> str:
         return equations_text(self.equations, self.parameters)

@@ -109,7 +109,7 @@ class Frozen(Listed):
 
     @property
     def normal_form(self) -> Coefficients | None:
-        """U in the normal form of the e-linear system (lem:normalform), or None if it is not affine in (c, s).
+        """U in the normal form of the e-linear system (Lemma B.1), or None if it is not affine in (c, s).
 
         U must not read x or y, and its derivatives by c and s must be free of them. Only the portrait's plane is
         brought over, in the rotated axes: the result has m = 0.

@@ -41,7 +41,7 @@ def with_clock(U: Rows, W: Rows) -> tuple[Rows, Rows, str]:
 
 @dataclass(frozen=True)
 class Formulas:
-    """U and W of eq:vf as formulas with numbers for their parameters, the parameters of `System`.
+    """U and W of (2.7) as formulas with numbers for their parameters, the parameters of `System`.
 
     Attributes
     ----------

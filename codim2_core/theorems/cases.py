@@ -1,4 +1,4 @@
-"""Certificates of thm:case1 and thm:case2."""
+"""Certificates of Theorem 4.3 and Theorem 4.4."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ def _reason(facts: Facts) -> str:
 
 
 def case1(facts: Facts) -> tuple[Certificate, ...]:
-    """Evaluate thm:case1."""
+    """Evaluate Theorem 4.3."""
     with_set = say("case1(a)")
     without = say("case1(b)")
     five = say("case1(c)")
@@ -93,7 +93,7 @@ def _five(facts: Facts, statement: str) -> Certificate:
 
 
 def case2(facts: Facts) -> tuple[Certificate, ...]:
-    """Evaluate thm:case2."""
+    """Evaluate Theorem 4.4."""
     with_set = say("case2(a)")
     without = say("case2(b)")
     if facts.portrait.case != "II":

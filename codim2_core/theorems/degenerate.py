@@ -1,4 +1,4 @@
-"""Certificates of lem:normalform and of the degenerate equators D1 and D2, which have closed forms."""
+"""Certificates of Lemma B.1 and of the degenerate equators D1 and D2, which have closed forms."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NOT_LINEAR = say("U not e-linear")
 
 
 def normal_form(facts: Facts) -> Certificate:
-    """Evaluate lem:normalform."""
+    """Evaluate Lemma B.1."""
     theorem, statement = "lem:normalform", say("rotation")
     affine, form = facts.problem.at.affine, facts.form
     if affine is None or form is None:

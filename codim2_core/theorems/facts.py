@@ -55,7 +55,7 @@ class Certificate(Tabled):
     Attributes
     ----------
     theorem : str
-        The paper's label, with the part: "thm:case1(a)".
+        The paper's label, with the part: "Theorem 4.3(a)".
     statement : str
         What it says, in short.
     verdict : Verdict
@@ -86,7 +86,7 @@ class Facts:
     ----------
     problem : LayerProblem
     system : ELinear, System or None
-        The system that was frozen, where it is known: thm:geneps1(d) looks along z.
+        The system that was frozen, where it is known: Theorem 3.3(d) looks along z.
     z : tuple of float
     """
 

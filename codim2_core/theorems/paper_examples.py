@@ -1,4 +1,4 @@
-"""Certificates of the paper's three examples (sec:examples), for systems that are one of them at their z."""
+"""Certificates of the paper's three examples (Section 5), for systems that are one of them at their z."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _DISC_NET = np.concatenate(
 
 
 def ball_in_pool(facts: Facts) -> Certificate:
-    """Evaluate sec:ballpool: a = d < 0, b = 0, f = g and B = 2/7 A."""
+    """Evaluate Section 5.1: a = d < 0, b = 0, f = g and B = 2/7 A."""
     theorem = "sec:ballpool"
     statement = say("ball")
     at, form = facts.problem.at, facts.form
@@ -59,7 +59,7 @@ def _is(facts: Facts, example: System) -> bool:
 
 
 def attracting_and_repelling(facts: Facts) -> Certificate:
-    """Evaluate sec:mateslidecross."""
+    """Evaluate Section 5.2."""
     theorem = "sec:mateslidecross"
     statement = say("attracting and repelling")
     if not _is(facts, attracting_repelling()):
@@ -83,7 +83,7 @@ def attracting_and_repelling(facts: Facts) -> Certificate:
 
 
 def nonunique(facts: Facts) -> Certificate:
-    """Evaluate sec:nonunique (8 limit directions only while chi(z)^2 < 2, see the errata)."""
+    """Evaluate Section 5.3 (8 limit directions only while chi(z)^2 < 2, see the errata)."""
     theorem = "sec:nonunique"
     statement = say("non-unique")
     if not _is(facts, nonunique_sliding()):

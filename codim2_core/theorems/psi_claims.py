@@ -1,4 +1,4 @@
-"""Certificates of lem:ePsi and rem:jaco_properties: claims about the regularisation alone."""
+"""Certificates of Lemma 2.6 and Remark 3.2: claims about the regularisation alone."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ CLAIM_ROUNDING = 1e-12
 
 
 def e_psi(psi: Psi, xy: Array, eps: float) -> Array:
-    """eq:ePsi as it is written, ``(x, y)/sqrt(x^2 + y^2 + eps^2 Psi((x^2 + y^2)/eps^2))``; (k, 2)."""
+    """(2.19) as it is written, ``(x, y)/sqrt(x^2 + y^2 + eps^2 Psi((x^2 + y^2)/eps^2))``; (k, 2)."""
     s = (xy**2).sum(axis=-1)
     return xy / np.sqrt(s + eps**2 * psi(s / eps**2))[..., None]
 
 
 def psi_claims(psi: Psi) -> tuple[Certificate, ...]:
-    """Evaluate lem:ePsi and rem:jaco_properties; a Psi outside the class of def:Psi need not meet them."""
+    """Evaluate Lemma 2.6 and Remark 3.2; a Psi outside the class of Definition 2.3 need not meet them."""
     return _equivariant(psi), _homogeneous(psi), _one_to_one(psi), _shorter(psi), _positivity_claim(psi)
 
 

@@ -1,4 +1,4 @@
-"""Certificates of thm:geneps1: critical sets, their kind, the slow flow on them, and the slow manifolds nearby."""
+"""Certificates of Theorem 3.3: critical sets, their kind, the slow flow on them, and the slow manifolds nearby."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Z_STEP = 1e-5  # step along z, of 1 + |z|
 
 
 def sliding_claims(facts: Facts) -> tuple[Certificate, ...]:
-    """Evaluate thm:geneps1(a) to (d)."""
+    """Evaluate Theorem 3.3(a) to (d)."""
     return _stand_still(facts), _kinds_claim(facts), _slow_flow(facts), _slow_manifold(facts)
 
 
@@ -28,7 +28,7 @@ def _labels(facts: Facts) -> list[str]:
 
 
 def _e_of(C: CriticalSet, psi: Psi) -> Array:
-    """e_Psi at the place of C in the scaling chart, by the formula eq:ePsi."""
+    """e_Psi at the place of C in the scaling chart, by the formula (2.19)."""
     return e_psi(psi, C.x2[None], 1.0)[0]
 
 

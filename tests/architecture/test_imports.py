@@ -62,7 +62,8 @@ def test_the_wheel_installs_every_package_and_none_called_app():
 
 
 def test_the_top_level_is_what_was_asked_for():
-    allowed = {"app", "codim2_core", "tests", "Dockerfile", "pyproject.toml", "README.md", "LICENSE"}
+    allowed = {"app", "codim2_core", "tests", "Dockerfile", "pyproject.toml"}
+    allowed |= {"README.md", "LICENSE", "CHANGELOG.md", "CITATION.cff", "CONTRIBUTING.md"}
     tracked = subprocess.run(["git", "ls-files"], capture_output=True, text=True, check=True, cwd=ROOT).stdout
     top = {line.split("/")[0] for line in tracked.splitlines()}
     assert {name for name in top if not name.startswith(".")} <= allowed

@@ -18,7 +18,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
 OWN = {"codim2_core", "codim2_app", "tests"}
 # Run as programs, needed by a library that is imported, or asked for by pytest.importorskip.
 COMMANDS = {
-    "mujoco", "pyright", "pytest-xdist", "ruff", "pre-commit", "import-linter", "ipywidgets",
+    "mujoco", "pyright", "pytest-xdist", "ruff", "pre-commit", "import-linter", "ipywidgets", "sympy",
     "jupyter-bokeh",
 }  # fmt: skip
 # Left out of the extras: the notebook tests are skipped where JupyterLab, which brings them, is missing; CI has it.
@@ -85,8 +85,10 @@ def test_every_dependency_has_a_least_version():
 def test_the_core_alone_asks_for_what_it_imports_and_else_is_the_same_project():
     core = tomllib.loads((ROOT / ".github" / "core" / "pyproject.toml").read_text("utf-8"))
     project, whole = core["project"], PROJECT["project"]
-    asked = [*project["dependencies"], *project["optional-dependencies"]["frames"]]
+    extras = project["optional-dependencies"]
+    asked = [*project["dependencies"], *extras["frames"]]
     assert set(asked) <= set(whole["dependencies"])
+    assert extras["symbolic"] == whole["optional-dependencies"]["symbolic"]
     assert {one.split(">=")[0] for one in asked} == imported("codim2_core")
     for name in ("dynamic", "requires-python", "license", "authors"):
         assert project[name] == whole[name]
@@ -96,7 +98,7 @@ def test_the_core_alone_asks_for_what_it_imports_and_else_is_the_same_project():
 
 
 def test_what_is_cited_is_this_program():
-    cited = yaml.safe_load((ROOT / ".github" / "CITATION.cff").read_text("utf-8"))
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
     page = (ROOT / "app" / "docs" / "text" / "citing.md").read_text("utf-8")
     assert (cited["cff-version"], cited["type"]) == ("1.2.0", "software")
     assert cited["version"] == codim2_core.__version__

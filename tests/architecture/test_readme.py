@@ -11,11 +11,11 @@ from codim2_app.server.cli import main
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
-CONTRIBUTING = (ROOT / ".github" / "CONTRIBUTING.md").read_text()
+CONTRIBUTING = (ROOT / "CONTRIBUTING.md").read_text()
 TEXT = ROOT / "app" / "docs" / "text"
 # changelog, hosting, ... are of the site too, where lessons and gallery are made
 PAGES = (
-    "README.md", ".readme/benchmarks.md", ".github/CONTRIBUTING.md",
+    "README.md", ".readme/benchmarks.md", "CONTRIBUTING.md",
     *(f"app/docs/text/{one.name}" for one in TEXT.glob("*.md")),
 )  # fmt: skip
 
@@ -44,7 +44,7 @@ def test_ci_runs_the_test_command_of_the_readme():
 
 
 def test_the_readme_and_the_changes_are_short():
-    assert len(README.splitlines()) <= 100
+    assert len(README.split()) <= 800  # with the code
     assert len((TEXT / "changelog.md").read_text().splitlines()) <= 60
 
 
@@ -58,12 +58,8 @@ def test_pictures_and_links_are_in_the_repository(page):
         assert target.startswith("http") or (path.parent / target).is_file(), target
 
 
-@pytest.mark.parametrize(
-    ("text", "line"),
-    [(README, r"\|.*`{}`.*\|"), (CONTRIBUTING, r"(core|app|    )\s+(\w+ \| )*{}\b")],
-    ids=["README", "CONTRIBUTING"],
-)
-def test_every_room_is_named_and_on_its_floor(text, line):
+def test_every_room_is_named_and_on_its_floor():
+    text, line = CONTRIBUTING, r"(core|app|    )\s+(\w+ \| )*{}\b"
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"]
     for one in contracts:
         if one["type"] != "layers":

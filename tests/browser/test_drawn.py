@@ -15,8 +15,6 @@ import codim2_core as c2
 from codim2_core.portrait.basins import basins
 from tests.app.near import gaps
 
-pytestmark = pytest.mark.browser
-
 RECORDER = (Path(__file__).parent / "recorder.js").read_text()
 PAGE = "#ffffff"
 #: Of the strokes: layer to colour, width, dash.

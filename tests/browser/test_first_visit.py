@@ -6,8 +6,6 @@ import pytest
 
 from .conftest import PHONE
 
-pytestmark = pytest.mark.browser
-
 
 def middle(box):
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2

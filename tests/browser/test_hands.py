@@ -8,8 +8,6 @@ from codim2_app.draw.theme import HALF_VIEW
 
 from .conftest import PHONE
 
-pytestmark = pytest.mark.browser
-
 
 def place(explorer, x, y):
     """The point of the window over a point of the picture, which shows [-VIEW, VIEW] across its shorter side."""

@@ -7,8 +7,6 @@ import pytest
 
 from .conftest import PHONE
 
-pytestmark = pytest.mark.browser
-
 
 def test_a_lesson_from_the_list_to_its_goal(open_page):
     explorer = open_page().open("?panel=lessons")

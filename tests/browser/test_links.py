@@ -10,8 +10,6 @@ from PIL import Image
 
 from .conftest import EMPTIED
 
-pytestmark = pytest.mark.browser
-
 WALK = ["ball-dynamic", "conics-4", "case3-n3", "attracting-repelling", "blowup"]
 
 

@@ -3,10 +3,6 @@
 import re
 from urllib.parse import urlparse
 
-import pytest
-
-pytestmark = pytest.mark.browser
-
 
 def exported(explorer):
     """The picture as the save tool writes it, as SVG."""

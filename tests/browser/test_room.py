@@ -2,8 +2,6 @@
 
 import pytest
 
-pytestmark = pytest.mark.browser
-
 
 def test_a_phones_settings_are_a_dot_on_the_lecturers_atlas(open_page):
     lecturer = open_page().open("room")

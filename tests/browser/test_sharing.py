@@ -6,9 +6,6 @@ from tests.app.static.test_qr_codes import code_of
 
 from .conftest import PHONE
 
-pytestmark = pytest.mark.browser
-
-
 #: What is dark in the middle of each square of a code, as the browser paints it.
 SQUARES = """async (code) => {
   await code.decode()

@@ -14,8 +14,6 @@ from codim2_app.export.figure import Style, figure
 from codim2_app.export.view import view_of
 from PIL import Image
 
-pytestmark = pytest.mark.browser
-
 
 def opened(page):
     page.find(".share").click()

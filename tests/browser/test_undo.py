@@ -1,10 +1,6 @@
 """Undo and redo of everything, by button, key and the browser's Back and Forward; one step for each settled action."""
 
-import pytest
-
 from .test_panels import value
-
-pytestmark = pytest.mark.browser
 
 
 def test_values_portraits_and_layers_by_button_and_key(open_page):

@@ -29,3 +29,9 @@ def test_a_terminal_prints_few_lines_of_a_result(what):
     printed = repr(RESULTS[what](PRESET.system, PRESET.psi))
     assert printed.count("\n") < 5
     assert len(printed) < 5000
+
+
+@pytest.mark.parametrize("name", ["psi", "examples", "mechanics", "bifurcations", "reference", "hemisphere"])
+def test_the_tab_key_lists_public_names_only(name):
+    module = getattr(c2, name)
+    assert dir(module) == sorted(module.__all__)

@@ -58,7 +58,7 @@ def test_separatrices_are_drawn_and_listed():
     where = {True: "hemisphere", False: "outside"}
     assert [tuple(row) for row in rows] == [(b.origin, b.direction, b.end, where[b.inside]) for b in found]
     assert {row[3] for row in rows} == set(where.values())
-    assert "<svg" in found._repr_html_()
+    assert "data:image/svg+xml" in found._repr_html_()
     none = c2.separatrices(c2.ELinear(-1, 0, -1), PSI)  # every direction is a limit direction
     assert none.notes
     assert all(note in none._repr_html_() for note in none.notes)

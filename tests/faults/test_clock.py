@@ -8,6 +8,7 @@ from codim2_app.draw.packing import unpack
 from tests.benchmarks import app_load
 from tests.benchmarks.wire import Wire
 from tests.faults.test_leaving import FILE, TYPED, state_of, workers
+from tests.work import talk as in_a_thread
 from tests.work import wait_until
 
 HOUR = 3600.0
@@ -87,4 +88,4 @@ def test_a_clock_that_is_set_ends_no_session_and_holds_up_nothing(machine, by):
             while pages:
                 await pages.pop().vanish()
 
-    asyncio.run(whole())
+    in_a_thread(whole())

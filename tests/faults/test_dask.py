@@ -1,6 +1,5 @@
 """Long work on a real Dask cluster of two workers, one of which is killed in mid-work."""
 
-import asyncio
 import os
 import signal
 import subprocess
@@ -17,6 +16,7 @@ import codim2_core as c2
 from tests.app.serving import serving
 from tests.benchmarks.app_load import free_port
 from tests.benchmarks.wire import Wire
+from tests.work import talk
 
 pytest.importorskip("distributed", reason="there is no Dask: install the extra dask")
 # Dask's own, at the end of a process
@@ -102,7 +102,7 @@ def test_a_page_has_its_files_from_the_cluster(workers):
     files = []
     for options in ((), ("--dask", address)):
         with serving(*options) as server:
-            files.append(asyncio.run(taken(server.port)))
+            files.append(talk(taken(server.port)))
     assert files[0] == files[1]
     assert not files[0][0]
     assert files[0][1]

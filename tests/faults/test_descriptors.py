@@ -8,10 +8,9 @@ from urllib.request import urlopen
 import pytest
 from codim2_app.draw.packing import unpack
 
-from tests.app.server.test_first_page import talk
 from tests.app.serving import serving
 from tests.benchmarks.wire import Wire
-from tests.work import PATIENCE
+from tests.work import PATIENCE, talk
 
 IDLE = 400
 

@@ -9,6 +9,7 @@ from codim2_app.draw.packing import unpack
 from tests.app.serving import serving
 from tests.benchmarks import app_load
 from tests.benchmarks.wire import Wire
+from tests.work import talk as in_a_thread
 from tests.work import wait_until
 
 AT_ONCE = 4  # visitors: one after the other they would wait for their own machine most of the time
@@ -74,7 +75,7 @@ def test_work_that_nobody_wants_any_more_ends_in_mid_work(address, how):
             await wire.close()
         return ended
 
-    assert asyncio.run(talk())
+    assert in_a_thread(talk())
 
 
 async def drawn(wire, number, **values):
@@ -123,7 +124,7 @@ def test_a_thousand_visits_hold_no_more_than_a_hundred():
     first = [(i, type_and_vanish if i < TYPED_FIRST else drag_and_vanish) for i in range(150)]
     others = [(i, drag_and_vanish if i % 10 else type_and_vanish) for i in range(150, 1000)]
     with app_load.serving("forgetful") as (port, pid):
-        before, after = asyncio.run(both(port, pid))
+        before, after = in_a_thread(both(port, pid))
     assert after["Frames"] == 1
     assert after["Scene"] <= before["Scene"]
     assert after["resident"] - before["resident"] < PLATEAU, (before, after)

@@ -1,6 +1,5 @@
 """Memory that has an end: a worker that reaches it fails or is ended alone, its page says so, and the server lives."""
 
-import asyncio
 import os
 import sys
 from contextlib import contextmanager, suppress
@@ -13,6 +12,7 @@ from codim2_app.phrases import say
 from tests.app.serving import serving
 from tests.benchmarks.app_load import family
 from tests.benchmarks.wire import Wire
+from tests.work import talk
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the system bounds no memory of a process")
 
@@ -97,15 +97,15 @@ def hungry(tmp_path, block):
 def test_a_work_without_end_is_refused_memory(tmp_path):
     with hungry(tmp_path, ASKED) as address:
         for _ in range(2):
-            assert say("memory") in asyncio.run(told(address.port))
+            assert say("memory") in talk(told(address.port))
 
 
 def test_where_the_machine_has_none_left_a_worker_is_ended(tmp_path):
     with hungry(tmp_path, USED) as address:
-        asyncio.run(first(address.port))
+        talk(first(address.port))
         with bounded(family(address.pid), BEYOND):
             for _ in range(2):
-                assert say("lost") in asyncio.run(told(address.port))
+                assert say("lost") in talk(told(address.port))
 
 
 async def first(port):

@@ -9,6 +9,7 @@ from tornado.websocket import WebSocketClosedError
 
 from tests.app.serving import serving
 from tests.benchmarks.wire import Wire
+from tests.work import talk as in_a_thread
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +45,7 @@ def refused(server, do):
         await still_served(address)
         return answer
 
-    answer = asyncio.run(talk())
+    answer = in_a_thread(talk())
     assert "Traceback" not in log.read_text()
     assert max(map(len, log.read_text().splitlines()), default=0) < 1000
     return answer

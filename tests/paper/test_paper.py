@@ -89,4 +89,4 @@ def test_what_is_named_as_printed_is_in_the_table(texts):
 def test_an_unknown_label_is_refused():
     with pytest.raises(ValueError, match="is no label"):
         cite("fig:nowhere")
-    assert cite("an equation, eq:vf") == "an equation"
+    assert cite("an equation, eq:vf") == "an equation, (2.7)"

@@ -19,7 +19,7 @@ import codim2_core as c2
 from .ways import Check
 
 SPAN, STEPS = 20.0, 100_000
-EPS, MAX_STEPS = 1e-7, 10_000
+EPS, MAX_STEPS = 1e-7, 20_000
 MAX_ERROR = 3e-3  # of velocities and ways of the order 1 to 10, for brute force with steps of 2e-4
 Load = tuple[str, Callable[[np.ndarray], np.ndarray]]
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from codim2_core import psi
-from codim2_core.motion.regularised import simulate
 from codim2_core.motion.result import SimulationStatus
+from codim2_core.motion.simulate import simulate
 
 from .strata import STRATA, system
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import singledispatch
 from itertools import pairwise
@@ -11,11 +12,11 @@ import numpy as np
 
 from codim2_core.atlases.result import Atlas
 from codim2_core.bifurcations.curve import BifurcationCurve
-from codim2_core.bifurcations.plane_regions import Regions
+from codim2_core.bifurcations.regions import Regions
 from codim2_core.continuation.result import CycleBranches
 from codim2_core.cycles.limit_cycles import LimitCycles
 from codim2_core.diagrams.eigenvalue_path import LinearisationPath
-from codim2_core.diagrams.result import Branches
+from codim2_core.diagrams.result import Branches, SpecialValue
 from codim2_core.figures.preset import Preset
 from codim2_core.mechanics.several.result import ContactMotion
 from codim2_core.motion.periodic.response_result import ResponseCurve
@@ -41,7 +42,7 @@ from .sketch import BASIN_COLOURS, Cells, Curves, LineChart, RegionChart, Sketch
 
 #: px of the screen.
 SKETCH_SIDE = 360
-MAX_SVG_BYTES = 45_000  # bytes
+MAX_SVG_BYTES = 36_000  # bytes: as text of an HTML image a third more
 #: Starting points and pixel of a small portrait; the next ones are tried where it is too large.
 SKETCHED = ((40, 1 / 90), (16, 1 / 50), (0, 1 / 50))
 #: Curves that are drawn, and points of all of them.
@@ -171,9 +172,14 @@ def _curve(result: BifurcationCurve) -> Sketch:
 
 @sketch.register
 def _draw_branches(result: Branches) -> Sketch:
-    return LineChart(
-        [(branch.kind, branch.value, branch.theta) for branch in result.limit_directions], result.along, "θ"
-    )
+    lines = [(branch.kind, branch.value, branch.theta) for branch in result.limit_directions]
+    lines += [(f"C, {one.kind}", one.value, np.unwrap(np.arctan2(*one.e.T[::-1]))) for one in result.critical]
+    marks = [
+        (one.kind, one.value, math.atan2(one.place[1], one.place[0]))
+        for one in result.special
+        if isinstance(one, SpecialValue)
+    ]
+    return LineChart(lines, result.along, "θ", marks)
 
 
 @sketch.register

@@ -18,6 +18,7 @@ class LineChart:
     lines: Sequence[tuple[str, Any, Any]]
     across: str
     up: str
+    marks: Sequence[tuple[str, float, float]] = ()  # special points
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The panel "Planes": trace and determinant, the eigenvalues of the critical set, and the Psi compared (fig:bads).
+"""The panel "Planes": trace and determinant, the eigenvalues of the critical set, and the Psi compared (Figure 17).
 
 The browser has the present point from the picture, and draws its trail; the server adds the curve over the parameter
 of Psi, if it has one, or the points of other families.
@@ -23,7 +23,7 @@ from ...phrases import say
 from ..panel import Panel
 
 CURVE_POINTS = 120  # along the curve over the parameter
-S = np.linspace(0.0, 1.0, 51)  # as in fig:bads(c)
+S = np.linspace(0.0, 1.0, 51)  # as in Figure 17(c)
 
 
 def add(draft: FrameContext) -> None:

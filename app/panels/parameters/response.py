@@ -76,7 +76,7 @@ def response_columns(
         return forcing_period(vary(system, psi, (), along, value)[0]) or period
 
     forced = forcing_period(system) is not None
-    found = response_curve(system, state, period_of if forced else period, along, span, psi, eps)
+    found = response_curve(system, psi, state, period_of if forced else period, along, span, eps=eps)
     clocks = [bool(row.constant) for row in field(system).rows[2:]]
     return {"span": list(span), "forced": forced, "eps": eps, **curve_columns(found, clocks)}
 

@@ -133,14 +133,14 @@ def _warm_contacts() -> None:
 
 def _warm_regularised() -> None:
     """Compile, or load, what follows motions for ε > 0: once for all systems."""
-    from codim2_core.motion.regularised import simulate  # late: it brings SciPy along
+    from codim2_core.motion.simulate import simulate  # late: it brings SciPy along
 
     simulate(_PUSHED, hill(3.0), _START, (0.0, 0.2), eps=0.01)
 
 
 def _warm_nonsmooth() -> None:
     """Compile, or load, what follows motions in the limit, in the same way."""
-    from codim2_core.motion.nonsmooth import simulate_nonsmooth  # late, too
+    from codim2_core.motion.simulate import simulate_nonsmooth  # late, too
 
     simulate_nonsmooth(_PUSHED, _START, (0.0, 3.0), hill(3.0))  # it slips, slides and leaves
 

@@ -9,19 +9,26 @@ import numpy as np
 
 from ...arrays import Array, read_only
 from ...families.family import SystemFamily
-from ...layer_problem.problem import LayerProblem
 from ...words import say
 from ..result import AtlasCurve, AtlasPoint
-from .connection_seeds import EQUILIBRIUM_KINDS, ConnectionSearch, ConnectionSeed, lines_beside_takens, straight
+from .connection_seeds import (
+    EQUILIBRIUM_KINDS,
+    ConnectionSearch,
+    ConnectionSeed,
+    lines_beside_takens,
+    rings_about_corners,
+    straight,
+)
 from .connection_tracing import ConnectionCurve, trace_connection
 from .splitting import BranchPair
 
 LOOP, CYCLE, CONNECTION = KINDS = "homoclinic loop", "heteroclinic cycle", "saddle connection"
-BOGDANOV_TAKENS = "Bogdanov–Takens"
+BOGDANOV_TAKENS, SADDLE_NODE_CORNER = "Bogdanov–Takens", "saddle-node on the equator"
 BOGDANOV_TAKENS_DISTANCE, MAX_LOOP_SIZE = (
     0.05,
     0.3,
 )  # of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size
+CORNER_RADIUS = 0.015  # of the square: a cycle through the equator ends at a corner so near to it
 CODIM_TWO_DISTANCE = 5e-3  # of the square: an end beside a curve of the equilibria
 MAX_CURVES = 24  # curves
 
@@ -41,7 +48,11 @@ def connection_curves(
         return any(one.passes(place, pair) for one in found)
 
     search = ConnectionSearch(family, is_known)
-    for line in [*lines_beside_takens(family, takens, curves), *straight(family, curves)]:
+    corners = [family.units(np.array(point.place)) for point in points if point.kind == SADDLE_NODE_CORNER]
+    borders = [family.units(one.points) for one in curves if one.kind in ("saddle-node", "transcritical")]
+    some = [corner for corner in corners if not (family.symmetric and corner[1] < 0.5)]
+    lines = [*lines_beside_takens(family, takens, curves), *rings_about_corners(some, borders)]
+    for line in [*lines, *straight(family, curves)]:
         for seed in search.along(line):
             one = trace_connection(seed) if seed.settled and len(found) < MAX_CURVES else None
             if one is None:
@@ -60,6 +71,10 @@ def connection_curves(
                 plane = np.concatenate([plane[::order], born[0][None]])[::order]
                 places = np.concatenate([places[::order], born[1][None]])[::order]
                 ratios = np.append(ratios[::order], 1.0)[::order]
+            elif (corner := _corner(one.plane[i], corners) if kind == CYCLE else None) is not None:
+                order = 1 if i else -1
+                plane = np.concatenate([plane[::order], corner[None]])[::order]
+                places, ratios = (np.concatenate([row[::order], row[i][None]])[::order] for row in (places, ratios))
             elif end in ("lost", "many"):
                 told.append(_end_point(family, one.plane[i], kind, curves))
         numbers = ratios if kind != CONNECTION else np.zeros(0)
@@ -72,16 +87,15 @@ def connection_curves(
 
 def _connection_kind(pair: BranchPair) -> str:
     """Name a connection: a cycle is one of two half-saddles that an arc of the equator joins the other way."""
-    if pair.foot is not None:
+    if pair.leaving.same_saddle(pair.entering):
         return LOOP
-    leaving, entering = pair.leaving, pair.entering
-    if leaving.critical is None and entering.critical is None:
-        equator = LayerProblem(leaving.at, leaving.psi).equator
-        theta = equator.theta
-        i, j = (int(np.abs(np.angle(np.exp(1j * (theta - one.theta)))).argmin()) for one in (leaving, entering))
-        if (i - j) % len(theta) in (1, len(theta) - 1) and not len(equator.arcs):
-            return CYCLE
-    return CONNECTION
+    return CYCLE if pair.sense else CONNECTION
+
+
+def _corner(last: Array, corners: Sequence[Array]) -> Array | None:
+    """Return the saddle-node on the equator at which a curve of cycles ends."""
+    near = min(corners, key=lambda at: math.dist(at, last), default=None)
+    return near if near is not None and math.dist(near, last) < CORNER_RADIUS else None
 
 
 def _birth_point(one: ConnectionCurve, takens: Sequence[Array], i: int) -> tuple[Array, Array] | None:

@@ -18,8 +18,8 @@ from ...layer_problem.problem import LayerProblem
 from ...numerics.root_between import root_between
 from ..cycles.fold_seeds import marks
 from ..result import AtlasCurve
-from .saddles import Branch, branches, lines_of
-from .splitting import BranchPair, Splitting, roughly
+from .saddles import ROUGH_RTOL, Branch, branches, lines_of
+from .splitting import BranchPair, Splitting, cycle_arcs, roughly
 
 Known = Callable[[Array, BranchPair], bool]
 BranchTriple = tuple[int, int, int | None]  # of a branch that leaves, one that enters, and what a loop goes round
@@ -36,6 +36,7 @@ BOGDANOV_TAKENS_OFFSETS = (
     0.05,
     0.1,
 )  # of the square: from a Bogdanov-Takens point along the Hopf curve, where lines leave it
+RING_RADII, RING_SAMPLES = (0.02, 0.08), 25  # of the square, about saddle-nodes on the equator; places on each
 MAX_HOPF_MULTIPLE, HOPF_SAMPLES = 4.0, 25  # times the way from the fold to the Hopf curve, and places on such a line
 MAX_BRANCHES = 40  # of the saddles at one place
 UNRESOLVED_SPLITTING = 1e-3  # splitting as lines tell it, of which they do not tell the sign
@@ -82,26 +83,40 @@ class LineSample:
         return [np.asarray(C.e) for C in self.problem.critical if C.kind != "saddle"]
 
     def pairs(self) -> Iterator[BranchTriple]:
-        """All pairs of branches, a loop once with each critical set that it may go round."""
+        """All pairs of branches, a loop or cycle once with each critical set, and in each sense, that it may go round.
+
+        The last number is three times the place of the set, and the sense (0, 1, or 2 for -1) in which a cycle turns.
+        """
         for i, leaving in enumerate(self.branches):
             for j, entering in enumerate(self.branches):
                 if leaving.backward or not entering.backward:
                     continue
-                if not leaving.same_saddle(entering):
+                loop = leaving.same_saddle(entering)
+                if not loop and not (self.feet and cycle_arcs(leaving, entering)):
                     yield i, j, None
+                elif not loop:
+                    senses = [one.sense % 3 for one in cycle_arcs(leaving, entering)]
+                    yield from ((i, j, 3 * k + sense) for k in range(len(self.feet)) for sense in senses)
                 elif leaving.critical is not None:
-                    yield from ((i, j, k) for k in range(len(self.feet)))
+                    yield from ((i, j, 3 * k) for k in range(len(self.feet)))
 
     def pair(self, places: BranchTriple) -> BranchPair:
         """Return a pair by its places in the lists."""
         i, j, k = places
-        return BranchPair(self.branches[i], self.branches[j], None if k is None else self.feet[k])
+        if k is None:
+            return BranchPair(self.branches[i], self.branches[j], None)
+        return BranchPair(self.branches[i], self.branches[j], self.feet[k // 3], (0, 1, -1)[k % 3])
 
     def rough(self, places: BranchTriple) -> float:
         """Return the splitting of a pair, by drawn lines where these tell its sign; NaN where they do not cross."""
         if places not in self.known:
-            pair, lines = self.pair(places), (self.lines[places[0]], self.lines[places[1]])
-            found = math.nan if pair.section is None else roughly(pair.section, *lines)
+            pair = self.pair(places)
+            if pair.sense:
+                found = pair.cycle_gap(ROUGH_RTOL)
+            elif pair.section is None:
+                found = math.nan
+            else:
+                found = roughly(pair.section, self.lines[places[0]], self.lines[places[1]])
             self.known[places] = pair.gap if abs(found) < UNRESOLVED_SPLITTING else found
         return self.known[places]
 
@@ -137,7 +152,7 @@ def straight(family: SystemFamily, curves: Sequence[AtlasCurve]) -> list[Array]:
     ours = [one for one in curves if one.kind in EQUILIBRIUM_KINDS]
     found = []
     for axis in (0, 1):
-        for at in LINE_OFFSETS:
+        for at in LINE_OFFSETS[2 * family.symmetric :]:
             met = [0.0, *(mark.value for mark in marks(family, ours, axis, at)), 1.0]
             pieces = [
                 low + np.array(PIECE_SAMPLES) * (high - low)
@@ -146,6 +161,27 @@ def straight(family: SystemFamily, curves: Sequence[AtlasCurve]) -> list[Array]:
             ]
             t = np.unique(np.concatenate([np.linspace(0.0, 1.0, LINE_SAMPLES), *pieces]))
             found.append(np.stack([t, np.full_like(t, at)][:: 1 - 2 * axis], axis=1))
+    return found
+
+
+def rings_about_corners(corners: Sequence[Array], curves: Sequence[Array]) -> list[Array]:
+    """Circles about saddle-nodes on the equator, with some places between any two curves that they cross.
+
+    From there curves of heteroclinic cycles begin. Shapes: corners (2,), curves (m, 2), all in the square.
+    """
+    found = []
+    for corner in corners:
+        for radius in RING_RADII:
+            angles = [0.0, 2.0 * math.pi]
+            for line in curves:
+                away = line - corner
+                level = np.hypot(*away.T) - radius
+                for i in np.flatnonzero(level[1:] * level[:-1] < 0.0).tolist():
+                    at = away[i] + level[i] / (level[i] - level[i + 1]) * (away[i + 1] - away[i])
+                    angles.append(math.atan2(at[1], at[0]) % (2.0 * math.pi))
+            pieces = [low + np.array(PIECE_SAMPLES) * (high - low) for low, high in pairwise(sorted(angles))]
+            t = np.unique(np.concatenate([np.linspace(0.0, 2.0 * math.pi, RING_SAMPLES), *pieces]))
+            found.append(corner + radius * np.stack([np.cos(t), np.sin(t)], axis=1))
     return found
 
 
@@ -211,12 +247,12 @@ class ConnectionSearch:
         branches_, feet = before.followed(here)
         for places in before.pairs():
             i, j, k = places
-            if i not in branches_ or j not in branches_ or (k is not None and k not in feet):
+            if i not in branches_ or j not in branches_ or (k is not None and k // 3 not in feet):
                 continue
             first = before.rough(places)
             if not math.isfinite(first):
                 continue
-            after = branches_[i], branches_[j], None if k is None else feet[k]
+            after = branches_[i], branches_[j], None if k is None else 3 * feet[k // 3] + k % 3
             last = here.rough(after)
             if not first * last < 0.0:
                 continue

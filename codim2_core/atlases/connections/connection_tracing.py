@@ -14,7 +14,7 @@ from ...curves.polyline import feet
 from .connection_seeds import ConnectionSeed
 from .splitting import BranchPair, Splitting
 
-STEP_BOUNDS = StepBounds(0.04, 0.2, 250, close=1e-9, least=1e-5)
+STEP_BOUNDS = StepBounds(0.04, 0.2, 250, close=1e-11, least=1e-5)
 MAX_SEED_ERROR = 0.02  # of the square, that a seed may be off
 ON_CURVE_DISTANCE, SAME_BRANCH_DISTANCE = (
     4e-3,

@@ -1,6 +1,6 @@
 """Branches of saddles of the layer problem: followed over the plane of two parameters, and followed as orbits.
 
-A saddle is a critical set, with two branches either way, or a half-saddle of the equator, with one (thm:geneps0(b)):
+A saddle is a critical set, with two branches either way, or a half-saddle of the equator, with one (Theorem 3.1(b)):
 its branch leaves up the hemisphere where both its eigenvalues are negative, and enters where both are positive.
 
 An orbit that follows a branch of a critical set begins on its tangent, at a distance `START_DISTANCE`: its error

@@ -1,7 +1,8 @@
 """By how much an unstable branch of one saddle and a stable one of another, or of the same, miss each other.
 
 Two saddles A and B lie on opposite sides of the line half-way between them, which an orbit from A to B crosses; a loop
-of one saddle goes round a critical set F that is none, and crosses the ray from F away from it. The places where both
+of one saddle goes round a critical set F that is none, and crosses the ray from F away from it. A cycle through the
+equator goes round F as well (`cycles.heteroclinic_cycle`). The places where both
 branches first cross have a signed distance. It is zero only if the branches are one orbit, and if this
 crosses just once it is zero then: a connection that crosses several times is not seen.
 """
@@ -16,11 +17,15 @@ import numpy as np
 
 from ...arrays import Array
 from ...continuation.section_base import correct_zero, e_at, hemisphere_place
+from ...cycles.heteroclinic_arcs import HeteroclinicArc, heteroclinic_arcs
+from ...cycles.heteroclinic_cycle import loop_gap
 from ...families.family import SystemFamily
+from ...layer_problem.problem import LayerProblem
 from ...psi.function import Psi
 from ...systems.frozen import FrozenSystem
-from .saddles import Branch
+from .saddles import RTOL, Branch
 
+SAME_ANGLE = 1e-6  # between half-saddles found twice
 MAX_CACHE_DISTANCE = 3e-3  # of the square: so far from where it is known a connection is kept
 DIFFERENCE_STEP = 1e-6  # of the square
 SLOPE_SHARE, MAX_SLOPE_DISTANCE = (
@@ -72,11 +77,15 @@ class Section:
 
 @dataclass(frozen=True, eq=False)
 class BranchPair:
-    """A branch that leaves a saddle, one that enters one, and of a loop a critical set (c, s) within."""
+    """A branch that leaves a saddle, one that enters one, and of a loop or cycle a critical set (c, s) within.
+
+    A cycle through the equator turns about it in a sense (1 or -1), any other connection in none (0).
+    """
 
     leaving: Branch
     entering: Branch
     foot: Array | None
+    sense: int = 0
 
     def followed(self, at: FrozenSystem, psi: Psi) -> BranchPair | None:
         """Return the same of another system nearby; None where one of them is no more."""
@@ -84,7 +93,7 @@ class BranchPair:
         foot = None if self.foot is None else correct_zero(at, self.foot)
         if leaving is None or entering is None or (foot is None) != (self.foot is None):
             return None
-        return BranchPair(leaving, entering, foot)
+        return BranchPair(leaving, entering, foot, self.sense)
 
     @cached_property
     def section(self) -> Section | None:
@@ -107,6 +116,8 @@ class BranchPair:
     def gap(self) -> float:
         """By how much both miss each other, to the digits of the orbits; NaN where one does not cross."""
         section = self.section
+        if self.sense:
+            return self.cycle_gap(RTOL)
         if section is None:
             return math.nan
         out, back = _first_crossing(self.leaving, section), _first_crossing(self.entering, section)
@@ -114,10 +125,32 @@ class BranchPair:
             return math.nan
         return section.coordinate(out[0]) - section.coordinate(back[0])
 
+    def cycle_gap(self, rtol: float) -> float:
+        """Return the gap of a cycle through the equator, bounded: NaN where there is no such cycle."""
+        arc = next((one for one in cycle_arcs(self.leaving, self.entering) if one.sense == self.sense), None)
+        if arc is None or self.foot is None:
+            return math.nan
+        at, psi = self.leaving.at, self.leaving.psi
+        return math.atan(loop_gap(LayerProblem(at, psi), hemisphere_place(psi, self.foot), arc, rtol))
+
     @property
     def ratio(self) -> float:
         """Product of the ratios of both saddles, of a loop that of its saddle."""
-        return self.leaving.ratio if self.foot is not None else self.leaving.ratio * self.entering.ratio
+        return (
+            self.leaving.ratio if self.leaving.same_saddle(self.entering) else self.leaving.ratio * self.entering.ratio
+        )
+
+
+def cycle_arcs(leaving: Branch, entering: Branch) -> list[HeteroclinicArc]:
+    """Arcs of the equator along which a cycle goes on from where a branch enters to where one leaves."""
+    if leaving.critical is not None or entering.critical is not None:
+        return []
+    arcs = heteroclinic_arcs(LayerProblem(leaving.at, leaving.psi))
+    return [
+        arc for arc in arcs
+        for gaps in [(arc.sink - leaving.theta, arc.source - entering.theta)]
+        if max(abs(math.remainder(gap, math.tau)) for gap in gaps) < SAME_ANGLE
+    ]  # fmt: skip
 
 
 def roughly(section: Section, leaving: Array, entering: Array) -> float:

@@ -14,16 +14,17 @@ import numpy as np
 
 from ...arrays import Array
 from ...continuation.section_base import correct_zero, hemisphere_place
-from ...continuation.turns import TurnOrbit, turn
+from ...continuation.turns import FiniteDifference, TurnOrbit, difference, turn
 from ...cycles.ray import Ray
 from ...cycles.ray_section import HemispherePoint
 from ...families.family import SystemFamily
 from ...layer_problem.problem import LayerProblem
 from ...systems.frozen import FrozenSystem
 
-LOG_SIZE_SCALE = 6.0  # of x: steps along curves are as long in it as in the unit square
-DIFFERENCE_STEP = 1e-6  # for derivatives, which tell the way and not the place
-MAX_RAY_COORDINATE = 40.0  # |x|
+LOG_SIZE_SCALE = 20.0  # of x: steps along curves are as long in it as in the unit square
+PARAMETER_STEP = 1e-6  # of the square, and of the foot's distance from the equator, for derivatives of the shift
+DIFFERENCE_STEPS = np.diag([1e-5, 1e-8, 1e-8])  # for those of the exponent: it may change within a small part of it
+MAX_RAY_COORDINATE = 57.0  # |x|
 MAX_CACHE_DISTANCE = 0.01  # of the square: so far from where it is known the critical set is kept
 
 
@@ -41,10 +42,20 @@ class EncirclingTurns:
         Direction of the ray.
     critical : bool
         Whether it is a critical set.
+    centre : EncirclingTurns or None
+        From whose point the size of a cycle is measured, if not from its own.
     """
 
-    def __init__(self, family: SystemFamily, place: Array, e: Array, u: Array, critical: bool = True) -> None:
-        self.family, self.u = family, u
+    def __init__(
+        self,
+        family: SystemFamily,
+        place: Array,
+        e: Array,
+        u: Array,
+        critical: bool = True,
+        centre: EncirclingTurns | None = None,
+    ) -> None:
+        self.family, self.u, self.centre = family, u, centre
         self._known = [(np.array(place, float), np.array(e, float))]
         self._still = None if critical else hemisphere_place(family.psi_at(place), self._known[0][1])
 
@@ -73,23 +84,46 @@ class EncirclingTurns:
             self._known.append((place.copy(), e))
         return hemisphere_place(self.family.psi_at(place), e)
 
-    def turn(self, v: Array) -> TurnOrbit | None:
-        """Follow one turn; None if it does not return."""
+    def turn(self, v: Array, slopes: bool = False) -> TurnOrbit | None:
+        """Follow one turn, with derivatives of its shift by both parameters if asked; None if it does not return."""
         ray = self.ray(v[1:]) if abs(v[0]) < MAX_RAY_COORDINATE else None
         if ray is None:
             return None
+        outer = None if self.centre is None else self.centre.ray(v[1:])
+        middle = ray.critical if outer is None else outer.critical
+        differences = self._differences(ray, v[1:]) if slopes else []
+        if differences is None:
+            return None
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            return turn(ray, LOG_SIZE_SCALE * float(v[0]), math.nan, (), ray.critical, False)
+            return turn(ray, LOG_SIZE_SCALE * float(v[0]), math.nan, differences, middle, False)
+
+    def _differences(self, ray: Ray, place: Array) -> list[FiniteDifference] | None:
+        """Compare the problem on both sides of a place, along each axis."""
+        step = PARAMETER_STEP * (1.0 - float(ray.psi.modulus(math.hypot(*ray.critical.x2))))
+        found = []
+        for way in step * np.eye(2):
+            low, high = self.ray(place - way), self.ray(place + way)
+            if low is None or high is None:
+                return None
+            ends, feet = (low.problem, high.problem), (low.critical, high.critical)
+            found.append(difference(ends, feet, 2.0 * step, self.u))
+        return found
+
+    def exponent(self, v: Array) -> float:
+        """Return the exponent of a turn; NaN where it does not return."""
+        found = self.turn(v)
+        return math.nan if found is None else found.turn.exponent
 
     def fold(self, v: Array) -> tuple[Array, Array]:
-        """Shift and exponent, both zero on a fold, with their derivatives; NaN where there is no turn."""
-        here = self._values(v)
-        if not np.isfinite(here).all():
-            return here, np.full((2, 3), math.nan)
-        return here, np.stack(
-            [(self._values(v + way) - here) / DIFFERENCE_STEP for way in DIFFERENCE_STEP * np.eye(3)], axis=1
-        )
+        """Return shift and exponent, both zero on a fold, with derivatives that tell the way; NaN without a turn."""
+        found = self.turn(v, slopes=True)
+        if found is None:
+            return np.full(2, math.nan), np.full((2, 3), math.nan)
+        here = np.array([found.turn.shift, found.turn.exponent])
+        by_v = [LOG_SIZE_SCALE * found.turn.by_xi, *found.by_values]
+        rise = [(self.exponent(v + way) - here[1]) / way.sum() for way in DIFFERENCE_STEPS]
+        return here, np.array([by_v, rise])
 
-    def _values(self, v: Array) -> Array:
-        found = self.turn(v)
-        return np.full(2, math.nan) if found is None else np.array([found.turn.shift, found.turn.exponent])
+    def bend(self, v: Array) -> float:
+        """Second derivative of the return map, up to a factor: zero at a cusp, where three cycles are one."""
+        return self.exponent(v + DIFFERENCE_STEPS[0]) - self.exponent(v - DIFFERENCE_STEPS[0])

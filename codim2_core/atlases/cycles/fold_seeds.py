@@ -21,8 +21,8 @@ from ..result import AtlasCurve
 from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
 from .fold_tracing import CycleStart
 
-LINE_OFFSETS = (0.2871, 0.7137)  # of the square, across and up
-RAY_STARTS = 0.03, 0.01, 0.08  # of the reach: places on the ray beside a generalised Hopf point that are tried
+LINE_OFFSETS, HALF_OFFSETS = (0.2871, 0.7137), (0.5871, 0.7713)  # of the square, across and up; of a symmetric one
+RAY_STARTS = 0.02, 0.006, 0.06, 2e-3  # of the reach: places on the ray beside a generalised Hopf point that are tried
 
 
 @dataclass(frozen=True)
@@ -50,12 +50,16 @@ def seeds_beside_bautin(family: SystemFamily, place: Array) -> list[FoldSeed]:
     if C is None:
         return []
     around = EncirclingTurns(family, place, np.asarray(C.e), TurnSection(problem, C).u)
-    return [FoldSeed(CycleStart(around, np.array([math.log(chi) / LOG_SIZE_SCALE, *place])), chi) for chi in RAY_STARTS]
+    return [
+        FoldSeed(CycleStart(around, np.array([math.log(chi) / LOG_SIZE_SCALE, *place]), fixed=True), chi)
+        for chi in RAY_STARTS
+    ]
 
 
 def along_lines(family: SystemFamily, curves: Sequence[AtlasCurve]) -> list[FoldSeed]:
     """Folds on branches of cycles along some lines across the square, among its curves."""
-    return [seed for axis in (0, 1) for at in LINE_OFFSETS for seed in _seeds_along(family, curves, axis, at)]
+    offsets = HALF_OFFSETS if family.symmetric else LINE_OFFSETS
+    return [seed for axis in (0, 1) for at in offsets for seed in _seeds_along(family, curves, axis, at)]
 
 
 def _seeds_along(family: SystemFamily, curves: Sequence[AtlasCurve], axis: int, at: float) -> list[FoldSeed]:
@@ -74,8 +78,9 @@ def _seeds_along(family: SystemFamily, curves: Sequence[AtlasCurve], axis: int, 
 
 
 def _seed(family: SystemFamily, ray: VariedRay, turn: ReturnMapPoint, where: Array) -> FoldSeed:
-    e = e_at(family.psi_at(where), ray.foot.place(turn.value).x2)
-    around = EncirclingTurns(family, where, e, ray.u, ray.foot.critical)
+    middle, e = (e_at(family.psi_at(where), one.place(turn.value).x2) for one in (ray.centre, ray.foot))
+    centre = EncirclingTurns(family, where, middle, ray.u, ray.centre.critical)
+    around = EncirclingTurns(family, where, e, ray.u, ray.foot.critical, centre)
     return FoldSeed(CycleStart(around, np.array([turn.xi / LOG_SIZE_SCALE, *where])), turn.amplitude)
 
 

@@ -1,7 +1,7 @@
 """The way out of Sigma along a limit direction: the expansion at Sigma that a first, short step is made of.
 
 Where lambda_rho > 0 it is the unstable manifold of Q in (rho, theta, z): rho = lambda_rho t + O(t^2), with
-theta - theta_Q linear in t. Where a critical set has just reached the equator at Q (fig:transcrit), lambda_rho grows
+theta - theta_Q linear in t. Where a critical set has just reached the equator at Q (Figure 19), lambda_rho grows
 from 0 as beta t, rho = beta t^2/2 + O(t^3), and theta follows Q(z).
 """
 

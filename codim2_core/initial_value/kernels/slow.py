@@ -1,6 +1,6 @@
 """The slow flow on a critical set, compiled: a right-hand side in the place of that of a motion.
 
-The state is (e, z): ``U(e, 0, 0, z) = 0`` and ``z' = W(e, 0, 0, z)``, eq:linslowflow, with
+The state is (e, z): ``U(e, 0, 0, z) = 0`` and ``z' = W(e, 0, 0, z)``, (4.17), with
 ``e' = -(D_e U)^-1 D_z U W``. The e of the state is where Newton's method starts; what it finds is the e that W is taken
 at, so that an error of e does not add up. A set that is lost, or another that is found, makes the step's error large,
 and the step shorter.

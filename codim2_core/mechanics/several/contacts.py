@@ -5,7 +5,7 @@ With velocities v, kinetic energy v·Mv/2, applied force Q and slips x_i = J_i v
     M v' = Q - sum mu_i N_i J_i^T e_i,    e_i = x_i/|x_i|.
 
 Each contact has its own set x_i = 0. At one, while the others slip, their e_j are smooth functions of the state, so
-that contact i sees a system of eq:vf with (x, y) = x_i, whose applied force is Q less their friction: `Contacts.at`.
+that contact i sees a system of (2.7) with (x, y) = x_i, whose applied force is Q less their friction: `Contacts.at`.
 At several sets at once, x_i = eps x2_i makes of e_Psi a point on a product of hemispheres, on which
 (x2_i)' = J_i v' + k_i with v' linear in all e_j: a critical set solves the linear equations
 ``sum_j D_ij mu_j N_j e_j = J_i M^-1 Q + k_i`` of the Delassus matrix D = J M^-1 J^T, with every |e_i| < 1. It
@@ -98,7 +98,7 @@ class Contacts(Result):
         return contact_field(self.M, self.contacts, self.force, self.velocities, self.rates, self.parameters)
 
     def at(self, i: int) -> ELinear | System:
-        """Return the system of eq:vf at the set of contact i, from 0, while the others slip.
+        """Return the system of (2.7) at the set of contact i, from 0, while the others slip.
 
         (x, y) is its slip; its slow variables are those of ``mechanisms[i].slow``.
         """

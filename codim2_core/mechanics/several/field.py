@@ -69,7 +69,7 @@ class Coulomb:
 
 
 class Regularised:
-    """``e_Psi``, def:MPsi, of every contact."""
+    """``e_Psi``, Definition 2.4, of every contact."""
 
     def __init__(self, psi: Psi, eps: float) -> None:
         self._psi, self.eps = psi, eps
@@ -148,11 +148,9 @@ class ContactField:
             after = self.whole.on_branch(Y, rate, (*before[:switch], other))
         return after
 
-    def leads_back(self, switch: int, Y: Array, rate: Array) -> bool:
-        """Whether a state leaves the branch at once through a switch at which its formulas jump."""
-        guard, values, rates = self.branch.guards[switch], self._named(Y), self._named(rate)
-        slope = sum(guard.derivative(name).evaluate(values) * rates[name] for name in guard.names)
-        return self.branch.jumps[switch] and slope < 0.0
+    def returns_to(self, before: Branch, switch: int, Y: Array, rate: Array) -> bool:
+        """Whether a state leaves this branch at once through a switch of the branch before."""
+        return self.branch.returns_to(before, switch, self._named(Y), self._named(rate))
 
     def _named(self, numbers: Array) -> dict[str, float]:
         return dict(zip(self.names, numbers.tolist(), strict=True))

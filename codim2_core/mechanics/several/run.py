@@ -113,10 +113,10 @@ class ContactRun:
         """Go on up to a switch, and with the branch behind it; return the next step."""
         self.passed += 1
         self._take(truncate_step(step, switch.u), ends=False)
-        rate = self._slopes(self.field.at(self.Y))[1]
+        before, rate = self.field.branch, self._slopes(self.field.at(self.Y))[1]
         self._enter(self.field.past_switch(switch.guard, self.Y, rate))
         self._resume()
-        if self.field.leads_back(switch.guard, self.Y, self.rate):
+        if self.field.returns_to(before, switch.guard, self.Y, self.rate):
             raise TooManyStepsError(say("load switches back"))
         return self.first
 

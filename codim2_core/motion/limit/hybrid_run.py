@@ -31,7 +31,7 @@ from .delay import REST_CHANGE, NotAnalyticError
 from .delayed_exit import cut_at_delayed_exit, departure_point, exit_circle
 from .fold_classification import Fold, classify_fold
 from .pending_phase import PendingDelay, PendingPhase
-from .sigma_decision import Decision, critical_name, decide_arrival, decide_from_hemisphere, decide_start
+from .sigma_decision import Decision, critical_name, decide_arrival, decide_border, decide_from_hemisphere, decide_start
 from .slide import Slide, slide
 from .slide_on_cycle import slide_on_cycle
 from .slip import slip
@@ -343,7 +343,9 @@ class HybridRun:
             return replace(decision, reason=f"{reason} {decision.reason}")
         start = in_disc(self.own, part.e)
         self.ascent = Ascent(self.system, self.psi, self.state[2:].copy(), start=start)
-        return self.onward(reason, self.state[2:], start[None])
+        decision = self.onward(reason, self.state[2:], start[None])
+        border = decide_border(self.system, self.state[2:]) if decision.kind == "stop" else None
+        return decision if border is None else self.at_border(replace(border, reason=f"{reason} {border.reason}"))
 
     def slide_on_cycle(self, decision: Decision) -> Decision | None:
         """Slide on a limit cycle of a general system."""

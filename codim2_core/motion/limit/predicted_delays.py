@@ -41,7 +41,7 @@ def delays(
 ) -> Results[Delay]:
     """Return where motions on an attracting critical set at z lose its stability, and where they leave it.
 
-    Each is followed with the slow flow, eq:RPCM, from z through a Hopf bifurcation (tr J = 0 < det J), or through an
+    Each is followed with the slow flow, (2.29), from z through a Hopf bifurcation (tr J = 0 < det J), or through an
     exchange of stability (transcritical, pitchfork; det J = 0) on a set that does not move. In the limit
     eps -> 0, where the formulas are analytic and nothing disturbs it, it stays near the critical set until it is
     repelled as much as it was attracted, or to the buffer point before.

@@ -1,4 +1,4 @@
-"""Decide what follows on Sigma in the limit eps -> 0, by the hemisphere: sec:geneps1."""
+"""Decide what follows on Sigma in the limit eps -> 0, by the hemisphere: Section 3.2."""
 
 from __future__ import annotations
 
@@ -130,7 +130,6 @@ def _index(label: str | None) -> int:
 def decide_from_origin(system: AnySystem, psi: Psi, z: Array) -> Decision:
     """Decide what follows from a state on Sigma, x = y = 0: for every eps the orbit of the layer problem from p = 0."""
     at = tuple(z.tolist())
-    equator = equator_equilibria(system, at)
     sets = critical_sets(system, psi, at)
     middle = [i for i, C in enumerate(sets) if math.hypot(*C.p.tolist()) <= ORIGIN_TOLERANCE]
     if middle:
@@ -142,10 +141,9 @@ def decide_from_origin(system: AnySystem, psi: Psi, z: Array) -> Decision:
         ring = START_DISTANCE * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         decision = decide_from_hemisphere(system, psi, z, ring)
         return replace(decision, reason=f"{say('middle is a set', onto=onto)} {decision.reason}")
-    border = np.flatnonzero(equator.radially_degenerate)
-    if len(border) == 1 and not any(_stable(C) for C in sets):
-        theta = float(equator.theta[border[0]])
-        return Decision("border", say("on the equator"), _unit(theta), theta, "C")
+    border = None if any(_stable(C) for C in sets) else decide_border(system, z)
+    if border is not None:
+        return border
     decision = decide_from_hemisphere(system, psi, z, np.zeros((1, 2)))
     return replace(decision, reason=f"{say('middle')} {decision.reason}")
 
@@ -176,16 +174,24 @@ def decide_start(system: AnySystem, psi: Psi | None, z: Array) -> Decision:
     cycles = [(i, cycle) for i, cycle in enumerate(limit_cycles(system, own, at)) if cycle.stable]
     if cycles:
         return Decision("stop", say("cycles to slide on"))
-    equator = equator_equilibria(system, at)
-    border = np.flatnonzero(equator.radially_degenerate)
-    if len(border) == 1:
-        theta = float(equator.theta[border[0]])
-        return Decision("border", say("on the equator"), _unit(theta), theta, "C")
+    border, equator = decide_border(system, z), equator_equilibria(system, at)
+    if border is not None:
+        return border
     ways = _ways_out(equator)
     if len(ways) == 1:
         theta = float(equator.theta[ways[0]])
         return Decision("leave", say("one way out", theta=theta, Q=f"Q{ways[0] + 1}"), theta=theta)
     return Decision("stop", say("several ways out", count=len(ways)) if len(ways) else say("no way out"))
+
+
+def decide_border(system: AnySystem, z: Array) -> Decision | None:
+    """Return what is known where the one critical set lies on the equator; None where none does, or several."""
+    equator = equator_equilibria(system, tuple(z.tolist()))
+    border = np.flatnonzero(equator.radially_degenerate)
+    if len(border) != 1:
+        return None
+    theta = float(equator.theta[border[0]])
+    return Decision("border", say("on the equator"), _unit(theta), theta, "C")
 
 
 def _ways_out(equator: EquatorEquilibria) -> list[int]:

@@ -1,6 +1,6 @@
 """Sliding in the limit eps -> 0: the slow flow on a critical set that is followed in z, and where that ends.
 
-On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, eq:linslowflow. The set is continued as a `SlowManifold`.
+On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, (4.17). The set is continued as a `SlowManifold`.
 """
 
 from __future__ import annotations

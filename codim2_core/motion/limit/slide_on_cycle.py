@@ -1,6 +1,6 @@
 """Sliding on a limit cycle of the layer problem: z' is the mean of W over the cycle.
 
-In the e-linear system that is the slow flow on the critical set inside (prop:LC), see `slide`. Here it is
+In the e-linear system that is the slow flow on the critical set inside (Proposition 4.2), see `slide`. Here it is
 read off the cycle itself, found anew at every z that the method asks for.
 """
 

@@ -19,8 +19,7 @@ from ...results import Result
 from ...systems.kinds import AnySystem
 from ...tables import html_table, paragraphs, table_number
 from ...words import say
-from ..argument_checks import checked_state, checked_tolerances, with_time
-from ..regularised import MAX_STEPS
+from ..argument_checks import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
 from .result import PeriodicStatus
 from .search import shooting
 from .shooting import LostError
@@ -61,11 +60,11 @@ class LyapunovExponents(Result):
 
 def lyapunov_exponents(
     system: AnySystem,
+    psi: Psi | None,
     state0: ArrayLike,
     period: float,
-    psi: Psi | None = None,
-    eps: float | None = None,
     *,
+    eps: float | None = None,
     count: int = 400,
     transient: int = 50,
     rtol: float = 1e-8,
@@ -79,11 +78,13 @@ def lyapunov_exponents(
     Parameters
     ----------
     system : ELinear, System, or one of them frozen at a z
+    psi : Psi or None
+        As in `periodic_motion`.
     state0 : (2 + m,)
         (x, y, z1, ..., zm).
     period : float
         Of the forcing, or of a system without one any time after which derivatives are made orthogonal again.
-    psi, eps, rtol, atol, stiction, max_steps, max_step
+    eps, rtol, atol, stiction, max_steps, max_step
         As in `periodic_motion`.
     count : int
         Periods that are counted, at least 16.
@@ -107,7 +108,7 @@ def lyapunov_exponents(
     >>> import math
     >>> from codim2_core import System, lyapunov_exponents, psi
     >>> pendulum = System(U=("-0.1*x - sin(z1) + 2.5*sin(z2)", "-y"), W=("x", "1"))
-    >>> found = lyapunov_exponents(pendulum, (0.5, 0.0, 1.0, 0.0), 2*math.pi, psi.constant(), 1e-3, count=64)
+    >>> found = lyapunov_exponents(pendulum, psi.constant(), (0.5, 0.0, 1.0, 0.0), 2*math.pi, eps=1e-3, count=64)
     >>> bool(found.values[0] > 0.1), round(float(found.values.sum()), 6)
     (True, -1.1)
     """
@@ -115,7 +116,9 @@ def lyapunov_exponents(
     if count < BATCHES:
         raise ValueError(f"count is {count}; give at least {BATCHES} periods.")
     start = checked_state(with_time(state0, system, 0.0), formulas_of(system).m)
-    asked = shooting(system, psi, eps or 0.0, start, period, None, atol / rtol, max_steps, stiction, max_step)
+    asked = shooting(
+        system, psi, checked_eps(eps, psi, stiction), start, period, None, atol / rtol, max_steps, stiction, max_step
+    )
     free = np.ix_(asked.free, asked.free)
     basis = np.eye(int(asked.free.sum()))
     growth, section, state, why = [], [], start, ""

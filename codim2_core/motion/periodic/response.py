@@ -24,7 +24,7 @@ from ...layer_problem.vary import check_name
 from ...psi.constructors import constant
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
-from ..regularised import MAX_STEPS
+from ..argument_checks import MAX_STEPS
 from ..result import Simulation
 from .response_piece import MotionFamily, Piece, at_value, jump_corner, measure_piece, response_row
 from .response_points import KINDS_OF_CHANGE, ResponsePoint, ResponseRow, change_point
@@ -42,13 +42,13 @@ CLOSED_DISTANCE = 0.5  # of the longest step: a curve that comes so near to its 
 
 def response_curve(
     system: AnySystem,
+    psi: Psi | None,
     state0: ArrayLike,
     period: float | Callable[[float], float],
     along: str,
     span: tuple[float, float],
-    psi: Psi | None = None,
-    eps: float | None = None,
     *,
+    eps: float | None = None,
     advance: ArrayLike | None = None,
     rtol: float = 1e-9,
     atol: float = 1e-11,
@@ -61,6 +61,8 @@ def response_curve(
     Parameters
     ----------
     system : ELinear or System, or either frozen at a z
+    psi : Psi or None
+        As in `periodic_motion`.
     state0 : (2 + m,)
         Near a periodic motion of the system as it is.
     period : float, or callable
@@ -69,7 +71,7 @@ def response_curve(
     along : str
         One of ``system.variable``; its present value lies in the span.
     span : (low, high)
-    psi, eps, advance, rtol, atol, stiction, max_steps, max_step
+    eps, advance, rtol, atol, stiction, max_steps, max_step
         As in `periodic_motion`.
 
     Returns
@@ -93,7 +95,7 @@ def response_curve(
     >>> mass = System(
     ...     U=("-z1 - c/2 + cos(w*z3)", "-z2 - s/2 + sin(w*z3)"), W=("x", "y", "1"), parameters={"w": 2.0},
     ... )
-    >>> found = response_curve(mass, (0.0, -0.5, -0.3, 0.05, 0.0), lambda w: 2.0*math.pi/w, "w", (1.8, 2.2))
+    >>> found = response_curve(mass, None, (0.0, -0.5, -0.3, 0.05, 0.0), lambda w: 2.0*math.pi/w, "w", (1.8, 2.2))
     >>> radius = [math.hypot(*state[2:4]) for state in found.state0]
     >>> bool(max(abs(r - math.sqrt(0.75)/(w*w - 1.0)) for r, w in zip(radius, found.values)) < 1e-8)
     True
@@ -114,7 +116,7 @@ def response_curve(
 
     eps = eps or 0.0
     found = periodic_motion(
-        system, state0, period_of(value), psi, eps,
+        system, psi, state0, period_of(value), eps=eps,
         advance=advance, rtol=rtol, atol=atol, stiction=stiction, max_steps=max_steps, max_step=max_step,
     )  # fmt: skip
     if not found.found:

@@ -12,9 +12,8 @@ from ...initial_value.field import Field, field
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
-from ..argument_checks import checked_state, checked_tolerances, with_time
+from ..argument_checks import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
 from ..limit.stiction import checked_stiction
-from ..regularised import LARGEST_EPS, MAX_STEPS, SMALLEST_EPS
 from ..result import Simulation
 from .multipliers import matching_distances, multipliers
 from .result import PeriodicMotion, PeriodicStatus
@@ -45,11 +44,11 @@ GENERIC = 0.381966  # of the way between two places: none lies where a square wa
 
 def periodic_motion(
     system: AnySystem,
+    psi: Psi | None,
     state0: ArrayLike,
     period: float,
-    psi: Psi | None = None,
-    eps: float | None = None,
     *,
+    eps: float | None = None,
     advance: ArrayLike | None = None,
     rtol: float = 1e-9,
     atol: float = 1e-11,
@@ -66,12 +65,12 @@ def periodic_motion(
     Parameters
     ----------
     system : ELinear, System, or one of them frozen at a z
+    psi : Psi
+        The regularisation. In the limit it may be None, as in `simulate`.
     state0 : (2 + m,)
         (x, y, z1, ..., zm) near it.
     period : float
         Of a forced motion its period, a multiple of that of the forcing; else near it, within a factor of 3.
-    psi : Psi, optional
-        The regularisation. In the limit it may be left out, as in `simulate_nonsmooth`.
     eps : float, optional
         Left out, or 0, for the limit eps -> 0; else 1e-14 <= eps <= 1e6.
     advance : (m,), optional
@@ -107,19 +106,25 @@ def periodic_motion(
     ...     U=("-z1 - mu*c + F*cos(w*z3)", "-z2 - mu*s + F*sin(w*z3)"), W=("x", "y", "1"),
     ...     parameters={"mu": 0.3, "F": 0.5, "w": 2.0},
     ... )
-    >>> found = periodic_motion(mass, (0.3, 0.0, 0.0, -0.1, 0.0), math.pi)
+    >>> found = periodic_motion(mass, None, (0.3, 0.0, 0.0, -0.1, 0.0), math.pi)
     >>> found.stability, round(math.hypot(*found.state0[2:4]), 9)
     ('stable', 0.133333333)
     """
     checked_tolerances(rtol, atol, max_steps, max_step)
     formulas = field(system)
     start = checked_state(with_time(state0, system, 0.0), formulas.m)
-    eps = eps or 0.0
-    if eps != 0.0 and not SMALLEST_EPS <= eps <= LARGEST_EPS:
-        raise ValueError(f"eps is {eps!r}; give 0 for the limit, or {SMALLEST_EPS:g} <= eps <= {LARGEST_EPS:g}.")
-    if eps > 0.0 and psi is None:
-        raise ValueError("psi is None; give the regularisation, or leave out eps for the limit eps -> 0.")
-    asked = shooting(system, psi, float(eps), start, float(period), advance, atol / rtol, max_steps, stiction, max_step)
+    asked = shooting(
+        system,
+        psi,
+        checked_eps(eps, psi, stiction),
+        start,
+        float(period),
+        advance,
+        atol / rtol,
+        max_steps,
+        stiction,
+        max_step,
+    )
     return _search(asked, start, rtol)
 
 
@@ -129,8 +134,7 @@ def shooting(
 ) -> Shooting:  # fmt: skip
     """Return the boundary value problem of a periodic motion; refuse formulas that do not repeat themselves."""
     formulas = field(system)
-    if checked_stiction(stiction, formulas) > 1.0 and eps > 0.0:
-        raise ValueError(f"stiction is {stiction:g} and eps is {eps:g}; leave one out: it is known in the limit alone.")
+    checked_stiction(stiction, formulas)
     rates = np.array([row.constant or 0.0 for row in formulas.rows[2:]])
     moved = _advance(advance, rates, period)
     if not _repeats(formulas, start[None], moved):

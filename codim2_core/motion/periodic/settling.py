@@ -14,9 +14,8 @@ from ...expressions.tape import compact
 from ...initial_value.field import field
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
-from ..nonsmooth import simulate_nonsmooth
-from ..regularised import simulate
 from ..result import Simulation
+from ..simulate import simulate
 
 MAX_DENOMINATOR, RATIO_TOLERANCE = 12, 1e-9  # of ratios of frequencies that have a common period
 SETTLING_PERIODS = 40  # of a forcing, for which a motion is followed until it has settled
@@ -56,9 +55,7 @@ def settled_motion(
     """
 
     def follow(span: float) -> Simulation:
-        if eps:
-            return simulate(system, psi, start, (0.0, span), eps=eps, rtol=rtol)
-        return simulate_nonsmooth(system, start, (0.0, span), psi=psi, rtol=rtol)
+        return simulate(system, psi, start, (0.0, span), eps=eps, rtol=rtol)
 
     period = forcing_period(system)
     if period is not None:

@@ -25,9 +25,9 @@ from ...initial_value.field import Field
 from ...psi.function import Psi
 from ...systems.kinds import AnySystem
 from ...words import say
-from ..nonsmooth import simulate_nonsmooth
-from ..regularised import simulate, simulate_segments
+from ..regularised import simulate_segments
 from ..result import Simulation, SimulationStatus
+from ..simulate import simulate
 from ..variation.result import Variation
 from .multipliers import rate_at
 from .result import PeriodicStatus
@@ -106,13 +106,11 @@ class Shooting:
         cuts: Step ends at which segments begin, and the last; ends: Of the segments.
         """
         options = {"rtol": rtol, "atol": rtol * self.floor, "max_steps": self.max_steps, "max_step": self.max_step}
-        if self.eps == 0.0:
-            run = simulate_nonsmooth(self.system, starts[0], (0.0, period), self.psi, stiction=self.stiction, **options)
+        if self.eps == 0.0 or len(starts) == 1:
+            span = (0.0, period)
+            run = simulate(self.system, self.psi, starts[0], span, eps=self.eps, stiction=self.stiction, **options)
             return run, (0, len(run.times) - 1), run.states[-1:]
         assert self.psi is not None
-        if len(starts) == 1:
-            run = simulate(self.system, self.psi, starts[0], (0.0, period), eps=self.eps, **options)
-            return run, (0, len(run.times) - 1), run.states[-1:]
         starts, times = starts.copy(), period * np.array([*self.parts, 1.0])
         starts[1:, 2:][:, self.clocks] = (starts[0, 2:] + np.outer(self.parts, self.advance))[1:, self.clocks]
         return simulate_segments(self.system, self.psi, starts, times, eps=self.eps, **options)

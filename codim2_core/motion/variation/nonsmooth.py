@@ -136,7 +136,7 @@ class _Course:
         return self.slide(leg, following, before) if leg.slides else self.slip(leg, following, before)
 
     def slide(self, leg: _Leg, following: _Leg | None, before: Array) -> tuple[Propagators, str]:
-        """Along a slide: ``z' = W(e(z), z)`` on the critical set e(z), eq:linslowflow."""
+        """Along a slide: ``z' = W(e(z), z)`` on the critical set e(z), (4.17)."""
         parts, first, reason = [self.none], leg.first, ""
         for phase, later in pairwise([*leg.slides, None]):
             assert phase is not None

@@ -1,4 +1,4 @@
-"""Psi = 3/(3 + (4s)^n), the family of case III, fig:bads."""
+"""Psi = 3/(3 + (4s)^n), the family of case III, Figure 17."""
 
 from __future__ import annotations
 

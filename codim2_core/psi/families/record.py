@@ -64,7 +64,7 @@ class Parameter:
 
 @dataclass(frozen=True, eq=False)
 class Family:
-    """A family of Psi, def:Psi. Only name, title and formula are needed: the rest is then derived from the formula.
+    """A family of Psi, Definition 2.3. Only name, title and formula are needed: the rest is derived.
 
     Attributes
     ----------
@@ -80,7 +80,7 @@ class Family:
     batched : bool
         The kernel also takes an array of parameters, one for each point.
     gain : callable or None
-        ``gain(r2, w, parameter) = 1/sqrt(r2 + w^2 Psi(r2/w^2))``, eq:ePsi: an undecorated function of three floats,
+        ``gain(r2, w, parameter) = 1/sqrt(r2 + w^2 Psi(r2/w^2))``, (2.19): an undecorated function of three floats,
         without branches, whose w may be 0. It is plain Python here; the stepping compiles it, with versions of
         ``expm1`` and ``log`` (imported from math under these names) that run in vector registers.
     gain_whole : callable or None

@@ -1,4 +1,4 @@
-"""Psi = s/sinh^2 sqrt(s), that is |e_Psi| = tanh(zeta), fig:component."""
+"""Psi = s/sinh^2 sqrt(s), that is |e_Psi| = tanh(zeta), Figure 5."""
 
 from __future__ import annotations
 

@@ -2,7 +2,6 @@
 
 import inspect
 import re
-import shutil
 from collections import Counter
 from html.parser import HTMLParser
 from urllib.parse import unquote, urlsplit
@@ -88,7 +87,8 @@ def test_no_page_fetches_from_another_host(built):
         for target in page.fetched:
             parts = urlsplit(target)
             assert not parts.netloc, (name, target)
-            assert target == "#" or (folder / parts.path).is_file(), (name, target)
+            drawn = parts.path.startswith("_static/portraits/")  # left out here, since they take most of the time
+            assert target == "#" or drawn or (folder / parts.path).is_file(), (name, target)
     for sheet in folder.rglob("*.css"):
         assert not re.search(r"url\(['\"]?(https?:)?//|@import", sheet.read_text(encoding="utf-8")), sheet
 
@@ -124,6 +124,7 @@ def test_labels_are_told_as_they_are_printed(built):
     told = {name: page.text for name, page in pages.items() if name.startswith(("api-", "reference-"))}
     for name, text in told.items():
         assert not re.search(r"\b(fig|thm|sec|tab):[a-zA-Z]", text), name
+        assert not re.search(r">Type<span|>Type:<", text), name  # of a property that is cut in two at its colon
     assert "Theorem 3.1" in told["api-equator_cycle.html"]
     assert "Theorem 3.1" in told["reference-portraits.html"]
 
@@ -198,11 +199,11 @@ def test_with_an_explorer_of_files_pictures_move_and_all_links_lead_to_it(tmp_pa
     assert re.findall(r'data-codim2="preset=([^"]+)"', live) == list(c2.presets)
     assert live.count('href="explorer-files/?preset=') == still.count('href="../?preset=') == len(c2.presets)
     assert '<script type="module" src="explorer-files/figures.js"></script>' in live
-    shutil.copy(TEXT_FOLDER / "paper-figures.md", tmp_path)
-    for write in (lesson_pages.write_lessons, paper_figures.write_figures):
-        write(tmp_path, "explorer-files/", pictures=False)
-    assert 'href="explorer-files/?panel=lessons' in (tmp_path / "lesson-01-friction.md").read_text(encoding="utf-8")
-    assert 'href="explorer-files/?preset=' in (tmp_path / "paper-figures.md").read_text(encoding="utf-8")
+    figures = (TEXT_FOLDER / "paper-figures.md").read_text(encoding="utf-8")
+    lesson = lesson_pages.lesson_page("01-friction", "explorer-files/", pictures=False)
+    assert 'href="explorer-files/?panel=lessons' in lesson
+    figures = paper_figures.figures_page(figures, "explorer-files/", pictures=False)
+    assert 'href="explorer-files/?preset=' in figures
 
 
 def test_a_folder_of_something_else_is_left_alone(tmp_path, capsys):

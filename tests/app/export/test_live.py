@@ -40,7 +40,7 @@ def held(made):
         ("case1-cm4", ["f1=-1,1"]),
         ("preset=case3-n3&layers=inside,cycles,equator", ["n", "f1=-88,-84"]),
         ("system=ball_in_pool&layers=inside,outside", ["own:mu=0.1,0.5"]),
-        ("system=own&layers=inside", ["k=0.5,1.5", "z=-1,1"]),
+        ("system=own&layers=inside", ["mu=0.5,1.5", "f=-1,1"]),
         ("a=-2&f1=-0.4&layers=inside&seen=-0.5,0.5,-0.5,0.5", ["b"]),
     ],
 )

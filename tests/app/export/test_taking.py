@@ -10,7 +10,7 @@ from codim2_app.export.view import view_of
 
 @pytest.mark.parametrize(
     ("query", "name"),
-    [("?preset=case3-n2", "codim2-case3-n2"), ("?system=own", "codim2-3-critical-sets-4-limit-directions"),
+    [("?preset=case3-n2", "codim2-case3-n2"), ("?system=own", "codim2-cm2"),
      ("?a=1&d=1", "codim2-cm2")],
 )  # fmt: skip
 def test_it_is_the_portrait_in_letters_figures_and_dashes(query, name):

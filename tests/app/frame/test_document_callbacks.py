@@ -15,7 +15,7 @@ from bokeh.server.session import ServerSession
 from codim2_app.frame.document_callbacks import next_tick_scheduler
 from tornado.ioloop import IOLoop
 
-from tests.app.server.test_first_page import talk
+from tests.work import talk
 
 
 class Held:

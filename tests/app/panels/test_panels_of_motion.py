@@ -134,7 +134,7 @@ def test_a_jump_up_the_hemisphere_takes_no_time():
     assert radius[-1] < 0.9
 
 
-ONE_SLOW = build("own", {}, {})
+ONE_SLOW = build("own", {"W": "1"}, {})
 
 
 @pytest.mark.parametrize("launch", ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan"])

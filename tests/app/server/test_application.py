@@ -13,9 +13,7 @@ from tornado.websocket import websocket_connect
 
 from tests.app.serving import serving
 from tests.benchmarks.wire import Wire
-from tests.work import PATIENCE
-
-from .test_first_page import talk
+from tests.work import PATIENCE, talk
 
 #: Every rule of a server, with all that may be switched on. A new one is written here, and thought over.
 RULES = {

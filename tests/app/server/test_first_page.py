@@ -1,11 +1,9 @@
 """The page as text: one for all who open an address, with headers that allow its own origin only."""
 
-import asyncio
 import gzip
 import io
 import json
 import re
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from urllib.error import HTTPError
 from urllib.parse import urljoin
@@ -23,17 +21,12 @@ from tornado.websocket import websocket_connect
 
 from tests.app.serving import serving
 from tests.benchmarks.wire import Wire
+from tests.work import talk
 
 
 def opened(address, **headers):
     with urlopen(Request(address, headers=headers)) as answer:
         return answer.read().decode(), answer.headers
-
-
-def talk(doing):
-    """Run a coroutine in a thread of its own: Playwright's loop may be running in this one."""
-    with ThreadPoolExecutor(1) as pool:
-        return pool.submit(asyncio.run, doing).result()
 
 
 async def begun(port, query="", prefix=""):

@@ -10,9 +10,7 @@ from codim2_app.server.process.listener import RESERVED, Listener
 from codim2_app.server.process.ports import Crowds
 from tornado.tcpserver import TCPServer
 
-from tests.work import PATIENCE
-
-from .test_first_page import talk
+from tests.work import PATIENCE, talk
 
 ONE, OTHER = "127.0.0.1", "127.0.0.2"
 

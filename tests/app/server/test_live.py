@@ -14,8 +14,7 @@ from tornado.testing import bind_unused_port
 from tornado.web import Application
 
 from tests.benchmarks.wire import Wire
-
-from .test_first_page import talk
+from tests.work import talk
 
 
 def test_a_flood_is_answered_with_its_newest_values_and_holds_nobody_up(server):

@@ -15,9 +15,9 @@ from tornado.websocket import websocket_connect
 
 from tests.app.serving import serving
 from tests.benchmarks.wire import Wire
-from tests.work import PATIENCE, wait_until
+from tests.work import PATIENCE, talk, wait_until
 
-from .test_first_page import opened, refused, talk
+from .test_first_page import opened, refused
 
 PATCHED = """import sys
 from itertools import count

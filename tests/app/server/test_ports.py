@@ -8,9 +8,7 @@ import sys
 from codim2_app.server.process.ports import Crowds
 from tornado.websocket import websocket_connect
 
-from tests.work import PATIENCE
-
-from .test_first_page import talk
+from tests.work import PATIENCE, talk
 
 PROCESSES, PAGES = 3, 9
 #: A busy machine may keep the smallest process from its next page for long: the others wait.

@@ -5,7 +5,7 @@ import asyncio
 import pytest
 from codim2_app.server.session_queue import FOURTH, Rota
 
-from .test_first_page import talk
+from tests.work import talk
 
 
 class Page:

@@ -18,7 +18,7 @@ from codim2_app.static_site.engine import Engine
 from codim2_app.static_site.other_worker import OtherWorker, run_call
 from codim2_app.view.refresh import Frames
 
-from tests.app.server.test_first_page import talk as in_a_thread
+from tests.work import talk as in_a_thread
 
 
 @pytest.fixture(autouse=True)

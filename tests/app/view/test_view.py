@@ -20,8 +20,8 @@ from matplotlib.colors import to_hex
 from matplotlib.markers import MarkerStyle
 
 import codim2_core as c2
-from tests.app.server.test_first_page import talk
 from tests.benchmarks.wire import Wire
+from tests.work import talk
 
 
 def test_one_message_for_each_request(server):

@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, bifurcations, classify, critical_sets, equator_equilibria, psi
-from codim2_core.bifurcations.geometry import Geometry
+from codim2_core.families.disc import cusps, saddle_node_force
 from codim2_core.layer_problem.linearisation import determinant_sign
 from tests.core.strategies import coefficient
 
@@ -39,7 +39,8 @@ def test_cusps_are_triple_zeros(abd):
         if point.type not in ("cusp", "pitchfork"):
             continue
         # Theta, Theta' and Theta'' vanish at the angle that the three equations give
-        theta = min(Geometry(*abd).cusps, key=lambda t: math.dist(Geometry(*abd).saddle_node_at(t), point.place))
+        A = np.array([[a, -b], [b, d]])
+        theta = min(cusps(A), key=lambda t: math.dist(saddle_node_force(A, np.array(t)), point.place))
         c, s = math.cos(theta), math.sin(theta)
         f1, f2, k, size = *point.place, a - d, max(map(abs, abd))
         assert -k * s * c + f2 * c - f1 * s + b == pytest.approx(0.0, abs=1e-14 * size)
@@ -60,7 +61,7 @@ def test_pitchforks_of_the_astroid_are_where_d2_says():
 @pytest.mark.parametrize(
     ("abd", "types"),
     [
-        ((-1, 0.3, -2), ["cusp"] * 4), ((-1, 0.5, -2), ["cusp"] * 4 + ["double saddle-node"]),
+        ((-1, 0.3, -2), ["cusp"] * 4), ((-1, 0.5, -2), ["cusp"] * 4),
         ((-1, 0.8, -2), ["cusp"] * 4 + ["double saddle-node"] * 2),
         ((-1, -1.4, -2), ["cusp"] * 4 + ["double saddle-node"] * 2), ((-1, 1.5, -2), ["quadruple zero"] * 2),
         ((-1, 1.6, -2), []), ((-1, 1, -1), []), ((-1, 0, -1), ["all directions"]), ((0, 0, 0), ["all directions"]),
@@ -71,12 +72,12 @@ def test_special_points_by_b_over_k(abd, types):
     assert sorted(p.type for p in curve.special) == sorted(types)
     for p in curve.special:
         if p.type == "double saddle-node":
-            # around it each double zero splits or vanishes; where the curve touches itself one of them splits
+            # around it each double zero splits or vanishes
             counts = set()
             for t in np.linspace(0, 2 * np.pi, 24, endpoint=False):
                 f = np.array(p.place) + 1e-3 * np.array([np.cos(t), np.sin(t)])
                 counts.add(len(equator_equilibria(ELinear(*abd, tuple(f)))))
-            assert counts == ({2, 4} if abd[1] == 0.5 else {0, 2, 4})
+            assert counts == {0, 2, 4}
 
 
 def test_degenerate_curves_are_named():

@@ -63,7 +63,7 @@ def test_first_lyapunov_coefficient_is_that_of_the_planar_normal_form(family):
     A = np.array([[a, -b], [b, d]])
     curve = bifurcations.hopf(ELinear(a, b, d), family)
     for branch, values in zip(curve.branches, curve.values, strict=True):
-        for i in (60, 150):
+        for i in (len(branch) // 3, 2 * len(branch) // 3):
             f = branch[i]
             (C,) = critical_sets(ELinear(a, b, d, tuple(f)), family)
             expected, _ = normal_form_coefficient(A, f, regularisation(family)[0], C.x2)

@@ -294,3 +294,21 @@ def test_a_load_with_a_root_at_its_switch_is_followed_through_it(load, x, z):
     ):
         assert run.status is SimulationStatus.T_END
         assert run.states[-1, [0, 2]] == pytest.approx([x, z], rel=3e-6)
+
+
+@pytest.mark.parametrize("eps", [0.0, 1e-7])
+def test_two_switches_at_one_time(eps):
+    """The floor switches where the minimum does, and then reads a number: its guard is gone."""
+    block = System(U=("-c + 0.35*floor(min(t, 8)/2)", "-s"), W=("x",))
+    run = simulate(block, psi.constant(), (0.0, 0.0, 0.0), (0.0, 10.0), eps=eps)
+    assert run.status is SimulationStatus.T_END
+    assert run.states[-1, [0, 2]] == pytest.approx([0.9, 1.1], abs=1e-8 + 20.0 * eps**0.8)  # it departs once
+
+
+@pytest.mark.parametrize("eps", [0.0, 1e-7])
+def test_a_load_that_jumps_to_exactly_what_friction_can_hold(eps):
+    block = System(U=("-0.5*c + 0.5*(t > 2)", "-0.5*s - 0.2*(t > 5)"), W=("x", "y"))
+    run = simulate(block, psi.constant(), (0.0, 0.0, 0.0, 0.0), (0.0, 10.0), eps=eps)
+    force = np.array([0.5, -0.2])
+    expected = 5.0 * (1.0 - 0.5 / np.hypot(*force)) * force
+    assert run.states[-1, :2] == pytest.approx(expected, abs=5e-5)

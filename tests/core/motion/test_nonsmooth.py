@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.motion.nonsmooth import simulate_nonsmooth
 from codim2_core.motion.result import SimulationStatus
+from codim2_core.motion.simulate import simulate_nonsmooth
 from tests.core.ways import WAYS, follow
 
 G = 9.81

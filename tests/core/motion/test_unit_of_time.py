@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from codim2_core import psi as families
-from codim2_core.motion.nonsmooth import simulate_nonsmooth
-from codim2_core.motion.regularised import simulate
+from codim2_core.motion.simulate import simulate, simulate_nonsmooth
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 from tests.core.ways import WAYS, follow

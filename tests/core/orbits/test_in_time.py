@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from codim2_core import psi
 from codim2_core.figures.presets import presets
-from codim2_core.motion.regularised import simulate
+from codim2_core.motion.simulate import simulate
 from codim2_core.orbits.in_time import MAX_RADIUS, in_time
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear

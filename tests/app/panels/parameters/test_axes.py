@@ -128,10 +128,11 @@ def test_a_range_that_is_typed_with_a_parameter_is_that_of_the_diagram(ranges, s
 
 
 def test_an_axis_whose_parameter_has_left_the_typed_equations_makes_way():
-    frames = Frames(ExplorerState(system="own", panel="atlas", layers=[], texts={"U1": "k*c - 0.5", "U2": "mu*s"}))
+    boxes = {"U2": "mu*s + f", "where": "k = -1 in [-2, 2]\nmu = -1 in [-2, 2]\nf = 0.5 in [-2, 2]"}
+    frames = Frames(ExplorerState(system="own", panel="atlas", layers=[], texts={**boxes, "U1": "k*c - 0.5"}))
     frames.answer({"all": True, "set": {"across": "own:k", "up": "own:mu"}})
     assert (frames.values["across"], frames.values["up"]) == ("own:k", "own:mu")
-    frames.answer({"set": {"texts": {"U1": "c - 0.5", "U2": "mu*s"}}})
+    frames.answer({"set": {"texts": {"U1": "c - 0.5", "U2": boxes["U2"], "where": boxes["where"].partition("\n")[2]}}})
     there = axes_there(frames.scene, frames.values)
     assert "own:k" not in there
     assert frames.values["across"] in there

@@ -1,4 +1,4 @@
-"""Folds of cycles over two parameters: against closed forms, the curves of e-linear systems, and branches."""
+"""Folds of cycles over two parameters: against closed forms and branches."""
 
 import math
 
@@ -8,7 +8,6 @@ import pytest
 import codim2_core as c2
 from codim2_core.atlases.atlas import curves_over, with_folds_of_cycles
 from codim2_core.atlases.cycles import cycle_curves, fold_seeds
-from tests.core.polylines import away
 
 RADIAL = c2.System(
     U=(
@@ -45,19 +44,6 @@ def test_a_system_that_turns_has_its_fold_where_a_root_is_double(psi):
 
 
 @pytest.mark.slow
-@pytest.mark.usefixtures("no_lines")
-def test_folds_of_an_e_linear_system_are_those_of_its_own_method():
-    typed = c2.System(U=("a*c - b*s + f1", "b*c + d*s + f2"), parameters={"a": 1, "b": 2, "d": -0.5, "f1": 0, "f2": 0})
-    psi = c2.psi.hill(2)
-    known = c2.bifurcations.cycle_folds(c2.ELinear(1, 2, -0.5), psi).branches
-    # beside two of the four generalised Hopf points
-    (curve,) = folds(typed, psi, "f1", "f2", ((0.05, 0.9), (1.3, 2.0)))
-    (branch,) = [line for line in known if line[0][1] > 0.0]
-    gap = away(curve.points, branch)
-    assert gap.max() < 1e-4  # of its chords
-
-
-@pytest.mark.slow
 def test_a_branch_of_cycles_turns_back_on_the_curve():
     system = RADIAL.evolve(q=0.4)
     psi = c2.psi.tanh()
@@ -66,7 +52,7 @@ def test_a_branch_of_cycles_turns_back_on_the_curve():
         (branch,) = c2.branches(system.evolve(k=k), psi, along="mu", span=(-0.6, 0.2)).cycles.branches
         (fold,) = branch.folds
         mu, level = curve.points[curve.points[:, 1].argsort()].T
-        assert np.interp(k, level, mu) == pytest.approx(fold.value, abs=2e-4)
+        assert np.interp(k, level, mu) == pytest.approx(fold.value, abs=1e-3)  # of its chords
 
 
 @pytest.mark.slow
@@ -87,7 +73,7 @@ def test_regions_are_not_cut_and_what_stops_within_is_told(monkeypatch):
     assert more.points == found.points
     whole = c2.atlas(RADIAL, c2.psi.tanh(), dict(zip(("mu", "k"), RANGES, strict=True)), with_cycles=True)
     assert [one.kind for one in whole.curves] == [one.kind for one in more.curves]
-    monkeypatch.setattr(cycle_curves, "MAX_POINT_SIZE", 0.0)  # as if it had not come to the critical set
+    monkeypatch.setattr(cycle_curves, "ON_CURVE_DISTANCE", 0.0)  # as if it had not come to the point of its birth
     told = with_folds_of_cycles(RADIAL, c2.psi.tanh(), found).points
     stopped = [point for point in told if point.kind == "undecided"]
     assert [np.hypot(*point.place) < 0.02 for point in stopped] == [True]

@@ -1,0 +1,225 @@
+"""Motions in time: of the regularised system, eps > 0, and of the nonsmooth system, its limit eps -> 0."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TypedDict, Unpack, overload
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arguments import checked_times
+from ..initial_value.events import Events, checked_events
+from ..initial_value.field import field
+from ..psi.function import Psi
+from ..systems.kinds import AnySystem
+from .argument_checks import MAX_STEPS, checked_eps, checked_span, checked_states, checked_tolerances, with_time
+from .limit.stiction import checked_stiction
+from .nonsmooth import NonsmoothRun
+from .regularised import RegularisedRun
+from .result import Simulation
+
+__all__ = ["simulate", "simulate_nonsmooth"]
+
+RTOL, RTOL_OF_LIMIT = 1e-8, 1e-10  # where none is given
+ATOL_SHARE = 1e-2  # of rtol: atol, where none is given
+
+
+class Options(TypedDict, total=False):
+    """Options of a motion, by name."""
+
+    rtol: float | None
+    atol: float | None
+    events: Events
+    times: ArrayLike | None
+    stiction: float
+    max_steps: int
+    max_step: float
+
+
+@overload
+def simulate(  # pyright: ignore[reportOverlappingOverload] (rows are told from a row by their own entries)
+    system: AnySystem, psi: Psi | None, state0: Sequence[Sequence[float]], t_span: ArrayLike, *, eps: float,
+    **options: Unpack[Options],
+) -> tuple[Simulation, ...]: ...  # fmt: skip
+
+
+@overload
+def simulate(
+    system: AnySystem, psi: Psi | None, state0: ArrayLike, t_span: ArrayLike, *, eps: float,
+    **options: Unpack[Options],
+) -> Simulation: ...  # fmt: skip
+
+
+def simulate(
+    system: AnySystem,
+    psi: Psi | None,
+    state0: ArrayLike,
+    t_span: ArrayLike,
+    *,
+    eps: float,
+    rtol: float | None = None,
+    atol: float | None = None,
+    events: Events = (),
+    times: ArrayLike | None = None,
+    stiction: float = 1.0,
+    max_steps: int = MAX_STEPS,
+    max_step: float = math.inf,
+) -> Simulation | tuple[Simulation, ...]:
+    """Follow one motion of the regularised system, (2.7) with e replaced by e_Psi (2.19), or of its limit eps -> 0.
+
+    In the limit, eps = 0, the system slips outside Sigma; it arrives at Sigma in finite time along a limit direction;
+    the orbit that continues it on the hemisphere decides what follows (Theorem 3.1(b), Section 3.2): sliding on the
+    critical set that it comes to, with its slow flow, or crossing. Sliding ends where the critical set does: it leaves
+    folds, but stops at those where the slow flow turns too and terms of order eps decide
+    (`limit.fold_classification`). Where the set only becomes unstable (Hopf), the motion stays near it until it has
+    been repelled as much as it was attracted, or to the buffer point before (`limit.delay`): in analytic formulas, as
+    long as nothing disturbs it.
+
+    The regularised motion differs from the limit by O(eps), as long as it does not leave Sigma. Leaving along a limit
+    direction, also after a crossing, it differs by O(eps^min(1, |lambda_theta|/lambda_rho)), outside an invariant line;
+    after an exit through the equator (Figure 19) by O(eps^(2 q/(1 + 2 q))) where Psi ~ s^(1 - q/2): 4/5 for
+    Psi = 1, near 1 for one that falls exponentially. See `compare_with_limit.limit_order`.
+
+    Parameters
+    ----------
+    system : ELinear, System, or one of them frozen at a z
+    psi : Psi
+        In the limit it may be left out, or None: the motion then stops where it would matter.
+    state0 : (2 + m,), or (k, 2 + m)
+        (x, y, z1, ..., zm). Rows are as many motions. x = y = 0 is allowed: it is p = 0 of the hemisphere for every
+        eps, and the orbit of the layer problem through it decides. In the limit without psi, the motion slides if one
+        critical set attracts, else it leaves along the one way out.
+    t_span : (t_start, t_end)
+        In the time t of (2.7). If it decreases, the past of state0 is returned: the motion that begins at t_end, runs
+        forward like any other, and comes to state0 at t_start. In the limit it is the slip that comes to state0, which
+        lies off Sigma: what was before it left Sigma is not unique.
+    eps : float
+        0, or 1e-14 <= eps <= 1e6.
+    rtol, atol : float, optional
+        Error allowed in a step: rtol rho for x and y, rho = sqrt(x^2 + y^2 + eps^2), and rtol |z| + atol for z.
+        rtol from 1e-13 to 0.01; left out, 1e-8, in the limit 1e-10. atol, left out, is rtol/100.
+    events : sequence of Event, or of callables (t, state) to float
+        Their zeros are found in the dense output, also several in one step; an `Event` may be terminal. One that is
+        zero over a while, as x is while sliding, counts where it becomes zero.
+    times : (k,) floats, optional
+        Within the span: those of the result, as far as the motion comes; left out, the ends of the steps.
+    stiction : float
+        In the limit, static over kinetic friction, S_0/S: above 1, a contact at rest holds while the friction that rest
+        needs is at most that many times the kinetic one, |e| <= S_0/S, whatever Psi is, and then slips in the one
+        direction that there is (`limit.stiction`). So it also sticks where it would pass Sigma with |e| < S_0/S. U must
+        be affine in e; where friction feeds a slip (D_e U plus its transpose is not negative definite) what follows is
+        not known.
+    max_steps : int
+        Steps and phases before the motion is given up, with a status that says so.
+    max_step : float
+        The longest step, as in SciPy.
+
+    Returns
+    -------
+    Simulation, or tuple of k Simulation
+        Its phases are read off a regularised motion when they are first read: "slide" where it follows a critical set
+        or a limit cycle of the layer problem within O(eps). In the limit its status is NOT_UNIQUE, with a reason, where
+        the limit is not unique or not known; the motion ends there. If it grows beyond bounds, or the step limit is
+        reached, it holds what was followed till then. What slides forgets where it came from: a past begins where
+        differences of rtol at state0 would have grown to a hundredth, and the status says so.
+
+    Raises
+    ------
+    ValueError
+        An argument is invalid, the field is not finite at state0, or an event does not return a finite number.
+
+    Examples
+    --------
+    >>> from codim2_core import System, examples, psi
+    >>> ball = examples.ball_in_pool(K=0.0)
+    >>> run = simulate(ball, psi.constant(), (1.0, 0.0, 1.0, 0.0), (0.0, 0.5), eps=1e-6)
+    >>> [phase.kind for phase in run.phases]
+    ['slip', 'slide']
+
+    Where it came from:
+
+    >>> past = simulate(ball, psi.constant(), (0.5, 0.0, 1.0, 0.0), (0.0, -0.1), eps=1e-6)
+    >>> past.states[-1].tolist(), past.states[0].round(6).tolist()
+    ([0.5, 0.0, 1.0, 0.0], [1.1867, 0.0, 1.1962, 0.0])
+
+    The limit. A block of mass 1 on a spring of stiffness 1 and a belt of speed 0.3; kinetic friction 0.5, static
+    friction 0.75. It sticks until the spring pulls with 0.75, and slips for 2 (pi - arctan(0.25/0.3)):
+
+    >>> block = System(U=("-z1 - 0.5*c", "-s"), W=("x + 0.3",))
+    >>> run = simulate(block, None, (0.0, 0.0, 0.0), (0.0, 8.0), eps=0, stiction=1.5)
+    >>> [(phase.kind, round(phase.t_end - phase.t_start, 9)) for phase in run.phases]
+    [('slide', 2.5), ('slip', 4.893708755), ('slide', 0.606291245)]
+    """
+    eps = checked_eps(eps, psi, stiction)
+    rtol = (RTOL if eps > 0.0 else RTOL_OF_LIMIT) if rtol is None else rtol
+    atol = ATOL_SHARE * rtol if atol is None else atol
+    span = checked_span(t_span)
+    when = checked_times(times, span)
+    checked_tolerances(rtol, atol, max_steps, max_step)
+    formulas, watched = field(system), checked_events(events)
+    states = checked_states(with_time(state0, system, span[0]), formulas.m)
+    if psi is not None and eps > 0.0:
+        asked = RegularisedRun(system, formulas, psi, eps, span, rtol, atol, watched, max_steps, max_step)
+    else:
+        reach = checked_stiction(stiction, formulas)
+        asked = NonsmoothRun(system, psi, formulas, watched, span, rtol, atol, max_steps, max_step, reach)
+    runs = tuple(run.sample(when) for run in asked.runs(states))
+    return runs[0] if np.ndim(state0) < 2 else runs
+
+
+@overload
+def simulate_nonsmooth(  # pyright: ignore[reportOverlappingOverload] (rows are told from a row by their own entries)
+    system: AnySystem, state0: Sequence[Sequence[float]], t_span: ArrayLike, psi: Psi | None = ...,
+    **options: Unpack[Options],
+) -> tuple[Simulation, ...]: ...  # fmt: skip
+
+
+@overload
+def simulate_nonsmooth(
+    system: AnySystem, state0: ArrayLike, t_span: ArrayLike, psi: Psi | None = ..., **options: Unpack[Options]
+) -> Simulation: ...
+
+
+def simulate_nonsmooth(
+    system: AnySystem,
+    state0: ArrayLike,
+    t_span: ArrayLike,
+    psi: Psi | None = None,
+    *,
+    rtol: float | None = None,
+    atol: float | None = None,
+    events: Events = (),
+    times: ArrayLike | None = None,
+    stiction: float = 1.0,
+    max_steps: int = MAX_STEPS,
+    max_step: float = math.inf,
+) -> Simulation | tuple[Simulation, ...]:
+    """Follow one motion of (2.7) itself, the limit: ``simulate(system, psi, state0, t_span, eps=0)``.
+
+    Parameters
+    ----------
+    system, state0, t_span, psi, rtol, atol, events, times, stiction, max_steps, max_step
+        As in `simulate`.
+
+    Returns
+    -------
+    Simulation, or tuple of k Simulation
+
+    Raises
+    ------
+    ValueError
+        An argument is invalid.
+
+    Examples
+    --------
+    >>> from codim2_core import examples
+    >>> run = simulate_nonsmooth(examples.ball_in_pool(K=0.0, mu=0.25, g=8.0), (1.0, 0.0, 1.0, 0.0), (0.0, 1.0))
+    >>> [(phase.kind, round(phase.t_end, 9)) for phase in run.phases]
+    [('slip', 0.142857143), ('slide', 1.0)]
+    """
+    return simulate(
+        system, psi, state0, t_span, eps=0.0, rtol=rtol, atol=atol, events=events, times=times, stiction=stiction,
+        max_steps=max_steps, max_step=max_step,
+    )  # fmt: skip
