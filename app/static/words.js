@@ -88,7 +88,7 @@ export const SAYS = {
   sticksLater: "sticks once slip stops",
   slips: "slips",
   luck: "sticks only by luck",
-  circles: "sticks, but its friction keeps turning",
+  circles: "sticks, but its friction goes on turning",
   unheld: "slips, although it could rest at C",
   slipping: "slipping", still: "still slipping", atRest: "at rest", instant: "at rest for an instant",
   active: "active contact",
