@@ -11,13 +11,6 @@ COPY app /source/app
 COPY codim2_core /source/codim2_core
 RUN pip wheel --no-cache-dir --no-deps --no-build-isolation --wheel-dir /wheels /source
 
-# The documentation, which the explorer serves at /docs/; what builds it stays in this stage.
-FROM ${PYTHON} AS site
-COPY .github/hosting/docs.txt /
-COPY --from=wheel /wheels /wheels
-RUN pip install --no-cache-dir --require-hashes -r /docs.txt \
-    && pip install --no-cache-dir --no-deps /wheels/*.whl && codim2 docs /site
-
 FROM ${PYTHON}
 # What the kernels are compiled for: every server processor since 2015. On ARM: --build-arg KERNELS_FOR=generic
 ARG KERNELS_FOR=x86-64-v3
@@ -31,7 +24,6 @@ RUN useradd --create-home --uid 10001 codim2
 WORKDIR /srv/codim2
 COPY .github/hosting/requirements.txt ./
 COPY --from=wheel /wheels /wheels
-COPY --from=site /site /srv/codim2/site
 # Tests, examples, stubs and source maps of the dependencies, a quarter of them all, are of no use here; nor is what
 # Panel brings for maps, VTK, Perspective, editors and Plotly, 52 MB that no page of the explorer asks for.
 RUN pip install --no-cache-dir --require-hashes -r requirements.txt \
@@ -48,5 +40,5 @@ EXPOSE 5006
 HEALTHCHECK --interval=15s --timeout=5s --start-period=20s \
     CMD python -c "import urllib.request as u; u.urlopen('http://127.0.0.1:${CODIM2_PORT:-${PORT:-5006}}/health', timeout=4)"
 # Hosts that give a port say so in PORT. The name that visitors type must be allowed to open websockets: set CODIM2_ORIGINS=explorer.example.org
-ENV CODIM2_ADDRESS=0.0.0.0 CODIM2_DOCS=/srv/codim2/site
+ENV CODIM2_ADDRESS=0.0.0.0
 CMD ["codim2", "serve"]

@@ -48,10 +48,10 @@ def _make_file(path: str, words: str) -> tuple[str, bytes | None]:
     """Return the name of a file and what it holds, None for nothing; `words` are looked for."""
     from . import pages  # on first use: few visitors read
 
+    if path in pages.FILES:
+        return path, pages.FILES[path].read_bytes()
     if path.startswith("_static/"):
-        name = path.removeprefix("_static/")
-        styles = (pages.TEXT_FOLDER / "_static" / "pages.css").read_bytes() if name == "pages.css" else None
-        return name, styles or pages.picture(name)
+        return path, pages.picture(path.removeprefix("_static/"))
     if words and path in ("", "index.html"):
         return "search.html", pages.search(words)
     return "page.html", pages.page(path.removesuffix(".html") or "index")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from html import escape
 from itertools import groupby
-from pathlib import Path
 
 from codim2_core.figures.preset import Preset
 from codim2_core.figures.presets import presets
@@ -35,16 +34,6 @@ def portrait_svg(key: str, theme: str) -> str:
 def gallery_page(live: str = "") -> str:
     """Return the page as Markdown; `live`: where the site has an explorer without a server, "" if it has none."""
     return GALLERY_HEAD.format(click=MOVES if live else OPENS) + "".join(_groups(live))
-
-
-def write_gallery(folder: Path, live: str = "") -> None:
-    """Write the page, and each portrait light and dark, into a folder of sources."""
-    pictures = folder / "portraits"
-    pictures.mkdir()
-    for key in presets:
-        for theme in ("light", "dark"):
-            (pictures / f"{key}-{theme}.svg").write_text(portrait_svg(key, theme), encoding="utf-8")
-    (folder / "gallery.md").write_text(gallery_page(live), encoding="utf-8")
 
 
 def _groups(live: str) -> Iterator[str]:

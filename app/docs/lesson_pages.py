@@ -29,11 +29,6 @@ be dragged, and its questions are judged by the system on your own sliders.
 |---|---|---|
 {rows}
 
-```{{toctree}}
-:hidden:
-
-{pages}
-```
 """
 
 
@@ -43,17 +38,16 @@ def lessons_page() -> str:
         f"| {number} | [{lesson.title}](lesson-{key}.md) | {lesson.summary} |"
         for number, (key, lesson) in enumerate(built_in().items(), 1)
     )
-    pages = "\n".join(f"lesson-{key}" for key in built_in())
-    return LESSONS.format(rows="\n".join(rows), pages=pages)
+    return LESSONS.format(rows="\n".join(rows))
 
 
-def lesson_page(key: str, explorer: str, pictures: bool) -> str:
-    """Return a lesson as Markdown; `explorer`: its address from the site; `pictures`: whether the site has any."""
+def lesson_page(key: str, explorer: str) -> str:
+    """Return a lesson as Markdown; `explorer`: its address from the site."""
     text = (LESSON_FOLDER / f"{key}.md").read_text(encoding="utf-8")
-    return _lesson_page(text, key, built_in()[key], explorer, pictures)
+    return _lesson_page(text, key, built_in()[key], explorer)
 
 
-def _lesson_page(text: str, key: str, lesson: Lesson, explorer: str, pictures: bool) -> str:
+def _lesson_page(text: str, key: str, lesson: Lesson, explorer: str) -> str:
     opened = f"{explorer}?panel=lessons&amp;lesson={key}"
     scene = make_scene({**first_values(), **lesson.values})
 
@@ -76,7 +70,7 @@ def _lesson_page(text: str, key: str, lesson: Lesson, explorer: str, pictures: b
     body = _LINK.sub(link, _QUESTION.sub(question, _HEAD.sub("", text)))
     portrait = str(lesson.values.get("preset", ""))
     shown = ""
-    if pictures and portrait:
+    if portrait:
         images = "".join(
             f'<img class="only-{theme}" src="_static/portraits/{portrait}-{theme}.svg" alt="{lesson.title}">'
             for theme in ("light", "dark")

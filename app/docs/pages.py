@@ -1,15 +1,17 @@
-"""The documentation as a fresh install serves it: each page is made from its Markdown when it is first read.
+"""The documentation: pages made from Markdown and docstrings by the reader that lessons have.
 
-`codim2 docs` builds the same pages by Sphinx, with what each block of code gives. Here nothing runs and nothing but the
-Markdown reader of lessons is needed.
+Every install serves each page when it is first read (`page`). `codim2 docs DIR` writes them all into a folder
+(`write_site`), with what each block of code gives.
 """
 
 from __future__ import annotations
 
 import inspect
 import re
+import shutil
+import sys
 from collections.abc import Iterator
-from functools import cache
+from functools import cache, cached_property
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -23,19 +25,22 @@ from codim2_core.figures.presets import presets
 
 from ..lessons.library import built_in
 from ..lessons.markdown import formula
-from . import gallery, lesson_pages, paper_figures, reference, running
+from . import gallery, lesson_pages, paper_figures, reference, running, validation
 
 TEXT_FOLDER = Path(__file__).parent / "text"
+#: What pages link to besides pages and pictures, by its path.
+FILES = {path.relative_to(TEXT_FOLDER).as_posix(): path for path in TEXT_FOLDER.glob("*/*") if path.is_file()}
 EXPLORER = "../"
+SEARCH = """<form role="search" action="./">
+<input type="search" name="q" aria-label="Search" placeholder="Search" maxlength="100"></form>
+"""
 MAX_QUERY = 100  # characters that are looked for
 FRAME = """<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
 <title>{title} · codim2</title><link rel="icon" href="{icon}">
 <link rel="stylesheet" href="_static/pages.css"></head>
-<body><nav aria-label="Pages"><a href="../">Explorer</a>
-<form role="search" action="./">
-<input type="search" name="q" aria-label="Search" placeholder="Search" maxlength="100"></form>
-{nav}</nav><main>{body}</main></body></html>
+<body><nav aria-label="Pages"><a href="{explorer}">Explorer</a>
+{search}{nav}</nav><main>{body}</main></body></html>
 """
 ICON = (  # the picture's circle and its critical set
     "data:image/svg+xml,%3Csvg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 16 16'%3E"
@@ -68,14 +73,16 @@ def _reader() -> MarkdownIt:
 
 
 @cache
-def sources() -> dict[str, str]:
-    """Return the Markdown of all pages, by their names."""
+def sources(live: str = "") -> dict[str, str]:
+    """Return the Markdown of all pages, by their names; `live`: where an explorer without a server is, "" for none."""
+    explorer = live or EXPLORER
     found = {path.stem: path.read_text(encoding="utf-8") for path in sorted(TEXT_FOLDER.glob("*.md"))}
     found["citing"] = found["citing"].replace("VERSION", __version__)
-    found["gallery"] = gallery.gallery_page()
-    found["paper-figures"] = paper_figures.figures_page(found["paper-figures"], EXPLORER, pictures=True)
+    found["gallery"] = gallery.gallery_page(live)
+    found["paper-figures"] = paper_figures.figures_page(found["paper-figures"], explorer)
+    found["validation"] = validation.HEAD
     found["lessons"] = lesson_pages.lessons_page()
-    found |= {f"lesson-{key}": lesson_pages.lesson_page(key, EXPLORER, pictures=True) for key in built_in()}
+    found |= {f"lesson-{key}": lesson_pages.lesson_page(key, explorer) for key in built_in()}
     for path in running.NOTEBOOK_FOLDER.glob("*.ipynb"):
         found[f"notebook-{path.stem}"] = running.notebook_page(path)
     for topic in reference.topics():
@@ -99,7 +106,16 @@ def _function_entry(module: Any, name: str, heading: str) -> str:
     called = inspect.signature(value)
     plain = [one.replace(annotation=inspect.Parameter.empty) for one in called.parameters.values()]
     called = called.replace(parameters=plain, return_annotation=inspect.Signature.empty)
-    return f"{heading}{name}\n\n```python\n{name}{called}\n```\n\n" + "\n".join(_paragraphs(value))
+    members = _members(value) if inspect.isclass(value) else ()
+    return "\n".join([f"{heading}{name}\n\n```py\n{name}{called}\n```\n", *_paragraphs(value), *members])
+
+
+def _members(kind: type) -> Iterator[str]:
+    """Yield the methods and properties that a class documents, a line each."""
+    for name, member in vars(kind).items():
+        said = (inspect.getdoc(member) or "").split("\n\n")[0].replace("\n", " ").replace("``", "`")
+        if name[0] != "_" and said and (inspect.isroutine(member) or isinstance(member, property | cached_property)):
+            yield f"- `{name}{'()' if inspect.isroutine(member) else ''}`: {said}"
 
 
 def _paragraphs(value: Any) -> Iterator[str]:
@@ -145,19 +161,24 @@ def _navigation() -> str:
     return "".join(parts)
 
 
-def _framed(title: str, body: str) -> bytes:
-    return FRAME.format(title=escape(title), icon=ICON, nav=_navigation(), body=body).encode()
+def _framed(title: str, body: str, explorer: str = EXPLORER, search: str = SEARCH) -> bytes:
+    return FRAME.format(
+        title=escape(title), icon=ICON, nav=_navigation(), body=body, explorer=explorer, search=search
+    ).encode()  # fmt: skip
+
+
+def _html_of(text: str) -> str:
+    """Return Markdown with MyST's directives as HTML."""
+    for pattern, plain in _REWRITTEN:
+        text = pattern.sub(plain, text)
+    return _reader().render(text)
 
 
 @cache
 def page(name: str) -> bytes | None:
     """Return a page as HTML; None where there is none of that name."""
     text = sources().get(name)
-    if text is None:
-        return None
-    for pattern, plain in _REWRITTEN:
-        text = pattern.sub(plain, text)
-    return _framed(title_of(name), _reader().render(text))
+    return None if text is None else _framed(title_of(name), _html_of(text))
 
 
 def search(words: str) -> bytes:
@@ -187,3 +208,39 @@ def picture(name: str) -> bytes | None:
     from .drawn_figures import DRAWN  # on first use: it loads what it draws
 
     return DRAWN[file]().encode() if folder == "paper" and file in DRAWN else None
+
+
+def write_site(target: Path, live: str = "") -> None:
+    """Write all pages and pictures into a folder, which is made or replaced, with what each block of code gives.
+
+    Raises ValueError: The folder holds something else than a site.
+    """
+    if target.exists() and any(target.iterdir()) and not (target / "_static" / "pages.css").is_file():
+        raise ValueError(f"{target} holds something else than a site; give another folder.")
+    found = {name: running.run_page(text, name) for name, text in sources(live).items() if name != "validation"}
+    found["validation"] = validation.validation_page()
+    pages = {
+        f"{name}.html": _framed(title_of(name), _html_of(text), live or EXPLORER, "") for name, text in found.items()
+    }
+    drawn = {src for page in pages.values() for src in re.findall(r'src="_static/([^"]+\.svg)"', page.decode())}
+    pages |= {f"_static/{src}": made for src in sorted(drawn) if (made := picture(src)) is not None}
+    pages |= {name: path.read_bytes() for name, path in FILES.items()}
+    if target.exists():
+        shutil.rmtree(target)
+    for name, content in pages.items():
+        (target / name).parent.mkdir(parents=True, exist_ok=True)
+        (target / name).write_bytes(content)
+
+
+def main(target: Path, live: str = "") -> int:
+    """Write the site for the command `codim2 docs`; return the exit status."""
+    try:
+        write_site(target, live)
+    except ValueError as error:
+        print(f"codim2: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"codim2: {target} cannot be written: {error.strerror}.", file=sys.stderr)
+        return 1
+    print(f"codim2: the site is in {target}; `codim2 serve --docs {target}` shows it at /docs/")
+    return 0

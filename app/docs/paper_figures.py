@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from html import escape
-from pathlib import Path
 
 from codim2_core.figures.presets import presets
 from codim2_core.paper import PRINTED
@@ -16,39 +15,28 @@ from codim2_core.paper import PRINTED
 _FIGURES = re.compile(r"^## (fig:\w+)$(.*?)^```figures\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-def figures_page(text: str, explorer: str, pictures: bool) -> str:
+def figures_page(text: str, explorer: str) -> str:
     """Return the page as Markdown, each figure with its pictures; `explorer`: its address from the site."""
 
     def section(match: re.Match[str]) -> str:
         label, seen, parts = match.groups()
         printed, title = PRINTED[label]
-        return f"## {printed}: {title}\n{seen}{_cards(parts.split(), title, explorer, pictures)}"
+        return f"## {printed}: {title}\n{seen}{_cards(parts.split(), title, explorer)}"
 
     return _FIGURES.sub(section, text)
 
 
-def write_drawings(folder: Path) -> None:
-    """Write the drawings of the page into a folder."""
-    from .drawn_figures import DRAWN  # most of its time is the import of what it draws
-
-    folder.mkdir()
-    for name, draw in DRAWN.items():
-        (folder / f"{name}.svg").write_text(draw(), encoding="utf-8")
-
-
-def _cards(parts: list[str], title: str, explorer: str, pictures: bool) -> str:
+def _cards(parts: list[str], title: str, explorer: str) -> str:
     letters = [f"({chr(ord('a') + k)}) " for k in range(len(parts))] if len(parts) > 1 else [""]
-    cards = "\n".join(_card(*one, title, explorer, pictures) for one in zip(parts, letters, strict=True))
+    cards = "\n".join(_card(*one, title, explorer) for one in zip(parts, letters, strict=True))
     return f'```{{raw}} html\n<div class="gallery figures">\n{cards}\n</div>\n```'
 
 
-def _card(part: str, letter: str, title: str, explorer: str, pictures: bool) -> str:
+def _card(part: str, letter: str, title: str, explorer: str) -> str:
     drawing, _, opened = part.partition(">")
     opened = opened or (drawing if drawing in presets else "")
     said = escape(presets[opened].title if opened in presets else title)
-    if not pictures:
-        shown = ""
-    elif part in presets:
+    if part in presets:
         shown = "".join(_image(f"portraits/{part}-{theme}", said, f"only-{theme}") for theme in ("light", "dark"))
     else:
         shown = _image(f"paper/{drawing}", said, "drawn")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from codim2_core.reference import ReferenceMotion, catalogue
 
 HEAD = """# Validation
@@ -24,10 +22,9 @@ for row in box.compare(lambda: (1.22, 3.67), solver="mine"):
 TABLE = "| value | | is | off by | how it is known |\n|---|---|---|---|---|\n"
 
 
-def write_validation(folder: Path) -> None:
-    """Write the page into a folder of sources."""
-    parts = [HEAD, *map(_section, catalogue.values())]
-    (folder / "validation.md").write_text("\n".join(parts), encoding="utf-8")
+def validation_page() -> str:
+    """Return the page as Markdown, all motions computed."""
+    return "\n".join([HEAD, *map(_section, catalogue.values())])
 
 
 def _section(motion: ReferenceMotion) -> str:

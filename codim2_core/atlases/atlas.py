@@ -17,13 +17,14 @@ from ..families.family import Ranges, SystemFamily
 from ..layer_problem.vary import check_name, limits, value_of
 from ..layer_problem.vary import names as names_of
 from ..psi.function import Psi
-from ..systems.affine import in_axes_of
+from ..systems.affine import as_elinear, in_axes_of
 from ..systems.kinds import AnySystem
+from .class_borders import class_borders
 from .codim_two_points import SpecialPlace, crossings, each_once
 from .connections.connection_curves import KINDS, connection_curves
 from .curve_numbers import curve_numbers, places
 from .curves import border_curves, curves_of, parts_within
-from .cycles.cycle_curves import KIND, cycle_curves
+from .cycles.cycle_curves import KIND, NEUTRAL_LOOP, cycle_curves
 from .degenerate_lines import DegenerateLine, degenerate_lines
 from .disc_atlas import clip_curve, curves_with_images, family_around_disc, is_in_range, points_with_images
 from .regions import regions_of
@@ -45,6 +46,9 @@ TRIAL_PLACES = (
     (0.29, 0.79),
     (0.71, 0.89),
 )  # where U is tried, in the unit square
+MAX_UNLIKE_SHARE = (
+    0.25  # of the places looked at: where more are in the wrong region no border is followed by bisection
+)
 DEFAULT_HALF_RANGE = (
     2.0  # range on either side of a parameter's value where none is given, or the value if that is more
 )
@@ -63,10 +67,10 @@ def atlas(
     Each curve is the set of zeros of equations in the two parameters and a place, an angle of the equator or a point
     within it, and is followed by pseudo-arclength; its points are zeros to the last digits. Where to begin is looked
     for on a net: 64 angles by 24 x 24 values of the parameters on the equator, 16 in each direction within. A curve
-    that keeps within one cell may be missed, and what happens where U has a corner, as abs(c) at 0, is not followed;
-    the result says of which kinds some may be missing, and at how many places its regions were looked at and found
-    to be others. The regions are the faces into which the curves cut the plane, each named by the portrait at a place
-    well inside it.
+    that keeps within one cell may be missed; what no equation of a regular curve has, as a change where U has a corner,
+    is followed by bisection as far as that leads; the result says of which kinds some may be missing, and at how many
+    places its regions were looked at and found to be others. The regions are the faces into which the curves cut the
+    plane, each named by the portrait at a place well inside it.
 
     Parameters
     ----------
@@ -168,12 +172,21 @@ def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atla
     if whole.looked.unlike and (seeds := seeds_beside(disc_family(family) or family, whole.looked.unlike)) != NO_SEEDS:
         again = _with_regions(family, _curves_over(family, seeds))
         if len(again.looked.unlike) < len(whole.looked.unlike):
+            whole = again
+    if 0 < len(whole.looked.unlike) < MAX_UNLIKE_SHARE * whole.looked.places:
+        known = [family.units(one.points) for one in whole.curves]
+        lines = class_borders(family, whole.looked.unlike, known)
+        more = tuple(_nowhere(family, "change of critical sets", line) for line in lines)
+        again = _with_regions(family, replace(whole, curves=whole.curves + more))
+        if len(again.looked.unlike) < len(whole.looked.unlike):
             return again
     return whole
 
 
 def _with_regions(family: SystemFamily, found: Atlas) -> Atlas:
-    still = [one.points for one in found.curves if one.kind not in (KIND, *KINDS)]
+    # a neutral equator is in no name of an e-linear portrait, and of a reversible one it lies on the Hopf curve
+    uncut = (KIND, *KINDS, *(("neutral equator",) if as_elinear(family.system) is not None else ()))
+    still = [one.points for one in found.curves if one.kind not in uncut]
     regions, looked = regions_of(family, still, [one.place for one in found.points])
     return replace(found, regions=regions, looked=looked)
 
@@ -227,7 +240,9 @@ def _with_more(family: SystemFamily, found: Atlas, *steps: More) -> Atlas:
         for step in steps:
             found = step(family, found)
         return found
-    whole = known = _curves_over(family_around_disc(chart))
+    known = _curves_over(family_around_disc(chart))
+    loops = tuple(one for one in found.points if one.kind == NEUTRAL_LOOP)  # of an earlier step
+    whole = known = replace(known, points=known.points + loops)
     for step in steps:
         whole = step(chart, whole)
     both = curves_with_images(chart, whole.curves[len(known.curves) :])

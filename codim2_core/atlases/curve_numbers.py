@@ -10,6 +10,7 @@ from ..arrays import Array
 from ..families import conditions
 from ..families.family import SystemFamily
 from ..families.first_lyapunov import lyapunov
+from ..psi.constructors import many
 from .tracing import TracedCurve
 
 
@@ -18,10 +19,7 @@ def places(family: SystemFamily, curve: TracedCurve) -> Array:
     v = curve.points
     if v.shape[1] == 2:
         return np.full((len(v), 2), math.nan)
-    if v.shape[1] == 3:
-        p = np.stack([np.cos(v[:, 0]), np.sin(v[:, 0])], axis=-1)
-    else:
-        p = np.array([_place_on_portrait(family, at) for at in v])
+    p = np.stack([np.cos(v[:, 0]), np.sin(v[:, 0])], axis=-1) if v.shape[1] == 3 else _places_on_portrait(family, v)
     if family.turns:
         angles = [family.frozen(at[-2:]).turn for at in v]
         c, s = np.cos(angles), np.sin(angles)
@@ -29,13 +27,18 @@ def places(family: SystemFamily, curve: TracedCurve) -> Array:
     return p
 
 
-def _place_on_portrait(family: SystemFamily, at: Array) -> Array:
-    e, modulus = at[:2], math.hypot(*at[:2])
+def _places_on_portrait(family: SystemFamily, v: Array) -> Array:
+    """Return places (m, 2) of the projected hemisphere from (c, s, u, v); on and beyond the equator (c, s)."""
+    e, modulus = v[:, :2], np.hypot(v[:, 0], v[:, 1])
     complement = (1.0 - modulus) * (1.0 + modulus)
-    if modulus == 0.0 or complement <= 0.0:
-        return e
-    zeta = float(family.psi_at(at[2:]).radius(min(modulus, 1.0), complement))
-    return e * (zeta / math.hypot(1.0, zeta) / modulus)
+    inner = (modulus > 0.0) & (complement > 0.0)
+    psi = family.psi
+    if any(family.of_psi):
+        psi = many(psi, family.values(v[inner, 2:])[:, family.of_psi.index(True)])
+    zeta = psi.radius(modulus[inner], complement[inner])
+    p = e.copy()
+    p[inner] *= (zeta / np.hypot(1.0, zeta) / modulus[inner])[:, None]
+    return p
 
 
 def curve_numbers(family: SystemFamily, curve: TracedCurve) -> Array:

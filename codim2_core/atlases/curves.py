@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from ..arrays import Array
 from ..curves.arclength import TracedLine, point_across, zero_between
-from ..curves.polyline import distance
+from ..curves.polyline import distance, feet
 from ..families import conditions, plane_conditions
 from ..families.family import SystemFamily
 from ..families.first_lyapunov import lyapunov
@@ -35,6 +36,8 @@ def curves_of(
 ) -> tuple[TracedCurves, list[SpecialPlace]]:
     """All curves, in unknowns of their own, and the special points along them; none that lies on a degenerate line.
 
+    Of a symmetric family half are followed, and turned.
+
     They are begun in cells of the net, and from the seeds; borders in `closed_form` are those of `families.disc`.
     """
     folds, hopfs, foci = seed_net.interior_cells(family, lines)
@@ -49,6 +52,10 @@ def curves_of(
         )
         points = _points_along(family, found)
     corners = codim_two_points.corners(points)
+    if family.symmetric:
+        corners = [v for v in corners if v[-1] >= 0.5]
+        hopfs, foci = (cells[cells[:, -1] >= 0.5 - seed_net.AFFINE_CELL[-1]] for cells in (hopfs, foci))
+        turning = turning[turning[..., -1].max(axis=1) >= 0.5]
     if closed_form:
         more = TracedCurves([])
     elif family.affine:
@@ -67,9 +74,43 @@ def curves_of(
     turned = tracing.in_the_plane("neutral equator", neutral, seed_net.on_steps(neutral, turning))
     more += TracedCurves([_to_ends(one, ends) for one in turned.curves], turned.unfinished)
     more = _true(more, lines)
-    points += _points_along(family, more)
+    own = _points_along(family, more)
+    if family.symmetric:
+        kept = list(more.curves)
+        for image in map(_turn_curve, more.curves):
+            kept += [] if any(_is_same_curve(image, one) for one in kept) else [image]
+        more = TracedCurves(kept, more.unfinished)
+        own += [replace(one, v=_turn_places(one.v)) for one in own]
+    points += own
     points = _without_centres(family, more.curves, points)
     return found + more, [one for one in points if not any(line.holds(one.plane) for line in lines)]
+
+
+def _turn_places(v: Array) -> Array:
+    """Turn places (..., n) by half a turn of the square, and of the portrait."""
+    return np.concatenate([-v[..., :-2], 1.0 - v[..., -2:]], axis=-1)
+
+
+def _turn_curve(one: TracedCurve) -> TracedCurve:
+    """Return the image of a curve over a symmetric family."""
+    return replace(one, curve=replace(one.curve, points=_turn_places(one.points)))
+
+
+def _is_same_curve(one: TracedCurve, other: TracedCurve) -> bool:
+    """Whether points of one curve lie on another: exactly, and not only on its chords."""
+    if one.kind != other.kind:
+        return False
+    for v in one.points[np.linspace(0, len(one.points) - 1, 5).astype(int)[1:-1]]:
+        parts, places, gaps = feet(v, other.points)
+        i = int(gaps.argmin())
+        chord = other.points[i + 1] - other.points[i]
+        length = math.sqrt(chord @ chord)
+        if not 0.0 < parts[i] < 1.0 or gaps[i] > length or length == 0.0:
+            return False
+        at = point_across(other.condition, places[i], chord / length)
+        if at is None or math.dist(at, v) > SAME_CURVE_DISTANCE:
+            return False
+    return True
 
 
 def border_curves(family: SystemFamily) -> tuple[TracedCurves, list[SpecialPlace]]:

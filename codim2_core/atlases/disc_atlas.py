@@ -28,6 +28,17 @@ def family_around_disc(chart: SystemFamily) -> SystemFamily:
     return replace(chart, slant=None, ranges=tuple(spans))
 
 
+def length_of(line: Array) -> float:
+    """Return the length of a line (m, 2)."""
+    return float(np.hypot(*np.diff(line, axis=0).T).sum())
+
+
+def is_covered(plane: Array, line: Array) -> bool:
+    """Whether a curve (k, 2) all but lies on another one (m, 2)."""
+    few = plane[np.linspace(0, len(plane) - 1, 9).astype(int)]
+    return bool((distance(few, line) < IMAGE_DISTANCE).all())
+
+
 def curves_with_images(chart: SystemFamily, curves: Sequence[AtlasCurve]) -> list[AtlasCurve]:
     """Return curves over a symmetric family with their mirror images, each once."""
     middle = chart.values(np.full(2, 0.5))
@@ -36,10 +47,9 @@ def curves_with_images(chart: SystemFamily, curves: Sequence[AtlasCurve]) -> lis
         for one in curves
     ]
     kept: list[tuple[AtlasCurve, Array]] = []
-    for one in sorted([*curves, *images], key=lambda one: -len(one.points)):
-        plane = chart.units(one.points)
-        few = plane[np.linspace(0, len(plane) - 1, 9).astype(int)]
-        if not any(one.kind == other.kind and (distance(few, line) < IMAGE_DISTANCE).all() for other, line in kept):
+    both = [(one, chart.units(one.points)) for one in (*curves, *images)]
+    for one, plane in sorted(both, key=lambda pair: -length_of(pair[1])):
+        if not any(one.kind == other.kind and is_covered(plane, line) for other, line in kept):
             kept.append((one, plane))
     return [one for one, _ in kept]
 

@@ -16,11 +16,15 @@ from .result import AtlasRegion, SamplingReport
 
 CHORD_DISTANCE = 1e-3  # of the ranges: a point that is as near as this to a curve's chord lies on the curve
 MIN_CURVE_DISTANCE = 0.01  # of the ranges: nearer to a curve than this nothing is compared
-NET_OFFSETS = (np.arange(5) + 0.5) / 5.0 + 0.013 * np.sin(np.arange(1.0, 6.0))  # off round numbers
+NET_OFFSETS = (np.arange(5) + 0.5) / 5.0 + 0.013 * np.sin(np.arange(1.0, 6.0))  # along the edges, off round numbers
+SCATTER = np.array(
+    [0.7548776662466927, 0.5698402909980532]
+)  # steps of a sequence that leaves no strip of the square empty
+SCATTERED_PLACES = 40
 EDGE_INSET = 5e-4  # of the ranges: how far from their borders these are looked along
 EDGE_OFFSETS = np.array([EDGE_INSET, 1.0 - EDGE_INSET])
-NET = np.concatenate([
-    np.stack(np.meshgrid(NET_OFFSETS, NET_OFFSETS[::-1] + 0.007, indexing="ij"), axis=-1).reshape(-1, 2),
+NET: Array = np.concatenate([
+    np.asarray((0.7 + np.arange(1, SCATTERED_PLACES + 1)[:, None] * SCATTER) % 1.0, float),
     *(np.stack(np.meshgrid(one, other, indexing="ij"), axis=-1).reshape(-1, 2)
       for one, other in ((EDGE_OFFSETS, NET_OFFSETS), (NET_OFFSETS, EDGE_OFFSETS), (EDGE_OFFSETS, EDGE_OFFSETS))),
 ])  # fmt: skip
@@ -41,10 +45,13 @@ def regions_of(
     found = [middle(face) for face in faces]
     classes = classes_over(family.system, family.psi, family.z, family.names, family.ranges)
     wide = [i for i, (_, room) in enumerate(found) if room > MIN_HALF_WIDTH]
-    codes = classes.decided(family.values(np.array([at for at, _ in found])))
-    code = dict(enumerate(codes.tolist()))
+    codes = classes.decided(family.values(np.array([found[i][0] for i in wide]).reshape(-1, 2)))
+    code = dict(zip(wide, codes.tolist(), strict=True))
     owner = {edge: i for i, face in enumerate(faces) for edge in face.edges}
-    _give(faces, owner, code, set(wide))
+    _give(faces, owner, code)
+    left = [i for i in range(len(faces)) if i not in code]
+    codes = classes.decided(family.values(np.array([found[i][0] for i in left]).reshape(-1, 2)))
+    code.update(zip(left, codes.tolist(), strict=True))
     same = {(u, v) for (u, v), i in owner.items() if (v, u) in owner and code[owner[v, u]] == code[i]}
     out, kinds = [], []
     joined = net.without(same).faces()
@@ -73,7 +80,7 @@ def faces_between(lines: Sequence[Array], marks: Array) -> list[tuple[Face, Arra
 def _unlike(
     family: SystemFamily, classes: Classes, faces: Sequence[Face], kinds: Sequence[int], lines: Sequence[Array]
 ) -> tuple[tuple[float, float], ...]:
-    """Places of a net and along its edges, away from all curves, whose class is not that of their region."""
+    """Places all over the square and along its edges, away from curves, whose class is not that of their region."""
     codes = classes.decided(family.values(NET)).tolist()
     near = np.zeros(len(NET), bool)
     for line in lines:
@@ -111,9 +118,10 @@ def _detour(before: Array, point: Array, after: Array) -> float:
     return math.dist(before, point) + math.dist(point, after) - math.dist(before, after)
 
 
-def _give(faces: Sequence[Face], owner: dict[tuple[int, int], int], code: dict[int, int], wide: set[int]) -> None:
+def _give(faces: Sequence[Face], owner: dict[tuple[int, int], int], code: dict[int, int]) -> None:
     """Give what is too thin to be named the class of the neighbour with which it shares most edges, if one is wide."""
-    for i in sorted(set(code) - wide, key=lambda i: -faces[i].area):
+    wide = set(code)
+    for i in set(range(len(faces))) - wide:
         votes: dict[int, int] = {}
         for u, v in faces[i].edges:
             other = owner.get((v, u))

@@ -26,7 +26,9 @@ class AtlasCurve(Tabled):
         "node-focus", "det A = 0" or "neutral equator"; where they were asked for, "fold of cycles", "homoclinic loop"
         (a branch that leaves a saddle comes back to it), "heteroclinic cycle" (one from a half-saddle of the equator
         to its neighbour, and the equator back) and "saddle connection" (any other from saddle to saddle); "degenerate"
-        is a line on which every direction is a limit direction, "undefined" one beyond which U has no value.
+        is a line on which every direction is a limit direction, "undefined" one beyond which U has no value, and
+        "change of critical sets" a border that was followed by bisection, to 1e-4 of the ranges: at a corner of U, or
+        where a fold is no regular zero.
     points : ndarray (m, 2)
         In order along it; a closed one repeats its first point.
     places : ndarray (m, 2)

@@ -31,7 +31,8 @@ AFFINE_CELLS, MAX_HALVINGS = (
 )  # cells along u and v where U is affine in e: its one zero is known; how often they are halved
 MAX_E = 100.0  # e beyond this counts as this
 CELL_CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])
-NEUTRAL_MEAN = 1e-12  # of a mean of lambda_rho/|Theta|: less is zero, as where a symmetry keeps it
+NEUTRAL_SHARE = 1e-12  # of the mean of |lambda_rho/Theta|: less is zero, as where a symmetry keeps it
+SEED_SHARE = 0.03  # of such a step, to which it is found
 MAX_NEUTRAL_STEPS = 32  # on which the curve of a neutral equator is looked for
 TRIAL_SUMS = 12  # of functions that are tried in a cell
 MIN_SUM_SHARE = 0.1  # of what a sum of them changes by in a cell: so far from zero it has none there
@@ -97,7 +98,8 @@ def _stability_changes(turning: Array, radial: Array, across: Array, up: Array) 
     closed = (turning * way > 0.0).all(axis=0)
     mean = (radial / np.where(closed, turning * way, 1.0)).mean(axis=0)
     there = np.take_along_axis(radial, (turning * way).argmin(axis=0)[None], axis=0)[0]
-    value = np.where(closed, np.where(np.abs(mean) > NEUTRAL_MEAN, mean, 0.0), there)
+    size = np.abs(radial / np.where(closed, turning * way, 1.0)).mean(axis=0)
+    value = np.where(closed, np.where(np.abs(mean) > NEUTRAL_SHARE * size, mean, 0.0), there)
     place = np.stack(np.meshgrid(across, up, indexing="ij"), axis=-1)
     found = []
     for one, other in (((slice(1, None),), (slice(-1),)), ((slice(None), slice(1, None)), (slice(None), slice(-1)))):
@@ -197,7 +199,7 @@ def on_steps(condition: Condition, steps: Array) -> Array:
             here = condition(start + t * (end - start))[0][0]
             return float(here) if math.isfinite(here) else -1.0 if sign else 1.0
 
-        found.append(start + root_between(value, 0.0, 1.0, 1e-4) * (end - start))
+        found.append(start + root_between(value, 0.0, 1.0, SEED_SHARE) * (end - start))
     return np.array(found).reshape(-1, 2)
 
 

@@ -28,6 +28,7 @@ COVERED_FORK_CELLS = 2.0  # and of a pitchfork: on its branches Theta and Theta'
 FORK_RESIDUAL = 1e-9  # of Theta, or U, on a pitchfork
 CORNER_INSET = 1e-4  # 1 - |e|^2 where curves that end at a corner are looked for
 NEUTRAL_TRACE = 1e-9  # of tr J, where a node-focus curve ends
+MIN_SLOPE = 1e-9  # of such a function, of what is of size 1
 LAST_STEP = 0.1  # step to the equator
 
 
@@ -190,7 +191,9 @@ def _seed_beside_corner(family: SystemFamily, corner: Array, level: float) -> Ar
 
 
 def in_the_plane(kind: str, condition: Condition, cells: Array) -> TracedCurves:
-    """Curves of a function of both parameters alone."""
+    """Curves of a function of both parameters alone; none where it is zero all about, and its slope is rounding's."""
+    if len(cells) and np.abs(condition(cells[len(cells) // 2])[1]).max() < MIN_SLOPE:
+        return TracedCurves([])
     return _trace_curves((CurveKind(kind, condition, _square_edges(2)),), cells, seed_net.PLANE_CELL, PLANE_STEPS)
 
 

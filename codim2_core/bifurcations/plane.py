@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from ..arrays import Array
-from ..atlases.atlas import Atlas, borders_over, curves_over, family_over, with_bifurcations_of_cycles, with_connections
+from ..atlases.atlas import Atlas, borders_over, curves_over, family_over, with_connections, with_folds_of_cycles
 from ..psi.constructors import constant
 from ..psi.function import Psi
 from .borders import PlaneMatrix, coefficients_of
@@ -40,8 +40,8 @@ def connection_atlas(matrix: PlaneMatrix, psi: Psi) -> Atlas:
 
 @lru_cache(maxsize=KEPT_PLANES)
 def cycle_atlas(matrix: PlaneMatrix, psi: Psi) -> Atlas:
-    """Return all curves of the plane with those of cycles."""
-    return with_bifurcations_of_cycles(coefficients_of(matrix), psi, plane_atlas(matrix, psi))
+    """Return all curves of the plane with connections and folds of cycles."""
+    return with_folds_of_cycles(coefficients_of(matrix), psi, connection_atlas(matrix, psi))
 
 
 def lines_of(atlas: Atlas, kind: str) -> tuple[list[Array], list[Array]]:

@@ -44,7 +44,7 @@ def census(
     draw : "normal", "quadratic", or callable
         Default "normal": e-linear systems with standard normal a, b, d, f1, f2. "quadratic": systems quadratic in e,
         with twelve standard normal coefficients. Or (generator, n) to n systems: coefficients (n, 5) a, b, d, f1, f2 of
-        e-linear ones, which a compiled filter names, or a sequence of systems, which `classify` names one by one (at
+        e-linear ones, which a filter names, or a sequence of systems, which `classify` names one by one (at
         z = 0, in some milliseconds each). It must give the same for the same generator; for processes it must be
         picklable. It is first asked for one system, which is not counted and tells which of the two it gives.
     psi : Psi, optional

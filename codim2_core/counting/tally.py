@@ -18,6 +18,7 @@ from ..psi.function import Psi
 from ..systems.elinear import ELinear
 from ..systems.kinds import AnySystem
 from .draws import Draw
+from .names import IMPOSSIBLE, PORTRAIT_NAMES, names
 
 Drawn = NDArray[np.float64] | Sequence[AnySystem]
 SampleLocation = tuple[int, int]  # which chunk, which of its systems
@@ -97,8 +98,6 @@ def tally(plan: CensusPlan, chunk: int, size: int) -> Tally:
 
 
 def _of_coefficients(plane: NDArray[np.float64], chunk: int) -> Tally:
-    from .names import IMPOSSIBLE, PORTRAIT_NAMES, names  # on first use: it loads the compiler
-
     codes, margins, others = names(plane)
     found: dict[str, NameCount] = {}
     for code in np.unique(codes[codes > 0]):
@@ -114,8 +113,6 @@ def _of_coefficients(plane: NDArray[np.float64], chunk: int) -> Tally:
 
 
 def _with_outcomes(plane: NDArray[np.float64], psi: Psi, chunk: int) -> Tally:
-    from .names import names
-
     _, margins, _ = names(plane)
     whole = Tally({})
     for i, (a, b, d, f1, f2) in enumerate(plane.tolist()):

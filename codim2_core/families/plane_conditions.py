@@ -32,57 +32,61 @@ def singular_matrix(family: SystemFamily) -> Condition:
 def neutral_equator(family: SystemFamily) -> Condition:
     """Find where the mean of lambda_rho/|Theta| over the equator is zero, of a closed equator (Theorem 3.1(c)).
 
-    Means over equally spaced angles, twice as many until they stand; NaNs where there are limit directions.
+    Means over equally spaced angles, with those between until they stand; NaNs where there are limit directions.
     """
-    means = _affine_means(family) if family.affine else _means(family)
+    sums = _affine_sums(family) if family.affine else _sums(family)
     enough = [MIN_ANGLES]
 
     def condition(v: Array) -> tuple[Array, Array]:
         count = enough[0]  # for the last place: it is not far
-        before = means(v, count)
-        while before is not None and count < MAX_ANGLES:
+        found = sums(v, count, 0.0)
+        while found is not None and count < MAX_ANGLES:
+            between = sums(v, count, 0.5)
+            if between is None or between[3] * found[3] < 0.0:
+                break
+            before, found = found[:3] / abs(found[3]), found + between
             count *= 2
-            now = means(v, count)
-            if now is not None and (np.abs(now - before) <= MEAN_TOLERANCES * (1.0 + np.abs(now))).all():
+            now = found[:3] / abs(found[3])
+            if (np.abs(now - before) <= MEAN_TOLERANCES * (1.0 + np.abs(now))).all():
                 enough[0] = max(count // 4, MIN_ANGLES)
                 return now[:1], now[None, 1:]
-            before = now
         return NO_VALUE
 
     return condition
 
 
-#: At a place of the unit square, over so many angles: the mean of lambda_rho with the weight 1/|Theta|, and its slopes.
-Means = Callable[[Array, int], "Array | None"]
+#: At a place of the unit square, over so many angles from a part of their distance: sums of lambda_rho/Theta and of its
+#: slopes, and of 1/Theta (4,); None where Theta has not one sign at all of them.
+Sums = Callable[[Array, int, float], "Array | None"]
 
 
-def _means(family: SystemFamily) -> Means:
+def _sums(family: SystemFamily) -> Sums:
     rows = family.unit_rows
     slopes = [[row.derivative(name) for name in AXES] for row in rows]
 
-    def means(v: Array, count: int) -> Array | None:
-        theta = 2.0 * math.pi * np.arange(count) / count
+    def sums(v: Array, count: int, part: float) -> Array | None:
+        theta = 2.0 * math.pi * (np.arange(count) + part) / count
         c, s = np.cos(theta), np.sin(theta)
         values = {"c": c, "s": s, AXES[0]: float(v[0]), AXES[1]: float(v[1])}
         U, V = (row.evaluate(values) for row in rows)
         turning = c * V - s * U
         if not (np.isfinite(turning).all() and (turning.min() > 0.0 or turning.max() < 0.0)):
             return None
-        radial, out = (c * U + s * V) / turning, [0.0, 0.0, 0.0]
-        out[0] = radial.mean()
+        radial = (c * U + s * V) / turning
+        out = np.array([radial.sum(), 0.0, 0.0, (1.0 / turning).sum()])
         for k in range(2):
             Uk, Vk = slopes[0][k].evaluate(values), slopes[1][k].evaluate(values)
-            out[1 + k] = (((c * Uk + s * Vk) - radial * (c * Vk - s * Uk)) / turning).mean()
-        return np.array(out) / np.abs(1.0 / turning).mean()
+            out[1 + k] = (((c * Uk + s * Vk) - radial * (c * Vk - s * Uk)) / turning).sum()
+        return out
 
-    return means
+    return sums
 
 
-def _affine_means(family: SystemFamily) -> Means:
+def _affine_sums(family: SystemFamily) -> Sums:
     """Likewise: Theta and lambda_rho are sums of c, s, c^2, c s and s^2 with coefficients that a place decides."""
 
-    def means(v: Array, count: int) -> Array | None:
-        basis = _quadratic(count)
+    def sums(v: Array, count: int, part: float) -> Array | None:
+        basis = _quadratic(count, part)
         U, Uc, Us, Uu, Uv, _, _, Ucu, Ucv, _, Usu, Usv, *rest = family.jet(0.0, 0.0, *v.tolist())
         V, Vc, Vs, Vu, Vv, _, _, Vcu, Vcv, _, Vsu, Vsv = rest
         entries = (U, Uc, Us, V, Vc, Vs), (Uu, Ucu, Usu, Vu, Vcu, Vsu), (Uv, Ucv, Usv, Vv, Vcv, Vsv)
@@ -92,18 +96,16 @@ def _affine_means(family: SystemFamily) -> Means:
         if not (around.min() > 0.0 or around.max() < 0.0):  # also NaN
             return None
         weight = 1.0 / around
-        once = basis @ weight
-        twice = basis @ (weight * weight * (radial[0] @ basis))
-        out = radial @ once
-        out[1:] -= turning[1:] @ twice
-        return out / abs(float(weight.sum()))
+        out = radial @ (basis @ weight)
+        out[1:] -= turning[1:] @ (basis @ (weight * weight * (radial[0] @ basis)))
+        return np.append(out, weight.sum())
 
-    return means
+    return sums
 
 
-@lru_cache(maxsize=8)
-def _quadratic(count: int) -> Array:
-    """Return c, s, c^2, c s and s^2 (5, count) at equally spaced angles."""
-    theta = 2.0 * math.pi * np.arange(count) / count
+@lru_cache(maxsize=16)
+def _quadratic(count: int, part: float) -> Array:
+    """Return c, s, c^2, c s and s^2 (5, count) at equally spaced angles, the first a part of their distance from 0."""
+    theta = 2.0 * math.pi * (np.arange(count) + part) / count
     c, s = np.cos(theta), np.sin(theta)
     return np.stack([c, s, c * c, c * s, s * s])

@@ -55,6 +55,7 @@ def budgets() -> list[tuple[str, float, int, Callable[[float], object]]]:
         ("branches, e-linear, with cycles", 300.0, FEW, branches(case3, "f1", (-120.0, -60.0), True)),
         ("branches, a typed cubic, with cycles", 300.0, FEW, branches(cubic, "p", (-1.0, 1.0), True)),
         ("atlas, e-linear, b and d", 300.0, FEW, atlas(near, ("b", "d"), ((-2.0, 2.0), (-3.0, 1.0)))),
+        ("atlas, e-linear, f1 and f2", 300.0, FEW, atlas(case3, ("f1", "f2"), ((-240.0, 240.0), (-240.0, 240.0)))),
         ("atlas, a typed cubic, p and q", 500.0, FEW, atlas(two, ("p", "q"), ((-1.0, 1.0), (-1.0, 1.0)))),
         ("a motion of the ball", 2.0, TURNS, limit(ball, (1.0, 0.2, 1.0, 0.0), 4.0)),
         ("a motion, attracting to repelling", 0.4, TURNS, limit(repelling, (0.6, 0.3, 0.1), 3.0)),

@@ -1,4 +1,4 @@
-"""Naming many e-linear systems: the compiled filter beside `classify`, wrong names beside systems a second.
+"""Naming many e-linear systems: the filter beside `classify`, wrong names beside systems a second.
 
 Run ``python -m tests.benchmarks census [--quick]``. "Wrong" counts names that differ from those of `classify`
 among the systems that both have named; "by the exact path" is the share that the filter does not decide.
@@ -41,7 +41,7 @@ def report(quick: bool = False) -> str:
     """Return the table."""
     rng = np.random.default_rng(0)
     many, few = (100_000, 300) if quick else (1_000_000, 3_000)
-    names(normal(rng, 10))  # compiled before it is timed
+    names(normal(rng, 10))
     rows = [
         "| systems | named a second | `classify` a second | ratio | by the exact path | wrong |",
         "|---|---|---|---|---|---|",

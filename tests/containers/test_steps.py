@@ -1,7 +1,7 @@
 """The steps of the Dockerfile on this machine, each stage in a fresh environment: where no image can be built.
 
-What is copied and run is read from the Dockerfile. Left out is what takes minutes and is tested elsewhere, compiled
-kernels and the site, of which all imports are tried, and the user. Downloads are kept between the stages.
+What is copied and run is read from the Dockerfile. Left out are the kernels, which take minutes, and
+the user. Downloads are kept between the stages.
 """
 
 import os
@@ -15,13 +15,10 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 #: What a stage may copy or write, from the root of its file system.
-PATHS = re.compile(r"(?<![\w./])/(?=(?:build\.txt|docs\.txt|wheels|source|site|srv)\b)")
+PATHS = re.compile(r"(?<![\w./])/(?=(?:build\.txt|wheels|source|srv)\b)")
 LEFT_OUT = ("useradd", "codim2 warm")
 #: In place of what takes minutes.
-FASTER = (
-    ("codim2 docs /site", f"mkdir /site && python {Path(__file__).with_name('docs_imports.py')}"),
-    ("--no-cache-dir", ""),
-)
+FASTER = (("--no-cache-dir", ""),)
 
 
 def instructions():
@@ -78,7 +75,6 @@ def stages(tmp_path_factory):
 
 
 def test_the_steps_build_what_serves(stages):
-    assert (stages["image"] / "srv/codim2/site").is_dir()
     said = [subprocess.run([stages["image"] / "python/bin/codim2", *words], capture_output=True, text=True, check=True)
             for words in (["--version"], ["serve", "--help"], ["classify", "-a", "-2", "-d", "-1"])]  # fmt: skip
     assert all(one.stdout for one in said)
@@ -86,4 +82,4 @@ def test_the_steps_build_what_serves(stages):
 
 def test_the_image_has_no_more_than_the_explorer_needs(stages):
     (packages,) = (stages["image"] / "python/lib").glob("python3*/site-packages")
-    assert not [*packages.rglob("*.map"), *packages.glob("sphinx"), *packages.glob("IPython")]
+    assert not [*packages.rglob("*.map"), *packages.glob("IPython")]

@@ -18,7 +18,6 @@ RUN = {
     "plot": ["python", "-c", "import codim2_core as c2; c2.Scene('case1-cm4').plot(__import__('pylab').gca())"],
     "symbolic": ["python", "-c", "import codim2_core as c2; print(c2.ELinear(-1, 0, -1).to_sympy())"],
     "figures": ["codim2", "figure", "case1-cm4", "-o", "it.png"],
-    "docs": ["codim2", "docs", "site"],
     "dask": ["python", "-c", DASK],
 }
 

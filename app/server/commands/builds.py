@@ -26,9 +26,9 @@ def add_notebooks(commands: Any) -> None:
 
 def add_docs(commands: Any) -> None:
     """Add `codim2 docs`."""
-    command = commands.add_parser("docs", help="build the site that the explorer serves at /docs/")
-    command.add_argument("folder", nargs="?", type=Path, metavar="DIR",
-                         help="default the package's own; `codim2 serve --docs DIR` serves another")  # fmt: skip
+    command = commands.add_parser("docs", help="write the documentation as a folder, with what its code gives")
+    command.add_argument("folder", nargs="?", type=Path, default=Path("codim2-docs"), metavar="DIR",
+                         help="default codim2-docs; `codim2 serve --docs DIR` serves it")  # fmt: skip
     _add_release(command, required=False)
     command.set_defaults(run=docs)
 
@@ -110,10 +110,8 @@ def static(chosen: argparse.Namespace) -> int:
 
 def docs(chosen: argparse.Namespace) -> int:
     """Build the site."""
-    from ...docs.build import main
-    from ...docs.docs_folder import PACKAGED_SITE
+    from ...docs.pages import main
 
-    folder = PACKAGED_SITE if chosen.folder is None else chosen.folder
     if chosen.pyodide is None:
-        return main(folder)
-    return main(folder, LIVE) or int(_write_static(folder / LIVE, chosen) is None)
+        return main(chosen.folder)
+    return main(chosen.folder, LIVE) or int(_write_static(chosen.folder / LIVE, chosen) is None)

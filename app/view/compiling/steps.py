@@ -41,7 +41,6 @@ def kernel_steps() -> list[tuple[str, Callable[[], object]]]:
         ("nullclines of general systems", partial(warm_general, GENERAL_LAYERS[2:4])),
         ("cycles of general systems", partial(warm_general, GENERAL_LAYERS[4:])),
         ("branches of cycles", _warm_branches),
-        ("names of many systems", _warm_names),
         ("motions of several contacts", _warm_contacts),
         ("motions for ε > 0", _warm_regularised),
         ("motions in the limit", _warm_nonsmooth),
@@ -98,13 +97,6 @@ def _warm_branches() -> None:
     system = ELinear(1.0, 1.3, -1.2, (0.33, 0.07))
     for name, span in (("f1", (0.32, 0.34)), ("n", (3.0, 3.1))):
         branches(system, hill(3.0), name, span)
-
-
-def _warm_names() -> None:
-    """Compile, or load, what names many e-linear systems at once."""
-    from codim2_core.counting.names import names
-
-    names(np.eye(1, 5))
 
 
 def _warm_arrowheads() -> None:

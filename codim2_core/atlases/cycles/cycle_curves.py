@@ -10,6 +10,7 @@ import numpy as np
 from ...arrays import Array, read_only
 from ...families.family import SystemFamily
 from ...words import say
+from ..disc_atlas import is_covered, length_of
 from ..result import AtlasCurve, AtlasPoint
 from .fold_seeds import FoldSeed, along_lines, seeds_beside_bautin
 from .fold_tracing import CENTRE, CORNER, FoldCurve, trace_fold
@@ -36,6 +37,8 @@ def cycle_curves(
         kind: [family.units(np.array(point.place)) for point in points if point.kind == kind]
         for kind in (GENERALISED_HOPF, SADDLE_NODE_CORNER, NEUTRAL_LOOP)
     }
+    if family.symmetric:
+        known[NEUTRAL_LOOP] += [1.0 - place for place in known[NEUTRAL_LOOP]]
     corners = known[SADDLE_NODE_CORNER]
     found: list[FoldCurve] = []
     missed = []
@@ -52,7 +55,7 @@ def cycle_curves(
             one = trace_fold(family, seed.start, corners)
             found += [one] if one is not None else []
     out, told = [], []
-    for one in found:
+    for one in _without_parts(family, found):
         plane, sizes, ends = _extend_to_ends(one, known)
         places = np.full((len(plane), 2), math.nan)
         out.append(AtlasCurve(KIND, read_only(family.values(plane)), read_only(places), read_only(sizes)))
@@ -64,6 +67,16 @@ def cycle_curves(
     ]
     return out, [AtlasPoint(kind, (float(at[0]), float(at[1])), text)
                  for kind, place, text in told for at in [family.values(place)]]  # fmt: skip
+
+
+def _without_parts(family: SystemFamily, found: Sequence[FoldCurve]) -> list[FoldCurve]:
+    """Leave out what covers a part of a longer curve, or of its image, alone: it was followed from there less far."""
+    kept: list[FoldCurve] = []
+    for one in sorted(found, key=lambda one: -length_of(one.plane)):
+        lines = [line for other in kept for line in (other.plane, 1.0 - other.plane)[: 1 + family.symmetric]]
+        if not any(is_covered(one.plane, line) for line in lines):
+            kept.append(one)
+    return kept
 
 
 def _passes_seed(curve: FoldCurve, seed: FoldSeed) -> bool:

@@ -4,7 +4,7 @@ import math
 import re
 
 import pytest
-from codim2_app.docs.docs_folder import PACKAGED_SITE
+from codim2_app.docs.pages import TEXT_FOLDER
 
 import codim2_core as c2
 from codim2_core.counting.table import interval
@@ -12,7 +12,7 @@ from codim2_core.counting.table import interval
 
 def tables():
     """Name, count, share in %, low and high of each row, table by table."""
-    text = (PACKAGED_SITE.parent / "text" / "census.md").read_text(encoding="utf-8")
+    text = (TEXT_FOLDER / "census.md").read_text(encoding="utf-8")
     found = []
     for part in text.split("\n## ")[1:3]:
         rows = re.findall(r"^\| (.+?) \| ([\d\u202f]+) \| ([\d.]+) \| ([\d.]+) to ([\d.]+) \|$", part, re.MULTILINE)

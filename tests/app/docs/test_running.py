@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 from codim2_app.docs import drawn_figures, running
-from codim2_app.docs.build import TEXT_FOLDER
 from codim2_app.docs.drawing import SIDE, Drawing
+from codim2_app.docs.pages import TEXT_FOLDER
 from codim2_app.lessons.reading import read_lesson
 
 import codim2_core as c2

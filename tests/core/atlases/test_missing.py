@@ -5,6 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core.atlases.faces import inside_polygons
+from codim2_core.curves.polyline import distance
 from codim2_core.diagrams.classes import classes_over
 
 ONE = c2.psi.constant()
@@ -46,6 +47,20 @@ def test_none_is_said_to_be_missing_for_a_symmetry_alone():
     assert [one.kind for one in found.curves] == ["pitchfork"] * 2
 
 
+def wrong_places(system, psi, found, z=(), count=100):
+    """Random places, away from all curves, in a region of another class."""
+    classes = classes_over(system, psi, z, found.names, found.ranges)
+    widths = np.array([high - low for low, high in found.ranges])
+    places = np.random.default_rng(0).uniform(*np.array(found.ranges).T, (count, 2))
+    near = np.min([distance(places / widths, one.points / widths) for one in found.curves], axis=0) < 2e-3
+    names = [classes.name(code) for code in classes.decided(places).tolist()]
+    owned = np.stack([inside_polygons(places, region.boundary) for region in found.regions])
+    return [
+        place for place, beside, name, owner in zip(places, near, names, owned.T, strict=True)
+        if not beside and {found.regions[i].name for i in np.flatnonzero(owner)} != {name}
+    ]  # fmt: skip
+
+
 def test_what_happens_at_a_corner_of_u_is_seen_to_be_missing():
     system = c2.System(U=("-c", "mu - abs(s - k)"), parameters={"mu": 0.1, "k": 0.1})
     found = c2.atlas(system, ONE, {"mu": (-0.5, 0.5), "k": (-0.5, 0.5)})  # two critical sets are born at mu = 0
@@ -54,6 +69,18 @@ def test_what_happens_at_a_corner_of_u_is_seen_to_be_missing():
     for place in found.looked.unlike:
         (own,) = [one for one in found.regions if inside_polygons(np.array([place]), one.boundary)[0]]
         assert classes.name(int(classes.decided(np.array([place]))[0])) != own.name
+
+
+@pytest.mark.slow
+def test_a_fold_where_u_vanishes_to_higher_order_all_along_is_followed_by_bisection():
+    """At p = .512 two sets are born, s^2 as c^3, at no regular zero: 22 of 400 places were in the wrong region."""
+    system = c2.System(
+        U=("-0.257*c*c+0.375*exp(c)-0.887*cos(3*s)+p*exp(c)",
+           "1.669*s*s+0.067*s**3-0.585*c**3+z*c**3+p*c*s*s"),
+        W=("1",), parameters={"p": 0.0},
+    )  # fmt: skip
+    found = c2.atlas(system, c2.psi.rational(), {"p": (-2, 2), "z1": (-2, 2)}, (0.1,))
+    assert not wrong_places(system, c2.psi.rational(), found, (0.1,), 400)
 
 
 def test_where_equations_have_no_value_is_a_region_of_its_own():

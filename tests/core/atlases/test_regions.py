@@ -13,6 +13,8 @@ QUADRATIC = c2.System(U=("mu*c**2 - c + s/3 - 0.2", "-s + k*c*s + 0.3*c"), param
 PLANES = {
     "f": (c2.ELinear(1, 0.4, -1), c2.psi.tanh(), ("f1", "f2"), ((-3, 3), (-3, 3)), ()),
     "f, with thin regions": (c2.ELinear(1, 3, -2), c2.psi.hill(3), ("f1", "f2"), ((-5, 5), (-5, 5)), ()),
+    "f, reversible": (c2.ELinear(1, 2, -1), c2.psi.hill(3), ("f1", "f2"), ((-2.4, 2.4), (-2.4, 2.4)), ()),
+    "f, all neutral": (c2.ELinear(0, 2, 0), c2.psi.hill(3), ("f1", "f2"), ((-2.6, 2.6), (-2.5, 2.7)), ()),
     "a, n": (c2.ELinear(172, 186, -200, (-86, -93)), c2.psi.hill(3), ("a", "n"), ((150, 200), (1, 6)), ()),
     "a, f2": (c2.ELinear(1.5, 0.5, -1.2, (0.4, -0.3)), c2.psi.rational(), ("a", "f2"), ((-4, 4), (-3, 3)), ()),
     "a, d": (c2.ELinear(3, 2, -1.5, (0.3, 0.2)), c2.psi.hill(3), ("a", "d"), ((-4, 4), (-4, 4)), ()),

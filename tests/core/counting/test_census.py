@@ -22,9 +22,7 @@ PSI = c2.psi.constant()
 
 
 def filtered(plane):
-    codes, margins = np.empty(len(plane), np.int8), np.empty(len(plane))
-    _filter(np.ascontiguousarray(plane, float), codes, margins)
-    return codes, margins
+    return _filter(np.ascontiguousarray(plane, float))
 
 
 def exact(row):
