@@ -15,6 +15,15 @@ SHOWN = re.compile(r'data-fact="(\w+)"')
 
 
 @dataclass(frozen=True)
+class LectureView:
+    """A view of a lecture: its title, values of controls, and for how many minutes it is shown."""
+
+    title: str
+    values: Mapping[str, Any]
+    minutes: float
+
+
+@dataclass(frozen=True)
 class Prose:
     """A stretch of text.
 
@@ -114,20 +123,36 @@ class Lesson:
         One line for the list of lessons.
     values : mapping
         Of the controls, when the lesson opens: those of its portrait, and what it sets besides.
-    parts : tuple of Prose or Question
-        In the order of the file.
+    parts : tuple of Prose, Question or LectureView
+        In the order of the file; of a lecture, prose is what its lecturer reads.
     """
 
     key: str
     title: str
     summary: str
     values: Mapping[str, Any]
-    parts: tuple[Prose | LessonQuestion, ...]
+    parts: tuple[Prose | LessonQuestion | LectureView, ...]
 
     @property
     def live(self) -> frozenset[str]:
         """Names of the facts of the present scene that its text shows."""
         return frozenset(name for part in self.parts if isinstance(part, Prose) for name in SHOWN.findall(part.html))
+
+    @property
+    def views(self) -> list[tuple[LectureView, str, list[int]]]:
+        """Return the views of a lecture, each with its notes as HTML and the numbers of its questions."""
+        found: list[tuple[LectureView, str, list[int]]] = []
+        question = -1
+        for part in self.parts:
+            question += isinstance(part, LessonQuestion)
+            if isinstance(part, LectureView):
+                found.append((part, "", []))
+            elif found and isinstance(part, Prose):
+                view, notes, asked = found[-1]
+                found[-1] = view, notes + part.html, asked
+            elif found:
+                found[-1][2].append(question)
+        return found
 
     @property
     def questions(self) -> tuple[LessonQuestion, ...]:

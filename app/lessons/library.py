@@ -12,14 +12,15 @@ from .reading import LessonError, read_lesson
 
 #: A lesson is one file here; its name's number gives the order.
 LESSON_FOLDER = Path(__file__).parent / "text"
+LECTURE_FOLDER = Path(__file__).parent / "lectures"
 
 _own: dict[str, Lesson] = {}
 
 
 @lru_cache(maxsize=1)
 def lessons() -> Mapping[str, Lesson]:
-    """Return all lessons that are offered by key: the course, then one's own. One object until more are offered."""
-    return MappingProxyType({**built_in(), **_own})
+    """Return all that is offered by key: the course, lectures, then one's own. One object until more are offered."""
+    return MappingProxyType({**built_in(), **lectures(), **_own})
 
 
 def add_lessons(found: Mapping[str, Lesson]) -> None:
@@ -32,6 +33,12 @@ def add_lessons(found: Mapping[str, Lesson]) -> None:
 def built_in() -> Mapping[str, Lesson]:
     """Return the package's own lessons by key, in order; a broken one raises LessonError."""
     return MappingProxyType({path.stem: read_lesson(path) for path in sorted(LESSON_FOLDER.glob("*.md"))})
+
+
+@lru_cache(maxsize=1)
+def lectures() -> Mapping[str, Lesson]:
+    """Return the package's own lectures by key."""
+    return MappingProxyType({path.stem: read_lesson(path) for path in sorted(LECTURE_FOLDER.glob("*.md"))})
 
 
 def from_folder(folder: Path) -> tuple[dict[str, Lesson], list[LessonError]]:

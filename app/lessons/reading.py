@@ -15,13 +15,14 @@ from ..state.cleaning import InputError, clean
 from ..state.controls import CONTROL_NAMES
 from .condition import FactCondition, condition
 from .facts import COMPILED, FACT_NAMES
-from .lesson import Lesson, LessonQuestion, Option, Prose, Vary, portrait_of
+from .lesson import PLACE_CONTROLS, LectureView, Lesson, LessonQuestion, Option, Prose, Vary, portrait_of
 from .markdown import LinkError, button, draggable, inline, live, parser, render_html
 from .marks import MARKS
 from .words import fields
 
 HEAD_FIELDS = frozenset({"title", "summary", "portrait", "set"})
 OF_QUESTION = frozenset({"ask", "options", "mark", "explain", "draw", "require", "hide", "hint", "vary"})
+OF_VIEW = frozenset({"title", "portrait", "set", "minutes"})
 OF_OPTION = frozenset({"say", "when", "wrong"})
 OF_VARY = frozenset({"say", "goal", "hint"})
 
@@ -40,7 +41,8 @@ def read_lesson(path: Path) -> Lesson:
     Parameters
     ----------
     path : Path
-        Markdown with front matter (`title`, `summary`, and `portrait` or `set`), and fences ```` ```question ````.
+        Markdown with front matter (`title`, `summary`, and `portrait` or `set`), and fences ```` ```question ````. With
+        fences ```` ```view ```` it is a lecture: what follows each are its presenter's notes, and its polls.
 
     Raises
     ------
@@ -56,7 +58,8 @@ def read_lesson(path: Path) -> Lesson:
         raise LessonError(path, 1, "a lesson begins with a line ---, then title: and summary:, then a line ---.")
     head = _mapping(path, 1, tokens[0].content, HEAD_FIELDS, needed=("title", "summary"))
     values = _start(path, head)
-    parts: list[Prose | LessonQuestion] = []
+    parts: list[Prose | LessonQuestion | LectureView] = []
+    shown: Mapping[str, Any] = {}
     gathered: list[Token] = []
     where = 1
 
@@ -69,19 +72,25 @@ def read_lesson(path: Path) -> Lesson:
         where = token.map[0] + 1 if token.map else where
         if token.type == "fence" and token.info.strip() == "question":
             close()
-            parts.append(_question(path, where, token.content))
+            parts.append(_question(path, where, token.content, shown))
+        elif token.type == "fence" and token.info.strip() == "view":
+            close()
+            found = _mapping(path, where, token.content, OF_VIEW, ("title",))
+            view = LectureView(str(found["title"]), _start(path, found, where), float(found.get("minutes") or 4))
+            shown = {name: value for name, value in view.values.items() if name not in PLACE_CONTROLS}
+            parts.append(view)
         else:
             gathered.append(token)
     close()
     return Lesson(path.stem, head["title"], head["summary"], values, tuple(parts))
 
 
-def _start(path: Path, head: Mapping[str, Any]) -> dict[str, Any]:
+def _start(path: Path, head: Mapping[str, Any], line: int = 1) -> dict[str, Any]:
     values: dict[str, Any] = {}
     key = head.get("portrait")
     if key is not None:
-        values.update(_read_portrait(path, 1, str(key)))
-    values.update(_values(path, 1, head.get("set") or {}))
+        values.update(_read_portrait(path, line, str(key)))
+    values.update(_values(path, line, head.get("set") or {}))
     return values
 
 
@@ -143,7 +152,7 @@ def _keys(path: Path, line: int, found: Any, known: frozenset[str], needed: tupl
     return found
 
 
-def _question(path: Path, line: int, text: str) -> LessonQuestion:
+def _question(path: Path, line: int, text: str, shown: Mapping[str, Any]) -> LessonQuestion:
     found = _mapping(path, line, text, OF_QUESTION, ("ask", "explain"))
     mark, options = found.get("mark") or "", found.get("options") or []
     if mark and mark not in MARKS:
@@ -161,7 +170,7 @@ def _question(path: Path, line: int, text: str) -> LessonQuestion:
         html=_read_line(path, line, found["ask"]),
         options=tuple(made),
         explain=explain,
-        draw=_draw(path, line, found.get("draw") or {}),
+        draw={**shown, **_draw(path, line, found.get("draw") or {})},
         require=None if require is None else _condition(path, line, require),
         hide=hide,
         hint=_read_line(path, line, found.get("hint") or ""),

@@ -37,7 +37,17 @@ def add(draft: FrameContext) -> None:
             draft.header["lesson"] = {"key": "", "list": [_entry(one) for one in course.values()]}
         return
     if draft.fresh("lesson", lesson):
-        draft.header["lesson"] = {"key": lesson.key, "title": lesson.title, "parts": [_part(p) for p in lesson.parts]}
+        parts = [
+            _part(p)
+            for p in lesson.parts
+            if isinstance(p, LessonQuestion) or (isinstance(p, Prose) and not lesson.views)
+        ]
+        draft.header["lesson"] = {
+            "key": lesson.key,
+            "title": lesson.title,
+            "parts": parts,
+            "lecture": bool(lesson.views),
+        }
     _add_facts(draft, lesson)
     quiz = read_quiz(draft.values["quiz"], lesson)
     if quiz is not None:
@@ -75,6 +85,7 @@ def _entry(lesson: Lesson) -> dict[str, Any]:
         "title": lesson.title,
         "summary": lesson.summary,
         "questions": len(lesson.questions),
+        "lecture": bool(lesson.views),
         "values": opening_values(lesson),
     }
 
@@ -115,7 +126,8 @@ def _add_quiz(draft: FrameContext, lesson: Lesson, quiz: Quiz) -> None:
         said = draft.slow("judgement", there, _judge_answer, question, scene, answer)
         if said is not None:
             draft.now["judged"] = key
-            draft.now["answered"] = (lesson.key, quiz.question, said["right"])
+            chosen = answer if isinstance(answer, int) else -1
+            draft.now["answered"] = (lesson.key, quiz.question, said["right"], chosen)
             draft.header["judged"] = {"question": quiz.question, **said}
     if question.vary is not None and (draft.ready or not question.vary.goal.names & COMPILED):
         now = stands(question.vary.goal, draft.scene)

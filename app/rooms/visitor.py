@@ -33,7 +33,7 @@ class SharedView(Protocol):
 
     @property
     def last_answer(self) -> tuple[Any, ...]:
-        """The lesson and the number of its question that was answered last, and whether rightly; () if none was."""
+        """The lesson, the question answered last, whether rightly, and with which option; () if none was."""
         ...
 
 
@@ -116,10 +116,10 @@ class Visitor:
         frames = self.frames
         values = self._values()
         open_one = lessons().get(values["lesson"])
-        key, question, right = frames.last_answer or ("", -1, False)
+        key, question, right, choice = frames.last_answer or ("", -1, False, -1)
         if open_one is None or key != open_one.key:
-            question, right = -1, False
-        lesson = None if open_one is None else [open_one.title, question, right]
+            question, right, choice = -1, False, -1
+        lesson = None if open_one is None else [open_one.title, question, right, choice]
         return [frames.portrait_name, settings_of(values, _default_values(), SETTING), lesson]
 
     def _values(self) -> dict[str, Any]:

@@ -17,17 +17,19 @@ from typing import Any
 
 from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
-from tornado.web import RequestHandler
+from tornado.web import HTTPError, RequestHandler
 
 from ..docs.docs_handlers import Docs, ToDocs
 from ..frame.background_results import serve_with
 from ..frame.work_queue import WorkQueue
 from ..frame.workers import Workers, processors
+from ..lessons.library import lessons
 from ..rooms.board import Board
 from ..rooms.rooms import MOST_ROOMS, SHARING_SECONDS, Rooms
 from ..rooms.rooms import serve_with as serve_rooms
 from ..view import warmup
 from ..view.compiling.steps import Told
+from ..view.lecture_page import lecture_html
 from ..view.markup import edition
 from .application import ExplorerApplication, known_names
 from .engine_files import EngineFiles, served_panels
@@ -80,6 +82,19 @@ class ToRoom(RequestHandler):
     def get(self) -> None:
         """Send the browser there, below whatever prefix a proxy shows."""
         self.redirect("./?room=new")
+
+
+class LecturePage(RequestHandler):
+    """Answers ``/lecture?of=KEY``, and with ``&sheet=questions`` or ``&sheet=key`` what is printed for the class."""
+
+    def get(self) -> None:
+        """Send the page."""
+        lesson = lessons().get(self.get_query_argument("of", ""))
+        if lesson is None or not lesson.views:
+            raise HTTPError(404)
+        application: Any = self.application
+        here = f"{self.request.protocol}://{self.request.host}{application.prefix}/"
+        self.finish(lecture_html(lesson, self.get_query_argument("sheet", ""), here))
 
 
 def health() -> dict[str, Any]:
@@ -207,6 +222,7 @@ def make_server(
             (r"/ready", Ready),
             (r"/metrics", MetricsPage, {"metrics": metrics}),
             (r"/room", ToRoom),
+            (r"/lecture", LecturePage),
             (r"/docs", ToDocs),
             (r"/docs/(.*)", Docs),
             *ROUTES,

@@ -11,14 +11,14 @@ from typing import Any
 from bokeh.server.views.static_handler import StaticHandler
 from tornado.web import RequestHandler, StaticFileHandler
 
-from ..view.markup import SCRIPT_FOLDER, digest, export_script, script
+from ..view.markup import SCRIPT_FOLDER, digest, export_script, presenter_script, script
 
 PREVIEW = "preview.jpg"  # what a link looks like where it is pasted; `python -m tests.browser.picture` makes it
 YEAR = 365 * 86400  # seconds
 
 
 #: The explorer's own, by name.
-SCRIPTS = {"explorer.js": script, "takeaway.js": export_script}
+SCRIPTS = {"explorer.js": script, "takeaway.js": export_script, "presenter.js": presenter_script}
 
 
 @cache

@@ -89,7 +89,7 @@ export class Explorer {
     if (config.look.seen.length) picture.seen = config.look.seen
     this.room = this.alone && !config.worker ? roomOf(this) : null
     if (config.page) addDialogs(this)
-    const bars = [...root.querySelectorAll(".banner, .room-bar")] // what they take is no part of the page's height
+    const bars = [...root.querySelectorAll(".banner, .room-bar, .goal-bar")] // what they take is no part of the page's height
     if (globalThis.ResizeObserver) for (const bar of bars) new ResizeObserver(() => root.style.setProperty("--bars", `${bars.reduce((sum, one) => sum + one.offsetHeight, 0)}px`)).observe(bar)
     this.beside = besideOf(this)
     this.showRefused()
@@ -179,7 +179,7 @@ export class Explorer {
     // what is no number goes to the server for its sentence; pad and address keep the last good value
     if (this.numbers.has(name) && typeof value !== "number") { requests.set(name, value); return }
     values[name] = value
-    if (this.setting.has(name) || name === "quiz") this.room?.stray()
+    if (this.setting.has(name)) this.room?.stray()
     if (["texts", "parameters", "psi_text"].includes(name)) this.typed.add(name)
     requests.set(name, value)
     if (this.numbers.has(name)) this.panels.draw(values)

@@ -9,6 +9,7 @@ import {Pointing} from "./interaction/pointing.js"
 import {Beamer, busy, enlarge} from "./page/beamer.js"
 import {Bench} from "./page/bench.js"
 import {Help} from "./page/help.js"
+import {LectureScreen} from "./page/lecture.js"
 import {compressQuery, writeLink} from "./page/links.js"
 import {Opening} from "./page/opening.js"
 import {printable} from "./page/paper.js"
@@ -41,6 +42,7 @@ export function panelsOf(explorer) {
     ask: (question) => explorer.ask(question),
     cross: (place) => explorer.picture.cross(place),
     crowd: () => explorer.room?.rows ?? null, first: config.defaults, setting: config.setting, families: config.families,
+    present: config.page && !config.worker ? (key) => window.open(`lecture?of=${key}`, "codim2-lecture", "width=900,height=900") : null,
     parameters: () => explorer.systems.all(), slips: (slip) => explorer.bench?.follow(slip),
   }, (name) => explorer.choose("panel", name))
   return {panels, setters}
@@ -165,5 +167,11 @@ export function besideOf(explorer) {
     seen: () => picture.window && picture.seen, move: (wanted) => explorer.move(wanted),
     open: (view, seen) => { explorer.forget(); explorer.put(view); if (seen) picture.seen = seen; else picture.home() },
   })
+  if (!config.worker) {
+    new LectureScreen({
+      views: explorer.views, rows: () => explorer.room?.rows ?? null, code: () => explorer.room?.code ?? "", room: () => explorer.room?.open(), put: (wanted) => explorer.put(wanted),
+      beam: (on) => { beamer.show(on); beamer.told(on) },
+    })
+  }
   return beside
 }

@@ -43,7 +43,8 @@ GROUPS = {"A": ("a", "b", "d"), "f": ("f1", "f2"), "z": ("z",), "drift": ("k1", 
 
 
 @cache
-def _template(name: str) -> Template:
+def template(name: str) -> Template:
+    """Return a template of the folder of scripts."""
     from jinja2 import Environment, FileSystemLoader, select_autoescape  # late: frames need no template
 
     loader = FileSystemLoader(SCRIPT_FOLDER)
@@ -80,6 +81,12 @@ def script() -> str:
 def export_script() -> str:
     """Return the menu "Export", which is loaded when it is first opened."""
     return bundle(SCRIPT_FOLDER / "takeaway.js")
+
+
+@cache
+def presenter_script() -> str:
+    """Return what the presenter's window of a lecture runs."""
+    return bundle(SCRIPT_FOLDER / "presenter.js")
 
 
 @cache
@@ -204,7 +211,7 @@ def explorer_html(
                 "low": low, "high": high, "step": step}  # fmt: skip
 
     groups = groupby(portraits(), key=lambda item: item["group"])
-    return _template("explorer.html").render(
+    return template("explorer.html").render(
         css=stylesheet() + (_embedded_rules(look) if look and look.embed else ""),
         groups={group: [control(name) for name in names] for group, names in GROUPS.items()},
         exponent=control("n"),
@@ -265,7 +272,7 @@ def page_frame(title: str, bokeh_script: str, begin: str) -> str:
 
     from ..draw.figure import make_figure
 
-    return _template("page.html").render(
+    return template("page.html").render(
         title=title,
         explorer_script=address_of_script(),
         bokeh_script=bokeh_script,

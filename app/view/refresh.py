@@ -294,7 +294,7 @@ class Frames:
 
     @property
     def last_answer(self) -> tuple[Any, ...]:
-        """The lesson and the number of its question that was answered last, and whether rightly; () if none was."""
+        """The lesson, the question answered last, whether rightly, and with which option; () if none was."""
         return self._sent.get("answered", ())
 
     @property

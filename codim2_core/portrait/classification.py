@@ -15,7 +15,7 @@ from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..numerics.trigonometric import INPUT_ROUNDING
 from ..results import Result, Tabled, result_rows
 from ..tables import paragraphs
-from ..words import SENTENCES, power, say, subscript, written_label
+from ..words import SENTENCES, count_word, power, say, subscript, written_label
 from .omega_limits import critical_label, radially_neutral_ones
 
 
@@ -126,15 +126,21 @@ def directions(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> str:
     moving = [rho for rho, still in zip(equator.lambda_rho.tolist(), neutral, strict=True) if not still]
     arriving, leaving = len([rho for rho in moving if rho < 0.0]), len([rho for rho in moving if rho > 0.0])
     if arriving == leaving == 0:
-        first = say("none moves", count=count)
+        first = say("none moves", count=count_word(count))
     elif arriving and leaving:
-        first = say("both", count=count, arriving=arriving, leaving=leaving)
+        others = "the other" + ("" if leaving == 1 else f" {count_word(leaving)}")
+        rest = others if arriving + leaving == count else count_word(leaving)
+        first = say("both", count=count_word(count), arriving=count_word(arriving), leaving=rest)
     elif count == 1:
         first = say("one arrives" if arriving else "one leaves")
     elif any(neutral):
-        first = say("some arrive" if arriving else "some leave", count=count, moving=arriving or leaving)
+        first = say(
+            "some arrive" if arriving else "some leave", count=count_word(count), moving=count_word(arriving or leaving)
+        )
     else:
-        first = say("all arrive" if arriving else "all leave", which="both" if count == 2 else f"all {count}")
+        first = say(
+            "all arrive" if arriving else "all leave", which="both" if count == 2 else f"all {count_word(count)}"
+        )
     if not equator.proven:
         first = f"{first} {say('directions unproved')}"
     if not any(neutral):

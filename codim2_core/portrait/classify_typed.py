@@ -8,7 +8,7 @@ from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
 from ..layer_problem.linearisation import NEUTRAL_TRACE
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
 from ..systems.frozen import FrozenSystem
-from ..words import say
+from ..words import count_word, say
 from .classification import NEUTRAL_CLOSED_EQUATOR, Degeneracy, PortraitName, undecided_degeneracy
 
 TYPED_ROUNDING = ROUNDINGS * UNIT
@@ -34,10 +34,13 @@ def _count(k: int, noun: str, proven: bool) -> str:
 
 
 def _count_phrase(k: int, kind: str) -> str:
+    noun = kind.replace("degenerate", "degenerate one")
+    if k == 1:
+        return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
     for one, many in (("focus", "foci"), ("centre", "centres"), ("saddle-node", "saddle-nodes")):
-        if k > 1 and one in kind:
-            return f"{k} {kind.replace(one, many)}"
-    return f"{k} {kind}" + ("s" if k > 1 and kind != "degenerate" else "")
+        if one in noun:
+            return f"{count_word(k)} {noun.replace(one, many)}"
+    return f"{count_word(k)} {noun}s"
 
 
 def general_consequence(critical: tuple[CriticalSet, ...], found: DiscZeros, cycles: int) -> str:
@@ -47,15 +50,19 @@ def general_consequence(critical: tuple[CriticalSet, ...], found: DiscZeros, cyc
             return say("no isolated set")
         return say("no critical set" if found.proven else "no set found")
     kinds = [C.kind for C in critical]
-    counted = ", ".join(_count_phrase(kinds.count(kind), kind) for kind in sorted(set(kinds)))
+    phrases = [_count_phrase(kinds.count(kind), kind) for kind in sorted(set(kinds))]
+    counted = " and ".join(filter(None, (", ".join(phrases[:-1]), phrases[-1])))
+    sets = (
+        say("only set", kinds=counted) if len(kinds) == 1 else say("sets", count=count_word(len(kinds)), kinds=counted)
+    )
     if not found.proven:
-        return say("sets unproved", kinds=counted)
+        return f"{sets} {say('sets unproved')}"
     stable = sum(kind.startswith("stable") for kind in kinds)
     if stable == 0:
-        return say("none stable", kinds=counted)
+        return f"{sets} {say('not stable' if len(kinds) == 1 else 'none stable')}"
     if stable + cycles == 1:
-        return say("one stable", kinds=counted)
-    return say("several stable", kinds=counted, count=stable + cycles)
+        return f"{sets} {say('one stable')}"
+    return f"{sets} {say('several stable', count=count_word(stable + cycles))}"
 
 
 _MULTIPLE = {

@@ -4,6 +4,7 @@ The other rooms say them by `say`; `recognise` finds them again in a text, so th
 what motions do: a sentence without a check of its own is a failing test.
 """
 
+from .number_text import count_word as count_word
 from .number_text import power as power
 from .number_text import printed_sentence as printed_sentence
 from .number_text import subscript as subscript

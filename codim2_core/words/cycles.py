@@ -105,22 +105,22 @@ SENTENCES: dict[str, Sentence] = {
     ),
     "no cycle, turn": Sentence(
         (
-            "No limit cycle was found, but it is not proved that there is none. First turns about {about} were "
-            "sampled on a ray to the equator until resolved."
+            "No limit cycle was found, but it is not proved that there is none. Return maps about {about} were "
+            "sampled until they were resolved."
         ),
         "the search found none",
     ),
     "one cycle, turn": Sentence(
         (
-            "One limit cycle was found; it is not proved that there are no others. First turns about {about} "
-            "were sampled on a ray to the equator until resolved."
+            "One limit cycle was found; it is not proved that there are no others. Return maps about {about} were "
+            "sampled until they were resolved."
         ),
         "the search found one",
     ),
     "cycles, turn": Sentence(
         (
-            "{count} limit cycles were found; it is not proved that there are no others. First turns about "
-            "{about} were sampled on a ray to the equator until resolved."
+            "{count} limit cycles were found; it is not proved that there are no others. Return maps about "
+            "{about} were sampled until they were resolved."
         ),
         "the search found some",
     ),

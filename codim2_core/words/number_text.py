@@ -8,6 +8,14 @@ import re
 _LOWERED, _RAISED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉"), str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
+_COUNTS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+
+
+def count_word(number: int) -> str:
+    """Return a count as a word, up to twelve."""
+    return _COUNTS[number] if number < len(_COUNTS) else str(number)
+
+
 def subscript(number: int) -> str:
     """Return a number as lowered digits."""
     return str(number).translate(_LOWERED)

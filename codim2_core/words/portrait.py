@@ -29,13 +29,14 @@ SENTENCES: dict[str, Sentence] = {
     "all arrive": Sentence("Trajectories reach Σ along {which} limit directions.", "all radially attracting"),
     "all leave": Sentence("Trajectories leave Σ along {which} limit directions.", "all radially repelling"),
     "both": Sentence(
-        "Of {count} limit directions, trajectories reach Σ along {arriving} and leave it along {leaving}.", "both kinds"
+        "There are {count} limit directions: trajectories reach Σ along {arriving} and leave it along {leaving}.",
+        "both kinds",
     ),
     "some arrive": Sentence(
-        "Of {count} limit directions, trajectories reach Σ along {moving}.", "the others are neutral"
+        "There are {count} limit directions: trajectories reach Σ along {moving}.", "the others are neutral"
     ),
     "some leave": Sentence(
-        "Of {count} limit directions, trajectories leave Σ along {moving}.", "the others are neutral"
+        "There are {count} limit directions: trajectories leave Σ along {moving}.", "the others are neutral"
     ),
     "none moves": Sentence("The number of limit directions is {count}.", "every λ with index ρ is 0"),
     "neutral directions": Sentence(
@@ -79,20 +80,16 @@ SENTENCES: dict[str, Sentence] = {
     "no set found": Sentence(
         "No critical set was found, but it is not proved that there is none.", "none, the search left something open"
     ),
+    "only set": Sentence("The only critical set is {kinds}.", "one critical set"),
+    "sets": Sentence("There are {count} critical sets: {kinds}.", "several critical sets"),
     "sets unproved": Sentence(
-        "The critical sets found are {kinds}; it is not proved that there are no others.",
-        "some, the search left something open",
+        "It is not proved that there are no other critical sets.", "some, the search left something open"
     ),
-    "none stable": Sentence("The critical sets are {kinds}. None is stable.", "none stable"),
-    "one stable": Sentence(
-        "The critical sets are {kinds}. Exactly one of the ways to slide along Σ is stable.", "one stable"
-    ),
+    "none stable": Sentence("None is stable.", "several, none stable"),
+    "not stable": Sentence("It is not stable.", "one, not stable"),
+    "one stable": Sentence("Sliding along Σ is stable.", "one stable"),
     "several stable": Sentence(
-        (
-            "The critical sets are {kinds}. There are {count} ways to slide stably along Σ, and the approach "
-            "decides which."
-        ),
-        "several stable, cycles included",
+        "Sliding along Σ is stable in {count} ways, and the approach decides which.", "several stable, cycles included"
     ),
     # limit cycles that attract
     "stable cycle": Sentence(
@@ -119,7 +116,7 @@ SENTENCES: dict[str, Sentence] = {
         "the only zero of Θ is double",
     ),
     "single direction": Sentence(
-        "Only the trajectories exactly along {Q} arrive at it; those beside it turn to other directions.",
+        "Only the trajectory aimed exactly along {Q} arrives there; its neighbours turn away.",
         "radially attracting, angularly repelling",
     ),
     "spiral": Sentence(
@@ -138,7 +135,7 @@ SENTENCES: dict[str, Sentence] = {
         "{Q} repels radially: trajectories that turn towards it leave Σ.", "repels radially, not angularly"
     ),
     "turns away": Sentence(
-        "Trajectories that come in beside it turn away: crossing, in the words of Section 5.2.",
+        "Trajectories that come in next to it turn away: crossing, in the words of Section 5.2.",
         "radially repelling, angularly attracting, beside one that attracts radially",
     ),
     "all lead away": Sentence("Every direction leads away from Σ.", "Θ ≡ 0, U.e > 0"),

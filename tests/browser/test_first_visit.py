@@ -212,6 +212,13 @@ def test_the_headline_and_a_puck_that_moves_agree_in_words(open_page):
                 assert (puck == "still slipping") == ("once slip stops" in headline), one
 
 
+@pytest.mark.parametrize(("size", "longer"), [((1440, 900), False), ((1920, 1080), False), ((1024, 768), True)])
+def test_a_long_sentence_is_seen_whole_or_fades_where_it_goes_on(open_page, size, longer):
+    page = open_page(viewport=dict(zip(("width", "height"), size, strict=True))).open("?preset=case3-cycle")
+    cut = page.find(".sentence").evaluate("(it) => it.scrollHeight > it.clientHeight + 2")
+    assert (cut, "longer" in page.find(".sentence").get_attribute("class")) == (longer, longer)
+
+
 def test_a_push_that_cannot_be_held_breaks_loose(open_page):
     explorer = open_page().open("?v=1")
     explorer.find(".bench input").evaluate(

@@ -39,6 +39,8 @@ export class Bench {
     this.runs = 0
     this.of = "" // of which values the motion is that runs
     this.next = 0
+    this.told = ""
+    this.above = 0 // px that the words take
     this.before = "" // the verdict of the frame before
     this.slider.addEventListener("input", () => {
       const {p, q, push} = pushOf(values), [x, y] = push < 1e-9 ? [1, 0] : [p / push, q / push]
@@ -92,11 +94,12 @@ export class Bench {
     if (!w || !headline.own() || (!moment && this.root.classList.contains("opening"))) return
     if (!moment) this.way = this.middle
     svg.setAttribute("viewBox", `0 0 ${w} ${h}`)
-    setMarkup(svg, puckMarkup(w, h, this.shown, values))
     const slips = moment !== null && Math.hypot(...moment.slip) > CREEPS, stays = headline.verdict !== "slips" && headline.verdict !== "unheld"
     headline.moves(slips)
     const told = slips ? stays ? SAYS.still : SAYS.slipping : moment?.pace < STILL && !moment.done ? stays ? SAYS.atRest : SAYS.instant : headline.state
     say(this.words, moment?.pace < STILL && !moment.done ? `${told} · ${SAYS.slowed} ${Math.round(1 / moment.pace)}×` : told)
+    if (this.told !== told) { this.told = told; this.above = this.words.offsetHeight }
+    setMarkup(svg, puckMarkup(w, h, {...this.shown, above: this.above}, values))
     this.words.title = isFriction(values) ? "" : SAYS.activeTip
     svg.setAttribute("aria-label", `${SAYS.puckAbove}: ${told}`)
   }

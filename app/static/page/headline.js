@@ -50,7 +50,7 @@ export class Headline {
     const told = verdict && (push < 1e-12 || held > 0 && Number.isFinite(held))
     this.box.hidden = !told
     this.root.classList.toggle("headless", !this.own())
-    const how = {more: push > held, sure: verdict === "sticks" || push > held, friction: isFriction(this.values)}
+    const how = {more: push > held, sure: ["sticks", "circles"].includes(verdict) || push > held, friction: isFriction(this.values)}
     setMarkup(this.box, told ? pushSentence(push < 1e-12 ? "" : digits(push, 3), digits(held, 3), this.words, how) : "")
   }
 

@@ -26,7 +26,9 @@ export class Inspector {
   portrait({case: which, name, sentence, degeneracies, sides}) {
     say(this.find(".portrait-name"), name)
     say(this.find(".portrait-case"), which ? `Case ${which}` : "")
-    say(this.find(".sentence"), bare(sentence))
+    const box = this.find(".sentence")
+    say(box, bare(sentence))
+    box.classList.toggle("longer", box.scrollHeight > box.clientHeight + 2) // than its place: it fades, and is rolled
     setMarkup(this.find(".degeneracies"), degeneracies
       .map(([title, words]) => `<p class="warning"><b>${escape(title)}</b>. ${formula(words)}</p>`).join("") + besides(sides))
   }

@@ -37,6 +37,7 @@ export class Views {
     this.does = does
     this.box = root.querySelector(".views")
     this.at = -1
+    this.lent = false
     this.run = 0
     try { this.list = /** @type {View[]} */ (JSON.parse(localStorage.getItem(STORE) ?? "[]")) } catch { this.list = [] }
     const known = new Set(this.list.map((view) => JSON.stringify(view)))
@@ -57,6 +58,14 @@ export class Views {
     else this.write()
   }
 
+  /** The views of a lecture, in the place of one's own until the page is closed. @param {View[]} list */
+  lend(list) {
+    this.lent = true
+    this.list = structuredClone(list)
+    this.at = -1
+    this.write()
+  }
+
   keep() {
     const {values, first, name, seen} = this.does
     const set = Object.fromEntries(Object.entries(structuredClone(values)).filter(([key, value]) => JSON.stringify(value) !== JSON.stringify(first[key])))
@@ -71,7 +80,7 @@ export class Views {
   }
 
   store() {
-    try { localStorage.setItem(STORE, JSON.stringify(this.list)) } catch { /* they are kept until the page is closed */ }
+    try { if (!this.lent) localStorage.setItem(STORE, JSON.stringify(this.list)) } catch { /* they are kept until the page is closed */ }
     this.write()
   }
 

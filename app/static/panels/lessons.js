@@ -18,6 +18,7 @@ class Lessons {
     this.facts = {}
     this.asked = "" // which question waits for its answer, as in a link
     this.of = this.judged = "" // the question that was judged last, and with which answer
+    this.quiz = "" // that is drawn
     this.found = false // whether it was right
     this.misses = 0 // of that question
     this.aimed = null // where the arrow keys have moved the cross
@@ -40,6 +41,9 @@ class Lessons {
   draw() {
     this.tools.root.classList.toggle("in-lesson", Boolean(this.lesson?.key))
     this.showNumbers()
+    const {quiz} = this.tools.values, [i, , ...given] = quiz.split(".")
+    if (quiz !== this.quiz && quiz && !given.length && this.lesson?.key) this.openQuestion(Number(i))
+    this.quiz = quiz
     this.asks()
   }
 
@@ -49,6 +53,7 @@ class Lessons {
   show() {
     const {lesson} = this
     this.box.innerHTML = lesson.key ? this.page(lesson) : this.list(lesson.list)
+    this.box.classList.toggle("lecture", Boolean(lesson.lecture))
     this.ask()
     this.tools.cross(null)
     this.box.scrollTop = 0
@@ -63,18 +68,20 @@ class Lessons {
 
   list(entries) {
     const done = this.progress()
-    return `<h2>A course through the paper</h2><ol class="lesson-list">${entries.map((one) => {
+    const items = (/** @type {boolean} */ lecture) => entries.filter((one) => Boolean(one.lecture) === lecture).map((one) => {
       const {answered, complete} = progressOf(done, one.key, one.questions)
       return `<li><button type="button" data-open="${escape(one.key)}" data-values="${escape(JSON.stringify(one.values))}"><b>${escape(one.title)}</b>
         <span class="lesson-done" aria-label="${answered} of ${one.questions} answered">${complete ? "✓" : answered ? `${answered}/${one.questions}` : ""}</span>
         <span class="note">${escape(one.summary)}</span></button></li>`
-    }).join("")}</ol><div class="row"><button type="button" class="carry">Copy a link with your progress</button><input type="text" class="text carried-link" readonly aria-label="Link with your progress" hidden></div><p class="note carried" role="status"></p>`
+    }).join("")
+    const lectures = items(true)
+    return `<h2>A course through the paper</h2><ol class="lesson-list">${items(false)}</ol>${lectures && `<h2>Lectures</h2><ol class="lesson-list">${lectures}</ol>`}<div class="row"><button type="button" class="carry">Copy a link with your progress</button><input type="text" class="text carried-link" readonly aria-label="Link with your progress" hidden></div><p class="note carried" role="status"></p>`
   }
 
   page(lesson) {
     let question = -1
     const parts = lesson.parts.map((part) => "html" in part ? `<div class="lesson-text">${part.html}</div>` : this.card(part, ++question))
-    return `<div class="row lesson-head"><button type="button" data-open="">‹ All lessons</button><span class="note score"></span></div><h2>${escape(lesson.title)}</h2>${parts.join("")}`
+    return `<div class="row lesson-head"><button type="button" data-open="">‹ All lessons</button><span class="note score"></span></div><h2>${escape(lesson.title)}</h2>${lesson.lecture && this.tools.present ? `<div class="lead"><p class="note">${SAYS.lecture}</p><button type="button" class="present">${SAYS.present}</button></div>` : ""}${parts.join("")}`
   }
 
   card(part, i) {
@@ -94,19 +101,19 @@ class Lessons {
     this.aimed = null
     const seed = Math.floor(Math.random() * 1e6)
     this.tools.choose("quiz", `${i}.${seed}`)
-    this.openQuestion(i)
     this.section(i)?.scrollIntoView({block: "nearest"})
   }
 
   openQuestion(i) {
     const section = this.section(i)
     if (!section) return
+    for (const one of this.box.querySelectorAll(".question")) one.classList.toggle("posed", one === section)
     section.querySelector(".begin").textContent = "Another one"
     section.querySelector(".options").hidden = false
     section.querySelector(".verdict").innerHTML = ""
     const vary = section.querySelector(".vary")
     if (vary) vary.hidden = true
-    for (const option of section.querySelectorAll("[data-choice]")) { option.classList.remove("right", "wrong"); option.disabled = false }
+    for (const option of section.querySelectorAll("[data-choice]")) { option.classList.remove("right", "wrong"); option.disabled = false; option.dataset.count = "" }
     this.tools.cross(null)
     this.asks()
   }
@@ -154,6 +161,7 @@ class Lessons {
       option.classList.toggle("right", k === truth && !open)
       option.classList.toggle("wrong", k === choice && k !== truth)
       option.disabled = !open
+      if (!open) this.bar(option, i, k)
     }
     if (open && this.misses > 1 && clue) clue.open = true
     section.querySelector(".verdict").innerHTML = `<p><b>${right ? "Right." : "Not quite."}</b> ${open ? this.misses > 1 && clue ? SAYS.tryHint : SAYS.tryAgain : lowerIndices([why, explain].filter(Boolean).join(" "))}</p>`
@@ -161,6 +169,13 @@ class Lessons {
     if (vary) vary.hidden = open
     section.querySelector(".verdict").scrollIntoView({block: "nearest"})
     if (right && this.misses < TRIES) this.keep(i, "answer")
+  }
+
+  // Once the lecturer has answered, how many of the phones in the room have chosen the same.
+  bar(option, i, k) {
+    const answered = (this.tools.crowd() ?? []).map((row) => row[3]).filter((one) => one?.[0] === this.lesson.title && one[1] === i), count = answered.filter((one) => one[3] === k).length
+    option.dataset.count = answered.length ? String(count) : ""
+    option.style.setProperty("--share", `${100 * count / (answered.length || 1)}%`)
   }
 
   /** Whether the question waits for an answer, or for a better one. */
@@ -264,6 +279,7 @@ class Lessons {
     } else if ("set" in button.dataset) this.tools.open({...JSON.parse(button.dataset.set), panel: "lessons"})
     else if ("choice" in button.dataset) this.answer(i, Number(button.dataset.choice))
     else if (button.classList.contains("carry")) this.carry()
+    else if (button.classList.contains("present")) this.tools.present?.(this.lesson.key)
     else if (button.classList.contains("begin")) this.begin(i)
     else if (button.classList.contains("aim")) this.section(i).querySelector(".verdict").textContent = SAYS.aim
   }

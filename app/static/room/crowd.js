@@ -2,8 +2,8 @@
 
 /**
  * A phone: its number, the name of its portrait, what of its settings is other than at first (null if that is too long
- * to be sent), and the lesson that is open: its title, the question answered last or −1, and whether rightly.
- * @typedef {[number, string, Record<string, any> | null, [string, number, boolean] | null]} Row
+ * to be sent), and the lesson that is open: its title, the question answered last or −1, whether rightly, and with which option.
+ * @typedef {[number, string, Record<string, any> | null, [string, number, boolean, number?] | null]} Row
  * @typedef {Record<string, any>} Values
  */
 

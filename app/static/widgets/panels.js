@@ -26,6 +26,7 @@
  * @property {string[]} setting names of the controls that say what is drawn
  * @property {Record<string, any>} families of Psi
  * @property {() => Record<string, number>} parameters of the present system, all of them
+ * @property {((key: string) => void) | null} present a lecture in a window of its own; null where there is none
  * @property {(slip: number[] | null) => void} slips how the puck next to the picture slips; null leaves it to itself
  * @property {(question: {hide: string[], mark: ((place: {x: number, y: number}) => void) | null} | null) => void} ask a
  *   question: layers and words that would tell its answer are hidden, and `mark` is called for a click on the picture; null

@@ -14,7 +14,7 @@ const SPEED = 0.3 // time in a second
 export const GRIP = 26 // px around the tip of the push that take hold of it
 
 /** @typedef {{a: number, b: number, d: number, f1: number, f2: number, z: number, k1: number, k2: number}} Plane */
-/** @typedef {{push: number[], friction: number[] | null, slip: number[] | null, at?: number[], name?: string}} Shown */
+/** @typedef {{push: number[], friction: number[] | null, slip: number[] | null, at?: number[], name?: string, above?: number}} Shown */
 
 /** The largest friction that A can give. @param {{a: number, b: number, d: number}} plane */
 export function largestFriction({a, b, d}) {
@@ -68,7 +68,8 @@ export function puckMarkup(width, height, shown, plane) {
   const side = Math.min(width, height), r = PUCK * side, size = Math.max(LEAST, Math.min(MOST, LETTERS * side)), [x, y] = shown.at ?? [width / 2, height / 2]
   const arrows = arrowsOf(shown, side, plane), space = new Space(width, height), n = (/** @type {number} */ v) => v.toFixed(1)
   space.box([x, y, 2 * r, 2 * r])
-  space.box([width / 2, size / 2 + 7, width, size + 8]) // what is said of it
+  const above = Math.max(size, shown.above ?? 0)
+  space.box([width / 2, above / 2 + 7, width, above + 8]) // what is said of it
   const w = Math.max(THIN, WIDE * side), from = (/** @type {string} */ kind) => kind === "slip" ? r : 0 // slip begins at the rim
   const placed = arrows.map((one) => {
     const length = Math.hypot(one.x, one.y), u = one.x / length, v = one.y / length, base = from(one.kind), far = base + length, h = Math.min(HEAD * w, 0.7 * length)

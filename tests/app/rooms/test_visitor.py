@@ -52,7 +52,7 @@ def test_what_a_lecturer_sees_of_a_phone(fresh):
     assert same == number
     assert settings["system"] == "own"
     assert settings["parameters"] == dict(phone.frames.scene.system.parameters) != {}
-    assert lesson == [lessons()[key].title, -1, False]
+    assert lesson == [lessons()[key].title, -1, False, -1]
     phone.visitor.leave()
     fresh.tick()
     assert lecturer.heard[-1] == {"rows": []}
@@ -95,11 +95,11 @@ def test_a_row_is_the_name_the_settings_and_the_lesson(fresh):
     key, other = list(lessons())[:2]
     title = lessons()[key].title
     assert row_of(fresh) == ["CM4", {}, None]
-    assert row_of(fresh, lesson=key) == ["CM4", {}, [title, -1, False]]
-    assert row_of(fresh, (key, 2, True), lesson=key)[2] == [title, 2, True]
-    assert row_of(fresh, (key, 0, False), lesson=key)[2] == [title, 0, False]
-    assert row_of(fresh, (other, 2, True), lesson=key)[2] == [title, -1, False]
-    assert row_of(fresh, (key, 2, True))[2] is None
+    assert row_of(fresh, lesson=key) == ["CM4", {}, [title, -1, False, -1]]
+    assert row_of(fresh, (key, 2, True, 1), lesson=key)[2] == [title, 2, True, 1]
+    assert row_of(fresh, (key, 0, False, 2), lesson=key)[2] == [title, 0, False, 2]
+    assert row_of(fresh, (other, 2, True, 1), lesson=key)[2] == [title, -1, False, -1]
+    assert row_of(fresh, (key, 2, True, 1))[2] is None
 
 
 def test_of_a_system_with_formulas_all_parameters_are_told(fresh):

@@ -25,10 +25,10 @@ def test_names_of_the_examples():
     assert found.case is None
     assert found.name == "2 critical sets, 6 limit directions"
     assert found.degeneracies == ()
-    assert "reach Σ along 5 and leave it along 1" in found.sentence
-    assert "one of the ways to slide" in found.sentence
+    assert "reach Σ along five and leave it along the other" in found.sentence
+    assert "Sliding along Σ is stable." in found.sentence
     assert classify(NONUNIQUE, RATIONAL, 0.4).name == "3 critical sets, 8 limit directions"
-    assert "2 ways to slide stably" in classify(NONUNIQUE, RATIONAL, 0.4).sentence
+    assert "stable in two ways" in classify(NONUNIQUE, RATIONAL, 0.4).sentence
     assert classify(NONUNIQUE, RATIONAL, 1.0).name == "3 critical sets, 4 limit directions"
 
 

@@ -7,7 +7,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.words import recognise, written_label
+from codim2_core.words import count_word, recognise, written_label
 
 FAMILIES = (psi.constant(), psi.rational(), psi.hill(3.0), psi.tanh(), psi.exponential())
 
@@ -29,10 +29,10 @@ def held(system, family, z=()):
         assert all(C.kind in said.sentence for C in critical), text
         return len(cycles)
     ways = stable + sum(cycle.stable for cycle in cycles)
-    assert ("none stable" in keys) == (stable == 0), text
+    assert bool({"none stable", "not stable"} & keys.keys()) == (stable == 0), text
     assert ("one stable" in keys) == (stable == ways == 1), text
     if stable and ways > 1:
-        assert int(keys["several stable"]["count"]) == ways, text
+        assert keys["several stable"]["count"] == count_word(ways), text
     return len(cycles)
 
 

@@ -147,7 +147,7 @@ test("a click or tap on an object pins it, a drag from there launches, and a lau
 
 test("one line says how C slides, out of the page or into it", () => {
   const words = {}
-  const inspector = new Inspector({querySelector: (name) => words[name] ??= {textContent: "", innerHTML: ""}})
+  const inspector = new Inspector({querySelector: (name) => words[name] ??= {textContent: "", innerHTML: "", classList: {toggle() {}}}})
   const line = (flow) => { inspector.apply({slow_flow: flow}); return words[".slow-line"].textContent }
   assert.equal(line([0.5]), "z′ = 0.500 on C, ⊙ z increases")
   assert.equal(line([-1.5, 2]), "z₁′ = −1.500, z₂′ = 2.000 on C, ⊗ z₁ decreases")

@@ -26,7 +26,7 @@ test("it says what becomes of the push, by the kind of C", () => {
   assert.equal(says([]), "slips")
   assert.match(says(["saddle"]), /only by luck/)
   assert.match(says(["unstable focus"]), /slips/)
-  assert.match(says(["unstable focus"], ["stable"]), /turns round and round/)
+  assert.match(says(["unstable focus"], ["stable"]), /goes on turning/)
   assert.match(shown({...VALUES, f1: 9}, []).box.textContent, /^You push with 9\.\d+\. Friction can hold only 2\.\d\d this way, so it slips\.$/)
   assert.equal(shown({...VALUES, f1: -0.5, f2: 0}).box.textContent, "Nothing pushes, so it sticks.")
   assert.match(shown({...VALUES, a: 1}).box.textContent, /The contact can hold/)

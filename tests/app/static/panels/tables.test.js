@@ -247,9 +247,9 @@ test("the panel lessons: a question hides, asks, judges and remembers", () => {
   one.said()
   const section = (i) => one.find(`[data-question="${i}"]`)
   one.fire(section(1).querySelector(".begin"), "click")
-  assert.deepEqual(one.said(), [["choose", "quiz", "1.250000"], ["ask", []], ["cross", null]])
+  assert.deepEqual(one.said(), [["choose", "quiz", "1.250000"], ["cross", null], ["ask", []]])
   one.fire(section(0).querySelector(".begin"), "click")
-  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000"], ["ask", ["critical"]], ["cross", null]])
+  assert.deepEqual(one.said(), [["choose", "quiz", "0.250000"], ["cross", null], ["ask", ["critical"]]])
   one.frame({facts: {name: "CM2"}})
   assert.equal(one.find("[data-fact]").textContent, "?") // it would tell the answer
   assert.deepEqual([section(0).querySelector(".options").hidden, section(0).querySelector(".vary").hidden, section(0).querySelector(".begin").textContent], [false, true, "Another one"])
