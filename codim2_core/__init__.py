@@ -3,7 +3,7 @@
 Follows N. Cheesman, K. Uldall Kristiansen and S. J. Hogan, "Regularisation of isolated codimension-2
 discontinuity sets". Numbers in docstrings, such as (2.7) or Theorem 3.1, are the paper's.
 
-A public name is imported when it is first asked for (PEP 562): a program loads what it uses.
+A public name is imported when it is first requested (PEP 562): a program loads what it uses.
 """
 
 from typing import TYPE_CHECKING

@@ -358,7 +358,7 @@ def checked_functions(
 
 
 def checked_times(times: ArrayLike | None, span: tuple[float, float]) -> Array | None:
-    """Check the times at which states are asked for: (k,), ascending, or descending where the span is."""
+    """Check the times at which states are requested: (k,), ascending, or descending where the span is."""
     if times is None:
         return None
     asked = np.array(times, float)

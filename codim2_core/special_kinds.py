@@ -18,32 +18,15 @@ TestFunction = Callable[[Any, Any], Any]  # of two numbers of an object, or arra
 
 @dataclass(frozen=True, slots=True)
 class SpecialKind:
-    """A kind of special value.
+    """A kind of special value."""
 
-    Attributes
-    ----------
-    kind : str
-        Its name.
-    function : callable
-        Of tr J and det J, or of lambda_rho and lambda_theta: it goes through zero there.
-    holds : callable
-        Of the same: whether a zero is of this kind.
-    says, when : str
-        The sentence for people, and when it is said.
-    label : str
-        The paper's label.
-    parts : bool
-        Whether a critical set has another name on the other side.
-    of : {"critical set", "limit direction"}
-    """
-
-    kind: str
-    function: TestFunction
-    holds: TestFunction
-    says: str
+    kind: str  # its name
+    function: TestFunction  # of tr J and det J, or of lambda_rho and lambda_theta: it goes through zero there
+    holds: TestFunction  # of the same: whether a zero is of this kind
+    says: str  # the sentence for people, and when it is said
     when: str
-    label: str
-    parts: bool = False
+    label: str  # the paper's label
+    parts: bool = False  # whether a critical set has another name on the other side
     of: Literal["critical set", "limit direction"] = "critical set"
 
 

@@ -17,7 +17,7 @@ def table_number(value: float) -> str:
 
 
 def point(values: Iterable[float]) -> str:
-    """Return the coordinates of a point; a dash if there are none. What is rounding beside the largest is 0."""
+    """Return the coordinates of a point; a dash if there are none. What is rounding next to the largest is 0."""
     values = list(values)
     least = NEGLIGIBLE * max(map(abs, values), default=0.0)
     shown = ", ".join(table_number(0.0 if abs(value) < least else value) for value in values)

@@ -65,7 +65,7 @@ class Drawing:
         return self
 
     def text(self, at: Any, said: str, anchor: str = "start", off: tuple[float, float] = (6.0, -6.0)) -> Drawing:
-        """Write a word beside a place."""
+        """Write a word next to a place."""
         [[u, v]] = self.points(at).tolist()
         self.parts.append(words(u + off[0], v + off[1], escape(said), TEXT, anchor))
         return self

@@ -21,7 +21,7 @@ from .drawing import LYING, SPACE, Drawing
 
 #: A system whose limit vectors have two candidates of the Filippov convention, v₁₃ = (0, 0, 1) and v₂₄ = (0, 0, −1).
 SADDLE_OF_VECTORS = c2.System(U=("-c", "-s"), W=("c**2 - s**2",))
-#: Portraits with a node, a saddle, and two nodes beside a saddle.
+#: Portraits with a node, a saddle, and two nodes next to a saddle.
 THREE = ("case1-cm2", "case2-saddle", "nonunique-sliding")
 _SPAN = np.linspace(-1.0, 1.0, 201)
 

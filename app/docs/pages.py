@@ -171,7 +171,10 @@ def _html_of(text: str) -> str:
     """Return Markdown with MyST's directives as HTML."""
     for pattern, plain in _REWRITTEN:
         text = pattern.sub(plain, text)
-    return _reader().render(text)
+    html = _reader().render(text)  # what scrolls is reached by keyboard
+    for plain in ("<pre>", "<table>", '<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">'):
+        html = html.replace(plain, f'{plain[:-1]} tabindex="0">')
+    return html
 
 
 @cache

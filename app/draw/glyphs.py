@@ -24,7 +24,7 @@ Points = NDArray[np.float64]
 #: Smallest angle between two labels around the circle, in radians, so that Q1 and Q2 stay readable.
 LABEL_GAP = 0.16
 LABEL_RADIUS = 1.11
-#: A label stands beside its direction, since the θ-nullcline runs along it.
+#: A label stands next to its direction, since the θ-nullcline runs along it.
 LABEL_TURN = 0.095
 #: Marks of critical sets: shape, and whether it is filled. Stable is filled, a node a square, a focus a circle.
 CRITICAL_MARKS = {

@@ -64,7 +64,7 @@ class Layer:
     Attributes
     ----------
     name, words : str
-        Of its control, and beside it.
+        Of its control, and next to it.
     height : int
         Layers are painted from low to high.
     parts : tuple of Part
@@ -73,7 +73,7 @@ class Layer:
     swatch : str
         Declarations of the legend's mark; default a stroke in the look of its first part.
     hidden : bool
-        Until it is asked for.
+        Until it is requested.
     compiled : bool
         Made by the compiled integrator: until that is ready it is left out.
     tip : str

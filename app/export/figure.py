@@ -1,4 +1,4 @@
-"""A figure for print: the picture as SVG with a legend, and, where asked for, ticks, a title and a caption.
+"""A figure for print: the picture as SVG with a legend, and, where requested, ticks, a title and a caption.
 
 The picture itself is `draw.svg.content`, which draws the page's first picture too. Lengths are points (1/72 inch).
 """
@@ -44,7 +44,7 @@ CODE = 64.0  # of a QR code
 
 @dataclass(frozen=True)
 class Style:
-    """The look of a figure: size, theme, letters, and what is written beside it.
+    """The look of a figure: size, theme, letters, and what is written next to it.
 
     Attributes
     ----------
@@ -55,7 +55,7 @@ class Style:
     legend, labels, ticks, title, caption : bool
         What stands in and around the picture besides.
     link : str
-        An address, as a QR code beside the caption.
+        An address, as a QR code next to the caption.
     """
 
     size: float = 120.0
@@ -163,7 +163,7 @@ def _legend_columns(shown: list[Entry], side: float) -> list[tuple[float, list[E
     lines = sum(entry.part is not None for entry in shown)
     found: list[tuple[float, list[Entry]]] = []
     for rows in (math.ceil(len(shown) / 3), math.ceil(len(shown) / 2), max(lines, len(shown) - lines), len(shown)):
-        cut = lines if rows == max(lines, len(shown) - lines) else rows  # lines beside marks, whose words are longer
+        cut = lines if rows == max(lines, len(shown) - lines) else rows  # lines next to marks, whose words are longer
         found, x = [], 2.0
         for first, last in [(0, cut), *((k, k + rows) for k in range(cut, len(shown), max(1, rows)))]:
             column = shown[first:last]

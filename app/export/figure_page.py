@@ -1,4 +1,4 @@
-"""A page with one picture, whose place an explorer without a server takes: what `codim2 static` wrote is beside it."""
+"""A page with one picture, whose place an explorer without a server takes: what `codim2 static` wrote is next to it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A film of play: the dot of a launched orbit runs along it, the portrait beside x and y over time.
+"""A film of play: the dot of a launched orbit runs along it, the portrait next to x and y over time.
 
 The portrait and the chart are drawn once, by Typst; the dots are put on by Pillow.
 """

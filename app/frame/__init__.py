@@ -1,1 +1,1 @@
-"""One frame under way: its scene, its neighbours, and the jobs beside it."""
+"""One frame under way: its scene, its neighbours, and the jobs next to it."""

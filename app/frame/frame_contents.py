@@ -27,7 +27,7 @@ from .window import Window
 
 Blocks = dict[str, NDArray[Any] | Polylines]
 
-#: In place of a layer: it is computed beside the frames; it is left out.
+#: In place of a layer: it is computed next to the frames; it is left out.
 LATER, NOT_DRAWN = object(), object()
 
 
@@ -48,7 +48,7 @@ def violated_conditions(psi: Psi) -> str:
 
 
 class RequestedLayers:
-    """The layers of a scene as a frame asks for them: which are to be computed beside it, and which are left out."""
+    """The layers of a scene as a frame asks for them: which are to be computed next to it, and which are left out."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -84,7 +84,7 @@ def make_frame(
     """Return header and blocks of one frame, and what the browser then holds.
 
     Only visible layers are computed, and only those whose result is another object than the one in `sent` are
-    packed. `scene` shares results that a change does not reach, so that identity is the whole test. The panel beside
+    packed. `scene` shares results that a change does not reach, so that identity is the whole test. The panel next to
     the picture is added by `panels.registry.add`. Layers that are not to be had now stay as they are in the browser,
     and are noted in `asked`; of those that are left out nothing is drawn.
     """

@@ -38,7 +38,7 @@ class FrameContext:
     locked : tuple of str
         Controls that the system does not have.
     missing : list of str
-        Layers of the scene that are to be computed beside the frames, as they have been asked for in vain.
+        Layers of the scene that are to be computed next to the frames, as they have been requested in vain.
     left_out : list of OmittedLayer
         Layers of the scene that are not drawn of this system, and why; told below the picture.
     """
@@ -78,7 +78,7 @@ class FrameContext:
     def slow(self, name: str, key: Hashable, make: Callable[..., Any], *arguments: Any) -> Any:
         """Return a slow result, ``make(*arguments)``, if the browser lacks it and it is there.
 
-        It is asked for once nothing moves; see `Jobs.ask` for what may be asked for. A computation that fails is told
+        It is requested once nothing moves; see `Jobs.ask` for what may be requested. A computation that fails is told
         in ``header["unable"]``, by name, and None is returned.
         """
         if self.now.get(name) == key:

@@ -1,4 +1,4 @@
-"""A fair queue for workers: browsers take turns, so that nobody waits for all that another has asked for.
+"""A fair queue for workers: browsers take turns, so that nobody waits for all that another has requested.
 
 What several ask for is computed once, and stopped when none of them wants it any more. Where it is computed is an
 executor's affair: a thread in a notebook, processes on a server, or the host's own (`WorkQueue(executor, at_once)`).

@@ -1,4 +1,4 @@
-"""Processes that work beside the frames: none holds up another by its interpreter lock, and each can be stopped."""
+"""Processes that work next to the frames: none holds up another by its interpreter lock, and each can be stopped."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ EARLY_RATIO = 3.0
 NICE = 5
 #: Bytes by which a worker may grow: each formula that is typed leaves about 2.5 MB, which Numba never gives back.
 MAX_GROWTH_BYTES = 400_000_000
-#: Bytes that a worker may ask for beside what it begins with: a work that needs more fails, alone.
+#: Bytes that a worker may ask for next to what it begins with: a work that needs more fails, alone.
 MAX_WORK_BYTES = 2_000_000_000
 #: What is added to a worker's share of the machine's memory, in thousandths, where the system looks for one to end:
 #: it takes a worker, and not what answers visitors.

@@ -1,4 +1,4 @@
-"""Facts of a scene that a lesson can ask about: each computed by the core, when it is asked for.
+"""Facts of a scene that a lesson can ask about: each computed by the core, when it is requested.
 
 To add a fact is one entry of `FACTS`.
 """

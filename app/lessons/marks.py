@@ -46,7 +46,7 @@ MARKS: dict[str, tuple[str, Callable[[Scene], list[Point]]]] = {
         _direction_marks(lambda equator: (equator.lambda_rho < 0.0) & (equator.lambda_theta < 0.0)),
     ),
 }
-#: Those that lie on the equator: a mark beside it counts by its angle.
+#: Those that lie on the equator: a mark next to it counts by its angle.
 EQUATOR_MARKS = frozenset({"limit_directions", "arriving", "leaving", "along_an_open_set"})
 
 

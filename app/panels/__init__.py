@@ -1,1 +1,1 @@
-"""Panels beside the picture, a module each."""
+"""Panels next to the picture, a module each."""

@@ -24,7 +24,7 @@ PSI = constructors.constant()  # a portrait's name is the same under every other
 
 
 def add(draft: FrameContext) -> None:
-    """Add the census that is asked for, then the portraits of its examples, once nothing moves."""
+    """Add the census that is requested, then the portraits of its examples, once nothing moves."""
     key = draft.values["census"], draft.values["census_size"]
     found = draft.slow("census", key, _census_rows, *key)
     if found is not None:

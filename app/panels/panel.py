@@ -1,4 +1,4 @@
-"""The interface of a panel beside the picture."""
+"""The interface of a panel next to the picture."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The panels beside the picture: what the open one is sent in a frame. A closed panel costs nothing.
+"""The panels next to the picture: what the open one is sent in a frame. A closed panel costs nothing.
 
-What is cheap goes with every frame. What is slower is computed beside the frames (`frame.background_results`) once the
+What is cheap goes with every frame. What is slower is computed next to the frames (`frame.background_results`) once the
 controls rest; until the browser has it, its name is in ``header["late"]``, and the panel shows that it has old results.
 """
 
@@ -16,7 +16,7 @@ from ..state.controls import set_options
 from . import challenge
 from .panel import Panel
 
-#: Modules beside this one that end with a `PANEL`, in the order of the tabs: a new panel is one more name here.
+#: Modules next to this one that end with a `PANEL`, in the order of the tabs: a new panel is one more name here.
 MODULES = (
     "lessons", "parameters.atlas", "numbers", "orbits", "parameters.planes", "parameters.diagram", "theorems", "along",
     "solid", "parameters.response", "psi", "census",

@@ -78,7 +78,7 @@ class Page(RequestHandler):
         shown = explorer_html(link.state, {}, (), link.look, docs=True)
         if first is not None:
             shown = markup_of_frame(link, first, docs=True)
-        text = _page_frame().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is asked for whole
+        text = _page_frame().replace(f'content="{PREVIEW}"', f'content="{here}/{PREVIEW}"')  # it is requested whole
         page = text.replace(MARKUP, shown).encode()
         made = page, gzip.compress(page, 6, mtime=0), policy(page, self.ancestors)
         if key in self.places.firsts:

@@ -164,7 +164,7 @@ class LiveConnection(WebSocketHandler):
     def initialize(self, places: LivePages) -> None:
         """Take what `make_server` gives."""
         self.places, self.address = places, visitor_of(self.request)
-        self.heard = time.monotonic()  # when it asked for something last
+        self.heard = time.monotonic()  # when it requested something last
         self.answers: AnswerQueue | None = None
         self._request: dict[str, Any] | None = None  # for a frame, with all that has been set since the last one
         self._asked: deque[Callable[[], None]] = deque()  # in the order in which it came; `_request` is one of them
@@ -205,7 +205,7 @@ class LiveConnection(WebSocketHandler):
         self._write(first)
 
     def on_message(self, message: str | bytes) -> None:
-        """Note what is asked for; it is answered in this page's turn."""
+        """Note what is requested; it is answered in this page's turn."""
         self.heard = time.monotonic()
         try:
             request = json.loads(message) if isinstance(message, str) else None
@@ -238,7 +238,7 @@ class LiveConnection(WebSocketHandler):
             self.places.rota.ask(self)
 
     def turn(self) -> None:
-        """Answer what has been asked for longest, a request for a frame by its newest values."""
+        """Answer what has been requested longest, a request for a frame by its newest values."""
         if self._asked:
             self._asked.popleft()()
             self._ask()

@@ -13,7 +13,7 @@ from codim2_core.figures.presets import presets
 from codim2_core.scene import Scene
 
 from ..export import export_request  # noqa: F401 (what a browser takes away is made there)
-from ..panels import registry  # noqa: F401 (its panels' functions are what is asked for)
+from ..panels import registry  # noqa: F401 (its panels' functions are what is requested)
 from ..view import extensions
 from .kernel_cache import prepare
 

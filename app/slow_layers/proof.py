@@ -11,7 +11,7 @@ from codim2_core.words import printed_sentence
 
 
 def proof(scene: Scene) -> bytes:
-    """Search for a proof; return, as JSON, what `Proof` holds, and the text of the checker beside a certificate."""
+    """Search for a proof; return, as JSON, what `Proof` holds, and the text of the checker next to a certificate."""
     found = proof_of(scene.problem)
     checker = None if found.certificate is None else Path(found.checker()).read_text(encoding="utf-8")
     return json.dumps(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 #: Coefficients of the normal form: f(z) = f + z k, z' = B e + g.
 COEFFICIENTS = ("a", "b", "d", "f1", "f2", "k1", "k2", "B1", "B2", "g0")
-#: Panels beside the picture by the name of their script; `panels.registry` knows their tabs, and offers further ones.
+#: Panels next to the picture by the name of their script; `panels.registry` knows their tabs, and offers further ones.
 PANEL_NAMES = tuple(sorted(path.stem for path in (Path(__file__).parents[1] / "static" / "panels").glob("*.js")))
 #: What a bifurcation diagram can run along, and what the axes of the atlas can be.
 SLIDER_AXES = ("a", "b", "d", "f1", "f2", "z", "z2", "z3", "z4", "n")

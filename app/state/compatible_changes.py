@@ -33,7 +33,7 @@ def compatible_changes(
             try:
                 attempt({**had, name: good[name]})
                 had[name] = good[name]
-            except Exception as error:  # told beside the control that it is of
+            except Exception as error:  # told next to the control that it is of
                 failed[name] = error
         if len(failed) == len(left):
             break
@@ -42,7 +42,7 @@ def compatible_changes(
 
 
 def culprit(error: Exception, name: str) -> str:
-    """Return the control beside which an error is told: of typed formulas the box, else `name`."""
+    """Return the control next to which an error is told: of typed formulas the box, else `name`."""
     if isinstance(error, InputError):
         return error.control
     word = str(error).partition(" ")[0]  # what is wrong with one formula begins with its name; W holds W1, W2, …

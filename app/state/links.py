@@ -24,7 +24,7 @@ from .controls import CONTROL_NAMES, ExplorerState, preset_values
 from .system_opening_values import opening_values
 
 VERSION = 1
-#: What a link of each version leaves out. A release that opens otherwise gets a new version beside these.
+#: What a link of each version leaves out. A release that opens otherwise gets a new version next to these.
 DEFAULTS_BY_VERSION: Mapping[int, Mapping[str, Any]] = MappingProxyType(
     {
         1: {
@@ -68,7 +68,7 @@ class PageView:
     controls : tuple of str
         Names of controls, slow variables and parameters that an embedded page shows.
     beamer : int
-        1, for the beamer: the picture fills the page, with large letters; 2: with a panel beside it. An embedded page
+        1, for the beamer: the picture fills the page, with large letters; 2: with a panel next to it. An embedded page
         has no such mode.
     lift : bool
         The picture is lifted onto the hemisphere.

@@ -41,7 +41,7 @@ GLOSSARY: tuple[tuple[str, str], ...] = (
     ("CM, NCM", "names of this explorer: critical set, no critical set; the number counts limit directions"),
     ("τ, T", "fast times: dT = dt/|(x, y, ε)| in the picture, dt = ε dτ for the periods of limit cycles"),
 )
-#: How the picture is read, beside it: a mark (a path in a square of 14, its classes, or text) and what it means.
+#: How the picture is read, next to it: a mark (a path in a square of 14, its classes, or text) and what it means.
 MARKS: tuple[tuple[str, str, str], ...] = (
     ("M7 1A6 6 0 1 0 7 13A6 6 0 1 0 7 1Z", "m ink", "equator: inside the layer problem, outside radius 1 + ρ"),
     ("M1 7H9M5 3L10 7L5 11Z", "m ink fill", "time"),

@@ -17,7 +17,7 @@ from ..state.cleaning import InputError
 
 
 def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
-    """Say what was asked for in vain: parameters and boxes that the system has not, a lesson, a motion's start."""
+    """Say what was requested in vain: parameters and boxes that the system has not, a lesson, a motion's start."""
     said = []
     system = scene.system
     if not isinstance(system, (ELinear, System)):

@@ -67,7 +67,7 @@ class Frames:
         Says whether all layers of this Psi and system can be drawn without waiting, also while a control may be moving;
         until then trajectories are left out.
     errors : sequence of InputError
-        What the address asked for in vain, told with the first frames.
+        What the address requested in vain, told with the first frames.
     budget : Budget, optional
         What may be computed here and now, where others wait meanwhile; by default everything.
     """
@@ -84,7 +84,7 @@ class Frames:
         self.budget = budget
         self.given = None if system is None else dict(system.parameters)
         self.own = system
-        #: What was asked for last and could not be drawn, by control, as it was given; asked for again with each frame.
+        #: What was requested last and could not be drawn, by control, as it was given; requested again with each frame.
         self.refused: dict[str, Any] = {e.control: e.given for e in errors if e.control in TYPED_IN}
         self._notices = [str(error) for error in errors if error.control not in TYPED_IN]
         self._unpublished: dict[str, Any] = {}
@@ -261,7 +261,7 @@ class Frames:
         return header, blocks
 
     def _add_sides(self, header: dict[str, Any], scene: Scene, values: Mapping[str, Any]) -> None:
-        """Add what lies on both sides of a degenerate setting; of typed formulas it is computed beside the frames."""
+        """Add what lies on both sides of a degenerate setting; of typed formulas it is computed next to the frames."""
         if self.budget is None or self.budget.is_bounded(scene):
             header["portrait"]["sides"] = neighbouring_portraits(scene, values, self._moved)
             return
@@ -273,7 +273,7 @@ class Frames:
             (header["portrait"]["sides"],) = found
 
     def _compute_beside(self, scene: Scene, missing: Sequence[str], header: dict[str, Any]) -> bool:
-        """Have layers computed beside the frames; say whether they are there."""
+        """Have layers computed next to the frames; say whether they are there."""
         assert self.budget is not None  # it says what is missing
         names = tuple(dict.fromkeys(missing))
         known = {name: result for name, result in scene.results().items() if name in names or name in STANDING}
@@ -299,7 +299,7 @@ class Frames:
 
     @property
     def pending(self) -> Future[Any] | None:
-        """Return the future of the layers that are computed beside the frames, if the picture waits for any."""
+        """Return the future of the layers that are computed next to the frames, if the picture waits for any."""
         return self.jobs.future("picture")
 
     def _tell_system(

@@ -24,7 +24,7 @@ from .compiling.process import CompilerProcess
 GENERAL = "kernels of general systems"
 
 #: Seconds for which a server's kernels wait for somebody to ask for the first page, and, if so, at most for it to be
-#: sent: it needs none of them, and is half as fast beside them.
+#: sent: it needs none of them, and is half as fast next to them.
 POLL_SECONDS, MAX_WAIT_SECONDS = 1.0, 20.0
 #: Seconds between two looks for a kernel on the disk.
 LOOK_SECONDS = 0.5
@@ -43,7 +43,7 @@ done: tuple[int, int] | None = None
 
 
 def page_asked() -> None:
-    """Say that a page has been asked for: for the first one, kernels that are not begun yet stand back."""
+    """Say that a page has been requested: for the first one, kernels that are not begun yet stand back."""
     _page_asked.set()
 
 

@@ -204,7 +204,7 @@ def with_connections(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> 
     """Return an atlas with the connections of its saddles, of the same system, psi and z; they cut no region.
 
     Those are loops of critical sets that are saddles, heteroclinic cycles through the equator, and single connections.
-    They are begun where the branches of two saddles change sides on some lines across the plane, and beside
+    They are begun where the branches of two saddles change sides on some lines across the plane, and next to
     Bogdanov-Takens points and saddle-nodes on the equator: a curve that meets none of these is missed, and so is an
     orbit that winds about on its way.
     """

@@ -16,7 +16,7 @@ from ..curves.polyline import distance
 from ..diagrams.classes import classes_over
 from ..families.family import SystemFamily
 
-MAX_PLACES = 4  # beside which a border is looked for
+MAX_PLACES = 4  # next to which a border is looked for
 FIRST_REACH, MAX_REACH = 1e-3, 0.6  # of the square, along each axis
 KNOWN_DISTANCE = 4e-3  # of the square: a border that lies so near to a curve, or to another border, is known
 BORDER_STEP, MIN_BORDER_STEP = 0.01, 1e-3  # of the square, along a border

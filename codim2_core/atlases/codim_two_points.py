@@ -27,18 +27,11 @@ UNREPORTED_KINDS = ("node-focus", "det A = 0")  # kinds whose crossings are no n
 
 @dataclass(frozen=True, eq=False)
 class SpecialPlace:
-    """A point of codimension two.
-
-    Attributes
-    ----------
-    kind, sentence : str
-    v : ndarray (n,)
-        Its place on the curve, (theta, u, v) or (c, s, u, v), or its place (u, v) alone.
-    """
+    """A point of codimension two."""
 
     kind: str
     sentence: str
-    v: Array
+    v: Array  # (n,) Its place on the curve, (theta, u, v) or (c, s, u, v), or its place (u, v) alone
 
     @property
     def plane(self) -> Array:

@@ -25,21 +25,11 @@ ON_LINE_DISTANCE = 1e-6  # of the ranges: what is as near as this to a line lies
 
 
 class DegenerateLine(NamedTuple):
-    """A degenerate line.
+    """A degenerate line."""
 
-    Attributes
-    ----------
-    axis : int
-        0: one value across, 1: one value up.
-    at : float
-        That value, in the unit square.
-    still : bool
-        U is zero there.
-    """
-
-    axis: int
-    at: float
-    still: bool
+    axis: int  # 0: one value across, 1: one value up
+    at: float  # that value, in the unit square
+    still: bool  # u is zero there
 
     @property
     def points(self) -> Array:

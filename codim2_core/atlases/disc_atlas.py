@@ -1,4 +1,4 @@
-"""An atlas over the disc of critical sets, and what of it lies within the ranges that were asked for."""
+"""An atlas over the disc of critical sets, and what of it lies within the ranges that were requested."""
 
 from __future__ import annotations
 

@@ -27,18 +27,10 @@ INTERIOR_LINES = 24  # across a face, along which a place far from its border is
 
 @dataclass(frozen=True, eq=False)
 class Face:
-    """A face.
+    """A face."""
 
-    Attributes
-    ----------
-    rings : tuple of ndarray (m, 2)
-        The outer one anticlockwise, holes clockwise; the first point is not repeated.
-    edges : tuple of (int, int)
-        Directed edges of all rings, with the face on their left.
-    """
-
-    rings: tuple[Array, ...]
-    edges: tuple[Edge, ...]
+    rings: tuple[Array, ...]  # (m, 2) The outer one anticlockwise, holes clockwise; the first point is not repeated
+    edges: tuple[Edge, ...]  # directed edges of all rings, with the face on their left
 
     @property
     def area(self) -> float:

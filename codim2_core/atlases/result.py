@@ -23,7 +23,7 @@ class AtlasCurve(Tabled):
     kind : str
         "saddle-node" (two limit directions meet), "pitchfork" (one splits into three, by a symmetry), "transcritical"
         (a critical set comes to the equator), "fold of critical sets", "pitchfork of critical sets", "Hopf",
-        "node-focus", "det A = 0" or "neutral equator"; where they were asked for, "fold of cycles", "homoclinic loop"
+        "node-focus", "det A = 0" or "neutral equator"; where they were requested, "fold of cycles", "homoclinic loop"
         (a branch that leaves a saddle comes back to it), "heteroclinic cycle" (one from a half-saddle of the equator
         to its neighbour, and the equator back) and "saddle connection" (any other from saddle to saddle); "degenerate"
         is a line on which every direction is a limit direction, "undefined" one beyond which U has no value, and
@@ -117,21 +117,12 @@ class AtlasRegion(Tabled):
 
 @dataclass(frozen=True, slots=True)
 class SamplingReport:
-    """A report on the places at which an atlas was compared with the portrait.
+    """A report on the places at which an atlas was compared with the portrait."""
 
-    Attributes
-    ----------
-    places : int
-        So many, in all regions and on a net between the curves.
-    unlike : tuple of (float, float)
-        Those whose portrait is not that of their region: a curve nearby is missing.
-    unproved : int
-        At so many it is not proved that no limit direction and no critical set is missed.
-    """
-
-    places: int = 0
+    places: int = 0  # so many, in all regions and on a net between the curves
+    # those whose portrait is not that of their region: a curve nearby is missing
     unlike: tuple[tuple[float, float], ...] = ()
-    unproved: int = 0
+    unproved: int = 0  # at so many it is not proved that no limit direction and no critical set is missed
 
 
 @dataclass(frozen=True, eq=False)

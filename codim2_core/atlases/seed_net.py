@@ -1,7 +1,7 @@
 """Seeds of curves: cells of a net in which all of a curve's equations change their signs.
 
 On the equator the net is over (theta, u, v), within it over (c, s, u, v). A curve that keeps within one cell may be
-missed: it is looked for once more from seeds, beside places whose portrait is not that of their region.
+missed: it is looked for once more from seeds, next to places whose portrait is not that of their region.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from ..psi.constructors import many
 from .degenerate_lines import ON_LINE_DISTANCE as BESIDE
 from .degenerate_lines import DegenerateLine, drop_touching
 
-EQUATOR_CELLS, PARAMETER_CELLS = 64, 24  # cells round the equator, and along both parameters beside them
+EQUATOR_CELLS, PARAMETER_CELLS = 64, 24  # cells round the equator, and along both parameters next to them
 INTERIOR_CELLS = 16  # cells along each of c, s, u and v
 AFFINE_CELLS, MAX_HALVINGS = (
     32,
@@ -39,7 +39,7 @@ MIN_SUM_SHARE = 0.1  # of what a sum of them changes by in a cell: so far from z
 NET_OFFSET, UP_OFFSET = (
     0.37,
     0.21,
-)  # of a cell: the net of e lies beside round numbers, on which degenerate systems like to lie
+)  # of a cell: the net of e lies next to round numbers, on which degenerate systems like to lie
 
 MAX_PLACES = 8  # from which curves are looked for
 MAX_WAY = 0.5  # of the ranges, along each axis
@@ -72,7 +72,7 @@ def on_equator(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -> tu
 def stability_steps(family: SystemFamily) -> Array:
     """Return steps (k, 2, 2) of a net, from closed equators, on which the mean of lambda_rho/|Theta| changes its sign.
 
-    Of a symmetric family: the net lies beside the lines on which a symmetry keeps that zero.
+    Of a symmetric family: the net lies next to the lines on which a symmetry keeps that zero.
     """
     theta = (np.arange(EQUATOR_CELLS) + NET_OFFSET) * EQUATOR_CELL[0]
     across, up = ((np.arange(PARAMETER_CELLS + 2) - offset) / PARAMETER_CELLS for offset in (NET_OFFSET, UP_OFFSET))
@@ -244,7 +244,7 @@ def _on_one_side(corners: Array) -> NDArray[np.bool_]:
     """Whether a sum of functions, of values (k, corners, n), is of one sign at all corners, and well away from zero.
 
     Each alone has both signs in many cells along the other's zeros: where two curves of zeros run side by side, as
-    beside a pitchfork, such cells hold none of both. The sum is looked for by Gilbert's algorithm: the point of the
+    next to a pitchfork, such cells hold none of both. The sum is looked for by Gilbert's algorithm: the point of the
     corners' convex hull that is nearest to zero, or one so near to it that its direction tells.
     """
     size = np.abs(corners).max(axis=1, keepdims=True)

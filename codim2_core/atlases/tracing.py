@@ -34,14 +34,7 @@ LAST_STEP = 0.1  # step to the equator
 
 @dataclass(frozen=True, eq=False)
 class TracedCurve:
-    """A curve of one kind, in (theta, u, v) or (c, s, u, v).
-
-    Attributes
-    ----------
-    kind : str
-    condition : callable
-    curve : Traced
-    """
+    """A curve of one kind, in (theta, u, v) or (c, s, u, v)."""
 
     kind: str
     condition: Condition
@@ -60,17 +53,10 @@ class TracedCurve:
 
 @dataclass(frozen=True, eq=False)
 class TracedCurves:
-    """All curves of some kinds that were found.
-
-    Attributes
-    ----------
-    curves : list of TracedCurve
-    unfinished : tuple of str
-        Kinds that were given up: from `MAX_FAILED_CELLS` cells none was reached.
-    """
+    """All curves of some kinds that were found."""
 
     curves: list[TracedCurve]
-    unfinished: tuple[str, ...] = ()
+    unfinished: tuple[str, ...] = ()  # kinds that were given up: from `MAX_FAILED_CELLS` cells none was reached
 
     def __add__(self, other: TracedCurves) -> TracedCurves:
         return TracedCurves(self.curves + other.curves, self.unfinished + other.unfinished)
@@ -78,24 +64,13 @@ class TracedCurves:
 
 @dataclass(frozen=True)
 class CurveKind:
-    """A kind of curve.
-
-    Attributes
-    ----------
-    kind : str
-    condition : callable
-    edges : sequence of Edge
-    true : callable
-        Whether a point at which the condition is met is one of the curve.
-    beside : float
-        Cells on either side of such a curve within which no other one is looked for.
-    """
+    """A kind of curve."""
 
     kind: str
     condition: Condition
     edges: Sequence[CurveEdge]
-    true: Callable[[Array], bool] = lambda _: True
-    beside: float = COVERED_CELLS
+    true: Callable[[Array], bool] = lambda _: True  # whether a point at which the condition is met is one of the curve
+    beside: float = COVERED_CELLS  # cells on either side of such a curve within which no other one is looked for
 
 
 def saddle_nodes(family: SystemFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
@@ -225,7 +200,7 @@ def _to_equator(family: SystemFamily, one: TracedCurve) -> TracedCurve:
 def _trace_curves(
     sought: Sequence[CurveKind], cells: Array, cell: Array, steps: StepBounds, sure: Sequence[Array | None] = ()
 ) -> TracedCurves:
-    """Curves through places that are `sure` to lie beside one, and through some cells.
+    """Curves through places that are `sure` to lie next to one, and through some cells.
 
     Where the first kind has no regular point the next one is looked for. Cells come in any order: what fails often
     lies side by side.

@@ -56,7 +56,7 @@ class Region(Tabled):
 
     @cached_property
     def classification(self) -> Classification:
-        """The portrait at `inside`, with Psi = 1; its limit cycles are searched for when it is asked for."""
+        """The portrait at `inside`, with Psi = 1; its limit cycles are searched for when it is requested."""
         return classify(self._at, constant())
 
     def _row_(self) -> tuple[str, ...]:

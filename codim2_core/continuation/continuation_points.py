@@ -9,43 +9,20 @@ from itertools import pairwise
 
 @dataclass(frozen=True)
 class ReturnMapPoint:
-    """One turn from a ray, at parameter value `value`; times in tau.
+    """One turn from a ray, at parameter value `value`; times in tau."""
 
-    Attributes
-    ----------
-    xi, value : float
-        Where on the section, and the parameter's value.
-    shift : float
-        xi after the turn minus before it; zero on a cycle.
-    by_xi, by_value : float
-        Derivatives of `shift`, at fixed value and at fixed xi.
-    exponent : float
-        ln of the Floquet multiplier.
-    period : float
-    amplitude : float
-        Largest ``|p - p_C|`` on it in the projected disc.
-    height : float
-        Smallest ebar on it: how near to the equator it comes.
-    rate : float
-        d chi/d xi.
-    chi : float
-        The place on the section, in [0, 1): r over the reach.
-    p : (float, float)
-        Where it crosses the section, in the projected disc.
-    """
-
-    xi: float
+    xi: float  # where on the section, and the parameter's value
     value: float
-    shift: float
-    by_xi: float
+    shift: float  # xi after the turn minus before it; zero on a cycle
+    by_xi: float  # derivatives of `shift`, at fixed value and at fixed xi
     by_value: float
-    exponent: float
+    exponent: float  # ln of the Floquet multiplier
     period: float
-    amplitude: float
-    height: float
-    rate: float
-    chi: float
-    p: tuple[float, float]
+    amplitude: float  # largest ``|p - p_C|`` on it in the projected disc
+    height: float  # smallest ebar on it: how near to the equator it comes
+    rate: float  # d chi/d xi
+    chi: float  # the place on the section, in [0, 1): r over the reach
+    p: tuple[float, float]  # where it crosses the section, in the projected disc
 
 
 @dataclass(frozen=True)

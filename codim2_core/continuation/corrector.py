@@ -132,7 +132,7 @@ class TurnSearch:
     Attributes
     ----------
     guess : TurnGuess
-        Where the next turn is asked for.
+        Where the next turn is requested.
     found : (Turn, nu), or None
     over : bool
     """

@@ -67,20 +67,12 @@ def run_batched(
 
 
 class TurnRequest(NamedTuple):
-    """Turns from each place at each value of a ray that varies.
-
-    Attributes
-    ----------
-    family : VariedRay
-    xi, values : list of float
-    backward : list of bool
-        Followed backward in time, which is accurate where the cycle repels. The result is the same.
-    """
+    """Turns from each place at each value of a ray that varies."""
 
     family: Any
     xi: list[float]
     values: list[float]
-    backward: list[bool]
+    backward: list[bool]  # followed backward in time, which is accurate where the cycle repels. The result is the same
 
 
 #: A search that asks for turns.

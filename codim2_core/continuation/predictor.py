@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arrays import Array
 
-MIN_SPACING = 0.25  # of a step: how far from one another they are, at least: a fold may lie beside one
+MIN_SPACING = 0.25  # of a step: how far from one another they are, at least: a fold may lie next to one
 
 
 class CurvePoint(NamedTuple):
@@ -29,7 +29,7 @@ def predict(
     steps: Sequence[float],
     behind: int,
 ) -> list[CurvePoint]:
-    """Predict points after the last one; fewer than asked for where the section ends before."""
+    """Predict points after the last one; fewer than requested where the section ends before."""
     rows = [len(lengths) - 1]
     for i in range(len(lengths) - 2, -1, -1):
         if len(rows) == behind:
@@ -51,7 +51,7 @@ def interpolate(
 ) -> list[CurvePoint]:
     """Find the curve through some points at other lengths; as far as the section goes."""
     chi = places[0].chi
-    # xi goes to infinity at C and at the equator: with chi there is what is left of it beside these two logarithms
+    # xi goes to infinity at C and at the equator: with chi there is what is left of it next to these two logarithms
     outer = 1.0 if chi < 0.5 else (1.0 / rate - 1.0 / chi) * (1.0 - chi)
     values, slopes = [], []
     for place, along in zip(places, tangents, strict=True):

@@ -66,7 +66,7 @@ def trace_branch(tracer: BranchTracer, start: ContinuationPoint) -> TurnRoutine[
 
 
 def _part(here: ContinuationPoint, there: ContinuationPoint, place: ContinuationPoint) -> float:
-    """Return the share of the way from one point to another: 0 beside the first of them, 1 beside the second."""
+    """Return the share of the way from one point to another: 0 next to the first of them, 1 next to the second."""
     x, y = there.turn.chi - here.turn.chi, there.nu - here.nu
     square = x * x + y * y
     return ((place.turn.chi - here.turn.chi) * x + (place.nu - here.nu) * y) / square if square > 0.0 else -1.0

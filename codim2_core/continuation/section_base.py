@@ -54,7 +54,7 @@ class SectionBase:
         return hemisphere_place(self.problem(value).psi, self.e(value)) if self._still is None else self._still
 
     def moved(self, value: float, values: tuple[float, float]) -> tuple[HemispherePoint, HemispherePoint]:
-        """Return the base point at two values just beside one, to first order in their distance."""
+        """Return the base point at two values just next to one, to first order in their distance."""
         if self._still is not None:
             return self._still, self._still
         e, (low, high) = self.e(value), (self.problem(v) for v in values)

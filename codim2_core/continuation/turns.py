@@ -33,7 +33,7 @@ DIFFERENCE_STEP = 1e-5  # of the span, of the differences for derivatives: they 
 
 @dataclass(frozen=True)
 class FiniteDifference:
-    """The problem at two values beside one, how these differ, and how the ray moves between them."""
+    """The problem at two values next to one, how these differ, and how the ray moves between them."""
 
     low: LayerProblem
     high: LayerProblem
@@ -185,7 +185,7 @@ class VariedRay:
             return None
 
     def answer(self, question: TurnRequest) -> list[ReturnMapPoint | None]:
-        """Follow the turns that are asked for."""
+        """Follow the turns that are requested."""
         asked = zip(question.xi, question.values, question.backward, strict=True)
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             found = [self.course(xi, value, backward) for xi, value, backward in asked]

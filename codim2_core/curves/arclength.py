@@ -26,17 +26,10 @@ PLACE_TOLERANCE = 1e-12  # part of a step, of a place between two points
 
 @dataclass(frozen=True)
 class CurveEdge:
-    """A boundary at which a curve ends.
-
-    Attributes
-    ----------
-    name : str
-    of : callable
-        Value (negative within) and derivatives (n,) at a point.
-    """
+    """A boundary at which a curve ends."""
 
     name: str
-    of: Callable[[Array], tuple[float, Array]]
+    of: Callable[[Array], tuple[float, Array]]  # value (negative within) and derivatives (n,) at a point
 
 
 def square_edges(n: int) -> list[CurveEdge]:
@@ -50,31 +43,17 @@ def square_edges(n: int) -> list[CurveEdge]:
 
 @dataclass(frozen=True)
 class StepBounds:
-    """Bounds of the steps along a curve.
-
-    Attributes
-    ----------
-    longest : float
-    turn : float
-        Largest angle between tangents at neighbouring points.
-    most : int
-        Points each way.
-    period : float
-        Of the first coordinate; infinite where it has none.
-    close, enough : float
-        Correction at which Newton's method stops, or, where rounding does not let it come so far, at which a point
-        counts as found.
-    least : float
-        Shortest step.
-    """
+    """Bounds of the steps along a curve."""
 
     longest: float
-    turn: float
-    most: int
-    period: float = math.inf
+    turn: float  # largest angle between tangents at neighbouring points
+    most: int  # points each way
+    period: float = math.inf  # of the first coordinate; infinite where it has none
+    # correction at which Newton's method stops, or, where rounding does not let it come so far, at which a point
+    # counts as found
     close: float = NEWTON_TOLERANCE
     enough: float = ROUNDING_TOLERANCE
-    least: float = MIN_STEP
+    least: float = MIN_STEP  # shortest step
 
     def apart(self, one: Array, other: Array) -> Array:
         """Return ``other - one``, by the shorter way round."""
@@ -86,20 +65,12 @@ class StepBounds:
 
 @dataclass(frozen=True, eq=False)
 class TracedLine:
-    """A curve.
+    """A curve."""
 
-    Attributes
-    ----------
-    points : ndarray (m, n)
-        A closed curve ends where it began, but for a period.
-    closed : bool
-    ends : (str, str)
-        Name of the edge on which each end lies; "lost" where Newton's method went no further, "many" where points were
-        too many, "" of a closed curve.
-    """
-
-    points: Array
+    points: Array  # (m, n) A closed curve ends where it began, but for a period
     closed: bool
+    # name of the edge on which each end lies; "lost" where Newton's method went no further, "many" where points
+    # were too many, "" of a closed curve
     ends: tuple[str, str]
 
 

@@ -227,7 +227,7 @@ def _is_same_orbit(one: Orbit, other: Orbit) -> bool:
     if abs(one.period - other.period) > 1e-6 * one.period:
         return False
     if abs(one.divergence - other.divergence) > 1e-9 + 1e-3 * abs(one.divergence):
-        return False  # the other of a pair beside a fold
+        return False  # the other of a pair next to a fold
     gaps = np.hypot(*(one.points[:1] - other.points).T)
     spacing = np.hypot(*np.diff(other.points, axis=0).T).max()
     return bool(gaps.min() < SAME_CYCLE_DISTANCE + spacing)

@@ -211,7 +211,7 @@ def near_fold(q: Array, shift: Array, noise: Array) -> float:
     """Return the smallest size of the displacement at one of its extrema, to within its noise; inf if it has none.
 
     Extrema of three neighbouring samples by their parabola, or of each k-th one where neighbours differ by noise; where
-    several in a row are zero within noise, and those beside them have one sign, the largest of the row.
+    several in a row are zero within noise, and those next to them have one sign, the largest of the row.
     """
     finite = np.concatenate([[False], np.isfinite(shift), [False]]).astype(np.int8)
     ends = np.flatnonzero(np.diff(finite)).tolist()

@@ -30,20 +30,12 @@ class EquatorPull:
     There theta turns as on the equator, and ``ebar' = -lambda_rho ebar`` (3.26): an orbit comes to the next
     equilibrium on its way, which draws it in where lambda_rho > 0; but first ebar grows where lambda_rho < 0. A closed
     equator draws none in within a turn, however strong.
-
-    Attributes
-    ----------
-    theta : ndarray (k,)
-        Equilibria on the equator, increasing.
-    draws : (ndarray, ndarray) of bool (k,)
-        Which of them attract from the hemisphere, or may: forward, and backward in time.
-    everywhere : bool
-        Each direction is an equilibrium, or an arc of them.
     """
 
-    theta: Array
+    theta: Array  # (k,) Equilibria on the equator, increasing
+    # (ndarray, ndarray) Which of them attract from the hemisphere, or may: forward, and backward in time
     draws: tuple[NDArray[np.bool_], NDArray[np.bool_]]
-    everywhere: bool
+    everywhere: bool  # each direction is an equilibrium, or an arc of them
 
     def may_return(self, states: Array, field: Callable[[Array], Array], backward: bool) -> NDArray[np.bool_]:
         """Say which orbits do not, or may not, come down to the equator for good.

@@ -22,21 +22,12 @@ from ..layer_problem.problem import LayerProblem
 
 @dataclass(frozen=True)
 class HeteroclinicArc:
-    """The arc of the equator of a possible loop.
+    """The arc of the equator of a possible loop."""
 
-    Attributes
-    ----------
-    source, sink : float
-        Angles of P and Q.
-    sense : int
-        +1 if Q follows P anticlockwise, else -1: the sense in which the loop turns.
-    ratio : float
-        Product of both saddles' ratios of the eigenvalue entered by to that left by: above 1 the loop attracts.
-    """
-
-    source: float
+    source: float  # angles of P and Q
     sink: float
-    sense: int
+    sense: int  # +1 if Q follows P anticlockwise, else -1: the sense in which the loop turns
+    # product of both saddles' ratios of the eigenvalue entered by to that left by: above 1 the loop attracts
     ratio: float
 
     def distance(self, other: HeteroclinicArc) -> float:

@@ -53,30 +53,14 @@ def gauss(count: int = STEP_NODES) -> tuple[Array, Array, Array]:
 
 @dataclass(frozen=True)
 class TurnQuadrature:
-    """One return as nodes of a quadrature; k steps with STEP_NODES nodes each, scaled coefficients, time as integrated.
+    """One return as nodes of a quadrature; k steps with STEP_NODES nodes each, scaled coefficients; its own time."""
 
-    Attributes
-    ----------
-    first : ndarray (k, 3)
-        States where steps start.
-    h : ndarray (k,)
-        Lengths of the steps in T.
-    inner : ndarray (k NODES, 3)
-        States at the nodes.
-    weight : ndarray (k NODES,)
-        Quadrature weights of tau.
-    end : ndarray (3,)
-        The state on return.
-    time : float
-        T of the return.
-    """
-
-    first: Array
-    h: Array
-    inner: Array
-    weight: Array
-    end: Array
-    time: float
+    first: Array  # (k, 3) States where steps start
+    h: Array  # (k,) Lengths of the steps in T
+    inner: Array  # (k NODES, 3) States at the nodes
+    weight: Array  # (k NODES,) Quadrature weights of tau
+    end: Array  # (3,) The state on return
+    time: float  # t of the return
 
 
 def path(section: TurnSection, start: Array, rtol: float, backward: bool) -> TurnQuadrature | None:

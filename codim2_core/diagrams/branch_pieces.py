@@ -127,7 +127,7 @@ def _goes_on(one: BranchRows, places: Array) -> bool:
 def _with_ends(
     one: BranchRows, ends: dict[float, float], special: Sequence[SpecialValue], moved: tuple[int, ...]
 ) -> BranchRows:
-    """Lead a branch that ends beside a special value up to its point."""
+    """Lead a branch that ends next to a special value up to its point."""
     kind, places, columns = one
     for i in (0, -1):
         value = ends.get(float(columns[0][i]))

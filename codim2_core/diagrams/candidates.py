@@ -24,24 +24,12 @@ MAX_BLUR = 1e-5  # of the span: how far Newton's method may stop before a multip
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """A zero of a test function.
+    """A zero of a test function."""
 
-    Attributes
-    ----------
-    what : str or SpecialKind
-        "meeting", "triple", "crossing", "equator", "fold", or a row of `SPECIAL_KINDS`.
-    u : float
-        The parameter's value, from 0 to 1 along the span.
-    y : ndarray (n,)
-        (theta, u) or (c, s, u).
-    regular : bool
-        The zero is simple.
-    """
-
-    what: str | SpecialKind
-    u: float
-    y: Array
-    regular: bool
+    what: str | SpecialKind  # "meeting", "triple", "crossing", "equator", "fold", or a row of `SPECIAL_KINDS`
+    u: float  # the parameter's value, from 0 to 1 along the span
+    y: Array  # (n,) (theta, u) or (c, s, u)
+    regular: bool  # the zero is simple
 
 
 def candidates(family: SystemFamily, states: Sequence[State], starts: Iterable[Array], reach: float) -> list[Candidate]:

@@ -51,7 +51,7 @@ def look_beside(states: States, values: Sequence[float]) -> None:
 
 
 def changes_between(states: States, values: Sequence[float], low: float, high: float) -> list[Change]:
-    """Find all changes between two values; `values` are candidates, beside which states are known."""
+    """Find all changes between two values; `values` are candidates, next to which states are known."""
     while True:
         found: list[Change] = []
         for left, right in pairwise(states.between(low, high)):
@@ -100,7 +100,7 @@ def _narrow(states: States, left: State, right: State, part: int) -> float:
 
 
 def _state_beside(states: States, far: State, value: float) -> State:
-    """Return the state beside a special value, towards `far`: nearer where that differs, as one more lies between."""
+    """Return the state next to a special value, towards `far`: nearer where that differs, as one more lies between."""
     side = math.copysign(1.0, far.value - value)
     near = far
     if abs(far.value - value) > SIDE_STEP * states.width:

@@ -27,24 +27,13 @@ UNDEFINED = -1  # U has no value there
 
 
 class PortraitClass(NamedTuple):
-    """The class of a portrait.
+    """The class of a portrait."""
 
-    Attributes
-    ----------
-    directions : tuple of (str, int)
-        Kinds of limit directions (`EquatorEquilibria.kind`), and how many there are of each.
-    arcs : int
-        Arcs of limit directions; -1 where every direction is one.
-    sets : tuple of str
-        Kinds of the critical sets, in order.
-    closed : int or None
-        Sign of the exponent of a closed equator.
-    """
-
+    # kinds of limit directions (`EquatorEquilibria.kind`), and how many there are of each
     directions: tuple[tuple[str, int], ...]
-    arcs: int
-    sets: tuple[str, ...]
-    closed: int | None
+    arcs: int  # arcs of limit directions; -1 where every direction is one
+    sets: tuple[str, ...]  # kinds of the critical sets, in order
+    closed: int | None  # sign of the exponent of a closed equator
 
     def radial(self, word: str) -> int:
         """Return the number of limit directions that are radially so."""

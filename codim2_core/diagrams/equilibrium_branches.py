@@ -29,7 +29,7 @@ __all__ = ["equilibrium_branches"]
 GRID_CELLS = 48
 REACH = 1.6 / GRID_CELLS  # of the span: how far from a state a candidate may be
 NEAR_REACH = 1e-4  # from the states on the sides of a change that was bisected
-MAX_ROUNDS = 4  # times that candidates are looked for, from the states beside the last ones
+MAX_ROUNDS = 4  # times that candidates are looked for, from the states next to the last ones
 MAX_ANGLE_MOVE, MAX_PLACE_MOVE, MAX_HALVINGS = (
     0.15,
     0.1,

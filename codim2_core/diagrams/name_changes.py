@@ -1,4 +1,4 @@
-"""The names of what happens between two states beside each other."""
+"""The names of what happens between two states next to each other."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ from .result import SpecialValue
 
 __all__ = ["name_changes", "triple_zero"]
 
-_SAME_EVENT_DISTANCE = 0.05  # radians, or distance in p, within which lies what is one at the special value, beside it
-_EQUATOR_DISTANCE = 1e-3  # 1 - |e| of a critical set that reaches the equator at the special value, beside it
+_SAME_EVENT_DISTANCE = 0.05  # radians, or distance in p, within which lies what is one at the special value, next to it
+_EQUATOR_DISTANCE = 1e-3  # 1 - |e| of a critical set that reaches the equator at the special value, next to it
 _SYMMETRY_ANGLES, _SYMMETRY_TOLERANCE = np.linspace(0.1, 3.1, 16), 1e-6  # of Theta about a triple zero
 
 
 def name_changes(family: SystemFamily, change: Change, points: Sequence[Candidate]) -> list[SpecialValue]:
-    """Name all that happens between two states beside each other; `points` are those solved for at the value."""
+    """Name all that happens between two states next to each other; `points` are those solved for at the value."""
     return [*_of_equator(family, change, points), *_of_sets(family, change, points)]
 
 

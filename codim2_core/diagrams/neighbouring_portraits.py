@@ -17,18 +17,10 @@ SIDE_STEP = 1e-6  # of the value or of 1: far beyond rounding, far below what ca
 
 @dataclass(frozen=True, slots=True)
 class NeighbouringPortraits:
-    """The portraits on both sides of a setting.
+    """The portraits on both sides of a setting."""
 
-    Attributes
-    ----------
-    name : str
-        What is varied.
-    below, above : str
-        Names of the portraits where it is a little smaller and larger; "" beyond the end of what is allowed.
-    """
-
-    name: str
-    below: str
+    name: str  # what is varied
+    below: str  # names of the portraits where it is a little smaller and larger; "" beyond the end of what is allowed
     above: str
 
 

@@ -119,7 +119,7 @@ class States:
     def leave_out_rounding(self, value: float) -> bool:
         """Leave out a zone about a value in which U is all rounding, if there is one.
 
-        A formula such as (F(q) - F(1))/(1 - q) goes smoothly through q = 1, but beside it equilibria come and go by
+        A formula such as (F(q) - F(1))/(1 - q) goes smoothly through q = 1, but next to it equilibria come and go by
         rounding, which a finite difference of U shows and no derivative does.
         """
         if self._is_clear(value):

@@ -40,7 +40,7 @@ def keys_at_contacts(key: str) -> tuple[str, ...]:
 
 
 def register(example: Example) -> Example:
-    """List an example of your own beside those that come with the package, for this process.
+    """List an example of your own next to those that come with the package, for this process.
 
     Parameters
     ----------

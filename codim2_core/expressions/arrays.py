@@ -49,23 +49,15 @@ ONE_SIDED_DIRECTIONS.flags.writeable = False
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """Formulas with numbers put in: what the compiled interpreters run.
+    """Formulas with numbers put in: what the compiled interpreters run."""
 
-    Attributes
-    ----------
-    op, left, right : ndarray of int (n,)
-        Operation of each entry and the entries it acts on (`left` of a variable: 0 … 3 for c, s, x, y, then z1, ...).
-    number : ndarray (n,)
-        Value of a constant entry, and exponent of an integer power.
-    roots : ndarray of int (rows,)
-        Entries of the rows.
-    """
-
+    # (n,) Operation of each entry and the entries it acts on (`left` of a variable: 0 … 3 for c, s, x, y, then z1,
+    # ...)
     op: NDArray[np.int64]
     left: NDArray[np.int64]
     right: NDArray[np.int64]
-    number: Array
-    roots: NDArray[np.int64]
+    number: Array  # (n,) Value of a constant entry, and exponent of an integer power
+    roots: NDArray[np.int64]  # (rows,) Entries of the rows
 
     @property
     def arrays(self) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64], Array, NDArray[np.int64]]:

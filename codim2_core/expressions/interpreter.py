@@ -95,7 +95,7 @@ def gradients(op, left, right, number, roots, seed, work, out):
             p, q = 1.0, 1.0
         elif k == SUB:
             p, q = 1.0, -1.0
-        elif k == MUL:  # a factor 0 stays 0 beside an infinite slope of the other: (u v)' = u' v where u' is finite
+        elif k == MUL:  # a factor 0 stays 0 next to an infinite slope of the other: (u v)' = u' v where u' is finite
             p, q = b, a
             if a == 0.0 and (math.isinf(b1) or math.isinf(b2)) and math.isfinite(a1) and math.isfinite(a2):
                 b1, b2 = 0.0, 0.0
@@ -121,7 +121,7 @@ def gradients(op, left, right, number, roots, seed, work, out):
                 b1, b2 = 0.0, 0.0
         else:
             p = kernels.slope(k, a, v)
-        # an inner slope 0 stays 0 beside an infinite outer one: sqrt of a constant 0 has no slope
+        # an inner slope 0 stays 0 next to an infinite outer one: sqrt of a constant 0 has no slope
         work[i, 0] = v
         work[i, 1] = (p * a1 if a1 != 0.0 else 0.0) + (q * b1 if b1 != 0.0 else 0.0)
         work[i, 2] = (p * a2 if a2 != 0.0 else 0.0) + (q * b2 if b2 != 0.0 else 0.0)

@@ -1,4 +1,4 @@
-"""Names that mean something in a formula of a system: c, s, x, y, the slow variables, and numbers beside them."""
+"""Names that mean something in a formula of a system: c, s, x, y, the slow variables, and numbers next to them."""
 
 from __future__ import annotations
 

@@ -21,24 +21,12 @@ BORDER = 1e-13  # of the terms of a switch's argument: a smaller value is that o
 
 @dataclass(frozen=True)
 class Branch:
-    """Smooth rows, and what ends them.
+    """Smooth rows, and what ends them."""
 
-    Attributes
-    ----------
-    choices : tuple of int
-        For each switch, the sign of its argument, or the value of floor.
-    rows : tuple of Expression
-    guards : tuple of Expression
-        One for each switch: positive on the branch.
-    jumps : tuple of bool
-        Whether the rows jump where that guard vanishes; else they have a kink.
-    arguments : tuple of Expression
-    """
-
-    choices: tuple[int, ...] = ()
+    choices: tuple[int, ...] = ()  # for each switch, the sign of its argument, or the value of floor
     rows: Rows = ()
-    guards: Rows = ()
-    jumps: tuple[bool, ...] = ()
+    guards: Rows = ()  # one for each switch: positive on the branch
+    jumps: tuple[bool, ...] = ()  # whether the rows jump where that guard vanishes; else they have a kink
     arguments: Rows = ()
 
     def next_choice(self, switch: int, values: Mapping[str, float]) -> int:

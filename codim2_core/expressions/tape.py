@@ -190,7 +190,7 @@ def compact(nodes: list[Node], root: int) -> Tape:
 def derivative(tape: Tape, name: str) -> Tape:
     """Tape of the partial derivative: one pass of the chain rule, forwards.
 
-    The root of what is 0 has an infinite slope. Beside it a factor 0 stays 0: an inner slope 0 (the root of a square
+    The root of what is 0 has an infinite slope. Next to it a factor 0 stays 0: an inner slope 0 (the root of a square
     has a kink there, and the mean of its two slopes is 0), and a factor u = 0 of a product u v with a finite slope,
     since (u v)' = u' v there whatever the slope of v.
 

@@ -33,41 +33,24 @@ _TAPE_ROWS = ("row_c", "row_s", "row_f")
 
 
 class EigenvalueRatio(NamedTuple):
-    """sigma, the ratio of the radial to the tangential eigenvalue of D e_Psi, written ``1 - bend |e|^2``.
-
-    Attributes
-    ----------
-    bend : float
-    by_square : float
-        Derivative of `bend` by |e|^2.
-    by_parameters : (float, float)
-        Derivatives of `bend` by both parameters: not zero where one is that of Psi.
-    """
+    """sigma, the ratio of the radial to the tangential eigenvalue of D e_Psi, written ``1 - bend |e|^2``."""
 
     bend: float
-    by_square: float
-    by_parameters: tuple[float, float]
+    by_square: float  # derivative of `bend` by |e|^2
+    by_parameters: tuple[float, float]  # derivatives of `bend` by both parameters: not zero where one is that of Psi
 
 
 @dataclass(frozen=True, eq=False)
 class SystemFamily:
-    """A system and Psi over one or two parameters.
+    """A system and Psi over one or two parameters."""
 
-    Attributes
-    ----------
-    system, psi, z
-        As given.
-    names : tuple of str
-    ranges : tuple of (low, high)
-    slant : (ndarray (2,), ndarray (2, 2)) or None
-        Parameters ``origin + matrix u`` at a place u of the unit square, where this is no rectangle of the ranges.
-    """
-
-    system: Any
+    system: Any  # as given
     psi: Psi
     z: tuple[float, ...]
     names: tuple[str, ...]
     ranges: Ranges
+    # (2,) Parameters ``origin + matrix u`` at a place u of the unit square, where this is no rectangle of the
+    # ranges
     slant: tuple[Array, Array] | None = None
 
     @cached_property
@@ -123,7 +106,7 @@ class SystemFamily:
     def jet(self, c: float, s: float, u: float, v: float) -> tuple[float, ...]:
         """Return U1, then U2: the value, and derivatives by c, s, u, v, cc, cs, cu, cv, ss, su, sv.
 
-        Where one is undefined, as that of abs(c) at 0, all are taken just beside.
+        Where one is undefined, as that of abs(c) at 0, all are taken just next to.
         """
         found = self._jet(c, s, u, v)
         return found if math.isfinite(sum(found)) else self._jet(c + KINK_OFFSET, s + KINK_OFFSET, u, v)

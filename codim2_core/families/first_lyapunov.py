@@ -16,7 +16,7 @@ __all__ = ["lyapunov"]
 
 
 def lyapunov(family: SystemFamily, v: Array) -> Array:
-    """First Lyapunov coefficients (m,) at places (m, 2 + n) where tr J = 0 < det J; on the equator that beside it."""
+    """First Lyapunov coefficients (m,) at places (m, 2 + n) where tr J = 0 < det J; on the equator that next to it."""
     inner = np.hypot(v[:, 0], v[:, 1]) < 1.0
     if not inner.all():
         rows = np.flatnonzero(inner)

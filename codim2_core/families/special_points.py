@@ -30,18 +30,10 @@ MIN_DETERMINANT = 1e-7  # of the derivatives at a simple zero: equations are of 
 
 
 class SpecialPoints(NamedTuple):
-    """Zeros of a test function.
+    """Zeros of a test function."""
 
-    Attributes
-    ----------
-    y : ndarray (n, k)
-        Their places.
-    regular : ndarray of bool (k,)
-        The zero is simple, and known to the last digits.
-    """
-
-    y: Array
-    regular: NDArray[np.bool_]
+    y: Array  # (n, k) Their places
+    regular: NDArray[np.bool_]  # (k,) The zero is simple, and known to the last digits
 
 
 def equator_numbers(family: SystemFamily, y: Array) -> tuple[Array, Array, Array]:

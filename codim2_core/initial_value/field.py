@@ -37,30 +37,16 @@ def _state_names(m: int) -> tuple[str, ...]:
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """U and W of (2.7) as functions of numbers.
+    """U and W of (2.7) as functions of numbers."""
 
-    Attributes
-    ----------
-    m : int
-        The number of slow variables.
-    rows : tuple of Expression
-        The formulas of U and W.
-    branch : Branch
-        Its guards are positive as long as the rows hold.
-    whole : Field or None
-        The field that this is a branch of.
-    value : callable
-        ``value(c, s, x, y, *z)`` is the tuple (U1, U2, W1, ..., Wm); NaNs where a formula has a pole.
-    slope : callable
-        ``slope(c, s, x, y, *z)`` is the flat tuple of its exact derivatives by all arguments, row by row.
-    """
-
-    m: int
-    rows: tuple[Expression, ...]
+    m: int  # the number of slow variables
+    rows: tuple[Expression, ...]  # the formulas of U and W
+    # ``value(c, s, x, y, *z)`` is the tuple (U1, U2, W1, ..., Wm); NaNs where a formula has a pole
     value: Callable[..., tuple[float, ...]]
+    # ``slope(c, s, x, y, *z)`` is the flat tuple of its exact derivatives by all arguments, row by row
     slope: Callable[..., tuple[float, ...]]
-    branch: Branch = made_with(default_factory=Branch)
-    whole: Field | None = None
+    branch: Branch = made_with(default_factory=Branch)  # its guards are positive as long as the rows hold
+    whole: Field | None = None  # the field that this is a branch of
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Be pickled by the formulas, of which the functions are made again."""
@@ -122,7 +108,7 @@ class Field:
     def jacobian(self, c: float, s: float, x: float, y: float, z: Sequence[float]) -> Array:
         """``D (U, W)`` by (c, s, x, y, z), of shape (2 + m, 4 + m).
 
-        Where it is undefined, as that of abs(c) at 0, it is taken just beside; and as zero where that is no better.
+        Where it is undefined, as that of abs(c) at 0, it is taken just next to; and as zero where that is no better.
         """
         arguments = (c, s, x, y, *z)
         slopes = np.array(self.slope(*arguments))

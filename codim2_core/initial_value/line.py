@@ -26,17 +26,10 @@ ZERO_NET = 400  # of q, on which zeros are looked for
 
 @dataclass(frozen=True, eq=False)
 class InvariantLine:
-    """An invariant line.
-
-    Attributes
-    ----------
-    field : Field
-    n : ndarray (2,)
-        Unit vector.
-    """
+    """An invariant line."""
 
     field: Field
-    n: Array
+    n: Array  # (2,) Unit vector
 
     @property
     def vector(self) -> tuple[float, float]:

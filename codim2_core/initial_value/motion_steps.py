@@ -100,7 +100,7 @@ class MotionSteps:
     h, least, longest : float
         The first step, 0 if it is not known; a shorter one than `least` ends the motion, none is longer than `longest`.
     implicit : bool
-        Every step is: the slopes are then asked for once where it begins, and where each step ends.
+        Every step is: the slopes are then requested once where it begins, and where each step ends.
     inspection : Inspection, optional
         Of its steps: the motion stops where the formulas switch.
     """

@@ -42,23 +42,12 @@ def dissipation(D: Array) -> Array:
 
 @dataclass(frozen=True)
 class StepRequirements:
-    """Requirements on the steps of a slide.
-
-    Attributes
-    ----------
-    psi : Psi
-    sign : float
-        Of det D_e U where the slide begins.
-    n : ndarray (2,) or None
-        Along the invariant line that the motion stays in.
-    reach : float
-        |e| up to which it slides: above 1 at rest by static friction, while D_e U is dissipative.
-    """
+    """Requirements on the steps of a slide."""
 
     psi: Psi
-    sign: float
-    n: Array | None
-    reach: float = 1.0
+    sign: float  # of det D_e U where the slide begins
+    n: Array | None  # (2,) Along the invariant line that the motion stays in
+    reach: float = 1.0  # |e| up to which it slides: above 1 at rest by static friction, while D_e U is dissipative
 
     def steps(self, e: Array, D: Array) -> list[bool]:
         """Tell for k steps, with e (k, 5, 2) and D_e U (k, 5, 2, 2) at their `SAFE_NODES`."""

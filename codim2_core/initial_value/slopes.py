@@ -17,24 +17,12 @@ from .field import rows_of
 
 @dataclass(frozen=True, eq=False)
 class Slopes:
-    """U and W of (2.7) and their exact derivatives as functions of arrays.
+    """U and W of (2.7) and their exact derivatives as functions of arrays."""
 
-    Attributes
-    ----------
-    m : int
-        The number of slow variables.
-    kept : tuple of (str, float)
-        Numbers of the system by which it is also differentiated, with their values.
-    rows : tuple of Expression
-        The formulas of U and W, (2 + m,).
-    derivatives : tuple of tuple of Expression
-        Theirs by (c, s, x, y, z1, ..., zm, kept), (2 + m, 4 + m + q).
-    """
-
-    m: int
-    kept: tuple[tuple[str, float], ...]
-    rows: tuple[Expression, ...]
-    derivatives: tuple[tuple[Expression, ...], ...]
+    m: int  # the number of slow variables
+    kept: tuple[tuple[str, float], ...]  # numbers of the system by which it is also differentiated, with their values
+    rows: tuple[Expression, ...]  # the formulas of U and W, (2 + m,)
+    derivatives: tuple[tuple[Expression, ...], ...]  # theirs by (c, s, x, y, z1, ..., zm, kept), (2 + m, 4 + m + q)
 
     def rates(self, e: Array, states: Array) -> Array:
         """(U, W) (k, 2 + m) at e (k, 2) and states (k, 2 + m)."""

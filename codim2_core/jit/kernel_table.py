@@ -54,7 +54,7 @@ class Table:
 
 @cache
 def table() -> Table:
-    """Return the table, loaded when it is first asked for."""
+    """Return the table, loaded when it is first requested."""
     return Table(FOLDER)
 
 

@@ -1,6 +1,6 @@
 """Stamps of what a kernel on disk was compiled from.
 
-Numba keeps a compiled kernel beside its module, under a digest of that one file; but what a kernel calls, and
+Numba keeps a compiled kernel next to its module, under a digest of that one file; but what a kernel calls, and
 the constants that it reads, are compiled into it from other modules. Here a kernel is out of date when the text of any
 module of this package changes that its own imports, itself or through others: after an upgrade in place, or in another
 branch, nobody runs yesterday's formulas.

@@ -34,42 +34,24 @@ CROWDED = 100  # zeros: more effort would only find more of them
 
 @dataclass(frozen=True, eq=False, slots=True)
 class DiscZeros:
-    """Zeros of U in the disc |e| <= 1 at one z.
+    """Zeros of U in the disc |e| <= 1 at one z."""
 
-    Attributes
-    ----------
-    e : ndarray (k, 2)
-        In the open disc, by increasing c, then s.
-    DU : ndarray (k, 2, 2)
-        D_e U there, exact.
-    degenerate : ndarray of bool (k,)
-        D_e U is singular within rounding: critical sets that have just met (a fold, or a higher degeneracy); or rough.
-    rough : ndarray of bool (k,)
-        U is not differentiable there, and its slopes on the sides (infinite, or of either orientation) give no index.
-    index : ndarray of int (k,)
-        Sign of det D_e U; for one degenerate zero what the degree leaves for it, 0 for a fold.
-    on_equator : tuple of float
-        Angles of zeros on |e| = 1 within rounding, where a critical set reaches the equator (not in `e`).
-    curve : bool
-        Whole curves of zeros; `e` then has only the isolated zeros found beside them.
-    everything : bool
-        U vanishes identically.
-    degree : int or None
-        Of U on the equator; None where U vanishes there.
-    proven : bool
-        No box was left undecided, or those left hold one degenerate zero each.
-    """
-
-    e: Array
-    DU: Array
+    e: Array  # (k, 2) In the open disc, by increasing c, then s
+    DU: Array  # (k, 2, 2) D_e U there, exact
+    # (k,) D_e U is singular within rounding: critical sets that have just met (a fold, or a higher degeneracy); or
+    # rough
     degenerate: NDArray[np.bool_]
+    # (k,) U is not differentiable there, and its slopes on the sides (infinite, or of either orientation) give no
+    # index
     rough: NDArray[np.bool_]
+    # (k,) Sign of det D_e U; for one degenerate zero what the degree leaves for it, 0 for a fold
     index: NDArray[np.int64]
+    # angles of zeros on |e| = 1 within rounding, where a critical set reaches the equator (not in `e`)
     on_equator: tuple[float, ...]
-    curve: bool
-    everything: bool
-    degree: int | None
-    proven: bool
+    curve: bool  # whole curves of zeros; `e` then has only the isolated zeros found next to them
+    everything: bool  # u vanishes identically
+    degree: int | None  # of U on the equator; None where U vanishes there
+    proven: bool  # no box was left undecided, or those left hold one degenerate zero each
 
     @property
     def consistent(self) -> bool | None:

@@ -36,41 +36,25 @@ Where = Literal["disc", "equator", "up", "outside"]
 
 @dataclass(frozen=True, slots=True)
 class Eigendirection:
-    """A direction along which orbits come in or leave, as it is seen in the picture.
+    """A direction along which orbits come in or leave, as it is seen in the picture."""
 
-    Attributes
-    ----------
-    direction : (float, float)
-        Unit vector of the picture. The line through the object runs both ways along it, but for "up" and "outside",
-        which are half-lines.
-    value : float
-        The eigenvalue: of J at a critical set; lambda_theta, -lambda_rho and lambda_rho at a limit direction.
-    where : str
-        "disc" of a critical set; "equator", "up" or "outside" of a limit direction.
-    """
-
+    # unit vector of the picture. The line through the object runs both ways along it, but for "up" and "outside",
+    # which are half-lines
     direction: tuple[float, float]
+    # the eigenvalue: of J at a critical set; lambda_theta, -lambda_rho and lambda_rho at a limit direction
     value: float
-    where: Where = "disc"
+    where: Where = "disc"  # "disc" of a critical set; "equator", "up" or "outside" of a limit direction
 
 
 @dataclass(frozen=True, slots=True)
 class Linearised:
-    """Eigenvectors of the linearisation at one object, as lines of the picture.
+    """Eigenvectors of the linearisation at one object, as lines of the picture."""
 
-    Attributes
-    ----------
-    directions : tuple of Eigendirection
-        None of a complex pair, none where every direction is one, one where both eigenvalues have the same.
-    turning : int
-        Of a complex pair: 1 if orbits turn anticlockwise, -1 if clockwise; 0 where the eigenvalues are real.
-    every : bool
-        Whether every direction is an eigenvector.
-    """
-
+    # none of a complex pair, none where every direction is one, one where both eigenvalues have the same
     directions: tuple[Eigendirection, ...]
+    # of a complex pair: 1 if orbits turn anticlockwise, -1 if clockwise; 0 where the eigenvalues are real
     turning: int = 0
-    every: bool = False
+    every: bool = False  # whether every direction is an eigenvector
 
 
 def of_critical_set(C: CriticalSet) -> Linearised:

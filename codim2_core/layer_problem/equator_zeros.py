@@ -34,15 +34,7 @@ MIN_SLOPE = 1e-9  # of |U|: a smaller slope at a sign change of a Theta that is 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EquatorZeros:
-    """Zeros of Theta and the eigenvalues there; as `EquatorEquilibria`, with in addition
-
-    Attributes
-    ----------
-    beyond : tuple of int
-        As there.
-    degree : int or None
-        Degree of theta -> U/|U|, which the indices of the critical sets add up to; None if U vanishes on the equator.
-    """  # noqa: D400
+    """Zeros of Theta and the eigenvalues there; as `EquatorEquilibria`, and how they were found."""
 
     theta: NDArray[np.float64]
     lambda_rho: NDArray[np.float64]
@@ -54,9 +46,10 @@ class EquatorZeros:
     symmetric: bool
     certificate: str
     proven: bool
+    # degree of theta -> U/|U|, which the indices of the critical sets add up to; None if U vanishes on the equator
     degree: int | None
     arcs: NDArray[np.float64]
-    beyond: tuple[int, ...]
+    beyond: tuple[int, ...]  # as there
 
 
 def directions(theta: Array) -> Array:
@@ -96,7 +89,7 @@ def component_series(key: Hashable, kind: str) -> Series:
         found = series(_by_name(parts, kind), size, None if degree is None else degree + 1)
         if degree is not None:
             return found
-        # a peak that Theta hides from the net, beside a zero of sin or cos, still shows in U
+        # a peak that Theta hides from the net, next to a zero of sin or cos, still shows in U
         if found.resolved and all(series(U[:, i], size).resolved for i in (0, 1)):
             between = (np.arange(float(n)) + 0.5) * (2.0 * math.pi / n)
             there = _by_name(_components(run, between), kind)
@@ -193,7 +186,7 @@ def _degree(key: Hashable, rows: Array, f: Series, all_directions: bool) -> int 
     _, radial, slope, multiplicity = rows
     if (radial == 0.0).any():
         return None
-    if not f.resolved:  # Theta may vanish on arcs, and its series says no sign beside a zero
+    if not f.resolved:  # Theta may vanish on arcs, and its series says no sign next to a zero
         return _equator_winding(key)
     if all_directions:
         radial_series = component_series(key, "rho")

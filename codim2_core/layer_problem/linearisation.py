@@ -68,26 +68,14 @@ class Frame:
 
     ``J = [[along, *], [*, across]]``; written so, trace and determinant have no cancellation that the coefficients
     do not have: b, however large, stays out of the trace.
-
-    Attributes
-    ----------
-    along, across : float
-        Diagonal entries.
-    turning : float
-        Product of the other two.
-    determinant : float
-    sign : int
-        Of the determinant; 0 within the rounding of a, b, d.
-    size : float
-        Sum of the sizes of the terms of the trace.
     """
 
-    along: float
+    along: float  # diagonal entries
     across: float
-    turning: float
+    turning: float  # product of the other two
     determinant: float
-    sign: int
-    size: float
+    sign: int  # of the determinant; 0 within the rounding of a, b, d
+    size: float  # sum of the sizes of the terms of the trace
 
 
 LinearisationParts = tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]

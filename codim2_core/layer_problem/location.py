@@ -38,25 +38,13 @@ class Existence(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Location:
-    """The solution of ``A e = -f``.
-
-    Attributes
-    ----------
-    existence : Existence
-    e : (c, s), or None
-        The solution, when it lies in the open disc.
-    complement : float
-        ``1 - |e|^2`` to full relative accuracy.
-    direction : float, or None
-        The angle of the solution when it lies on |e| = 1 within rounding.
-    line : ((c, s), (c, s)), or None
-        Ends on |e| = 1 of the line of solutions when det A = 0.
-    """
+    """The solution of ``A e = -f``."""
 
     existence: Existence
-    e: tuple[float, float] | None = None
-    complement: float = 1.0
-    direction: float | None = None
+    e: tuple[float, float] | None = None  # the solution, when it lies in the open disc
+    complement: float = 1.0  # ``1 - |e|^2`` to full relative accuracy
+    direction: float | None = None  # the angle of the solution when it lies on |e| = 1 within rounding
+    # ends on |e| = 1 of the line of solutions when det A = 0
     line: tuple[tuple[float, float], tuple[float, float]] | None = None
 
     @property

@@ -1,4 +1,4 @@
-"""The layer problem at one z under one Psi: its equilibria, each found once, when it is asked for."""
+"""The layer problem at one z under one Psi: its equilibria, each found once, when it is requested."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a contact grips: the friction that sticking needs, beside what there is."""
+"""Whether a contact grips: the friction that sticking needs, next to what there is."""
 
 from __future__ import annotations
 

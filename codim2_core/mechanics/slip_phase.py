@@ -23,21 +23,11 @@ class TooLongError(Exception):
 
 @dataclass(frozen=True, eq=False)
 class Slipping:
-    """A slip: log r, theta and time over tau, dt = r dtau.
+    """A slip: log r, theta and time over tau, dt = r dtau."""
 
-    Attributes
-    ----------
-    stop : float or None
-        When it stops.
-    direction : float
-        Its angle then, or at the last time.
-    evaluations : int
-        Of U that it took.
-    """
-
-    stop: float | None
-    direction: float
-    evaluations: int
+    stop: float | None  # when it stops
+    direction: float  # its angle then, or at the last time
+    evaluations: int  # of U that it took
     _tau: Array
     _states: Array
     _dense: Any

@@ -1,6 +1,6 @@
 """The past of a state: a motion followed backwards, told forwards, as far as the state tells where it came from.
 
-Backwards what attracts repels. Beside a set that a motion follows, differences grow by the rate of its attraction,
+Backwards what attracts repels. Next to a set that a motion follows, differences grow by the rate of its attraction,
 which is of order 1/eps while the state itself hardly moves; once they have grown from the tolerance to a hundredth,
 what lies before is no past of the state but of its rounding.
 """

@@ -22,19 +22,10 @@ _VERB = {"slip": "slips", "slide": "slides", "cross": "crosses Σ"}
 
 @dataclass(frozen=True)
 class Agreement:
-    """Agreement of a motion for eps > 0 with the limit.
+    """Agreement of a motion for eps > 0 with the limit."""
 
-    Attributes
-    ----------
-    same : bool
-        Whether they have the same phases, on the same sets, as far as both were followed.
-    order : float
-        They differ by O(eps^order) at a fixed time: see `limit_order`.
-    sentence : str
-    """
-
-    same: bool
-    order: float
+    same: bool  # whether they have the same phases, on the same sets, as far as both were followed
+    order: float  # they differ by O(eps^order) at a fixed time: see `limit_order`
     sentence: str
 
 

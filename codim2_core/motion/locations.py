@@ -39,23 +39,12 @@ class Location(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class OfState:
-    """The place that the state itself says.
-
-    Attributes
-    ----------
-    motion : Dense
-    psi : Psi or None
-        None for the limit eps = 0.
-    eps : float
-        Not read in the limit.
-    t_start, t_end : float
-        Of the phase.
-    """
+    """The place that the state itself says."""
 
     motion: Dense
-    psi: Psi | None
-    eps: float
-    t_start: float
+    psi: Psi | None  # none for the limit eps = 0
+    eps: float  # not read in the limit
+    t_start: float  # of the phase
     t_end: float
 
     def at(self, t: Array) -> tuple[Array, Array]:
@@ -85,23 +74,13 @@ class OfState:
 
 @dataclass(frozen=True, eq=False)
 class OnSet:
-    """On a critical set that was followed in z.
-
-    Attributes
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    motion : Dense
-    times : ndarray (k,)
-        Increasing; where e is known.
-    e : ndarray (k, 2)
-    """
+    """On a critical set that was followed in z."""
 
     system: AnySystem
     psi: Psi
     motion: Dense
-    times: Array
-    e: Array
+    times: Array  # (k,) Increasing; where e is known
+    e: Array  # (k, 2)
 
     def at(self, t: Array) -> tuple[Array, Array]:
         """Return e and p."""
@@ -117,16 +96,10 @@ class OnSet:
 
 @dataclass(frozen=True, eq=False)
 class OnCycle:
-    """On a limit cycle of the layer problem: the means of e and of p over it.
+    """On a limit cycle of the layer problem: the means of e and of p over it."""
 
-    Attributes
-    ----------
-    times : ndarray (k,)
-    e, p : ndarray (k, 2)
-    """
-
-    times: Array
-    e: Array
+    times: Array  # (k,)
+    e: Array  # (k, 2)
     p: Array
 
     def at(self, t: Array) -> tuple[Array, Array]:
@@ -137,12 +110,7 @@ class OnCycle:
 
 @dataclass(frozen=True)
 class Leaving:
-    """A crossing, which takes no time: where it leaves Sigma.
-
-    Attributes
-    ----------
-    theta : float
-    """
+    """A crossing, which takes no time: where it leaves Sigma."""
 
     theta: float
 
@@ -154,26 +122,14 @@ class Leaving:
 
 @dataclass(frozen=True, eq=False)
 class Ascent:
-    """The orbit of the layer problem that a phase begins with, in no time.
-
-    Attributes
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi
-    z : ndarray (m,)
-    theta : float or None
-        Angle of arrival; None where it begins at `start`.
-    start : ndarray (2,) or None
-        In the projected disc.
-    along : tuple of (2,) arrays or None
-        The ends of a way along an invariant line, which needs no integration.
-    """
+    """The orbit of the layer problem that a phase begins with, in no time."""
 
     system: AnySystem
     psi: Psi
-    z: Array
-    theta: float | None = None
-    start: Array | None = None
+    z: Array  # (m,)
+    theta: float | None = None  # angle of arrival; None where it begins at `start`
+    start: Array | None = None  # (2,) In the projected disc
+    # (2,) The ends of a way along an invariant line, which needs no integration
     along: tuple[Array, Array] | None = None
 
     def path(self, onto: str | None = None) -> Array:

@@ -86,40 +86,21 @@ class Passed(NamedTuple):
 
 @dataclass
 class Passage:
-    """The passage of a motion by one critical set.
+    """The passage of a motion by one critical set."""
 
-    Attributes
-    ----------
-    formulas : Field
-        On the branch of the motion.
-    psi : Psi
-    eps : float
-    line : InvariantLine or None
-        That the motion stays in.
-    t_end, rtol, floor
-        As in `MotionSteps`.
-    carried : ndarray (2,), optional
-        log w where the formulas have just switched.
-    e : ndarray (2,)
-        Of the set, where it was found last.
-    growth : float
-        The leading real part of the eigenvalues, in units of a positive number, at the last step end that was looked
-        at; NaN if no set is followed there.
-    followed : int
-        Steps before the loss of stability on which w was less than `CLOSE`.
-    """
-
-    formulas: Field
+    formulas: Field  # on the branch of the motion
     psi: Psi
     eps: float
-    line: InvariantLine | None
-    t_end: float
+    line: InvariantLine | None  # that the motion stays in
+    t_end: float  # as in `MotionSteps`
     rtol: float
     floor: float
-    carried: NDArray[np.complex128] | None = None
-    e: Array = field(default_factory=lambda: np.zeros(2))
+    carried: NDArray[np.complex128] | None = None  # (2,) log w where the formulas have just switched
+    e: Array = field(default_factory=lambda: np.zeros(2))  # (2,) Of the set, where it was found last
+    # the leading real part of the eigenvalues, in units of a positive number, at the last step end that was looked
+    # at; NaN if no set is followed there
     growth: float = math.nan
-    followed: int = 0
+    followed: int = 0  # steps before the loss of stability on which w was less than `CLOSE`
 
     def __post_init__(self) -> None:
         if self.carried is not None:

@@ -22,20 +22,11 @@ MAX_HALVINGS, THINNINGS = 8, 5
 
 @dataclass(frozen=True, eq=False)
 class Drawn:
-    """A motion as a curve of the picture; arrays are read-only.
+    """A motion as a curve of the picture; arrays are read-only."""
 
-    Attributes
-    ----------
-    times : ndarray (k,)
-        Not decreasing: what takes no time in the limit has several points at one time.
-    states : ndarray (k, 2 + m)
-    points : ndarray (k, 2)
-        (1 + r) e outside in the limit, (1 + rho) p for eps > 0; p on the hemisphere.
-    """
-
-    times: Array
-    states: Array
-    points: Array
+    times: Array  # (k,) Not decreasing: what takes no time in the limit has several points at one time
+    states: Array  # (k, 2 + m)
+    points: Array  # (k, 2) (1 + r) e outside in the limit, (1 + rho) p for eps > 0; p on the hemisphere
 
 
 def drawn_curve(motion: Dense, phases: Sequence[Any], eps: float) -> Drawn:

@@ -186,7 +186,7 @@ class RegularisedRun:
         jumps: Mapping[float, bool] | None = None,
         turns: tuple[float, ...] = (),
     ) -> Simulation:
-        """Return the result, whose phases and derivatives are found when they are asked for."""
+        """Return the result, whose phases and derivatives are found when they are requested."""
         phases = partial(phases_of, self.system, self.psi, self.eps, motion, turns)
         variation = partial(of_regularised, self.system, self.psi, self.eps, motion, jumps or {})
         return simulation(

@@ -137,7 +137,7 @@ class Simulation(DenseMotion):
     Attributes
     ----------
     times : ndarray (k,)
-        Those that were asked for; else the ends of the steps, from t_start on, never decreasing. Near Sigma two may be
+        Those that were requested; else the ends of the steps, from t_start on, never decreasing. Near Sigma two may be
         equal: steps of length eps can be shorter than the spacing of doubles.
     states : ndarray (k, 2 + m)
         (x, y, z1, ..., zm).
@@ -183,7 +183,7 @@ class Simulation(DenseMotion):
 
     @cached_property
     def phases(self) -> tuple[Phase, ...]:
-        """Consecutive phases, read off the motion when first asked for."""
+        """Consecutive phases, read off the motion when first requested."""
         return self._phases()
 
     def variation(self, *names: str) -> Variation:

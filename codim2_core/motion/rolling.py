@@ -21,21 +21,11 @@ ROLLING_SHARE, MIN_ROLLING = 0.07, 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Rolling:
-    """A ball at the times of its motion; arrays are read-only.
+    """A ball at the times of its motion; arrays are read-only."""
 
-    Attributes
-    ----------
-    centre : ndarray (k, 2)
-        Where it is, m.
-    turns : ndarray (k, 4)
-        How it is turned since the start: unit quaternions (w, x, y, z).
-    radius : float
-        m.
-    """
-
-    centre: Array
-    turns: Array
-    radius: float
+    centre: Array  # (k, 2) Where it is, m
+    turns: Array  # (k, 4) How it is turned since the start: unit quaternions (w, x, y, z)
+    radius: float  # m
 
 
 def rolling(ball: Ball, times: ArrayLike, states: ArrayLike, rate: float = 0.0, radius: float | None = None) -> Rolling:

@@ -24,26 +24,13 @@ MAX_DISTANCE = 0.25  # in p: near a fold, and near the equator, the expansion pr
 
 @dataclass(frozen=True)
 class TrackedSet:
-    """The critical set that a state follows.
+    """The critical set that a state follows."""
 
-    Attributes
-    ----------
-    e : ndarray (2,)
-    p : ndarray (2,)
-        Its place in the projected disc.
-    attracts : bool
-        Whether it attracts in the layer problem.
-    rate : float
-        Largest modulus of its eigenvalues, in the fast time of kappa_2.
-    growth : float
-        Largest real part of them.
-    """
-
-    e: Array
-    p: Array
-    attracts: bool
-    rate: float
-    growth: float
+    e: Array  # (2,)
+    p: Array  # (2,) Its place in the projected disc
+    attracts: bool  # whether it attracts in the layer problem
+    rate: float  # largest modulus of its eigenvalues, in the fast time of kappa_2
+    growth: float  # largest real part of them
 
 
 def in_disc(psi: Psi, e: Array) -> Array:

@@ -26,18 +26,10 @@ NEAR_BORDER = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Crossing:
-    """Branches that cross.
+    """Branches that cross."""
 
-    Attributes
-    ----------
-    circle : ndarray (3,)
-        Middle and radius.
-    angles : ndarray (2 k,)
-        Of the half-branches where they meet the circle, increasing.
-    """
-
-    circle: Array
-    angles: Array
+    circle: Array  # (3,) Middle and radius
+    angles: Array  # (2 k,) Of the half-branches where they meet the circle, increasing
 
     def nearest(self, point: Array) -> int:
         """Index of the half-branch through a point on the circle."""

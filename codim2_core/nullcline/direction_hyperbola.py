@@ -21,22 +21,14 @@ MAX_PARAMETER_STEP = 0.5  # step of t on the hyperbola (e^t, e^-t)
 
 @dataclass(frozen=True, eq=False)
 class Conics:
-    """The conic Theta = 0, (4.10), and where it meets the unit circle, (4.11).
+    """The conic Theta = 0, (4.10), and where it meets the unit circle, (4.11)."""
 
-    Attributes
-    ----------
-    kind : str
-        "hyperbola", "two lines" (it falls apart), "line" (a = d, degenerate case D1), "none" (a = d, f = 0), "plane"
-        (b = 0 as well: every direction is a limit direction), or "" for a system that is not e-linear.
-    pieces : tuple of ndarray (k, 2)
-        The conic within the square |x|, |y| <= view, in the axes of the system; branches are never joined.
-    meeting : ndarray (j, 2)
-        The limit directions as points of the circle.
-    """
-
+    # "hyperbola", "two lines" (it falls apart), "line" (a = d, degenerate case D1), "none" (a = d, f = 0), "plane"
+    # (b = 0 as well: every direction is a limit direction), or "" for a system that is not e-linear
     kind: str
+    # (k, 2) The conic within the square |x|, |y| <= view, in the axes of the system; branches are never joined
     pieces: tuple[Array, ...]
-    meeting: Array
+    meeting: Array  # (j, 2) The limit directions as points of the circle
 
 
 def conics_of(problem: LayerProblem, view: float = 2.0, pixel: float | None = None) -> Conics:

@@ -38,15 +38,9 @@ NET_LEFT, BELOW, NET_SIDE = (
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Traced:
-    """A branch as a curve.
+    """A branch as a curve."""
 
-    Attributes
-    ----------
-    points, tangents : ndarray (n, 2)
-        Between neighbours a cubic with these ends is off by less than 1e-5.
-    """
-
-    points: Array
+    points: Array  # (n, 2) Between neighbours a cubic with these ends is off by less than 1e-5
     tangents: Array
 
     @property
@@ -160,7 +154,7 @@ class _Net:
         self.open[i[ok], j[ok]] = False
 
     def seeds(self) -> Iterator[tuple[Array, float]]:
-        """Middles of open cells, one after another, with the size of a cell; a cell that is asked for is closed."""
+        """Middles of open cells, one after another, with the size of a cell; a cell that is requested is closed."""
         while True:
             left = np.argwhere(self.open)
             if not len(left):

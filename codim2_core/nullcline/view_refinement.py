@@ -15,7 +15,7 @@ from .conics import ConicCurve
 from .general_nullclines import Kind
 
 PIXEL_TOLERANCE = 0.25  # of a pixel: a polyline stays within it of its curve
-WINDOW_MARGIN = 0.5  # of the window, beside it: what a small pan shows
+WINDOW_MARGIN = 0.5  # of the window, next to it: what a small pan shows
 MAX_BRANCH_POINTS = 4000  # points of a branch
 PASSES = 12  # each cuts a step in three
 DIFFERENCE_STEP = 1e-6  # of differences of a component

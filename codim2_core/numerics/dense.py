@@ -20,23 +20,12 @@ from .radau import STAGES, Step
 
 @dataclass(frozen=True, eq=False)
 class Dense(ByValue):
-    """The states of a motion at any time it covers; arrays are read-only.
+    """The states of a motion at any time it covers; arrays are read-only."""
 
-    Attributes
-    ----------
-    times : ndarray (k,)
-        Ends of the steps, from t_start on, never decreasing.
-    states : ndarray (k, 2 + m)
-    lengths : ndarray (k - 1,)
-        Of the steps; close to Sigma shorter than the spacing of doubles at their times.
-    polynomials : ndarray (k - 1, 2 + m, d)
-        ``states[i] + polynomials[i] . (u, ..., u^d)``, u from 0 to 1 along step i.
-    """
-
-    times: Array
-    states: Array
-    lengths: Array
-    polynomials: Array
+    times: Array  # (k,) Ends of the steps, from t_start on, never decreasing
+    states: Array  # (k, 2 + m)
+    lengths: Array  # (k - 1,) Of the steps; close to Sigma shorter than the spacing of doubles at their times
+    polynomials: Array  # (k - 1, 2 + m, d) ``states[i] + polynomials[i] . (u, ..., u^d)``, u from 0 to 1 along step i
 
     def __call__(self, t: ArrayLike) -> Array:
         """State (..., 2 + m) at times (...,) between the first and the last; ValueError for any other."""
@@ -85,7 +74,7 @@ class Dense(ByValue):
 
 @dataclass(frozen=True, eq=False)
 class DenseMotion(Pictured):
-    """A motion as a result: its states at the times that were asked for, at any other time, and as a table."""
+    """A motion as a result: its states at the times that were requested, at any other time, and as a table."""
 
     _internal_: ClassVar[frozenset[str]] = frozenset({"motion", "sample"})
 
@@ -94,7 +83,7 @@ class DenseMotion(Pictured):
 
     @property
     def times(self) -> Array:
-        """Times that were asked for, or the ends of the steps."""
+        """Times that were requested, or the ends of the steps."""
         return self.motion.times if self._asked is None else self._asked
 
     @property

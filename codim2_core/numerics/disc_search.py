@@ -84,7 +84,7 @@ def _injective_radius(op, left, right, number, roots, c, s, rows, smallest, boxe
     """Half-width of a box around the zero (c, s) in which Krawczyk's test proves it and no other; 0 if none.
 
     It is proved where the rounding of U at (c, s), over its slopes, keeps within the box: a U that is 0 in all digits
-    beside a double zero has no zero there.
+    next to a double zero has no zero there.
     """
     det = rows[0, 1] * rows[1, 2] - rows[0, 2] * rows[1, 1]
     y00, y01, y10, y11 = rows[1, 2] / det, -rows[0, 2] / det, -rows[1, 1] / det, rows[0, 1] / det

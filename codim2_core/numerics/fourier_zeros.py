@@ -19,7 +19,7 @@ from ..arrays import Array
 
 UNIT = 2.0**-53
 ROUNDINGS = 16.0  # of the terms of f: what a zero's multiplicity is decided within
-MIN_ARC = 2e-3  # half-width of an arc below which a multiple zero is asked for
+MIN_ARC = 2e-3  # half-width of an arc below which a multiple zero is requested
 FINEST = 1e-11
 SAME_ZERO_DISTANCE = 1e-6  # a multiple zero found twice differs by less
 OFFSET = 0.1234567  # so that no arc of the first net ends at a multiple of pi/2, where zeros like to be
@@ -28,23 +28,12 @@ HIGHEST = 8  # multiplicity
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """``f = Re sum_k c_k exp(i k theta)``.
+    """``f = Re sum_k c_k exp(i k theta)``."""
 
-    Attributes
-    ----------
-    c : ndarray of complex (n + 1,)
-    size : float
-        Size of the terms f was summed from: it is known to within a few units of rounding of this.
-    resolved : bool
-        What was dropped lies within that rounding.
-    exact : bool
-        f is known to be a trigonometric polynomial of no higher degree.
-    """
-
-    c: NDArray[np.complex128]
-    size: float
-    resolved: bool
-    exact: bool
+    c: NDArray[np.complex128]  # (n + 1,)
+    size: float  # size of the terms f was summed from: it is known to within a few units of rounding of this
+    resolved: bool  # what was dropped lies within that rounding
+    exact: bool  # f is known to be a trigonometric polynomial of no higher degree
 
     @property
     def degree(self) -> int:
@@ -79,22 +68,13 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class Zeros:
-    """Zeros of a `Series` in [0, 2 pi), increasing.
+    """Zeros of a `Series` in [0, 2 pi), increasing."""
 
-    Attributes
-    ----------
-    theta : ndarray (k,)
-    multiplicity : ndarray of int (k,)
-    proven : bool
-        Every arc without a zero was shown to have none, and every simple zero lies on an arc where f is monotone.
-    distance : float
-        Estimate of the smallest relative change of f that makes a zero multiple: 0.0 if one is.
-    """
-
-    theta: Array
-    multiplicity: NDArray[np.int64]
+    theta: Array  # (k,)
+    multiplicity: NDArray[np.int64]  # (k,)
+    # every arc without a zero was shown to have none, and every simple zero lies on an arc where f is monotone
     proven: bool
-    distance: float
+    distance: float  # estimate of the smallest relative change of f that makes a zero multiple: 0.0 if one is
 
 
 def series(values: Array, size: float, degree: int | None = None) -> Series:

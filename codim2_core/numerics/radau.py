@@ -24,25 +24,14 @@ CAREFUL, GROWTH_AFTER_FAILURE = 6, 1.2  # so many steps after Newton's method fa
 
 
 class Tableau(NamedTuple):
-    """Coefficients of the method.
+    """Coefficients of the method."""
 
-    Attributes
-    ----------
-    nodes : ndarray (5,)
-    A : ndarray (5, 5)
-    gamma : float
-        Inverse of the real eigenvalue of A^-1.
-    error : ndarray (5,)
-        Weights of the stage increments Z in the error estimate ``gamma h F(Y0) + error . Z``, of order 5.
-    fit : ndarray (5, 5)
-        From Z to the coefficients of u, ..., u^5 of the polynomial through Y0 and the stages.
-    """
-
-    nodes: Array
-    A: Array
-    gamma: float
+    nodes: Array  # (5,)
+    A: Array  # (5, 5)
+    gamma: float  # inverse of the real eigenvalue of A^-1
+    # (5,) Weights of the stage increments Z in the error estimate ``gamma h F(Y0) + error . Z``, of order 5
     error: Array
-    fit: Array
+    fit: Array  # (5, 5) From Z to the coefficients of u, ..., u^5 of the polynomial through Y0 and the stages
 
 
 @lru_cache(maxsize=1)

@@ -159,7 +159,7 @@ def _hidden_pairs(
             if abs(y[j, at[j]]) <= floor[j]:
                 touching.append((owner[j], _lowest(function, float(x[j, at[j]]), grids[owner[j]])))
             elif 0 < at[j] < len(_UNIT) - 1 and (
-                # a minimum falls by more than half only if it comes near zero; or it lay beside a grid point before
+                # a minimum falls by more than half only if it comes near zero; or it lay next to a grid point before
                 abs(y[j, at[j]]) < 0.5 * best[j]
                 or _near_zero(x[j, at[j] - 1 : at[j] + 2] - x[j, at[j]], abs(y[j, at[j] - 1 : at[j] + 2]))
             ):

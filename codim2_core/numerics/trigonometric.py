@@ -41,30 +41,17 @@ _RADIAL = ((0, 2, 0, 0, 0), (0, 0, 2, 0, 0), (1, 0, 0, 1, 0), (1, 0, 0, -1, 0))
 
 
 class TrigonometricZeros(NamedTuple):
-    """Zeros of a trigonometric polynomial, in increasing order from direction 0.
+    """Zeros of a trigonometric polynomial, in increasing order from direction 0."""
 
-    Attributes
-    ----------
-    theta : tuple of float
-        Directions in [0, 2 pi). A zero below 0 by less than half the spacing of doubles at 2 pi is 0.0.
-    slope : tuple of float
-        dt/dtheta there; exactly 0.0 at a multiple zero, never 0.0 at a simple one, alternating in sign.
-    multiplicity : tuple of int
-        1, 2, 3 or 4 within the rounding of the inputs.
-    identically_zero : bool
-        True if t vanishes for every theta; the tuples are then empty.
-    exact_count : int
-        Distinct real zeros of the doubles exactly as given (-1: all directions).
-    distance : float
-        First-order estimate of the smallest relative change of all inputs that makes a zero multiple (0.0 if
-        one is named multiple). Usually an estimate from below; inf if no change of this kind exists.
-    """
-
+    # directions in [0, 2 pi). A zero below 0 by less than half the spacing of doubles at 2 pi is 0.0
     theta: tuple[float, ...]
+    # dt/dtheta there; exactly 0.0 at a multiple zero, never 0.0 at a simple one, alternating in sign
     slope: tuple[float, ...]
-    multiplicity: tuple[int, ...]
-    identically_zero: bool
-    exact_count: int
+    multiplicity: tuple[int, ...]  # 1, 2, 3 or 4 within the rounding of the inputs
+    identically_zero: bool  # true if t vanishes for every theta; the tuples are then empty
+    exact_count: int  # distinct real zeros of the doubles exactly as given (-1: all directions)
+    # first-order estimate of the smallest relative change of all inputs that makes a zero multiple (0.0 if one is
+    # named multiple). Usually an estimate from below; inf if no change of this kind exists
     distance: float
 
 

@@ -262,7 +262,7 @@ def _degenerate_zeros(
     knots = [-math.inf, *critical, math.inf]
     gaps = [next(g for g in range(len(knots) - 1) if knots[g] <= q <= knots[g + 1]) for q in zeros]
     # A minimum below 0 (maximum above) is named for the zeros on its two sides, which it replaces; a minimum just
-    # above 0 has none of its own. Beside an inflection one of the two sides may have none: that is not a pair.
+    # above 0 has none of its own. Next to an inflection one of the two sides may have none: that is not a pair.
     pairs: dict[int, set[int]] = {}
     for i, p in enumerate(critical):
         value = _scaled_value(chain[0], p, bits)

@@ -16,15 +16,9 @@ from .result import Status, Trajectories
 
 @dataclass(frozen=True, eq=False)
 class Orbits(ByValue):
-    """Orbits through seeds; all arrays are read-only and points run with increasing time.
+    """Orbits through seeds; all arrays are read-only and points run with increasing time."""
 
-    Attributes
-    ----------
-    backward, forward : Trajectories
-        The two halves; each starts at the seed, time T = 0.
-    """
-
-    backward: Trajectories
+    backward: Trajectories  # the two halves; each starts at the seed, time T = 0
     forward: Trajectories
 
     def __len__(self) -> int:

@@ -29,31 +29,16 @@ MAX_HALF_POINTS = 300  # points of each half
 
 @dataclass(frozen=True, eq=False)
 class InTime(ByValue):
-    """An orbit over time; arrays are read-only and run with increasing time.
+    """An orbit over time; arrays are read-only and run with increasing time."""
 
-    Attributes
-    ----------
-    fast : bool
-        The orbit lies on the hemisphere: times are tau = t/eps and lengths are in eps, (3.26). Outside they are as they
-        are, (2.7) with z frozen.
-    time : ndarray (k,)
-        0 at the seed.
-    xy : ndarray (k, 2)
-        (x, y)/eps on the hemisphere, (x, y) outside.
-    theta : ndarray (k,)
-        Angle of (x, y), without jumps by 2 pi.
-    radius : ndarray (k,)
-        |p| on the hemisphere, rho = |(x, y)| outside.
-    points : ndarray (k, 2)
-        Of the picture.
-    """
-
+    # the orbit lies on the hemisphere: times are tau = t/eps and lengths are in eps, (3.26). Outside they are as
+    # they are, (2.7) with z frozen
     fast: bool
-    time: Array
-    xy: Array
-    theta: Array
-    radius: Array
-    points: Array
+    time: Array  # (k,) 0 at the seed
+    xy: Array  # (k, 2) (x, y)/eps on the hemisphere, (x, y) outside
+    theta: Array  # (k,) Angle of (x, y), without jumps by 2 pi
+    radius: Array  # (k,) |p| on the hemisphere, rho = |(x, y)| outside
+    points: Array  # (k, 2) Of the picture
 
     def __post_init__(self) -> None:
         for array in (self.time, self.xy, self.theta, self.radius, self.points):

@@ -14,21 +14,11 @@ from ..layer_problem.critical import CriticalSet
 
 @dataclass(frozen=True)
 class Attracting:
-    """An attracting set, and the slow flow along it; arrays are read-only.
+    """An attracting set, and the slow flow along it; arrays are read-only."""
 
-    Attributes
-    ----------
-    name : str
-        "C", or "C1", "C2", … in the order of `critical_sets`; "cycle 1", … in that of `limit_cycles`.
-    e : ndarray (2,)
-        (c, s) on it; its mean over a period of a cycle.
-    slow_flow : ndarray (m,)
-        z' on it (4.17), over a cycle the mean (Proposition 4.2).
-    """
-
-    name: str
-    e: NDArray[np.float64]
-    slow_flow: NDArray[np.float64]
+    name: str  # "C", or "C1", "C2", … in the order of `critical_sets`; "cycle 1", … in that of `limit_cycles`
+    e: NDArray[np.float64]  # (2,) (c, s) on it; its mean over a period of a cycle
+    slow_flow: NDArray[np.float64]  # (m,) z' on it (4.17), over a cycle the mean (Proposition 4.2)
 
 
 def attracting_set(

@@ -54,7 +54,7 @@ def undecided_degeneracy(
 
 
 class PortraitName(NamedTuple):
-    """A portrait's name without its sentence: no limit cycle is asked for. Attributes as in `Classification`."""
+    """A portrait's name without its sentence: no limit cycle is requested. Attributes as in `Classification`."""
 
     case: str | None
     name: str

@@ -44,7 +44,7 @@ def _count_phrase(k: int, kind: str) -> str:
 
 
 def general_consequence(critical: tuple[CriticalSet, ...], found: DiscZeros, cycles: int) -> str:
-    """Say which critical sets there are, and how many ways to slide stably, beside so many stable limit cycles."""
+    """Say which critical sets there are, and how many ways to slide stably, next to so many stable limit cycles."""
     if not critical:
         if found.everything or found.curve or found.on_equator:
             return say("no isolated set")

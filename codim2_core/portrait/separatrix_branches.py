@@ -140,7 +140,7 @@ def _tails(
 
 
 def _along_equator(at: FrozenSystem, p: Array, end: Array, backward: bool) -> Array:
-    """Points of the equator from beside p to an equilibrium there, in the sense in which orbits move."""
+    """Points of the equator from next to p to an equilibrium there, in the sense in which orbits move."""
     first, last = math.atan2(p[1], p[0]), math.atan2(end[1], end[0])
     U = at.U(p / np.hypot(*p))
     turn = (last - first) % (2.0 * math.pi)

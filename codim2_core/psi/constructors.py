@@ -32,7 +32,7 @@ def constant() -> Psi:
 
 @cache
 def _constant() -> Psi:
-    """Return the one that is asked for in every frame."""
+    """Return the one that is requested in every frame."""
     return make("constant")
 
 

@@ -32,7 +32,7 @@ MODEL = """
 
 
 def follow_in_mujoco(motion: ReferenceMotion) -> Comparison:
-    """Return MuJoCo's values of a reference motion beside the exact ones.
+    """Return MuJoCo's values of a reference motion next to the exact ones.
 
     It is asked with elliptic cones, impratio 100 and steps of a millisecond, and is else as it comes.
 

@@ -1,7 +1,7 @@
 """Masses on springs with dry friction: they decay, are driven round, to and fro, or stick and slip.
 
 A mass that is driven round by F e^{i w t} keeps its place in the frame that turns with the force, q = R e^{i(wt + p)}.
-Beside it, ``q = R (1 + a + i b)`` there obeys
+Next to it, ``q = R (1 + a + i b)`` there obeys
 
     a'' - 2 w b' + (1 - w^2) a = (S/R) (b - a'/w),    b'' + 2 w a' + (1 - w^2) b = 0,
 

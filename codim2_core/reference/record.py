@@ -49,7 +49,7 @@ def closed_form(name: str, unit: str, value: float, formula: str) -> ExactValue:
 
 @dataclass(frozen=True, eq=False)
 class Measured(Tabled):
-    """A value of a solver beside what it should be.
+    """A value of a solver next to what it should be.
 
     Attributes
     ----------
@@ -77,7 +77,7 @@ class Measured(Tabled):
 
 @dataclass(frozen=True, eq=False)
 class Comparison(Several[Measured]):
-    """A solver's values of one motion beside the exact ones; a sequence of `Measured`.
+    """A solver's values of one motion next to the exact ones; a sequence of `Measured`.
 
     Attributes
     ----------
@@ -126,7 +126,7 @@ class ReferenceMotion(Tabled):
         return self.key, self.sentence, self.source
 
     def compare(self, follow: Callable[[], Sequence[float]] | None = None, solver: str = "codim2") -> Comparison:
-        """Return a solver's values beside the exact ones.
+        """Return a solver's values next to the exact ones.
 
         Parameters
         ----------

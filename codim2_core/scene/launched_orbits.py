@@ -32,22 +32,12 @@ LOST = 1e-9  # rho below which a drawn point |p| = 1 + rho does not tell it, and
 
 @dataclass(frozen=True)
 class LimitSet:
-    """The limit set of an orbit, forward or backward in time.
+    """The limit set of an orbit, forward or backward in time."""
 
-    Attributes
-    ----------
-    label : str
-        "C" (or "C1", ...), "Q1", ..., "cycle 1", "equator", "away" (it leaves the view) or "undecided".
-    onto : str or None
-        For an orbit from outside that reaches Sigma: what it slides on, or leaves along, then.
-    after : float or None
-        For an orbit from outside that reaches Sigma: the time t of (2.7) until then (before the seed: since then).
-        None where the line ends before, as it winds for too long.
-    sentence : str
-    """
-
-    label: str
-    onto: str | None
+    label: str  # "C" (or "C1", ...), "Q1", ..., "cycle 1", "equator", "away" (it leaves the view) or "undecided"
+    onto: str | None  # for an orbit from outside that reaches Sigma: what it slides on, or leaves along, then
+    # for an orbit from outside that reaches Sigma: the time t of (2.7) until then (before the seed: since then).
+    # None where the line ends before, as it winds for too long
     after: float | None
     sentence: str
 
@@ -228,7 +218,7 @@ def _time(at: FrozenSystem, lines: Trajectories, i: int) -> float:
     """Return t = ∫ rho dT along a drawn line outside, to its arrival.
 
     Between drawn points rho changes almost exponentially in T, for which the integral is
-    (rho2 - rho1) dT/log(rho2/rho1). A drawn rho = |p| - 1 below `LOST` has no digits left, and beside the ray of a
+    (rho2 - rho1) dT/log(rho2/rho1). A drawn rho = |p| - 1 below `LOST` has no digits left, and next to the ray of a
     saddle the next point drawn may be e^-100 away: from the last point before, what is left is rho/|lambda_rho|, to
     leading order, or in a spiral rho over the mean rate so far.
     """

@@ -14,22 +14,15 @@ KEPT_RESULTS = 8  # results kept for each layer: a few settings back and forth
 
 @dataclass
 class Memory:
-    """Results by layer and by the values that they were computed from.
+    """Results by layer and by the values that they were computed from."""
 
-    Attributes
-    ----------
-    results : dict of str to OrderedDict
-        Of each layer the last `KEPT_RESULTS`.
-    runs : Counter of str
-        How often each layer has been computed, for tests and benchmarks.
-    before : callable, optional
-        ``before(scene, layer)`` is called before a layer is computed; it may raise, or return what is called after.
-    """
-
+    # of each layer the last `KEPT_RESULTS`
     results: defaultdict[str, OrderedDict[Hashable, Any]] = field(default_factory=lambda: defaultdict(OrderedDict))
+    # how often each layer has been computed, for tests and benchmarks
     runs: Counter[str] = field(default_factory=Counter)
+    # ``before(scene, layer)`` is called before a layer is computed; it may raise, or return what is called after
     before: Callable[[Any, str], Callable[[], None] | None] | None = None
-    lock: Lock = field(default_factory=Lock)  # the jobs beside the frames read the same memory
+    lock: Lock = field(default_factory=Lock)  # the jobs next to the frames read the same memory
 
     def find(self, layer: str, key: Hashable) -> Any:
         """Return what is kept for these values, or `ABSENT`."""

@@ -1,4 +1,4 @@
-"""A scene: everything that is drawn at one setting, computed when it is first asked for.
+"""A scene: everything that is drawn at one setting, computed when it is first requested.
 
 Each layer names the inputs that it reads. `Scene.evolve` makes a new scene which shares the results of all layers
 whose inputs keep their values, so that a slider recomputes exactly what it reaches, a hidden layer costs nothing,
@@ -67,7 +67,7 @@ class _Problem(LayerProblem):
 
 
 class Scene(Listed, Mapping[str, Any]):
-    """Everything drawn for one system at one z, by name; layers are computed when first asked for.
+    """Everything drawn for one system at one z, by name; layers are computed when first requested.
 
     ``scene["critical_sets"]`` is what ``critical_sets`` returns, and so for the other public functions.
 

@@ -16,28 +16,16 @@ from ..words import say
 
 @dataclass(frozen=True, eq=False)
 class AffinePlane:
-    """The plane of affine combinations of limit vectors, (4.4), and its point on Sigma, (4.5).
+    """The plane of affine combinations of limit vectors, (4.4), and its point on Sigma, (4.5)."""
 
-    Attributes
-    ----------
-    matrix : ndarray (2 + m, 2)
-        A over B: the combination with (l1, l2) is ``matrix @ (l1, l2) + offset``; it is convex for |(l1, l2)| <= 1.
-    offset : ndarray (2 + m,)
-        f over g.
-    place : ndarray (2,) or None
-        The (l1, l2) of the point on Sigma, -A^-1 f; None where det A = 0, and so no or many points.
-    point : ndarray (m,) or None
-        What the plane has on Sigma: -B A^-1 f + g.
-    convex : bool
-        Whether it is a convex combination, |A^-1 f| <= 1: then there is sliding, else crossing.
-    sentence : str
-    """
-
+    # (2 + m, 2) A over B: the combination with (l1, l2) is ``matrix @ (l1, l2) + offset``; it is convex for |(l1,
+    # l2)| <= 1
     matrix: Array
-    offset: Array
+    offset: Array  # (2 + m,) f over g
+    # (2,) The (l1, l2) of the point on Sigma, -A^-1 f; None where det A = 0, and so no or many points
     place: Array | None
-    point: Array | None
-    convex: bool
+    point: Array | None  # (m,) What the plane has on Sigma: -B A^-1 f + g
+    convex: bool  # whether it is a convex combination, |A^-1 f| <= 1: then there is sliding, else crossing
     sentence: str
 
 

@@ -17,21 +17,12 @@ from ..systems.kinds import AnySystem
 
 @dataclass(frozen=True, eq=False)
 class SlowPlane:
-    """The slow flow on every critical set over a net of two slow variables; arrays are read-only.
+    """The slow flow on every critical set over a net of two slow variables; arrays are read-only."""
 
-    Attributes
-    ----------
-    z : ndarray (k, 2)
-        (z1, z2) of each critical set found: none where Sigma is crossed, several where sliding is not unique.
-    flow : ndarray (k, m)
-        z' on it.
-    stable : ndarray (k,) of bool
-        Whether the layer problem attracts to it.
-    """
-
+    # (k, 2) (z1, z2) of each critical set found: none where Sigma is crossed, several where sliding is not unique
     z: Array
-    flow: Array
-    stable: NDArray[np.bool_]
+    flow: Array  # (k, m) z' on it
+    stable: NDArray[np.bool_]  # (k,) Whether the layer problem attracts to it
 
 
 def slow_plane(
@@ -61,14 +52,9 @@ def slow_plane(
 
 @dataclass(frozen=True, eq=False)
 class DirectionsAlong:
-    """Limit directions over values of one slow variable; arrays (k,) are read-only.
+    """Limit directions over values of one slow variable; arrays (k,) are read-only."""
 
-    Attributes
-    ----------
-    z, theta, lambda_rho, lambda_theta : ndarray (k,)
-    """
-
-    z: Array
+    z: Array  # (k,)
     theta: Array
     lambda_rho: Array
     lambda_theta: Array

@@ -151,21 +151,11 @@ def write_typed_gains(state, out, parameters, address, lanes):
 
 @dataclass(frozen=True)
 class GainVariant:
-    """The compiled code of a Psi: one for a family, two with `Family.gain_whole`.
+    """The compiled code of a Psi: one for a family, two with `Family.gain_whole`."""
 
-    Attributes
-    ----------
-    key : callable
-        The gain as its family gives it; `typed_gain` of a formula.
-    whole : bool
-        The parameter is read as an int.
-    cached : bool
-        The disk cache holds it: so for the families of this package.
-    """
-
-    key: Callable[..., Any]
-    whole: bool = False
-    cached: bool = False
+    key: Callable[..., Any]  # the gain as its family gives it; `typed_gain` of a formula
+    whole: bool = False  # the parameter is read as an int
+    cached: bool = False  # the disk cache holds it: so for the families of this package
 
     def make(self, lanes: Callable[..., None]) -> Any:
         """Compile a function of all lanes, which calls ``gain(r2, w, kind(P[PSI]))``, with this gain in its place."""

@@ -22,27 +22,13 @@ ALONE.flags.writeable = False
 
 @dataclass(frozen=True)
 class CompiledProblem:
-    """A right-hand side, scaled so that |U| is about 1.
+    """A right-hand side, scaled so that |U| is about 1."""
 
-    Attributes
-    ----------
-    address : int
-        Of the field.
-    shared : ndarray (SHARED_SIZE,)
-        Its parameters.
-    functions : tuple
-        What is behind the addresses: it must outlive their use.
-    factors : slice
-        The parameters to which the right-hand side is proportional.
-    own : ndarray (m, 2)
-        Address and parameter of the gain of each of several Psi, see `lanes.integrate`.
-    """
-
-    address: int
-    shared: Array
-    functions: tuple[Any, ...]
-    factors: slice
-    own: Array
+    address: int  # of the field
+    shared: Array  # (SHARED_SIZE,) Its parameters
+    functions: tuple[Any, ...]  # what is behind the addresses: it must outlive their use
+    factors: slice  # the parameters to which the right-hand side is proportional
+    own: Array  # (m, 2) Address and parameter of the gain of each of several Psi, see `lanes.integrate`
 
     @property
     def reversed(self) -> CompiledProblem:

@@ -1,6 +1,6 @@
 """Compiled implicit stepping of the trajectories that creep along a slow direction, in the lanes of `lanes`.
 
-Beside a strongly attracting direction an explicit step is bound to the fast rate, however slow the motion has become.
+Next to a strongly attracting direction an explicit step is bound to the fast rate, however slow the motion has become.
 A Rosenbrock method takes steps of the slow one: stiffly accurate, L-stable, of order 4 with an estimate of order 3 and
 dense output, whose coefficients go where DOP853's do, so that lines are drawn in the same way.
 

@@ -41,18 +41,13 @@ def with_clock(U: Rows, W: Rows) -> tuple[Rows, Rows, str]:
 
 @dataclass(frozen=True)
 class Formulas:
-    """U and W of (2.7) as formulas with numbers for their parameters, the parameters of `System`.
-
-    Attributes
-    ----------
-    clock : str
-        The slow variable that is t, the last one, where formulas read t; else "".
-    """
+    """U and W of (2.7) as formulas with numbers for their parameters, the parameters of `System`."""
 
     U: Any
     W: Any = ()
     parameters: Any = ()
     definitions: Any = ()
+    # the slow variable that is t, the last one, where formulas read t; else ""
     clock: str = field(default="", init=False)
 
     def __post_init__(self) -> None:

@@ -41,7 +41,7 @@ def _compare_angles(facts: Facts, theorem: str, statement: str, expected: list[f
         gaps = [abs(math.remainder(theta - float(other), 2.0 * math.pi)) for other in found]
         worst = max(worst, min(gaps, default=math.pi))
     distinct = len(facts.equator)
-    # beside a saddle-node or pitchfork angles are known to the root of the rounding
+    # next to a saddle-node or pitchfork angles are known to the root of the rounding
     close = 1e-5 if facts.generic else 1e-4
     holds = worst <= close and (distinct == len(expected) or not facts.generic)
     numbers = tuple((f"θ* {i + 1}", math.remainder(theta, 2.0 * math.pi)) for i, theta in enumerate(expected))

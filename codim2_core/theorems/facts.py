@@ -80,18 +80,10 @@ class Certificate(Tabled):
 
 @dataclass(frozen=True)
 class Facts:
-    """Everything the theorems speak of, of one layer problem.
-
-    Attributes
-    ----------
-    problem : LayerProblem
-    system : ELinear, System or None
-        The system that was frozen, where it is known: Theorem 3.3(d) looks along z.
-    z : tuple of float
-    """
+    """Everything the theorems speak of, of one layer problem."""
 
     problem: LayerProblem
-    system: Any = None
+    system: Any = None  # the system that was frozen, where it is known: Theorem 3.3(d) looks along z
     z: tuple[float, ...] = ()
 
     @property

@@ -30,7 +30,7 @@ Defining = Callable[[Array, float], Array]  # F of y and v
 
 
 class SpecialPoint(Protocol):
-    """A special point as far as it is asked for here (`SpecialValue`)."""
+    """A special point as far as it is requested here (`SpecialValue`)."""
 
     @property
     def kind(self) -> str: ...  # noqa: D102

@@ -7,15 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Sentence:
-    """One sentence.
+    """One sentence."""
 
-    Attributes
-    ----------
-    says : str
-        With {fields}.
-    when : str
-        When it is said.
-    """
-
-    says: str
-    when: str
+    says: str  # with {fields}
+    when: str  # when it is said

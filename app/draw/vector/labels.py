@@ -1,4 +1,4 @@
-"""Place labels beside their marks, over no other label and no mark."""
+"""Place labels next to their marks, over no other label and no mark."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def clear_of(
         Of the drawing, in which it stays.
     """
     wide, high = width_of(text, size), 1.1 * size
-    # a label beside its mark may also stand on the mark's other side
+    # a label next to its mark may also stand on the mark's other side
     lefts = (x - wide / 2,) if anchor == "middle" else (x, x - wide - 2 * size)
     boxes = [
         LabelBox(left + across * size, y - high / 2 + up * size, wide, high)

@@ -208,7 +208,7 @@ def mark(columns: Mapping[str, Any], i: int, u: float, v: float, unit: float, wi
 
 
 def label(text: str, x: float, y: float, anchor: str, place: Placement, taken: list[LabelBox]) -> str:
-    """Return a label beside (x, y), the middle of its height, or where it stands over no other."""
+    """Return a label next to (x, y), the middle of its height, or where it stands over no other."""
     box = clear_of(taken, text, x, y, anchor, place.text, place.side, place.height)
     taken.append(box)
     at = box.x + box.width / 2 if anchor == "middle" else box.x

@@ -112,7 +112,7 @@ def _curves_of_psi(draft: FrameContext, size: float) -> None:
 
 
 def _curves_of_cycles(draft: FrameContext, size: float) -> None:
-    """Add the curves on which limit cycles meet, or end at the equator: in Case III, where they are asked for.
+    """Add the curves on which limit cycles meet, or end at the equator: in Case III, where they are requested.
 
     They take seconds to continue.
     """
@@ -173,7 +173,7 @@ def _map(draft: FrameContext, axes: tuple[Axis, Axis]) -> None:
 def _add_atlas(draft: FrameContext, key: tuple[Any, ...], axes: tuple[Axis, Axis]) -> None:
     """Add the curves and, once they are there, the regions between them.
 
-    Then, where they are asked for, the folds of its limit cycles and the connections of its saddles.
+    Then, where they are requested, the folds of its limit cycles and the connections of its saddles.
     """
     system, psi, z, names, spans = key
     curves: Atlas | None = draft.slow("map", key, curves_over, system, psi, *names, spans, z)

@@ -142,7 +142,7 @@ def spans_of(draft: FrameContext, name: str, axes: tuple[Axis, ...], zoom: int) 
     of, spans = draft.now.get(f"{name} spans", (None, ()))
     if of == kind and zoom and all(map(_well_inside, spans, axes)):
         return spans
-    # n has a short range; beside another parameter it stays whole
+    # n has a short range; next to another parameter it stays whole
     spans = tuple(axis.span(0 if axis.name == "n" and len(axes) > 1 else zoom) for axis in axes)
     draft.now[f"{name} spans"] = kind, spans
     return spans

@@ -22,7 +22,7 @@ def add_reference(commands: Any) -> None:
 
 
 def reference(chosen: argparse.Namespace) -> int:
-    """Print the list, or one motion: what it is, and the values that are known beside those of a solver."""
+    """Print the list, or one motion: what it is, and the values that are known next to those of a solver."""
     motions = c2.reference.catalogue
     if chosen.name is None:
         if chosen.json:

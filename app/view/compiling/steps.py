@@ -31,7 +31,7 @@ GENERAL_LAYERS = ("equator", "critical", "nullclines_inside", "nullclines_outsid
 
 
 def kernel_steps() -> list[tuple[str, Callable[[], object]]]:
-    """Return what is compiled beforehand, by what it is called, in the order in which it is asked for."""
+    """Return what is compiled beforehand, by what it is called, in the order in which it is requested."""
     families = [family for family in FAMILIES.values() if not family.typed]
     psis = [(family.title, make(family.name)) for family in families] + [("a formula", custom("1/(1+s)"))]
     first, *others = ((f"trajectories for Ψ = {title}", partial(warm, psi)) for title, psi in psis)

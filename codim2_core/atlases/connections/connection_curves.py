@@ -29,7 +29,7 @@ BOGDANOV_TAKENS_DISTANCE, MAX_LOOP_SIZE = (
     0.3,
 )  # of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size
 CORNER_RADIUS = 0.015  # of the square: a cycle through the equator ends at a corner so near to it
-CODIM_TWO_DISTANCE = 5e-3  # of the square: an end beside a curve of the equilibria
+CODIM_TWO_DISTANCE = 5e-3  # of the square: an end next to a curve of the equilibria
 MAX_CURVES = 24  # curves
 
 
@@ -114,7 +114,7 @@ def _birth_point(one: ConnectionCurve, takens: Sequence[Array], i: int) -> tuple
 
 
 def _end_point(family: SystemFamily, place: Array, kind: str, curves: Sequence[AtlasCurve]) -> AtlasPoint:
-    """Say where a curve could be followed no further, and beside what."""
+    """Say where a curve could be followed no further, and next to what."""
     gaps = {
         one.kind: float(np.hypot(*(family.units(one.points) - place).T).min())
         for one in curves if one.kind in EQUILIBRIUM_KINDS

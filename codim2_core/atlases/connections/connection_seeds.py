@@ -186,7 +186,7 @@ def rings_about_corners(corners: Sequence[Array], curves: Sequence[Array]) -> li
 
 
 def lines_beside_takens(family: SystemFamily, takens: Sequence[Array], curves: Sequence[AtlasCurve]) -> list[Array]:
-    """Short lines that leave folds of critical sets through the Hopf curve, beside Bogdanov-Takens points.
+    """Short lines that leave folds of critical sets through the Hopf curve, next to Bogdanov-Takens points.
 
     In the normal form x' = y, y' = p + q x + x^2 - x y the fold is p = q^2/4, Hopf p = 0, and the loop
     p = -6 q^2/25 + ...: from the fold it lies nearly twice as far as the Hopf curve.

@@ -25,23 +25,12 @@ NEUTRAL_LOG_RATIO = 1e-6  # |ln ratio| that is zero all along a curve
 
 @dataclass(frozen=True, eq=False)
 class ConnectionCurve:
-    """A curve of connections.
-
-    Attributes
-    ----------
-    splitting : Splitting
-    plane : ndarray (m, 2)
-        Places in the unit square.
-    pairs : list of Pair
-        At each.
-    ends : (str, str)
-        As those of `Traced`.
-    """
+    """A curve of connections."""
 
     splitting: Splitting
-    plane: Array
-    pairs: list[BranchPair]
-    ends: tuple[str, str]
+    plane: Array  # (m, 2) Places in the unit square
+    pairs: list[BranchPair]  # at each
+    ends: tuple[str, str]  # as those of `Traced`
 
     @property
     def ratios(self) -> Array:

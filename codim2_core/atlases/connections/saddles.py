@@ -41,37 +41,17 @@ MAX_SADDLE_SHIFT = 0.1  # the way to a saddle's next place
 
 @dataclass(frozen=True, eq=False)
 class Branch:
-    """One branch of a saddle at one place of the plane.
-
-    Attributes
-    ----------
-    at : FrozenSystem
-    psi : Psi
-        What it is a branch of.
-    backward : bool
-        It enters the saddle.
-    p : ndarray (2,)
-        The saddle, in the projected disc.
-    way : ndarray (2,)
-        Unit tangent there, away from it; zero of a half-saddle, whose branch goes straight up.
-    start : ndarray (2,)
-        Where the orbit begins that follows it from a critical set.
-    critical : CriticalSet or None
-    theta : float
-        Of a half-saddle.
-    ratio : float
-        Of its eigenvalues: that by which orbits enter over that by which they leave.
-    """
+    """One branch of a saddle at one place of the plane."""
 
     at: FrozenSystem
-    psi: Psi
-    backward: bool
-    p: Array
-    way: Array
-    start: Array
+    psi: Psi  # what it is a branch of
+    backward: bool  # it enters the saddle
+    p: Array  # (2,) The saddle, in the projected disc
+    way: Array  # (2,) Unit tangent there, away from it; zero of a half-saddle, whose branch goes straight up
+    start: Array  # (2,) Where the orbit begins that follows it from a critical set
     critical: CriticalSet | None
-    theta: float
-    ratio: float
+    theta: float  # of a half-saddle
+    ratio: float  # of its eigenvalues: that by which orbits enter over that by which they leave
 
     @property
     def signature(self) -> Array:

@@ -37,22 +37,13 @@ MAX_NEWTON, CROSSING_TOLERANCE = 5, 1e-8  # of the time of a crossing, in T of 1
 
 @dataclass(frozen=True, eq=False)
 class Section:
-    """A line through a point, or a half of it.
+    """A line through a point, or a half of it."""
 
-    Attributes
-    ----------
-    origin, along, across : ndarray (2,)
-    scale : float
-        Unit of length on it.
-    half : bool
-        Of a loop: the half ahead of the origin, on which the coordinate is a logarithm.
-    """
-
-    origin: Array
+    origin: Array  # (2,)
     along: Array
     across: Array
-    scale: float
-    half: bool
+    scale: float  # unit of length on it
+    half: bool  # of a loop: the half ahead of the origin, on which the coordinate is a logarithm
 
     def side(self, points: Array) -> Array:
         """Signed distances (...) from it."""

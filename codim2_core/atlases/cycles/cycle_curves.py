@@ -18,7 +18,7 @@ from .fold_tracing import CENTRE, CORNER, FoldCurve, trace_fold
 KIND = "fold of cycles"
 GENERALISED_HOPF, SADDLE_NODE_CORNER, NEUTRAL_LOOP = "generalised Hopf", "saddle-node on the equator", "neutral loop"
 ON_CURVE_DISTANCE = 0.03  # of the square: a curve passes a start, or ends at a point of codimension two, so near to it
-MAX_END_SIZE = 0.05  # of cycles that break off beside a critical set
+MAX_END_SIZE = 0.05  # of cycles that break off next to a critical set
 SAME_SIZE_RATIO = 0.15  # of the size of cycles
 CORNER_RADIUS = 0.015  # of the square: a curve that breaks off so near to a corner ends there
 BIRTH_DISTANCE = 1e-5  # of the square, from the point at which a curve ends
@@ -103,7 +103,7 @@ def _extend_to_ends(
         at, kind, text = _end(end, last, size, float(one.heights[i]), known)
         if at is not None:
             size = 0.0 if kind == GENERALISED_HOPF else size
-            away = np.hypot(*(plane - at).T) > BIRTH_DISTANCE  # beside a birth rounding decides
+            away = np.hypot(*(plane - at).T) > BIRTH_DISTANCE  # next to a birth rounding decides
             plane, sizes = plane[away], sizes[away]
             plane = np.concatenate([at[None], plane] if i == 0 else [plane, at[None]])
             sizes = np.concatenate([[size], sizes] if i == 0 else [sizes, [size]])

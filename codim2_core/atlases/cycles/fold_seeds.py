@@ -22,7 +22,7 @@ from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
 from .fold_tracing import CycleStart
 
 LINE_OFFSETS, HALF_OFFSETS = (0.2871, 0.7137), (0.5871, 0.7713)  # of the square, across and up; of a symmetric one
-RAY_STARTS = 0.02, 0.006, 0.06, 2e-3  # of the reach: places on the ray beside a generalised Hopf point that are tried
+RAY_STARTS = 0.02, 0.006, 0.06, 2e-3  # of the reach: places on the ray next to a generalised Hopf point that are tried
 
 
 @dataclass(frozen=True)

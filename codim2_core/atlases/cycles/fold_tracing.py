@@ -55,31 +55,19 @@ class CycleStart:
 
 @dataclass(frozen=True, eq=False)
 class FoldCurve:
-    """A curve.
+    """A curve."""
 
-    Attributes
-    ----------
-    plane : ndarray (m, 2)
-        Of the unit square.
-    sizes, heights : ndarray (m,)
-        The cycles' largest distances from their point, and least distances from the equator (ebar).
-    cusps : ndarray (k, 2)
-        Where three cycles are one: the curve turns back.
-    ends : (str, str)
-        How both ends come about.
-    """
-
-    plane: Array
-    sizes: Array
+    plane: Array  # (m, 2) Of the unit square
+    sizes: Array  # (m,) The cycles' largest distances from their point, and least distances from the equator (ebar)
     heights: Array
-    cusps: Array
-    ends: tuple[str, str]
+    cusps: Array  # (k, 2) Where three cycles are one: the curve turns back
+    ends: tuple[str, str]  # how both ends come about
 
 
 def trace_fold(family: SystemFamily, start: CycleStart, corners: Sequence[Array] = ()) -> FoldCurve | None:
     """Return the curve through a start; None if it is not caught. Shapes: corners (2,)."""
     fold = start.around.fold
-    # beside a Hopf curve shift and exponent vanish with the size, all along it
+    # next to a Hopf curve shift and exponent vanish with the size, all along it
     first = point_across(fold, start.v, np.eye(3)[0], MAX_SEED_ERROR) if start.fixed else None
     first = newton(fold, start.v, MAX_SEED_ERROR) if first is None else first
     along = None if first is None else tangent(fold, first)

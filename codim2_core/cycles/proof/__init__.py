@@ -56,7 +56,7 @@ itself are those). With (u, v) = w^n U, of degree n, and ``V = N^-1 (w u, w v, b
 
 If P is a polynomial in X and Y this is one of them, of degree 0 or 1 in beta: no derivative of beta enters. beta is
 enclosed by lines, beta = alpha + sigma |e|^2 up to an error; times w^2 all is a polynomial on each small square, whose
-Bernstein coefficients bound it: sums that are exact in integers, then halved with rounding far below what is asked for.
+Bernstein coefficients bound it: sums that are exact in integers, then halved with rounding far below what is requested.
 
 5. *The number of ovals* is at most that of the changes of sign of the Bernstein coefficients of P along the way
 (Descartes). It is at least what is seen on a net of squares: all squares on which P may have the sign that it has in

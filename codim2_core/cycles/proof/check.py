@@ -39,7 +39,7 @@ def chords(family, n):
     """For m = |e|^2 from j/2^i to (j+2)/2^i, return (intercept, slope, error) by [i][j] of lines along 1 + Psi'."""
     if family == "constant":
         return [np.array([[1.0, 0.0, 0.0]] * (2**i + 1)) for i in range(13)]
-    peak = (3 * (n - 1) / (n + 1)) ** (1 / n) / 4 if family == "hill" and n > 1 else 1.0  # Psi' is monotone beside it
+    peak = (3 * (n - 1) / (n + 1)) ** (1 / n) / 4 if family == "hill" and n > 1 else 1.0  # Psi' is monotone next to it
     s = np.concatenate([[0.0, max(peak, 1e-4)], np.geomspace(1e-4, 1e8, 2**14), np.geomspace(0.01, 30, 2**19)])
     s.sort()
     value, slope = psi(family, n, s)

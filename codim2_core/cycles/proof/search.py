@@ -72,7 +72,7 @@ class ProbePoints:
         rest = system.degree * along - np.einsum("ip,jip,jp->p", e, slopes, e)
         self.rest = k * (w * (slopes[0, 0] + slopes[1, 1] + beta * rest) - mu * V[2])
         far = [abs(k * trace) + ((place - start[:, None]) ** 2).sum(axis=0) for start, trace in system.nearby]
-        self.share = np.minimum(1.0, np.min(far, axis=0))  # of the margin that is asked for
+        self.share = np.minimum(1.0, np.min(far, axis=0))  # of the margin that is requested
 
     def rows(self, degree: int) -> Array:
         """Return Phi, by its share of the margin, for each product of Chebyshev polynomials (n, m)."""

@@ -43,7 +43,7 @@ PASSED_SHRINKAGE = 0.5  # of a step that has passed Sigma
 ONLY = 2.0  # of IMPLICIT: and explicit never
 STABLE = 4.0  # h times a growth rate of an explicit step in a slide
 SWITCH_SIGNS, SIGNS_BACK = 6.0, 3.0  # steps in a row that ask for the other method
-MAX_WORTH = 64.0  # times what is asked for at first
+MAX_WORTH = 64.0  # times what is requested at first
 MIN_IMPLICIT_STEPS = 20.0  # implicit steps that a slide takes at least, about: as many have to be saved
 
 

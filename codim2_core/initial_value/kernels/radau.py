@@ -21,7 +21,7 @@ def _longest_step(motion, y, work, h):
     In contact with Sigma there is no way left to jump over.
 
     The reach is that of Gershgorin's circles, in units of size: h times it is about how stiff a step is. The
-    eigenvalues are asked for only if a step h could be too long for them.
+    eigenvalues are requested only if a step h could be too long for them.
     """
     n, J, size = motion.n, work.J, work.size
     away = y[0] * y[0] + y[1] * y[1] > (CONTACT * motion.eps) ** 2

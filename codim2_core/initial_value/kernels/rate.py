@@ -24,32 +24,18 @@ RATE_PLACES = SLOPES + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 
 class MotionConstants(NamedTuple):
-    """Constants of a motion.
+    """Constants of a motion."""
 
-    Attributes
-    ----------
-    value, slopes, gain : int64
-        Addresses.
-    n : int
-        Components of the state (x, y, z).
-    eps, rtol, floor : float
-        The error allowed in a step is rtol rho for x and y, rtol (|z| + floor) for z: floor = atol/rtol.
-    line1, line2 : float
-        The invariant line that is kept to, or 0.
-    blur : float
-        What the rounding of z, the time among them, makes of the rate of x and y.
-    """
-
-    value: int
+    value: int  # addresses
     slopes: int
     gain: int
-    n: int
-    eps: float
+    n: int  # components of the state (x, y, z)
+    eps: float  # the error allowed in a step is rtol rho for x and y, rtol (|z| + floor) for z: floor = atol/rtol
     rtol: float
     floor: float
-    line1: float
+    line1: float  # the invariant line that is kept to, or 0
     line2: float
-    blur: float
+    blur: float  # what the rounding of z, the time among them, makes of the rate of x and y
 
 
 @spliced_kernel

@@ -33,7 +33,7 @@ SLOW_EXTENT = TABLE + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 @kernel
 def write_slopes(S, m):
-    """Write the slopes at a place; where they are undefined those just beside, or 0."""
+    """Write the slopes at a place; where they are undefined those just next to, or 0."""
     slopes, count, whole = bits_of_double(S[SLOPES]), (2 + m) * (4 + m), True
     call_field(slopes, S, SET_PLACE, TABLE, S)
     for i in range(count):
@@ -41,7 +41,7 @@ def write_slopes(S, m):
     if whole:
         return
     for i in range(4 + m):
-        S[RATES + i] = S[SET_PLACE + i]  # kept there: the rates are asked for after the slopes
+        S[RATES + i] = S[SET_PLACE + i]  # kept there: the rates are requested after the slopes
         S[SET_PLACE + i] += ONE_SIDED_DISTANCE * (1.0 + abs(S[SET_PLACE + i]))
     call_field(slopes, S, SET_PLACE, TABLE, S)
     for i in range(4 + m):

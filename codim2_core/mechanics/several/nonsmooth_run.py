@@ -32,14 +32,9 @@ MARGIN_SAMPLES = 65  # places in a step at which the polynomial through margins 
 
 @dataclass
 class NonsmoothRun(ContactRun):
-    """A motion in the limit.
+    """A motion in the limit."""
 
-    Attributes
-    ----------
-    grazes : bool
-        Whether a force that holds has just come to its bound and is about to fall again: for a step it is not asked.
-    """
-
+    # whether a force that holds has just come to its bound and is about to fall again: for a step it is not asked
     grazes: bool = False
 
     def _begin(self) -> None:

@@ -61,7 +61,7 @@ class ContactMotion(DenseMotion):
     Attributes
     ----------
     times : ndarray (k,)
-        Those that were asked for; else the ends of the steps.
+        Those that were requested; else the ends of the steps.
     states : ndarray (k, N)
     names : tuple of str
         Velocities, then positions: the columns of `states`.

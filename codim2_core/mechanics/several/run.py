@@ -27,28 +27,7 @@ class NoFrictionError(Exception):
 
 @dataclass
 class ContactRun:
-    """A motion under way.
-
-    Attributes
-    ----------
-    e : ndarray (c, 2)
-        At the state, which matters where a contact is about to slip.
-    sticks : ndarray (c,)
-    rate : ndarray (N,)
-        Y' at the state.
-    departs : ndarray (c,)
-        Contacts that begin to slip here, and have no slip yet.
-    curve : ndarray (N,)
-        Y'' where contacts begin to slip with no acceleration, else 0.
-    speed : float
-        The largest velocity so far.
-    undecided : int
-        Steps along which bounds decide nothing.
-    passed : int
-        Switches.
-    starts : list of (t, sticks, sentence)
-        The phases.
-    """
+    """A motion under way."""
 
     field: ContactField
     law: Law
@@ -59,17 +38,17 @@ class ContactRun:
     atol: float
     most: int
     max_step: float
-    e: Array = made_with(init=False)
-    sticks: Flags = made_with(init=False)
-    rate: Array = made_with(init=False)
-    departs: Flags = made_with(init=False)
-    curve: Array = made_with(init=False)
+    e: Array = made_with(init=False)  # (c, 2) At the state, which matters where a contact is about to slip
+    sticks: Flags = made_with(init=False)  # (c,)
+    rate: Array = made_with(init=False)  # (N,) Y' at the state
+    departs: Flags = made_with(init=False)  # (c,) Contacts that begin to slip here, and have no slip yet
+    curve: Array = made_with(init=False)  # (N,) Y'' where contacts begin to slip with no acceleration, else 0
     inspection: Inspection = made_with(init=False)
-    speed: float = 0.0
-    undecided: int = 0
-    passed: int = 0
+    speed: float = 0.0  # the largest velocity so far
+    undecided: int = 0  # steps along which bounds decide nothing
+    passed: int = 0  # switches
     steps: list[Step] = made_with(default_factory=list)
-    starts: list[tuple[float, tuple[bool, ...], str]] = made_with(default_factory=list)
+    starts: list[tuple[float, tuple[bool, ...], str]] = made_with(default_factory=list)  # the phases
 
     def run(self) -> None:
         """Go on to the end.

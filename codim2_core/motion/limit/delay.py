@@ -53,17 +53,10 @@ class NotAnalyticError(Exception):
 
 @dataclass(frozen=True)
 class DelayedExitPoint:
-    """The exit of a motion from an unstable critical set.
-
-    Attributes
-    ----------
-    t : float
-    buffer : complex or None
-        The singular time that ends the delay; None where it is way in = way out.
-    """
+    """The exit of a motion from an unstable critical set."""
 
     t: float
-    buffer: complex | None
+    buffer: complex | None  # the singular time that ends the delay; None where it is way in = way out
 
 
 def cut_at_exit(

@@ -31,23 +31,12 @@ MAX_ZERO_PRODUCT = 1e-4  # of the eigenvalues, in units of their squares, below 
 
 @dataclass(frozen=True)
 class Fold:
-    """A fold at which a slide ends.
+    """A fold at which a slide ends."""
 
-    Attributes
-    ----------
-    reason : str
-        A sentence.
-    left_to_eps : bool
-        Whether what follows is not decided by the limit.
-    exchange : str
-        "transcritical" or "pitchfork" where the set goes on, "" at a fold.
-    beyond : ndarray (m,) or None
-        Direction in z to where both sets are gone, where the slow flow does not lead there.
-    """
-
-    reason: str
-    left_to_eps: bool = False
-    exchange: str = ""
+    reason: str  # a sentence
+    left_to_eps: bool = False  # whether what follows is not decided by the limit
+    exchange: str = ""  # "transcritical" or "pitchfork" where the set goes on, "" at a fold
+    # (m,) Direction in z to where both sets are gone, where the slow flow does not lead there
     beyond: Array | None = None
 
 
@@ -76,7 +65,7 @@ def classify_fold(formulas: Field, e: Array, z: Array, C: str | None, plain: str
     if product < 0.0:
         return Fold(say("folded saddle", C=C), left_to_eps=True)
     if 0.25 * total**2 < product:
-        return Fold(say(plain, C=C))  # a focus turns its canards away: all motions beside it come to jump points
+        return Fold(say(plain, C=C))  # a focus turns its canards away: all motions next to it come to jump points
     return Fold(say("folded node", C=C), beyond=_direction_past_fold(formulas, at, D, Dz))
 
 

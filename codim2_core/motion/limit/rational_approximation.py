@@ -19,23 +19,13 @@ MAX_DOUBLET_RESIDUE = 1e3  # in tolerances of |f| times the interval: poles of l
 
 @dataclass(frozen=True, eq=False)
 class RationalApproximation:
-    """``sum w_j f_j/(t - t_j) / sum w_j/(t - t_j)``.
+    """``sum w_j f_j/(t - t_j) / sum w_j/(t - t_j)``."""
 
-    Attributes
-    ----------
-    points, values, weights : ndarray (k,)
-        t_j, f_j and w_j.
-    size : float
-        Largest |f|.
-    tolerance : float
-        Of size: how far it is from f where f was given.
-    """
-
-    points: Array
+    points: Array  # (k,) t_j, f_j and w_j
     values: Array
     weights: Array
-    size: float
-    tolerance: float
+    size: float  # largest |f|
+    tolerance: float  # of size: how far it is from f where f was given
 
     def __call__(self, t: complex) -> complex:
         """Return the value at one place, infinite at a pole."""

@@ -30,24 +30,12 @@ START_DISTANCE = 1e-3  # from it, at which they start
 
 @dataclass(frozen=True)
 class Decision:
-    """The decision at one state on Sigma.
+    """The decision at one state on Sigma."""
 
-    Attributes
-    ----------
-    kind : str
-        "slide", "cycle", "leave", "away" (the trajectory turns before it reaches Sigma), or "stop".
-    reason : str
-    e : ndarray (2,) or None
-        Critical set to slide on (for "cycle": the one inside).
-    theta : float or None
-        Direction in which to leave.
-    onto : str or None
-    """
-
-    kind: str
+    kind: str  # "slide", "cycle", "leave", "away" (the trajectory turns before it reaches Sigma), or "stop"
     reason: str
-    e: Array | None = None
-    theta: float | None = None
+    e: Array | None = None  # (2,) Critical set to slide on (for "cycle": the one inside)
+    theta: float | None = None  # direction in which to leave
     onto: str | None = None
 
 

@@ -39,43 +39,21 @@ NEAR_HOPF = 1e-2  # |tr J| in units of D_e U, below which a stable cycle may be 
 
 @dataclass(frozen=True)
 class Slide:
-    """A slide.
+    """A slide."""
 
-    Attributes
-    ----------
-    taken : list of Step
-        Of the whole state, with x = y = 0.
-    end : str
-        "time", "switch" (of the formulas), "equator" (or the reach of static friction), "fold", "hopf", "cycle" (the
-        limit cycle it slides on is there no longer), "feeds" (static friction takes no longer energy from every slip),
-        or "given up".
-    e : ndarray (2,)
-        Critical set at the end.
-    places : list of ndarray (2,)
-        The critical set at the beginning, and at the end of each step.
-    evaluations : int
-    stopped : TooManyStepsError or None
-        Why it was given up; also where W is undefined from some z on.
-    p : sequence of ndarray (2,)
-        On a cycle of a general system, whose means `places` are: the means of p.
-    switch : int or None
-        Which one.
-    undecided : int
-        Steps that could not be bounded.
-    leaves_line : bool
-        A load pushes it out of its invariant line.
-    """
-
-    taken: list[Step]
+    taken: list[Step]  # of the whole state, with x = y = 0
+    # "time", "switch" (of the formulas), "equator" (or the reach of static friction), "fold", "hopf", "cycle" (the
+    # limit cycle it slides on is there no longer), "feeds" (static friction takes no longer energy from every
+    # slip), or "given up"
     end: str
-    e: Array
-    places: list[Array]
+    e: Array  # (2,) Critical set at the end
+    places: list[Array]  # (2,) The critical set at the beginning, and at the end of each step
     evaluations: int = 0
-    stopped: TooManyStepsError | None = None
-    p: Sequence[Array] = ()
-    switch: int | None = None
-    undecided: int = 0
-    leaves_line: bool = False
+    stopped: TooManyStepsError | None = None  # why it was given up; also where W is undefined from some z on
+    p: Sequence[Array] = ()  # (2,) On a cycle of a general system, whose means `places` are: the means of p
+    switch: int | None = None  # which one
+    undecided: int = 0  # steps that could not be bounded
+    leaves_line: bool = False  # a load pushes it out of its invariant line
 
 
 def own_time(z: Array, rate: Array, floor: float) -> float:

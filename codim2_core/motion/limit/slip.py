@@ -30,31 +30,15 @@ OF_SLIPS = 0.5
 
 @dataclass(frozen=True)
 class Slip:
-    """A slip.
-
-    Attributes
-    ----------
-    taken : list of Step
-    theta : float or None
-        Angle at which it arrives at Sigma; None if it ends outside, at the end of the time span.
-    evaluations : int
-    stopped : TooManyStepsError or None
-        Why it was given up before.
-    switch : int or None
-        The switch of the formulas at which it ends.
-    undecided : int
-        Steps that could not be bounded.
-    leaves_line : bool
-        It ends where a load pushes it out of its invariant line.
-    """
+    """A slip."""
 
     taken: list[Step]
-    theta: float | None
+    theta: float | None  # angle at which it arrives at Sigma; None if it ends outside, at the end of the time span
     evaluations: int
-    stopped: TooManyStepsError | None = None
-    switch: int | None = None
-    undecided: int = 0
-    leaves_line: bool = False
+    stopped: TooManyStepsError | None = None  # why it was given up before
+    switch: int | None = None  # the switch of the formulas at which it ends
+    undecided: int = 0  # steps that could not be bounded
+    leaves_line: bool = False  # it ends where a load pushes it out of its invariant line
 
 
 def slip(

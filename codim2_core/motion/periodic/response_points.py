@@ -18,29 +18,15 @@ REAL = 1e-6  # imaginary part of a multiplier on the unit circle, up to which a 
 
 @dataclass(frozen=True, eq=False)
 class ResponseRow:
-    """One motion of a curve.
-
-    Attributes
-    ----------
-    value, period : float
-    state : ndarray (2 + m,)
-        Its start.
-    swings : ndarray (2 + m,)
-        Half of what lies between the extremes.
-    multipliers : ndarray (q,) of complex
-    phases : tuple of str
-        Kinds of its phases, in order.
-    onward : float
-        By how much the parameter goes on from the motion before it.
-    """
+    """One motion of a curve."""
 
     value: float
     period: float
-    state: Array
-    swings: Array
-    multipliers: Complex
-    phases: tuple[str, ...]
-    onward: float
+    state: Array  # (2 + m,) Its start
+    swings: Array  # (2 + m,) Half of what lies between the extremes
+    multipliers: Complex  # (q,)
+    phases: tuple[str, ...]  # kinds of its phases, in order
+    onward: float  # by how much the parameter goes on from the motion before it
 
 
 @dataclass(frozen=True, eq=False)

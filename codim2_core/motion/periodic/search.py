@@ -160,7 +160,7 @@ def _advance(given: ArrayLike | None, rates: Array, period: float) -> Array:
 
 
 def _repeats(formulas: Field, states: Array, advance: Array) -> bool:
-    """Whether the field is the same at states and where z is on by `advance`: there, and at places beside."""
+    """Whether the field is the same at states and where z is on by `advance`: there, and at places next to."""
     if not advance.any():
         return True
     angles = np.arange(LOOKED_AT) * 2.4  # the golden angle: no two places look alike

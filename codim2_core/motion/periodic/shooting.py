@@ -50,45 +50,21 @@ class LostError(Exception):
 
 @dataclass(frozen=True, eq=False)
 class Shooting:
-    """A boundary value problem: the unknowns and conditions of a periodic motion.
-
-    Attributes
-    ----------
-    system : ELinear, System, Coefficients or Frozen
-    psi : Psi or None
-    eps : float
-        0 for the limit.
-    formulas : Field
-    clocks : ndarray (m,) of bool
-        Slow variables that move at a constant rate.
-    advance : ndarray (m,)
-    period : float
-        Where its search begins.
-    floor : float
-        What small z are measured by.
-    max_steps : int
-    stiction : float
-        Static over kinetic friction.
-    max_step : float
-    names : tuple of str
-        Numbers of the system by which motions are differentiated too.
-    parts : tuple of float
-        Where segments begin, as parts of the period; several for eps > 0 only.
-    """
+    """A boundary value problem: the unknowns and conditions of a periodic motion."""
 
     system: AnySystem
     psi: Psi | None
-    eps: float
+    eps: float  # 0 for the limit
     formulas: Field
-    clocks: NDArray[np.bool_]
-    advance: Array
-    period: float
-    floor: float
+    clocks: NDArray[np.bool_]  # (m,) Slow variables that move at a constant rate
+    advance: Array  # (m,)
+    period: float  # where its search begins
+    floor: float  # what small z are measured by
     max_steps: int
-    stiction: float = 1.0
+    stiction: float = 1.0  # static over kinetic friction
     max_step: float = np.inf
-    names: tuple[str, ...] = ()
-    parts: tuple[float, ...] = (0.0,)
+    names: tuple[str, ...] = ()  # numbers of the system by which motions are differentiated too
+    parts: tuple[float, ...] = (0.0,)  # where segments begin, as parts of the period; several for eps > 0 only
 
     @property
     def is_forced(self) -> bool:

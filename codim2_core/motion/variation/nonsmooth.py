@@ -298,7 +298,7 @@ class _Course:
         return shrinks_across(system, psi, z, arriving, None if following.slides else leaving)
 
     def repels(self, leg: _Leg, n: Array) -> bool:
-        """Whether what lies beside the line along n turns away from it: in a slide, or as it arrives or leaves."""
+        """Whether what lies next to the line along n turns away from it: in a slide, or as it arrives or leaves."""
         across = np.array([-n[1], n[0]])
         if leg.slides:
             e, state = leg.slides[0].e([leg.slides[0].t_start]), self.motion.states[leg.first]

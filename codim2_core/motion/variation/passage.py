@@ -28,7 +28,7 @@ ANGLE_MARGIN = 1e-6  # rad
 def shrinks_across(
     system: AnySystem, psi: Psi | None, z: tuple[float, ...], arriving: float, leaving: float | None
 ) -> bool:
-    """Whether of a small angle beside a motion nothing is left, to first order, once it has been on Sigma.
+    """Whether of a small angle next to a motion nothing is left, to first order, once it has been on Sigma.
 
     Shapes: z (m,).
     """

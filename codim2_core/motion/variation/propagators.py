@@ -25,15 +25,9 @@ AT_ONCE = 64  # parts whose stage equations are held at once
 
 @dataclass(frozen=True, eq=False)
 class Propagators:
-    """Propagators of the steps of a motion: their action on small changes.
+    """Propagators of the steps of a motion: their action on small changes."""
 
-    Attributes
-    ----------
-    fine, coarse : ndarray (k, N, N)
-        Change at the end of a step by that at its beginning; `coarse` with parts twice as long.
-    """
-
-    fine: Array
+    fine: Array  # (k, N, N) Change at the end of a step by that at its beginning; `coarse` with parts twice as long
     coarse: Array
 
 

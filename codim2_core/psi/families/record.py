@@ -1,4 +1,4 @@
-"""The record of a family of Psi. To add one: a file beside this one that holds it, and its line in `LISTED`."""
+"""The record of a family of Psi. To add one: a file next to this one that holds it, and its line in `LISTED`."""
 
 from __future__ import annotations
 
