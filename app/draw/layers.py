@@ -22,79 +22,38 @@ Pieces = tuple[NDArray[np.int64], NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class Part:
-    """Curves of one look.
+    """Curves of one look."""
 
-    Attributes
-    ----------
-    name : str
-        In the packed frame.
-    colour : str
-        A key of the themes, and a custom property of the style sheet.
-    width : float
-        In px.
-    scene : str
-        The layer of the scene that holds it.
-    pieces : callable
-        Takes what the scene holds, and returns the curves.
-    dash : tuple of float
-        Lengths of dashes and gaps in px; () is solid. What differs in meaning differs by more than colour.
-    arrows : bool
-        Whether arrowheads tell the sense of time.
-    even : bool
-        Whether curves end where they would come too near to one another, see `spacing`.
-    owners : callable, optional
-        Takes what the scene holds, and names the object that each curve is of: U1, L2, S3, O4.
-    """
-
-    name: str
-    colour: str
-    width: float
-    scene: str = ""
+    name: str  # in the packed frame
+    colour: str  # a key of the themes, and a custom property of the style sheet
+    width: float  # in px
+    scene: str = ""  # the layer of the scene that holds it
+    # takes what the scene holds, and returns the curves
     pieces: Callable[[Any], Pieces] = lambda result: glyphs.join([curve.points for curve in result])
+    # lengths of dashes and gaps in px; () is solid. What differs in meaning differs by more than colour
     dash: tuple[float, ...] = ()
-    arrows: bool = False
-    even: bool = False
+    arrows: bool = False  # whether arrowheads tell the sense of time
+    even: bool = False  # whether curves end where they would come too near to one another, see `spacing`
+    # takes what the scene holds, and names the object that each curve is of: U1, L2, S3, O4
     owners: Callable[[Any], list[str]] | None = None
 
 
 @dataclass(frozen=True)
 class Layer:
-    """A group of curves or marks that a user shows or hides as one.
+    """A group of curves or marks that a user shows or hides as one."""
 
-    Attributes
-    ----------
-    name, words : str
-        Of its control, and next to it.
-    height : int
-        Layers are painted from low to high.
-    parts : tuple of Part
-    colours : mapping of str to (light, dark)
-        Those that belong to it.
-    swatch : str
-        Declarations of the legend's mark; default a stroke in the look of its first part.
-    hidden : bool
-        Until it is requested.
-    compiled : bool
-        Made by the compiled integrator: until that is ready it is left out.
-    tip : str
-        What it is, for its tooltip.
-    optional : bool
-        There is nothing of it until somebody asks; a picture that has nothing of it does not name it.
-    first : bool
-        Its control is in sight from the start; the others are one step away.
-    """
-
-    name: str
+    name: str  # of its control, and next to it
     words: str
-    height: int
+    height: int  # layers are painted from low to high
     parts: tuple[Part, ...] = ()
-    colours: Mapping[str, tuple[str, str]] = field(default_factory=dict)
-    swatch: str = ""
-    hidden: bool = False
-    compiled: bool = False
+    colours: Mapping[str, tuple[str, str]] = field(default_factory=dict)  # those that belong to it
+    swatch: str = ""  # declarations of the legend's mark; default a stroke in the look of its first part
+    hidden: bool = False  # until it is requested
+    compiled: bool = False  # made by the compiled integrator: until that is ready it is left out
+    # there is nothing of it until somebody asks; a picture that has nothing of it does not name it
     optional: bool = False
-    first: bool = False
-    tip: str = ""
+    first: bool = False  # its control is in sight from the start; the others are one step away
+    tip: str = ""  # what it is, for its tooltip
 
 
 def _orbit_lines(result: Any) -> Pieces:

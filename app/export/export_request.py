@@ -40,24 +40,12 @@ SHOWN = (PROOF, "motion")
 
 @dataclass(frozen=True)
 class ExportRequest:
-    """One request for a file.
+    """One request for a file."""
 
-    Attributes
-    ----------
-    kind : str
-        How the file's name ends: a key of `TYPES`.
-    style : Style
-        Of a figure.
-    sliders : tuple of str
-        Of a live file; the first of a film.
-    start : str
-        Of a motion: a place of the picture.
-    """
-
-    kind: str
-    style: Style = field(default_factory=Style)
-    sliders: tuple[str, ...] = ()
-    start: str = ""
+    kind: str  # how the file's name ends: a key of `TYPES`
+    style: Style = field(default_factory=Style)  # of a figure
+    sliders: tuple[str, ...] = ()  # of a live file; the first of a film
+    start: str = ""  # of a motion: a place of the picture
 
     @property
     def job(self) -> str:

@@ -44,28 +44,16 @@ CODE = 64.0  # of a QR code
 
 @dataclass(frozen=True)
 class Style:
-    """The look of a figure: size, theme, letters, and what is written next to it.
+    """The look of a figure: size, theme, letters, and what is written next to it."""
 
-    Attributes
-    ----------
-    size : float
-        Width of the picture in mm, 40 to 400.
-    theme : {"light", "dark", "paper"}
-        "paper" is black and white.
-    legend, labels, ticks, title, caption : bool
-        What stands in and around the picture besides.
-    link : str
-        An address, as a QR code next to the caption.
-    """
-
-    size: float = 120.0
-    theme: str = "light"
-    legend: bool = True
+    size: float = 120.0  # width of the picture in mm, 40 to 400
+    theme: str = "light"  # "paper" is black and white
+    legend: bool = True  # what stands in and around the picture besides
     labels: bool = True
     ticks: bool = False
     title: bool = False
     caption: bool = False
-    link: str = ""
+    link: str = ""  # an address, as a QR code next to the caption
 
     def __post_init__(self) -> None:
         if not MIN_WIDTH_MM <= self.size <= MAX_WIDTH_MM:

@@ -26,26 +26,13 @@ SENSES: Mapping[str, str] = {"⊙": "z′ > 0: out of the page", "⊗": "z′ < 
 
 @dataclass(frozen=True)
 class Entry:
-    """One line of the legend.
-
-    Attributes
-    ----------
-    words : str
-    part : Part, optional
-        A line of this look.
-    mark : (columns, i), optional
-        The mark i of some columns.
-    area : str
-        A patch of this colour.
-    sign : str
-        A letter.
-    """
+    """One line of the legend."""
 
     words: str
-    part: Part | None = None
-    mark: tuple[Mapping[str, Any], int] | None = None
-    area: str = ""
-    sign: str = ""
+    part: Part | None = None  # a line of this look
+    mark: tuple[Mapping[str, Any], int] | None = None  # the mark i of some columns
+    area: str = ""  # a patch of this colour
+    sign: str = ""  # a letter
 
     def draw(self, place: Placement, x: float, y: float, width: float) -> str:
         """Return its sample, `width` wide, with its middle height at y."""

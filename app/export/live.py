@@ -41,21 +41,12 @@ MOST_SLIDERS = 2
 
 @dataclass(frozen=True)
 class Slider:
-    """A slider of a live file.
+    """A slider of a live file."""
 
-    Attributes
-    ----------
-    name : str
-        A control that is a number, or "own:" and a parameter of the system.
-    low, high : float
-    events : tuple of float
-        Values between them at which something happens: a film goes slowly there.
-    """
-
-    name: str
+    name: str  # a control that is a number, or "own:" and a parameter of the system
     low: float
     high: float
-    events: tuple[float, ...] = ()
+    events: tuple[float, ...] = ()  # values between them at which something happens: a film goes slowly there
 
     @classmethod
     def from_text(cls, view: View, text: str) -> Slider:

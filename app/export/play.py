@@ -37,28 +37,14 @@ SCALE, CHART = DPI * DENSITY / 72, 1.15
 
 @dataclass(frozen=True)
 class Scenery:
-    """The parts of a film that do not move.
-
-    Attributes
-    ----------
-    drawn : PIL.Image.Image
-    orbit : InTime
-    place : Placement
-        Of the portrait in it, in points, from its upper edge.
-    chart : Frame
-        Of x and y over time.
-    corner : (float, float)
-        Of the chart, in px.
-    colours : tuple of str
-        Of a dot and of its rim.
-    """
+    """The parts of a film that do not move."""
 
     drawn: Image.Image
     orbit: InTime
-    place: Placement
-    chart: Frame
-    corner: tuple[float, float]
-    colours: tuple[str, str]
+    place: Placement  # of the portrait in it, in points, from its upper edge
+    chart: Frame  # of x and y over time
+    corner: tuple[float, float]  # of the chart, in px
+    colours: tuple[str, str]  # of a dot and of its rim
 
     def picture_at(self, share: float) -> bytes:
         """Return the picture at a share of the orbit's time, 0 to 1, as PNG."""

@@ -71,17 +71,10 @@ BASIN_COLUMNS = {
 
 @dataclass(frozen=True)
 class Table:
-    """One table.
-
-    Attributes
-    ----------
-    columns : mapping of str to (unit, meaning)
-    data : mapping of str to ndarray (k,)
-        The same names: numbers, or text.
-    """
+    """One table."""
 
     columns: Mapping[str, tuple[str, str]]
-    data: Mapping[str, Any]
+    data: Mapping[str, Any]  # (k,) The same names: numbers, or text
 
     def __len__(self) -> int:
         return len(next(iter(self.data.values())))

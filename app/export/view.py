@@ -33,20 +33,11 @@ WHOLE: Rectangle = (-HALF_VIEW, HALF_VIEW, -HALF_VIEW, HALF_VIEW)
 
 @dataclass(frozen=True)
 class View:
-    """The contents of one screen: a scene, the layers that are shown, and the part of the plane in view.
+    """The contents of one screen: a scene, the layers that are shown, and the part of the plane in view."""
 
-    Attributes
-    ----------
-    values : dict
-        Of all controls.
-    seen : (left, right, bottom, top)
-        The part of the picture that is seen.
-    system : ELinear or System, optional
-        Drawn instead of the one that the values choose: the user's own, from Python.
-    """
-
-    values: dict[str, Any]
-    seen: Rectangle = WHOLE
+    values: dict[str, Any]  # of all controls
+    seen: Rectangle = WHOLE  # the part of the picture that is seen
+    # drawn instead of the one that the values choose: the user's own, from Python
     system: System_ | None = field(default=None)
 
     @classmethod

@@ -90,20 +90,11 @@ class OmittedLayer(Exception):
 
 @dataclass(frozen=True)
 class BackgroundLayers:
-    """Layers computed next to the frames.
-
-    Attributes
-    ----------
-    results : mapping of str to layer
-    seconds : mapping of str to float
-        Processor time of each.
-    left_out : mapping of str to str
-        Why others are not there.
-    """
+    """Layers computed next to the frames."""
 
     results: Mapping[str, Any]
-    seconds: Mapping[str, float]
-    left_out: Mapping[str, str]
+    seconds: Mapping[str, float]  # processor time of each
+    left_out: Mapping[str, str]  # why others are not there
 
 
 def layers_of(

@@ -19,40 +19,20 @@ from .work_queue import FailedResult
 
 @dataclass(frozen=True)
 class FrameContext:
-    """A frame under way, as a panel sees it.
-
-    Attributes
-    ----------
-    scene : Scene
-    values : mapping
-        Of the controls.
-    header, blocks : dict
-        What the frame holds so far; polylines are blocks.
-    now : dict
-        By name, what the browser will have once it has this frame.
-    jobs : Jobs
-    rest : bool
-        Nothing moves: there is time for what is slower.
-    ready : bool
-        The compiled integrator is ready.
-    locked : tuple of str
-        Controls that the system does not have.
-    missing : list of str
-        Layers of the scene that are to be computed next to the frames, as they have been requested in vain.
-    left_out : list of OmittedLayer
-        Layers of the scene that are not drawn of this system, and why; told below the picture.
-    """
+    """A frame under way, as a panel sees it."""
 
     scene: Scene
-    values: Mapping[str, Any]
-    header: dict[str, Any]
+    values: Mapping[str, Any]  # of the controls
+    header: dict[str, Any]  # what the frame holds so far; polylines are blocks
     blocks: dict[str, Any]
-    now: dict[str, Any]
+    now: dict[str, Any]  # by name, what the browser will have once it has this frame
     jobs: Jobs
-    rest: bool
-    ready: bool
-    locked: tuple[str, ...]
+    rest: bool  # nothing moves: there is time for what is slower
+    ready: bool  # the compiled integrator is ready
+    locked: tuple[str, ...]  # controls that the system does not have
+    # layers of the scene that are to be computed next to the frames, as they have been requested in vain
     missing: list[str] = field(default_factory=list)
+    # layers of the scene that are not drawn of this system, and why; told below the picture
     left_out: list[OmittedLayer] = field(default_factory=list)
 
     @property

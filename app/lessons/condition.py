@@ -23,17 +23,10 @@ _COMPUTE: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
 
 @dataclass(frozen=True)
 class FactCondition:
-    """A condition on facts.
-
-    Attributes
-    ----------
-    text : str
-    names : frozenset of str
-        The facts that it reads.
-    """
+    """A condition on facts."""
 
     text: str
-    names: frozenset[str]
+    names: frozenset[str]  # the facts that it reads
     _tree: ast.expr
 
     def __call__(self, facts: Mapping[str, Any]) -> bool:

@@ -25,15 +25,10 @@ class LectureView:
 
 @dataclass(frozen=True)
 class Prose:
-    """A stretch of text.
+    """A stretch of text."""
 
-    Attributes
-    ----------
-    html : str
-        Safe HTML. ``<button data-set='{...}'>`` sets values of controls, ``<span data-drag="f1">`` is a number that
-        can be dragged, ``<output data-fact="stable">`` shows a fact of the present scene.
-    """
-
+    # safe HTML. ``<button data-set='{...}'>`` sets values of controls, ``<span data-drag="f1">`` is a number that
+    # can be dragged, ``<output data-fact="stable">`` shows a fact of the present scene
     html: str
 
 
@@ -57,38 +52,20 @@ class Vary:
 
 @dataclass(frozen=True)
 class LessonQuestion:
-    """Predict, reveal, explain, vary.
+    """Predict, reveal, explain, vary."""
 
-    Attributes
-    ----------
-    html : str
-        What is asked about the system on the sliders.
-    options : tuple of Option
-        Exactly one is right at every setting that `require` admits; which one, the scene decides. Where a place is to
-        be marked there may be one, that there is none.
-    mark : str
-        What is to be marked on the picture, a key of `marks.MARKS`; "" where an option is to be chosen.
-    explain : str
-        HTML, shown once an answer is given; ``{limit_directions}`` stands for a fact.
-    draw : mapping
-        Values of controls that the question starts from; a pair of numbers is a range to draw from.
-    require : FactCondition or None
-        What the drawn system must fulfil; it is drawn again until it does.
-    hide : tuple of str
-        Layers hidden until the answer is given.
-    hint : str
-    vary : Vary or None
-    """
-
-    html: str
+    html: str  # what is asked about the system on the sliders
+    # exactly one is right at every setting that `require` admits; which one, the scene decides. Where a place is to
+    # be marked there may be one, that there is none
     options: tuple[Option, ...]
-    explain: str
+    explain: str  # HTML, shown once an answer is given; ``{limit_directions}`` stands for a fact
+    # values of controls that the question starts from; a pair of numbers is a range to draw from
     draw: Mapping[str, Any] = field(default_factory=dict)
-    require: FactCondition | None = None
-    hide: tuple[str, ...] = ()
+    require: FactCondition | None = None  # what the drawn system must fulfil; it is drawn again until it does
+    hide: tuple[str, ...] = ()  # layers hidden until the answer is given
     hint: str = ""
     vary: Vary | None = None
-    mark: str = ""
+    mark: str = ""  # what is to be marked on the picture, a key of `marks.MARKS`; "" where an option is to be chosen
 
     @property
     def facts(self) -> frozenset[str]:
@@ -112,25 +89,13 @@ def portrait_of(key: str | None) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Lesson:
-    """One station of the course.
+    """One station of the course."""
 
-    Attributes
-    ----------
-    key : str
-        The name of its file without ending; the key in links.
-    title : str
-    summary : str
-        One line for the list of lessons.
-    values : mapping
-        Of the controls, when the lesson opens: those of its portrait, and what it sets besides.
-    parts : tuple of Prose, Question or LectureView
-        In the order of the file; of a lecture, prose is what its lecturer reads.
-    """
-
-    key: str
+    key: str  # the name of its file without ending; the key in links
     title: str
-    summary: str
-    values: Mapping[str, Any]
+    summary: str  # one line for the list of lessons
+    values: Mapping[str, Any]  # of the controls, when the lesson opens: those of its portrait, and what it sets besides
+    # in the order of the file; of a lecture, prose is what its lecturer reads
     parts: tuple[Prose | LessonQuestion | LectureView, ...]
 
     @property

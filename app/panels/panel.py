@@ -14,30 +14,15 @@ PANEL_SCRIPTS = Path(__file__).parents[1] / "static" / "panels"
 
 @dataclass(frozen=True)
 class Panel:
-    """A panel: its tab, what a frame brings while it is open, and the script that draws it.
+    """A panel: its tab, what a frame brings while it is open, and the script that draws it."""
 
-    Attributes
-    ----------
-    key : str
-        Its name in the address and in ``register("KEY", ...)`` of its script.
-    title : str
-        The word on its tab.
-    add : callable
-        Adds to a frame under way what the open panel shows.
-    tip : str
-        What is seen in it, in one sentence, for the tab's tooltip.
-    settings : mapping
-        What its script is told besides, as ``tools.settings``; JSON.
-    folder : Path
-        Where KEY.js is and, if the panel has rules of its own, KEY.css.
-    """
-
-    key: str
-    title: str
-    add: Callable[[FrameContext], None]
-    tip: str = ""
+    key: str  # its name in the address and in ``register("KEY", ...)`` of its script
+    title: str  # the word on its tab
+    add: Callable[[FrameContext], None]  # adds to a frame under way what the open panel shows
+    tip: str = ""  # what is seen in it, in one sentence, for the tab's tooltip
+    # what its script is told besides, as ``tools.settings``; JSON
     settings: Mapping[str, Any] = field(default_factory=dict)
-    folder: Path = PANEL_SCRIPTS
+    folder: Path = PANEL_SCRIPTS  # where KEY.js is and, if the panel has rules of its own, KEY.css
 
     @property
     def script(self) -> Path:

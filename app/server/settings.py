@@ -67,34 +67,17 @@ def sources(text: str) -> str:
 
 @dataclass(frozen=True)
 class Setting:
-    """One setting.
+    """One setting."""
 
-    Attributes
-    ----------
-    name : str
-        Of the flag, without dashes.
-    default : object
-    words : str
-        What it is, as `--help` says it.
-    kind : type or callable
-        Reads its text; bool is a switch, `host` reads each of a flag that may be repeated (commas in the variable).
-    shown : str
-        What stands for a value in `--help`.
-    variable : str
-        Its variable; default CODIM2_ and the name in capitals.
-    choices : tuple of str
-    second : str
-        A variable without CODIM2_ that hosting services set, read where its own is not there.
-    """
-
-    name: str
+    name: str  # of the flag, without dashes
     default: Any
-    words: str
+    words: str  # what it is, as `--help` says it
+    # reads its text; bool is a switch, `host` reads each of a flag that may be repeated (commas in the variable)
     kind: Any = str
-    shown: str = ""
-    variable: str = ""
+    shown: str = ""  # what stands for a value in `--help`
+    variable: str = ""  # its variable; default CODIM2_ and the name in capitals
     choices: tuple[str, ...] = ()
-    second: str = ""
+    second: str = ""  # a variable without CODIM2_ that hosting services set, read where its own is not there
 
     @property
     def env(self) -> str:

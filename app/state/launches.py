@@ -17,14 +17,7 @@ TYPED = -1  # in place of a launched orbit's place: the typed start
 
 @dataclass(frozen=True)
 class Launch:
-    """One launched orbit.
-
-    Attributes
-    ----------
-    x, y : float
-    hidden : bool
-    name : str
-    """
+    """One launched orbit."""
 
     x: float
     y: float

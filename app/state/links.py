@@ -57,30 +57,16 @@ _NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]{0,39}")
 
 @dataclass(frozen=True, slots=True)
 class PageView:
-    """The view of a page: the part of the picture that is seen, and the parts that an embedded page shows.
+    """The view of a page: the part of the picture that is seen, and the parts that an embedded page shows."""
 
-    Attributes
-    ----------
-    seen : tuple of float
-        (left, right, bottom, top); () is the whole picture.
-    embed : bool
-        Only the picture and the chosen controls, for a frame in another page.
-    controls : tuple of str
-        Names of controls, slow variables and parameters that an embedded page shows.
-    beamer : int
-        1, for the beamer: the picture fills the page, with large letters; 2: with a panel next to it. An embedded page
-        has no such mode.
-    lift : bool
-        The picture is lifted onto the hemisphere.
-    views : tuple
-        Views to go through on a beamer: ``{"name", "set", "seen"}``, what is other than at first, and what is seen.
-    """
-
-    seen: tuple[float, ...] = ()
-    embed: bool = False
-    controls: tuple[str, ...] = ()
+    seen: tuple[float, ...] = ()  # (left, right, bottom, top); () is the whole picture
+    embed: bool = False  # only the picture and the chosen controls, for a frame in another page
+    controls: tuple[str, ...] = ()  # names of controls, slow variables and parameters that an embedded page shows
+    # 1, for the beamer: the picture fills the page, with large letters; 2: with a panel next to it. An embedded
+    # page has no such mode
     beamer: int = 0
-    lift: bool = False
+    lift: bool = False  # the picture is lifted onto the hemisphere
+    # views to go through on a beamer: ``{"name", "set", "seen"}``, what is other than at first, and what is seen
     views: tuple[Mapping[str, Any], ...] = ()
 
 

@@ -15,23 +15,12 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Extract:
-    """One compiled function.
+    """One compiled function."""
 
-    Attributes
-    ----------
-    key : tuple of str
-        A kernel's module and name; what a right-hand side was compiled from.
-    symbol : str
-        Its name in the IR.
-    ir : str
-        The LLVM module.
-    takes, returns : list or None
-        Of a kernel: dtype, and dimensions of an array, of each argument; "tuple", "one" or "none", and of each value.
-    """
-
-    key: tuple[str, ...]
-    symbol: str
-    ir: str
+    key: tuple[str, ...]  # a kernel's module and name; what a right-hand side was compiled from
+    symbol: str  # its name in the IR
+    ir: str  # the LLVM module
+    # of a kernel: dtype, and dimensions of an array, of each argument; "tuple", "one" or "none", and of each value
     takes: list[list[Any]] | None = None
     returns: list[Any] | None = None
 

@@ -29,33 +29,16 @@ CORE = 0.8
 
 @dataclass(frozen=True)
 class Placement:
-    """Position and size of the picture in a drawing.
+    """Position and size of the picture in a drawing."""
 
-    Attributes
-    ----------
-    seen : (left, right, bottom, top)
-        What is drawn of the picture.
-    side : float
-        Its width in the drawing; its corner is at (0, 0).
-    unit : float
-        What is a px on the screen: of widths of lines and sizes of marks.
-    text : float
-        Size of labels.
-    decimals : int
-        Of coordinates.
-    dashes : mapping of str to tuple of float
-        By colour, where lines differ by dashes, in px of the screen, as they are in black and white.
-    beyond : float
-        How much farther out labels of limit directions stand where there is the ring of outcomes.
-    """
-
-    seen: Rectangle = (-HALF_VIEW, HALF_VIEW, -HALF_VIEW, HALF_VIEW)
-    side: float = VIEWBOX_SIDE
-    unit: float = VIEWBOX_SIDE / 700
-    text: float = 22.0
-    decimals: int = 0
+    seen: Rectangle = (-HALF_VIEW, HALF_VIEW, -HALF_VIEW, HALF_VIEW)  # what is drawn of the picture
+    side: float = VIEWBOX_SIDE  # its width in the drawing; its corner is at (0, 0)
+    unit: float = VIEWBOX_SIDE / 700  # what is a px on the screen: of widths of lines and sizes of marks
+    text: float = 22.0  # size of labels
+    decimals: int = 0  # of coordinates
+    # by colour, where lines differ by dashes, in px of the screen, as they are in black and white
     dashes: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
-    beyond: float = 1.0
+    beyond: float = 1.0  # how much farther out labels of limit directions stand where there is the ring of outcomes
 
     @property
     def scale(self) -> float:
