@@ -20,7 +20,7 @@ export function plain(value) { return String(Number(value.toPrecision(6))) }
 
 export const minus = (text) => text.replaceAll("-", "−")
 
-// A number that shows a claim: what is zero up to rounding is told apart from what is small.
+// A number that shows a claim: zero up to rounding differs from small.
 export const claimNumber = (value) => value !== 0 && Math.abs(value) < 1e-9 ? digits(value) : minus(plain(value))
 
 export const pair = (v, places) => `(${digits(v[0], places)}, ${digits(v[1], places)})`
