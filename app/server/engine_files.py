@@ -11,7 +11,7 @@ from typing import Any
 from tornado.web import HTTPError, RequestHandler
 
 from ..docs.docs_handlers import WORKER_POLICY
-from ..lessons.library import built_in, lessons
+from ..lessons.library import built_in, lectures, lessons
 from ..static_site.folder import engine_files
 from .scripts import YEAR, takes_packed
 
@@ -21,7 +21,7 @@ LOOSE = (".js", ".mjs", ".wasm", ".json")
 
 def served_panels() -> list[str]:
     """Return the panels that only this server has all of: its files have the course, and no lessons of one's own."""
-    return [] if lessons() == built_in() else ["lessons"]
+    return [] if lessons() == {**built_in(), **lectures()} else ["lessons"]
 
 
 class EngineFiles:

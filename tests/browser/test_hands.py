@@ -123,7 +123,7 @@ def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
     assert pinned.text_content().startswith("×C stable node(c, s)")
     assert "pinned=C" in page.url
     drawn = [item["kind"] for item in explorer.ask("picture.above.list")]
-    assert drawn == ["ray"] * 4 + ["ring", "path", "mark"]  # and the motion from the typed start
+    assert drawn == ["ray"] * 4 + ["ring", "path", "path", "mark", "label"]  # and the motion from the typed start
     page.keyboard.press("Escape")  # the picture has no focus
     explorer.kept()
     assert not pinned.is_visible()

@@ -116,7 +116,7 @@ def test_a_portrait_does_not_destroy_what_was_typed(explorer):
     explorer.settle().find("textarea[data-box=W]").fill("foo + ")
     explorer.settle().find("textarea[data-box=U1]").fill("-q*c")
     explorer.settle()
-    explorer.press("[data-control=slow-z] input[type=range]", "ArrowRight")
+    explorer.press("[data-control=parameter-mu] input[type=range]", "ArrowRight")
     assert "column" in explorer.find("[data-box=W] .error").text_content()  # still wrong, and still said
     explorer.choose("select.preset", "case1-cm0")
     assert explorer.name() == "CM0"

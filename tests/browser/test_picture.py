@@ -47,7 +47,7 @@ def test_a_mark_tells_its_numbers(explorer):
 
 def test_a_motion_lies_above_the_picture_and_leaves_it_alone(explorer):
     explorer.open("?k1=0&k2=0&panel=orbits&orbit_eps=show")  # the portrait does not depend on z, which moves
-    assert [item["kind"] for item in explorer.ask("picture.above.list")] == ["path", "path", "mark"]
+    assert [item["kind"] for item in explorer.ask("picture.above.list")] == [*["path"] * 4, "mark", "label"]
     before = explorer.ask("[picture.drawn.paints, picture.above.paints]")
     explorer.find(".panel-orbits .series").press("ArrowRight")
     explorer.settle().painted()

@@ -81,7 +81,7 @@ def test_a_motion_plays_in_step_in_all_views(explorer):
     assert "t =" in explorer.find(".orbit-now").text_content()
     assert value(explorer, "slow-z") != start
     drawn = explorer.find(".codim2").evaluate("(root) => root.explorer.picture.above.list.map((item) => item.kind)")
-    assert drawn == ["path", "mark"]
+    assert drawn == ["path", "path", "mark", "label"]  # near the present z, and faint elsewhere
 
 
 def test_the_solid_view_turns_without_asking_the_server(explorer):
@@ -153,6 +153,7 @@ def test_a_range_is_typed_beside_a_slider_is_in_the_link_and_is_undone(open_page
 def test_a_line_of_ones_own_system_gives_a_parameter_its_value_and_range(open_page):
     explorer = open_page().open("?v=1&panel=numbers")
     choose(explorer, "own")
+    explorer.find("textarea[data-box=U1]").fill("-mu*c + f + k")
     where = explorer.find("textarea[data-box=where]")
     where.fill(f"{where.input_value()}\nk = 0.3 in [0, 1]")
     explorer.settle()
@@ -164,7 +165,7 @@ def test_a_line_of_ones_own_system_gives_a_parameter_its_value_and_range(open_pa
     explorer.kept()
     again = open_page().open(explorer.page.evaluate("location.search"))
     assert (ends(again, "parameter-k"), value(again, "parameter-k")) == ((0.0, 2.0), 0.4)
-    where.fill("k = 3 in [0, 1]")
+    where.fill("mu = 1\nf = 0.5\nk = 3 in [0, 1]")
     explorer.settle()
     assert "a range [low, high] that holds the value" in explorer.find("[data-box=where] .error").text_content()
     assert explorer.complaints == again.complaints == []

@@ -67,7 +67,5 @@ def test_its_picture_is_a_file(tmp_path):
     lines = c2.trajectories(FOUR, ONE, [(0.1, 0.2)])
     lines.save(tmp_path / "lines.svg")
     assert (tmp_path / "lines.svg").read_text(encoding="utf-8") == lines._repr_svg_()
-    with pytest.raises(ValueError, match=r"give a name that ends with \.svg"):
-        lines.save(tmp_path / "lines.png")
-    with pytest.raises(ValueError, match="nothing to draw"):
-        c2.Scene(FOUR)["launched"].save(tmp_path / "none.svg")
+    with pytest.raises(ValueError, match=r"give a name that ends with \.svg, \.png or \.pdf"):
+        lines.save(tmp_path / "lines.jpg")

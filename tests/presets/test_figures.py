@@ -207,6 +207,7 @@ OBJECTS = {
     "case3-n1": CASE3,
     "case3-n2": CASE3,
     "case3-n3": (*CASE3, limit_cycle),
+    "case3-cycle": (no_limit_directions, critical_sets, trajectories, limit_cycle),
     "case3-n4": (*CASE3, limit_cycle),
     "pitchfork-before": (limit_directions, critical_sets, trajectories),
     "pitchfork-at": (limit_directions, critical_sets, trajectories),
