@@ -1,4 +1,4 @@
-"""Pictures of results: the core computes, and the app, which is installed with it, draws what it is requested.
+"""Pictures of results: the core computes, and the app, which is installed with it, draws.
 
 `Scene.plot` and the ``_repr_svg_`` of results ask here. The app is imported then and not before; without it, as where
 the core alone has been copied, a notebook shows the tables.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import mimetypes
+from concurrent.futures import ThreadPoolExecutor
 
 from tornado.ioloop import IOLoop
 from tornado.web import HTTPError, RequestHandler
@@ -11,6 +12,10 @@ from .docs_folder import site
 
 #: Of a worker's script: what it loads is compiled in the browser.
 WORKER_POLICY = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'"
+
+
+#: One page is made at a time: whoever reads takes no more than a thread from those who draw.
+_maker = ThreadPoolExecutor(1, "codim2-docs")
 
 
 class Docs(RequestHandler):
@@ -22,7 +27,7 @@ class Docs(RequestHandler):
         folder = site()
         if folder is None:
             self._send(
-                *await IOLoop.current().run_in_executor(None, _make_file, path, self.get_query_argument("q", ""))
+                *await IOLoop.current().run_in_executor(_maker, _make_file, path, self.get_query_argument("q", ""))
             )
             return
         try:

@@ -10,8 +10,8 @@ import inspect
 import re
 import shutil
 import sys
-from collections.abc import Iterator
-from functools import cache, cached_property
+from collections.abc import Callable, Iterator
+from functools import cache, cached_property, partial
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -177,19 +177,28 @@ def _html_of(text: str) -> str:
     return html
 
 
-@cache
 def page(name: str) -> bytes | None:
     """Return a page as HTML; None where there is none of that name."""
-    text = sources().get(name)
-    return None if text is None else _framed(title_of(name), _html_of(text))
+    return _page(name) if name in sources() else None
+
+
+@cache
+def _page(name: str) -> bytes:
+    """Return a page that there is: names that visitors make up are not kept."""
+    return _framed(title_of(name), _html_of(sources()[name]))
+
+
+@cache
+def _plain() -> dict[str, str]:
+    """Return what is searched: the pages without their marks."""
+    return {name: re.sub(r"<[^>]*>|[`*#|]", "", text) for name, text in sources().items()}
 
 
 def search(words: str) -> bytes:
     """Return a page of those that hold all words, the ones with a word in their title first."""
     wanted = words[:MAX_QUERY].lower().split()
     found = []
-    for name, text in sources().items():
-        plain = re.sub(r"<[^>]*>|[`*#|]", "", text)
+    for name, plain in _plain().items():
         if wanted and all(word in plain.lower() for word in wanted):
             title = title_of(name)
             at = plain.lower().index(wanted[0])
@@ -202,15 +211,25 @@ def search(words: str) -> bytes:
 
 
 @cache
-def picture(name: str) -> bytes | None:
-    """Return a picture of the gallery or of the paper's figures; None where there is none of that name."""
-    folder, _, file = name.removesuffix(".svg").partition("/")
-    if folder == "portraits":
-        key, _, theme = file.rpartition("-")
-        return gallery.portrait_svg(key, theme).encode() if key in presets and theme in ("light", "dark") else None
+def _pictures() -> dict[str, Callable[[], str]]:
+    """Return what draws each picture of the gallery and of the paper's figures, by its path."""
     from .drawn_figures import DRAWN  # on first use: it loads what it draws
 
-    return DRAWN[file]().encode() if folder == "paper" and file in DRAWN else None
+    drawn = {f"paper/{name}.svg": draw for name, draw in DRAWN.items()}
+    return drawn | {
+        f"portraits/{key}-{theme}.svg": partial(gallery.portrait_svg, key, theme)
+        for key in presets for theme in ("light", "dark")
+    }  # fmt: skip
+
+
+def picture(name: str) -> bytes | None:
+    """Return a picture; None where there is none of that name."""
+    return _picture(name) if name in _pictures() else None
+
+
+@cache
+def _picture(name: str) -> bytes:
+    return _pictures()[name]().encode()
 
 
 def write_site(target: Path, live: str = "") -> None:

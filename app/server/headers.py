@@ -2,7 +2,7 @@
 
 A page runs two kinds of script: files of this server, and its own inline scripts, allowed one by one by their hashes.
 Styles are inline: BokehJS writes a style sheet into each shadow root. Nothing is evaluated from text, and nobody else
-is requested anything.
+gets a request.
 """
 
 from __future__ import annotations

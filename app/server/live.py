@@ -238,7 +238,7 @@ class LiveConnection(WebSocketHandler):
             self.places.rota.ask(self)
 
     def turn(self) -> None:
-        """Answer what has been requested longest, a request for a frame by its newest values."""
+        """Answer what has waited longest, a request for a frame by its newest values."""
         if self._asked:
             self._asked.popleft()()
             self._ask()

@@ -119,7 +119,7 @@ def simulate(
     Returns
     -------
     Simulation, or tuple of k Simulation
-        Its phases are read off a regularised motion when they are first read: "slide" where it follows a critical set
+        Its phases are read off a regularised motion on first use: "slide" where it follows a critical set
         or a limit cycle of the layer problem within O(eps). In the limit its status is NOT_UNIQUE, with a reason, where
         the limit is not unique or not known; the motion ends there. If it grows beyond bounds, or the step limit is
         reached, it holds what was followed till then. What slides forgets where it came from: a past begins where

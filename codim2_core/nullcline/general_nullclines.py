@@ -154,7 +154,7 @@ class _Net:
         self.open[i[ok], j[ok]] = False
 
     def seeds(self) -> Iterator[tuple[Array, float]]:
-        """Middles of open cells, one after another, with the size of a cell; a cell that is requested is closed."""
+        """Middles of open cells, one after another, with the size of a cell; a cell that has been yielded is closed."""
         while True:
             left = np.argwhere(self.open)
             if not len(left):

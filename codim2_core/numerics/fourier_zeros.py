@@ -19,7 +19,7 @@ from ..arrays import Array
 
 UNIT = 2.0**-53
 ROUNDINGS = 16.0  # of the terms of f: what a zero's multiplicity is decided within
-MIN_ARC = 2e-3  # half-width of an arc below which a multiple zero is requested
+MIN_ARC = 2e-3  # half-width of an arc below which a multiple zero is looked for
 FINEST = 1e-11
 SAME_ZERO_DISTANCE = 1e-6  # a multiple zero found twice differs by less
 OFFSET = 0.1234567  # so that no arc of the first net ends at a multiple of pi/2, where zeros like to be

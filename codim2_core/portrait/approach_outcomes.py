@@ -80,7 +80,7 @@ def approach_outcomes(
     psi : Psi
     z : (m,) floats
     compare : sequence of Psi, optional
-        Regularisations requested `Outcome.depends_on_psi`, where no theorem answers; default the built-in families
+        Regularisations that `Outcome.depends_on_psi` compares where no theorem answers; default the built-in families
         with n = 1 to 4 of the Hill family (none if there are more than 8 critical sets). An empty sequence asks none.
 
     Returns

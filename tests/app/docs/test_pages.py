@@ -54,6 +54,15 @@ def test_words_are_found_and_nothing_typed_is_markup():
     assert len(pages.search("a" * 10_000)) < 20_000
 
 
+def test_names_that_visitors_make_up_are_not_kept():
+    pages.page("tutorial")
+    pages.picture("portraits/case1-cm0-light.svg")
+    before = pages._page.cache_info().currsize, pages._picture.cache_info().currsize
+    for k in range(100):
+        assert pages.page(f"x{k}") is pages.picture(f"portraits/x{k}-light.svg") is None
+    assert (pages._page.cache_info().currsize, pages._picture.cache_info().currsize) == before
+
+
 def test_the_server_sends_pages_pictures_and_nothing_else():
     paths = ("", "tutorial.html", "_static/pages.css", "_static/portraits/case1-cm2-dark.svg", "?q=puck")
     wrong = ("x.html", "_static/../x", "_static/portraits/x-light.svg", "_static/portraits/case1-cm2-red.svg", "a/b")
