@@ -114,10 +114,11 @@ def test_loops_close_on_their_curve(loop_curve):
     line, ratio = loop_curve.branches[0], loop_curve.values[0]
     assert len(line) == len(ratio)
     p = psi.hill(3)
-    for i in range(4, len(line) - 6, 6):  # beside its ends the gap changes ever faster
+    for i in range(2, len(line) - 2):
         ((arc, gap),) = loops(system(line[i]).at(()), p)
-        assert abs(gap) < 1e-8
-        assert arc.ratio == pytest.approx(ratio[i], rel=1e-9)
+        inner = 7 <= i < len(line) - 5
+        assert abs(gap) < (1e-8 if inner else 2e-7)  # next to its ends, at corners, it changes ever faster
+        assert arc.ratio == pytest.approx(ratio[i], rel=1e-9 if inner else 1e-7)
     assert min(from_nearest(end, corners()) for end in (line[0], line[-1])) < 1e-9
     place = {s.type: s.place for s in loop_curve.special}["neutral loop"]
     ((arc, _),) = loops(system(place).at(()), p)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from codim2_core import ELinear, bifurcations, psi
 from tests.core.polylines import away
 
-CHORD = 2e-3  # steps of 0.1 in e that turn by 0.12 leave a chord so far from the curve
+CHORD = 1e-3
 
 
 def jacobian_numbers(A, p, e):
