@@ -29,7 +29,46 @@ class Listed:
         return [name for name in super().__dir__() if name not in self._internal_]
 
 
-class Result(Listed, ByValue):
+class Written(Listed):
+    """An object that is written to files: its rows as a table, its picture as SVG, PNG or PDF."""
+
+    __slots__ = ()
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        raise NotImplementedError
+
+    def to_frame(self) -> Any:
+        """Return a pandas DataFrame.
+
+        Raises
+        ------
+        ValueError
+            pandas is not installed.
+        """
+        return frame(self._records())
+
+    def to_csv(self, path: str | Path) -> None:
+        """Write what `to_frame` has as CSV."""
+        write_csv(path, self._records())
+
+    def save(self, path: str | Path) -> None:
+        """Write the picture that a notebook shows.
+
+        Parameters
+        ----------
+        path : str or Path
+            A name that ends with .svg, .png or .pdf.
+
+        Raises
+        ------
+        ValueError
+            The name ends otherwise, or the app, which draws, or for PNG and PDF Typst, is not installed, or there
+            is no picture of this result.
+        """
+        drawing.save(self, path)
+
+
+class Result(Written, ByValue):
     """A result: a frozen dataclass whose fields say all that it is, and by which it is compared.
 
     It has a length, an index and an iterator: over what it holds, else over the rows of `to_frame`, as dictionaries.
@@ -62,20 +101,6 @@ class Result(Listed, ByValue):
     def __bool__(self) -> bool:
         return True
 
-    def to_frame(self) -> Any:
-        """Return a pandas DataFrame.
-
-        Raises
-        ------
-        ValueError
-            pandas is not installed.
-        """
-        return frame(self._records())
-
-    def to_csv(self, path: str | Path) -> None:
-        """Write what `to_frame` has as CSV."""
-        write_csv(path, self._records())
-
     def plot(self, ax: Any = None) -> Any:
         """Draw the picture into Matplotlib axes, and return them.
 
@@ -90,22 +115,6 @@ class Result(Listed, ByValue):
             Matplotlib, or the app, which draws, is not installed.
         """
         return drawing.plot(self, ax)
-
-    def save(self, path: str | Path) -> None:
-        """Write the picture that a notebook shows.
-
-        Parameters
-        ----------
-        path : str or Path
-            A name that ends with .svg, .png or .pdf.
-
-        Raises
-        ------
-        ValueError
-            The name ends otherwise, or the app, which draws, or for PNG and PDF Typst, is not installed, or there
-            is no picture of this result.
-        """
-        drawing.save(self, path)
 
     def _repr_svg_(self) -> str | None:
         return None

@@ -189,7 +189,7 @@ def _page(name: str) -> bytes:
 
 
 @cache
-def _plain() -> dict[str, str]:
+def _unmarked() -> dict[str, str]:
     """Return what is searched: the pages without their marks."""
     return {name: re.sub(r"<[^>]*>|[`*#|]", "", text) for name, text in sources().items()}
 
@@ -198,7 +198,7 @@ def search(words: str) -> bytes:
     """Return a page of those that hold all words, the ones with a word in their title first."""
     wanted = words[:MAX_QUERY].lower().split()
     found = []
-    for name, plain in _plain().items():
+    for name, plain in _unmarked().items():
         if wanted and all(word in plain.lower() for word in wanted):
             title = title_of(name)
             at = plain.lower().index(wanted[0])

@@ -9,13 +9,13 @@ import param
 from ..state.chosen_system import System_
 
 
-def with_parameters(kind: type, system: System_ | None) -> type:
+def with_parameters(kind: Any, system: System_ | None) -> Any:
     """Return a kind of explorer that has the parameters of a system; its own names stay what they are."""
     names = [] if system is None else [name for name in system.variable if not hasattr(kind, name)]
     if system is None or not names:
         return kind
     declared = {name: param.Number(system.value_of(name), label=name) for name in names}
-    hidden = {**kind._rename, **dict.fromkeys(names)}  # noqa: SLF001  # type: ignore[attr-defined]
+    hidden = {**kind._rename, **dict.fromkeys(names)}  # noqa: SLF001 (Panel names what the browser does not get so)
     return type(kind.__name__, (kind,), {**declared, "_rename": hidden, "_own": tuple(names), "__doc__": kind.__doc__})
 
 

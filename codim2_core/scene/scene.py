@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Hashable, Iterator, Mapping
-from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 from weakref import ref
@@ -27,11 +26,10 @@ from ..orbits.options import LEAST_PIXEL, stepping
 from ..orbits.seeds import checked_seeds
 from ..psi import constructors
 from ..psi.function import Psi
-from ..results import Listed
+from ..results import Written
 from ..systems.bounds import slow_values
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import SYSTEM_KINDS, AnySystem
-from ..tables import frame, write_csv
 from .layer_table import ELINEAR_ONLY, INPUTS, LAYER_OF_FUNCTION, layers
 from .memory import ABSENT, Memory
 
@@ -66,7 +64,7 @@ class _Problem(LayerProblem):
         return result
 
 
-class Scene(Listed, Mapping[str, Any]):
+class Scene(Written, Mapping[str, Any]):
     """Everything drawn for one system at one z, by name; layers are computed when first requested.
 
     ``scene["critical_sets"]`` is what ``critical_sets`` returns, and so for the other public functions.
@@ -247,17 +245,8 @@ class Scene(Listed, Mapping[str, Any]):
         """
         return self.to_holoviews() if ax is None else drawing.plot(self, ax)
 
-    def save(self, path: str | Path) -> None:
-        """Write the picture; the name ends with .svg, .png or .pdf.
-
-        Raises
-        ------
-        ValueError
-            The name ends otherwise, or the app, which draws, or for PNG and PDF Typst, is not installed.
-        """
-        drawing.save(self, path)
-
     def _records(self) -> Iterator[dict[str, Any]]:
+        """Yield limit directions and critical sets, with their places in the projected disc."""
         equator = self["equator"]
         for i, (theta, outwards, along) in enumerate(
             zip(equator.theta.tolist(), equator.lambda_rho.tolist(), equator.lambda_theta.tolist(), strict=True), 1
@@ -266,20 +255,6 @@ class Scene(Listed, Mapping[str, Any]):
             yield {"name": f"Q{i}", "kind": kind, "p_1": math.cos(theta), "p_2": math.sin(theta)}
         for i, C in enumerate(self["critical"], 1):
             yield {"name": f"C{i}", "kind": C.kind, "p_1": float(C.p[0]), "p_2": float(C.p[1])}
-
-    def to_frame(self) -> Any:
-        """Return limit directions and critical sets, with their places in the projected disc, as a pandas DataFrame.
-
-        Raises
-        ------
-        ValueError
-            pandas is not installed.
-        """
-        return frame(self._records())
-
-    def to_csv(self, path: str | Path) -> None:
-        """Write what `to_frame` has as CSV."""
-        write_csv(path, self._records())
 
     def __repr__(self) -> str:
         return f"Scene({self.system!r}, {self.psi!r}, z={self.z})"

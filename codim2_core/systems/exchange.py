@@ -39,7 +39,7 @@ class Exchange:
         ValueError
             eps is negative or psi is missing, and of the function: a state has the wrong length.
         """
-        if not eps >= 0.0 or (eps > 0.0 and psi is None):
+        if not eps >= 0.0 or (eps > 0.0 and not callable(psi)):
             raise ValueError(f"eps is {eps!r} and psi is {psi!r}; give eps > 0 with a Psi, or neither for the limit.")
         own: Any = self
         rows, numbers, n = [right for _, right in own.equations], dict(own.parameters), 2 + own.m

@@ -61,6 +61,19 @@ def test_sympy_in_and_out():
     assert slow == c + 2 * s + 1
 
 
+def test_switches_are_those_of_sympy_too():
+    sympy = pytest.importorskip("sympy")
+    (U, _), _ = c2.System(U=("-c + (t > 3)*(t < 4) + mod(t, 2) + floor(t)", "-s")).to_sympy()
+    t = sympy.Symbol("t", real=True)
+    values = [float(U.subs({"c": 0}).subs({sympy.Symbol("c", real=True): 0, t: at})) for at in (2.5, 3.5)]
+    assert values == [0.5 + 2.0, 1.0 + 1.5 + 3.0]
+
+
+def test_a_psi_that_is_none_is_refused():
+    with pytest.raises(ValueError, match="psi is 'hill:3'"):
+        c2.System(U=("-c", "-s")).rhs("hill:3", 1e-3)
+
+
 def test_a_typed_system_is_what_its_repr_makes():
     for system, _ in SYSTEMS.values():
         assert eval(repr(system), {"ELinear": c2.ELinear, "System": c2.System}) == system
