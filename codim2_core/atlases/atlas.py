@@ -39,13 +39,8 @@ __all__ = [
 ]  # fmt: skip
 
 
-TRIAL_PLACES = (
-    (0.5, 0.5),
-    (0.21, 0.33),
-    (0.83, 0.27),
-    (0.29, 0.79),
-    (0.71, 0.89),
-)  # where U is tried, in the unit square
+#: Where U is tried, in the unit square.
+TRIAL_PLACES = (0.5, 0.5), (0.21, 0.33), (0.83, 0.27), (0.29, 0.79), (0.71, 0.89)
 MAX_UNLIKE_SHARE = (
     0.25  # of the places looked at: where more are in the wrong region no border is followed by bisection
 )

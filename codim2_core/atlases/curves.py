@@ -24,10 +24,8 @@ LAST_STEP = 0.04  # of the ranges: last step of the curve of a neutral equator, 
 POINT_SIZE = 1e-7  # of the ranges: a curve that keeps within this is a point
 SAME_CURVE_DISTANCE = 1e-6  # two curves of one kind that are as near as this everywhere are one
 SINGULAR_DETERMINANT = 1e-9  # of det DU, all along a curve through the equator: there critical sets fill a line
-MAX_CHART_STEP, MAX_CHART_HALVINGS = (
-    0.06,
-    12,
-)  # of the ranges, of a curve from another chart; how often its steps are halved
+#: Of the ranges, of a curve from another chart; how often its steps are halved.
+MAX_CHART_STEP, MAX_CHART_HALVINGS = 0.06, 12
 LINE_DETERMINANT = 1e-9  # of det DU, all along a curve of tr J = 0: there critical sets fill a line
 
 

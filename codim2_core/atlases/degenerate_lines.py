@@ -15,9 +15,8 @@ from ..arrays import Array
 from ..families.family import SystemFamily
 from ..numerics.root_between import root_between
 
-PROBE_ANGLES = (
-    2.0 * np.pi * (np.arange(7) + 0.37) / 7.0
-)  # of directions, and places along a line, that have no symmetry
+#: Of directions, and places along a line, that have no symmetry.
+PROBE_ANGLES = 2.0 * np.pi * (np.arange(7) + 0.37) / 7.0
 LINE_SAMPLES = np.array([0.031, 0.217, 0.431, 0.677, 0.913])
 SPAN_STEPS = 24  # steps in which such a value is looked for; between them it is where Theta changes its sign everywhere
 ZERO_SHARE = 1e-11  # of the largest, |Theta| and |U| that count as zero

@@ -25,10 +25,8 @@ from .degenerate_lines import DegenerateLine, drop_touching
 
 EQUATOR_CELLS, PARAMETER_CELLS = 64, 24  # cells round the equator, and along both parameters next to them
 INTERIOR_CELLS = 16  # cells along each of c, s, u and v
-AFFINE_CELLS, MAX_HALVINGS = (
-    32,
-    4,
-)  # cells along u and v where U is affine in e: its one zero is known; how often they are halved
+#: Cells along u and v where U is affine in e: its one zero is known; how often they are halved.
+AFFINE_CELLS, MAX_HALVINGS = 32, 4
 MAX_E = 100.0  # e beyond this counts as this
 CELL_CORNERS = np.array([[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]])
 NEUTRAL_SHARE = 1e-12  # of the mean of |lambda_rho/Theta|: less is zero, as where a symmetry keeps it
@@ -36,10 +34,8 @@ SEED_SHARE = 0.03  # of such a step, to which it is found
 MAX_NEUTRAL_STEPS = 32  # on which the curve of a neutral equator is looked for
 TRIAL_SUMS = 12  # of functions that are tried in a cell
 MIN_SUM_SHARE = 0.1  # of what a sum of them changes by in a cell: so far from zero it has none there
-NET_OFFSET, UP_OFFSET = (
-    0.37,
-    0.21,
-)  # of a cell: the net of e lies next to round numbers, on which degenerate systems like to lie
+#: Of a cell: the net of e lies next to round numbers, on which degenerate systems like to lie.
+NET_OFFSET, UP_OFFSET = 0.37, 0.21
 
 MAX_PLACES = 8  # from which curves are looked for
 MAX_WAY = 0.5  # of the ranges, along each axis

@@ -14,10 +14,8 @@ CIRCLE_ANGLES = 2.0 * np.pi * np.arange(12) / 12.0
 TRIAL_PLACES = np.concatenate(
     [r * np.stack([np.cos(CIRCLE_ANGLES), np.sin(CIRCLE_ANGLES)], axis=-1) for r in (0.0, 0.5, 1.0)]
 )
-FIRST_NET_CELLS, BORDER_NET_CELLS = (
-    24,
-    96,
-)  # cells along each side of a first net, and of that by which borders are found
+#: Cells along each side of a first net, and of that by which borders are found.
+FIRST_NET_CELLS, BORDER_NET_CELLS = 24, 96
 EDGE_INSET = 1e-7  # what lies on the very edge of the square is decided just inside
 MAX_HALVINGS = 32  # of an edge, until the border is found on it
 MIN_BEND = 1e-6  # a part of the square; what turns less than this is straight

@@ -25,10 +25,8 @@ from .section_base import Problems, SectionBase
 LOOP_DISTANCE, EQUATOR_HEIGHT = 0.03, 0.03
 LOOP_THROUGH_EQUATOR = "heteroclinic cycle through the equator"
 PERIOD_GROWTH = 1.05  # times the period before: what goes to a loop becomes slower
-LIMIT_TOLERANCE, MAX_END_DISTANCE = (
-    1e-4,
-    0.1,
-)  # of the span: how far from the last cycle a loop may be, and what is special
+#: Of the span: how far from the last cycle a loop may be, and what is special.
+LIMIT_TOLERANCE, MAX_END_DISTANCE = 1e-4, 0.1
 LIMIT_PERIOD_GROWTH = 1.5  # times the period before: cycles that tell the value to which those of growing periods tend
 RATE_BOUNDS = 0.05, 20.0  # with which powers of the period the values come to it
 SADDLE_NODE_DISTANCE = 2.0  # times the way to it: there a saddle-node, to which they come more slowly, may be the end

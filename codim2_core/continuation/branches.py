@@ -69,10 +69,8 @@ BAND_SPREAD = 0.5  # by which ebar differs between the cycles of a band
 SAME_VALUE_SHARE = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
 LOW_SHARE, ROUNDING_OF_HEIGHT = 3.0, 1e-7  # times the height of the last cycle; ebar that p tells
 ROUNDING_HEIGHT = 1e-12  # ebar of a turn of which nothing but rounding is left
-COMPARED_POINTS, CANDIDATE_POINTS = (
-    3,
-    12,
-)  # points before the last one: with those before it is compared, among these it is chosen
+#: Points before the last one: with those before it is compared, among these it is chosen.
+COMPARED_POINTS, CANDIDATE_POINTS = 3, 12
 
 
 @dataclass(frozen=True)

@@ -24,30 +24,21 @@ MIN_STEP = 1e-7  # below this the branch is said to end
 PREDICTED_TOLERANCE = (
     1e-9  # product of the last two corrections, in steps, below which the last is made without another turn
 )
-MAX_LAST_CORRECTION, MAX_LEARNT_CORRECTION = (
-    0.2,
-    0.05,
-)  # last correction, in steps: of a point that may be found, of one that tells where others are
+#: Last correction, in steps: of a point that may be found, of one that tells where others are.
+MAX_LAST_CORRECTION, MAX_LEARNT_CORRECTION = 0.2, 0.05
 MIN_AMPLITUDE = 3e-3  # amplitude at which a branch has come to C
-MAX_CHI, LOW_HEIGHT, MIN_HEIGHT = (
-    0.999,
-    1e-3,
-    1e-7,
-)  # chi, ebar at which it has come to the equator: all of it, or a part
+#: Chi, ebar at which it has come to the equator: all of it, or a part.
+MAX_CHI, LOW_HEIGHT, MIN_HEIGHT = 0.999, 1e-3, 1e-7
 BAND_HEIGHT, BAND_EXPONENT = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator cannot be told apart
 MIN_EXPONENT = 1e-6  # exponent of a cycle near the equator whose sign may be rounding's
-EQUATOR_FOLD_CHANGE, FOLD_CHANGE = (
-    1e-9,
-    1e-12,
-)  # change of nu about a fold near the equator, where exponents tend to 0, and elsewhere
+#: Change of nu about a fold near the equator, where exponents tend to 0, and elsewhere.
+EQUATOR_FOLD_CHANGE, FOLD_CHANGE = 1e-9, 1e-12
 MAX_POINTS = 600  # points
 MAX_PREDICTION_ERROR = 0.3  # distance of a point from its prediction, in steps, beyond which a step is too long
 MIN_TANGENT_COSINE = 0.9  # cosine between successive tangents below which a step is too long
 MAX_BATCH, PREDICTOR_POINTS = 16, 12  # points tried at once; last points that predictions know of
-TARGET_TURN, TARGET_CORRECTION = (
-    0.25,
-    0.15,
-)  # turn of the tangent, and first correction in steps, that the next step is to have
+#: Turn of the tangent, and first correction in steps, that the next step is to have.
+TARGET_TURN, TARGET_CORRECTION = 0.25, 0.15
 MAX_HALVINGS = 8  # of an interval in which a fold is not found at once
 EDGE_TOLERANCE = 1e-9  # of the span, by which a cycle may lie beyond it
 KINKED_FOLD_CHANGE = 1e-7  # of the span, by which the value turns back on both sides of a fold found by bisection

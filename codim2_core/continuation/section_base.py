@@ -17,10 +17,8 @@ from ..systems.frozen import FrozenSystem
 
 Problems = Callable[[float], LayerProblem]
 
-NEWTON_TOLERANCE, MAX_CORRECTION = (
-    1e-9,
-    0.1,
-)  # of Newton's method for e: its last step (its error is the square), all of its way
+#: Of Newton's method for e: its last step (its error is the square), all of its way.
+NEWTON_TOLERANCE, MAX_CORRECTION = 1e-9, 0.1
 MAX_HALVINGS = 12  # of the way to a value at which it is not found at once: after these it is where it was last
 MAX_RADIUS = 1.0 - 1e-9  # |e| of a critical set
 

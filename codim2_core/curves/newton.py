@@ -15,10 +15,8 @@ MAX_ROUNDS = 12
 NEWTON_TOLERANCE = 1e-12  # correction at which it stops,
 ROUNDING_TOLERANCE = 1e-9  # or, where rounding does not let it come so far, at which a point counts as found
 MAX_SIZE = 1e3
-FREE_ROUNDS, MAX_CORRECTION_RATIO = (
-    3,
-    0.4,
-)  # rounds after which corrections that do not fall faster than this tell of no regular zero
+#: Rounds after which corrections that do not fall faster than this tell of no regular zero.
+FREE_ROUNDS, MAX_CORRECTION_RATIO = 3, 0.4
 
 
 def finite_differences(function: Callable[[Array], float], step: float) -> Condition:

@@ -16,11 +16,8 @@ from .equator_pull import EQUATOR_CAPTURE_HEIGHT, MIN_HEIGHT, UNDERFLOW_HEIGHT, 
 from .heteroclinic_arcs import heteroclinic_arcs
 
 COARSE_RTOL, FINE_RTOL = 1e-9, 1e-13  # tolerances
-INNER_RADIUS, OUTER_HEIGHT, SAMPLE_SPACING = (
-    1e-4,
-    1e-5,
-    0.2,
-)  # of the reach; ebar of the last sample; of samples in ln(r/(reach - r))
+#: Of the reach; ebar of the last sample; of samples in ln(r/(reach - r)).
+INNER_RADIUS, OUTER_HEIGHT, SAMPLE_SPACING = 1e-4, 1e-5, 0.2
 MAX_STEPS, MAX_TURN_TIME = 2000, 1e6  # steps tried, and T in units of 1/max |U|
 INNER_CAPTURE_RATIO = 1e-3  # of the innermost sample: gone
 AT_REST = 1e-4  # distance from a critical set, or ebar, at which an orbit that never turned has settled

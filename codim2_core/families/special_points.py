@@ -22,10 +22,8 @@ MAX_ROUNDS, FREE_ROUNDS, MIN_GAIN = 40, 6, 0.75  # Newton steps; those after whi
 DIFFERENCE_STEP = 1e-5  # of derivatives: of angles, of e, and of the span
 SLOPE_STEP = 1e-3  # of Theta'', by which the derivatives of Theta' are taken
 MAX_ANGLE_STEP, MAX_PLACE_STEP = 0.3, 0.2
-CONVERGED_STEP, SETTLED_STEP = (
-    1e-14,
-    1e-6,
-)  # steps after which Newton's method stops, or has found a zero within rounding
+#: Steps after which Newton's method stops, or has found a zero within rounding.
+CONVERGED_STEP, SETTLED_STEP = 1e-14, 1e-6
 MIN_DETERMINANT = 1e-7  # of the derivatives at a simple zero: equations are of the order of 1
 
 

@@ -26,9 +26,8 @@ from ..systems.frozen import FrozenSystem
 from .critical import CriticalSet
 from .problem import LayerProblem
 
-EQUAL_EIGENVALUES = (
-    64 * INPUT_ROUNDING
-)  # of the size of J: both eigenvalues are one, and every direction is an eigenvector
+#: Of the size of J: both eigenvalues are one, and every direction is an eigenvector.
+EQUAL_EIGENVALUES = 64 * INPUT_ROUNDING
 RESONANCE = 1e-6  # of the eigenvalues: their curves meet in the end, and are tangent to the equator
 
 Where = Literal["disc", "equator", "up", "outside"]

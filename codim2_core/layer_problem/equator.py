@@ -39,9 +39,8 @@ from .location import Location, locate
 __all__ = ["EquatorCycle", "EquatorEquilibria", "equator_cycle", "equator_equilibria"]
 
 
-SINGULAR_ROUNDING = (
-    8 * INPUT_ROUNDING
-)  # of the terms of lambda_rho: zero, where det A = 0 leaves no isolated critical set to ask
+#: Of the terms of lambda_rho: zero, where det A = 0 leaves no isolated critical set to ask.
+SINGULAR_ROUNDING = 8 * INPUT_ROUNDING
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,11 +29,8 @@ NET_CELLS = 48  # of the net along a side
 MOST_POINTS = 4000  # of a branch
 ALL_POINTS = 30_000  # of the branches of one kind; a picture with more shows no curve any more
 ZERO_COMPONENT = 1e-14  # of U: a component this small everywhere is zero, and has no nullcline
-NET_LEFT, BELOW, NET_SIDE = (
-    -1.0137,
-    -1.0211,
-    2.047,
-)  # the net lies off centre: zeros on the axes would fall on its nodes
+#: The net lies off centre: zeros on the axes would fall on its nodes.
+NET_LEFT, BELOW, NET_SIDE = -1.0137, -1.0211, 2.047
 
 
 @dataclass(frozen=True, eq=False, slots=True)

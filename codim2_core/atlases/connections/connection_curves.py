@@ -24,10 +24,8 @@ from .splitting import BranchPair
 
 LOOP, CYCLE, CONNECTION = KINDS = "homoclinic loop", "heteroclinic cycle", "saddle connection"
 BOGDANOV_TAKENS, SADDLE_NODE_CORNER = "Bogdanov–Takens", "saddle-node on the equator"
-BOGDANOV_TAKENS_DISTANCE, MAX_LOOP_SIZE = (
-    0.05,
-    0.3,
-)  # of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size
+#: Of the square: a loop ends at a Bogdanov-Takens point so near to it; in the disc, its size.
+BOGDANOV_TAKENS_DISTANCE, MAX_LOOP_SIZE = 0.05, 0.3
 CORNER_RADIUS = 0.015  # of the square: a cycle through the equator ends at a corner so near to it
 CODIM_TWO_DISTANCE = 5e-3  # of the square: an end next to a curve of the equilibria
 MAX_CURVES = 24  # curves

@@ -31,19 +31,14 @@ MIN_PIECE_LENGTH = 1e-3  # and of the square, how long it is at least
 EQUILIBRIUM_KINDS = (
     "fold of critical sets", "pitchfork of critical sets", "saddle-node", "pitchfork", "transcritical", "det A = 0",
 )  # fmt: skip
-BOGDANOV_TAKENS_OFFSETS = (
-    0.02,
-    0.05,
-    0.1,
-)  # of the square: from a Bogdanov-Takens point along the Hopf curve, where lines leave it
+#: Of the square: from a Bogdanov-Takens point along the Hopf curve, where lines leave it.
+BOGDANOV_TAKENS_OFFSETS = 0.02, 0.05, 0.1
 RING_RADII, RING_SAMPLES = (0.02, 0.08), 25  # of the square, about saddle-nodes on the equator; places on each
 MAX_HOPF_MULTIPLE, HOPF_SAMPLES = 4.0, 25  # times the way from the fold to the Hopf curve, and places on such a line
 MAX_BRANCHES = 40  # of the saddles at one place
 UNRESOLVED_SPLITTING = 1e-3  # splitting as lines tell it, of which they do not tell the sign
-MIN_STEP_PART, MAX_ZERO_SPLITTING = (
-    1e-7,
-    1e-6,
-)  # part of a step; what the splitting is less than at a zero that is none but a jump
+#: Part of a step; what the splitting is less than at a zero that is none but a jump.
+MIN_STEP_PART, MAX_ZERO_SPLITTING = 1e-7, 1e-6
 SAME_SADDLE_DISTANCE = 1e-6  # in the disc, of a saddle found twice
 
 

@@ -16,10 +16,8 @@ from .splitting import BranchPair, Splitting
 
 STEP_BOUNDS = StepBounds(0.04, 0.2, 250, close=1e-11, least=1e-5)
 MAX_SEED_ERROR = 0.02  # of the square, that a seed may be off
-ON_CURVE_DISTANCE, SAME_BRANCH_DISTANCE = (
-    4e-3,
-    0.05,
-)  # of the square: a seed lies on a curve; in the disc and in angle: of the same branch
+#: Of the square: a seed lies on a curve; in the disc and in angle: of the same branch.
+ON_CURVE_DISTANCE, SAME_BRANCH_DISTANCE = 4e-3, 0.05
 NEUTRAL_LOG_RATIO = 1e-6  # |ln ratio| that is zero all along a curve
 
 

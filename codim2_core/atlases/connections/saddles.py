@@ -29,11 +29,8 @@ from ...systems.frozen import FrozenSystem
 RTOL, ROUGH_RTOL = 1e-12, 1e-7  # of branches, and of those that are drawn alone
 START_DISTANCE = 1e-6  # in units of hypot(1, |x2|)
 MAX_BRANCH_LENGTH, MAX_BRANCH_TIME = 5.0, 1e4  # how far they are followed, in the disc and in T of 1/max |U|
-LINE_PIXEL, RELATIVE_PIXEL, MIN_PIXEL = (
-    5e-4,
-    1e-3,
-    1e-8,
-)  # of their lines: the first, but finer for what is small, of its size
+#: Of their lines: the first, but finer for what is small, of its size.
+LINE_PIXEL, RELATIVE_PIXEL, MIN_PIXEL = 5e-4, 1e-3, 1e-8
 SAME_SADDLE_DISTANCE = 1e-6  # in the disc: found twice
 ANGLE_TOLERANCE = 3e-7  # last step of Newton's method for theta: its error is the square
 MAX_SADDLE_SHIFT = 0.1  # the way to a saddle's next place

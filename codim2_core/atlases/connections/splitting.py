@@ -28,10 +28,8 @@ from .saddles import RTOL, Branch
 SAME_ANGLE = 1e-6  # between half-saddles found twice
 MAX_CACHE_DISTANCE = 3e-3  # of the square: so far from where it is known a connection is kept
 DIFFERENCE_STEP = 1e-6  # of the square
-SLOPE_SHARE, MAX_SLOPE_DISTANCE = (
-    0.2,
-    1e-3,
-)  # of the way between two places, and of the square: so far derivatives serve
+#: Of the way between two places, and of the square: so far derivatives serve.
+SLOPE_SHARE, MAX_SLOPE_DISTANCE = 0.2, 1e-3
 MAX_NEWTON, CROSSING_TOLERANCE = 5, 1e-8  # of the time of a crossing, in T of 1/max |U|
 
 

@@ -34,10 +34,8 @@ SHORT_STEPS = replace(STEP_BOUNDS, least=2e-5)  # where no other ray is better
 CORNER_DISTANCE = 1.5e-3  # of the square: a curve need not be followed closer to a corner
 MIN_EXPONENT_CHANGE = 1e-9  # a difference of exponents that may be rounding's
 CUSP_TOLERANCE = 1e-7  # of a step: to which a cusp is found, and the square of it in the plane
-MIN_LOG_SIZE, MAX_LOG_SIZE = (
-    math.log(1.5e-3) / LOG_SIZE_SCALE,
-    9.0 / LOG_SIZE_SCALE,
-)  # x at which cycles have come to the point, to the equator
+#: X at which cycles have come to the point, to the equator.
+MIN_LOG_SIZE, MAX_LOG_SIZE = math.log(1.5e-3) / LOG_SIZE_SCALE, 9.0 / LOG_SIZE_SCALE
 MAX_SEED_ERROR = 0.3  # in (x, u, v), that a start may be off
 MAX_RAYS = 8  # of a curve, each way
 MIN_QUALITY, MIN_GAIN = 0.015, 1.0  # of a crossing; of the exponent that a ray is to save

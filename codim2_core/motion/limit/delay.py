@@ -29,10 +29,8 @@ from ...psi.function import Psi
 from .rational_approximation import Complex, RationalApproximation, approximate_rationally
 from .slide import Slide
 
-TRACE_DEGREE, MAX_HALVINGS = (
-    9,
-    12,
-)  # of the polynomials of tr J and det J along a part of a step; how often it is halved
+#: Of the polynomials of tr J and det J along a part of a step; how often it is halved.
+TRACE_DEGREE, MAX_HALVINGS = 9, 12
 RESOLVED, CHECK_SHARE = 1e-11, 0.43  # error allowed, of their size; where in a part it is looked at
 SIGN_PARTS = 8  # of such a part, at whose ends signs are looked at
 CONTINUATION_SAMPLES = 400  # times from which tr J and det J are continued into the complex plane
