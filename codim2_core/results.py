@@ -1,4 +1,4 @@
-"""Results of public functions: equal by their values, shown in a notebook, taken away as tables and pictures."""
+"""Results of public functions: equal by their values, shown in a notebook, exported as tables and pictures."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 MAX_ROWS = 40  # rows that are shown
-NEGLIGIBLE = 1e-14  # of the largest coordinate: smaller ones are told as 0
+NEGLIGIBLE = 1e-14  # of the largest coordinate: smaller ones are shown as 0
 
 
 def table_number(value: float) -> str:

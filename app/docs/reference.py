@@ -19,7 +19,7 @@ TOPICS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     ),
     "portraits": (
         "Portraits",
-        "All that one phase portrait has: its name, what stands still, its curves and orbits.",
+        "All that one phase portrait has: its name, its equilibria, its curves and orbits.",
         (
             "classify Classification Degeneracy", "equator_equilibria EquatorEquilibria", "equator_cycle EquatorCycle",
             "critical_sets CriticalSet", "nullclines NullclineBranch", "trajectories Trajectories",

@@ -110,7 +110,7 @@ def _critical_points(scene: Scene) -> Any:
 
 
 def _marks(columns: Any, told: tuple[str, ...], label: str, size: int) -> Any:
-    """Return marks of their own shape, colour and fill, with what is told of them, for each backend that is loaded."""
+    """Return marks of their own shape, colour and fill, with their tooltips, for each backend that is loaded."""
     colours, fills = _mark_colours(columns)
     names = ("label", *told)
     values = (columns["x"], columns["y"], *(columns[name] for name in names), columns["shape"], colours, fills)

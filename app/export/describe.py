@@ -80,7 +80,7 @@ def caption_of(view: View, header: Mapping[str, Any]) -> str:
 
 
 def facts(view: View) -> dict[str, str]:
-    """Return what is told with all data that are taken away: system, Psi, z, version, link."""
+    """Return what goes with all exported data: system, Psi, z, version, link."""
     address = f"?{view.query}" if view.query else "none: the system was given from Python"
     return {
         "system": system_words(view),

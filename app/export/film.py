@@ -78,7 +78,7 @@ def count_of(slider: str) -> int:
 
 
 def part_of(slider: str) -> int:
-    """Return how many pictures are drawn in one turn: those of play are cheap, once what stands still is drawn."""
+    """Return how many pictures are drawn in one turn: those of play are cheap, once the background is drawn."""
     return 26 if slider == PLAY else 1
 
 

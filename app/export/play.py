@@ -80,7 +80,7 @@ def pictures(view: View, style: Style, positions: int, first: int, last: int) ->
 
 
 def scenery(view: View, style: Style) -> Scenery:
-    """Return what stands still in the film of a view."""
+    """Return the background of the film of a view."""
     from PIL import Image  # late, as in film.py
 
     i = selected_place(read_launches(view.values["orbits"]), view.values["orbit"])

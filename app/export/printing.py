@@ -19,7 +19,7 @@ DPI, MAX_SCALE = 96, 12.0
 
 @cache
 def has_typst() -> bool:
-    """Whether Typst is installed, which is looked for once: each page is told."""
+    """Whether Typst is installed, which is looked for once: each page needs it."""
     return find_spec("typst") is not None
 
 

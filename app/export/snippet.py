@@ -14,7 +14,7 @@ from codim2_core.systems.typed import System
 from ..draw.layers import layers_in_paint_order
 from .view import View
 
-#: Inputs of a scene that are told where they are other than at first.
+#: Inputs of a scene that are written where they differ from the first values.
 INPUTS = ("count", "length", "view", "pixel", "window", "cut")
 
 

@@ -1,4 +1,4 @@
-"""The view that is taken away: what is on one screen, frozen."""
+"""The view to export: what is on one screen, frozen."""
 
 from __future__ import annotations
 

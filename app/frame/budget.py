@@ -100,7 +100,7 @@ class BackgroundLayers:
 def layers_of(
     scene: Scene, names: Iterable[str], known: Mapping[str, Any], seconds: float = MAX_LAYER_SECONDS
 ) -> BackgroundLayers:
-    """Compute layers, one after the other, each for at most so long; what stands still comes first."""
+    """Compute layers, one after the other, each for at most so long; equilibria come first."""
     from .time_limit import CompileClock, at_most  # late: it asks Numba, which a page without a server does not have
 
     scene.give(known)

@@ -127,7 +127,7 @@ def _changed_blocks(
 ) -> Blocks:
     """Return the layers that are seen and are others than those that the browser holds, as blocks.
 
-    Of parts that draw several objects the header is told whose each piece is.
+    Of parts that draw several objects the header says whose each piece is.
     """
     blocks: Blocks = {}
     rectangle = None if window is None else window.rectangle
@@ -198,7 +198,7 @@ def _tell_facts(header: dict[str, Any], now: dict[str, Any], asked: RequestedLay
     if critical is not LATER and _fresh(now, "critical", critical):
         where = asked.scene.problem.location
         header["critical"] = {**glyphs.critical_columns(critical), "proved": where is not None and where.exact}
-    # what stands still comes with its eigenvectors, or without any: never with those of another setting
+    # equilibria come with their eigenvectors, or without any: never with those of another setting
     if _fresh(now, "eigendirections", eigen) or "equator" in header or "critical" in header:
         there = eigen is not LATER and eigen is not NOT_DRAWN
         header["eigen"] = (

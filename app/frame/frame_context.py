@@ -58,7 +58,7 @@ class FrameContext:
     def slow(self, name: str, key: Hashable, make: Callable[..., Any], *arguments: Any) -> Any:
         """Return a slow result, ``make(*arguments)``, if the browser lacks it and it is there.
 
-        It is requested once nothing moves; see `Jobs.ask` for what may be requested. A computation that fails is told
+        It is requested once nothing moves; see `Jobs.ask` for what may be requested. A failed computation is reported
         in ``header["unable"]``, by name, and None is returned.
         """
         if self.now.get(name) == key:

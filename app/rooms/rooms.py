@@ -1,4 +1,4 @@
-"""The rooms of one server process: who has opened one, who is in one, and what the one is told of the others.
+"""The rooms of one server process: who has opened one, who is in one, and what the one learns of the others.
 
 A room is a code of six letters. Its lecturer holds a key, of which the code is the digest, so that the room can be
 taken up again from another page or process. Who is in it shows a row: a number, the name of his portrait, his
@@ -169,7 +169,7 @@ class Rooms:
                 self._write(now)
 
     def close(self, code: str, now: float | None = None) -> None:
-        """Close a room: all who are in it are told."""
+        """Close a room: all who are in it learn it."""
         now = time.monotonic() if now is None else now
         host = self.hosts.get(code)
         if host is not None and not host.closed:
@@ -347,7 +347,7 @@ def _guest_row(guest: Guest) -> GuestRow:
 
 
 def _view_of(host: Host) -> Any:
-    """Return what a lecturer shows; None where that cannot be told, so that the other rooms go on."""
+    """Return what a lecturer shows; None where that fails, so that the other rooms go on."""
     try:
         return _short_settings(host.view())
     except Exception:

@@ -1,4 +1,4 @@
-"""One browser and its room: opened by a lecturer, or entered by a student; it is told over its own session."""
+"""One browser and its room: opened by a lecturer, or entered by a student; it is served over its own session."""
 
 from __future__ import annotations
 

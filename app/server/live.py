@@ -96,7 +96,7 @@ class LivePages:
     most : int
         Pages that there may be.
     engine : mapping or None
-        What pages are told of a worker of their own.
+        What pages learn of a worker of their own.
     open : set of LiveConnection
     rota : Rota
     firsts, pages : Kept

@@ -112,7 +112,7 @@ class Health(RequestHandler):
     def get(self) -> None:
         """Say that it is there, and which version it is; pages that come back look whether it is still theirs.
 
-        Each of these is told how long to wait, so that many do not wait for each other. 503: the loop is late.
+        Each of these is given a time to wait, so that many do not wait for each other. 503: the loop is late.
         """
         self.set_header("Cache-Control", "no-store")
         said = health()
@@ -282,7 +282,7 @@ def _keep(rooms: Rooms) -> None:
 
 
 def _log_request(handler: RequestHandler) -> None:
-    """Log a request that failed; probes that are told to wait have not."""
+    """Log a request that failed; probes that have to wait have not."""
     status = handler.get_status()
     if status >= 400 and not isinstance(handler, (Health, Ready)):
         level = logging.ERROR if status >= 500 and status != 503 else logging.WARNING

@@ -42,7 +42,7 @@ def compatible_changes(
 
 
 def culprit(error: Exception, name: str) -> str:
-    """Return the control next to which an error is told: of typed formulas the box, else `name`."""
+    """Return the control next to which an error is shown: of typed formulas the box, else `name`."""
     if isinstance(error, InputError):
         return error.control
     word = str(error).partition(" ")[0]  # what is wrong with one formula begins with its name; W holds W1, W2, …

@@ -92,7 +92,7 @@ def read_link(query: str | Mapping[str, str]) -> Link:
     Returns
     -------
     Link
-        Names that there are not, and a link that is cut short or of a later release, are told among the errors.
+        Names that there are not, and a link that is cut short or of a later release, are listed among the errors.
     """
     given = dict(parse_qsl(query, keep_blank_values=True) if isinstance(query, str) else query.items())
     errors: list[InputError] = []

@@ -51,7 +51,7 @@ COMPILING = say("compiling")
 
 
 def is_marimo(comm: Any) -> bool:
-    """Whether a comm is marimo's, whose pages drop messages: they are told of parameters only."""
+    """Whether a comm is marimo's, whose pages drop messages: they hear of parameters only."""
     return type(comm).__module__.partition(".")[0] == "marimo"
 
 
@@ -83,7 +83,7 @@ class ExplorerView(JSComponent, ControlTypes):
     offered = param.String("")
     first = param.Bytes(b"")
     markup = param.String("")
-    latest = param.Bytes(b"")  # the last frame, where a page is told of parameters only
+    latest = param.Bytes(b"")  # the last frame, where a page hears of parameters only
 
     _own: ClassVar[tuple[str, ...]] = ()  # parameters of its system
     _made = False

@@ -176,7 +176,7 @@ class Frames:
             self._sent = {**self._sent, "classification": self.scene["name"]}
 
     def keep(self) -> None:
-        """Note that the last frame was not sent: what it told is told by the next one."""
+        """Note that the last frame was not sent: what it said is said by the next one."""
         self._sent, self._untold, left = dict(self._last[0]), self._last[1], self._last[2]
         if left:
             self._notices.append(left)

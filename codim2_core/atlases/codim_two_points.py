@@ -183,7 +183,7 @@ def _solve_crossing(one: TracedCurve, other: TracedCurve, j: int, k: int) -> Arr
         and np.abs(_distances(found[: n - 2] - found[n - 2 : -2], n)).max(initial=0.0) < SAME_POINT_DISTANCE
         and n > 2
     ):
-        return None  # one place: what happens there is told as a point along one of them
+        return None  # one place: what happens there is a point along one of them
     return found[-2:]
 
 

@@ -142,7 +142,7 @@ class Atlas(Pictured):
         Kinds of curves of which some may be missing: the search was given up after 100 places from which it found none,
         or connections were seen that could not be followed, or not looked for where there are too many saddles.
     degenerate : tuple of (str, float)
-        Parameters, and values of them at which every direction is a limit direction: no curve and no point is told
+        Parameters, and values of them at which every direction is a limit direction: no curve and no point is reported
         there.
     looked : SamplingReport
         Where the portrait was computed.

@@ -1,4 +1,4 @@
-"""A branch as it is told: its points, its folds and ends, as arrays."""
+"""Build the public branch from its points: folds and ends, as arrays."""
 
 from __future__ import annotations
 

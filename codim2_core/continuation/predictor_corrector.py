@@ -29,7 +29,7 @@ MAX_LAST_CORRECTION, MAX_LEARNT_CORRECTION = 0.2, 0.05
 MIN_AMPLITUDE = 3e-3  # amplitude at which a branch has come to C
 #: Chi, ebar at which it has come to the equator: all of it, or a part.
 MAX_CHI, LOW_HEIGHT, MIN_HEIGHT = 0.999, 1e-3, 1e-7
-BAND_HEIGHT, BAND_EXPONENT = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator cannot be told apart
+BAND_HEIGHT, BAND_EXPONENT = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator are indistinguishable
 MIN_EXPONENT = 1e-6  # exponent of a cycle near the equator whose sign may be rounding's
 #: Change of nu about a fold near the equator, where exponents tend to 0, and elsewhere.
 EQUATOR_FOLD_CHANGE, FOLD_CHANGE = 1e-9, 1e-12

@@ -23,7 +23,7 @@ from .names import IMPOSSIBLE, PORTRAIT_NAMES, names
 Drawn = NDArray[np.float64] | Sequence[AnySystem]
 SampleLocation = tuple[int, int]  # which chunk, which of its systems
 
-#: What becomes of arriving orbits, by `Outcome.verdict`, in the order in which it is told.
+#: What becomes of arriving orbits, by `Outcome.verdict`, in the order of the table.
 ENDINGS = {
     "slide": "slides",
     "cycle": "slides around a cycle",

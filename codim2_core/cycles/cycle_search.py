@@ -33,7 +33,7 @@ MOST_ROUNDS = 40  # of narrowing one place
 SMOOTH = 1e-6  # displacement left at a fixed point that is none but a jump
 MOST_FEET = 12
 FINE_SPACING, AGREED = 0.02, 1e-10  # spacing of the samples about a fixed point; how far two interpolants may differ
-FOLD_NOISE = 1e-9  # noise with which a fold can be told: not so near C that all displacements are small
+FOLD_NOISE = 1e-9  # noise with which a fold can be decided: not so near C that all displacements are small
 # Where the expansion at a critical set is measured, in INNER_RADIUS; the smallest cycle it shows, in shares of the
 # reach; the displacement to first order from which it has digits, and from which no cycle can be so small.
 MEASURED, MIN_CYCLE_RADIUS, MIN_NEWBORN, MAX_NEWBORN = np.array([2.0, 8.0]), 1e-8, 1e-13, 1e-3

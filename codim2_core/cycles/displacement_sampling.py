@@ -111,9 +111,9 @@ def _doubtful(values: Array, doubt: Array) -> NDArray[np.bool_]:
 def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], list[int], bool]:
     """Return where the displacement changes sign, and where it touches zero, within resolution.
 
-    changes: Samples of opposite sign, with none between that can be told from zero; touching: Samples that cannot be
-    told from zero, between two of the same sign: a fold; band: Whether there is a whole interval that cannot be told
-    from zero: a band of closed orbits. Shapes: q, shift, noise (n,).
+    changes: Samples of opposite sign, with none between that differs from zero; touching: Samples that do not differ
+    from zero, between two of the same sign: a fold; band: Whether a whole interval does not differ from zero: a band of
+    closed orbits. Shapes: q, shift, noise (n,).
     """
     decided = np.flatnonzero(np.abs(shift) > noise)
     inward = shift[decided] < 0.0
@@ -190,7 +190,7 @@ class Samples:
         return False
 
     def _narrow(self, i: int, steepest: float) -> bool:
-        """Whether an interval is as narrow as makes sense: where it is steep, a jump may still be told from a slope."""
+        """Whether an interval is as narrow as makes sense: steep, a jump may still differ from a slope."""
         steep = abs(self.shift[i + 1] - self.shift[i]) > STEEP
         width = self.xi[i + 1] - self.xi[i]
         return bool(width < (NARROWEST if not steep else steepest * max(1.0, abs(self.xi[i]))))

@@ -30,7 +30,7 @@ GRID_CELLS = 48
 REACH = 1.6 / GRID_CELLS  # of the span: how far from a state a candidate may be
 NEAR_REACH = 1e-4  # from the states on the sides of a change that was bisected
 MAX_ROUNDS = 4  # times that candidates are looked for, from the states next to the last ones
-#: Of what stands still from state to state, unless so many are not enough.
+#: Of equilibria from state to state, unless so many are not enough.
 MAX_ANGLE_MOVE, MAX_PLACE_MOVE, MAX_HALVINGS = 0.15, 0.1, 6
 MIN_DISTANCE = 1e-12  # of the span: between two values
 SAME_VALUE = 1e-9  # of the span: of a change, and of the points that were solved for there

@@ -24,7 +24,7 @@ _TEST_PLACES = 0.97 * np.stack([np.cos(np.arange(32.0)), np.sin(np.arange(32.0))
 _TEST_OFFSETS = 1e-14 * np.array([-3.0, -1.3, 0.0, 1.7, 3.1])
 _PARABOLA_BASIS = np.vander(_TEST_OFFSETS / _TEST_OFFSETS.max(), 3)
 _RESIDUAL_PROJECTOR = np.eye(len(_TEST_OFFSETS)) - _PARABOLA_BASIS @ np.linalg.pinv(_PARABOLA_BASIS)
-_MIN_ROUGHNESS = 1e-11  # of |U|: less moves no zero that is told from its neighbours
+_MIN_ROUGHNESS = 1e-11  # of |U|: less moves no zero that is distinct from its neighbours
 _SMOOTH_OFFSETS = 2.0 ** np.arange(-32.0, -5.0)  # of the span: how far from a rough value one that is not is looked for
 
 

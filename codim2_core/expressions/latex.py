@@ -21,7 +21,7 @@ _OTHERWISE = {"lambda_": "lambda", "lam": "lambda", "epsilon": "varepsilon", "ph
 #: The command of each letter.
 LETTER_COMMANDS: Mapping[str, str] = {letter: rf"\{_OTHERWISE.get(name, name)}" for name, letter in GREEK.items()}
 _SUM, _PRODUCT, _SIGN, _POWER, _ATOM = range(1, 6)  # how tightly a piece binds
-_LARGEST_DIVISOR, _MOST = 12, 99  # of fractions of pi, and over pi, that are told from other numbers
+_LARGEST_DIVISOR, _MOST = 12, 99  # of fractions of pi, and over pi, that are recognised
 
 _Piece = tuple[str, int]
 
@@ -96,7 +96,7 @@ def _parenthesise(piece: _Piece, least: int) -> str:
 
 
 def _after_minus(piece: _Piece) -> str:
-    """Close what is taken away: a second sign would stand behind the first."""
+    """Parenthesise a subtrahend that begins with a sign."""
     return _parenthesise(piece, _POWER if piece[1] == _SIGN else _PRODUCT)
 
 

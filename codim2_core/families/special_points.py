@@ -1,7 +1,7 @@
 """Zeros of test functions of equilibria along one parameter: Newton's method from many starts at once.
 
 Equations are in (theta, u) on the equator and in (c, s, u) within it, u from 0 to 1 along the parameter. Those of a row
-of `special_kinds` are that the object stands still there and that the row's test function is zero.
+of `special_kinds` are that the object is an equilibrium there and that the row's test function is zero.
 """
 
 from __future__ import annotations

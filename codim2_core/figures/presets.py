@@ -16,7 +16,7 @@ from .preset import Add, Preset, collector
 
 
 class Named(dict[str, Preset]):
-    """Presets by name; one that is missing is told with the names that are like it."""
+    """Presets by name; the error of a missing one lists the nearest names."""
 
     def __missing__(self, name: str) -> Preset:
         near = get_close_matches(str(name), self, n=3) or tuple(self)[:3]

@@ -81,7 +81,7 @@ def of_critical_set(C: CriticalSet) -> Linearised:
 def to_disc(x2: Array, vector: tuple[float, float]) -> tuple[float, float]:
     """Carry a tangent at x2 (2,) of kappa_2 to the disc, ``p = x2/sqrt(1 + |x2|^2)``, with length 1."""
     (x, y), size = x2.tolist(), max(map(abs, vector))
-    u, v = vector[0] / size, vector[1] / size  # the square of its length may be too small to be told from 0
+    u, v = vector[0] / size, vector[1] / size  # the square of its length may underflow
     part = (x * u + y * v) / (1.0 + x * x + y * y)
     u, v = u - x * part, v - y * part
     length = math.hypot(u, v)

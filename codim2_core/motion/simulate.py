@@ -39,7 +39,7 @@ class Options(TypedDict, total=False):
 
 
 @overload
-def simulate(  # pyright: ignore[reportOverlappingOverload] (rows are told from a row by their own entries)
+def simulate(  # pyright: ignore[reportOverlappingOverload] (rows differ from a row by their entries)
     system: AnySystem, psi: Psi | None, state0: Sequence[Sequence[float]], t_span: ArrayLike, *, eps: float,
     **options: Unpack[Options],
 ) -> tuple[Simulation, ...]: ...  # fmt: skip
@@ -170,7 +170,7 @@ def simulate(
 
 
 @overload
-def simulate_nonsmooth(  # pyright: ignore[reportOverlappingOverload] (rows are told from a row by their own entries)
+def simulate_nonsmooth(  # pyright: ignore[reportOverlappingOverload] (rows differ from a row by their entries)
     system: AnySystem, state0: Sequence[Sequence[float]], t_span: ArrayLike, psi: Psi | None = ...,
     **options: Unpack[Options],
 ) -> tuple[Simulation, ...]: ...  # fmt: skip

@@ -11,7 +11,7 @@ from ..layer_problem.equator import EquatorEquilibria
 from ..systems.frozen import FrozenSystem
 
 MIN_DURATION = 40.0  # over the size of U: what is drawn in any case
-MAX_DURATION = 1e9  # and at most: rates 1e-8 of the largest cannot be told from 0 by differences (`stepping.events`)
+MAX_DURATION = 1e9  # and at most: rates 1e-8 of the largest are 0 to differences (`stepping.events`)
 ARRIVAL = 10.0  # over the slowest rate: e^-10 of the way is left, a hundredth of a pixel
 STIFF = 60.0  # ratio of the rates at one equilibrium from which an explicit method is bound to the fast one for long
 

@@ -30,7 +30,7 @@ class Degeneracy(Tabled):
         What it is; says where doubles leave it undecided.
     within : float
         Relative change of the coefficients (for "tr J = 0" and "neutral equator": of the terms of that number) within
-        which it cannot be told from what lies on either side. 0.0: the coefficients are of this kind exactly.
+        which it cannot be distinguished from what lies on either side. 0.0: the coefficients are of this kind exactly.
     """
 
     _head_ = ("degenerate", "why")
@@ -49,7 +49,7 @@ NEARER = SENTENCES["nearer"].says.partition(" {")[0]
 def undecided_degeneracy(
     name: str, sentence: str, within: float = INPUT_ROUNDING, of: str = "each coefficient"
 ) -> Degeneracy:
-    """Make a degeneracy whose sentence says within what it cannot be told from its neighbours."""
+    """Make a degeneracy whose sentence says within what it cannot be distinguished from its neighbours."""
     return Degeneracy(name, f"{sentence} {say('nearer', within=power(within), of=of)}", within)
 
 

@@ -184,7 +184,7 @@ def judge(problem: LayerProblem, found: Sequence[OmegaLimit], many: str) -> Outc
 
 
 def add_slow_flow(problem: LayerProblem, judged: OutcomeVerdict) -> OutcomeVerdict:
-    """Add the slow flow on a cycle, for which the cycle is followed: only where it is told."""
+    """Add the slow flow on a cycle, which takes following the cycle: only where it is shown."""
     if judged.verdict != "cycle" or judged.onto is None or judged.slow_flow is not None:
         return judged
     cycles, k = cycles_of(problem), int(judged.onto.split()[1]) - 1

@@ -36,7 +36,7 @@ from .saddle_manifold import manifold_starts
 from .separatrix import Separatrix
 
 EXTENSIONS = 6  # times that a branch is followed on to where it ends, sixteen times longer each
-NEAR_END = 0.02  # distance to the end that is drawn straight: followed further, an orbit would all but stand still
+NEAR_END = 0.02  # distance to the end that is drawn straight: an orbit that went further would hardly move
 ARC = 0.05  # radians between points of the equator
 NEAR_SIGMA = 1e-4  # rho at which a bent branch outside starts: its expansion is off by rho^2 there
 

@@ -88,7 +88,7 @@ def _never_rises(rate: Expression, values: Array, saturation: float) -> Conditio
     scale = float(np.max(np.abs(values)))
 
     def falls(s: Array) -> Array:
-        # a change of relative size ROUNDING over the scale s + 1 cannot be told from rounding
+        # a change of relative size ROUNDING over the scale s + 1 is rounding
         slope = rate.evaluate({"s": s})
         return ~(slope * (1.0 + s) > VALUE_ROUNDING * scale) | (s >= saturation)
 

@@ -19,7 +19,7 @@ from .kernel import SCALAR, UNDERFLOW_BOUND, VECTOR, Kernel
 PROBES: Array = np.concatenate([[0.0], np.geomspace(1e-16, 1e16, 3201)])
 PROBES.flags.writeable = False
 TINY_PSI = 1e-290
-NEGLIGIBLE = 1e-13  # Psi(s) < NEGLIGIBLE s cannot be told from 0 in s + Psi(s)
+NEGLIGIBLE = 1e-13  # Psi(s) < NEGLIGIBLE s vanishes in s + Psi(s)
 VERDICT = "Ψ cannot be used: "
 
 

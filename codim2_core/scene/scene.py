@@ -81,7 +81,7 @@ class Scene(Written, Mapping[str, Any]):
     count : int
         Number of seeds when they are not given.
     launch : (k, 2) points of the picture, optional
-        Where orbits of the layer "launched" start: they are told where they go and where they come from.
+        Where orbits of the layer "launched" start: the result says where they go and where they come from.
     t_max : float, optional
         Longest time T (dT = dt/rho) of each half of a trajectory. By default so long that it ends at the slowest
         attractor (`orbits.duration`); most halves end earlier, at an equilibrium or at `length`.

@@ -51,7 +51,7 @@ class Axis:
 
 
 def available(draft: FrameContext) -> dict[str, Axis]:
-    """Return, by name, the axes that belong to the present system and Psi; the browser is told when they change."""
+    """Return, by name, the axes that belong to the present system and Psi; the browser hears when they change."""
     found = axes_there(draft.scene, draft.values, draft.locked)
     told = tuple((axis.name, axis.symbol) for axis in found.values())
     if draft.now.get("axes") != told:

@@ -145,6 +145,6 @@ def _branch_line(x: NDArray[np.float64], y: NDArray[np.float64]) -> dict[str, li
 
 
 PANEL = Panel(
-    "diagram", "Diagram", add, "All that stands still along one parameter, and where it changes.",
+    "diagram", "Diagram", add, "Equilibria along one parameter, and where they change.",
     {"slow": MIN_PACE, "near": SLOW_DISTANCE},
 )  # fmt: skip

@@ -13,4 +13,4 @@ from tornado.ioloop import IOLoop
 
 def keep_steady(loop: IOLoop) -> None:
     """Let a loop tell its intervals by a clock that only goes on; before anything has been begun by it."""
-    loop.time = time.monotonic  # type: ignore[method-assign]  # all of Tornado's deadlines are told by it
+    loop.time = time.monotonic  # type: ignore[method-assign]  # all of Tornado's deadlines read it

@@ -51,7 +51,7 @@ export class DeviceLine {
   get system() { const {system, texts, psi, psi_text} = this.values; return JSON.stringify([system, texts, psi, psi_text]) }
   get panel() { return `${this.values.panel} ${this.system}` }
 
-  /** Who is to answer. A room is told of lessons and of typed systems by the server alone. */
+  /** Who is to answer. A room hears of lessons and of typed systems from the server alone. */
   get best() {
     const {panel, system, psi} = this.values
     const served = this.served.includes(panel) || this.room && (panel === "lessons" || system !== "normal" || psi === "custom")

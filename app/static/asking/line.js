@@ -4,7 +4,7 @@
  * @typedef {{config: any, offered: any, first: ArrayBuffer | null, send: (message: any) => void,
  *   hear: (heard: (message: any) => void) => void, lost: (told: (code?: number) => void) => void, ready?: Promise<void>, heard?: (header: any, values: any) => void}} Line
  *   what an explorer asks; until it is `ready`, if it is not so from the beginning, nothing is asked; `heard`, if it is
- *   there, is told of each frame before it is shown
+ *   there, hears of each frame before it is shown
  */
 
 /**

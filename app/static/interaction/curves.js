@@ -36,7 +36,7 @@ export function curvesOf(table, blocks, owners) {
   return found
 }
 
-/** The middle of the first piece of a curve: where it is told, if nobody has pointed at it. @param {Pieces} pieces */
+/** The middle of the first piece of a curve: the place of its card, if nobody has pointed at it. @param {Pieces} pieces */
 export function middleOf([{n: [n], xy}]) {
   const i = 2 * Math.floor((n - 1) / 2), at = (/** @type {number} */ k) => (xy[k] + (n % 2 ? xy[k] : xy[k + 2])) / 2 * unit(xy)
   return {x: at(i), y: at(i + 1)}

@@ -28,7 +28,7 @@ export function twoFingers(holder, plot, busy) {
     const box = holder.getBoundingClientRect()
     return [...event.touches].map((touch) => [(touch.clientX - box.left) / box.width, (touch.clientY - box.top) / box.height])
   }
-  // Bokeh is told of taps by one finger only
+  // Bokeh hears of taps by one finger only
   const held = new Set(), hidden = new Set()
   const ofFingers = (type, stops) => holder.addEventListener(type, (event) => { if (event.pointerType === "touch" && stops(event.pointerId)) event.stopPropagation() }, true)
   ofFingers("pointermove", () => true)

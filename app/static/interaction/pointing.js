@@ -13,7 +13,7 @@ const QUIET = 150 // ms after the last frame until what is read out follows
 const NAMED = ["launched", "cycles", "separatrices", "rho", "theta", "lines", "conics", "equator", "critical"] // layers of objects
 const EVERYWHERE = ["inside", "outside"] // trajectories: pointed at from half as near
 
-const PLACED = ["curve", "separatrices"] // of these the place is told
+const PLACED = ["curve", "separatrices"] // of these the place is shown
 const round = (/** @type {number} */ v) => Number(v.toFixed(3))
 
 const CORNERS = ["tl", "bl", "br"] // the tools are at the top on the right
@@ -37,7 +37,7 @@ export class Pointing {
     this.slowSymbols = slowSymbols
     this.choose = choose
     this.name = "" // of the pinned object
-    this.at = /** @type {{x: number, y: number} | null} */ (null) // where on a curve it is told, as a link says
+    this.at = /** @type {{x: number, y: number} | null} */ (null) // where on a curve its card is, as a link says
     this.pinned = this.over = this.place = null
     this.last = [] // the objects of the frame before, while one is followed
     this.gone = this.byName = this.byKey = false
@@ -122,7 +122,7 @@ export class Pointing {
     this.choose(this.text)
   }
 
-  /** What is pinned, as a link or an undone step says. @param {string} text a name, of a curve with the place that is told */
+  /** What is pinned, as a link or an undone step says. @param {string} text a name, of a curve with the place of its card */
   set(text) {
     const [name, place] = text.split("@"), [x, y] = place?.split(",").map(Number) ?? []
     this.put(name, place ? {x, y} : null)
@@ -134,7 +134,7 @@ export class Pointing {
     return name && place ? `${name}@${round(place.x)},${round(place.y)}` : name
   }
 
-  /** @param {string} name @param {{x: number, y: number} | null} place of a curve that is told */
+  /** @param {string} name @param {{x: number, y: number} | null} place of a curve's card */
   put(name, place) {
     this.name = name
     this.at = place
@@ -167,7 +167,7 @@ export class Pointing {
     return this.text
   }
 
-  // The object that is pinned, by its name: a curve is told where it was, or as near to that as it is now.
+  // The object that is pinned, by its name: a curve's card is where it was, or as near to that as it is now.
   called(objects) {
     const one = objects.find(({name}) => name === this.name) ?? null
     return one?.curve && !one.mark && this.at ? {...one, ...nearestOn(one.curve, this.at.x, this.at.y)} : one

@@ -1,4 +1,4 @@
-// A lecture: its presenter's window says which view is shown here and which question is asked, and is told who has answered.
+// A lecture: its presenter's window says which view is shown here and which question is asked, and learns who has answered.
 
 /** @typedef {{key: string, title: string, views: import("./views.js").View[]}} Lecture */
 

@@ -1,4 +1,4 @@
-// Files that are taken away come over the session; their menu is a script that is loaded when it is first opened.
+// Exported files come over the session; their menu is a script that is loaded when it is first opened.
 
 export class Takes {
   /** @param {(message: {take: any}) => void} send @param {() => any} shown what of the picture is seen */

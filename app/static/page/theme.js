@@ -7,7 +7,7 @@ const STORE = "codim2-theme"
 export class Theme {
   /**
    * @param {any} root the explorer @param {any} config
-   * @param {(name: string) => void} show is told which it is, whenever that may have changed
+   * @param {(name: string) => void} show is given which it is, whenever that may have changed
    */
   constructor(root, config, show) {
     this.root = root

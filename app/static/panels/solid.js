@@ -288,7 +288,7 @@ class Stack {
     g.fillStyle = this.colour("attr"); g.fillText("F*(θ)", fx - 12, fy + 16)
   }
 
-  // What is told of the limit vectors under a pointer: the curve first, above it what lies on Σ.
+  // The card of the limit vectors under a pointer: the curve first, above it what lies on Σ.
   tellOf({cross, curve, candidates, selected}, at, lift) {
     const on = (value) => [0, 0, lift(value)], z = (value) => `z′ = ${digits(value, 4)}`
     const each = Math.max(1, Math.round((curve.length - 1) / TOLD))

@@ -10,7 +10,7 @@ const ROOMY = 600 // px of a picture in which nullclines have their names at the
 const REST = 150 // ms after the view has moved until it is asked for
 
 export class Picture {
-  // `moved` is called when another part of the picture has come into view, and stays; `rest` is told until then.
+  // `moved` is called when another part of the picture has come into view, and stays; `rest` hears of it until then.
   constructor(plot, {themes, layers, traces, measures}, rest, moved) {
     this.view = measures.view
     this.plot = plot

@@ -1,4 +1,4 @@
-// A room: opened by a lecturer, whose atlas then shows the phones that are in it; or entered by a student, who is told so.
+// A room: opened by a lecturer, whose atlas then shows the phones that are in it; or entered by a student, who sees that.
 
 import {setMarkup} from "../dom.js"
 import {compressQuery} from "../page/links.js"

@@ -9,7 +9,7 @@
  * @property {Record<string, string>} symbols of parameters, by name
  * @property {(name: string) => number[]} rangeOf the slider of a parameter, as it is or as a person has set it
  * @property {Record<string, string>} docs what a control means
- * @property {import("../asking/rest.js").Rest} rest is told of what is under way
+ * @property {import("../asking/rest.js").Rest} rest hears of what is under way
  * @property {() => string[]} slowSymbols of the slow variables of the present system
  * @property {(name: string) => number} valueOf a parameter, also one of the system's own ("own:mu")
  * @property {(wanted: Record<string, any>) => void} move controls

@@ -3,7 +3,7 @@
 import {say} from "../dom.js"
 import {SAYS} from "../words.js"
 
-const REACH = {mouse: 12, pen: 14, touch: 24} // px around what is told
+const REACH = {mouse: 12, pen: 14, touch: 24} // px around what has a card
 const RING = 9 // px around what keys have come to
 
 export class Told {
@@ -18,7 +18,7 @@ export class Told {
 
   clear() { this.places = [] }
 
-  // What lies on Σ is told first, though it is drawn last.
+  // What lies on Σ comes first, though it is drawn last.
   get stops() { return [...this.places.filter(({stop}) => stop === "first"), ...this.places.filter(({stop}) => stop === true)] }
 
   // Say what is under the pointer: of two the one that was drawn last.

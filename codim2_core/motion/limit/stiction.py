@@ -2,7 +2,7 @@
 
 At rest friction is what the other forces ask for: e* with ``U(e*, 0, 0, z) = 0``, one where U = D (e - e*) is affine in
 e. Kinetic friction alone holds it to the equator, |e*| = 1; beyond, e* is the same zero of the same formulas. What
-follows where it lets go is told where friction takes energy from every slip, D + D^T negative definite, as
+follows where it lets go is known where friction takes energy from every slip, D + D^T negative definite, as
 ``D = -N mu J M^-1 J^T`` of one coefficient always is:
 
 * Rest attracts however friction builds up: by a law e_Psi with slopes P, positive definite, the eigenvalues of D P are

@@ -3,7 +3,7 @@
 The monodromy matrix is M = P_K ... P_1, a product over steps. Its eigenvalues are those of the product begun at any
 other step: P_i ... P_1 P_K ... P_(i+1). In the limit eps -> 0 this begins where most is lost. On a slide (x, y) = 0
 and the state is z alone: two multipliers are 0, the others are those of z by z. Where the motion crosses Sigma,
-(x, y) = 0 too, and a motion next to it is told by z and by when it leaves, along e: one multiplier is 0. So zeros are
+(x, y) = 0 too, and a motion next to it is given by z and by when it leaves, along e: one multiplier is 0. So zeros are
 exact, and not what rounding leaves of them.
 
 Where the motion is shot in segments, M = S_k ... S_1 is never multiplied out: large multipliers would drown small ones.

@@ -165,7 +165,7 @@ def measure_piece(family: MotionFamily, run: Simulation, period: float, value: f
 
 
 def response_row(piece: Piece, v: Array, onward: float) -> ResponseRow | None:
-    """Return what is told of the motion of unknowns; None where it cannot be followed."""
+    """Return the motion of unknowns; None where it cannot be followed."""
     try:
         shot = piece.shot(v)
     except (LostError, ValueError):

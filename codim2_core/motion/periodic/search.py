@@ -27,7 +27,7 @@ FINAL_RTOL_SHARE = 1e-2  # of rtol: how closely the motion is followed at last
 CLOSEST = 1e-13  # rtol of a motion
 RESIDUAL_RTOLS, LOOSE = 10.0, 1e4  # times rtol: residuals that are small enough, and that rounding may leave
 RESIDUAL_ROUNDING = 1e-15
-#: Of its size: what moves less stands still; also where the search ends in no motion.
+#: Of its size: what moves less is at rest; also where the search ends in no motion.
 REST_EXTENT, NEARLY_STILL = 1e-6, 1e-3
 MAX_PERIOD_FACTOR = (
     3.0  # factor by which a period may be another than is given: as it shrinks all motions come to repeat themselves

@@ -195,7 +195,7 @@ class _Course:
         return Propagators(fine, coarse), ""
 
     def arrival_step(self, leg: _Leg) -> int:
-        """Step of a leg to Sigma at whose beginning its arrival is told best: straight on from there.
+        """Step of a leg to Sigma at whose beginning its arrival is known best: straight on from there.
 
         Both the rest of the way and how far the direction still turns should be small; where all directions are alike
         nothing damps the rounding of (x, y), and close to Sigma it is the direction. Where it has just left Sigma both
@@ -356,7 +356,7 @@ class _Course:
     def departure(self, leg: _Leg) -> Array:
         """Matrix from a change of the state where it leaves Sigma to that of z where and when it leaves.
 
-        That of when is told by that of (x, y).
+        That of when follows from that of (x, y).
         """
         start = np.eye(self.size)
         start[:2, :2] = 0.0
