@@ -1,7 +1,7 @@
 """The budget of the thread that answers all visitors: which layers it computes itself, and which go to a worker.
 
-Each layer is timed, here or next to the frames, and the frames that follow compute those that turned out to be quick.
-Of typed formulas nobody knows beforehand: their first picture is computed next to the frames, and so is what has become
+Each layer is timed, here or in the background, and the frames that follow compute those that turned out to be quick.
+Of typed formulas nobody knows beforehand: their first picture is computed in the background, and so is what has become
 wilder meanwhile. Most layers of an e-linear system take milliseconds, whatever the sliders say, and are computed here
 at first; those that follow what winds or creeps for long are as a formula's.
 """
@@ -27,7 +27,7 @@ from .faults import FAILURES
 
 #: Seconds of processor time that one layer, and all layers of one frame, may take of the thread that answers.
 LAYER_BUDGET, FRAME_BUDGET = 0.008, 0.02
-#: Seconds for one layer computed next to the frames: a wilder one is left out, and said to be.
+#: Seconds for one layer computed in the background: a wilder one is left out, and said to be.
 MAX_LAYER_SECONDS = 6.0
 #: Limit directions and critical sets together, beyond which the layers that follow each of them are not drawn.
 MAX_EQUILIBRIA = 100
@@ -71,7 +71,7 @@ _DIRECTIONS = np.stack([np.cos(_theta), np.sin(_theta)], axis=-1)
 
 
 class PendingLayer(Exception):
-    """A layer is to be computed next to the frames."""
+    """A layer is to be computed in the background."""
 
 
 class OmittedLayer(Exception):
@@ -90,7 +90,7 @@ class OmittedLayer(Exception):
 
 @dataclass(frozen=True)
 class BackgroundLayers:
-    """Layers computed next to the frames."""
+    """Layers computed in the background."""
 
     results: Mapping[str, Any]
     seconds: Mapping[str, float]  # processor time of each
@@ -173,7 +173,7 @@ class Budget:
         Raises
         ------
         PendingLayer
-            It is to be computed next to the frames.
+            It is to be computed in the background.
         OmittedLayer
             It is not drawn of this system.
         """
@@ -222,7 +222,7 @@ class Budget:
         return scene.coefficients.typed is None and scene.psi.expression is None
 
     def record_costs(self, scene: Scene, found: BackgroundLayers) -> None:
-        """Remember what layers of a scene took next to the frames, and keep them.
+        """Remember what layers of a scene took in the background, and keep them.
 
         A shorter time than before is believed by halves: a worker that has found something for one frame has it for
         the next, where this thread would search for it.

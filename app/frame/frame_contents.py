@@ -27,7 +27,7 @@ from .window import Window
 
 Blocks = dict[str, NDArray[Any] | Polylines]
 
-#: In place of a layer: it is computed next to the frames; it is left out.
+#: In place of a layer: it is computed in the background; it is left out.
 LATER, NOT_DRAWN = object(), object()
 
 

@@ -30,7 +30,7 @@ class FrameContext:
     rest: bool  # nothing moves: there is time for what is slower
     ready: bool  # the compiled integrator is ready
     locked: tuple[str, ...]  # controls that the system does not have
-    # layers of the scene that are to be computed next to the frames, as they have been requested in vain
+    # layers of the scene that are to be computed in the background, as they have been requested in vain
     missing: list[str] = field(default_factory=list)
     # layers of the scene that are not drawn of this system, and why; told below the picture
     left_out: list[OmittedLayer] = field(default_factory=list)

@@ -1,4 +1,4 @@
-"""Processes that work next to the frames: none holds up another by its interpreter lock, and each can be stopped."""
+"""Processes that work in the background: none holds up another by its interpreter lock, and each can be stopped."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ from ..state.chosen_system import System_
 
 CURVE_POINTS = 97  # of the curve
 MAX_HALF_SIDE = (
-    6.0  # half the side of the plane's square, in (lambda1, lambda2): a cross farther out is next to the view
+    6.0  # half the side of the plane's square, in (lambda1, lambda2): a cross farther out is outside the view
 )
 
 

@@ -146,7 +146,7 @@ def _question_values(lesson: Lesson, question: LessonQuestion, seed: int) -> dic
 
 
 def _judge_answer(question: LessonQuestion, scene: Scene, answer: int | Point) -> dict[str, Any]:
-    """Judge an answer in a scene of its own, without what others compute meanwhile: jobs run next to the frames."""
+    """Judge an answer in a scene of its own, without what others compute meanwhile: jobs run in the background."""
     return judge(question, Scene(scene.system, scene.psi, scene.z), answer)
 
 

@@ -1,6 +1,6 @@
 """The panels next to the picture: what the open one is sent in a frame. A closed panel costs nothing.
 
-What is cheap goes with every frame. What is slower is computed next to the frames (`frame.background_results`) once the
+What is cheap goes with every frame. What is slower is computed in the background (`frame.background_results`) once the
 controls rest; until the browser has it, its name is in ``header["late"]``, and the panel shows that it has old results.
 """
 

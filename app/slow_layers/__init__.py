@@ -1,1 +1,1 @@
-"""Layers of the picture that take longer than a frame: computed next to the frames, as panels are."""
+"""Layers of the picture that take longer than a frame: computed in the background, as panels are."""

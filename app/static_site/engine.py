@@ -1,6 +1,6 @@
 """The server's half of a page, in a worker of the visitor's browser: messages in, messages out.
 
-There is one thread and it belongs to an event loop. What a server computes next to the frames another worker computes,
+There is one thread and it belongs to an event loop. What a server computes in the background another worker computes,
 or this one between two messages, when the frame that asked for it has left (`other_worker`).
 """
 
@@ -72,7 +72,7 @@ class Engine:
 
 
 def other_worker() -> OtherWorker:
-    """Return what computes next to the frames for all explorers of this worker."""
+    """Return what computes in the background for all explorers of this worker."""
     return _other_worker_of(asyncio.get_event_loop())
 
 

@@ -11,7 +11,7 @@ from ..rooms.visitor import Visitor
 from .export_jobs import ExportJobs, Reply
 from .refresh import Frames
 
-#: Seconds for which an answer waits for a picture that is computed next to the frames.
+#: Seconds for which an answer waits for a picture that is computed in the background.
 PICTURE_WAIT_SECONDS = 0.25
 
 

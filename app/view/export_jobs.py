@@ -1,4 +1,4 @@
-"""Files that a browser takes away: made next to the frames, in its turn, and sent over its session."""
+"""Files that a browser takes away: made in the background, in its turn, and sent over its session."""
 
 from __future__ import annotations
 

@@ -261,7 +261,7 @@ class Frames:
         return header, blocks
 
     def _add_sides(self, header: dict[str, Any], scene: Scene, values: Mapping[str, Any]) -> None:
-        """Add what lies on both sides of a degenerate setting; of typed formulas it is computed next to the frames."""
+        """Add what lies on both sides of a degenerate setting; of typed formulas it is computed in the background."""
         if self.budget is None or self.budget.is_bounded(scene):
             header["portrait"]["sides"] = neighbouring_portraits(scene, values, self._moved)
             return
@@ -273,7 +273,7 @@ class Frames:
             (header["portrait"]["sides"],) = found
 
     def _compute_beside(self, scene: Scene, missing: Sequence[str], header: dict[str, Any]) -> bool:
-        """Have layers computed next to the frames; say whether they are there."""
+        """Have layers computed in the background; say whether they are there."""
         assert self.budget is not None  # it says what is missing
         names = tuple(dict.fromkeys(missing))
         known = {name: result for name, result in scene.results().items() if name in names or name in STANDING}
@@ -299,7 +299,7 @@ class Frames:
 
     @property
     def pending(self) -> Future[Any] | None:
-        """Return the future of the layers that are computed next to the frames, if the picture waits for any."""
+        """Return the future of the layers that are computed in the background, if the picture waits for any."""
         return self.jobs.future("picture")
 
     def _tell_system(

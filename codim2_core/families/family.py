@@ -106,7 +106,7 @@ class SystemFamily:
     def jet(self, c: float, s: float, u: float, v: float) -> tuple[float, ...]:
         """Return U1, then U2: the value, and derivatives by c, s, u, v, cc, cs, cu, cv, ss, su, sv.
 
-        Where one is undefined, as that of abs(c) at 0, all are taken just next to.
+        Where one is undefined, as that of abs(c) at 0, all are taken a rounding away.
         """
         found = self._jet(c, s, u, v)
         return found if math.isfinite(sum(found)) else self._jet(c + KINK_OFFSET, s + KINK_OFFSET, u, v)

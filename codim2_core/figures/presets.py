@@ -164,7 +164,7 @@ presets: Mapping[str, Preset] = MappingProxyType(_presets)  # by name, in the or
 
 
 def register(preset: Preset) -> Preset:
-    """List a preset of your own next to the paper's figures, for this process.
+    """List a preset of your own with the paper's figures, for this process.
 
     The same. Raises ValueError: It is no Preset, its name is missing or taken, or its system, Psi and z do not go
     together.

@@ -108,7 +108,7 @@ class Field:
     def jacobian(self, c: float, s: float, x: float, y: float, z: Sequence[float]) -> Array:
         """``D (U, W)`` by (c, s, x, y, z), of shape (2 + m, 4 + m).
 
-        Where it is undefined, as that of abs(c) at 0, it is taken just next to; and as zero where that is no better.
+        Where it is undefined, as that of abs(c) at 0, it is taken a rounding away; and as zero where that is no better.
         """
         arguments = (c, s, x, y, *z)
         slopes = np.array(self.slope(*arguments))

@@ -135,7 +135,7 @@ class Custom(Kernel):
             t = new
             if done:
                 break
-        small = w < 1e-100  # there ln w carries fewer digits than w, and s = zeta^2 is nothing next to 1
+        small = w < 1e-100  # there ln w carries fewer digits than w, and s = zeta^2 is negligible against 1
         zeta = lib.where(small, w * self.root(lib, 0.0 * w), lib.exp(t))
         polished = self.polish(lib, zeta, lib.maximum(w, UNDERFLOW_BOUND))
         return lib.where(abs(polished - zeta) <= 1e-3 * zeta, polished, zeta)

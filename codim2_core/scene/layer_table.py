@@ -72,7 +72,7 @@ def seen_closely(setting: SceneSetting) -> Seen | None:
 
 
 def _matrix(setting: SceneSetting) -> tuple[float, float, float] | None:
-    """Return a, b, d: zeros where they are so small next to f that they alone are refused, None for a typed system."""
+    """Return a, b, d: zeros where they are so small against f that they alone are refused, None for a typed system."""
     at = setting.coefficients
     if at.typed is not None or at.as_given is None:
         return None

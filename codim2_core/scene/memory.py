@@ -22,7 +22,7 @@ class Memory:
     runs: Counter[str] = field(default_factory=Counter)
     # ``before(scene, layer)`` is called before a layer is computed; it may raise, or return what is called after
     before: Callable[[Any, str], Callable[[], None] | None] | None = None
-    lock: Lock = field(default_factory=Lock)  # the jobs next to the frames read the same memory
+    lock: Lock = field(default_factory=Lock)  # the jobs in the background read the same memory
 
     def find(self, layer: str, key: Hashable) -> Any:
         """Return what is kept for these values, or `ABSENT`."""

@@ -12,7 +12,7 @@ Sides = tuple[tuple[str, str], ...]
 
 def latex_sides(system: Any) -> Sides:
     """Return left and right sides of a system's equations, and then of its definitions, as LaTeX."""
-    alone = system.m - bool(system.clock) == 1  # z next to no other but t
+    alone = system.m - bool(system.clock) == 1  # no other slow variable but t
 
     def plain(formula: Expression) -> Expression:
         return formula.substitute("z1", parse("z", ("z",))) if alone and "z1" in formula.names else formula

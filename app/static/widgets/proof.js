@@ -1,4 +1,4 @@
-// A proof of the number of limit cycles: requested, searched for next to the frames, shown, and exported as a file.
+// A proof of the number of limit cycles: requested, searched for in the background, shown, and exported as a file.
 
 import {setMarkup, save, size} from "../dom.js"
 import {SAYS, escape} from "../words.js"

@@ -33,7 +33,7 @@ SLOW_EXTENT = TABLE + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
 
 @kernel
 def write_slopes(S, m):
-    """Write the slopes at a place; where they are undefined those just next to, or 0."""
+    """Write the slopes at a place; where they are undefined those a rounding away, or 0."""
     slopes, count, whole = bits_of_double(S[SLOPES]), (2 + m) * (4 + m), True
     call_field(slopes, S, SET_PLACE, TABLE, S)
     for i in range(count):

@@ -26,7 +26,7 @@ FAMILIES: Mapping[str, Family] = MappingProxyType(_families)  # by name, in the 
 
 
 def register(family: Family) -> Family:
-    """List a family of your own next to the built-in ones, for this process: before the typed one in menus.
+    """List a family of your own with the built-in ones, for this process: before the typed one in menus.
 
     Parameters
     ----------
