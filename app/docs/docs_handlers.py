@@ -15,7 +15,7 @@ WORKER_POLICY = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'"
 
 
 #: One page is made at a time: whoever reads takes no more than a thread from those who draw.
-_maker = ThreadPoolExecutor(1, "codim2-docs")
+MAKER = ThreadPoolExecutor(1, "codim2-pages")
 
 
 class Docs(RequestHandler):
@@ -27,7 +27,7 @@ class Docs(RequestHandler):
         folder = site()
         if folder is None:
             self._send(
-                *await IOLoop.current().run_in_executor(_maker, _make_file, path, self.get_query_argument("q", ""))
+                *await IOLoop.current().run_in_executor(MAKER, _make_file, path, self.get_query_argument("q", ""))
             )
             return
         try:

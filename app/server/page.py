@@ -19,7 +19,7 @@ from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop, PeriodicCallback
 from tornado.web import HTTPError, RequestHandler
 
-from ..docs.docs_handlers import Docs, ToDocs
+from ..docs.docs_handlers import MAKER, Docs, ToDocs
 from ..frame.background_results import serve_with
 from ..frame.work_queue import WorkQueue
 from ..frame.workers import Workers, processors
@@ -29,7 +29,7 @@ from ..rooms.rooms import MOST_ROOMS, SHARING_SECONDS, Rooms
 from ..rooms.rooms import serve_with as serve_rooms
 from ..view import warmup
 from ..view.compiling.steps import Told
-from ..view.lecture_page import lecture_html
+from ..view.lecture_page import SHEETS, lecture_html
 from ..view.markup import edition
 from .application import ExplorerApplication, known_names
 from .engine_files import EngineFiles, served_panels
@@ -87,14 +87,14 @@ class ToRoom(RequestHandler):
 class LecturePage(RequestHandler):
     """Answers ``/lecture?of=KEY``, and with ``&sheet=questions`` or ``&sheet=key`` what is printed for the class."""
 
-    def get(self) -> None:
-        """Send the page."""
-        lesson = lessons().get(self.get_query_argument("of", ""))
-        if lesson is None or not lesson.views:
+    async def get(self) -> None:
+        """Send the page, which is made off the loop: a worksheet poses and draws all questions."""
+        lesson, sheet = lessons().get(self.get_query_argument("of", "")), self.get_query_argument("sheet", "")
+        if lesson is None or not lesson.views or sheet not in SHEETS:
             raise HTTPError(404)
         application: Any = self.application
         here = f"{self.request.protocol}://{self.request.host}{application.prefix}/"
-        self.finish(lecture_html(lesson, self.get_query_argument("sheet", ""), here))
+        self.finish(await IOLoop.current().run_in_executor(MAKER, lecture_html, lesson, sheet, here))
 
 
 def health() -> dict[str, Any]:

@@ -24,14 +24,21 @@ from .markup import digest, template
 
 SEED = 1  # with which the presenter's window asks
 PICTURE = 60.0  # mm
+SHEETS = ("", "questions", "key")  # the presenter's window, and what is printed
 
 
 def lecture_html(lesson: Lesson, sheet: str, explorer: str) -> str:
     """Return the presenter's window of a lecture, or what is printed for the class: "questions", or their "key"."""
     return template("lecture.html").render(
         lesson=lesson, sheet=sheet, digest=digest(), data=_presenter_json(lesson),
-        questions=_sheet_questions(lesson.key, explorer) if sheet else [],
+        questions=[_with_code(one, explorer) for one in _sheet_questions(lesson.key)] if sheet else [],
     )  # fmt: skip
+
+
+def _with_code(question: dict[str, Any], explorer: str) -> dict[str, Any]:
+    """Return a question with the code that opens it: the address of the explorer is the visitor's own."""
+    code = segno.make_qr(f"{explorer}?{question['link']}", error="l")
+    return {**question, "code": code.svg_inline(scale=2, svgclass="qr", lineclass=None)}
 
 
 def _presenter_json(lesson: Lesson) -> str:
@@ -50,8 +57,8 @@ def _plain(html: str) -> str:
 
 
 @lru_cache(maxsize=4)
-def _sheet_questions(key: str, explorer: str) -> list[dict[str, Any]]:
-    """Return each question with its picture, its code, the option that holds and the explanation."""
+def _sheet_questions(key: str) -> list[dict[str, Any]]:
+    """Return each question with its picture, its link, the option that holds and the explanation: seconds of work."""
     lesson = lessons()[key]
     start = {**ExplorerState.from_values(lesson.values).values(), "panel": "lessons", "lesson": key}
     found = []
@@ -62,7 +69,6 @@ def _sheet_questions(key: str, explorer: str) -> list[dict[str, Any]]:
         facts = facts_of(scene, question.facts)
         shown = {**values, "layers": [name for name in values["layers"] if name not in question.hide]}
         drawing = figure(View(shown), Style(size=PICTURE, legend=False))
-        link = explorer + "?" + compress_query(write_link(values, PageView()))
         found.append(
             {
                 "ask": question.html,
@@ -70,7 +76,7 @@ def _sheet_questions(key: str, explorer: str) -> list[dict[str, Any]]:
                 "truth": right_option(question, facts),
                 "explain": fill_facts(question.explain, facts),
                 "picture": f"data:image/svg+xml;base64,{base64.b64encode(drawing.encode()).decode()}",
-                "code": segno.make_qr(link, error="l").svg_inline(scale=2, svgclass="qr", lineclass=None),
+                "link": compress_query(write_link(values, PageView())),
             }
         )
     return found
