@@ -9,23 +9,16 @@ A public name is imported when it is first requested (PEP 562): a program loads 
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Python the same
-    from . import bifurcations, examples, mechanics, psi, reference
-    from .atlases.atlas import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, atlas
-    from .counting.census import census
-    from .counting.table import Census
-    from .cycles.friction_law_comparison import LawVerdict, LawVerdicts, compare_laws
-    from .cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
-    from .cycles.proof.result import Proof
-    from .diagrams.bifurcation_diagram import branches
-    from .diagrams.result import Branches
-    from .figures.preset import Preset
-    from .figures.presets import presets
-    from .initial_value.events import Event
-    from .layer_problem import hemisphere
-    from .layer_problem.critical import CriticalSet, critical_sets
-    from .layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+    from . import bifurcations
+    from .bifurcations.atlases.atlas import Atlas, AtlasCurve, AtlasPoint, AtlasRegion, atlas
+    from .bifurcations.census.census import census
+    from .bifurcations.census.table import Census
+    from .bifurcations.diagrams.bifurcation_diagram import branches
+    from .bifurcations.diagrams.result import Branches
+    from .motion import reference
     from .motion.contact_events import contact_events
     from .motion.delay import Delay
+    from .motion.initial_value.events import Event
     from .motion.limit.predicted_delays import delays
     from .motion.periodic.lyapunov import LyapunovExponents, lyapunov_exponents
     from .motion.periodic.response import response_curve
@@ -35,24 +28,33 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.result import Phase, Simulation, SimulationStatus
     from .motion.simulate import simulate, simulate_nonsmooth
     from .motion.variation.result import Variation
-    from .nullcline.nullclines import NullclineBranch, nullclines
-    from .orbits.trajectories import Trajectories, trajectories
     from .portrait.approach_outcomes import approach_outcomes
     from .portrait.basins import Basins, basins
     from .portrait.classify import Classification, Degeneracy, classify
+    from .portrait.cycles.friction_law_comparison import LawVerdict, LawVerdicts, compare_laws
+    from .portrait.cycles.limit_cycles import LimitCycle, LimitCycles, limit_cycles
+    from .portrait.cycles.proof.result import Proof
+    from .portrait.layer_problem import hemisphere
+    from .portrait.layer_problem.critical import CriticalSet, critical_sets
+    from .portrait.layer_problem.equator import EquatorCycle, EquatorEquilibria, equator_cycle, equator_equilibria
+    from .portrait.nullcline.nullclines import NullclineBranch, nullclines
+    from .portrait.orbits.trajectories import Trajectories, trajectories
     from .portrait.separatrices import Separatrices, Separatrix, separatrices
-    from .psi.function import Psi
+    from .portrait.sliding.along_z import slow_portrait
+    from .portrait.sliding.filippov import FilippovSliding, filippov_sliding
+    from .portrait.sliding.flow import sliding_flow
+    from .portrait.sliding.slow_portrait_result import SlowPortrait
+    from .portrait.theorems.certificates import certificates
+    from .portrait.theorems.portrait_proof import prove_portrait
     from .scene import Scene
-    from .sliding.along_z import slow_portrait
-    from .sliding.filippov import FilippovSliding, filippov_sliding
-    from .sliding.flow import sliding_flow
-    from .sliding.slow_portrait_result import SlowPortrait
+    from .systems import examples, mechanics, psi
     from .systems.coefficients import Coefficients
     from .systems.elinear import ELinear
+    from .systems.presets.preset import Preset
+    from .systems.presets.presets import presets
+    from .systems.psi.function import Psi
     from .systems.typed import System
     from .systems.typed_at_z import Frozen
-    from .theorems.certificates import certificates
-    from .theorems.portrait_proof import prove_portrait
 
 __version__ = "0.1.0"
 
@@ -134,28 +136,21 @@ __all__ = [
 
 _MODULES = {
     "bifurcations": "bifurcations",
-    "examples": "examples",
-    "hemisphere": "layer_problem.hemisphere",
-    "mechanics": "mechanics",
-    "psi": "psi",
-    "reference": "reference",
+    "examples": "systems.examples",
+    "hemisphere": "portrait.layer_problem.hemisphere",
+    "mechanics": "systems.mechanics",
+    "psi": "systems.psi",
+    "reference": "motion.reference",
 }
 _HOMES = {
-    "atlases.atlas": "Atlas AtlasCurve AtlasPoint AtlasRegion atlas",
-    "counting.census": "census",
-    "counting.table": "Census",
-    "cycles.friction_law_comparison": "LawVerdict LawVerdicts compare_laws",
-    "cycles.limit_cycles": "LimitCycle LimitCycles limit_cycles",
-    "cycles.proof.result": "Proof",
-    "diagrams.bifurcation_diagram": "branches",
-    "diagrams.result": "Branches",
-    "figures.preset": "Preset",
-    "figures.presets": "presets",
-    "initial_value.events": "Event",
-    "layer_problem.critical": "CriticalSet critical_sets",
-    "layer_problem.equator": "EquatorCycle EquatorEquilibria equator_cycle equator_equilibria",
+    "bifurcations.atlases.atlas": "Atlas AtlasCurve AtlasPoint AtlasRegion atlas",
+    "bifurcations.census.census": "census",
+    "bifurcations.census.table": "Census",
+    "bifurcations.diagrams.bifurcation_diagram": "branches",
+    "bifurcations.diagrams.result": "Branches",
     "motion.contact_events": "contact_events",
     "motion.delay": "Delay",
+    "motion.initial_value.events": "Event",
     "motion.limit.predicted_delays": "delays",
     "motion.periodic.lyapunov": "LyapunovExponents lyapunov_exponents",
     "motion.periodic.response": "response_curve",
@@ -165,41 +160,56 @@ _HOMES = {
     "motion.result": "Phase Simulation SimulationStatus",
     "motion.simulate": "simulate simulate_nonsmooth",
     "motion.variation.result": "Variation",
-    "nullcline.nullclines": "NullclineBranch nullclines",
-    "orbits.trajectories": "Trajectories trajectories",
+    "portrait.approach_outcomes": "approach_outcomes",
     "portrait.basins": "Basins basins",
     "portrait.classify": "Classification Degeneracy classify",
-    "portrait.approach_outcomes": "approach_outcomes",
+    "portrait.cycles.friction_law_comparison": "LawVerdict LawVerdicts compare_laws",
+    "portrait.cycles.limit_cycles": "LimitCycle LimitCycles limit_cycles",
+    "portrait.cycles.proof.result": "Proof",
+    "portrait.layer_problem.critical": "CriticalSet critical_sets",
+    "portrait.layer_problem.equator": "EquatorCycle EquatorEquilibria equator_cycle equator_equilibria",
+    "portrait.nullcline.nullclines": "NullclineBranch nullclines",
+    "portrait.orbits.trajectories": "Trajectories trajectories",
     "portrait.separatrices": "Separatrices Separatrix separatrices",
-    "psi.function": "Psi",
+    "portrait.sliding.along_z": "slow_portrait",
+    "portrait.sliding.filippov": "FilippovSliding filippov_sliding",
+    "portrait.sliding.flow": "sliding_flow",
+    "portrait.sliding.slow_portrait_result": "SlowPortrait",
+    "portrait.theorems.certificates": "certificates",
+    "portrait.theorems.portrait_proof": "prove_portrait",
     "scene": "Scene",
-    "sliding.along_z": "slow_portrait",
-    "sliding.filippov": "FilippovSliding filippov_sliding",
-    "sliding.flow": "sliding_flow",
-    "sliding.slow_portrait_result": "SlowPortrait",
     "systems.coefficients": "Coefficients",
     "systems.elinear": "ELinear",
+    "systems.presets.preset": "Preset",
+    "systems.presets.presets": "presets",
+    "systems.psi.function": "Psi",
     "systems.typed": "System",
     "systems.typed_at_z": "Frozen",
-    "theorems.certificates": "certificates",
-    "theorems.portrait_proof": "prove_portrait",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
+
+
+def find_public(package: str, home: str, name: str) -> object:
+    """Return what a module of a package calls `name`; a function comes with the checks of what it is given."""
+    from importlib import import_module
+
+    from .systems.arguments import checked_functions
+    from .systems.presets.named import named_setting
+
+    one = {name: getattr(import_module(f".{home}", package), name)}
+    return (one | checked_functions(package, one, one, named_setting))[name]
+
 
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
-        """Import a public name; a function comes with the checks of what it is given."""
+        """Import a public name."""
         from importlib import import_module
 
         if name in _MODULES:
             found = import_module(f".{_MODULES[name]}", __name__)
         elif name in _HOME:
-            from .arguments import checked_functions
-            from .figures.named import named_setting
-
-            one = {name: getattr(import_module(f".{_HOME[name]}", __name__), name)}
-            found = (one | checked_functions(__name__, one, one, named_setting))[name]
+            found = find_public(__name__, _HOME[name], name)
         else:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
         return globals().setdefault(name, found)  # one object, whichever thread was first: pickle compares

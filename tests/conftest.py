@@ -53,7 +53,7 @@ def pytest_collection() -> Iterator[None]:
         if "numba" in sys.modules:
             from codim2_app.view.compiling import once
 
-            from codim2_core.jit import policy
+            from codim2_core.formulas.jit import policy
 
             once.install()  # all processes begin with the same kernels
             policy.choose_way(policy.COMPILE)  # and what a test sees does not depend on what is on disk

@@ -1,27 +1,29 @@
-"""Bifurcations of the e-linear system in the plane (f1, f2), for given a, b, d and Psi (Section 4.4).
+"""Many settings: curves in a plane of parameters, diagrams along one, atlases over two, censuses.
 
-The saddle-node curve of equator equilibria and the ellipse |A^-1 f| = 1 are closed forms and cut the plane into the
-regions of `regions`, which do not depend on Psi. `hopf` and `node_focus` depend on Psi (Case III), one root a point.
-Limit cycles vanish on `cycle_folds`, and at the equator on `closed_equator` and `heteroclinic`; these three are
+The public names are the bifurcations of the e-linear system in the plane (f1, f2), for given a, b, d and Psi (Section
+4.4). The saddle-node curve of equator equilibria and the ellipse |A^-1 f| = 1 are closed forms and cut the plane into
+the regions of `regions`, which do not depend on Psi. `hopf` and `node_focus` depend on Psi (Case III), one root a
+point. Limit cycles vanish on `cycle_folds`, and at the equator on `closed_equator` and `heteroclinic`; these three are
 followed by continuation, which takes seconds where the others take milliseconds.
 """
 
-from __future__ import annotations
+from typing import TYPE_CHECKING
 
-from ..arguments import checked_functions
-from ..figures.named import named_setting
-from .curve import BifurcationCurve, SpecialPoint
-from .parameter_changes import ParameterChange, hill_changes, parameter_changes
-from .plane_curves import (
-    closed_equator,
-    critical_boundary,
-    cycle_folds,
-    heteroclinic,
-    hopf,
-    node_focus,
-    saddle_node,
-)
-from .regions import Region, regions
+from .. import find_public
+
+if TYPE_CHECKING:  # for those who read types; `_HOMES` gives Python the same
+    from .plane.curve import BifurcationCurve, SpecialPoint
+    from .plane.parameter_changes import ParameterChange, hill_changes, parameter_changes
+    from .plane.plane_curves import (
+        closed_equator,
+        critical_boundary,
+        cycle_folds,
+        heteroclinic,
+        hopf,
+        node_focus,
+        saddle_node,
+    )
+    from .plane.regions import Region, regions
 
 __all__ = [
     "BifurcationCurve",
@@ -40,7 +42,21 @@ __all__ = [
     "saddle_node",
 ]
 
-globals().update(checked_functions(__name__, globals(), __all__, named_setting))
+_HOMES = {
+    "plane.curve": "BifurcationCurve SpecialPoint",
+    "plane.parameter_changes": "ParameterChange hill_changes parameter_changes",
+    "plane.plane_curves": ("closed_equator critical_boundary cycle_folds heteroclinic hopf node_focus saddle_node"),
+    "plane.regions": "Region regions",
+}
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
+
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> object:
+        """Import a public name."""
+        if name not in _HOME:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        return globals().setdefault(name, find_public(__name__, _HOME[name], name))
 
 
 def __dir__() -> list[str]:

@@ -7,9 +7,9 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
-from ..psi.function import Psi
+from ..results.arrays import Array
 from ..systems.kinds import AnySystem
+from ..systems.psi.function import Psi
 
 SMALLEST_EPS, LARGEST_EPS = 1e-14, 1e6
 MAX_STEPS = 20_000

@@ -12,12 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Array
-from ..initial_value.slopes import slopes_of, smoothed_direction
 from ..numerics.dense import Dense
-from ..psi.function import Psi
+from ..results.arrays import Array
+from ..results.words import say
 from ..systems.kinds import AnySystem
-from ..words import say
+from ..systems.psi.function import Psi
+from .initial_value.slopes import slopes_of, smoothed_direction
 from .result import Simulation, SimulationStatus
 
 AGREE = 1e-2  # of its size: as far as two states may differ that are still the same

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..initial_value.field import field
-from ..initial_value.line import invariant_line
-from ..layer_problem.equator import equator_equilibria
-from ..psi.function import Psi
+from ..portrait.layer_problem.equator import equator_equilibria
+from ..results.words import say
 from ..systems.kinds import AnySystem
-from ..words import say
+from ..systems.psi.function import Psi
+from .initial_value.field import field
+from .initial_value.line import invariant_line
 from .result import Phase, Simulation
 
 NEUTRAL_RATIO = 1e-6  # lambda_rho in units of |lambda_theta|: an exit through the equator (Figure 19)

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
-from ..initial_value.events import Event
-from ..mechanics.mechanism import Mechanism
-from ..psi.function import Psi
-from ..words import say
+from ..results.arrays import Array
+from ..results.words import say
+from ..systems.mechanics.mechanism import Mechanism
+from ..systems.psi.function import Psi
 from .argument_checks import checked_state
+from .initial_value.events import Event
 
 __all__ = ["contact_events"]
 
@@ -67,7 +67,7 @@ def contact_events(
     A block that slides onto a slope which falls away, so that the normal force is 10 - 4 q after a way q:
 
     >>> from codim2_core import contact_events, simulate_nonsmooth
-    >>> from codim2_core.mechanics import Mechanism
+    >>> from codim2_core.systems.mechanics import Mechanism
     >>> block = Mechanism(((1, 0), (0, 1)), ((1, 0), (0, 1)), (0, 0), 0.1, "10 - 4*q", ("vx", "vy"), slow=("q",),
     ...                   rates={"q": "vx"})
     >>> start = block.state(vx=3, vy=0, q=0)

@@ -6,13 +6,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Array
-from ..initial_value.field import Field
-from ..initial_value.slow_manifold import solve_critical
 from ..numerics.dense import Dense
-from ..results import Tabled
-from ..tables import point
-from ..words import say
+from ..results.arrays import Array
+from ..results.result import Tabled
+from ..results.tables import point
+from ..results.words import say
+from .initial_value.field import Field
+from .initial_value.slow_manifold import solve_critical
 
 DELAY_SAMPLES = 33  # of the delay
 

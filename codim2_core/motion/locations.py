@@ -12,15 +12,15 @@ from typing import Protocol
 
 import numpy as np
 
-from ..arrays import Array
-from ..cycles.limit_cycles import limit_cycles
-from ..initial_value.field import field
-from ..initial_value.slow_manifold import solve_critical
-from ..layer_problem.equator import equator_equilibria
 from ..numerics.dense import Dense
-from ..orbits.trajectories import continuation, trajectories
-from ..psi.function import Psi
+from ..portrait.cycles.limit_cycles import limit_cycles
+from ..portrait.layer_problem.equator import equator_equilibria
+from ..portrait.orbits.trajectories import continuation, trajectories
+from ..results.arrays import Array
 from ..systems.kinds import AnySystem
+from ..systems.psi.function import Psi
+from .initial_value.field import field
+from .initial_value.slow_manifold import solve_critical
 from .tracked_set import in_disc
 
 FASTEST, MAX_ASCENT_LENGTH = 60.0, 4.0  # time T and length for which an orbit up the hemisphere is followed

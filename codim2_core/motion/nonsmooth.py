@@ -8,16 +8,16 @@ from functools import partial
 
 import numpy as np
 
-from ..arrays import Array
-from ..initial_value.events import Event, EventWatch, reverse_event
-from ..initial_value.field import Field, backwards_system, field
-from ..initial_value.line import invariant_line
 from ..numerics.dense import dense, gather_steps
 from ..numerics.radau import BlowUpError, TooManyStepsError
-from ..psi.function import Psi
+from ..results.arrays import Array
+from ..results.words import say
 from ..systems.kinds import AnySystem
-from ..words import say
+from ..systems.psi.function import Psi
 from .backward_run import Past
+from .initial_value.events import Event, EventWatch, reverse_event
+from .initial_value.field import Field, backwards_system, field
+from .initial_value.line import invariant_line
 from .limit.hybrid_run import AtEventError, HybridRun, StopError
 from .locations import OfState
 from .result import Phase, Simulation, SimulationStatus, simulation

@@ -19,18 +19,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array
-from ..initial_value.field import Field
-from ..initial_value.functions import functions_of
-from ..initial_value.inspection import CONTACT, Inspection
-from ..initial_value.line import InvariantLine
-from ..initial_value.slopes import smoothed_direction
-from ..initial_value.slow_manifold import solve_critical
-from ..initial_value.slow_steps import critical_sets_near, steps_of_z
 from ..numerics.dense import StepArray, gather_steps
 from ..numerics.radau import Step, TooManyStepsError, truncate_step
 from ..numerics.root_between import root_between
-from ..psi.function import Psi
+from ..results.arrays import Array
+from ..systems.psi.function import Psi
+from .initial_value.field import Field
+from .initial_value.functions import functions_of
+from .initial_value.inspection import CONTACT, Inspection
+from .initial_value.line import InvariantLine
+from .initial_value.slopes import smoothed_direction
+from .initial_value.slow_manifold import solve_critical
+from .initial_value.slow_steps import critical_sets_near, steps_of_z
 from .limit.delay import Growth, NotAnalyticError
 from .tracked_set import inverse_gain
 

@@ -14,14 +14,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..arrays import Array
-from ..curves.polyline import distance
-from ..cycles.limit_cycles import limit_cycles
-from ..initial_value.field import Field, field
+from ..numerics.curves.polyline import distance
 from ..numerics.dense import Dense
-from ..psi.function import Psi
+from ..portrait.cycles.limit_cycles import limit_cycles
+from ..results.arrays import Array
+from ..results.words import say
 from ..systems.kinds import AnySystem
-from ..words import say
+from ..systems.psi.function import Psi
+from .initial_value.field import Field, field
 from .limit.sigma_decision import critical_name, decide_from_hemisphere
 from .locations import OfState
 from .result import Phase

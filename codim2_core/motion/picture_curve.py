@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array
 from ..numerics.dense import Dense
+from ..results.arrays import Array
 
 MIN_TIMES = 240  # even times of a drawn motion, at least
 CHORD_TOLERANCE = (

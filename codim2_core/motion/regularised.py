@@ -10,21 +10,21 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array
-from ..initial_value.events import Event, EventWatch, reverse_event
-from ..initial_value.field import Field, backwards, field
-from ..initial_value.functions import functions_of
-from ..initial_value.inspection import Inspection
-from ..initial_value.kernels.motion import UNDEFINED
-from ..initial_value.line import InvariantLine, invariant_line
-from ..initial_value.motion_steps import MotionSteps, rate_at
-from ..initial_value.slopes import smoothed_direction
 from ..numerics.dense import Dense, StepArray, dense, gather_steps
 from ..numerics.radau import BlowUpError, Step, TooManyStepsError
-from ..psi.function import Psi
+from ..results.arrays import Array
+from ..results.words import say
 from ..systems.kinds import AnySystem
-from ..words import say
+from ..systems.psi.function import Psi
 from .backward_run import Past
+from .initial_value.events import Event, EventWatch, reverse_event
+from .initial_value.field import Field, backwards, field
+from .initial_value.functions import functions_of
+from .initial_value.inspection import Inspection
+from .initial_value.kernels.motion import UNDEFINED
+from .initial_value.line import InvariantLine, invariant_line
+from .initial_value.motion_steps import MotionSteps, rate_at
+from .initial_value.slopes import smoothed_direction
 from .passage import Passage
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
-from ..expressions.names import SLOW_NAMES
+from ..formulas.names import SLOW_NAMES
 from ..numerics.dense import Dense, DenseMotion
-from ..results import Tabled, result_rows
-from ..tables import MAX_ROWS, paragraphs, table_number
-from ..words import say
+from ..results.arrays import Array
+from ..results.result import Tabled, result_rows
+from ..results.tables import MAX_ROWS, paragraphs, table_number
+from ..results.words import say
 from .delay import Delay
 from .locations import NO_POINTS, Ascent, Location
 from .picture_curve import Drawn, drawn_curve

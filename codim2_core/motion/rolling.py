@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
-from ..examples.example import Ball
+from ..results.arrays import Array
+from ..systems.examples.example import Ball
 
 #: Radius of a ball as a part of the way that it goes, where none is given: its rolling is then seen.
 ROLLING_SHARE, MIN_ROLLING = 0.07, 1e-6

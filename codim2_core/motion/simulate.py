@@ -9,12 +9,12 @@ from typing import TypedDict, Unpack, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arguments import checked_times
-from ..initial_value.events import Events, checked_events
-from ..initial_value.field import field
-from ..psi.function import Psi
+from ..systems.arguments import checked_times
 from ..systems.kinds import AnySystem
+from ..systems.psi.function import Psi
 from .argument_checks import MAX_STEPS, checked_eps, checked_span, checked_states, checked_tolerances, with_time
+from .initial_value.events import Events, checked_events
+from .initial_value.field import field
 from .limit.stiction import checked_stiction
 from .nonsmooth import NonsmoothRun
 from .regularised import RegularisedRun

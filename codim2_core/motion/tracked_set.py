@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Array
-from ..initial_value.field import Field
-from ..initial_value.slow_manifold import solve_critical
-from ..psi.function import Psi
+from ..results.arrays import Array
+from ..systems.psi.function import Psi
+from .initial_value.field import Field
+from .initial_value.slow_manifold import solve_critical
 
 MANIFOLD_MARGIN = 2.0  # times the first-order distance of the slow manifold
 FLOOR = 1e-3  # in p: what an orbit that runs into the set is given besides

@@ -1,1 +1,1 @@
-"""Methods that know no system: zeros of functions, intervals, one implicit integrator."""
+"""Methods that know no system: zeros of functions, intervals, curves of zeros, one implicit integrator."""

@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from ..expressions.interpreter import gradients
-from ..jit import held_kernel, kernel, spliced_kernel
+from ..formulas.interpreter import gradients
+from ..formulas.jit import held_kernel, kernel, spliced_kernel
 from .enclosure import enclose_over
 
 MAX_DEPTH = 45  # halvings of a step in which a zero is sought: to the rounding of the time

@@ -11,10 +11,10 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array, read_only
-from ..equality import ByValue
-from ..results import Pictured, column_rows
-from ..tables import frame
+from ..results.arrays import Array, read_only
+from ..results.equality import ByValue
+from ..results.result import Pictured, column_rows
+from ..results.tables import frame
 from .radau import STAGES, Step
 
 

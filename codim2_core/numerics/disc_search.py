@@ -12,8 +12,8 @@ import math
 
 import numpy as np
 
-from ..expressions.interpreter import gradients
-from ..jit import kernel, spliced_kernel
+from ..formulas.interpreter import gradients
+from ..formulas.jit import kernel, spliced_kernel
 from .enclosure import enclose
 
 # A square around the disc, off centre so that zeros on the axes lie inside boxes and not on their borders.

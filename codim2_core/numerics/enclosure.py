@@ -9,7 +9,8 @@ import math
 
 import numpy as np
 
-from ..expressions.opcodes import (
+from ..formulas.jit import inlined_kernel, kernel
+from ..formulas.opcodes import (
     ADD,
     DIV,
     HYPOT,
@@ -23,7 +24,6 @@ from ..expressions.opcodes import (
     SUB,
     VAR,
 )
-from ..jit import inlined_kernel, kernel
 from .intervals import LOG, add, divide, modulus, multiply, outwards, power, range_of, slope_of
 
 

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from ..jit import kernel
+from ..formulas.jit import kernel
 
 
 @kernel

@@ -15,7 +15,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array
+from ..results.arrays import Array
 
 UNIT = 2.0**-53
 ROUNDINGS = 16.0  # of the terms of f: what a zero's multiplicity is decided within

@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from ..expressions.functions import FIRST_CODE, FUNCTIONS, code, kernels
-from ..jit import kernel, spliced_kernel
+from ..formulas.functions import FIRST_CODE, FUNCTIONS, code, kernels
+from ..formulas.jit import kernel, spliced_kernel
 
 ABS, SIGN_CODE, FLOOR_CODE, ATAN, COS, COSH = (code[name] for name in ("abs", "sign", "floor", "atan", "cos", "cosh"))
 EXP, LOG, SIN, SINH = (code[name] for name in ("exp", "log", "sin", "sinh"))

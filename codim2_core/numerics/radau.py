@@ -12,8 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Array
-from ..words import say
+from ..results.arrays import Array
+from ..results.words import say
 
 GROWTH_STEPS = 100.0  # of the shortest: what grows by its own size within these has no later time
 RATE = 1e-12  # of the time: what grows by its own size in less ends there

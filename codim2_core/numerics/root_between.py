@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
-from ..arrays import Array
+from ..results.arrays import Array
 
 
 def root_between(function: Callable[[float], float], low: float, high: float, tolerance: float = 1e-300) -> float:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..arrays import Array
+from ..results.arrays import Array
 
 __all__ = ["Roots", "lowest", "refine_roots", "roots", "sign_changes"]
 

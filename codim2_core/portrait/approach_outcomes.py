@@ -16,14 +16,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..layer_problem.critical import CriticalSet
-from ..layer_problem.equator import EquatorEquilibria
-from ..layer_problem.problem import LayerProblem, found_once
-from ..psi.constructors import comparison_families
-from ..psi.function import Psi
+from ..results.words import say, written_label
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
-from ..words import say, written_label
+from ..systems.psi.constructors import comparison_families
+from ..systems.psi.function import Psi
+from .layer_problem.critical import CriticalSet
+from .layer_problem.equator import EquatorEquilibria
+from .layer_problem.problem import LayerProblem, found_once
 from .omega_limits import angular_sign, radially_neutral
 from .outcome import Outcome, Outcomes, on_arcs
 from .outcome_verdicts import (

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..cycles.limit_cycles import LimitCycle
-from ..layer_problem.critical import CriticalSet
+from .cycles.limit_cycles import LimitCycle
+from .layer_problem.critical import CriticalSet
 
 
 @dataclass(frozen=True)

@@ -15,14 +15,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..cycles.limit_cycles import LimitCycles, cycles_of
-from ..layer_problem.problem import LayerProblem
-from ..orbits.trajectories import trajectories
-from ..psi.function import Psi
-from ..results import Pictured, column_rows
+from ..results.result import Pictured, column_rows
+from ..results.tables import html_table, point, table_number
 from ..systems.kinds import AnySystem
-from ..tables import html_table, point, table_number
+from ..systems.psi.function import Psi
+from .cycles.limit_cycles import LimitCycles, cycles_of
+from .layer_problem.problem import LayerProblem
 from .omega_limits import CAPTURE, critical_label, drawn_time, omega_limits
+from .orbits.trajectories import trajectories
 
 COARSEST = 32  # cells across the disc at first
 OUTSIDE, UNDECIDED_CELL = -2, -1

@@ -4,17 +4,10 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ..cycles.limit_cycles import closed_orbits
-from ..layer_problem.critical import CriticalSet
-from ..layer_problem.disc_zeros import disc_zeros
-from ..layer_problem.equator import EquatorCycle, EquatorEquilibria
-from ..layer_problem.linearisation import NEUTRAL_TRACE, matrix_determinant
-from ..layer_problem.location import Existence, Location
-from ..layer_problem.problem import LayerProblem, found_once
-from ..psi.function import Psi
+from ..results.words import say
 from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem
-from ..words import say
+from ..systems.psi.function import Psi
 from .classification import (
     NEUTRAL_CLOSED_EQUATOR,
     Classification,
@@ -25,6 +18,13 @@ from .classification import (
     undecided_degeneracy,
 )
 from .classify_typed import general_consequence, general_name
+from .cycles.limit_cycles import closed_orbits
+from .layer_problem.critical import CriticalSet
+from .layer_problem.disc_zeros import disc_zeros
+from .layer_problem.equator import EquatorCycle, EquatorEquilibria
+from .layer_problem.linearisation import NEUTRAL_TRACE, matrix_determinant
+from .layer_problem.location import Existence, Location
+from .layer_problem.problem import LayerProblem, found_once
 from .omega_limits import radially_neutral_ones
 
 _MULTIPLE = {

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from ..layer_problem.critical import CriticalSet
-from ..layer_problem.disc_zeros import DiscZeros, disc_zeros
-from ..layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
-from ..layer_problem.linearisation import NEUTRAL_TRACE
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
+from ..results.words import count_word, say
 from ..systems.frozen import FrozenSystem
-from ..words import count_word, say
 from .classification import NEUTRAL_CLOSED_EQUATOR, Degeneracy, PortraitName, undecided_degeneracy
+from .layer_problem.critical import CriticalSet
+from .layer_problem.disc_zeros import DiscZeros, disc_zeros
+from .layer_problem.equator import EquatorCycle, EquatorEquilibria, arcs_of
+from .layer_problem.linearisation import NEUTRAL_TRACE
 
 TYPED_ROUNDING = ROUNDINGS * UNIT
 TERMS = "the terms of U"

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Array
-from ..curves.polyline import distance
-from ..cycles.limit_cycles import LimitCycles
-from ..cycles.predicted_limit_sets import ON_C
-from ..layer_problem.critical import CriticalSet
-from ..layer_problem.eigendirections import to_disc
-from ..layer_problem.equator import EquatorEquilibria
-from ..orbits.trajectories import Status, Trajectories, trajectories
-from ..psi.function import Psi
+from ..numerics.curves.polyline import distance
+from ..results.arrays import Array
+from ..results.words import say
 from ..systems.frozen import FrozenSystem
-from ..words import say
+from ..systems.psi.function import Psi
+from .cycles.limit_cycles import LimitCycles
+from .cycles.predicted_limit_sets import ON_C
+from .layer_problem.critical import CriticalSet
+from .layer_problem.eigendirections import to_disc
+from .layer_problem.equator import EquatorEquilibria
+from .orbits.trajectories import Status, Trajectories, trajectories
 
 BRANCH_DURATION = 600.0  # length drawn of a branch that ends nowhere: T in units of 1/|(a, b, d, f1, f2)|, or 1/max |U|
 RISE_DURATION = 8.0  # and of 1/|lambda_rho|: enough to rise from where the expansion at the equator ends

@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ..arrays import Array
-from ..layer_problem.equator import EquatorEquilibria, arcs_of
-from ..results import Several, Tabled, result_rows
+from ..results.arrays import Array
+from ..results.result import Several, Tabled, result_rows
+from ..results.tables import point, table_number
+from ..results.words import say
 from ..systems.frozen import FrozenSystem
-from ..tables import point, table_number
-from ..words import say
+from .layer_problem.equator import EquatorEquilibria, arcs_of
 
 __all__ = ["Outcome", "Outcomes"]
 

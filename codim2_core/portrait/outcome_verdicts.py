@@ -10,15 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..arrays import Array
-from ..cycles.limit_cycles import cycles_of, reason_for_none
-from ..cycles.predicted_limit_sets import predicted_limit_sets
-from ..layer_problem.problem import LayerProblem
-from ..orbits.batch_by_psi import batch_by_psi, states_at
-from ..orbits.departures import departures_under
-from ..orbits.options import DEFAULT_MAX_STEPS, Stepping, stepping
-from ..orbits.result import Status, Trajectories
-from ..words import say, written_label, written_number
+from ..results.arrays import Array
+from ..results.words import say, written_label, written_number
+from .cycles.limit_cycles import cycles_of, reason_for_none
+from .cycles.predicted_limit_sets import predicted_limit_sets
+from .layer_problem.problem import LayerProblem
 from .omega_limits import (
     CAPTURE,
     CONNECTION,
@@ -31,6 +27,10 @@ from .omega_limits import (
     radially_neutral,
     radially_neutral_ones,
 )
+from .orbits.batch_by_psi import batch_by_psi, states_at
+from .orbits.departures import departures_under
+from .orbits.options import DEFAULT_MAX_STEPS, Stepping, stepping
+from .orbits.result import Status, Trajectories
 
 
 class OutcomeVerdict(NamedTuple):

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..arrays import Array
-from ..curves.polyline import distance
-from ..words import say
+from ..numerics.curves.polyline import distance
+from ..results.arrays import Array
+from ..results.words import say
 from .separatrix import Separatrix
 
 

@@ -14,11 +14,11 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..arrays import Array
-from ..layer_problem.critical import CriticalSet
-from ..layer_problem.eigendirections import to_disc
-from ..psi.function import Psi
+from ..results.arrays import Array
 from ..systems.frozen import FrozenSystem
+from ..systems.psi.function import Psi
+from .layer_problem.critical import CriticalSet
+from .layer_problem.eigendirections import to_disc
 
 ORDER = 5
 FITTED = 9  # nodes the coefficients are read off at

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ..cycles.limit_cycles import LimitCycles, cycles_of
-from ..layer_problem.equator import EquatorEquilibria
-from ..layer_problem.problem import LayerProblem
-from ..psi.function import Psi
+from ..results.words import say
 from ..systems.kinds import AnySystem
-from ..words import say
+from ..systems.psi.function import Psi
+from .cycles.limit_cycles import LimitCycles, cycles_of
+from .layer_problem.equator import EquatorEquilibria
+from .layer_problem.problem import LayerProblem
 from .omega_limits import drawn_time, radially_neutral
 from .saddle_connections import gaps_between, name_connections
 from .separatrix import Separatrices, Separatrix
@@ -17,7 +17,7 @@ from .separatrix_branches import bent_branch, branches_inside, outside_half_sadd
 
 __all__ = ["Separatrices", "Separatrix", "separatrices"]
 
-from ..orbits.options import PIXEL
+from .orbits.options import PIXEL
 
 
 def separatrices(

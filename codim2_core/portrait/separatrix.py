@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from ..arrays import Array
-from ..results import Pictured, Several, Tabled, result_rows
-from ..tables import paragraphs
+from ..results.arrays import Array
+from ..results.result import Pictured, Several, Tabled, result_rows
+from ..results.tables import paragraphs
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,14 +14,13 @@ from typing import Any
 
 import numpy as np
 
-from ..arrays import Array
-from ..cycles.limit_cycles import cycles_of
-from ..layer_problem.equator import EquatorEquilibria
-from ..layer_problem.problem import LayerProblem
-from ..orbits.trajectories import Status, Trajectories, concatenate, continuation, trajectories
-from ..psi.function import Psi
+from ..results.arrays import Array
+from ..results.words import say
 from ..systems.frozen import FrozenSystem
-from ..words import say
+from ..systems.psi.function import Psi
+from .cycles.limit_cycles import cycles_of
+from .layer_problem.equator import EquatorEquilibria
+from .layer_problem.problem import LayerProblem
 from .omega_limits import (
     BRANCH_DURATION,
     CAPTURE,
@@ -32,6 +31,7 @@ from .omega_limits import (
     omega_limits,
     radially_neutral,
 )
+from .orbits.trajectories import Status, Trajectories, concatenate, continuation, trajectories
 from .saddle_manifold import manifold_starts
 from .separatrix import Separatrix
 

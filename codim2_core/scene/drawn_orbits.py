@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from ..layer_problem.problem import LayerProblem, found_once
-from ..orbits.both_directions import Orbits
-from ..orbits.duration import drawn_duration, is_stiff
-from ..orbits.seeds import ring, structured_seeds, window_seeds
-from ..orbits.trajectories import Trajectories, continuation, trajectories
+from ..portrait.layer_problem.problem import LayerProblem, found_once
 from ..portrait.omega_limits import radially_neutral_ones
-from ..psi import constructors
+from ..portrait.orbits.both_directions import Orbits
+from ..portrait.orbits.duration import drawn_duration, is_stiff
+from ..portrait.orbits.seeds import ring, structured_seeds, window_seeds
+from ..portrait.orbits.trajectories import Trajectories, continuation, trajectories
+from ..systems.psi import constructors
 from .setting import SceneSetting
 
 SEED_RADIUS = 0.05  # radius of the seeds around an unstable critical set

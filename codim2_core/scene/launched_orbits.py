@@ -7,21 +7,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import Array
-from ..cycles.limit_cycles import cycles_of
-from ..layer_problem.critical import CriticalSet
-from ..layer_problem.hemisphere import outside_flow
-from ..layer_problem.problem import LayerProblem
-from ..orbits.both_directions import Orbits
-from ..orbits.result import Status, Trajectories
-from ..orbits.trajectories import concatenate, trajectories
 from ..portrait.approach_outcomes import outcomes_of
+from ..portrait.cycles.limit_cycles import cycles_of
+from ..portrait.layer_problem.critical import CriticalSet
+from ..portrait.layer_problem.hemisphere import outside_flow
+from ..portrait.layer_problem.problem import LayerProblem
 from ..portrait.omega_limits import AT_SADDLE, CAPTURE, OmegaLimit, critical_label, drawn_time, nearest, omega_limits
+from ..portrait.orbits.both_directions import Orbits
+from ..portrait.orbits.result import Status, Trajectories
+from ..portrait.orbits.trajectories import concatenate, trajectories
 from ..portrait.outcome import Outcome
-from ..results import Pictured
+from ..results.arrays import Array
+from ..results.result import Pictured
+from ..results.tables import html_table, point
+from ..results.words import say
 from ..systems.frozen import FrozenSystem
-from ..tables import html_table, point
-from ..words import say
 
 RTOL = 1e-9
 MAX_WINDING_LENGTH = 40.0  # picture units drawn of an orbit that winds

@@ -8,21 +8,21 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
-from ..bifurcations.borders import coefficients_of, critical_lines, saddle_node_lines
-from ..bifurcations.curve import BifurcationCurve, read_only_lines
-from ..bifurcations.regions import Region, regions
-from ..cycles.limit_cycles import closed_orbits, cycles_of
-from ..layer_problem.eigendirections import find_eigendirections
-from ..layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
-from ..nullcline.direction_hyperbola import Conics, conics_of
-from ..nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
-from ..nullcline.view_refinement import Seen
+from ..bifurcations.plane.borders import coefficients_of, critical_lines, saddle_node_lines
+from ..bifurcations.plane.curve import BifurcationCurve, read_only_lines
+from ..bifurcations.plane.regions import Region, regions
 from ..portrait.approach_outcomes import outcomes_of
 from ..portrait.classify import portrait, portrait_name
+from ..portrait.cycles.limit_cycles import closed_orbits, cycles_of
+from ..portrait.layer_problem.eigendirections import find_eigendirections
+from ..portrait.layer_problem.problem import find_critical, find_equator, find_equator_cycle, find_location
+from ..portrait.nullcline.direction_hyperbola import Conics, conics_of
+from ..portrait.nullcline.nullclines import NullclineBranch, inside_nullclines, outside_nullclines
+from ..portrait.nullcline.view_refinement import Seen
 from ..portrait.separatrices import Separatrices, separatrices_of
-from ..sliding.flow import flow_on
+from ..portrait.sliding.flow import flow_on
+from ..portrait.theorems.certificates import Certificate, certificates_of
 from ..systems.bounds import MIN_NUMBER
-from ..theorems.certificates import Certificate, certificates_of
 from .drawn_orbits import continuations, orbits, seeds_of
 from .launched_orbits import LaunchedOrbits, launched_orbits
 from .setting import SceneSetting

@@ -16,20 +16,20 @@ from weakref import ref
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .. import drawing
-from ..arguments import number, whole_number
-from ..arguments import psi as checked_psi
-from ..equality import equal_values
-from ..figures.named import named_setting
-from ..layer_problem.problem import CachedFunction, LayerProblem, Result
-from ..orbits.options import LEAST_PIXEL, stepping
-from ..orbits.seeds import checked_seeds
-from ..psi import constructors
-from ..psi.function import Psi
-from ..results import Written
+from ..portrait.layer_problem.problem import CachedFunction, LayerProblem, Result
+from ..portrait.orbits.options import LEAST_PIXEL, stepping
+from ..portrait.orbits.seeds import checked_seeds
+from ..results import drawing
+from ..results.equality import equal_values
+from ..results.result import Written
+from ..systems.arguments import number, whole_number
+from ..systems.arguments import psi as checked_psi
 from ..systems.bounds import slow_values
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import SYSTEM_KINDS, AnySystem
+from ..systems.presets.named import named_setting
+from ..systems.psi import constructors
+from ..systems.psi.function import Psi
 from .layer_table import ELINEAR_ONLY, INPUTS, LAYER_OF_FUNCTION, layers
 from .memory import ABSENT, Memory
 

@@ -7,10 +7,10 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..layer_problem.problem import LayerProblem
-from ..psi.function import Psi
+from ..portrait.layer_problem.problem import LayerProblem
 from ..systems.frozen import FrozenSystem
 from ..systems.kinds import AnySystem
+from ..systems.psi.function import Psi
 
 
 class SceneSetting(Protocol):

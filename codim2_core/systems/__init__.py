@@ -1,1 +1,1 @@
-"""The systems: e-linear or typed, and what is left of either at one z."""
+"""What is given: e-linear and typed systems, Psi, mechanisms, examples, the paper's figures as presets."""

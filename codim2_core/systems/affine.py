@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..expressions.expression import parse
-from ..expressions.names import FAST_NAMES
+from ..formulas.expression import parse
+from ..formulas.names import FAST_NAMES
 from .coefficients import Coefficients
 from .elinear import ELinear
 

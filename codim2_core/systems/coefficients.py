@@ -11,9 +11,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..arrays import join_columns
-from ..equality import ByValue
-from ..results import Listed
+from ..results.arrays import join_columns
+from ..results.equality import ByValue
+from ..results.result import Listed
 
 Affine = tuple[float, float, float, float, float, float]
 #: What the core alone asks of a system at one z, of either kind.

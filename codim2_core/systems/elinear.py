@@ -18,9 +18,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..expressions.expression import Expression, parse
-from ..expressions.names import MOST_SLOW_VARIABLES
-from ..results import Listed
+from ..formulas.expression import Expression, parse
+from ..formulas.names import MOST_SLOW_VARIABLES
+from ..results.result import Listed
 from .bounds import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
 from .coefficients import Coefficients
 from .equations import Equations, equations_text, linear_rows, negative, with_left_sides

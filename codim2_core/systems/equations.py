@@ -6,8 +6,8 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..expressions.expression import Expression, parse
-from ..expressions.names import FAST_NAMES, SLOW_NAMES
+from ..formulas.expression import Expression, parse
+from ..formulas.names import FAST_NAMES, SLOW_NAMES
 
 Equations = tuple[tuple[str, Expression], ...]
 

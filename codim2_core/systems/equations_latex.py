@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..expressions.expression import Expression, parse
-from ..expressions.latex import latex_formula, latex_symbol
+from ..formulas.expression import Expression, parse
+from ..formulas.latex import latex_formula, latex_symbol
 
 Sides = tuple[tuple[str, str], ...]
 

@@ -9,8 +9,8 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
-from ..expressions.names import SLOW_NAMES
+from ..formulas.names import SLOW_NAMES
+from ..results.arrays import Array
 from .equations import Equations
 
 Regularisation = Callable[[Any], Any]

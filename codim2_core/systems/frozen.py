@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
+from ..results.arrays import Array
 
 if TYPE_CHECKING:
     from .coefficients import Affine, Coefficients

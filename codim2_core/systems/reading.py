@@ -8,10 +8,10 @@ import reprlib
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..expressions.expression import Expression, ExpressionError, parse
-from ..expressions.names import FAST_NAMES, MOST_SLOW_VARIABLES, SLOW_NAMES, TIME
-from ..expressions.reader import MOST_CHARACTERS
-from ..expressions.tape import JUMPS
+from ..formulas.expression import Expression, ExpressionError, parse
+from ..formulas.names import FAST_NAMES, MOST_SLOW_VARIABLES, SLOW_NAMES, TIME
+from ..formulas.reader import MOST_CHARACTERS
+from ..formulas.tape import JUMPS
 from .bounds import MAX_NUMBER
 
 Text = str | float | int | Expression

@@ -12,9 +12,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..expressions.expression import Expression
-from ..expressions.names import SLOW_NAMES
-from ..results import Listed
+from ..formulas.expression import Expression
+from ..formulas.names import SLOW_NAMES
+from ..results.result import Listed
 from .bounds import slow_values
 from .equations import Equations, equations_text, with_left_sides
 from .equations_latex import equations_latex

@@ -11,11 +11,11 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arrays import Array
-from ..expressions.arrays import program
-from ..expressions.expression import Expression
-from ..expressions.names import FAST_NAMES, SLOW_NAMES, number_names
-from ..results import Listed
+from ..formulas.arrays import program
+from ..formulas.expression import Expression
+from ..formulas.names import FAST_NAMES, SLOW_NAMES, number_names
+from ..results.arrays import Array
+from ..results.result import Listed
 from .bounds import MAX_NUMBER, MIN_NUMBER, at_place
 from .coefficients import INTERNAL_OF_FROZEN, Affine, Coefficients
 from .elinear import ELinear

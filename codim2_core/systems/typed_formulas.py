@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-from ..expressions.expression import Expression, parse
-from ..expressions.names import MOST_SLOW_VARIABLES, SLOW_NAMES, TIME, number_names
+from ..formulas.expression import Expression, parse
+from ..formulas.names import MOST_SLOW_VARIABLES, SLOW_NAMES, TIME, number_names
 from .bounds import slow_names
 from .parameters import Parameters
 from .reading import continuous, mapping, parameter, parse_formula, short_repr, texts

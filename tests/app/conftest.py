@@ -5,7 +5,7 @@ import os
 import shutil
 
 import pytest
-from codim2_app.frame import process_load
+from codim2_app.picture.frame import process_load
 
 
 @pytest.fixture(autouse=True)

@@ -99,7 +99,7 @@ def test_the_core_alone_asks_for_what_it_imports_and_else_is_the_same_project():
 
 def test_what_is_cited_is_this_program():
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
-    page = (ROOT / "app" / "docs" / "text" / "citing.md").read_text("utf-8")
+    page = (ROOT / "app" / "codim2_app" / "site" / "docs" / "text" / "citing.md").read_text("utf-8")
     assert (cited["cff-version"], cited["type"]) == ("1.2.0", "software")
     assert cited["version"] == codim2_core.__version__
     assert cited["license"] == PROJECT["project"]["license"]
@@ -127,7 +127,7 @@ def test_the_version_stands_in_one_place():
     import codim2_app
 
     assert codim2_app.__version__ == codim2_core.__version__
-    log = (ROOT / "app" / "docs" / "text" / "changelog.md").read_text("utf-8")
+    log = (ROOT / "app" / "codim2_app" / "site" / "docs" / "text" / "changelog.md").read_text("utf-8")
     assert f"\n## {codim2_core.__version__}" in log
 
 

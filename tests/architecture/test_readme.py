@@ -12,11 +12,11 @@ from codim2_app.server.cli import main
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text()
 CONTRIBUTING = (ROOT / "CONTRIBUTING.md").read_text()
-TEXT = ROOT / "app" / "docs" / "text"
+TEXT = ROOT / "app" / "codim2_app" / "site" / "docs" / "text"
 # changelog, hosting, ... are of the site too, where lessons and gallery are made
 PAGES = (
     "README.md", ".readme/benchmarks.md", "CONTRIBUTING.md",
-    *(f"app/docs/text/{one.name}" for one in TEXT.glob("*.md")),
+    *(f"app/codim2_app/site/docs/text/{one.name}" for one in TEXT.glob("*.md")),
 )  # fmt: skip
 
 

@@ -24,8 +24,8 @@ def forgetful(port: int) -> None:
     from codim2_app.view.refresh import Frames
     from tornado.web import RequestHandler
 
-    from codim2_core.psi.function import Psi
     from codim2_core.scene import Scene
+    from codim2_core.systems.psi.function import Psi
     from codim2_core.systems.typed import System
 
     held: WeakSet[Frames] = WeakSet()

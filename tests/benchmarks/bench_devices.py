@@ -14,8 +14,8 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
-from codim2_app.rooms.rooms import SHARING_SECONDS
-from codim2_app.state.controls import first_values
+from codim2_app.lessons.rooms.rooms import SHARING_SECONDS
+from codim2_app.picture.state.controls import first_values
 from playwright.sync_api import Browser
 
 from .app_load import MANY, at_rest, cpu, family, serving, value

@@ -16,13 +16,13 @@ from unittest import mock
 import numpy as np
 
 import codim2_core as c2
-from codim2_core.jit import call_at, carray, compile_address, inlined_fast_kernel
-from codim2_core.orbits.seeds import structured_seeds
-from codim2_core.orbits.trajectories import trajectories
-from codim2_core.stepping import right_hand_side
-from codim2_core.stepping.field_parameters import FACTOR, GAIN
-from codim2_core.stepping.fields_typed import general_field
-from codim2_core.stepping.layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
+from codim2_core.formulas.jit import call_at, carray, compile_address, inlined_fast_kernel
+from codim2_core.portrait.orbits.seeds import structured_seeds
+from codim2_core.portrait.orbits.trajectories import trajectories
+from codim2_core.portrait.stepping import right_hand_side
+from codim2_core.portrait.stepping.field_parameters import FACTOR, GAIN
+from codim2_core.portrait.stepping.fields_typed import general_field
+from codim2_core.portrait.stepping.layout import LANES, PARAMETERS, ROW_WIDTH, SIDE_SIGN
 
 from .bench_scene import PICTURE
 

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from codim2_core import Preset, critical_sets, limit_cycles, presets, psi, separatrices
-from codim2_core.layer_problem.hemisphere import flow
+from codim2_core.portrait.layer_problem.hemisphere import flow
 
 from .pictures import Plot, plot
 from .race import Curve, Runner, race

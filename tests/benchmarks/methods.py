@@ -16,7 +16,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.sparse import block_diag
 
-from codim2_core.orbits.trajectories import trajectories
+from codim2_core.portrait.orbits.trajectories import trajectories
 
 from .problems import COUNT, Problem, slow
 

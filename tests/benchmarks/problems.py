@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from codim2_core import ELinear, critical_sets, equator_equilibria, examples, presets, psi
-from codim2_core.psi.function import Psi
+from codim2_core.systems.psi.function import Psi
 from codim2_core.systems.typed import System
 
 DATA = Path(__file__).parent / "data" / "ends.npz"
@@ -177,7 +177,7 @@ def slow(problem: Problem) -> tuple[float, ...]:
 
 def condition(problem: Problem) -> float:
     """About how many times the ends move when the seeds do: what rounding alone costs, in ulp."""
-    from codim2_core.orbits.trajectories import trajectories
+    from codim2_core.portrait.orbits.trajectories import trajectories
 
     shift = 1e-7
     options = {"t_max": problem.t_end, "rtol": 1e-13, "atol": 1e-15, "capture": 1e-15, "samples": "ends"}

@@ -15,7 +15,7 @@ NOW = time.perf_counter_ns if sys.platform == "emscripten" else time.process_tim
 
 def opened(portrait):
     """Return the frames of a page that shows a portrait."""
-    from codim2_app.state.controls import ExplorerState, preset_values
+    from codim2_app.picture.state.controls import ExplorerState, preset_values
     from codim2_app.view.refresh import Frames
 
     page = Frames(ExplorerState())

@@ -16,8 +16,8 @@ from dataclasses import dataclass, field
 from multiprocessing import Process
 from typing import Any
 
-from codim2_app.state.controls import preset_values
-from codim2_app.state.portraits import portrait_keys
+from codim2_app.picture.state.controls import preset_values
+from codim2_app.picture.state.portraits import portrait_keys
 from tornado.httpclient import HTTPClientError
 
 from .app_load import RATE, page, value

@@ -3,7 +3,7 @@ import signal
 import socket
 
 import pytest
-from codim2_app.phrases import say
+from codim2_app.picture.phrases import say
 
 from tests.app.serving import serving
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from codim2_app.draw.theme import PICTURE_REACH
+from codim2_app.picture.draw.theme import PICTURE_REACH
 
 import codim2_core as c2
 from codim2_core.portrait.basins import basins

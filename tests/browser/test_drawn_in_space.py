@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.sliding.along_z import slow_portrait
+from codim2_core.portrait.sliding.along_z import slow_portrait
 
 from .asymmetric import PSI, at, equator, system
 from .drawn import SCRIPTS, colour, numbers

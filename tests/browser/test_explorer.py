@@ -1,10 +1,10 @@
 from urllib.parse import parse_qs, urlparse
 
 import pytest
-from codim2_app.state.controls import NUMBERS
-from codim2_app.state.portraits import portraits
+from codim2_app.picture.state.controls import NUMBERS
+from codim2_app.picture.state.portraits import portraits
 
-from codim2_core.figures.presets import presets
+from codim2_core.systems.presets.presets import presets
 from tests.app.serving import serving
 
 ELSEWHERE = {"n", "z2", "z3", "z4", "log_eps", "t_end"}  # of Hill's Ψ, of other systems, of the panel "Motion"

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from codim2_app.draw.theme import HALF_VIEW
+from codim2_app.picture.draw.theme import HALF_VIEW
 
 from .conftest import PHONE
 

@@ -1,8 +1,8 @@
 """A live file, opened from the disk with no network, draws what the core computes where its slider is dragged to."""
 
 import numpy as np
-from codim2_app.draw.packing import INT16_STEP
-from codim2_app.export.view import view_of
+from codim2_app.exports.view import view_of
+from codim2_app.picture.draw.packing import INT16_STEP
 from codim2_app.server.cli import main
 
 from tests.app.near import gaps

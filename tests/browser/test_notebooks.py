@@ -9,7 +9,7 @@ import pytest
 
 pytestmark = pytest.mark.skipif(find_spec("jupyterlab") is None, reason="no JupyterLab: pip install jupyterlab")
 
-NOTEBOOKS = sorted((Path(codim2_app.__file__).parent / "notebooks").glob("*.ipynb"))
+NOTEBOOKS = sorted((Path(codim2_app.__file__).parent / "site" / "notebooks").glob("*.ipynb"))
 NAMES = [file.stem for file in NOTEBOOKS]
 MOST = 600_000  # bytes of a notebook that has been run
 

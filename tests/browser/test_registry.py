@@ -13,7 +13,7 @@ import codim2_core as c2
 from tests.app.serving import serving
 
 ROOT = Path(__file__).parents[2]
-STATIC = ROOT / "app" / "static"
+STATIC = ROOT / "app" / "codim2_app" / "static"
 PSI = c2.psi.constant()
 RECORDER = (Path(__file__).parent / "recorder.js").read_text()
 
@@ -36,9 +36,9 @@ FOLDER = Path(sys.argv[1])
 registry.register(Panel("twice", "Twice", add, "Twice the entry a.", {"unit": "of A"}, FOLDER))
 
 from codim2_core import examples, psi
-from codim2_core.figures.presets import register
+from codim2_core.systems.presets.presets import register
 from codim2_core.scene import Recipe as Row, scene
-from codim2_app.draw.layers import LAYERS, Layer, Part
+from codim2_app.picture.draw.layers import LAYERS, Layer, Part
 from tests.core.additions import EXAMPLE, FROM_FORMULA, PRESET, module
 
 psi.register(module(FOLDER, "added_family", FROM_FORMULA).FAMILY)

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from codim2_app.draw.theme import themes
-from codim2_app.export.figure import Style, figure
-from codim2_app.export.view import view_of
+from codim2_app.exports.figure import Style, figure
+from codim2_app.exports.view import view_of
+from codim2_app.picture.draw.theme import themes
 from PIL import Image
 
 

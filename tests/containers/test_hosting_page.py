@@ -124,4 +124,4 @@ def test_the_page_on_hosting_word_for_word_on_a_clean_machine(machine):
 
 
 def page():
-    return (ROOT / "app/docs/text/hosting.md").read_text(encoding="utf-8")
+    return (ROOT / "app/codim2_app/site/docs/text/hosting.md").read_text(encoding="utf-8")

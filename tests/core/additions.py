@@ -13,13 +13,13 @@ from pathlib import Path
 from types import ModuleType
 
 from codim2_core import examples, psi
-from codim2_core.figures.preset import Preset
-from codim2_core.figures.presets import register as register_preset
-from codim2_core.figures.presets import unregister as unregister_preset
+from codim2_core.systems.presets.preset import Preset
+from codim2_core.systems.presets.presets import register as register_preset
+from codim2_core.systems.presets.presets import unregister as unregister_preset
 
 #: What a family needs: the formula, here Psi = (1 + s/k)^-k, which tends to exp(-s).
 FROM_FORMULA = """
-from codim2_core.psi import Family, Parameter
+from codim2_core.systems.psi import Family, Parameter
 
 FAMILY = Family("power", "(1 + s/k)⁻ᵏ", "(1+s/k)**(-k)", Parameter("k", 0.5, 50.0, (1.0, 8.0), 2.0), compared=(2.0,))
 """
@@ -51,7 +51,7 @@ def added_family(folder: Path) -> Iterator[psi.Family]:
 #: An example in a file of its own: a mass on a disc that turns, dragged through a viscous film.
 EXAMPLE = '''
 from codim2_core import System
-from codim2_core.examples import Example
+from codim2_core.systems.examples import Example
 
 
 def film_on_disc(mu: float = 1.0, k: float = 0.3) -> System:

@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 import codim2_core as c2
-from codim2_core.layer_problem.equator import EquatorEquilibria
-from codim2_core.psi.function import Psi
+from codim2_core.portrait.layer_problem.equator import EquatorEquilibria
+from codim2_core.portrait.theorems.facts import Verdict
 from codim2_core.systems.coefficients import Coefficients
-from codim2_core.theorems.facts import Verdict
+from codim2_core.systems.psi.function import Psi
 
 
 def random_system(rng: np.random.Generator, case: str) -> Coefficients:

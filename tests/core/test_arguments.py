@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.expressions.expression import ExpressionError
+from codim2_core.formulas.expression import ExpressionError
 
 SYSTEM = c2.ELinear("-2 + 0*z", 0.0, -1.0, (-0.5, 0.0), [[1, 0]], ("-z",))
 PSI = c2.psi.tanh()

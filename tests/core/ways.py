@@ -5,9 +5,9 @@ from functools import partial
 
 import pytest
 
-from codim2_core.initial_value import functions, motion_steps, slow_steps
-from codim2_core.initial_value.kernels import departure_step, slow
-from codim2_core.jit import interpreted, policy, right_hand_sides
+from codim2_core.formulas.jit import interpreted, policy, right_hand_sides
+from codim2_core.motion.initial_value import functions, motion_steps, slow_steps
+from codim2_core.motion.initial_value.kernels import departure_step, slow
 
 WAYS = ("compiled", "as Python")
 

@@ -9,7 +9,7 @@ import sys
 from urllib.parse import urlsplit
 from urllib.request import urlopen
 
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.packing import unpack
 from tornado.httpclient import HTTPRequest
 
 from tests.benchmarks.wire import Wire

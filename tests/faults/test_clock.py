@@ -3,7 +3,7 @@
 import asyncio
 
 import pytest
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.packing import unpack
 
 from tests.benchmarks import app_load
 from tests.benchmarks.wire import Wire

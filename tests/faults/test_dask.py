@@ -8,8 +8,8 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from codim2_app.frame.dask_executor import dask_executor
-from codim2_app.frame.work_queue import WorkQueue
+from codim2_app.picture.frame.dask_executor import dask_executor
+from codim2_app.picture.frame.work_queue import WorkQueue
 from codim2_app.server.cli import main
 
 import codim2_core as c2
@@ -109,7 +109,7 @@ def test_a_page_has_its_files_from_the_cluster(workers):
 
 
 def test_a_scheduler_that_does_not_answer_is_said(capsys, monkeypatch):
-    monkeypatch.setattr("codim2_app.frame.dask_executor.SCHEDULER_TIMEOUT", 1)
+    monkeypatch.setattr("codim2_app.picture.frame.dask_executor.SCHEDULER_TIMEOUT", 1)
     assert main(["serve", "--port", "0", "--dask", "tcp://127.0.0.1:9"]) == 1
     assert "no Dask scheduler answers at tcp://127.0.0.1:9" in capsys.readouterr().out
     assert main(["serve", "--port", "0", "--dask", "tcp://127.0.0.1:9", "--processes", "2"]) == 1

@@ -6,7 +6,7 @@ from contextlib import suppress
 from urllib.request import urlopen
 
 import pytest
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.packing import unpack
 
 from tests.app.serving import serving
 from tests.benchmarks.wire import Wire

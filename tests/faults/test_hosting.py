@@ -15,7 +15,7 @@ from urllib.request import urlopen
 
 import pytest
 import yaml
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.packing import unpack
 from codim2_app.server.cli import parser
 from codim2_app.server.settings import SETTINGS
 from tornado.httpclient import HTTPClientError, HTTPRequest
@@ -26,7 +26,7 @@ from tests.benchmarks.app_load import free_port
 from tests.benchmarks.wire import Wire
 
 ROOT = Path(__file__).parents[2]
-CONFIGURATION = ROOT / "app" / "docs" / "text" / "hosting" / "nginx.conf"
+CONFIGURATION = ROOT / "app" / "codim2_app" / "site" / "docs" / "text" / "hosting" / "nginx.conf"
 PAGE = CONFIGURATION.parents[1] / "hosting.md"
 COMPOSE = CONFIGURATION.with_name("compose.yaml")
 NGINX = os.environ.get("CODIM2_NGINX") or shutil.which("nginx")

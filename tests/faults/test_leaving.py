@@ -4,7 +4,7 @@ import asyncio
 from pathlib import Path
 
 import pytest
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.packing import unpack
 
 from tests.app.serving import serving
 from tests.benchmarks import app_load

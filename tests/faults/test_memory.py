@@ -6,8 +6,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
-from codim2_app.draw.packing import unpack
-from codim2_app.phrases import say
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.phrases import say
 
 from tests.app.serving import serving
 from tests.benchmarks.app_load import family

@@ -3,8 +3,8 @@
 import asyncio
 
 import pytest
-from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import CONTROL_NAMES
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.state.controls import CONTROL_NAMES
 from tornado.websocket import WebSocketClosedError
 
 from tests.app.serving import serving

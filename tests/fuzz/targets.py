@@ -10,20 +10,20 @@ from collections.abc import Callable
 from concurrent.futures import Executor, Future
 from typing import Any
 
-from codim2_app.draw.packing import unpack
-from codim2_app.export.export_request import ExportRequest, seen_by
-from codim2_app.frame.background_results import Jobs
-from codim2_app.frame.budget import Budget
-from codim2_app.frame.faults import FAULT
-from codim2_app.phrases import say
-from codim2_app.state.chosen_system import BOXES
-from codim2_app.state.controls import CONTROL_NAMES, ExplorerState
-from codim2_app.state.links import read_link
+from codim2_app.exports.export_request import ExportRequest, seen_by
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.frame.background_results import Jobs
+from codim2_app.picture.frame.budget import Budget
+from codim2_app.picture.frame.faults import FAULT
+from codim2_app.picture.phrases import say
+from codim2_app.picture.state.chosen_system import BOXES
+from codim2_app.picture.state.controls import CONTROL_NAMES, ExplorerState
+from codim2_app.picture.state.links import read_link
 from codim2_app.view.refresh import Frames
 from hypothesis import strategies as st
 
-from codim2_core.expressions.expression import parse
-from codim2_core.expressions.reader import ExpressionError
+from codim2_core.formulas.expression import parse
+from codim2_core.formulas.reader import ExpressionError
 
 SECONDS = 2.0  # of processor time that one input may take of the thread that answers all, on a slow machine
 LONGEST = 1200  # characters of what is told

@@ -6,8 +6,8 @@ import re
 from pathlib import Path
 
 import pytest
+from codim2_core.results.result.paper import PRINTED, cite
 
-from codim2_core.paper import PRINTED, cite
 from tests.paper.numbering import numbers
 
 ROOT = Path(__file__).parents[2]
@@ -55,16 +55,19 @@ def strings():
         for node in ast.walk(tree):
             if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in silent:
                 yield path.relative_to(ROOT).as_posix(), node.value
-    for path in sorted((ROOT / "app" / "static").rglob("*.js")):
+    for path in sorted((ROOT / "app" / "codim2_app" / "static").rglob("*.js")):
         text = path.read_text(encoding="utf-8")
         yield path.relative_to(ROOT).as_posix(), re.sub(r"/\*.*?\*/|(?m:(?<!:)//.*$)", "", text, flags=re.S)
-    for path in (*sorted((ROOT / "app" / "lessons").rglob("*.md")), *sorted((ROOT / "app" / "static").glob("*.html"))):
+    for path in (
+        *sorted((ROOT / "app" / "codim2_app" / "lessons").rglob("*.md")),
+        *sorted((ROOT / "app" / "codim2_app" / "static").glob("*.html")),
+    ):
         yield path.relative_to(ROOT).as_posix(), path.read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
 def texts():
-    return [(name, text) for name, text in strings() if name != "codim2_core/paper.py"]
+    return [(name, text) for name, text in strings() if name != "codim2_core/results/paper.py"]
 
 
 def test_labels_stand_alone_as_data_and_never_in_a_sentence(texts):

@@ -11,10 +11,10 @@ from concurrent.futures import Executor, Future
 from typing import Any
 from urllib.parse import parse_qsl
 
-from codim2_app.draw.packing import unpack
-from codim2_app.frame.background_results import Jobs
 from codim2_app.panels.registry import PANELS_BY_NAME
-from codim2_app.state.links import read_link
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.frame.background_results import Jobs
+from codim2_app.picture.state.links import read_link
 from codim2_app.view.markup import page_config
 from codim2_app.view.refresh import Frames
 

@@ -7,15 +7,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from codim2_app.draw.gallery import HOOKS, STRIP
-from codim2_app.draw.overlay import elements
-from codim2_app.draw.svg import draw, small
-from codim2_app.draw.thumbnails import thumbnail as drawn
-from codim2_app.state.links import read_link
+from codim2_app.picture.draw.gallery import HOOKS, STRIP
+from codim2_app.picture.draw.overlay import elements
+from codim2_app.picture.draw.svg import draw, small
+from codim2_app.picture.draw.thumbnails import thumbnail as drawn
+from codim2_app.picture.state.links import read_link
 from codim2_app.view.refresh import Frames
 
-from codim2_core.figures.presets import presets
 from codim2_core.scene import Scene
+from codim2_core.systems.presets.presets import presets
 from tests.benchmarks.data import wrapped_rows
 
 from .panels import DRAWN, columns

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, bifurcations, critical_sets, psi
-from codim2_core.layer_problem.lyapunov import psi_derivatives
+from codim2_core.portrait.layer_problem.lyapunov import psi_derivatives
 
 from .reference import CRITICAL, DIGITS, critical, measure, regularisation
 

@@ -5,7 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import bifurcations
-from codim2_core.figures.bifurcations import bifurcation_presets
+from codim2_core.systems.presets.bifurcations import bifurcation_presets
 
 PRESETS = bifurcation_presets()
 

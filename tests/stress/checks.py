@@ -13,11 +13,11 @@ import numpy as np
 
 from codim2_core import ELinear, Psi, Scene, classify, critical_sets, equator_cycle, equator_equilibria
 from codim2_core import trajectories as integrate
-from codim2_core.layer_problem.location import Existence, locate
-from codim2_core.orbits.trajectories import Trajectories
 from codim2_core.portrait.classification import NEARER
+from codim2_core.portrait.layer_problem.location import Existence, locate
+from codim2_core.portrait.orbits.trajectories import Trajectories
+from codim2_core.portrait.theorems.certificates import Verdict
 from codim2_core.scene import layers
-from codim2_core.theorems.certificates import Verdict
 from tests.core.exact_trigonometric import count_equilibria, root_error, theta_coefficients
 
 from .strata import STEPS, Plane, Stratum, existence, system
@@ -134,7 +134,7 @@ def counted() -> Iterator[Callable[[], int]]:
     """Count evaluations of the field by trajectories, whoever asks for them."""
     import sys
 
-    module = sys.modules["codim2_core.orbits.trajectories"]
+    module = sys.modules["codim2_core.portrait.orbits.trajectories"]
     total = 0
     original = module.Trajectories
 

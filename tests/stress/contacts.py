@@ -2,7 +2,7 @@
 
 ``python -m tests.stress --contacts [--seconds S] [--seed N]``
 
-SciPy's Radau has the equations as `tests.core.mechanics.plates` writes them again, with Psi = 1, and shares nothing
+SciPy's Radau has the equations as `tests.core.systems.mechanics.plates` writes them again, with Psi = 1, and shares nothing
 with what is tried. At rest the accelerations are those of projected Gauss-Seidel.
 """
 
@@ -15,9 +15,9 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from codim2_core import psi
-from codim2_core.mechanics import Contacts
-from tests.core.mechanics.plates import INERTIA, MASS, MU, Blocks, Driven, shaken_plate, shaken_rate
-from tests.core.mechanics.test_contacts import gauss_seidel
+from codim2_core.systems.mechanics import Contacts
+from tests.core.systems.mechanics.plates import INERTIA, MASS, MU, Blocks, Driven, shaken_plate, shaken_rate
+from tests.core.systems.mechanics.test_contacts import gauss_seidel
 
 from .ways import Check
 

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, psi
-from codim2_core.cycles.limit_cycles import limit_cycles
+from codim2_core.portrait.cycles.limit_cycles import limit_cycles
 
 from .oracle import fixed_points
 

@@ -6,7 +6,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, Scene, limit_cycles, psi
-from codim2_core.orbits.trajectories import trajectories
+from codim2_core.portrait.orbits.trajectories import trajectories
 from codim2_core.scene import layers
 
 from .checks import MOST_CYCLES, MOST_EVALUATIONS, check_finite, check_scene, check_seeds, check_trajectories, numbers

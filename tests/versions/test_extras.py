@@ -7,7 +7,7 @@ import pytest
 from .test_versions import PROJECT, pip, source
 
 DASK = """
-from codim2_app.frame.dask_executor import dask_executor
+from codim2_app.picture.frame.dask_executor import dask_executor
 try:
     dask_executor("tcp://127.0.0.1:9")
 except Exception as error:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from codim2_app.phrases import SENTENCES as APP
-
-from codim2_core.words import ROOMS
+from codim2_app.picture.phrases import SENTENCES as APP
+from codim2_core.results.result.words import ROOMS
 
 ROOT = Path(__file__).parents[2]
-STATIC = ROOT / "app" / "static"
+STATIC = ROOT / "app" / "codim2_app" / "static"
 READ = Path(__file__).parent / "read.txt"
 _SAID = re.compile(r'^  (\w+): "([^"]*)",$', re.MULTILINE)
 

@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 import pytest
+from codim2_core.results.result.words import count_word
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.words import count_word
 
 EPS = 1e-5
 NEAR = 0.05  # where motions towards Sigma start
@@ -291,7 +291,7 @@ def says(verdict, why=""):
 #: Cycles about which orbits wind, and bands of them, are held where they are found.
 ELSEWHERE = {
     **dict.fromkeys(("stable cycle", "stable cycles", "semistable cycle", "semistable cycles"),
-                    "tests/core/portrait/test_headline.py, tests/core/cycles/test_limit_cycles.py"),
+                    "tests/core/portrait/test_headline.py, tests/core/portrait/cycles/test_limit_cycles.py"),
     "closed orbits around": "tests/words/test_cycle_words.py",
 }  # fmt: skip
 OUTCOMES = {

@@ -8,15 +8,15 @@ from collections.abc import Iterator
 from html import unescape
 from typing import Any
 
-from codim2_app.draw.layers import LAYERS
 from codim2_app.lessons.library import built_in
 from codim2_app.panels import registry
+from codim2_app.picture.draw.layers import LAYERS
+from codim2_app.picture.state.controls import CONTROL_NAMES, ExplorerState
 from codim2_app.server.cli import parser
-from codim2_app.state.controls import CONTROL_NAMES, ExplorerState
 from codim2_app.view.glossary import GLOSSARY, MARKS, OPENING
 
 from codim2_core import presets, psi
-from codim2_core.examples import catalogue
+from codim2_core.systems.examples import catalogue
 
 from .inventory import STATIC
 

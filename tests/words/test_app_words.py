@@ -6,18 +6,18 @@ from functools import cache
 from string import Formatter
 
 import pytest
-from codim2_app import phrases
-from codim2_app.draw.packing import unpack
-from codim2_app.frame import budget, work_queue
 from codim2_app.panels.parameters.atlas_columns import atlas_columns
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture import phrases
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.frame import budget, work_queue
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.opening import link_of
 from codim2_app.view.refresh import Frames
+from codim2_core.bifurcations.plane.atlases import seed_net, tracing
+from codim2_core.bifurcations.plane.atlases.atlas import curves_over, with_regions
+from codim2_core.bifurcations.plane.atlases.result import SamplingReport
 
 from codim2_core import System, equator_equilibria, psi
-from codim2_core.atlases import seed_net, tracing
-from codim2_core.atlases.atlas import curves_over, with_regions
-from codim2_core.atlases.result import SamplingReport
 from codim2_core.scene import Scene
 
 CASE_3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "k1": 0.0}
@@ -121,7 +121,7 @@ def given_up(key):
 
 
 def not_followed(key):
-    """That they are told so is shown by `tests/core/atlases/connections`."""
+    """That they are told so is shown by `tests/core/bifurcations/atlases/connections`."""
     found = replace(followed()[0], unfinished=("Hopf", "homoclinic loop"))
     assert fields(key, note(found)) == {"kinds": "homoclinic loop"}
     assert fields("curves given up", note(found)) == {"kinds": "Hopf"}
@@ -135,7 +135,7 @@ def degenerate_line(key):
 
 
 def looked(key):
-    """That it is so is shown by `tests/core/atlases/test_missing.py`."""
+    """That it is so is shown by `tests/core/bifurcations/atlases/test_missing.py`."""
     here = SamplingReport(30, unproved=2) if key == "regions unproved" else SamplingReport(30, ((0.1, 0.2), (0.3, 0.4)))
     assert fields(key, note(replace(followed()[0], looked=here))) == {"few": "2", "all": "30"}
 
@@ -196,36 +196,46 @@ CHECKS = {
 }
 #: Of processes and of what a kernel of Jupyter does, held in `tests` where those are run.
 ELSEWHERE = {
-    "app/frame/test_budget.py": ("too wild", "fault"),
-    "app/panels/parameters/test_axes.py": ("no slow variable", "no parameter", "n of another Ψ", "axis given"),
-    "app/panels/parameters/test_response.py": ("no parameter of the motion", "no periodic motion to follow"),
-    "app/state/test_compatible_changes.py": (
+    "app/codim2_app/picture/frame/test_budget.py": ("too wild", "fault"),
+    "app/codim2_app/panels/parameters/test_axes.py": (
+        "no slow variable",
+        "no parameter",
+        "n of another Ψ",
+        "axis given",
+    ),
+    "app/codim2_app/panels/parameters/test_response.py": ("no parameter of the motion", "no periodic motion to follow"),
+    "app/codim2_app/picture/state/test_compatible_changes.py": (
         "request of a wrong kind",
         "values of a wrong kind",
         "too many values",
         "values left out",
     ),
-    "app/state/test_links.py": ("address changed", "address too long", "part of the picture", "views of a link"),
-    "app/view/test_refresh.py": ("at rest", "at rest, stick", "at rest, slip"),
-    "app/view/test_refused.py": (
+    "app/codim2_app/picture/state/test_links.py": (
+        "address changed",
+        "address too long",
+        "part of the picture",
+        "views of a link",
+    ),
+    "app/codim2_app/view/test_refresh.py": ("at rest", "at rest, stick", "at rest, slip"),
+    "app/codim2_app/view/test_refused.py": (
         "address names",
         "address of a later version",
         "controls of a frame",
         "no such parameter",
         "no such lesson",
     ),
-    "app/state/test_chosen.py": ("name of a box", "name of the regularisation", "name of time"),
-    "app/panels/test_panels_of_motion.py": ("no time passes",),
-    "app/frame/test_faults.py": ("no scipy",),
-    "app/frame/test_turns.py": ("stopped", "lost"),
-    "app/frame/test_workers.py": ("stopped after",),
+    "app/codim2_app/picture/state/test_chosen.py": ("name of a box", "name of the regularisation", "name of time"),
+    "app/codim2_app/panels/test_panels_of_motion.py": ("no time passes",),
+    "app/codim2_app/picture/frame/test_faults.py": ("no scipy",),
+    "app/codim2_app/picture/frame/test_turns.py": ("stopped", "lost"),
+    "app/codim2_app/picture/frame/test_workers.py": ("stopped after",),
     "browser/test_connection.py": ("places taken", "no connection"),
-    "app/lessons/test_lessons.py": ("no such place", "mark away"),
-    "app/export/test_film.py": ("nothing to play",),
-    "app/view/test_taking.py": ("film stopped", "proof stopped"),
-    "app/view/test_notebook.py": ("compiling",),
-    "app/rooms/test_rooms.py": ("no rooms", "all rooms taken", "no such room", "room full"),
-    "app/rooms/test_visitor.py": ("too many codes",),
+    "app/codim2_app/lessons/test_lessons.py": ("no such place", "mark away"),
+    "app/codim2_app/exports/test_film.py": ("nothing to play",),
+    "app/codim2_app/view/test_taking.py": ("film stopped", "proof stopped"),
+    "app/codim2_app/view/test_notebook.py": ("compiling",),
+    "app/codim2_app/lessons/rooms/test_rooms.py": ("no rooms", "all rooms taken", "no such room", "room full"),
+    "app/codim2_app/lessons/rooms/test_visitor.py": ("too many codes",),
 }
 
 

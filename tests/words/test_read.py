@@ -4,7 +4,7 @@ import ast
 import re
 
 import pytest
-from codim2_app import phrases
+from codim2_app.picture import phrases
 
 from .inventory import READ, ROOT, STATIC, browser, lines
 from .test_registry import beside
@@ -22,8 +22,8 @@ ASIDE = {
     "state/controls.py": "tooltips of controls",
     "view/glossary.py": "the glossary, held in tests/browser/test_explorer.py",
     "panels": "tooltips of tabs",
-    "export": "legends of figures, held in tests/app/export",
-    "docs": "pages of the site, held in tests/app/docs",
+    "export": "legends of figures, held in tests/app/exports",
+    "docs": "pages of the site, held in tests/app/site/docs",
 }
 
 

@@ -4,11 +4,10 @@ import ast
 import re
 
 import pytest
-from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
-
-from codim2_core.words import printed_sentence
+from codim2_core.results.result.words import printed_sentence
 
 from .inventory import ROOT
 from .shown import RULES
@@ -108,8 +107,8 @@ def test_it_is_told_beside_its_control(asked, control, part):
 
 
 def _templates():
-    """Patterns of the sentences in app/state that refuse a value, where they stand."""
-    for path in sorted((ROOT / "app" / "state").glob("*.py")):
+    """Patterns of the sentences in app/codim2_app/picture/state that refuse a value, where they stand."""
+    for path in sorted((ROOT / "app" / "codim2_app" / "picture" / "state").glob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if not (isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call)):
                 continue

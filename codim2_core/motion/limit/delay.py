@@ -19,13 +19,13 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Array
-from ...initial_value.field import Field
-from ...initial_value.slow_manifold import complement, solve_critical
 from ...numerics.dense import Dense, dense, gather_steps
 from ...numerics.radau import Step, truncate_step
 from ...numerics.root_between import root_between
-from ...psi.function import Psi
+from ...results.arrays import Array
+from ...systems.psi.function import Psi
+from ..initial_value.field import Field
+from ..initial_value.slow_manifold import complement, solve_critical
 from .rational_approximation import Complex, RationalApproximation, approximate_rationally
 from .slide import Slide
 

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import Array
-from ...initial_value.field import Field
 from ...numerics.radau import Step
-from ...psi.function import Psi
-from ...words import say
+from ...results.arrays import Array
+from ...results.words import say
+from ...systems.psi.function import Psi
+from ..initial_value.field import Field
 from ..tracked_set import in_disc, jacobian
 from .delay import DelayedExitPoint, cut_at_exit
 from .sigma_decision import ORBITS_AROUND, START_DISTANCE

@@ -19,9 +19,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import Array
-from ...initial_value.field import Field
-from ...words import say
+from ...results.arrays import Array
+from ...results.words import say
+from ..initial_value.field import Field
 
 SINGULAR_SPEED = 1e-5  # |e'| in units of what it is made of, below which a fold is a folded singularity
 DIFFERENCE_STEP = 1e-5  # in e and z, for derivatives

@@ -10,20 +10,20 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import Array
-from ...cycles.limit_cycles import limit_cycles
-from ...expressions.arrays import path_program
-from ...initial_value.departure import leave
-from ...initial_value.events import EventWatch
-from ...initial_value.field import Field
-from ...initial_value.line import InvariantLine, invariant_line
-from ...layer_problem.equator import equator_equilibria
+from ...formulas.arrays import path_program
 from ...numerics.along import zeros_along
 from ...numerics.radau import Step, TooManyStepsError
-from ...psi import constructors
-from ...psi.function import Psi
+from ...portrait.cycles.limit_cycles import limit_cycles
+from ...portrait.layer_problem.equator import equator_equilibria
+from ...results.arrays import Array
+from ...results.words import say
 from ...systems.kinds import AnySystem
-from ...words import say
+from ...systems.psi import constructors
+from ...systems.psi.function import Psi
+from ..initial_value.departure import leave
+from ..initial_value.events import EventWatch
+from ..initial_value.field import Field
+from ..initial_value.line import InvariantLine, invariant_line
 from ..locations import Ascent
 from ..result import Phase
 from ..tracked_set import in_disc

@@ -7,12 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...arrays import Array
-from ...initial_value.field import field
 from ...numerics.dense import Dense
-from ...psi.function import Psi
+from ...results.arrays import Array
 from ...systems.kinds import AnySystem
+from ...systems.psi.function import Psi
 from ..delay import delay
+from ..initial_value.field import field
 from ..locations import Ascent, Leaving, Location, OfState, OnCycle, OnSet
 from ..result import Phase
 from .delay import DelayedExitPoint

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...expressions.expression import Expression
-from ...expressions.tape import compact
+from ...formulas.expression import Expression
+from ...formulas.tape import compact
 from ...systems.frozen import FrozenSystem
 from ...systems.typed_at_z import Frozen
 

@@ -9,18 +9,18 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arguments import pair, short_repr
-from ...arrays import Array
-from ...initial_value.field import Field, field
-from ...layer_problem.critical import CriticalSet, critical_sets
 from ...numerics.dense import dense, gather_steps
 from ...numerics.radau import Step, truncate_step
-from ...psi.function import Psi
-from ...results import Results
+from ...portrait.layer_problem.critical import CriticalSet, critical_sets
+from ...results.arrays import Array
+from ...results.result import Results
+from ...systems.arguments import pair, short_repr
 from ...systems.bounds import slow_axis, slow_values
 from ...systems.elinear import ELinear
+from ...systems.psi.function import Psi
 from ...systems.typed import System
 from ..delay import Delay, delay
+from ..initial_value.field import Field, field
 from .delay import REST_CHANGE, NotAnalyticError, cut_at_exit
 from .fold_classification import classify_fold
 from .slide import Slide, slide

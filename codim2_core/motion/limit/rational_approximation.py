@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...arrays import Array, Complex
+from ...results.arrays import Array, Complex
 
 MAX_SUPPORT_POINTS = 40  # support points
 MAX_DOUBLET_RESIDUE = 1e3  # in tolerances of |f| times the interval: poles of less are made by rounding

@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import Array
-from ...cycles.limit_cycles import limit_cycles
-from ...layer_problem.critical import CriticalSet, critical_sets
-from ...layer_problem.equator import EquatorEquilibria, equator_equilibria
-from ...layer_problem.problem import LayerProblem
 from ...portrait.approach_outcomes import outcome_towards
+from ...portrait.cycles.limit_cycles import limit_cycles
+from ...portrait.layer_problem.critical import CriticalSet, critical_sets
+from ...portrait.layer_problem.equator import EquatorEquilibria, equator_equilibria
+from ...portrait.layer_problem.problem import LayerProblem
 from ...portrait.outcome_verdicts import judge, omega_limits_of, orbits_to_end
-from ...psi.constructors import comparison_families, constant
-from ...psi.function import Psi
+from ...results.arrays import Array
+from ...results.words import say
 from ...systems.kinds import AnySystem
-from ...words import say
+from ...systems.psi.constructors import comparison_families, constant
+from ...systems.psi.function import Psi
 from .poles import has_pole
 
 ORIGIN_TOLERANCE = 1e-12  # |p| of a critical set that x = y = 0 lies on

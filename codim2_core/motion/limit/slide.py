@@ -13,19 +13,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...arrays import Array
-from ...initial_value.events import DEGREES, monotone_fractions
-from ...initial_value.field import Field
-from ...initial_value.inspection import Inspection
-from ...initial_value.kernels.motion import FIRST_STEP_SHARE
-from ...initial_value.line import InvariantLine
-from ...initial_value.motion_steps import MotionSteps
-from ...initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements, dissipation
-from ...initial_value.slow_manifold import SlowManifold, complement, determinant, trace
-from ...initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps, steps_of_z
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, truncate_step
 from ...numerics.root_between import root_between
-from ...psi.function import Psi
+from ...results.arrays import Array
+from ...systems.psi.function import Psi
+from ..initial_value.events import DEGREES, monotone_fractions
+from ..initial_value.field import Field
+from ..initial_value.inspection import Inspection
+from ..initial_value.kernels.motion import FIRST_STEP_SHARE
+from ..initial_value.line import InvariantLine
+from ..initial_value.motion_steps import MotionSteps
+from ..initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements, dissipation
+from ..initial_value.slow_manifold import SlowManifold, complement, determinant, trace
+from ..initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps, steps_of_z
 
 MIN_STEP = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
 EQUATOR_GAP = 1e-5  # 1 - |e|^2 at which an end is taken for the equator

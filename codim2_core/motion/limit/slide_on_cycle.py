@@ -10,12 +10,12 @@ import math
 
 import numpy as np
 
-from ...arrays import Array
-from ...cycles.limit_cycles import LimitCycle, limit_cycles
-from ...initial_value.slow_steps import steps_of_z
 from ...numerics.radau import Step, TooManyStepsError
-from ...psi.function import Psi
+from ...portrait.cycles.limit_cycles import LimitCycle, limit_cycles
+from ...results.arrays import Array
 from ...systems.kinds import AnySystem
+from ...systems.psi.function import Psi
+from ..initial_value.slow_steps import steps_of_z
 from .slide import Slide, own_time
 
 RTOL, ATOL = 1e-6, 1e-8  # no better than the cycles themselves are known

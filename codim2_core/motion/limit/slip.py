@@ -13,16 +13,16 @@ from functools import partial
 
 import numpy as np
 
-from ...arrays import Array
-from ...initial_value.departure import polynomial_of
-from ...initial_value.field import Field
-from ...initial_value.functions import functions_of
-from ...initial_value.inspection import Inspection
-from ...initial_value.kernels.motion import AT_SIGMA
-from ...initial_value.line import InvariantLine
-from ...initial_value.motion_steps import MotionSteps, rate_at
 from ...numerics.radau import Step, TooManyStepsError
-from ...psi.constructors import constant
+from ...results.arrays import Array
+from ...systems.psi.constructors import constant
+from ..initial_value.departure import polynomial_of
+from ..initial_value.field import Field
+from ..initial_value.functions import functions_of
+from ..initial_value.inspection import Inspection
+from ..initial_value.kernels.motion import AT_SIGMA
+from ..initial_value.line import InvariantLine
+from ..initial_value.motion_steps import MotionSteps, rate_at
 
 #: Of rtol, for the steps of a slip: explicit ones use up what is allowed, implicit ones leave most of it.
 OF_SLIPS = 0.5

@@ -19,14 +19,14 @@ from typing import Any
 
 import numpy as np
 
-from ...arguments import short_repr
-from ...arrays import Array
-from ...initial_value.field import Field
-from ...initial_value.line import InvariantLine
-from ...initial_value.safe_steps import dissipation
-from ...layer_problem.equator import equator_equilibria
+from ...portrait.layer_problem.equator import equator_equilibria
+from ...results.arrays import Array
+from ...results.words import say
+from ...systems.arguments import short_repr
 from ...systems.kinds import AnySystem
-from ...words import say
+from ..initial_value.field import Field
+from ..initial_value.line import InvariantLine
+from ..initial_value.safe_steps import dissipation
 from .sigma_decision import Decision
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...arrays import Array
+from ...results.arrays import Array
 from ..result import Simulation
 
 SAMPLES = 8  # places within a step, between which extremes are looked for

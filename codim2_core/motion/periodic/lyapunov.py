@@ -12,14 +12,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Array, read_only
-from ...initial_value.field import field as formulas_of
-from ...psi.function import Psi
-from ...results import Result
+from ...results.arrays import Array, read_only
+from ...results.result import Result
+from ...results.tables import html_table, paragraphs, table_number
+from ...results.words import say
 from ...systems.kinds import AnySystem
-from ...tables import html_table, paragraphs, table_number
-from ...words import say
+from ...systems.psi.function import Psi
 from ..argument_checks import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
+from ..initial_value.field import field as formulas_of
 from .result import PeriodicStatus
 from .search import shooting
 from .shooting import LostError

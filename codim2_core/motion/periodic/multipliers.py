@@ -20,10 +20,10 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array, Complex
-from ...curves.assignment import assign
-from ...initial_value.field import Field
-from ...psi.function import Psi
+from ...numerics.curves.assignment import assign
+from ...results.arrays import Array, Complex
+from ...systems.psi.function import Psi
+from ..initial_value.field import Field
 from ..result import Simulation
 from ..tracked_set import place_on_hemisphere
 from ..variation.result import Variation

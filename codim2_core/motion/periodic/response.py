@@ -16,14 +16,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arguments import number as positive_number
-from ...arguments import short_repr
-from ...arrays import Array, Complex
-from ...curves.arclength import CurveEdge, StepBounds, tangent, trace_one_way, zero_between
-from ...layer_problem.vary import check_name
-from ...psi.constructors import constant
-from ...psi.function import Psi
+from ...numerics.curves.arclength import CurveEdge, StepBounds, tangent, trace_one_way, zero_between
+from ...portrait.layer_problem.vary import check_name
+from ...results.arrays import Array, Complex
+from ...systems.arguments import number as positive_number
+from ...systems.arguments import short_repr
 from ...systems.kinds import AnySystem
+from ...systems.psi.constructors import constant
+from ...systems.psi.function import Psi
 from ..argument_checks import MAX_STEPS
 from ..result import Simulation
 from .response_piece import MotionFamily, Piece, at_value, jump_corner, measure_piece, response_row

@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array
-from ...curves.newton import newton
-from ...initial_value.field import field
-from ...layer_problem.vary import vary
-from ...psi.constructors import constant
+from ...numerics.curves.newton import newton
+from ...portrait.layer_problem.vary import vary
+from ...results.arrays import Array
+from ...systems.psi.constructors import constant
+from ..initial_value.field import field
 from ..result import Simulation
 from .extent import swing
 from .multipliers import multipliers, rate_at

@@ -8,10 +8,10 @@ from itertools import combinations
 
 import numpy as np
 
-from ...arrays import Array, Complex
-from ...results import Tabled
-from ...tables import table_number
-from ...words import say
+from ...results.arrays import Array, Complex
+from ...results.result import Tabled
+from ...results.tables import table_number
+from ...results.words import say
 
 REAL = 1e-6  # imaginary part of a multiplier on the unit circle, up to which a pair is a pair of real ones
 

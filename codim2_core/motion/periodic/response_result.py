@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from ...arrays import Array, Complex
-from ...results import Pictured, column_rows, result_rows
-from ...tables import paragraphs
-from ...words import say
+from ...results.arrays import Array, Complex
+from ...results.result import Pictured, column_rows, result_rows
+from ...results.tables import paragraphs
+from ...results.words import say
 from .response_points import ResponsePoint, ResponseRow
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import Enum
 
-from ...arrays import Array, Complex
-from ...results import Pictured
-from ...tables import html_table, paragraphs, table_number
+from ...results.arrays import Array, Complex
+from ...results.result import Pictured
+from ...results.tables import html_table, paragraphs, table_number
 from ..result import Simulation
 
 

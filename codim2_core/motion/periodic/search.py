@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...arrays import Array
-from ...initial_value.field import Field, field
-from ...psi.function import Psi
+from ...results.arrays import Array
+from ...results.words import say
 from ...systems.kinds import AnySystem
-from ...words import say
+from ...systems.psi.function import Psi
 from ..argument_checks import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
+from ..initial_value.field import Field, field
 from ..limit.stiction import checked_stiction
 from ..result import Simulation
 from .multipliers import matching_distances, multipliers

@@ -7,13 +7,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from ...arrays import Array
-from ...expressions.expression import Expression
-from ...expressions.names import SLOW_NAMES
-from ...expressions.tape import compact
-from ...initial_value.field import field
-from ...psi.function import Psi
+from ...formulas.expression import Expression
+from ...formulas.names import SLOW_NAMES
+from ...formulas.tape import compact
+from ...results.arrays import Array
 from ...systems.kinds import AnySystem
+from ...systems.psi.function import Psi
+from ..initial_value.field import field
 from ..result import Simulation
 from ..simulate import simulate
 

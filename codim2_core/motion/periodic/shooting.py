@@ -20,11 +20,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array
-from ...initial_value.field import Field
-from ...psi.function import Psi
+from ...results.arrays import Array
+from ...results.words import say
 from ...systems.kinds import AnySystem
-from ...words import say
+from ...systems.psi.function import Psi
+from ..initial_value.field import Field
 from ..regularised import simulate_segments
 from ..result import Simulation, SimulationStatus
 from ..simulate import simulate

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ...arrays import Array
-from ...expressions.switches import jump_names
-from ...initial_value.slopes import Slopes
-from ...words import say
+from ...formulas.switches import jump_names
+from ...results.arrays import Array
+from ...results.words import say
+from ..initial_value.slopes import Slopes
 from .result import Variation
 
 

@@ -18,13 +18,13 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ...arrays import Array
-from ...initial_value.line import InvariantLine
-from ...initial_value.slopes import Slopes, outside, slopes_of
 from ...numerics.dense import Dense
-from ...psi.function import Psi
+from ...results.arrays import Array
+from ...results.words import say
 from ...systems.kinds import AnySystem
-from ...words import say
+from ...systems.psi.function import Psi
+from ..initial_value.line import InvariantLine
+from ..initial_value.slopes import Slopes, outside, slopes_of
 from .chain import chain_propagators, past_jumps
 from .passage import shrinks_across
 from .propagators import Propagators, pad_jacobians, propagators, states_along

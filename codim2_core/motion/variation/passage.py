@@ -15,11 +15,11 @@ from __future__ import annotations
 
 import math
 
-from ...layer_problem.problem import LayerProblem
 from ...portrait.approach_outcomes import outcome_towards
-from ...psi.constructors import constant
-from ...psi.function import Psi
+from ...portrait.layer_problem.problem import LayerProblem
 from ...systems.kinds import AnySystem
+from ...systems.psi.constructors import constant
+from ...systems.psi.function import Psi
 
 MARGIN = 1e-6  # relative, by which the rates must differ
 ANGLE_MARGIN = 1e-6  # rad

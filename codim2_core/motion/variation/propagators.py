@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array
 from ...numerics.dense import Dense
 from ...numerics.radau import tableau
+from ...results.arrays import Array
 
 Jacobian = Callable[[NDArray[np.intp], Array], Array]
 

@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ...arrays import Array
-from ...initial_value.slopes import slopes_of, smoothed_direction
 from ...numerics.dense import Dense
-from ...psi.function import Psi
+from ...results.arrays import Array
 from ...systems.kinds import AnySystem
+from ...systems.psi.function import Psi
+from ..initial_value.slopes import slopes_of, smoothed_direction
 from .chain import chain_propagators, past_jumps
 from .propagators import pad_jacobians, propagators, states_along
 from .result import Variation

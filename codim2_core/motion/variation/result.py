@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...arrays import Array
-from ...results import Result
-from ...tables import html_table, paragraphs, table_number
+from ...results.arrays import Array
+from ...results.result import Result
+from ...results.tables import html_table, paragraphs, table_number
 
 
 @dataclass(frozen=True, eq=False)

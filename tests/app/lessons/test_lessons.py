@@ -5,13 +5,13 @@ import math
 import re
 
 import pytest
-from codim2_app.frame.scenes import make_scene
 from codim2_app.lessons.asking import goal_is_reached, judge, pose, right_option, stands
 from codim2_app.lessons.facts import facts_of
 from codim2_app.lessons.library import built_in, from_folder
 from codim2_app.lessons.marks import MARK_TOLERANCE, MARKS, gap
 from codim2_app.lessons.reading import LessonError, read_lesson
-from codim2_app.state.controls import ExplorerState, preset_values
+from codim2_app.picture.frame.scenes import make_scene
+from codim2_app.picture.state.controls import ExplorerState, preset_values
 
 COURSE = built_in()
 QUESTIONS = [(key, i) for key, lesson in COURSE.items() for i in range(len(lesson.questions))]

@@ -1,7 +1,7 @@
 """Frames of the explorer with a panel open, asked as the browser asks."""
 
-from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 from tests.work import wait_until

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from codim2_app.draw.packing import unpack
-from codim2_app.slow_layers.basins import CELLS_ACROSS, DISC, part_of
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.slow_layers.basins import CELLS_ACROSS, DISC, part_of
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 

@@ -1,11 +1,11 @@
 """The panel "Census": its shares are a census's, and each of its examples is of the name that it stands for."""
 
 import pytest
-from codim2_app.frame.scenes import make_scene
 from codim2_app.panels.census import COEFFICIENT_RANGE, _polynomial
-from codim2_app.state.choices import CENSUSES, MOST_CENSUS
-from codim2_app.state.cleaning import clean
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.frame.scenes import make_scene
+from codim2_app.picture.state.choices import CENSUSES, MOST_CENSUS
+from codim2_app.picture.state.cleaning import clean
+from codim2_app.picture.state.controls import ExplorerState
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -1,12 +1,12 @@
 """A challenge that came with a link: met or not, in words; what is no condition is told."""
 
 import pytest
-from codim2_app.draw.packing import unpack
 from codim2_app.lessons.condition import condition
 from codim2_app.lessons.facts import FACT_NAMES
 from codim2_app.panels.challenge import GOALS
-from codim2_app.state.controls import ExplorerState
-from codim2_app.state.links import read_link
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.state.controls import ExplorerState
+from codim2_app.picture.state.links import read_link
 from codim2_app.view.refresh import Frames
 
 

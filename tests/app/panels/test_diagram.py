@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 from codim2_app.panels.parameters import axes, diagram
-from codim2_app.state.choices import SLIDER_AXES
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.state.choices import SLIDER_AXES
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2

@@ -1,8 +1,8 @@
 """The panel of maps over two parameters, with small portraits of their regions."""
 
 import pytest
-from codim2_app.draw.thumbnails import thumbnails
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.thumbnails import thumbnails
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2

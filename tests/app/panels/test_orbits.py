@@ -7,12 +7,12 @@ from concurrent.futures import Executor, Future
 
 import numpy as np
 import pytest
-from codim2_app.frame.background_results import Jobs
-from codim2_app.frame.frame_context import FrameContext
-from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import orbits
-from codim2_app.state.controls import ExplorerState
-from codim2_app.state.launches import TYPED
+from codim2_app.picture.frame.background_results import Jobs
+from codim2_app.picture.frame.frame_context import FrameContext
+from codim2_app.picture.frame.scenes import make_scene
+from codim2_app.picture.state.controls import ExplorerState
+from codim2_app.picture.state.launches import TYPED
 
 INSIDE, OUTSIDE = "0.6,0.3", "1.4,0.6"
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.packing import unpack
 
 import codim2_core as c2
 

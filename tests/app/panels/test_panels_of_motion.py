@@ -4,17 +4,17 @@ import json
 
 import numpy as np
 import pytest
-from codim2_app.draw.packing import unpack
-from codim2_app.frame.background_results import Jobs
-from codim2_app.frame.frame_context import FrameContext
-from codim2_app.frame.scenes import make_scene
 from codim2_app.panels import along as panel_along
 from codim2_app.panels import filippov, orbits, psi, solid
-from codim2_app.slow_layers.typed_start import launch_of
-from codim2_app.state.chosen_system import build
-from codim2_app.state.cleaning import InputError
-from codim2_app.state.controls import ExplorerState
-from codim2_app.state.system_opening_values import opening_values
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.frame.background_results import Jobs
+from codim2_app.picture.frame.frame_context import FrameContext
+from codim2_app.picture.frame.scenes import make_scene
+from codim2_app.picture.slow_layers.typed_start import launch_of
+from codim2_app.picture.state.chosen_system import build
+from codim2_app.picture.state.cleaning import InputError
+from codim2_app.picture.state.controls import ExplorerState
+from codim2_app.picture.state.system_opening_values import opening_values
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2

@@ -5,9 +5,9 @@ import re
 import pytest
 from codim2_app.panels import registry
 from codim2_app.panels.panel import Panel
-from codim2_app.state.choices import PANEL_NAMES
-from codim2_app.state.cleaning import InputError, clean
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.state.choices import PANEL_NAMES
+from codim2_app.picture.state.cleaning import InputError, clean
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.markup import explorer_html, page_config, script
 
 

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from codim2_app.draw.svg import draw
-from codim2_app.slow_layers import outcomes
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.svg import draw
+from codim2_app.picture.slow_layers import outcomes
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 from .opening import CASE3, ask, opened, settled

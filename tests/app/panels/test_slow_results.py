@@ -4,14 +4,14 @@ import threading
 from concurrent.futures import Future
 
 import pytest
-from codim2_app.draw.packing import unpack
-from codim2_app.frame import budget
-from codim2_app.frame.background_results import Jobs
-from codim2_app.frame.budget import Budget
-from codim2_app.frame.work_queue import FailedResult
 from codim2_app.panels import registry
 from codim2_app.panels.panel import Panel
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.frame import budget
+from codim2_app.picture.frame.background_results import Jobs
+from codim2_app.picture.frame.budget import Budget
+from codim2_app.picture.frame.work_queue import FailedResult
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 from tests.work import wait_until

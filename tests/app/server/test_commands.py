@@ -7,11 +7,11 @@ import subprocess
 import sys
 
 import pytest
-from codim2_app.frame.dask_executor import ClusterError
+from codim2_app.picture.frame.dask_executor import ClusterError
 from codim2_app.server.cli import main
 
 import codim2_core as c2
-from codim2_core.cycles.proof.check import check
+from codim2_core.portrait.cycles.proof.check import check
 
 
 def test_classify_in_words_and_as_json(capsys):

@@ -10,7 +10,7 @@ from urllib.parse import urljoin
 from urllib.request import Request, urlopen
 
 import pytest
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.packing import unpack
 from codim2_app.server import scripts as scripts_module
 from codim2_app.server.headers import embedders
 from codim2_app.server.live import CLOSE_FULL

@@ -4,14 +4,14 @@ import os
 
 from codim2_app.view.compiling import once
 
-from codim2_core.jit import disk_cache
-from tests.core.jit.fresh import computed
+from codim2_core.formulas.jit import disk_cache
+from tests.core.formulas.jit.fresh import computed
 
 EARLY = """
 from codim2_app.server.kernel_cache import begin_early
 begin_early()
 import codim2_core as c2
-from codim2_core.jit import tiers
+from codim2_core.formulas.jit import tiers
 tiers.SECONDS_PER_BYTE = 0.0  # nothing is rented: a kernel that is left to nobody is compiled at once
 found = len(c2.trajectories(c2.ELinear(-2.0, 0.0, -1.0, (-0.5, 0.0)), c2.psi.constant(), [(0.3, 0.2)]))
 """

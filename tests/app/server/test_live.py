@@ -4,10 +4,10 @@ import asyncio
 from urllib.request import urlopen
 
 import pytest
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.state.request_reading import MOST_CONTROLS
 from codim2_app.server.live import MOST_ASKED, REFUSED, LiveConnection, LivePages, merge_requests
 from codim2_app.server.session_queue import Rota
-from codim2_app.state.request_reading import MOST_CONTROLS
 from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.httpserver import HTTPServer
 from tornado.testing import bind_unused_port

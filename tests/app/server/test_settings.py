@@ -90,7 +90,9 @@ def test_log_lines_are_json():
 
 
 def test_the_hosting_page_has_the_table():
-    page = (Path(__file__).parents[3] / "app" / "docs" / "text" / "hosting.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[3] / "app" / "codim2_app" / "site" / "docs" / "text" / "hosting.md").read_text(
+        encoding="utf-8"
+    )
     assert settings_table() in page
 
 

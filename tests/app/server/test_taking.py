@@ -5,9 +5,9 @@ import json
 from urllib.parse import urlencode
 
 import pytest
-from codim2_app.export.figure import Style, figure
-from codim2_app.export.files import DATA
-from codim2_app.export.view import view_of
+from codim2_app.exports.figure import Style, figure
+from codim2_app.exports.files import DATA
+from codim2_app.exports.view import view_of
 from codim2_app.server.cli import main
 
 import codim2_core as c2

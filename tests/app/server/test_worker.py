@@ -11,9 +11,9 @@ import sys
 from codim2_app.server import worker
 known = set(sys.modules)
 print("the fork")
-from codim2_core.figures.presets import presets
-from codim2_core.orbits.trajectories import warm
-from codim2_core.psi import make
+from codim2_core.systems.presets.presets import presets
+from codim2_core.portrait.orbits.trajectories import warm
+from codim2_core.systems.psi import make
 from codim2_core.scene import Scene
 one = presets["blowup-stack"]
 scene = Scene(one.system, one.psi, one.z, launch=[(0.3, 0.2)])

@@ -17,7 +17,7 @@ const ANSWERS = {
 }
 
 let loaded = 0
-const fresh = async () => (await import("../../../app/static/cell.js?" + loaded++)).live // for each a page of its own
+const fresh = async () => (await import("../../../app/codim2_app/static/cell.js?" + loaded++)).live // for each a page of its own
 
 /** A cell in JupyterLab. `after`: ms until its kernel is there; `served`: what Jupyter's server has of each library. */
 function notebook({after = 0, served = TEXTS, config = '{"baseUrl": "/base/"}', active = true, own = {}} = {}) {

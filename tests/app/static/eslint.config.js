@@ -5,7 +5,7 @@ export default [
   {ignores: ["**/node_modules/"]},
   js.configs.recommended,
   {
-    files: ["app/static/**/*.js", "tests/browser/*.js"],
+    files: ["app/codim2_app/static/**/*.js", "tests/browser/*.js"],
     languageOptions: {globals: globals.browser},
   },
   {

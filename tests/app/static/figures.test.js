@@ -14,7 +14,7 @@ async function figures(body) {
     observe(box) { watched.set(box, this) }
     unobserve(box) { watched.delete(box) }
   }})
-  await import("../../../app/static/figures.js?" + loaded++)
+  await import("../../../app/codim2_app/static/figures.js?" + loaded++)
   const {document} = there, boxes = /** @type {any[]} */ ([...document.querySelectorAll("[data-codim2]")])
   const frame = (i) => boxes[i].querySelector("iframe")
   return {
@@ -26,7 +26,7 @@ async function figures(body) {
 }
 
 const TWO = '<div data-codim2="v=1&amp;f1=0.5&amp;controls=f1"><img src="a.svg" alt="Case I"></div><div data-codim2="preset=x" data-start="press"><a href="more"><svg aria-label="Case II"></svg></a></div>'
-const FOLDER = new URL("../../../app/static/", import.meta.url).href
+const FOLDER = new URL("../../../app/codim2_app/static/", import.meta.url).href
 
 test("a figure begins when it is nearly seen, of the folder that the script is in", async () => {
   const one = await figures(TWO)

@@ -32,7 +32,7 @@ function played(version, kept, network) {
   }
 }
 
-const load = (number) => import(`../../../app/static/offline.js?${number}`)
+const load = (number) => import(`../../../app/codim2_app/static/offline.js?${number}`)
 const ask = (url, method = "GET") => ({request: {url: new URL(url, SCOPE).href, method}})
 
 test("all files are kept, of this version, and found whatever query an address has; others come from the network", async () => {

@@ -10,7 +10,7 @@ from pathlib import Path
 from codim2_app.view.markup import script
 
 HERE = Path(__file__).parent
-STATIC = Path(__file__).parents[3] / "app" / "static"
+STATIC = Path(__file__).parents[3] / "app" / "codim2_app" / "static"
 #: No part of the page's script: a notebook's cell brings it before there is an explorer, a live file has its own, and a
 #: menu is loaded when it is opened; a page without a server has a worker, and one that keeps its files.
 APART = ("cell.js", "figures.js", "live.js", "offline.js", "presenter.js", "takeaway.js", "worker.js")

@@ -2,7 +2,7 @@ import assert from "node:assert/strict"
 import {readFileSync, readdirSync} from "node:fs"
 import test from "node:test"
 
-import {SAYS, digits, eigen, escape, claimNumber, formula, pair, phaseWords, plain, slowName, slowWords} from "../../../app/static/words.js"
+import {SAYS, digits, eigen, escape, claimNumber, formula, pair, phaseWords, plain, slowName, slowWords} from "../../../app/codim2_app/static/words.js"
 
 test("numbers have four places, a real minus, and no exponent where none is needed", () => {
   assert.equal(digits(0), "0")
@@ -53,7 +53,7 @@ test("a ball slides and, in the words of mechanics, sticks and rolls", () => {
 })
 
 test("what the browser says of a system stands in one place", () => {
-  const folder = new URL("../../../app/static/", import.meta.url)
+  const folder = new URL("../../../app/codim2_app/static/", import.meta.url)
   const files = readdirSync(folder, {recursive: true, encoding: "utf8"}).filter((name) => name.endsWith(".js") && name !== "words.js")
   assert.ok(files.length > 40)
   for (const name of files) {

@@ -1,6 +1,6 @@
 """What a page that sets something is answered."""
 
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.packing import unpack
 
 
 def ask(frames, **values):

@@ -1,5 +1,5 @@
 import pytest
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 

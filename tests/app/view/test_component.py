@@ -6,7 +6,7 @@ import panel as pn
 import pytest
 from bokeh.document import Document
 from codim2_app import explorer
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.shared import SHARED_CONTROLS, ControlTypes
 
 

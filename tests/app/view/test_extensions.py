@@ -8,14 +8,14 @@ from pathlib import Path
 import codim2_app
 import pytest
 
-HOWTO = (Path(codim2_app.__file__).parent / "docs" / "text" / "howto-extend.md").read_text(encoding="utf-8")
+HOWTO = (Path(codim2_app.__file__).parent / "site" / "docs" / "text" / "howto-extend.md").read_text(encoding="utf-8")
 ASK = """
 import sys
 sys.path.insert(0, {folder!r})
 from codim2_app.view import extensions
 print(extensions.register_all())
 from codim2_core import classify, psi
-from codim2_app.state.chosen_system import titles
+from codim2_app.picture.state.chosen_system import titles
 print("curling_stone" in titles(), classify("curling_stone", "ice").name, psi.from_text("ice").family)
 """
 

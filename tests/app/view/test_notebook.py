@@ -2,8 +2,8 @@ import pytest
 from bokeh.document import Document
 from bokeh.models import ImportedStyleSheet
 from codim2_app import explorer
-from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.explorer import ExplorerView
 
 import codim2_core as c2

@@ -6,13 +6,13 @@ import panel as pn
 import pytest
 from bokeh.document import Document
 from codim2_app import explorer
-from codim2_app.draw.gallery import HOOKS
-from codim2_app.draw.packing import unpack
+from codim2_app.picture.draw.gallery import HOOKS
+from codim2_app.picture.draw.packing import unpack
 from codim2_app.server.cli import main
 from panel.io.model import add_to_doc
 from panel.io.save import Comm
 
-from tests.core.jit.fresh import computed
+from tests.core.formulas.jit.fresh import computed
 
 
 @pytest.fixture
@@ -80,7 +80,7 @@ def test_a_view_is_saved_as_the_command_writes_it(tmp_path, kind):
 
 
 def test_the_strip_of_a_page_is_drawn_where_nothing_is_compiled(tmp_path):
-    code = "from codim2_app.draw.gallery import gallery; found = [one['drawn'].count('<path') for one in gallery()]"
+    code = "from codim2_app.picture.draw.gallery import gallery; found = [one['drawn'].count('<path') for one in gallery()]"
     drawn, compiled = computed(tmp_path, code)
     assert len(drawn) == len(HOOKS)
     assert min(drawn) > 1

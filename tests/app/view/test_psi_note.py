@@ -1,8 +1,8 @@
 """A Psi outside R1 to R5 is used, and the page says which of them it does not meet, as `Psi.check` has it."""
 
 import pytest
-from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2

@@ -3,14 +3,14 @@ import threading
 from concurrent.futures import Executor, Future
 
 import pytest
-from codim2_app.draw.layers import LAYERS
-from codim2_app.draw.lines.spacing import SEPARATION
-from codim2_app.draw.packing import INT16_STEP, PACKING_PIXEL, unpack
-from codim2_app.frame.background_results import Jobs
-from codim2_app.frame.budget import Budget
-from codim2_app.frame.scenes import complete_changes, evolve_scene, make_scene
-from codim2_app.state.controls import ExplorerState, first_values, preset_values
-from codim2_app.state.portraits import portraits
+from codim2_app.picture.draw.layers import LAYERS
+from codim2_app.picture.draw.lines.spacing import SEPARATION
+from codim2_app.picture.draw.packing import INT16_STEP, PACKING_PIXEL, unpack
+from codim2_app.picture.frame.background_results import Jobs
+from codim2_app.picture.frame.budget import Budget
+from codim2_app.picture.frame.scenes import complete_changes, evolve_scene, make_scene
+from codim2_app.picture.state.controls import ExplorerState, first_values, preset_values
+from codim2_app.picture.state.portraits import portraits
 from codim2_app.view.refresh import Frames
 from codim2_app.view.warmup import is_ready
 

@@ -1,9 +1,9 @@
 """What a link or a box asks for in vain is told in words and kept in its box; all else is drawn."""
 
 import pytest
-from codim2_app.draw.packing import unpack
-from codim2_app.state.controls import preset_values
-from codim2_app.state.links import read_link
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.state.controls import preset_values
+from codim2_app.picture.state.links import read_link
 from codim2_app.view.refresh import Frames
 
 from .asking import ask

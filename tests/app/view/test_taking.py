@@ -12,21 +12,21 @@ from weakref import ref
 
 import numpy as np
 import pytest
-from codim2_app.draw.theme import themes
-from codim2_app.export import export_request as made
-from codim2_app.export import film as films
-from codim2_app.export.export_request import TYPES, ExportRequest, make_file, seen_by
-from codim2_app.export.figure import Style, figure
-from codim2_app.export.files import DATA
-from codim2_app.export.view import view_of
-from codim2_app.frame.background_results import Jobs
-from codim2_app.state.links import read_link
+from codim2_app.exports import export_request as made
+from codim2_app.exports import film as films
+from codim2_app.exports.export_request import TYPES, ExportRequest, make_file, seen_by
+from codim2_app.exports.figure import Style, figure
+from codim2_app.exports.files import DATA
+from codim2_app.exports.view import view_of
+from codim2_app.picture.draw.theme import themes
+from codim2_app.picture.frame.background_results import Jobs
+from codim2_app.picture.state.links import read_link
 from codim2_app.view import export_jobs as takings
 from codim2_app.view.export_jobs import ExportJobs
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
-from codim2_core.cycles.proof.check import check
+from codim2_core.portrait.cycles.proof.check import check
 from tests.work import PATIENCE
 
 

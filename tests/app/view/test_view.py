@@ -9,10 +9,10 @@ import holoviews as hv
 import holoviews.plotting.bokeh
 import holoviews.plotting.mpl
 import pytest
-from codim2_app.draw.glyphs import critical_columns, equator_columns
-from codim2_app.draw.layers import LAYERS
-from codim2_app.draw.theme import themes
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.glyphs import critical_columns, equator_columns
+from codim2_app.picture.draw.layers import LAYERS
+from codim2_app.picture.draw.theme import themes
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.glossary import GLOSSARY, PAPER
 from codim2_app.view.markup import explorer_html, page_config
 from matplotlib.collections import LineCollection, PathCollection

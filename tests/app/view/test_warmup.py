@@ -13,8 +13,8 @@ from codim2_app.view.compiling.once import alone, hold_name, lock_path
 from codim2_app.view.compiling.process import CompilerProcess
 
 import codim2_core as c2
-from codim2_core.jit import policy
-from tests.core.jit.fresh import computed
+from codim2_core.formulas.jit import policy
+from tests.core.formulas.jit.fresh import computed
 from tests.work import wait_until
 
 ASK = """import fcntl, sys
@@ -219,9 +219,9 @@ def test_one_process_compiles_for_all(folder, monkeypatch):
 
 FRAMES = """
 import time
-from codim2_app.draw.packing import unpack
-from codim2_app.frame.budget import Budget
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.frame.budget import Budget
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view import warmup
 from codim2_app.view.refresh import Frames
 

@@ -10,7 +10,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from codim2_core import Event, SimulationStatus, System, delays, simulate, simulate_nonsmooth
-from codim2_core.psi import constructors as families
+from codim2_core.systems.psi import constructors as families
 
 PSI = families.constant()  # D e_Psi = 1 in the middle; at |e| = r, sqrt(1 - r^2) across and (1 - r^2)^1.5 along e
 

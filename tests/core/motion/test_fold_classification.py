@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from codim2_core import SimulationStatus, System, psi, simulate, simulate_nonsmooth
-from codim2_core.initial_value.field import field
+from codim2_core.motion.initial_value.field import field
 from codim2_core.motion.limit.fold_classification import classify_fold
 
 PSI = psi.constant()

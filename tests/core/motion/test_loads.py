@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 import pytest
+from codim2_core.results.result.words import recognise
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
@@ -21,7 +22,6 @@ from codim2_core import (
     simulate_nonsmooth,
 )
 from codim2_core.motion.result import SimulationStatus
-from codim2_core.words import recognise
 
 PSI = psi.constant()
 

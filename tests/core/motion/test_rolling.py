@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from codim2_core.examples import Ball
 from codim2_core.motion.rolling import rolling
+from codim2_core.systems.examples import Ball
 
 ROLLS, PLACED = Ball(), Ball(placed=True)
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from codim2_core.expressions.arrays import polynomial_degree, program
+from codim2_core.formulas.arrays import polynomial_degree, program
 from codim2_core.numerics.enclosure import enclose
 from codim2_core.systems.typed import System
 from tests.core.general_systems import polynomials, smooth

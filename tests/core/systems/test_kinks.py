@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core.layer_problem.disc_zeros import disc_zeros
+from codim2_core.portrait.layer_problem.disc_zeros import disc_zeros
 
 HILL = c2.psi.hill(2)
 CORNERS = c2.System(U=("-c-0.3*abs(s)", "-s"))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from codim2_core import psi, simulate, simulate_nonsmooth
-from codim2_core.expressions.expression import ExpressionError
+from codim2_core.formulas.expression import ExpressionError
 from codim2_core.systems.typed import System
 
 SHAKEN = {"U": ("-mu*c + F*cos(w*t)", "-mu*s"), "parameters": {"mu": 0.3, "F": 0.5, "w": 2.0}}

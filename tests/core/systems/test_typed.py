@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core.expressions.expression import ExpressionError, parse
+from codim2_core.formulas.expression import ExpressionError, parse
 from codim2_core.systems.reading import LONGEST_KEY
 from codim2_core.systems.typed import System
 from codim2_core.systems.typed_formulas import MOST_NAMES, MOST_NUMBERS
@@ -122,7 +122,7 @@ def test_messages_point_at_the_column():
         System(U=("chi( z ) + $", "s"), definitions=CHI)
 
 
-# more of each kind: tests/core/expressions/test_reading.py
+# more of each kind: tests/core/formulas/test_reading.py
 CODE = [
     "().__class__.__bases__[0].__subclasses__()",
     "__import__('os').system('true')",
@@ -211,7 +211,7 @@ def test_e_linear_systems_need_no_compiler():
     """Only systems typed as text, and trajectories, are run by compiled code: it takes seconds to load."""
     code = """if True:
         import sys, codim2_core as c2
-        from codim2_core.diagrams.equilibrium_branches import equilibrium_branches
+        from codim2_core.bifurcations.plane.diagrams.equilibrium_branches import equilibrium_branches
         system, psi = c2.ELinear(-1.0, 0.3, -1.5, (-0.1, 0.05)), c2.psi.tanh()
         c2.critical_sets(system, psi), c2.equator_equilibria(system), c2.equator_cycle(system)
         c2.limit_cycles(system, psi)

@@ -4,10 +4,10 @@ import time
 
 import numpy as np
 import pytest
-from codim2_app.draw.packing import INT16_STEP, unpack
-from codim2_app.frame.process_load import Load
 from codim2_app.panels.parameters import atlas, atlas_columns
-from codim2_app.state.controls import ExplorerState
+from codim2_app.picture.draw.packing import INT16_STEP, unpack
+from codim2_app.picture.frame.process_load import Load
+from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2

@@ -2,11 +2,11 @@
 
 import pytest
 from codim2_app import explorer
-from codim2_app.draw.packing import unpack
 from codim2_app.panels.parameters.axes import axes_there
-from codim2_app.phrases import say
-from codim2_app.state.controls import ExplorerState
-from codim2_app.state.slider_range import slider_range
+from codim2_app.picture.draw.packing import unpack
+from codim2_app.picture.phrases import say
+from codim2_app.picture.state.controls import ExplorerState
+from codim2_app.picture.state.slider_range import slider_range
 from codim2_app.view.refresh import Frames
 
 import codim2_core as c2

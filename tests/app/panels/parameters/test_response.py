@@ -3,8 +3,8 @@
 import math
 
 import pytest
-from codim2_app.phrases import say
-from codim2_app.state.system_opening_values import opening_values
+from codim2_app.picture.phrases import say
+from codim2_app.picture.state.system_opening_values import opening_values
 
 from ..opening import ask, opened
 

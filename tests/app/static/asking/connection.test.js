@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Connection} from "../../../../app/static/asking/connection.js"
+import {Connection} from "../../../../app/codim2_app/static/asking/connection.js"
 
 const global = /** @type {any} */ (globalThis)
 

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {DeviceLine} from "../../../../app/static/asking/device_line.js"
+import {DeviceLine} from "../../../../app/codim2_app/static/asking/device_line.js"
 import {packed} from "../played/wiring.js"
 
 const VALUES = {system: "normal", texts: {}, psi: "constant", psi_text: "1", panel: "atlas", f1: 0.5}

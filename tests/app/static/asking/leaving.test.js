@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
 
-import {Requests, screenClock} from "../../../../app/static/asking/requests.js"
+import {Requests, screenClock} from "../../../../app/codim2_app/static/asking/requests.js"
 
 // Requests whose clock is turned by hand: `soon` notes what is to be done, `after` what would be done when.
 function byHand(size = 1) {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {openLine} from "../../../../app/static/asking/line.js"
+import {openLine} from "../../../../app/codim2_app/static/asking/line.js"
 
 /** A socket that is played. */
 class Socket extends EventTarget {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
 
-import {Requests} from "../../../../app/static/asking/requests.js"
+import {Requests} from "../../../../app/codim2_app/static/asking/requests.js"
 
 // A network and a server, simulated: messages take `line` ms each way, the server one after the other `work` ms each,
 // and `others` ms for each frame between ours; a screen of 60 Hz; a slider that moves with every frame of it.

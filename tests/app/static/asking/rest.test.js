@@ -1,8 +1,8 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
 
-import {Requests} from "../../../../app/static/asking/requests.js"
-import {Rest} from "../../../../app/static/asking/rest.js"
+import {Requests} from "../../../../app/codim2_app/static/asking/requests.js"
+import {Rest} from "../../../../app/codim2_app/static/asking/rest.js"
 
 test("a view has settled when nothing is under way, whatever was noted twice", () => {
   const root = {dataset: /** @type {Record<string, string>} */ ({})}, rest = new Rest(root)

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import {test} from "node:test"
 
-import {Window} from "../../../../app/static/asking/requests.js"
+import {Window} from "../../../../app/codim2_app/static/asking/requests.js"
 
 test("a line that has become longer is not held against its shortest trip for ever", () => {
   const window = new Window()

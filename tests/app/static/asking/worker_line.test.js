@@ -3,8 +3,8 @@ import test from "node:test"
 
 import {page} from "../played/page.js"
 import {asked, pull, settled, wired} from "../played/wiring.js"
-import {openHere} from "../../../../app/static/explorer.js"
-import {callWorker, openWorkerLine, outermost} from "../../../../app/static/asking/worker_line.js"
+import {openHere} from "../../../../app/codim2_app/static/explorer.js"
+import {callWorker, openWorkerLine, outermost} from "../../../../app/codim2_app/static/asking/worker_line.js"
 
 /** The port of a worker that is played. */
 class Worker extends EventTarget {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Space, TEXT, labelBox, textSize} from "../../../../app/static/chart/space.js"
+import {Space, TEXT, labelBox, textSize} from "../../../../app/codim2_app/static/chart/space.js"
 import {PLOT, made} from "../played/charted.js"
 import {near} from "../played/reading.js"
 

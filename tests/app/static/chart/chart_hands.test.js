@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {textSize} from "../../../../app/static/chart/space.js"
+import {textSize} from "../../../../app/codim2_app/static/chart/space.js"
 import {FRAME, PLOT, X, Y, made} from "../played/charted.js"
 import {near, wide} from "../played/reading.js"
 

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {wordedTicks} from "../../../../app/static/chart/scale.js"
-import {Space, TEXT, textSize} from "../../../../app/static/chart/space.js"
+import {wordedTicks} from "../../../../app/codim2_app/static/chart/scale.js"
+import {Space, TEXT, textSize} from "../../../../app/codim2_app/static/chart/space.js"
 import {FRAME, PLOT, X, Y, made} from "../played/charted.js"
 import {near, wide} from "../played/reading.js"
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {rotateView} from "../../../../app/static/chart/projection.js"
+import {rotateView} from "../../../../app/codim2_app/static/chart/projection.js"
 
 const near = (one, other, most = 1e-12) => one.flat().forEach((v, i) => assert.ok(Math.abs(v - other.flat()[i]) <= most, `${one} is not ${other}`))
 

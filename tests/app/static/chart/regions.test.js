@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {extent, holds, meet} from "../../../../app/static/chart/regions.js"
+import {extent, holds, meet} from "../../../../app/codim2_app/static/chart/regions.js"
 
 test("a region with a hole, and one that reaches to infinity", () => {
   const square = (r) => [[-r, -r], [r, -r], [r, r], [-r, r]]

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {largest, roundToSpan, scale, spanOf, ticks, wordedTicks} from "../../../../app/static/chart/scale.js"
+import {largest, roundToSpan, scale, spanOf, ticks, wordedTicks} from "../../../../app/codim2_app/static/chart/scale.js"
 
 test("a scale goes there and back, also upside down", () => {
   const y = scale([-2, 6], [300, 20])

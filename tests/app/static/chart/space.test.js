@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {labelBox, Space, textSize} from "../../../../app/static/chart/space.js"
+import {labelBox, Space, textSize} from "../../../../app/codim2_app/static/chart/space.js"
 
 // The independent check: whether a segment meets a box, by clipping.
 /** @param {number[][]} segment @param {number[]} box */

@@ -1,8 +1,8 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {foldAllowed, NumberControl, readTyped} from "../../../../app/static/controls/controls.js"
-import {SAYS, plain} from "../../../../app/static/words.js"
+import {foldAllowed, NumberControl, readTyped} from "../../../../app/codim2_app/static/controls/controls.js"
+import {SAYS, plain} from "../../../../app/codim2_app/static/words.js"
 import {page} from "../played/page.js"
 
 test("a long error is one sentence and how to mend it; the list of what is allowed stands behind more", () => {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict"
 import test from "node:test"
-import {fit, shareThatFits} from "../../../../app/static/controls/fitted.js"
+import {fit, shareThatFits} from "../../../../app/codim2_app/static/controls/fitted.js"
 
 test("a formula that goes in keeps its size, a longer one fills its column, down to seven tenths", () => {
   assert.equal(shareThatFits(1, 200, 230), 1)

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {rangeFor, reachFor, roundUp} from "../../../../app/static/controls/ranges.js"
+import {rangeFor, reachFor, roundUp} from "../../../../app/codim2_app/static/controls/ranges.js"
 
 test("ranges end at a round number little beyond the value", () => {
   assert.deepEqual([1.6, 3, 0.4, 37, 9].map(roundUp), [2, 4, 0.5, 50, 15])

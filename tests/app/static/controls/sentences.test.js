@@ -2,7 +2,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {page} from "../played/page.js"
-import {Sentences} from "../../../../app/static/controls/sentences.js"
+import {Sentences} from "../../../../app/codim2_app/static/controls/sentences.js"
 
 test("what is said of the whole page stays above what is wrong with a control, and its button does what it says", () => {
   const {document} = page('<div class="banner" hidden></div>')

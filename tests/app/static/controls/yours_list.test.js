@@ -2,8 +2,8 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {YoursList} from "../../../../app/static/controls/yours_list.js"
-import {SAYS} from "../../../../app/static/words.js"
+import {YoursList} from "../../../../app/codim2_app/static/controls/yours_list.js"
+import {SAYS} from "../../../../app/codim2_app/static/words.js"
 import {page} from "../played/page.js"
 
 const BOXES = {own: [{name: "U1", label: "x′ = U₁", text: "-c"}, {name: "U2", label: "y′ = U₂", text: "-s"}]}

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {letScroll, pinchRanges, sidewaysOnly, twoFingers} from "../../../../app/static/interaction/gestures.js"
+import {letScroll, pinchRanges, sidewaysOnly, twoFingers} from "../../../../app/codim2_app/static/interaction/gestures.js"
 
 /** An element: what listens to it, and in which order it hears. @param {any} more @returns {any} */
 function element(more = {}) {

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Grab, left, turnedTo} from "../../../../app/static/interaction/grab.js"
+import {Grab, left, turnedTo} from "../../../../app/codim2_app/static/interaction/grab.js"
 import {page} from "../played/page.js"
 
 const VALUES = {a: -2, b: 0.5, d: -1, f1: 1, f2: -1, z: 0.5, k1: 2, k2: -1}

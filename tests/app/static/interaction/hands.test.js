@@ -2,10 +2,10 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {displayList, traceList} from "../../../../app/static/picture/display.js"
-import {Hands} from "../../../../app/static/interaction/hands.js"
-import {Inspector} from "../../../../app/static/page/inspector.js"
-import {MOST} from "../../../../app/static/interaction/launches.js"
+import {displayList, traceList} from "../../../../app/codim2_app/static/picture/display.js"
+import {Hands} from "../../../../app/codim2_app/static/interaction/hands.js"
+import {Inspector} from "../../../../app/codim2_app/static/page/inspector.js"
+import {MOST} from "../../../../app/codim2_app/static/interaction/launches.js"
 
 function played(text = "", frame = 300, marks = [[-9, -9]]) {
   const calls = {}, log = [], captured = []

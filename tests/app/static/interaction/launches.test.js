@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {changeLaunch, coloursOf, launchedAt, MOST, nearest, readLaunches, without, writeLaunches} from "../../../../app/static/interaction/launches.js"
+import {changeLaunch, coloursOf, launchedAt, MOST, nearest, readLaunches, without, writeLaunches} from "../../../../app/codim2_app/static/interaction/launches.js"
 
 test("launched orbits are written and read again", () => {
   const text = "0.3,0.2;1.5,-0.1,-;-1,0.25:slow one"
@@ -22,7 +22,7 @@ test("a name cannot break the text, nor can a number be long", () => {
 })
 
 test("one more than can be kept lets the oldest go", () => {
-  assert.equal(MOST, 12) // as app/state/launches.py
+  assert.equal(MOST, 12) // as app/codim2_app/picture/state/launches.py
   let launches = []
   for (let i = 0; i < MOST + 2; i++) launches = launchedAt(launches, i / 10, 0)
   assert.equal(launches.length, MOST)

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {STEP} from "../../../../app/static/picture/frames.js"
-import {curveDistance, areaAt, curveAt, middleOf, nearestOn} from "../../../../app/static/interaction/curves.js"
-import {eigenWords, factsOf, trackObject, objectAt, objectsOf, pointedList, styleOf} from "../../../../app/static/interaction/objects.js"
+import {STEP} from "../../../../app/codim2_app/static/picture/frames.js"
+import {curveDistance, areaAt, curveAt, middleOf, nearestOn} from "../../../../app/codim2_app/static/interaction/curves.js"
+import {eigenWords, factsOf, trackObject, objectAt, objectsOf, pointedList, styleOf} from "../../../../app/codim2_app/static/interaction/objects.js"
 import {CRITICAL, EQUATOR} from "../played/wiring.js"
 
 const square = Int16Array.from([[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5], [0.5, 0.5]].flat().map((v) => Math.round(v / STEP)))

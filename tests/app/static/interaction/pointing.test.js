@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {STEP} from "../../../../app/static/picture/frames.js"
+import {STEP} from "../../../../app/codim2_app/static/picture/frames.js"
 import {CRITICAL, EQUATOR, FIRST, VALUES, click, hand, query, wired} from "../played/wiring.js"
 
 const EIGEN = {equator: [0, 1].map(() => ({directions: [[0, 1, -0.3, "equator"]], turning: 0, every: false})), critical: [{directions: [[1, 0, -1, "disc"]], turning: 0, every: false}]}

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Beamer, enlarge} from "../../../../app/static/page/beamer.js"
+import {Beamer, enlarge} from "../../../../app/codim2_app/static/page/beamer.js"
 import {page} from "../played/page.js"
 
 test("all that is in pixels is larger; what is in the picture stays", () => {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Challenge, movedBetween} from "../../../../app/static/page/challenge.js"
+import {Challenge, movedBetween} from "../../../../app/codim2_app/static/page/challenge.js"
 import {page} from "../played/page.js"
 
 const VALUES = {a: -2, f1: 0.5, texts: {}, parameters: {mu: 1}, goal: "name == 'CM2'"}

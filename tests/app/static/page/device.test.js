@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {canAfford, DeviceSwitch, isWanted} from "../../../../app/static/page/device.js"
+import {canAfford, DeviceSwitch, isWanted} from "../../../../app/codim2_app/static/page/device.js"
 import {page} from "../played/page.js"
 
 const soon = () => new Promise((done) => { setImmediate(done) })

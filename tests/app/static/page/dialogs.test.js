@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {qrAddress} from "../../../../app/static/page/qr_code.js"
+import {qrAddress} from "../../../../app/codim2_app/static/page/qr_code.js"
 import {asked, click, FIRST, memory, OWN, SYSTEM, type, wired} from "../played/wiring.js"
 
 test("the dialog writes a frame with the controls that are named, and copies", async () => {

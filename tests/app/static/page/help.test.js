@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {KEYS} from "../../../../app/static/page/help.js"
+import {KEYS} from "../../../../app/codim2_app/static/page/help.js"
 import {click, wired} from "../played/wiring.js"
 
 function opened(more = {}) {

@@ -3,8 +3,8 @@ import assert from "node:assert/strict"
 import test from "node:test"
 
 import {page} from "../played/page.js"
-import {LectureScreen} from "../../../../app/static/page/lecture.js"
-import {countsOf, gather, present, report} from "../../../../app/static/presenter.js"
+import {LectureScreen} from "../../../../app/codim2_app/static/page/lecture.js"
+import {countsOf, gather, present, report} from "../../../../app/codim2_app/static/presenter.js"
 
 const OF = {key: "mine", title: "Mine", views: [{name: "One", set: {a: 1}, seen: null}, {name: "Two", set: {panel: "atlas"}, seen: null}]}
 const POLLS = [{ask: "Does it stick?", options: ["yes", "no"]}, {ask: "Where to?", options: ["left", "right"]}]

@@ -3,7 +3,7 @@ import assert from "node:assert/strict"
 import test from "node:test"
 import {inflateRawSync} from "node:zlib"
 
-import {compressQuery, writeLink} from "../../../../app/static/page/links.js"
+import {compressQuery, writeLink} from "../../../../app/codim2_app/static/page/links.js"
 
 const DEFAULTS = {a: -2, f1: 0.5, z: 0, psi: "constant", preset: "", system: "normal", texts: {}, layers: ["inside", "rho"]}
 const CONFIG = {

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {readOwn, Second, Seconded, writeOwn} from "../../../../app/static/page/second.js"
+import {readOwn, Second, Seconded, writeOwn} from "../../../../app/codim2_app/static/page/second.js"
 import {page} from "../played/page.js"
 import {FIRST as HEADER, VALUES, wired} from "../played/wiring.js"
 

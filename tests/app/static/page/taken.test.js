@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict"
 import {test} from "node:test"
-import {Takes} from "../../../../app/static/page/taken.js"
-import {slidersOf} from "../../../../app/static/controls/controls.js"
+import {Takes} from "../../../../app/codim2_app/static/page/taken.js"
+import {slidersOf} from "../../../../app/codim2_app/static/controls/controls.js"
 import {page} from "../played/page.js"
 
 test("a wish is sent with what is seen, and its answer comes back to it", async () => {

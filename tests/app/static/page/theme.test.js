@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Theme} from "../../../../app/static/page/theme.js"
+import {Theme} from "../../../../app/codim2_app/static/page/theme.js"
 import {page} from "../played/page.js"
 
 /** What a page shows whose system is dark or not, in a frame that stands on some colour, or in none. */

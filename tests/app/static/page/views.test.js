@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {interpolateViews, Views} from "../../../../app/static/page/views.js"
+import {interpolateViews, Views} from "../../../../app/codim2_app/static/page/views.js"
 import {page} from "../played/page.js"
 
 const FIRST = {system: "normal", texts: {}, psi: "constant", psi_text: "", beside: "", parameters: {}, f1: 0, a: -1, layers: ["rho"]}

@@ -2,8 +2,8 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {STEP} from "../../../../app/static/picture/frames.js"
-import "../../../../app/static/panels/atlas.js"
+import {STEP} from "../../../../app/codim2_app/static/picture/frames.js"
+import "../../../../app/codim2_app/static/panels/atlas.js"
 import {named, near, opened, plots} from "../played/reading.js"
 
 const lines = (name, ...pieces) => ({

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {percent, groupDigits} from "../../../../app/static/panels/census.js"
+import {percent, groupDigits} from "../../../../app/codim2_app/static/panels/census.js"
 import {opened} from "../played/reading.js"
 
 const SETTINGS = {draws: {normal: ["e-linear", 10000], quadratic: ["quadratic in e", 50]}, most: 2}

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import "../../../../app/static/panels/along.js"
-import "../../../../app/static/panels/planes.js"
-import "../../../../app/static/panels/psi.js"
+import "../../../../app/codim2_app/static/panels/along.js"
+import "../../../../app/codim2_app/static/panels/planes.js"
+import "../../../../app/codim2_app/static/panels/psi.js"
 import {named, near, opened, plots, wide} from "../played/reading.js"
 
 // --- along

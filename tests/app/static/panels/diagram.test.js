@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import "../../../../app/static/panels/diagram.js"
+import "../../../../app/codim2_app/static/panels/diagram.js"
 import {named, near, opened, plots, wide} from "../played/reading.js"
 
 const DIAGRAM = {

@@ -3,9 +3,9 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {angleTicks} from "../../../../app/static/widgets/orbit_in_time.js"
-import "../../../../app/static/panels/orbits.js"
-import {sampleAt} from "../../../../app/static/widgets/player.js"
+import {angleTicks} from "../../../../app/codim2_app/static/widgets/orbit_in_time.js"
+import "../../../../app/codim2_app/static/panels/orbits.js"
+import {sampleAt} from "../../../../app/codim2_app/static/widgets/player.js"
 import {close, opened, plots} from "../played/reading.js"
 
 const near = (found, expected, most) => assert.ok(close(found, expected, most), `${JSON.stringify(found)} is not ${JSON.stringify(expected)}`)

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import "../../../../app/static/panels/response.js"
+import "../../../../app/codim2_app/static/panels/response.js"
 import {opened} from "../played/reading.js"
 
 const CURVE = {

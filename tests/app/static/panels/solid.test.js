@@ -2,8 +2,8 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import "../../../../app/static/panels/solid.js"
-import {rotateView} from "../../../../app/static/chart/projection.js"
+import "../../../../app/codim2_app/static/panels/solid.js"
+import {rotateView} from "../../../../app/codim2_app/static/chart/projection.js"
 import {opened} from "../played/reading.js"
 
 const WIDTH = 360, HEIGHT = 240

@@ -2,11 +2,11 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import "../../../../app/static/panels/lessons.js"
-import "../../../../app/static/panels/numbers.js"
-import "../../../../app/static/panels/orbits.js"
-import {SAYS} from "../../../../app/static/words.js"
-import {Panels, register} from "../../../../app/static/widgets/panels.js"
+import "../../../../app/codim2_app/static/panels/lessons.js"
+import "../../../../app/codim2_app/static/panels/numbers.js"
+import "../../../../app/codim2_app/static/panels/orbits.js"
+import {SAYS} from "../../../../app/codim2_app/static/words.js"
+import {Panels, register} from "../../../../app/codim2_app/static/widgets/panels.js"
 import {page} from "../played/page.js"
 import {opened} from "../played/reading.js"
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Bitmaps, paint} from "../../../../app/static/picture/paint.js"
+import {Bitmaps, paint} from "../../../../app/codim2_app/static/picture/paint.js"
 
 // 3 × 3 cells, row by row from the bottom, from left to right: none, none, a; a, b, b; b, none, none.
 const CELLS = {kind: "cells", layer: "basins", count: 3, region: [-1, 1, -1, 1], runs: [2, 0, 2, 1, 3, 2, 2, 0], colours: [null, "a", "b"], alpha: 0.3}

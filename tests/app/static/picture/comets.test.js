@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Comets, orbitsOf, tailOf} from "../../../../app/static/picture/comets.js"
+import {Comets, orbitsOf, tailOf} from "../../../../app/codim2_app/static/picture/comets.js"
 import {page} from "../played/page.js"
 
 const ITEM = {kind: "curves", layer: "inside", counts: [3, 2], points: Float32Array.of(0, 0, 0.3, 0, 0.3, 0.5, 1, 1, 1, 1.01), colour: "c", width: 1}

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {polygons, readFrame, STEP} from "../../../../app/static/picture/frames.js"
+import {polygons, readFrame, STEP} from "../../../../app/codim2_app/static/picture/frames.js"
 import {packed} from "../played/wiring.js"
 
 const near = (one, other, most = 1e-12) => one.flat().forEach((v, i) => assert.ok(Math.abs(v - other.flat()[i]) <= most, `${one} is not ${other}`))

@@ -2,9 +2,9 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {crossList, displayList} from "../../../../app/static/picture/display.js"
-import {enlarge} from "../../../../app/static/page/beamer.js"
-import {Bitmaps, paint} from "../../../../app/static/picture/paint.js"
+import {crossList, displayList} from "../../../../app/codim2_app/static/picture/display.js"
+import {enlarge} from "../../../../app/codim2_app/static/page/beamer.js"
+import {Bitmaps, paint} from "../../../../app/codim2_app/static/picture/paint.js"
 
 const critical = {label: ["C₁", "C₂"], sense: ["⊙", "⊗"], x: [-0.72, 0.72], y: [0.47, 0.47], colour: ["c", "c"], shape: ["square", "square"], size: [12, 12], filled: [true, true]}
 

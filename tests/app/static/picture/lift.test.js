@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {paintLifted, projection} from "../../../../app/static/picture/lift.js"
+import {paintLifted, projection} from "../../../../app/codim2_app/static/picture/lift.js"
 import {recorder} from "../played/page.js"
 
 const ABOVE = {up: 0, azimuth: 0, elevation: Math.PI / 2, x: 100, y: 80, scale: 50}

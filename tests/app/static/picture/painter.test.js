@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {makeRenderer, repaint} from "../../../../app/static/picture/painter.js"
+import {makeRenderer, repaint} from "../../../../app/codim2_app/static/picture/painter.js"
 
 const BOX = {x: 10, y: 20, width: 300, height: 200}
 

@@ -1,5 +1,5 @@
 // A chart by itself on a page, what it asks of who made it noted in `did`: [what, ...with].
-import {Chart} from "../../../../app/static/chart/chart.js"
+import {Chart} from "../../../../app/codim2_app/static/chart/chart.js"
 import {page} from "./page.js"
 import {plots} from "./reading.js"
 

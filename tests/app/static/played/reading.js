@@ -2,8 +2,8 @@
 import assert from "node:assert/strict"
 
 import {page} from "./page.js"
-import {Panels} from "../../../../app/static/widgets/panels.js"
-import {Rest} from "../../../../app/static/asking/rest.js"
+import {Panels} from "../../../../app/codim2_app/static/widgets/panels.js"
+import {Rest} from "../../../../app/codim2_app/static/asking/rest.js"
 
 const SYMBOLS = {a: "a", f1: "f₁", f2: "f₂", n: "n", z: "z", z2: "z₂", log_eps: "log₁₀ ε", t_end: "until t", "own:mu": "μ"}
 const RANGES = {a: [-4, 4], f1: [-3, 3], f2: [-3, 3], n: [0.5, 6], z: [-4, 4], z2: [-4, 4], log_eps: [-10, 0], t_end: [0, 40]}

@@ -2,10 +2,10 @@
 // hand, and what a person does; all as one text.
 
 import {page, recorder} from "./page.js"
-import explorer, {begin} from "../../../../app/static/explorer.js"
-import {Numbers} from "../../../../app/static/panels/numbers.js"
-import "../../../../app/static/panels/orbits.js"
-import {register} from "../../../../app/static/widgets/panels.js"
+import explorer, {begin} from "../../../../app/codim2_app/static/explorer.js"
+import {Numbers} from "../../../../app/codim2_app/static/panels/numbers.js"
+import "../../../../app/codim2_app/static/panels/orbits.js"
+import {register} from "../../../../app/codim2_app/static/widgets/panels.js"
 
 /** What the newest explorer's panels can do. */
 let tools = /** @type {any} */ (null)

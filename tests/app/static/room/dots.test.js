@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import "../../../../app/static/panels/atlas.js"
+import "../../../../app/codim2_app/static/panels/atlas.js"
 import {near, opened, plots} from "../played/reading.js"
 
 const FIRST = {a: -2, b: 0, d: -1, f1: 0, f2: 0, system: "normal", texts: {}, parameters: {}, z: 0, k1: 0, k2: 0, psi: "constant"}

@@ -2,17 +2,17 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {lessons, placeDots, settings, tally} from "../../../../app/static/room/crowd.js"
-import {Room} from "../../../../app/static/room/room.js"
-import "../../../../app/static/panels/atlas.js"
+import {lessons, placeDots, settings, tally} from "../../../../app/codim2_app/static/room/crowd.js"
+import {Room} from "../../../../app/codim2_app/static/room/room.js"
+import "../../../../app/codim2_app/static/panels/atlas.js"
 import {page} from "../played/page.js"
 import {near, opened} from "../played/reading.js"
-import {qrAddress} from "../../../../app/static/page/qr_code.js"
+import {qrAddress} from "../../../../app/codim2_app/static/page/qr_code.js"
 import {FIRST as HEADER, memory, wired} from "../played/wiring.js"
 
 const FIRST = {a: -2, b: 0, d: -1, f1: -0.5, f2: 0, system: "normal", texts: {}, parameters: {}, z: 0, z2: 0, z3: 0, z4: 0, k1: 0.5, k2: 0, B1: 1, psi: "constant", n: 2, psi_text: "1"}
 const NAMES = Object.keys(FIRST), FAMILIES = {constant: {}, hill: {parameter: "n"}, custom: {typed: true}}
-const row = (number, name, own, lesson = null) => /** @type {import("../../../../app/static/room/crowd.js").Row} */ ([number, name, own, lesson])
+const row = (number, name, own, lesson = null) => /** @type {import("../../../../app/codim2_app/static/room/crowd.js").Row} */ ([number, name, own, lesson])
 const on = (axes, plane = false) => ({axes, plane, first: FIRST, names: NAMES, families: FAMILIES})
 const spots = (rows, mine, chart) => placeDots(rows, {...FIRST, ...mine}, chart).map(({row: [number], x, y}) => [number, x, y])
 

@@ -1,10 +1,10 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {Ball} from "../../../../app/static/widgets/ball.js"
-import {rotateVector} from "../../../../app/static/widgets/quaternions.js"
+import {Ball} from "../../../../app/codim2_app/static/widgets/ball.js"
+import {rotateVector} from "../../../../app/codim2_app/static/widgets/quaternions.js"
 
-/** @typedef {import("../../../../app/static/widgets/quaternions.js").Quaternion} Quaternion */
+/** @typedef {import("../../../../app/codim2_app/static/widgets/quaternions.js").Quaternion} Quaternion */
 
 const near = (one, other, most = 1e-12) => one.forEach((v, i) => assert.ok(Math.abs(v - other[i]) <= most, `${one} is not ${other}`))
 

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {colours, Pad, regionClass, shortNames} from "../../../../app/static/widgets/pad.js"
+import {colours, Pad, regionClass, shortNames} from "../../../../app/codim2_app/static/widgets/pad.js"
 import {page} from "../played/page.js"
 import {named, near, plots} from "../played/reading.js"
 

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict"
 import test from "node:test"
 
-import {arrowsOf, frictionOf, largestFriction, momentOf, puckMarkup, slowMotion, unitOf} from "../../../../app/static/widgets/puck.js"
+import {arrowsOf, frictionOf, largestFriction, momentOf, puckMarkup, slowMotion, unitOf} from "../../../../app/codim2_app/static/widgets/puck.js"
 
 const PLANE = {a: -2, b: 0.5, d: -1, f1: 0.3, f2: -0.2, z: 0, k1: 1, k2: 0}
 const near = (/** @type {number[]} */ one, /** @type {number[]} */ other) => one.forEach((v, i) => assert.ok(Math.abs(v - other[i]) < 1e-12, `${one} ${other}`))

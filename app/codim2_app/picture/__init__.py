@@ -1,0 +1,1 @@
+"""The picture: what a user can set, the frame under way, shapes and colours."""

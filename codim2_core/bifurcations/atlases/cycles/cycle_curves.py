@@ -1,0 +1,139 @@
+"""Folds of limit cycles over two parameters of any system."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from ....results.arrays import Array, read_only
+from ....results.words import say
+from ...families.family import SystemFamily
+from ..disc_atlas import is_covered, length_of
+from ..result import AtlasCurve, AtlasPoint
+from .fold_seeds import FoldSeed, along_lines, seeds_beside_bautin
+from .fold_tracing import CENTRE, CORNER, FoldCurve, trace_fold
+
+KIND = "fold of cycles"
+GENERALISED_HOPF, SADDLE_NODE_CORNER, NEUTRAL_LOOP = "generalised Hopf", "saddle-node on the equator", "neutral loop"
+ON_CURVE_DISTANCE = 0.03  # of the square: a curve passes a start, or ends at a point of codimension two, so near to it
+MAX_END_SIZE = 0.05  # of cycles that break off next to a critical set
+SAME_SIZE_RATIO = 0.15  # of the size of cycles
+CORNER_RADIUS = 0.015  # of the square: a curve that breaks off so near to a corner ends there
+BIRTH_DISTANCE = 1e-5  # of the square, from the point at which a curve ends
+LOOP_HEIGHT, LOOP_DISTANCE = 0.1, 0.08  # ebar of cycles that are all but a loop; of the square, from a neutral one
+
+
+def cycle_curves(
+    family: SystemFamily, curves: Sequence[AtlasCurve], points: Sequence[AtlasPoint]
+) -> tuple[list[AtlasCurve], list[AtlasPoint]]:
+    """Find folds of cycles, and the points of codimension two on them.
+
+    They are begun at generalised Hopf points, and at the folds on branches of cycles along some lines each way: one
+    that meets none of these is missed. Over a family that is symmetric one of each pair is found.
+    """
+    known = {
+        kind: [family.units(np.array(point.place)) for point in points if point.kind == kind]
+        for kind in (GENERALISED_HOPF, SADDLE_NODE_CORNER, NEUTRAL_LOOP)
+    }
+    if family.symmetric:
+        known[NEUTRAL_LOOP] += [1.0 - place for place in known[NEUTRAL_LOOP]]
+    corners = known[SADDLE_NODE_CORNER]
+    found: list[FoldCurve] = []
+    missed = []
+    for place in known[GENERALISED_HOPF]:
+        if not (family.symmetric and place[1] < 0.5) and not any(_comes_to(one, place) for one in found):
+            caught = (trace_fold(family, seed.start, corners) for seed in seeds_beside_bautin(family, place))
+            first = next((one for one in caught if one is not None), None)
+            if first is None:
+                missed.append(place)
+            else:
+                found.append(first)
+    for seed in along_lines(family, curves):
+        if not any(_passes_seed(one, seed) for one in found):
+            one = trace_fold(family, seed.start, corners)
+            found += [one] if one is not None else []
+    out, told = [], []
+    for one in _without_parts(family, found):
+        plane, sizes, ends = _extend_to_ends(one, known)
+        places = np.full((len(plane), 2), math.nan)
+        out.append(AtlasCurve(KIND, read_only(family.values(plane)), read_only(places), read_only(sizes)))
+        told += [*ends, *(("cusp of cycles", at, say("cusp of cycles")) for at in one.cusps)]
+    told += [
+        ("undecided", place, say("fold not caught"))
+        for place in missed
+        if not any(_comes_to(one, place) for one in found)
+    ]
+    return out, [AtlasPoint(kind, (float(at[0]), float(at[1])), text)
+                 for kind, place, text in told for at in [family.values(place)]]  # fmt: skip
+
+
+def _without_parts(family: SystemFamily, found: Sequence[FoldCurve]) -> list[FoldCurve]:
+    """Leave out what covers a part of a longer curve, or of its image, alone: it was followed from there less far."""
+    kept: list[FoldCurve] = []
+    for one in sorted(found, key=lambda one: -length_of(one.plane)):
+        lines = [line for other in kept for line in (other.plane, 1.0 - other.plane)[: 1 + family.symmetric]]
+        if not any(is_covered(one.plane, line) for line in lines):
+            kept.append(one)
+    return kept
+
+
+def _passes_seed(curve: FoldCurve, seed: FoldSeed) -> bool:
+    near = _away(curve.plane, seed.start.v[1:]) < ON_CURVE_DISTANCE
+    return bool((near & (np.abs(curve.sizes - seed.size) < SAME_SIZE_RATIO)).any())
+
+
+def _comes_to(curve: FoldCurve, place: Array) -> bool:
+    ends = [math.dist(curve.plane[i], place) for i in (0, -1) if curve.sizes[i] < MAX_END_SIZE]
+    return min(ends, default=math.inf) < ON_CURVE_DISTANCE
+
+
+def _away(plane: Array, place: Array) -> Array:
+    return np.hypot(*(plane - place).T)
+
+
+def _extend_to_ends(
+    one: FoldCurve, known: Mapping[str, Sequence[Array]]
+) -> tuple[Array, Array, list[tuple[str, Array, str]]]:
+    """Return a curve drawn on to the points of codimension two at its ends, and what is to be said of these."""
+    plane, sizes, told = one.plane, one.sizes, []
+    for end, i in zip(one.ends, (0, -1), strict=True):
+        last, size = one.plane[i], float(one.sizes[i])
+        at, kind, text = _end(end, last, size, float(one.heights[i]), known)
+        if at is not None:
+            size = 0.0 if kind == GENERALISED_HOPF else size
+            away = np.hypot(*(plane - at).T) > BIRTH_DISTANCE  # next to a birth rounding decides
+            plane, sizes = plane[away], sizes[away]
+            plane = np.concatenate([at[None], plane] if i == 0 else [plane, at[None]])
+            sizes = np.concatenate([[size], sizes] if i == 0 else [sizes, [size]])
+        if text:
+            told.append((kind, last if at is None else at, text))
+    return plane, sizes, told
+
+
+def _end(
+    end: str, last: Array, size: float, height: float, known: Mapping[str, Sequence[Array]]
+) -> tuple[Array | None, str, str]:
+    """Return the point at which a curve ends, its kind, and what is said there."""
+
+    def nearest(kind: str, reach: float) -> Array | None:
+        near = min(known[kind], key=lambda at: math.dist(at, last), default=None)
+        return near if near is not None and math.dist(near, last) < reach else None
+
+    if end not in (CENTRE, CORNER, "equator", "lost", "many"):
+        return None, "", ""
+    if end == CENTRE or size < MAX_END_SIZE:
+        born = nearest(GENERALISED_HOPF, ON_CURVE_DISTANCE)
+        if born is not None:
+            return born, GENERALISED_HOPF, ""
+    corner = nearest(SADDLE_NODE_CORNER, CORNER_RADIUS)
+    if corner is not None:
+        return corner, "touching", say("fold ends, saddle-node")
+    # towards a neutral loop the fold runs along the curve of loops, closer than any power
+    loop = nearest(NEUTRAL_LOOP, LOOP_DISTANCE) if height < LOOP_HEIGHT else None
+    if loop is not None:
+        return loop, "resonant loop", say("fold ends, neutral loop")
+    if end == "equator":
+        return None, "equator", say("fold reaches the equator")
+    return None, "undecided", say("fold followed no further")

@@ -1,0 +1,219 @@
+"""A fold of cycles over the plane: followed both ways from a start, on as many rays as it takes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+
+from ....numerics.curves.arclength import (
+    CurveEdge,
+    StepBounds,
+    point_across,
+    square_edges,
+    tangent,
+    trace_one_way,
+    zero_between,
+)
+from ....numerics.curves.newton import newton
+from ....portrait.cycles.ray import crossing_qualities
+from ....portrait.cycles.ray_section import room
+from ....portrait.layer_problem.critical import critical_sets
+from ....results.arrays import Array
+from ...continuation.section_base import e_at
+from ...families.family import SystemFamily
+from .encircling_turns import LOG_SIZE_SCALE, EncirclingTurns
+
+CENTRE = "critical set"  # how a curve ends whose cycles shrink to one
+CORNER = "corner"  # and one that comes to a saddle-node on the equator
+STEP_BOUNDS = StepBounds(0.04, 0.3, 300, close=1e-9, enough=1e-7, least=5e-4)
+SHORT_STEPS = replace(STEP_BOUNDS, least=2e-5)  # where no other ray is better
+CORNER_DISTANCE = 1.5e-3  # of the square: a curve need not be followed closer to a corner
+MIN_EXPONENT_CHANGE = 1e-9  # a difference of exponents that may be rounding's
+CUSP_TOLERANCE = 1e-7  # of a step: to which a cusp is found, and the square of it in the plane
+#: X at which cycles have come to the point, to the equator.
+MIN_LOG_SIZE, MAX_LOG_SIZE = math.log(1.5e-3) / LOG_SIZE_SCALE, 9.0 / LOG_SIZE_SCALE
+MAX_SEED_ERROR = 0.3  # in (x, u, v), that a start may be off
+MAX_RAYS = 8  # of a curve, each way
+MIN_QUALITY, MIN_GAIN = 0.015, 1.0  # of a crossing; of the exponent that a ray is to save
+RAY_GAIN = 1.3  # times as well another ray is crossed that is worth taking
+
+
+@dataclass(frozen=True, eq=False)
+class CycleStart:
+    """The seed of a curve: a place on a ray, near v; `fixed` where the first fold is looked for at that size."""
+
+    around: EncirclingTurns
+    v: Array
+    fixed: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class FoldCurve:
+    """A curve."""
+
+    plane: Array  # (m, 2) Of the unit square
+    sizes: Array  # (m,) The cycles' largest distances from their point, and least distances from the equator (ebar)
+    heights: Array
+    cusps: Array  # (k, 2) Where three cycles are one: the curve turns back
+    ends: tuple[str, str]  # how both ends come about
+
+
+def trace_fold(family: SystemFamily, start: CycleStart, corners: Sequence[Array] = ()) -> FoldCurve | None:
+    """Return the curve through a start; None if it is not caught. Shapes: corners (2,)."""
+    fold = start.around.fold
+    # next to a Hopf curve shift and exponent vanish with the size, all along it
+    first = point_across(fold, start.v, np.eye(3)[0], MAX_SEED_ERROR) if start.fixed else None
+    first = newton(fold, start.v, MAX_SEED_ERROR) if first is None else first
+    along = None if first is None else tangent(fold, first)
+    if first is None or along is None or not 0.0 <= min(first[1:]) <= max(first[1:]) <= 1.0:
+        return None
+    edges = _fold_edges(corners)
+    ahead, end = _one_way(family, start.around, first, along, edges)
+    if not end:
+        behind, other = [], ""
+    else:
+        behind, other = _one_way(family, start.around, first, -along, edges)
+    rows = [*behind[::-1], (start.around, first), *ahead]
+    found = [(*row, around.turn(row[1])) for row in rows for around in [row[0]]]
+    kept = [(around, v, one.turn) for around, v, one in found if one is not None]
+    if len(kept) < 2:
+        return None
+    cusps = _cusps([(around, v) for around, v, _ in kept])
+    places = [v[1:] for _, v, _ in kept]
+    sizes, heights = ([getattr(turn, name) for *_, turn in kept] for name in ("amplitude", "height"))
+    for i, v in reversed(cusps):
+        places.insert(i + 1, v[1:])
+        sizes.insert(i + 1, 0.5 * (sizes[i] + sizes[i + 1]))
+        heights.insert(i + 1, min(heights[i], heights[i + 1]))
+    turned_back = np.reshape([v[1:] for _, v in cusps], (-1, 2))
+    return FoldCurve(np.array(places), np.array(sizes), np.array(heights), turned_back, (other, end))
+
+
+def _cusps(rows: Sequence[tuple[EncirclingTurns, Array]]) -> list[tuple[int, Array]]:
+    """Find the cusps on a curve: the point after which each comes, and its place.
+
+    Where one step has passed two of them, it has led back in the plane.
+    """
+    bends = np.array([around.bend(v) for around, v in rows])
+    sure = np.flatnonzero(np.abs(bends) > MIN_EXPONENT_CHANGE).tolist()
+    steps = np.diff([rows[i][1][1:] for i in sure], axis=0)
+    found = []
+    for k, (i, j) in enumerate(pairwise(sure)):
+        (around, one), (onward, other) = rows[i], rows[j]
+        if onward is not around:
+            continue
+        part = [(one, bends[i] < 0.0), (other, bends[j] < 0.0)]
+        if 0 < k < len(steps) - 1 and max(steps[k] @ steps[k - 1], steps[k] @ steps[k + 1]) < 0.0:
+            middle = newton(around.fold, 0.5 * (one + other), MAX_SEED_ERROR)
+            part[1:1] = [] if middle is None else [(middle, around.bend(middle) < 0.0)]
+        for (here, before), (there, after) in pairwise(part):
+            if before != after:
+                found.append((i, zero_between(around.fold, around.bend, here, there, CUSP_TOLERANCE)))
+    return found
+
+
+def _one_way(
+    family: SystemFamily, around: EncirclingTurns, here: Array, along: Array, edges: Sequence[CurveEdge]
+) -> tuple[list[tuple[EncirclingTurns, Array]], str]:
+    """Places after one, each with its ray, and how the curve ends; "" where it has come round."""
+    rows: list[tuple[EncirclingTurns, Array]] = []
+    end, bounds = "lost", STEP_BOUNDS
+    for _ in range(MAX_RAYS):
+        points, end = trace_one_way(around.fold, here, along, edges, bounds)
+        rows += [(around, v) for v in points]
+        if end != "lost":
+            break
+        last, before = (points[-1], points[-2]) if len(points) > 1 else (points[0], here) if points else (here, None)
+        way = along if before is None else last - before
+        again = _again(family, around, last, way)
+        if again is not None:
+            (around, here, along), bounds = again, STEP_BOUNDS
+        elif bounds is SHORT_STEPS:
+            break
+        else:
+            here, along, bounds = last, way / max(math.hypot(*way), 1e-300), SHORT_STEPS
+    return rows, end
+
+
+def _again(
+    family: SystemFamily, around: EncirclingTurns, last: Array, way: Array
+) -> tuple[EncirclingTurns, Array, Array] | None:
+    """Find the last cycle on a ray that it crosses better, and the direction there; None if there is none."""
+    turned, ray = around.turn(last), around.ray(last[1:])
+    if turned is None or ray is None:
+        return None
+    closed = np.concatenate([turned.states, turned.states[:1]])[:, :2]
+    arounds = [around, *_encircled_points(family, last[1:], closed, around.centre or around)]
+    rays = [one.ray(last[1:]) for one in arounds]
+    crossed = [
+        (crossing_qualities(closed, found.critical), one) for one, found in zip(arounds, rays, strict=True) if found
+    ]
+    step = closed[1] - closed[-2]
+    here = abs(float(step[0] * around.u[1] - step[1] * around.u[0])) / max(math.hypot(*step), 1e-300)
+    # from a state a change grows by exp(left - min left) on its way, and by exp(max left - left) comes what is new
+    uneven = np.abs(turned.left - 0.5 * (turned.left.max() + turned.left.min()))
+    gain, index, best = max(
+        ((float(uneven[-1] - at[i]), i, one) for quality, one in crossed
+         for at in [np.where(quality > MIN_QUALITY, uneven, math.inf)] for i in [int(at.argmin())]),
+        key=lambda one: one[0],
+    )  # fmt: skip
+    if gain < MIN_GAIN:
+        quality, index, best = max(
+            ((float(quality.max()), int(quality.argmax()), one) for quality, one in crossed), key=lambda one: one[0]
+        )
+        if quality < RAY_GAIN * here:
+            return None
+    start = _start_on_ray(best, last[1:], closed[index])
+    if start is None:
+        return None
+    found = newton(start.around.fold, start.v, MAX_SEED_ERROR)
+    along = None if found is None else tangent(start.around.fold, found)
+    if found is None or along is None:
+        return None
+    return start.around, found, along if float(along[1:] @ way[1:]) > 0.0 else -along
+
+
+def _encircled_points(
+    family: SystemFamily, place: Array, closed: Array, centre: EncirclingTurns
+) -> list[EncirclingTurns]:
+    """Points inside a cycle: critical sets that are no saddles, others, and its middle."""
+    psi, nowhere = family.psi_at(place), np.array([1.0, 0.0])
+    sets = sorted(critical_sets(family.frozen(place), psi), key=lambda C: C.kind == "saddle")
+    middle = closed[:-1].mean(axis=0)
+    x2 = middle / math.sqrt(max(1.0 - float(middle @ middle), 1e-300))
+    return [
+        *(EncirclingTurns(family, place, np.asarray(C.e), nowhere, True, centre) for C in sets),
+        EncirclingTurns(family, place, e_at(psi, x2), nowhere, False, centre),
+    ]
+
+
+def _start_on_ray(around: EncirclingTurns, place: Array, point: Array) -> CycleStart | None:
+    """Return the start at a point of a cycle, on the ray from another point through it."""
+    ray = around.ray(place)
+    if ray is None:
+        return None
+    away = point - ray.critical.p
+    r = math.hypot(*away)
+    turned = around.towards(away / r)
+    reach, _ = room(ray.critical, away / r)
+    return CycleStart(turned, np.array([math.log(r / max(reach - r, 1e-300)) / LOG_SIZE_SCALE, *place]))
+
+
+def _fold_edges(corners: Sequence[Array]) -> list[CurveEdge]:
+    unit = np.eye(3)
+
+    def nearness(v: Array, corner: Array) -> tuple[float, Array]:
+        away = v[1:] - corner
+        gap = math.hypot(*away)
+        return CORNER_DISTANCE - gap, np.array([0.0, *(-away / max(gap, 1e-300))])
+
+    return [
+        CurveEdge(CENTRE, lambda v: (MIN_LOG_SIZE - float(v[0]), -unit[0])),
+        CurveEdge("equator", lambda v: (float(v[0]) - MAX_LOG_SIZE, unit[0])),
+        *(CurveEdge(CORNER, lambda v, corner=corner: nearness(v, corner)) for corner in corners),
+        *square_edges(3),
+    ]

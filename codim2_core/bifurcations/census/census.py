@@ -1,0 +1,137 @@
+"""Count portraits by name among random systems, on any executor, with equal results."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...systems.psi import constructors
+from ...systems.psi.function import Psi
+from .checkpoint import CountedChunks
+from .draws import DRAWS, Draw
+from .table import Census, make_census
+from .tally import CensusPlan, Tally, tally
+
+if TYPE_CHECKING:  # an import that takes as long as a tenth of this package
+    from concurrent.futures import Executor, Future
+
+CHUNK_SYSTEMS, FEW = 100_000, 200  # systems in a chunk: of coefficients, and of systems that are classified one by one
+CHUNKS_IN_FLIGHT = 64  # chunks handed to an executor at a time
+MAX_SYSTEMS = 10**12
+
+
+def census(
+    draw: Draw | str = "normal",
+    psi: Psi | None = None,
+    count: int = 1_000_000,
+    *,
+    seed: int = 0,
+    outcomes: bool = False,
+    resume: str | Path | None = None,
+    executor: Executor | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Census:
+    """Name many systems, and count the names.
+
+    The same arguments give the same table, whatever the executor: chunk i draws from a generator of its own, seeded by
+    (seed, i).
+
+    Parameters
+    ----------
+    draw : "normal", "quadratic", or callable
+        Default "normal": e-linear systems with standard normal a, b, d, f1, f2. "quadratic": systems quadratic in e,
+        with twelve standard normal coefficients. Or (generator, n) to n systems: coefficients (n, 5) a, b, d, f1, f2 of
+        e-linear ones, which a filter names, or a sequence of systems, which `classify` names one by one (at
+        z = 0, in some milliseconds each). It must give the same for the same generator; for processes it must be
+        picklable. It is first asked for one system, which is not counted and tells which of the two it gives.
+    psi : Psi, optional
+        Read by systems that are not e-linear, and for outcomes; default Psi = 1.
+    count : int
+        1 to 1e12.
+    seed : int
+    outcomes : bool
+        Whether names tell as well what becomes of orbits that arrive along open sets, or along one side of a
+        direction: "I CM4, slides". Each system then takes some milliseconds.
+    resume : path, optional
+        A file in which what is counted is kept, every two seconds. If it is there, the census goes on from it: after it
+        was stopped, or with a larger count.
+    executor : concurrent.futures.Executor, optional
+        Threads, processes, or a cluster's; by default all is done here.
+    progress : callable, optional
+        Called with (systems named, count).
+
+    Returns
+    -------
+    Census
+
+    Raises
+    ------
+    ValueError
+        An argument is invalid, `draw` does not return what it should, or the file to resume is another census's.
+
+    Examples
+    --------
+    >>> census(count=10_000).table[0].name
+    'I NCM2'
+    """
+    draw = DRAWS.get(draw, draw) if isinstance(draw, str) else draw
+    if not callable(draw):
+        raise ValueError(f"draw is {draw!r:.80}; give {', '.join(DRAWS)}, or a function (generator, n) to n systems.")
+    if not isinstance(count, (int, np.integer)) or not 1 <= count <= MAX_SYSTEMS:
+        raise ValueError(f"count is {count!r}; give a whole number from 1 to 1e12.")
+    if not isinstance(seed, (int, np.integer)) or seed < 0:
+        raise ValueError(f"seed is {seed!r}; give a whole number, 0 or larger.")
+    psi = constructors.constant() if psi is None else psi
+    if not isinstance(psi, Psi):
+        raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
+    plan = CensusPlan(draw, psi, int(seed), bool(outcomes))
+    chunk = _chunk_size(plan)
+    kept = CountedChunks(plan, chunk, None if resume is None else Path(resume))
+    last = -(-count // chunk)
+    if kept.systems > count:
+        raise ValueError(f"{resume} keeps {kept.systems} systems; give a count of at least that.")
+    waiting = ((i, min(chunk, count - i * chunk)) for i in range(last) if i not in kept)
+    try:
+        for i, found in _run_chunks(executor, plan, waiting):
+            kept.add(i, found)
+            if progress is not None:
+                progress(kept.systems, count)
+    finally:
+        kept.save()
+    return make_census(kept.all(), plan, chunk)
+
+
+def _chunk_size(plan: CensusPlan) -> int:
+    """Return how many systems go into a chunk; it follows from what is asked alone, so that tables agree."""
+    return CHUNK_SYSTEMS if isinstance(plan.drawn(0, 1), np.ndarray) and not plan.outcomes else FEW
+
+
+def _run_chunks(
+    executor: Executor | None, plan: CensusPlan, chunks: Iterator[tuple[int, int]]
+) -> Iterator[tuple[int, Tally]]:
+    if executor is None:
+        for i, size in chunks:
+            yield i, tally(plan, i, size)
+        return
+    waiting: dict[Future[Tally], int] = {}
+    try:
+        for i, size in chunks:
+            if len(waiting) >= CHUNKS_IN_FLIGHT:
+                yield from _as_completed(waiting)
+            waiting[executor.submit(tally, plan, i, size)] = i
+        while waiting:
+            yield from _as_completed(waiting)
+    finally:
+        for future in waiting:
+            future.cancel()
+
+
+def _as_completed(waiting: dict[Future[Tally], int]) -> Iterator[tuple[int, Tally]]:
+    from concurrent.futures import FIRST_COMPLETED, wait
+
+    ready, _ = wait(waiting, return_when=FIRST_COMPLETED)
+    for future in ready:
+        yield waiting.pop(future), future.result()

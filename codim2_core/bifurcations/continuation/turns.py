@@ -1,0 +1,200 @@
+"""Turns about a point of the layer problem, with their derivatives by place and parameter, for continuation of cycles.
+
+The section is a ray ``p = p_0 + r u``, ``r = reach/(1 + exp(-xi))``, whose foot p_0 moves with the parameter mu while u
+stays; both ends of a turn lie on it. With ``F = x2'`` and ``F x v = F1 v2 - F2 v1`` a deviation obeys
+
+    F x delta(end) = exp(E) F x delta(0) + M,    E = int div dtau,    M = int exp(E(tau, end)) F x F_mu dtau
+
+(Liouville's formula, Melnikov's integral).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...portrait.cycles.periodic_orbit import STEP_NODES, gauss, path
+from ...portrait.cycles.ray import Ray
+from ...portrait.cycles.ray_section import HemispherePoint, room
+from ...portrait.layer_problem.problem import LayerProblem
+from ...results.arrays import Array
+from ...systems.psi.function import Psi
+from .continuation_points import ReturnMapPoint
+from .lockstep_searches import TurnRequest
+from .section_base import SectionBase
+
+RTOL = 1e-12  # of one turn
+MAX_EXPONENT = 600.0
+DIFFERENCE_STEP = 1e-5  # of the span, of the differences for derivatives: they tell the way, not the place
+
+
+@dataclass(frozen=True)
+class FiniteDifference:
+    """The problem at two values next to one, how these differ, and how the ray moves between them."""
+
+    low: LayerProblem
+    high: LayerProblem
+    width: float
+    moved: Array  # d p_0/d mu
+    widened: float  # d reach/d mu
+
+
+@dataclass(frozen=True)
+class TurnOrbit:
+    """A turn, the states along it (k, 3), the derivatives of its shift by each parameter, and what is left.
+
+    left: The exponent from each state to the end: there a change has grown by as much, (k,).
+    """
+
+    turn: ReturnMapPoint
+    states: Array
+    by_values: tuple[float, ...]
+    left: Array
+
+
+def turn(
+    ray: Ray, xi: float, value: float, differences: Sequence[FiniteDifference], centre: HemispherePoint, backward: bool
+) -> TurnOrbit | None:
+    """Follow one turn from a place on a ray; None if it does not return."""
+    start, _ = ray.states(np.array([xi]))
+    way = path(ray, start[0], RTOL, backward)
+    if way is None:
+        return None
+    sign = -1.0 if backward else 1.0
+    _, weights, matrix = gauss()
+    e, D = _regularised_direction(ray.psi, np.concatenate([way.inner, start, way.end[None]]))
+    F = sign * ray.field(e)
+    J = ray.derivative(e[:-2]) @ D[:-2]
+    rates = (sign * (J[:, 0, 0] + J[:, 1, 1]) / way.inner[:, 2]).reshape(-1, STEP_NODES)
+    whole = way.h * (rates @ weights)
+    exponent = float(whole.sum())
+    if not abs(exponent) < MAX_EXPONENT:
+        return None
+    past = np.concatenate([[0.0], np.cumsum(whole)[:-1]])
+    left = exponent - past[:, None] - way.h[:, None] * (rates @ matrix.T)
+    growth = np.exp(np.minimum(left.ravel(), MAX_EXPONENT))
+    multiplier = math.exp(exponent)
+
+    def cross_with_change(k: int, state: Array, v: Array) -> float:
+        """Cross F with the change of x2 that the change v of p makes."""
+        p, h = state[:2], float(state[2])
+        return float(_cross(F[k], (v + p * (p @ v) / (h * h)) / h))
+
+    begin, end = start[0], way.end
+    chi, r = 1.0 / (1.0 + math.exp(-xi)), ray.reach / (1.0 + math.exp(-xi))
+    last = float((end[:2] - ray.critical.p) @ ray.u)
+    rest = float(end[2]) ** 2 / (last + ray.other)
+    across = cross_with_change(-1, end, ray.u)
+    if not (last > 0.0 and rest > 0.0 and across != 0.0):
+        return None
+    steep = 1.0 / last + 1.0 / rest
+    by_r = multiplier * cross_with_change(-2, begin, ray.u) / across
+    by_values = []
+    for beside in differences:
+        melnikov = float(way.weight @ (growth * _cross(sign * F[:-2], _change(way.inner, beside) / ray.rate)))
+        came = multiplier * cross_with_change(-2, begin, beside.moved + chi * beside.widened * ray.u) + melnikov
+        by_values.append(steep * (came - cross_with_change(-1, end, beside.moved)) / across - beside.widened / rest)
+    found = ReturnMapPoint(
+        xi=xi, value=value, shift=math.log(last / rest) - xi,
+        by_xi=steep * by_r * r * (1.0 - chi) - 1.0, by_value=by_values[0] if by_values else math.nan,
+        exponent=sign * exponent, period=float(way.weight.sum()) / ray.rate,
+        amplitude=_farthest(way.inner[:, :2], centre.p), height=float(way.inner[:, 2].min()),
+        rate=chi * (1.0 - chi), chi=chi, p=(float(begin[0]), float(begin[1])),
+    )  # fmt: skip
+    return TurnOrbit(found, way.inner, tuple(by_values), left.ravel())
+
+
+def _cross(v: Array, w: Array) -> Array:
+    return v[..., 0] * w[..., 1] - v[..., 1] * w[..., 0]
+
+
+def _regularised_direction(psi: Psi, states: Array) -> tuple[Array, Array]:
+    """Compute e_Psi (n, 2) and its derivative by x2 (n, 2, 2) at states (n, 3)."""
+    x2 = states[:, :2] / states[:, 2:]
+    zeta = np.hypot(x2[:, 0], x2[:, 1])
+    unit = x2 / np.maximum(zeta, 1e-300)[:, None]
+    radial, tangential = psi.jacobian_factors(zeta)
+    along = unit[:, :, None] * unit[:, None, :]
+    return unit * psi.modulus(zeta)[:, None], (
+        tangential[:, None, None] * np.eye(2) + (radial - tangential)[:, None, None] * along
+    )
+
+
+def _change(states: Array, beside: FiniteDifference) -> Array:
+    """Differentiate U(e_Psi(x2)) (n, 2) by the parameter at fixed x2."""
+    x2 = states[:, :2] / states[:, 2:]
+    zeta = np.hypot(x2[:, 0], x2[:, 1])
+    unit = x2 / np.maximum(zeta, 1e-300)[:, None]
+    ends = (beside.low, beside.high)
+    low, high = (one.at.U(unit * one.psi.modulus(zeta)[:, None]) for one in ends)
+    return (high - low) / beside.width
+
+
+def _farthest(points: Array, centre: Array) -> float:
+    """Return the largest distance of points of a closed curve from a point, by a parabola about it."""
+    away = np.hypot(*(points - centre).T)
+    i = int(away.argmax())
+    before, top, after = away[i - 1], away[i], away[(i + 1) % len(away)]
+    bend = before - 2.0 * top + after
+    return float(top if bend >= 0.0 else top - (after - before) ** 2 / (8.0 * bend))
+
+
+class VariedRay:
+    """A ray from a foot in a fixed direction, at each value of the parameter.
+
+    Parameters
+    ----------
+    problem : callable
+        value -> LayerProblem.
+    scale : float
+        Size of changes of the value.
+    bounds : (float, float)
+        What the parameter may be.
+    foot, centre : SectionBase
+        From where the ray starts; from where amplitudes are measured.
+    u : ndarray (2,)
+        Its direction.
+    """
+
+    def __init__(
+        self,
+        problem: Callable[[float], LayerProblem],
+        scale: float,
+        bounds: tuple[float, float],
+        foot: SectionBase,
+        centre: SectionBase,
+        u: Array,
+    ) -> None:
+        self.problem, self.scale, self.bounds, self.foot, self.centre, self.u = problem, scale, bounds, foot, centre, u
+
+    def course(self, xi: float, value: float, backward: bool) -> TurnOrbit | None:
+        """Follow one turn; None if it does not return, or the value is not allowed."""
+        low, high = self.bounds
+        if not (math.isfinite(xi) and low <= value <= high):
+            return None
+        before, after = max(value - DIFFERENCE_STEP * self.scale, low), min(value + DIFFERENCE_STEP * self.scale, high)
+        try:
+            ends = self.problem(before), self.problem(after)
+            ray, centre = Ray(self.problem(value), self.foot.place(value), self.u), self.centre.place(value)
+            feet = self.foot.moved(value, (before, after))
+            return turn(ray, xi, value, [difference(ends, feet, after - before, self.u)], centre, backward)
+        except ValueError:  # beyond the span, where the system ends
+            return None
+
+    def answer(self, question: TurnRequest) -> list[ReturnMapPoint | None]:
+        """Follow the turns that are requested."""
+        asked = zip(question.xi, question.values, question.backward, strict=True)
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            found = [self.course(xi, value, backward) for xi, value, backward in asked]
+        return [None if one is None else one.turn for one in found]
+
+
+def difference(
+    ends: tuple[LayerProblem, LayerProblem], feet: tuple[HemispherePoint, HemispherePoint], width: float, u: Array
+) -> FiniteDifference:
+    """Compare the problem, and the ray, at two values."""
+    reaches = [room(foot, u)[0] for foot in feet]
+    return FiniteDifference(*ends, width, (feet[1].p - feet[0].p) / width, (reaches[1] - reaches[0]) / width)

@@ -1,0 +1,206 @@
+"""Equilibria along one parameter, with their bifurcation points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...numerics.sign_changes import roots
+from ...portrait.layer_problem.vary import check_varying
+from ...results.arrays import Array
+from ...results.words import say
+from ...systems.psi.function import Psi
+from ..continuation.result import CycleBranches
+from ..families.family import SystemFamily
+from .branch_pieces import branches_of_pieces
+from .candidates import MAX_BLUR, Candidate, candidates, extrema_of_theta, least_speeds, merge
+from .changes import SIDE_STEP, Change, changes_between, look_beside
+from .name_changes import name_changes
+from .result import Branches, SpecialValue
+from .single_values import single_values
+from .states import State, States
+
+__all__ = ["equilibrium_branches"]
+
+GRID_CELLS = 48
+REACH = 1.6 / GRID_CELLS  # of the span: how far from a state a candidate may be
+NEAR_REACH = 1e-4  # from the states on the sides of a change that was bisected
+MAX_ROUNDS = 4  # times that candidates are looked for, from the states next to the last ones
+#: Of equilibria from state to state, unless so many are not enough.
+MAX_ANGLE_MOVE, MAX_PLACE_MOVE, MAX_HALVINGS = 0.15, 0.1, 6
+MIN_DISTANCE = 1e-12  # of the span: between two values
+SAME_VALUE = 1e-9  # of the span: of a change, and of the points that were solved for there
+POLE_HALVINGS, POLE_DISTANCE = 12, 0.01  # to where U ceases to be finite; of a cell, from a pole
+POLE_PLACES = np.array([[0.3, 0.1], [-0.2, 0.5], [0.6, -0.4], [-0.5, -0.7]])
+
+
+def equilibrium_branches(system: Any, psi: Psi, along: str, span: Sequence[float], z: ArrayLike = ()) -> Branches:
+    """Find all equilibria along one parameter; see `bifurcation_diagram`, which takes the same.
+
+    They are found at the values of a grid, exactly as by `classify`. Newton's method then solves for all bifurcations
+    from there, and each is held against the equilibria on both of its sides; where two neighbouring states differ and
+    no bifurcation was found between them, as at a kink of U, bisection finds what happens.
+    """
+    low, high = (float(v) for v in span)
+    if not (np.isfinite([low, high]).all() and low < high):
+        raise ValueError(f"the span of {along} is {low:g} to {high:g}; give two finite numbers, the smaller one first.")
+    (name,) = check_varying(system, psi, z, (along,), ((low, high),))
+    slow = tuple(float(v) for v in np.atleast_1d(np.asarray(z, float)))
+    clocked = slow if system.frozen else tuple(system.at(z).z) or slow  # with the time of a clock
+    family = SystemFamily(system, psi, clocked, (name,), ((low, high),))
+    states = States(system, psi, name, (low, high), clocked)
+    # off the round numbers on which special values like to lie
+    u = (np.arange(GRID_CELLS + 1) + 0.3 * np.sin(2.0 + 1.7 * np.arange(GRID_CELLS + 1))) / GRID_CELLS
+    u[[0, -1]] = SIDE_STEP, 1.0 - SIDE_STEP
+    if not any([states(family.value(v)) for v in u.tolist()]):
+        assert states.refusal is not None
+        raise states.refusal
+    runs = _defined_runs(family, states, u)
+    found, changes = _find_changes(family, states, runs, u)
+    special: list[SpecialValue] = []
+    for change in changes:
+        special += name_changes(family, change, _solved_near(family, found, change))
+    special += single_values(family, states, found, special, u)
+    special = [one for one in special if any(run[0] <= one.value <= run[1] for run in runs)]
+    special.sort(key=lambda one: one.value)
+    parts = branches_of_pieces(states, runs, changes, special)
+    stops = [low, *(v for run in runs for v in run), high]
+    wide = 2.0 * SIDE_STEP * states.width
+    gaps = tuple((a, b) for a, b in zip(stops[::2], stops[1::2], strict=True) if b - a > wide)
+    none = CycleBranches(along, (low, high), (), say("cycles not looked for"))
+    return Branches(system, psi, slow, along, (low, high), *parts, tuple(special), gaps, none)
+
+
+def _find_changes(
+    family: SystemFamily, states: States, runs: Sequence[tuple[float, float]], u: Array
+) -> tuple[list[Candidate], list[Change]]:
+    """Find the candidates, and the changes among them and elsewhere."""
+    found: list[Candidate] = []
+    seen: set[float] = set()
+    values: list[float] = []
+    starts = extrema_of_theta(family, u), np.zeros((3, 0)) if family.affine else least_speeds(family, u)
+    for turn in range(MAX_ROUNDS):
+        _refine(states, runs)
+        known = [state for run in runs for state in states.between(*run)]
+        new = [state for state in known if state.value not in seen]
+        seen |= {state.value for state in new}
+        if not new:
+            break
+        if turn:
+            starts = _starts_beside(family, new)
+        before = len(found)
+        found = merge([*found, *candidates(family, new, starts, REACH)])
+        values = _distinct(family, found)
+        look_beside(states, values)
+        if len(found) == before:
+            break
+    changes = [change for run in runs for change in changes_between(states, values, *run)]
+    bisected = [c for c in changes if not _solved_near(family, found, c)]
+    if bisected:
+        beside = [state for change in bisected for state in (change.before, change.after)]
+        found = merge([*found, *candidates(family, beside, _starts_beside(family, beside), NEAR_REACH)])
+        for i, change in enumerate(changes):
+            if change in bisected and (near := _solved_near(family, found, change)):
+                solved = min(near, key=lambda one, change=change: abs(one.u - family.unit(change.value)))
+                changes[i] = change._replace(value=family.value(solved.u))
+    return found, changes
+
+
+def _starts_beside(family: SystemFamily, states: Sequence[State]) -> tuple[Array, Array]:
+    return extrema_of_theta(family, np.array([family.unit(state.value) for state in states])), np.zeros((3, 0))
+
+
+def _solved_near(family: SystemFamily, found: Sequence[Candidate], change: Change) -> list[Candidate]:
+    """Return the candidates at a change."""
+    return [one for one in found if abs(one.u - family.unit(change.value)) <= SAME_VALUE]
+
+
+def _distinct(family: SystemFamily, found: Sequence[Candidate]) -> list[float]:
+    """Return the values of candidates in order, each once: rounding parts those of one value."""
+    kept: list[float] = []
+    for one in sorted(found, key=lambda one: not one.regular):
+        least = MIN_DISTANCE if one.regular else MAX_BLUR
+        if all(abs(one.u - other) > least for other in kept):
+            kept.append(one.u)
+    return [family.value(u) for u in sorted(kept)]
+
+
+def _refine(states: States, runs: Sequence[tuple[float, float]]) -> None:
+    """Add states where equilibria move far between two that are alike."""
+    for low, high in runs:
+        for _ in range(MAX_HALVINGS):
+            pairs = [
+                pair
+                for pair in pairwise(states.between(low, high))
+                if _far_apart(*pair, 10.0 * SIDE_STEP * states.width)
+            ]
+            for left, right in pairs:
+                states(0.5 * (left.value + right.value))
+            if not pairs:
+                break
+
+
+def _far_apart(left: State, right: State, least: float) -> bool:
+    if left.difference(right) is not None or right.value - left.value < least:
+        return False
+    for one, two, most in (
+        (left.places, right.places, MAX_ANGLE_MOVE),
+        (np.array([C.p for C in left.critical]), np.array([C.p for C in right.critical]), MAX_PLACE_MOVE),
+    ):
+        if len(one) and float(np.hypot(*np.moveaxis(one[:, None] - two, -1, 0)).min(axis=1).max()) > most:
+            return True
+    return False
+
+
+def _defined_runs(family: SystemFamily, states: States, u: Array) -> list[tuple[float, float]]:
+    """Return the parts of the span on which U is finite, from their first to their last state."""
+    stops = []  # values of the grid, and None where U is not defined
+    poles = _poles(family, u)
+    values = [family.value(v) for v in u.tolist()]
+    for value, after in zip(values, [*values[1:], values[-1]], strict=True):
+        stops.append(value if states(value) else None)
+        for pole in (v for v in poles if value < v < after):
+            step = POLE_DISTANCE * (after - value)
+            stops += [v if states(v) else None for v in (pole - step, pole + step)]
+            stops.insert(-1, None)
+        if (states(value) is None) != (states(after) is None):
+            stops.append(_last_defined(states, value, after))
+    runs: list[tuple[float, float]] = []
+    start = before = None
+    for value in [*stops, None]:
+        if value is None and start is not None and before is not None and before > start:
+            runs.append((start, before))
+        start = value if start is None else None if value is None else start
+        before = value
+    return runs
+
+
+def _last_defined(states: States, low: float, high: float) -> float:
+    """Return the value nearest to where U ceases to be finite, of those at which it is."""
+    first = states(low) is not None
+    for _ in range(POLE_HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if (states(middle) is not None) == first else (low, middle)
+    return low if first else high
+
+
+def _poles(family: SystemFamily, u: Array) -> list[float]:
+    """Return the values at which U has a pole wherever it is looked at."""
+    common: list[set[int]] = []
+    places: list[float] = []
+    for c, s in POLE_PLACES.tolist():
+        cells: set[int] = set()
+        for i in range(2):
+            at = lambda v, i=i, c=c, s=s: family.speed_on_net(np.full(len(v), c), np.full(len(v), s), v)[i]
+            rows = at(u)
+            if np.isfinite(rows).all():
+                places += (found := roots(at, [u], [rows]).poles[0].tolist())
+                cells |= set(np.searchsorted(u, found).tolist())
+        common.append(cells)
+    cells = set.intersection(*common)
+    first = {int(np.searchsorted(u, v)): v for v in places}
+    return [family.value(first[i]) for i in sorted(cells)]

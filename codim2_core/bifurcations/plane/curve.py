@@ -1,0 +1,102 @@
+"""Results of the bifurcation functions: curves in the plane (f1, f2), and their special points."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...results.arrays import Array
+from ...results.paper import cite
+from ...results.result import Pictured, Tabled, result_rows
+from ...results.tables import paragraphs, point
+from ...systems.coefficients import Coefficients
+from ...systems.elinear import ELinear
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SpecialPoint(Tabled):
+    """A point of codimension two on a bifurcation curve.
+
+    Attributes
+    ----------
+    type : str
+        Such as "cusp", "pitchfork", "double saddle-node", "generalised Hopf".
+    place : (f1, f2)
+    sentence : str
+    """
+
+    _head_ = ("point", "(f₁, f₂)", "what happens")
+
+    type: str
+    place: tuple[float, float]
+    sentence: str
+
+    def _row_(self) -> tuple[str, ...]:
+        return self.type, point(self.place), self.sentence
+
+
+@dataclass(frozen=True, eq=False)
+class BifurcationCurve(Pictured):
+    """One bifurcation in the plane (f1, f2) at fixed a, b, d (and Psi).
+
+    Attributes
+    ----------
+    kind : str
+        "saddle-node", "transcritical", "hopf", "node-focus", "fold of cycles", "equator" or "heteroclinic".
+    name : str
+        A short title for people, which says so where the curve degenerates.
+    label : str
+        The paper's label.
+    branches : tuple of ndarray (m, 2)
+        Smooth pieces, in order along each; a closed one repeats its first point. A piece ends at a cusp, at the
+        equator, or on the next piece, and pieces are never joined across a gap. One row: an isolated point.
+    special : tuple of SpecialPoint
+    values : tuple of ndarray (m,)
+        For "hopf", the first Lyapunov coefficient at the points of each branch (negative: supercritical, a stable
+        cycle is born; positive: subcritical); for cycles what `cycle_folds` and `heteroclinic` say. Else empty.
+    sentence : str
+        What happens on the curve, or why there is none.
+    """
+
+    kind: str
+    name: str
+    label: str
+    branches: tuple[Array, ...] = field(repr=False)
+    special: tuple[SpecialPoint, ...] = ()
+    values: tuple[Array, ...] = field(default=(), repr=False)
+    sentence: str = ""
+
+    def _repr_svg_(self) -> str | None:
+        return super()._repr_svg_() if self.branches else None
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        for i, branch in enumerate(self.branches):
+            for f1, f2 in branch.tolist():
+                yield {"branch": i, "f1": f1, "f2": f2}
+
+    def _tables_(self) -> str:
+        said = paragraphs([f"{self.name} ({cite(self.label)})" if self.label else self.name, self.sentence])
+        return said + result_rows(self.special)
+
+    def __len__(self) -> int:
+        return len(self.branches)
+
+
+def matrix(system: ELinear | Coefficients, z: ArrayLike) -> tuple[float, float, float]:
+    """Return a, b, d of a system at z."""
+    found = system.at(z)
+    return found.a, found.b, found.d
+
+
+def read_only_lines(arrays: Iterable[Array]) -> tuple[Array, ...]:
+    """Make arrays read-only."""
+    out = []
+    for array in arrays:
+        array = np.ascontiguousarray(array, float)
+        array.flags.writeable = False
+        out.append(array)
+    return tuple(out)

@@ -1,1 +1,0 @@
-"""Typed text as functions: read, kept as a tape, written as source, interpreted as arrays."""

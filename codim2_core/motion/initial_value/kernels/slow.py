@@ -1,0 +1,157 @@
+"""The slow flow on a critical set, compiled: a right-hand side in the place of that of a motion.
+
+The state is (e, z): ``U(e, 0, 0, z) = 0`` and ``z' = W(e, 0, 0, z)``, (4.17), with
+``e' = -(D_e U)^-1 D_z U W``. The e of the state is where Newton's method starts; what it finds is the e that W is taken
+at, so that an error of e does not add up. A set that is lost, or another that is found, makes the step's error large,
+and the step shorter.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ....formulas.jit import bits_of_double, call_field, carray, compile_address, held_kernel, kernel
+from ....formulas.names import MOST_SLOW_VARIABLES
+from .explicit import ROOM
+
+MAX_NEWTON, MAX_CORRECTION = 20, 1.0  # iterations, and the longest step of one
+NEWTON_TOLERANCE = 1e-10  # a step so short that the next would be rounding
+ONE_SIDED_DISTANCE = 1e-9  # as in `field`: where a slope is undefined
+
+# Behind the workspace of a motion: the addresses of U, W and of their slopes, as bits; m; and the arguments, values and
+# slopes of both at one place.
+VALUE, SLOPES, SLOW_RATES = ROOM, ROOM + 1, ROOM + 2
+SET_PLACE = ROOM + 4
+RATES = SET_PLACE + 4 + MOST_SLOW_VARIABLES
+TABLE = RATES + 4 + MOST_SLOW_VARIABLES
+SLOW_EXTENT = TABLE + (2 + MOST_SLOW_VARIABLES) * (4 + MOST_SLOW_VARIABLES)
+
+
+@kernel
+def write_slopes(S, m):
+    """Write the slopes at a place; where they are undefined those a rounding away, or 0."""
+    slopes, count, whole = bits_of_double(S[SLOPES]), (2 + m) * (4 + m), True
+    call_field(slopes, S, SET_PLACE, TABLE, S)
+    for i in range(count):
+        whole = whole and math.isfinite(S[TABLE + i])
+    if whole:
+        return
+    for i in range(4 + m):
+        S[RATES + i] = S[SET_PLACE + i]  # kept there: the rates are requested after the slopes
+        S[SET_PLACE + i] += ONE_SIDED_DISTANCE * (1.0 + abs(S[SET_PLACE + i]))
+    call_field(slopes, S, SET_PLACE, TABLE, S)
+    for i in range(4 + m):
+        S[SET_PLACE + i] = S[RATES + i]
+    for i in range(count):
+        S[TABLE + i] = S[TABLE + i] if math.isfinite(S[TABLE + i]) else 0.0
+
+
+@kernel
+def write_at(S, m, c, s):
+    """Write U, W and their slopes at e = (c, s) on Sigma, at the z in place."""
+    S[SET_PLACE], S[SET_PLACE + 1], S[SET_PLACE + 2], S[SET_PLACE + 3] = c, s, 0.0, 0.0
+    write_slopes(S, m)
+    call_field(bits_of_double(S[VALUE]), S, SET_PLACE, RATES, S)
+
+
+@kernel
+def found_set(S, m):
+    """Find the critical set near the e in place, by Newton's method, and its rates; say whether there is one."""
+    value, width = bits_of_double(S[VALUE]), 4 + m
+    S[SET_PLACE + 2] = S[SET_PLACE + 3] = 0.0
+    for _ in range(MAX_NEWTON):
+        write_slopes(S, m)
+        call_field(value, S, SET_PLACE, RATES, S)
+        u, v = S[RATES], S[RATES + 1]
+        j11, j12, j21, j22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
+        inverse = 1.0 / (j11 * j22 - j12 * j21)
+        du, dv = (j22 * u - j12 * v) * inverse, (j11 * v - j21 * u) * inverse
+        if not (abs(du) < MAX_CORRECTION and abs(dv) < MAX_CORRECTION):  # also where it is undefined
+            return False
+        S[SET_PLACE] -= du
+        S[SET_PLACE + 1] -= dv
+        if max(abs(du), abs(dv)) <= NEWTON_TOLERANCE:
+            call_field(value, S, SET_PLACE, RATES, S)
+            return True
+    return False
+
+
+@kernel
+def _critical_velocity(S, m, u, v):
+    """Return how e moves where U moves by (u, v)."""
+    width = 4 + m
+    j11, j12, j21, j22 = S[TABLE], S[TABLE + 1], S[TABLE + width], S[TABLE + width + 1]
+    inverse = -1.0 / (j11 * j22 - j12 * j21)
+    return (j22 * u - j12 * v) * inverse, (j11 * v - j21 * u) * inverse
+
+
+def _slow_velocity(state, out, parameters):
+    """Write (e', z') at a state."""
+    A, D = carray(state, (4 + MOST_SLOW_VARIABLES,)), carray(out, (2 + MOST_SLOW_VARIABLES,))
+    S = carray(parameters, (SLOW_EXTENT,))
+    m = int(S[SLOW_RATES])
+    S[SET_PLACE], S[SET_PLACE + 1] = A[2], A[3]  # the motion's own (x, y)
+    for i in range(m):
+        S[SET_PLACE + 4 + i] = A[4 + i]
+    if not found_set(S, m):
+        for i in range(2 + m):
+            D[i] = math.nan
+        return
+    u, v = 0.0, 0.0
+    for i in range(m):
+        D[2 + i] = S[RATES + 2 + i]
+        u += S[TABLE + 4 + i] * D[2 + i]
+        v += S[TABLE + 8 + m + i] * D[2 + i]
+    D[0], D[1] = _critical_velocity(S, m, u, v)
+
+
+def _slow_slopes(state, out, parameters):
+    """Write the derivatives of (e', z') by z at a state; of e' but for those of D_z e, which are never stiff."""
+    A, S = carray(state, (4 + MOST_SLOW_VARIABLES,)), carray(parameters, (SLOW_EXTENT,))
+    m = int(S[SLOW_RATES])
+    width = 4 + m
+    D = carray(out, ((2 + m) * width,))
+    S[SET_PLACE], S[SET_PLACE + 1] = A[2], A[3]
+    for i in range(m):
+        S[SET_PLACE + 4 + i] = A[4 + i]
+    there = found_set(S, m)
+    for i in range((2 + m) * width):
+        D[i] = 0.0
+    if not there:
+        return
+    for j in range(m):
+        c, s = _critical_velocity(S, m, S[TABLE + 4 + j], S[TABLE + width + 4 + j])
+        u, v = 0.0, 0.0
+        for i in range(2, 2 + m):
+            row = TABLE + i * width
+            D[i * width + 4 + j] = S[row + 4 + j] + S[row] * c + S[row + 1] * s
+            u += S[TABLE + 2 + i] * D[i * width + 4 + j]
+            v += S[TABLE + width + 2 + i] * D[i * width + 4 + j]
+        D[4 + j], D[width + 4 + j] = _critical_velocity(S, m, u, v)
+
+
+@held_kernel
+def sets(S, points):
+    """Find the critical sets near points (k, 2 + m), (e, z): e (k, 2), NaN where there is none, and D_e U (k, 2, 2)."""
+    k, n = points.shape
+    e, D = np.empty((k, 2)), np.empty((k, 2, 2))
+    for i in range(k):
+        S[SET_PLACE], S[SET_PLACE + 1] = points[i, 0], points[i, 1]
+        for j in range(2, n):
+            S[SET_PLACE + 2 + j] = points[i, j]
+        there = found_set(S, n - 2)
+        for a in range(2):
+            e[i, a] = S[SET_PLACE + a] if there else math.nan
+            for b in range(2):
+                D[i, a, b] = S[TABLE + a * (n + 2) + b]
+    return e, D
+
+
+@lru_cache(maxsize=1)
+def flow() -> tuple[Any, Any]:
+    """Return the slow flow and its slopes, the same for all systems, at addresses."""
+    return compile_address(_slow_velocity), compile_address(_slow_slopes)

@@ -1,0 +1,267 @@
+"""Equations of motion of a mechanism with several contacts, as numbers."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from ...formulas.arrays import Program, path_program
+from ...formulas.expression import Expression
+from ...formulas.names import FAST_NAMES, SLOW_NAMES
+from ...formulas.switches import Branch, Rows, branch_at, has_switches
+from ...results.arrays import Array
+from ...systems.mechanics.algebra import Algebra
+from ...systems.mechanics.formula_reading import FormulaRow, Matrix
+from ...systems.psi.function import Psi
+from .contact_parts import ContactParts
+from .decision import RANK_TOLERANCE, Flags
+
+SMALLEST_ZETA = 1e-9  # in the chart kappa_2: nearer, e_Psi is as linear as it is there
+STATE_NAMES = (*FAST_NAMES[2:], *SLOW_NAMES)
+DIFFERENCE = 1e-7  # step of a finite difference, in units of max(1, |Y|)
+
+
+class Local(NamedTuple):
+    """The parts of the equations of motion at one state: J (c, 2, n), the slip x and k = J' v - w' (c, 2)."""
+
+    M: Array
+    Q: Array
+    J: Array
+    k: Array
+    r: Array
+    x: Array
+    rates: Array
+
+
+class Law(Protocol):
+    """Friction by the slip: e and its derivative; eps is 0 in the limit."""
+
+    eps: float
+
+    def e(self, x: Array) -> Array:
+        """Return e (c, 2) of slips (c, 2)."""
+        ...
+
+    def slope(self, x: Array, e: Array) -> Array:
+        """Return de/dx (c, 2, 2), e as it is known."""
+        ...
+
+
+class Coulomb:
+    """``e = x/|x|``."""
+
+    eps = 0.0
+
+    def e(self, x: Array) -> Array:
+        """Return the unit vectors; nan at 0."""
+        with np.errstate(invalid="ignore"):
+            return x / np.hypot(*x.T)[:, None]
+
+    def slope(self, x: Array, e: Array) -> Array:
+        """Return ``(1 - e n^T)/|x|``, n = x/|x|."""
+        with np.errstate(all="ignore"):
+            n, size = self.e(x), np.hypot(*x.T)
+            return (np.eye(2) - e[:, :, None] * n[:, None, :]) / size[:, None, None]
+
+
+class Regularised:
+    """``e_Psi``, Definition 2.4, of every contact."""
+
+    def __init__(self, psi: Psi, eps: float) -> None:
+        self._psi, self.eps = psi, eps
+
+    def _polar(self, x: Array) -> tuple[Array, Array]:
+        zeta = np.hypot(*x.T) / self.eps
+        direction = x / (self.eps * np.where(zeta > 0.0, zeta, 1.0))[:, None]
+        return np.maximum(zeta, SMALLEST_ZETA), direction
+
+    def e(self, x: Array) -> Array:
+        """Return ``e_Psi``."""
+        zeta, direction = self._polar(x)
+        return self._psi.modulus(zeta)[:, None] * direction
+
+    def slope(self, x: Array, e: Array) -> Array:  # noqa: ARG002 (it is a function of x)
+        """Return its derivative: along e ``(Psi - zeta^2 Psi')/(zeta^2 + Psi)^(3/2)``, across ``|e_Psi|/zeta``."""
+        zeta, direction = self._polar(x)
+        value = self._psi(zeta**2)
+        size = np.sqrt(zeta**2 + value)
+        out = (value - zeta**2 * self._psi.derivative(zeta**2)) / size**3
+        along = direction[:, :, None] * direction[:, None, :]
+        return (out[:, None, None] * along + (np.eye(2) - along) / size[:, None, None]) / self.eps
+
+
+class ContactField:
+    """The equations of motion, by states Y: velocities, then positions.
+
+    Parameters
+    ----------
+    n, count : int
+        Velocities and contacts.
+    rows : tuple of Expression
+        In the names x, y, z1, ... for the state: M, Q, J, w, mu N, how positions move, and ``k = J' v - w'``.
+    branch : Branch
+        Its guards are positive as long as the rows hold.
+    whole : ContactField or None
+        The field that this is a branch of.
+    """
+
+    def __init__(
+        self, n: int, count: int, rows: Rows, branch: Branch | None = None, whole: ContactField | None = None
+    ) -> None:
+        self.n, self.count, self.rows, self.branch, self.whole = n, count, rows, branch or Branch(), whole
+        shapes = (n, n), (n,), (count, 2, n), (count, 2), (count,), (len(rows) - _fixed(n, count),), (count, 2)
+        self.places, at = list[tuple[slice, tuple[int, ...]]](), 0
+        for shape in shapes:
+            size = math.prod(shape)
+            self.places.append((slice(at, at + size), shape))
+            at += size
+        self.names = STATE_NAMES[: n + shapes[5][0]]
+        self.moving = np.array([row.constant is None for row in rows])
+
+    @cached_property
+    def program(self) -> Program:
+        """The rows, as the kernels take them."""
+        return path_program(self.rows)
+
+    @cached_property
+    def moving_program(self) -> Program:
+        """The rows that are no numbers."""
+        return path_program(tuple(row for row in self.rows if row.constant is None))
+
+    def on_branch(self, Y: Array, rate: Array, known: Sequence[int] = ()) -> ContactField:
+        """Return the smooth branch of the formulas at a state, on a border the one ahead."""
+        if not has_switches(self.rows, self.names, slip=()):
+            return self
+        found = branch_at(self.rows, self.names, self._named(Y), self._named(rate), known, slip=())
+        return ContactField(self.n, self.count, found.rows, found, self)
+
+    def past_switch(self, switch: int, Y: Array, rate: Array) -> ContactField:
+        """Return the branch that follows this one where a guard vanishes."""
+        assert self.whole is not None
+        after, before = self.whole.on_branch(Y, rate), self.branch.choices
+        if after.branch.choices[: switch + 1] == before[: switch + 1]:  # rounding hides that it has changed
+            other = self.branch.next_choice(switch, self._named(Y))
+            after = self.whole.on_branch(Y, rate, (*before[:switch], other))
+        return after
+
+    def returns_to(self, before: Branch, switch: int, Y: Array, rate: Array) -> bool:
+        """Whether a state leaves this branch at once through a switch of the branch before."""
+        return self.branch.returns_to(before, switch, self._named(Y), self._named(rate))
+
+    def _named(self, numbers: Array) -> dict[str, float]:
+        return dict(zip(self.names, numbers.tolist(), strict=True))
+
+    def values(self, states: Array) -> Array:
+        """Return the rows (k, rows) at states (k, N)."""
+        from ...formulas import interpreter  # on first use: it loads the compiler
+
+        out = np.empty((len(states), len(self.rows)))
+        interpreter.values(*self.program.arrays, np.ascontiguousarray(states), out)
+        return out
+
+    def at_all(self, states: Array) -> list[Local]:
+        """Return what the equations are made of at states (k, N)."""
+        found: list[Local] = []
+        for Y, row in zip(states, self.values(states), strict=True):
+            M, Q, J, surface, r, rates, k = (row[place].reshape(shape) for place, shape in self.places)
+            found.append(Local(M, Q, J, k, r, J @ Y[: self.n] - surface, rates))
+        return found
+
+    def at(self, Y: Array) -> Local:
+        """Return what the equations are made of at a state."""
+        return self.at_all(Y[None])[0]
+
+    def rate(self, local: Local, e: Array, sticks: Flags) -> Array:
+        """Return Y' where these contacts stick, and friction is -r J^T e at the others."""
+        Q = local.Q - np.einsum("cin,ci->n", local.J[~sticks], local.r[~sticks, None] * e[~sticks])
+        return np.concatenate([held_rates(local, sticks, Q)[0], local.rates])
+
+    def smooth_slopes(self, Y: Array, e: Array, sticks: Flags) -> tuple[Array, Array]:
+        """Return the derivatives of Y' with e as it is, and of the slips, by Y."""
+        places = np.vstack([Y, Y + np.diag(DIFFERENCE * np.maximum(1.0, np.abs(Y)))])
+        here, *others = self.at_all(places)
+        steps, first = places.diagonal(-1) - Y, self.rate(here, e, sticks)
+        rate = np.array([self.rate(other, e, sticks) - first for other in others]).T / steps
+        return rate, np.moveaxis(np.array([other.x - here.x for other in others]), 0, -1) / steps
+
+    def friction_slope(self, local: Local, gain: Array, sticks: Flags, slip: Array) -> Array:
+        """Return the derivative of Y' by Y through e, whose derivatives by the slips are `gain`."""
+        found = np.zeros((len(self.names), len(self.names)))
+        out = ~sticks
+        pull = np.einsum("cin,cij,cjy->ny", local.J[out], local.r[out, None, None] * gain[out], slip[out])
+        solved = np.linalg.solve(local.M, pull)
+        if sticks.any():
+            held = local.J[sticks].reshape(-1, self.n)
+            back = np.linalg.solve(local.M, held.T)
+            solved = solved - back @ np.linalg.lstsq(held @ back, held @ solved, RANK_TOLERANCE)[0]
+        found[: self.n] = -solved
+        return found
+
+
+def within_disc(e: Array) -> Array:
+    """Return e (c, 2), brought back onto the circle where it is outside."""
+    return e / np.maximum(1.0, np.hypot(*e.T))[:, None]
+
+
+def _fixed(n: int, count: int) -> int:
+    """Return how many rows do not depend on how many positions there are."""
+    return n * n + n + 2 * count * n + 5 * count
+
+
+def contact_field(
+    M: Matrix,
+    contacts: Sequence[ContactParts],
+    force: FormulaRow,
+    velocities: Sequence[str],
+    rates: Mapping[str, Expression],
+    parameters: Mapping[str, float],
+) -> ContactField:
+    """Return the equations of motion of a mechanism."""
+    algebra, words = Algebra(), (*velocities, *rates)
+    meanings = {word: algebra.number(value) for word, value in parameters.items()}
+    meanings |= {word: algebra.name(name) for word, name in zip(words, STATE_NAMES, strict=False)}
+    enter = lambda rows: [algebra.enter(entry, meanings) for row in rows for entry in row]
+    v, moves = [meanings[word] for word in velocities], enter([rates.values()])
+    k = []
+    for one in contacts:
+        for row, w in zip(one.J, one.surface, strict=True):
+            total = algebra.zero
+            for word, move in zip(rates, moves, strict=True):
+                slope = algebra.dot(enter([[entry.derivative(word) for entry in row]]), v)
+                slope = algebra.minus(slope, *enter([[w.derivative(word)]]))
+                total = algebra.plus(total, algebra.times(move, slope))
+            k.append(total)
+    J, surface = enter(row for one in contacts for row in one.J), enter(one.surface for one in contacts)
+    r = [algebra.times(*enter([(one.mu, one.normal)])) for one in contacts]
+    entries = (*enter(M), *enter([force]), *J, *surface, *r, *moves, *k)
+    return ContactField(len(velocities), len(contacts), tuple(map(algebra.formula, entries)))
+
+
+def held_rank(local: Local, sticks: Flags) -> int:
+    """Return how many directions of the velocities contacts that stick hold."""
+    held = local.J[sticks].reshape(-1, local.J.shape[2])
+    return int(np.linalg.matrix_rank(held, RANK_TOLERANCE)) if len(held) else 0
+
+
+def held_rates(local: Local, sticks: Flags, Q: Array) -> tuple[Array, Array]:
+    """Return v' where contacts stick, and the forces (c, 2) that hold them: of redundant ones the smallest."""
+    free = np.asarray(np.linalg.solve(local.M, Q), np.float64)
+    if not sticks.any():
+        return free, np.zeros((0, 2))
+    held = local.J[sticks].reshape(-1, len(Q))
+    back = np.linalg.solve(local.M, held.T)
+    force = np.linalg.lstsq(held @ back, held @ free + local.k[sticks].ravel(), RANK_TOLERANCE)[0]
+    return free - back @ force, np.asarray(force, np.float64).reshape(-1, 2)
+
+
+def project_velocities(local: Local, v: Array, at_sets: Flags) -> Array:
+    """Return the velocities nearest in kinetic energy at which these contacts do not slip."""
+    if not at_sets.any():
+        return v
+    held = local.J[at_sets].reshape(-1, len(v))
+    back = np.linalg.solve(local.M, held.T)
+    return v - back @ np.linalg.lstsq(held @ back, local.x[at_sets].ravel(), RANK_TOLERANCE)[0]

@@ -1,0 +1,160 @@
+"""Nullclines on the hemisphere and outside it, as separate branches (Figure 24)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ...results.arrays import Array
+from ...results.result import Pictured, Results, Tabled
+from ...results.tables import point
+from ...systems.kinds import AnySystem
+from ...systems.psi.constructors import constant
+from ...systems.psi.function import Psi
+from ..layer_problem.problem import LayerProblem, found_once
+from .conics import Affine, ConicCurve, Straight, affine_field, chord_ends, conic, lines
+from .general_nullclines import Kind, inside_curves, outside_curves
+from .polylines import picture_points
+from .view_refinement import Seen, on_component
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class NullclineBranch(Tabled):
+    """One connected piece of a nullcline in the picture.
+
+    Attributes
+    ----------
+    kind : "rho", "theta", "U1" or "U2"
+        rho' = 0, theta' = 0, or the lines U1 = 0, U2 = 0 of Figure 24.
+    inside : bool
+        On the hemisphere (|p| <= 1), or outside it. Outside, U1 and U2 continue as the straight lines
+        ``a x - b y = -f1`` and ``b x + d y = -f2`` (construction lines: the paper prints +f1 and +f2). In a general
+        system they are where U1 and U2 vanish outside.
+    points : ndarray (n, 2)
+        Picture points, in order along the branch.
+    """
+
+    _head_ = ("nullcline", "where", "from", "to")
+
+    kind: Kind
+    inside: bool
+    points: Array = field(repr=False)
+
+    def _row_(self) -> tuple[str, ...]:
+        ends = (point(self.points[i]) for i in (0, -1)) if len(self.points) else ("–", "–")
+        return _NULLCLINE_NAMES[self.kind], "hemisphere" if self.inside else "outside", *ends
+
+
+class Nullclines(Results[NullclineBranch], Pictured):
+    """All nullclines of a picture: a tuple that a notebook shows as a picture and a table."""
+
+    __slots__ = ()
+
+    def _records(self) -> Iterator[dict[str, Any]]:
+        for i, one in enumerate(self):
+            for x, y in one.points.tolist():
+                yield {"branch": i, "kind": one.kind, "inside": one.inside, "x": x, "y": y}
+
+
+_NULLCLINE_NAMES: dict[Kind, str] = {"rho": "ρ′ = 0", "theta": "θ′ = 0", "U1": "U₁ = 0", "U2": "U₂ = 0"}
+
+
+@found_once(of_psi=False)
+def find_affine_field(problem: LayerProblem) -> tuple[Affine, list[float]] | None:
+    """Return U where it is affine, and where lambda_rho vanishes: what is drawn inside and outside begins with it."""
+    return affine_field(problem.at)
+
+
+def inside_nullclines(problem: LayerProblem, seen: Seen | None = None) -> tuple[NullclineBranch, ...]:
+    """Nullclines on the hemisphere; theta-nullclines end at the limit directions."""
+    coefficients, psi, affine = problem.at, problem.psi, find_affine_field(problem)
+    if affine is None:
+        return tuple(
+            _make_branch(kind, True, picture_points(curve, psi, seen, on_component(coefficients, kind, inside=True)))
+            for kind, curve in inside_curves(coefficients)
+        )
+    U, radial = affine
+    ends: tuple[tuple[Kind, list[float]], ...] = (
+        ("rho", radial),
+        ("theta", problem.equator.theta.tolist()),
+    )
+    shapes: list[tuple[Kind, ConicCurve]] = []
+    for kind, angles in ends:
+        for curve in conic(kind, U, angles):
+            shapes.append((kind, curve))  # noqa: PERF401 (a comprehension loses the type of kind)
+    for kind, line in lines(U):
+        chord = chord_ends(*line)
+        if chord is not None:
+            shapes.append((kind, Straight(*chord)))
+    return tuple(_make_branch(kind, True, picture_points(curve, psi, seen)) for kind, curve in shapes)
+
+
+def _make_branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
+    points.flags.writeable = False
+    return NullclineBranch(kind, inside, points)
+
+
+def outside_nullclines(problem: LayerProblem, view: float, seen: Seen | None = None) -> tuple[NullclineBranch, ...]:
+    """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued.
+
+    Where U is not affine in (c, s), U1 = 0 and U2 = 0 are rays too, and none is straight if U reads x or y.
+    """
+    reach = math.sqrt(2.0) * view
+    coefficients, affine = problem.at, find_affine_field(problem)
+    if affine is None:
+        one = constant()
+        return tuple(
+            _make_branch(kind, False, picture_points(curve, one, seen, on_component(coefficients, kind, inside=False)))
+            for kind, curve in outside_curves(coefficients, reach)
+        )
+    U, radial = affine
+    branches = []
+    rays: tuple[tuple[Kind, list[float]], ...] = (
+        ("rho", radial),
+        ("theta", problem.equator.theta.tolist()),
+    )
+    for kind, angles in rays:
+        for t in angles:
+            c, s = math.cos(t), math.sin(t)
+            branches.append(_make_branch(kind, False, np.array([(c, s), (reach * c, reach * s)])))
+    for kind, (n1, n2, k) in lines(U):
+        outer, inner = chord_ends(n1, n2, k / reach), chord_ends(n1, n2, k)
+        if outer is None:
+            continue
+        start, end = [(reach * x, reach * y) for x, y in outer]
+        pieces = [(start, end)] if inner is None else [(start, inner[0]), (inner[1], end)]
+        branches += [_make_branch(kind, False, np.array(piece)) for piece in pieces]
+    return tuple(branches)
+
+
+def nullclines(system: AnySystem, psi: Psi, z: ArrayLike = (), *, view: float = 2.0) -> Nullclines:
+    """All nullclines in the picture, as separate branches.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    psi : Psi
+    z : (m,) floats
+    view : float
+        Half-width > 1 of the view to whose corners the outside is followed.
+
+    Returns
+    -------
+    Nullclines
+        A tuple of NullclineBranch.
+
+    Examples
+    --------
+    >>> from codim2_core import nullclines
+    >>> sorted(set(nullclines("case1-cm4").kinds))
+    ['U1', 'U2', 'rho', 'theta']
+    """
+    if not view > 1.0:
+        raise ValueError(f"view is {view}; give a half-width greater than 1 (the equator).")
+    problem = LayerProblem(system.at(z), psi)
+    return Nullclines(inside_nullclines(problem) + outside_nullclines(problem, view))

@@ -1,0 +1,299 @@
+"""Trajectories of the layer problem on the projected hemisphere, and of the nonsmooth system outside.
+
+Both are one field in (p_x, p_y, w), w = ebar on the hemisphere and rho outside, see `stepping.fields`; w enters only
+as a factor, so that it keeps its relative accuracy however small it is. Time is T with dT = dt/rho.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from functools import lru_cache
+from types import SimpleNamespace
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...results.arrays import Array
+from ...systems.elinear import ELinear
+from ...systems.frozen import FrozenSystem
+from ...systems.kinds import AnySystem
+from ...systems.psi.function import Psi
+from .departures import departures
+from .options import DEFAULT_MAX_STEPS, PIXEL, Stepping, stepping
+from .result import STATUSES, Status, Trajectories, append_continuations, concatenate, cut_up
+from .seeds import checked_seeds
+
+__all__ = ["Status", "Trajectories", "concatenate", "continuation", "is_warm", "trajectories", "warm"]
+
+
+DRAWN = 0.25  # of a pixel: how far a polyline may be from its curve
+# Steps of a stiff problem before those of its trajectories that are still under way are followed implicitly, and then.
+# A step of either costs about as much; one implicit step does for any number that stability would ask for. What is
+# longer than the disc is wide by then, or would be at its last pace in as much time again, goes round and round, and
+# does not creep.
+EXPLICIT, IMPLICIT, ROUND_FACTOR = 300, 1.0 / 3.0, 2.5  # IMPLICIT: of the step limit
+
+FARTHEST_PLACES = (
+    1e6  # from Sigma, of a seed whose line is drawn: to a quarter of a pixel an arc has points without end beyond
+)
+
+GENERAL, CREEPING = "general", "creeping"
+# What has run: families of Psi for e-linear systems, GENERAL for any other; and the implicit kernels.
+_warm: set[str] = set()
+
+
+@lru_cache(maxsize=1)
+def _kernels() -> SimpleNamespace:
+    """Load the compiled parts on first use: compiling, or loading from the disk cache, starts with their first call."""
+    from ..stepping import fields, lanes, layout, rosenbrock
+    from ..stepping import right_hand_side as stepping_problem
+
+    return SimpleNamespace(
+        integrate=lanes.integrate,
+        creep=rosenbrock.creep,
+        problem=stepping_problem.problem,
+        is_compiled=fields.is_compiled,
+        states_of=layout.states_of,
+    )
+
+
+def trajectories(
+    system: AnySystem,
+    psi: Psi,
+    seeds: ArrayLike,
+    z: ArrayLike = (),
+    *,
+    t_max: float = 8.0,
+    rtol: float = 1e-6,
+    atol: float = 1e-8,
+    backward: bool = False,
+    view: float = 2.0,
+    pixel: float = PIXEL,
+    capture: float | None = None,
+    samples: Literal["ends"] | None = None,
+    length: float = math.inf,
+    step_limit: int = DEFAULT_MAX_STEPS,
+    stiff: bool = False,
+) -> Trajectories:
+    """Follow trajectories from points of the picture: (3.26) on the hemisphere, (2.12) outside.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+        A System costs one small compilation, whatever Psi, z and its parameters are.
+    psi : Psi
+    seeds : (k, 2)
+        Points of the picture: |p| < 1 on the hemisphere, |p| = 1 + rho outside, |p| = 1 on the equator, which is
+        followed exactly. They may be mixed.
+    z : (m,) floats
+    t_max : float
+        Longest time T (dT = dt/rho) along a trajectory.
+    rtol, atol : float
+        Tolerances of p on the unit sphere; those of w = ebar or rho are relative. rtol in [1e-14, 0.1].
+    backward : bool
+        Follow against time; `times` then decrease from 0.
+    view : float
+        Outside, a trajectory ends where |p_x| or |p_y| of its picture point reaches view. (One that bulges out and
+        back between two steps goes on.)
+    pixel : float
+        A pixel in picture units: lines stay within a quarter of it from the curve, with as few points as that takes.
+    capture : float, optional
+        Arc on the sphere (outside: distance in (theta, rho)) from an attracting equilibrium at which a trajectory
+        ends. Default rtol + atol. Saddles, centres and slow passages end nothing.
+    samples : "ends" or None
+        "ends" returns only the first and the last point of each trajectory.
+    length : float
+        Length of the drawn line, in picture units, at which a trajectory ends; a cycle is drawn a few times over
+        and not for ever.
+    step_limit : int
+        Steps tried before a trajectory is given up, with a status that says so.
+    stiff : bool
+        Trajectories that are still under way after some steps are followed by an implicit method, which is not bound
+        to the fastest rate where they creep along a slow direction.
+
+    Returns
+    -------
+    Trajectories
+
+    Raises
+    ------
+    ValueError
+        An argument is invalid; the message says which, and what is allowed.
+
+    Examples
+    --------
+    One comes to the critical set, the other from outside to Sigma, along the limit direction Q2:
+
+    >>> from codim2_core import trajectories
+    >>> found = trajectories("case1-cm4", seeds=[(0.3, 0.4), (1.5, 0.2)], t_max=40.0)
+    >>> [line[-1].round(4).tolist() for line in found.points]
+    [[-0.25, 0.0], [-0.5, 0.866]]
+    """
+    options = stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
+    at = system.at(z)
+    points = seeds if isinstance(seeds, np.ndarray) and seeds.dtype == np.float64 else checked_seeds(seeds)
+    if points.ndim != 2 or points.shape[1] != 2:
+        points = checked_seeds(seeds)
+    states, signs, largest = _kernels().states_of(np.array(points, order="C"))  # one compilation, read-only or not
+    if math.isnan(largest):
+        checked_seeds(seeds)  # says which
+    if largest > FARTHEST_PLACES and options.samples is None:
+        far = np.flatnonzero(np.abs(points).max(axis=1) > FARTHEST_PLACES)
+        raise ValueError(
+            f"seed {far[0]} is {tuple(points[far[0]].tolist())}; give points at most {FARTHEST_PLACES:g} away, "
+            'or samples="ends".'
+        )
+    return _integrate(at, psi, states, signs, options)
+
+
+def _integrate(at: FrozenSystem, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
+    if len(states) == 0:
+        return concatenate([])
+    if not options.stiff:
+        return integrate_explicitly(at, psi, states, signs, options)
+    found = integrate_explicitly(at, psi, states, signs, replace(options, step_limit=min(EXPLICIT, options.step_limit)))
+    which, spent, drawn, pace = _under_way(found)
+    creeping = (drawn < ROUND_FACTOR) & (pace * spent < ROUND_FACTOR)
+    if options.step_limit > EXPLICIT and creeping.any():
+        which, spent, drawn = which[creeping], spent[creeping], drawn[creeping]
+        rest = _integrate_implicitly(at, psi, found.ends[which], signs[which], spent, drawn, options)
+        found = append_continuations(found, which, rest)
+        which, spent, drawn, _ = _under_way(found)
+    more = options.step_limit - EXPLICIT - (int(IMPLICIT * options.step_limit) if creeping.any() else 0)
+    if not len(which) or more <= 0:
+        return found
+    last = replace(
+        options, t_max=max(options.t_max - spent.min(), 1e-300), length=max(options.length - drawn.max(), 1e-9),
+        step_limit=more,
+    )  # fmt: skip
+    return append_continuations(found, which, integrate_explicitly(at, psi, found.ends[which], signs[which], last))
+
+
+def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Array]:
+    """Return the trajectories that came to the step limit: indices, times, lengths, and last speeds."""
+    which = np.flatnonzero(found.codes == STATUSES.index(Status.STEP_LIMIT))
+    lines, times = found.points, found.times
+    spent = np.array([abs(times[i][-1]) for i in which])
+    drawn = np.array([np.hypot(*np.diff(lines[i], axis=0).T).sum() for i in which])
+    last = [(math.dist(lines[i][-2], lines[i][-1]), abs(times[i][-1] - times[i][-2])) for i in which]
+    return which, spent, drawn, np.array([way / max(time, 1e-300) for way, time in last])
+
+
+def integrate_explicitly(at: FrozenSystem, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
+    """Follow trajectories explicitly."""
+    found = in_lanes(at, _kernels().problem(at, psi, options.backward), states, signs, [len(states)], options)[0]
+    _warm.add(psi.family if at.typed is None else GENERAL)
+    return found
+
+
+def in_lanes(
+    at: FrozenSystem, problem: Any, states: Array, signs: Array, until: list[int], options: Stepping
+) -> list[Trajectories]:
+    """Follow trajectories explicitly under each Psi of a problem, whose states end at `until`."""
+    # Time in units of 1/|U| makes step sizes, speeds and capture independent of the scale of U.
+    unit = at.speed
+    buffer, clock, offsets, ends, codes, evaluations = _kernels().integrate(
+        states,
+        signs,
+        problem.shared,
+        problem.address,
+        np.array(problem.own),  # may be read-only, which would be compiled once more
+        np.array(until),
+        min(float(options.t_max) * unit, 1e300),
+        float(options.rtol),
+        float(options.atol),
+        int(options.step_limit),
+        options.reach,
+        float(options.view),
+        0.0 if options.samples == "ends" else DRAWN * float(options.pixel),
+        float(options.length),
+    )
+    clock *= (-1.0 if options.backward else 1.0) / unit
+    found = Trajectories(buffer, clock, offsets, ends, codes, int(evaluations.sum()))
+    return [found] if len(until) == 1 else cut_up(found, until, evaluations.tolist())
+
+
+def _integrate_implicitly(
+    at: FrozenSystem, psi: Psi, states: Array, signs: Array, spent: Array, drawn: Array, options: Stepping
+) -> Trajectories:
+    """Follow trajectories implicitly, after a time that each has `spent` and a length that is `drawn`."""
+    kernels = _kernels()
+    problem, unit = kernels.problem(at, psi, options.backward), at.speed
+    buffer, clock, offsets, ends, codes, evaluations = kernels.creep(
+        states,
+        signs,
+        np.clip((options.t_max - spent) * unit, 1e-12, 1e300),
+        np.maximum(options.length - drawn, 0.0),
+        problem.shared,
+        problem.address,
+        float(options.rtol),
+        float(options.atol),
+        max(1, int(IMPLICIT * options.step_limit)),
+        options.reach,
+        float(options.view),
+        0.0 if options.samples == "ends" else DRAWN * float(options.pixel),
+    )
+    clock *= (-1.0 if options.backward else 1.0) / unit
+    _warm.add(CREEPING)
+    return Trajectories(buffer, clock, offsets, ends, codes, int(evaluations))
+
+
+def warm(psi: Psi | None = None) -> None:
+    """Compile, or load from the disk cache, all that trajectories of e-linear systems with this Psi need."""
+    from ...systems.psi.constructors import constant
+
+    psi = constant() if psi is None else psi
+    elinear, seeds = ELinear(-1.0, 0.5, -1.0, (0.1, 0.0)), np.array([(0.5, 0.0), (1.5, 0.0)])
+    trajectories(elinear, psi, seeds)
+    trajectories(ELinear(-1.0, 0.5, -1e4, (0.1, 0.0)), psi, seeds, t_max=1e6, stiff=True)
+    trajectories(elinear, psi, checked_seeds(seeds))  # read-only arrays are another type to Numba
+
+
+def is_warm(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
+    """Whether trajectories (with this Psi and a system of this kind) run at once, without compiling or loading."""
+    kernels = _kernels()
+    if CREEPING not in _warm or not all(getattr(one, "signatures", True) for one in (kernels.integrate, kernels.creep)):
+        return False  # or they run as Python
+    if psi is None:
+        return True
+    kind = psi.family if system is None or system.typed is None else GENERAL
+    return kind in _warm and kernels.is_compiled(psi)
+
+
+def continuation(
+    system: AnySystem,
+    psi: Psi,
+    theta: ArrayLike,
+    z: ArrayLike = (),
+    *,
+    t_max: float = 8.0,
+    rtol: float = 1e-6,
+    atol: float = 1e-8,
+    backward: bool = False,
+    view: float = 2.0,
+    pixel: float = PIXEL,
+    capture: float | None = None,
+    samples: Literal["ends"] | None = None,
+    length: float = math.inf,
+    step_limit: int = DEFAULT_MAX_STEPS,
+    stiff: bool = False,
+    beside: Array | None = None,
+) -> Trajectories:
+    """Continue trajectories that arrive at limit directions up the hemisphere, Figure 7, Theorem 3.1(b).
+
+    Where lambda_rho < 0 the equilibrium Q of the equator has one invariant direction up the hemisphere, with rate
+    -lambda_rho > 0 (backward: where lambda_rho > 0). The orbit that leaves along it is followed from Q itself, from
+    a local expansion whose error is below the tolerance.
+
+    Each starts less than 1e-6 (in |p|) above the equator, at theta; after these come those from `beside`. Raises
+    ValueError: A direction is not a limit direction, or no trajectory of the nonsmooth system arrives along it.
+    Shapes: theta (k,).
+    """
+    options = stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
+    at = system.at(z)
+    states = departures(at, psi, theta, rtol, backward)
+    if beside is not None:
+        states = np.concatenate([states, _kernels().states_of(np.array(beside, order="C"))[0]])
+    return _integrate(at, psi, states, np.full(len(states), -1.0), options)

@@ -1,0 +1,116 @@
+"""Certificates of Theorem 4.3 and Theorem 4.4."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...results.words import say
+from ...systems.psi.constructors import comparison_families
+from ..layer_problem.location import Existence
+from .degenerate import NOT_LINEAR
+from .facts import RAY_ANGLES, Certificate, Facts, not_applicable, verdict_of
+
+
+def _reason(facts: Facts) -> str:
+    return NOT_LINEAR if facts.location is None else facts.location.existence.value
+
+
+def case1(facts: Facts) -> tuple[Certificate, ...]:
+    """Evaluate Theorem 4.3."""
+    with_set = say("case1(a)")
+    without = say("case1(b)")
+    five = say("case1(c)")
+    if facts.portrait.case != "I":
+        why = say("not Case I") if facts.form is not None else NOT_LINEAR
+        parts = ("thm:case1(a)", with_set), ("thm:case1(b)", without), ("thm:case1(c)", five)
+        return tuple(not_applicable(*part, why) for part in parts)
+    return _case1a(facts, with_set), _without_set("thm:case1(b)", facts, without), _five(facts, five)
+
+
+def _case1a(facts: Facts, statement: str) -> Certificate:
+    theorem = "thm:case1(a)"
+    if not facts.critical:
+        return not_applicable(theorem, statement, _reason(facts))
+    assert facts.form is not None
+    a, d = facts.form.a, facts.form.d
+    backwards = a > 0.0
+    # div = tangential (beta + alpha sigma), alpha and beta between a and d, sigma > 0: it has the sign of a and d.
+    # (The paper prints the denominator zeta^2 + Psi; it is (zeta^2 + Psi)^(3/2).)
+    zeta = np.geomspace(1e-4, 1e4, 81)
+    s = zeta**2
+    P, slope = facts.psi(s), facts.psi.derivative(s)
+    x, y = zeta[:, None] * np.cos(RAY_ANGLES), zeta[:, None] * np.sin(RAY_ANGLES)
+    weight = (s + P)[:, None]
+    top = (a + d) * P[:, None] - (a * x**2 + d * y**2) * slope[:, None] + a * y**2 + d * x**2
+    divergence = top / weight**1.5
+    # scaled by 1/sqrt(zeta^2 + Psi): between the bound and its double or more, all over the plane
+    scaled = divergence * np.sqrt(weight) * (-1.0 if backwards else 1.0)
+    bound = -min(abs(a), abs(d))
+    one_sign = float(scaled.max()) <= bound * (1.0 - 1e-9)
+    count = len(facts.equator)
+    towards = facts.equator.lambda_rho * (-1.0 if backwards else 1.0)
+    arriving = bool((towards[~facts.equator.radially_degenerate] < 0.0).all())
+    kind = facts.critical[0].kind
+    stable = kind.startswith("unstable" if backwards else "stable")
+    holds = len(facts.critical) == 1 and one_sign and stable and arriving and (count in (0, 2, 4) or not facts.generic)
+    what = "largest √(ζ²+Ψ) div" + (" (time reversed)" if backwards else "")
+    numbers = (("critical sets", 1.0), (what, float(scaled.max())), ("its bound −min(|a|, |d|)", bound),
+               ("tr J", facts.critical[0].trace), ("limit directions", float(count)))  # fmt: skip
+    kind = f"{'an' if kind.startswith('unstable') else 'a'} {kind}"
+    sentence = say("one sign", sign="positive" if backwards else "negative", kind=kind)
+    if not facts.generic:
+        sentence += " " + say("count not generic")
+    return Certificate(theorem, statement, verdict_of(holds), numbers, sentence)
+
+
+def _without_set(theorem: str, facts: Facts, statement: str) -> Certificate:
+    if facts.location is None or facts.location.existence is not Existence.NONE:
+        return not_applicable(theorem, statement, _reason(facts))
+    count = len(facts.equator)
+    numbers = (("critical sets", float(len(facts.critical))), ("limit directions", float(count)))
+    if not facts.generic:
+        holds = not facts.critical and count >= 1
+        return Certificate(
+            theorem, statement, verdict_of(holds), numbers,
+            say("none, on a border", count=count),
+        )  # fmt: skip
+    return Certificate(
+        theorem, statement, verdict_of(not facts.critical and count in (2, 4)), numbers,
+        say("none, generic", count=count),
+    )  # fmt: skip
+
+
+def _five(facts: Facts, statement: str) -> Certificate:
+    if facts.portrait.degeneracies:
+        names = ", ".join(d.name for d in facts.portrait.degeneracies)
+        return not_applicable("thm:case1(c)", statement, say("portrait not generic", names=names))
+    name = facts.portrait.name
+    return Certificate(
+        "thm:case1(c)", statement, verdict_of(name in ("CM0", "CM2", "CM4", "NCM2", "NCM4")),
+        (("limit directions", float(len(facts.equator))), ("critical sets", float(len(facts.critical)))),
+        say("this one", name=name),
+    )  # fmt: skip
+
+
+def case2(facts: Facts) -> tuple[Certificate, ...]:
+    """Evaluate Theorem 4.4."""
+    with_set = say("case2(a)")
+    without = say("case2(b)")
+    if facts.portrait.case != "II":
+        why = NOT_LINEAR
+        if facts.form is not None:
+            why = say("not Case II")
+        return not_applicable("thm:case2(a)", with_set, why), not_applicable("thm:case2(b)", without, why)
+    second = _without_set("thm:case2(b)", facts, without)
+    if not facts.critical:
+        return not_applicable("thm:case2(a)", with_set, _reason(facts)), second
+    equator = facts.equator
+    products = (equator.lambda_rho * equator.lambda_theta).tolist()
+    saddles = all(
+        C.kind == "saddle" for psi in (facts.psi, *comparison_families(1)) for C in facts.problem.with_psi(psi).critical
+    )
+    holds = saddles and len(products) == 4 and all(v < 0.0 for v in products)
+    numbers = (("det J", facts.critical[0].determinant), ("limit directions", float(len(products))),
+               *((f"λ_ρ λ_θ at {label}", v) for label, v in zip(equator.labels, products, strict=True)))  # fmt: skip
+    first = Certificate("thm:case2(a)", with_set, verdict_of(holds), numbers, say("one for each separatrix"))
+    return first, second

@@ -1,0 +1,1 @@
+"""What every result can do, and every sentence: shown, compared, written to files, read aloud."""

@@ -1,0 +1,36 @@
+"""Derive the system of a mechanism: mass matrix, contact point and coefficient of friction in, U and W out."""
+
+from __future__ import annotations
+
+from ...motion.several.contacts import Contacts, contacts
+from ...motion.several.result import ContactDecision, ContactMotion, ContactPhase, ContactStatus
+from ..arguments import checked_functions
+from .contact import contact
+from .contact_force import ContactForce
+from .fit import Fit, fit
+from .friction_law import stribeck
+from .grip import Grip
+from .mechanism import Mechanism
+
+__all__ = [
+    "ContactDecision",
+    "ContactForce",
+    "ContactMotion",
+    "ContactPhase",
+    "ContactStatus",
+    "Contacts",
+    "Fit",
+    "Grip",
+    "Mechanism",
+    "contact",
+    "contacts",
+    "fit",
+    "stribeck",
+]
+
+globals().update(checked_functions(__name__, globals(), ["fit"]))
+
+
+def __dir__() -> list[str]:
+    """Return the public names, for the Tab key."""
+    return list(__all__)

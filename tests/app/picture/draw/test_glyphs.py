@@ -1,0 +1,164 @@
+"""What marks, labels and arrowheads say: each in its shape, colour and place, by what the core computes."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from codim2_app.picture.draw import glyphs
+from hypothesis import given
+from hypothesis import strategies as st
+
+import codim2_core as c2
+
+
+def test_join_never_mixes_pieces():
+    line = np.column_stack([np.linspace(0, 1, 11), np.zeros(11)])
+    offsets, points = glyphs.join([line, line[:3] + 5])
+    assert offsets.tolist() == [0, 11, 14]
+    assert points[11].tolist() == [5, 5]
+
+
+@given(st.lists(st.floats(0, 6.28), min_size=1, max_size=8).map(sorted))
+def test_labels_are_apart(angles):
+    moved = glyphs.spread(angles)
+    for i, angle in enumerate(moved):
+        following = moved[(i + 1) % len(moved)] + (2 * math.pi if i + 1 == len(moved) else 0)
+        assert following - angle > 0.8 * glyphs.LABEL_GAP
+
+
+@pytest.mark.parametrize(("g0", "sense"), [(1.0, "⊙"), (-1.0, "⊗"), (0.0, "")])
+def test_the_slow_flow_comes_out_of_the_page_where_it_is_positive(g0, sense):
+    system = c2.ELinear(-2, 0, -1, (0, 0), B=((0, 0),), g=(g0,))
+    assert glyphs.critical_columns(c2.critical_sets(system, c2.psi.constant(), (0.0,)))["sense"] == [sense]
+
+
+def test_equator_arrows_follow_theta():
+    system = c2.ELinear(-2, 0.3, -1, (-0.5, 0.1))
+    at = system.at()
+    arrows = glyphs.equator_arrows(c2.equator_equilibria(system))
+    assert len(arrows) >= 2
+    for x, y, angle in arrows:
+        assert np.dot(at.U((x, y)), (-y, x)) * np.dot((math.cos(angle), math.sin(angle)), (-y, x)) > 0
+
+
+def test_closed_equator_turns_the_right_way():
+    for b in (1.0, -1.0):
+        system = c2.ELinear(-1, b, -1)
+        cycle = c2.equator_cycle(system)
+        x, y, angle = glyphs.equator_arrows(c2.equator_equilibria(system), cycle.direction)[0]
+        assert math.copysign(1, x * math.sin(angle) - y * math.cos(angle)) == math.copysign(1, b)
+
+
+@pytest.mark.parametrize(
+    ("rho", "ang", "multiplicity", "words"),
+    [
+        (-1, -1, 1, "radially and angularly attracting"), (1, 2, 1, "radially and angularly repelling"),
+        (-1, 1, 1, "radially attracting, angularly repelling"), (1, -1, 1, "radially repelling, angularly attracting"),
+        (0, 1, 1, "radially neutral, angularly repelling"), (-1, 0, 1, "radially attracting, angularly degenerate"),
+        (1, -1, 2, "radially repelling, angularly degenerate"),
+    ],
+)  # fmt: skip
+def test_words_on_equator_equilibria(rho, ang, multiplicity, words):
+    assert glyphs.equator_type(rho, ang, *[multiplicity] * (multiplicity > 1)) == words
+
+
+def equator(theta, rho, ang, multiplicity=None, all_directions=False):
+    columns = {"theta": theta, "lambda_rho": rho, "lambda_theta": ang, "multiplicity": multiplicity or [1] * len(theta)}
+    arrays = {name: np.array(values, float) for name, values in columns.items()}
+    return type("Equator", (), {**arrays, "all_directions": all_directions})()
+
+
+def test_equator_columns_say_what_the_numbers_are():
+    q = glyphs.equator_columns(equator([0.25, 1.0, 2.5, 4.0], [-1, 2, 0, -3], [0.5, -1, 2, 0.0], [1, 1, 1, 2]))
+    assert q["label"] == ["Q₁", "Q₂", "Q₃", "Q₄"]
+    assert q["filled"] == [1, 0, 0, 1]
+    assert q["shape"] == ["diamond", "circle", "diamond", "triangle"]
+    assert q["size"] == [18, 13, 18, 15]
+    assert q["colour"] == ["attr", "rep", "degenerate", "degenerate"]
+    assert (q["x"][1], q["y"][1]) == (math.cos(1.0), math.sin(1.0))
+    assert (q["label_x"][1], q["label_y"][1]) == pytest.approx((1.11 * math.cos(1.095), 1.11 * math.sin(1.095)))
+    assert (q["lambda_rho"], q["lambda_theta"], q["multiplicity"]) == ([-1, 2, 0, -3], [0.5, -1, 2, 0], [1, 1, 1, 2])
+
+
+def test_arrows_on_the_equator_leave_what_repels_and_reach_what_attracts():
+    found = glyphs.equator_arrows(equator([0.5, 1.5, 1.6, 4.0], [1] * 4, [1.0, -2.0, 3.0, -1.0]))
+    middles = [1.0, (1.6 + 4.0) / 2, (4.0 + 0.5) / 2 + math.pi]  # none where there is no room
+    assert [x for x, *_ in found] == pytest.approx([math.cos(t) for t in middles])
+    assert [y for _, y, _ in found] == pytest.approx([math.sin(t) for t in middles])
+    senses = [1, 1, -1]
+    assert [a for *_, a in found] == pytest.approx([t + s * math.pi / 2 for t, s in zip(middles, senses, strict=True)])
+    [one] = glyphs.equator_arrows(equator([1.0], [1], [-1.0]))
+    assert one == pytest.approx((math.cos(1 + math.pi), math.sin(1 + math.pi), 1 + math.pi + -1 * math.pi / 2))
+    # of a double zero the next one tells
+    first, second = glyphs.equator_arrows(equator([1.0, 3.0], [1, 1], [0.0, -1.0], [2, 1]))
+    assert first[2] == pytest.approx(2.0 + math.pi / 2)
+    assert second[2] == pytest.approx(2.0 + math.pi - math.pi / 2)
+    assert glyphs.equator_arrows(equator([0.5], [1], [1], all_directions=True)) == []
+    assert glyphs.equator_arrows(equator([], [], [])) == []
+    turning = glyphs.equator_arrows(equator([], [], []), -1)
+    places = [math.pi * (i + 0.5) / 2 for i in range(4)]
+    assert [a for *_, a in turning] == pytest.approx([t - math.pi / 2 for t in places])
+    assert [x for x, *_ in turning] == pytest.approx([math.cos(t) for t in places])
+
+
+def test_critical_columns_say_what_the_core_does():
+    system = c2.ELinear(1.0, 0.3, -1.2, (0.2, 0.45), B=((1.0, 0.3),), g=(0.9,))
+    [C] = c2.critical_sets(system, c2.psi.rational(), (0.0,))
+    told = glyphs.critical_columns([C])
+    assert (told["label"], told["kind"], told["shape"], told["filled"]) == (["C"], ["saddle"], ["x"], [0])
+    assert told["e"] == [[float(v) for v in C.e]]
+    assert told["x2"] == [[float(v) for v in C.x2]]
+    assert told["e"] != told["x2"]
+    numbers = ("x", "y", "trace", "determinant", "discriminant")
+    assert [told[name] for name in numbers] == [[C.p[0]], [C.p[1]], [C.trace], [C.determinant], [C.discriminant]]
+    assert told["eigenvalues"] == [[[v.real, v.imag] for v in C.eigenvalues]]
+    assert told["slow_flow"] == [[float(v) for v in C.slow_flow]]
+    assert told["sense"] == ["⊙" if C.slow_flow[0] > 0 else "⊗"]
+    assert (told["size"], told["colour"]) == ([15], ["crit"])
+    assert glyphs.critical_columns([C, C])["label"] == ["C₁", "C₂"]
+
+
+@pytest.mark.parametrize(
+    ("kind", "mark"),
+    [
+        ("stable node", ("square", 1)), ("unstable node", ("square", 0)), ("stable focus", ("circle", 1)),
+        ("unstable focus", ("circle", 0)), ("saddle", ("x", 0)), ("centre (linear)", ("circle_dot", 0)),
+        ("saddle-node", ("triangle", 0)), ("degenerate", ("hex", 0)),
+    ],
+)  # fmt: skip
+def test_marks_of_critical_sets(kind, mark):
+    [C] = c2.critical_sets(c2.ELinear(-2, 0, -1), c2.psi.constant())
+    told = glyphs.critical_columns([replace(C, kind=kind)])
+    assert (told["shape"], told["filled"]) == ([mark[0]], [mark[1]])
+
+
+@pytest.mark.parametrize(
+    ("angles", "moved"),
+    [
+        ([1.0], [1.0]),
+        ([1.0, 2.0, 5.0], [1.0, 2.0, 5.0]),  # apart already
+        ([1.0, 1.1], [0.95, 1.15]),
+        ([0.05, 6.2], [0.083407, 6.166593]),  # neighbours across 0
+        ([1.0, 1.0, 1.0], [0.8, 1.0, 1.2]),
+        ([1.0, 1.0, 4.0, 4.1], [0.9, 1.1, 3.95, 4.15]),
+        ([], []),
+    ],
+)
+def test_labels_move_apart_by_as_little_on_either_side(angles, moved):
+    found = glyphs.spread(angles, 0.2)
+    assert found == pytest.approx(moved, abs=1e-5)
+    assert sum(found) == pytest.approx(sum(angles))
+
+
+def test_labels_for_which_there_is_no_room_stay_where_they_are():
+    """A wild formula has thousands of directions: moving their labels to and fro took a tenth of a second."""
+    angles = np.linspace(0.0, 6.2, 5000).tolist()
+    assert glyphs.spread(angles, 0.2) == angles
+    full = np.linspace(0.0, 2 * math.pi, 31, endpoint=False).tolist()
+    assert min(np.diff(glyphs.spread([full[1] - 1e-3, *full[1:]], 0.2))) > 0.199
+
+
+def test_no_pieces_are_no_points():
+    offsets, points = glyphs.join([])
+    assert (offsets.tolist(), points.shape) == ([0], (0, 2))

@@ -1,0 +1,85 @@
+"""Curves of the plane of parameters as they are sent: in units of its size, and with no more points than are seen."""
+
+import math
+
+import numpy as np
+import pytest
+from codim2_app.picture.draw import plane_curves
+
+
+def curve(*branches):
+    return type("Curve", (), {"branches": branches})()
+
+
+def test_curves_of_the_plane_travel_over_their_largest_coordinate():
+    line = np.array([[0.5, -4.0], [1.0, 2.0], [3.0, 1.0]])
+    assert plane_curves.size_of([curve(line), curve(0.5 * line)]) == 4.0
+    assert plane_curves.size_of([curve(np.zeros((1, 2)))]) == 1.0
+    assert plane_curves.size_of([]) == 1.0
+    offsets, points = plane_curves.curve_lines(curve(line, line[:1]), 4.0)
+    assert offsets.tolist() == [0, 3, 4]
+    assert points == pytest.approx(np.concatenate([line, line[:1]]) / 4.0)
+    region = type("Region", (), {"name": "CM4", "inside": (1.0, -2.0), "bounded": True, "boundary": [line, line[:3]]})
+    told = plane_curves.region_columns([region], 4.0)
+    assert told == {"name": ["CM4"], "inside": [[0.25, -0.5]], "bounded": [True], "loops": [2], "size": 4.0}
+    assert plane_curves.region_lines([region], 4.0)[0].tolist() == [0, 3, 6]
+
+
+def test_thinning_keeps_ends_corners_and_what_a_pixel_would_show():
+    turn = np.linspace(0.0, 1.5 * math.pi, 2001)
+    arc = np.column_stack([np.cos(turn), np.sin(turn)]) * 5.0
+    offsets, points = plane_curves.thin([arc, arc + 20.0], 5.0)
+    one = points[: offsets[1]]
+    assert 95 < len(one) < 105  # one for each tenth of a radian, and one for each 0.09 of the size
+    assert len(points) == 2 * len(one)
+    assert one[[0, -1]] == pytest.approx(arc[[0, -1]] / 5.0)
+    assert points[offsets[1]] == pytest.approx(arc[0] / 5.0 + 4.0)
+    middles = 0.5 * (one[1:] + one[:-1])
+    assert 1.0 - np.hypot(*middles.T).min() < 0.0004  # the sag of a chord
+    assert np.hypot(*np.diff(one, axis=0).T).max() < 0.055
+    straight = np.column_stack([np.linspace(0.0, 1.0, 1001), np.zeros(1001)])
+    kept = plane_curves.thin([straight], 1.0)[1]
+    assert 11 <= len(kept) <= 14
+    corner = np.concatenate([straight, np.column_stack([np.ones(1000), np.linspace(0.001, 1.0, 1000)])])
+    assert (plane_curves.thin([corner], 1.0)[1] == [1.0, 0.0]).all(axis=1).any()
+
+
+def lengths(*steps):
+    """A line along x with these steps."""
+    return np.column_stack([np.concatenate([[0.0], np.cumsum(steps)]), np.zeros(len(steps) + 1)])
+
+
+def test_a_thinned_line_keeps_a_point_for_each_allowed_length_and_turn():
+    far, near = 1.01 * plane_curves.ARROW_LENGTH, 0.26 * plane_curves.ARROW_LENGTH
+    assert len(plane_curves.thin([lengths(*[far] * 6)], 1.0)[1]) == 7  # all
+    assert len(plane_curves.thin([lengths(*[2.0 * far] * 6)], 2.0)[1]) == 7  # in units of the size
+    assert [len(plane_curves.thin([lengths(*[1e-3] * k)], 1.0)[1]) for k in (2, 3, 4)] == [3, 2, 2]
+    kept = plane_curves.thin([lengths(*[near] * 40)], 1.0)[1][:, 0]
+    assert 10 <= len(kept) <= 13
+    assert np.diff(kept).max() <= plane_curves.ARROW_LENGTH + near  # the first point at which it is that long
+    angle = np.linspace(0.0, 6.0, 601)
+    _, kept = plane_curves.thin([1e-3 * np.column_stack([np.cos(angle), np.sin(angle)])], 1.0)
+    turns = np.diff(np.unwrap(np.arctan2(kept[:, 1], kept[:, 0])))
+    assert turns.max() <= 1.2 * plane_curves.MAX_TURN  # of so small a circle only the turns count
+    assert len(kept) < 1.2 * 6.0 / plane_curves.MAX_TURN
+    corner = np.concatenate([lengths(*[near] * 10), [(10 * near, k * near) for k in range(1, 11)]])
+    _, kept = plane_curves.thin([corner], 1.0)
+    corners = {(0, 0), (9, 0), (10, 0), (10, 1), (10, 10)}
+    assert {(round(x / near), round(y / near)) for x, y in kept.tolist()} >= corners
+
+
+def test_thinned_pieces_are_those_of_each_alone():
+    angle = np.linspace(0.0, 2.0, 200)
+    pieces = [
+        np.column_stack([np.cos(angle), 0.3 * np.sin(angle)]), lengths(*[0.01] * 50) + 3.0,
+        np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)]), np.array([(5.0, 5.0)]), lengths(0.001, 0.001),
+    ]  # fmt: skip
+    offsets, points = plane_curves.thin(pieces, 4.0)
+    for i, piece in enumerate(pieces):
+        own = points[offsets[i] : offsets[i + 1]]
+        assert own[0] == pytest.approx(piece[0] / 4.0)
+        assert own[-1] == pytest.approx(piece[-1] / 4.0)
+        away = np.abs(own[:, None] - piece / 4.0).max(axis=2).min(axis=1)
+        assert away.max() < 1e-15  # none is made up
+    assert np.diff(offsets)[2:].tolist() == [3, 1, 3]
+    assert plane_curves.size_of([]) == 1.0
