@@ -188,18 +188,6 @@ _HOMES = {
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 
-
-def find_public(package: str, home: str, name: str) -> object:
-    """Return what a module of a package calls `name`; a function comes with the checks of what it is given."""
-    from importlib import import_module
-
-    from .systems.arguments import checked_functions
-    from .systems.presets.named import named_setting
-
-    one = {name: getattr(import_module(f".{home}", package), name)}
-    return (one | checked_functions(package, one, one, named_setting))[name]
-
-
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:
@@ -209,6 +197,8 @@ if not TYPE_CHECKING:
         if name in _MODULES:
             found = import_module(f".{_MODULES[name]}", __name__)
         elif name in _HOME:
+            from .systems.public import find_public
+
             found = find_public(__name__, _HOME[name], name)
         else:
             raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PACKAGES = {"app": "codim2_app", "codim2_core": "codim2_core"}
+PACKAGES = {"app/codim2_app": "codim2_app", "codim2_core": "codim2_core"}
 
 
 def examples():

@@ -2,8 +2,8 @@
 
 ``python -m tests.stress --contacts [--seconds S] [--seed N]``
 
-SciPy's Radau has the equations as `tests.core.systems.mechanics.plates` writes them again, with Psi = 1, and shares nothing
-with what is tried. At rest the accelerations are those of projected Gauss-Seidel.
+SciPy's Radau has the equations as `tests.core.systems.mechanics.plates` writes them again, with Psi = 1, and shares
+nothing with what is tried. At rest the accelerations are those of projected Gauss-Seidel.
 """
 
 from __future__ import annotations

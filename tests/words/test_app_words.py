@@ -196,46 +196,46 @@ CHECKS = {
 }
 #: Of processes and of what a kernel of Jupyter does, held in `tests` where those are run.
 ELSEWHERE = {
-    "app/codim2_app/picture/frame/test_budget.py": ("too wild", "fault"),
-    "app/codim2_app/panels/parameters/test_axes.py": (
+    "app/picture/frame/test_budget.py": ("too wild", "fault"),
+    "app/panels/parameters/test_axes.py": (
         "no slow variable",
         "no parameter",
         "n of another Ψ",
         "axis given",
     ),
-    "app/codim2_app/panels/parameters/test_response.py": ("no parameter of the motion", "no periodic motion to follow"),
-    "app/codim2_app/picture/state/test_compatible_changes.py": (
+    "app/panels/parameters/test_response.py": ("no parameter of the motion", "no periodic motion to follow"),
+    "app/picture/state/test_compatible_changes.py": (
         "request of a wrong kind",
         "values of a wrong kind",
         "too many values",
         "values left out",
     ),
-    "app/codim2_app/picture/state/test_links.py": (
+    "app/picture/state/test_links.py": (
         "address changed",
         "address too long",
         "part of the picture",
         "views of a link",
     ),
-    "app/codim2_app/view/test_refresh.py": ("at rest", "at rest, stick", "at rest, slip"),
-    "app/codim2_app/view/test_refused.py": (
+    "app/view/test_refresh.py": ("at rest", "at rest, stick", "at rest, slip"),
+    "app/view/test_refused.py": (
         "address names",
         "address of a later version",
         "controls of a frame",
         "no such parameter",
         "no such lesson",
     ),
-    "app/codim2_app/picture/state/test_chosen.py": ("name of a box", "name of the regularisation", "name of time"),
-    "app/codim2_app/panels/test_panels_of_motion.py": ("no time passes",),
-    "app/codim2_app/picture/frame/test_faults.py": ("no scipy",),
-    "app/codim2_app/picture/frame/test_turns.py": ("stopped", "lost"),
-    "app/codim2_app/picture/frame/test_workers.py": ("stopped after",),
+    "app/picture/state/test_chosen.py": ("name of a box", "name of the regularisation", "name of time"),
+    "app/panels/test_panels_of_motion.py": ("no time passes",),
+    "app/picture/frame/test_faults.py": ("no scipy",),
+    "app/picture/frame/test_turns.py": ("stopped", "lost"),
+    "app/picture/frame/test_workers.py": ("stopped after",),
     "browser/test_connection.py": ("places taken", "no connection"),
-    "app/codim2_app/lessons/test_lessons.py": ("no such place", "mark away"),
-    "app/codim2_app/exports/test_film.py": ("nothing to play",),
-    "app/codim2_app/view/test_taking.py": ("film stopped", "proof stopped"),
-    "app/codim2_app/view/test_notebook.py": ("compiling",),
-    "app/codim2_app/lessons/rooms/test_rooms.py": ("no rooms", "all rooms taken", "no such room", "room full"),
-    "app/codim2_app/lessons/rooms/test_visitor.py": ("too many codes",),
+    "app/lessons/test_lessons.py": ("no such place", "mark away"),
+    "app/exports/test_film.py": ("nothing to play",),
+    "app/view/test_taking.py": ("film stopped", "proof stopped"),
+    "app/view/test_notebook.py": ("compiling",),
+    "app/lessons/rooms/test_rooms.py": ("no rooms", "all rooms taken", "no such room", "room full"),
+    "app/lessons/rooms/test_visitor.py": ("too many codes",),
 }
 
 

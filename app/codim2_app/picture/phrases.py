@@ -1,6 +1,7 @@
 """Sentences of the explorer to a visitor: what it leaves out, waits for or cannot show, each written once.
 
-What is said of systems is the core's: `codim2_core.results.words`. What is said of a wrong value stands where that is checked.
+Sentences about systems are the core's (`codim2_core.results.words`); what is wrong with a value is written
+where the value is checked.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...motion.several.contacts import Contacts, contacts
+from ..mechanics.several.contacts import Contacts, contacts
 from .example import GRAVITY, check_physics, examples_at_contacts
 
 

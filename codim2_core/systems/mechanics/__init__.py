@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from ...motion.several.contacts import Contacts, contacts
-from ...motion.several.result import ContactDecision, ContactMotion, ContactPhase, ContactStatus
 from ..arguments import checked_functions
 from .contact import contact
 from .contact_force import ContactForce
@@ -11,6 +9,8 @@ from .fit import Fit, fit
 from .friction_law import stribeck
 from .grip import Grip
 from .mechanism import Mechanism
+from .several.contacts import Contacts, contacts
+from .several.result import ContactDecision, ContactMotion, ContactPhase, ContactStatus
 
 __all__ = [
     "ContactDecision",

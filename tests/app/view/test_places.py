@@ -80,7 +80,8 @@ def test_a_view_is_saved_as_the_command_writes_it(tmp_path, kind):
 
 
 def test_the_strip_of_a_page_is_drawn_where_nothing_is_compiled(tmp_path):
-    code = "from codim2_app.picture.draw.gallery import gallery; found = [one['drawn'].count('<path') for one in gallery()]"
+    code = "from codim2_app.picture.draw.gallery import gallery\n"
+    code += "found = [one['drawn'].count('<path') for one in gallery()]"
     drawn, compiled = computed(tmp_path, code)
     assert len(drawn) == len(HOOKS)
     assert min(drawn) > 1

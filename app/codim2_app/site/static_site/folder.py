@@ -36,7 +36,7 @@ DEPENDENCIES = (
 )  # fmt: skip
 #: Of our packages: what is imported, lessons, and what markup and live files are made of.
 KEPT = ("*.py", "*.md", "static/**/*.js", "static/**/*.css", "static/*.html")
-LEFT_OUT = ("docs", "notebooks", "server", "wasm_kernels")  # folders of the app
+LEFT_OUT = ("site/docs/", "site/notebooks/", "site/wasm_kernels/", "server/")  # folders of the app
 #: Folders whose source is read there: right-hand sides with a typed formula are compiled from it.
 READ = ("stepping",)
 KERNELS = ("kernels.so", "kernels.json")
@@ -168,7 +168,7 @@ def site_files(kernels: Path) -> Iterator[tuple[str, Path]]:
         for pattern in KEPT:
             for path in folder.rglob(pattern):
                 inner = path.relative_to(folder)
-                if inner.parts[0] not in LEFT_OUT:
+                if not inner.as_posix().startswith(LEFT_OUT):
                     yield f"{package}/{inner}", path
     for name in DEPENDENCIES:
         for file in distribution(name).files or ():

@@ -1,7 +1,7 @@
 """The core's kernels as Numba types them, before they are optimised for this processor: a process of its own.
 
-``python -m codim2_app.site.wasm_kernels.extraction FILE`` compiles all that `warm_all` does, and writes a list of `Extract`.
-Two steps of Numba are switched off in that process, and nothing is read from the disk or kept there.
+``python -m codim2_app.site.wasm_kernels.extraction FILE`` compiles all that `warm_all` does, and writes a list of
+`Extract`. Two steps of Numba are switched off in that process, and nothing is read from the disk or kept there.
 """
 
 from __future__ import annotations

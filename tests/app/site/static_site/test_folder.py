@@ -98,14 +98,15 @@ def test_the_page_begins_with_its_own_first_frame(files):
 def test_the_worker_finds_our_modules_the_kernels_and_nothing_compiled_for_another_machine(files):
     names = {name.removesuffix("c") for name in ZipFile(io.BytesIO(files["site.zip"])).namelist()}
     assert {
-        "codim2_app/static_site/engine.py", "codim2_core/scene/scene.py", "codim2_core/formulas/jit/compiled/kernels.so",
+        "codim2_app/site/static_site/engine.py", "codim2_core/scene/scene.py",
+        "codim2_core/formulas/jit/compiled/kernels.so",
         "codim2_app/static/explorer.html", "codim2_app/lessons/text/01-friction.md", "param/__init__.py",
     } <= names  # fmt: skip
     assert [name for name in names if name.endswith((".so", ".pyd"))] == [
         "codim2_core/formulas/jit/compiled/kernels.so"
     ]
     assert not any(
-        name.startswith(("codim2_app/server/", "codim2_app/docs/")) or "__pycache__" in name for name in names
+        name.startswith(("codim2_app/server/", "codim2_app/site/docs/")) or "__pycache__" in name for name in names
     )
 
 

@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...formulas.arrays import path_program
-from ...numerics.radau import Step, tableau
-from ...results.arrays import Array
+from ....formulas.arrays import path_program
+from ....numerics.radau import Step, tableau
+from ....results.arrays import Array
 from .decision import Flags
 from .field import ContactField, Local, held_rank
 
@@ -52,7 +52,7 @@ class Inspection:
 
     def retry(self, step: Step, stages: Array, here: Local, sticks: Flags, speed: float) -> float | None:
         """Return the step to try instead, where formulas vary along this one as its stages do not see; else None."""
-        from ...numerics.along import first_defect  # on first use: it loads the compiler
+        from ....numerics.along import first_defect  # on first use: it loads the compiler
 
         moving = self.field.moving
         if not moving.any():
@@ -70,7 +70,7 @@ class Inspection:
         """Return the first switch that a step passes."""
         if self._guards is None:
             return None
-        from ...numerics.along import zeros_along
+        from ....numerics.along import zeros_along
 
         path, found, first = self._path(step, step.polynomial.shape[1] + 1, 0), np.empty((1, 2)), None
         for guard in range(len(self.field.branch.guards)):

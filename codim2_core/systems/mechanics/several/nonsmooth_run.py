@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.radau import Step, tableau, truncate_step
-from ...results.arrays import Array
-from ...results.words import say
+from ....numerics.radau import Step, tableau, truncate_step
+from ....results.arrays import Array
+from ....results.words import say
 from .collocation import Collocated
 from .decision import AT_BOUND, Decided, Flags, decide_contacts
 from .field import Local, held_rank, held_rates, project_velocities

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...numerics.radau import Step, tableau
-from ...results.arrays import Array
+from ....numerics.radau import Step, tableau
+from ....results.arrays import Array
 from .decision import Flags
 from .field import ContactField, Law, Local, within_disc
 

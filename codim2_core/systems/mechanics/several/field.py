@@ -9,14 +9,14 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ...formulas.arrays import Program, path_program
-from ...formulas.expression import Expression
-from ...formulas.names import FAST_NAMES, SLOW_NAMES
-from ...formulas.switches import Branch, Rows, branch_at, has_switches
-from ...results.arrays import Array
-from ...systems.mechanics.algebra import Algebra
-from ...systems.mechanics.formula_reading import FormulaRow, Matrix
-from ...systems.psi.function import Psi
+from ....formulas.arrays import Program, path_program
+from ....formulas.expression import Expression
+from ....formulas.names import FAST_NAMES, SLOW_NAMES
+from ....formulas.switches import Branch, Rows, branch_at, has_switches
+from ....results.arrays import Array
+from ...psi.function import Psi
+from ..algebra import Algebra
+from ..formula_reading import FormulaRow, Matrix
 from .contact_parts import ContactParts
 from .decision import RANK_TOLERANCE, Flags
 
@@ -157,7 +157,7 @@ class ContactField:
 
     def values(self, states: Array) -> Array:
         """Return the rows (k, rows) at states (k, N)."""
-        from ...formulas import interpreter  # on first use: it loads the compiler
+        from ....formulas import interpreter  # on first use: it loads the compiler
 
         out = np.empty((len(states), len(self.rows)))
         interpreter.values(*self.program.arrays, np.ascontiguousarray(states), out)

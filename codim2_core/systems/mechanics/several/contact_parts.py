@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import Any
 
-from ...formulas.expression import Expression
-from ...formulas.names import FAST_NAMES
-from ...systems.mechanics import formula_reading
-from ...systems.mechanics.algebra import Algebra
-from ...systems.mechanics.formula_reading import FormulaRow, Matrix
-from ...systems.mechanics.mechanism import Mechanism
-from ...systems.reading import short_repr
+from ....formulas.expression import Expression
+from ....formulas.names import FAST_NAMES
+from ...reading import short_repr
+from .. import formula_reading
+from ..algebra import Algebra
+from ..formula_reading import FormulaRow, Matrix
+from ..mechanism import Mechanism
 
 MAX_CONTACTS = 8
 

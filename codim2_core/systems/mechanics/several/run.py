@@ -7,9 +7,9 @@ from dataclasses import field as made_with
 
 import numpy as np
 
-from ...numerics.radau import STEP_SAFETY, Step, TooManyStepsError, tableau, truncate_step
-from ...results.arrays import Array
-from ...results.words import say
+from ....numerics.radau import STEP_SAFETY, Step, TooManyStepsError, tableau, truncate_step
+from ....results.arrays import Array
+from ....results.words import say
 from .collocation import Collocated, collocate
 from .decision import Flags
 from .field import ContactField, Law, Local, project_velocities

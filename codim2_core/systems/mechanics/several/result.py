@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...numerics.dense import DenseMotion
-from ...results.arrays import Array
-from ...results.result import Result, Tabled, result_rows
-from ...results.tables import paragraphs, table_number
-from ...results.words import say
+from ....numerics.dense import DenseMotion
+from ....results.arrays import Array
+from ....results.result import Result, Tabled, result_rows
+from ....results.tables import paragraphs, table_number
+from ....results.words import say
 
 
 class ContactStatus(Enum):

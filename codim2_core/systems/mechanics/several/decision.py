@@ -20,7 +20,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ...results.arrays import Array
+from ....results.arrays import Array
 
 Flags = NDArray[np.bool_]
 

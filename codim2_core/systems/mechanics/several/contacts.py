@@ -34,20 +34,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...formulas.expression import Expression
-from ...formulas.names import SLOW_NAMES
-from ...numerics.dense import dense, gather_steps
-from ...numerics.radau import TooManyStepsError
-from ...results.arrays import Array, read_only
-from ...results.result import Result
-from ...results.words import say
-from ...systems.arguments import checked_times
-from ...systems.elinear import ELinear
-from ...systems.mechanics import formula_reading
-from ...systems.mechanics.formula_reading import FormulaRow, Matrix
-from ...systems.mechanics.mechanism import Mechanism
-from ...systems.psi.function import Psi
-from ...systems.typed import System
+from ....formulas.expression import Expression
+from ....formulas.names import SLOW_NAMES
+from ....numerics.dense import dense, gather_steps
+from ....numerics.radau import TooManyStepsError
+from ....results.arrays import Array, read_only
+from ....results.result import Result
+from ....results.words import say
+from ...arguments import checked_times
+from ...elinear import ELinear
+from ...psi.function import Psi
+from ...typed import System
+from .. import formula_reading
+from ..formula_reading import FormulaRow, Matrix
+from ..mechanism import Mechanism
 from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
 from .field import ContactField, Coulomb, Law, Regularised, contact_field, held_rank
