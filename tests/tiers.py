@@ -14,7 +14,7 @@ import pytest
 
 TESTS = Path(__file__).parent
 SLOW = ("faults", "fuzz", "containers", "versions", "firefox", "stress", "precision")
-#: Lines ``N file::function``: of the function's cases only each N-th runs with all other tests.
+#: Lines ``N file::function``: of the function's cases only each N-th runs with all other tests; of 0, none.
 SAMPLED = TESTS / "sampled.txt"
 #: Files of the browser that take longest: they come first.
 LONGEST = ("notebook", "notebooks", "docs", "connection", "accessible", "take_away")
@@ -29,7 +29,8 @@ def mark(items: list[pytest.Item]) -> None:
     for item in items:
         path = item.path.relative_to(TESTS)
         name = f"{path.as_posix()}::{item.name.split('[')[0]}"
-        if path.parts[0] in SLOW or cases[name] % sampled.get(name, 1):
+        each = sampled.get(name, 1)
+        if path.parts[0] in SLOW or each == 0 or cases[name] % each:
             item.add_marker("slow")
         cases[name] += 1
         if path.parts[0] == "browser":

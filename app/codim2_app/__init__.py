@@ -21,10 +21,10 @@ __all__ = ["explorer", "holoviews", "plot", "svg", "tables"]
 
 _HOMES = {
     "explorer": ("view.notebook", "explorer"),
-    "holoviews": ("draw.overlay", "holoviews"),
-    "plot": ("export.small.axes", "plot"),
-    "svg": ("export.small.results", "svg"),
-    "tables": ("export.tables", "data_frames"),
+    "holoviews": ("picture.draw.overlay", "holoviews"),
+    "plot": ("exports.small.axes", "plot"),
+    "svg": ("exports.small.results", "svg"),
+    "tables": ("exports.tables", "data_frames"),
 }
 
 

@@ -1,1 +1,1 @@
-"""What every result can do, and every sentence: shown, compared, written to files, read aloud."""
+"""Results: how they are shown, compared and written to files, and all sentences about them."""

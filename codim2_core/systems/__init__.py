@@ -1,1 +1,1 @@
-"""What is given: e-linear and typed systems, Psi, mechanisms, examples, the paper's figures as presets."""
+"""Systems: e-linear and typed systems, Psi, mechanisms, examples, the paper's figures as presets."""

@@ -135,7 +135,7 @@ def test_dir_shows_the_public_names_and_nothing_else():
     assert sorted(dir(codim2_core)) == sorted(["__version__", *codim2_core.__all__])
 
 
-@pytest.mark.parametrize(("package", "folder"), [("codim2_core", "codim2_core"), ("codim2_app", "app")])
+@pytest.mark.parametrize(("package", "folder"), [("codim2_core", "codim2_core"), ("codim2_app", "app/codim2_app")])
 def test_the_packages_say_that_they_are_typed(package, folder):
     assert (ROOT / folder / "py.typed").is_file()
     assert "py.typed" in PROJECT["tool"]["setuptools"]["package-data"][package]

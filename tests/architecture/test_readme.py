@@ -62,10 +62,12 @@ def test_every_room_is_named_and_on_its_floor():
     text, line = CONTRIBUTING, r"(core|app|    )\s+(\w+ \| )*{}\b"
     contracts = tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["importlinter"]["contracts"]
     for one in contracts:
-        if one["type"] != "layers":
+        if one["type"] != "layers" or one["containers"] not in (["codim2_core"], ["codim2_app"]):
             continue
         places = []
         for floor in one["layers"]:
+            if floor == "__main__":
+                continue
             rooms = [line.format(room) for room in floor.split(" | ")]
             lines = [next(i for i, one in enumerate(text.splitlines()) if re.match(room, one)) for room in rooms]
             places.append(lines)

@@ -27,6 +27,7 @@ SHARED = {
     "__all__": "Python's own",
     "__getattr__": "Python's own",
     "__dir__": "Python's own",
+    "_HOMES": "where the public names of a package are",
     "add": "a panel's, or a slow layer's, part of a frame: `registry` calls it",
     "PANEL": "a panel's row of the registry",
     "EXAMPLE": "an example's row of the list",

@@ -9,10 +9,10 @@ from __future__ import annotations
 import time
 
 import numpy as np
-from codim2_core.bifurcations.plane.census.draws import normal
-from codim2_core.bifurcations.plane.census.names import PORTRAIT_NAMES, names
 
 from codim2_core import ELinear, classify, psi
+from codim2_core.bifurcations.census.draws import normal
+from codim2_core.bifurcations.census.names import PORTRAIT_NAMES, names
 
 #: How far from the saddle-node curve systems are drawn: as they come, and 10^-k of a coefficient from it.
 GAPS = (0, 3, 6, 9, 12)

@@ -2,8 +2,8 @@
 
 Shaken plates on three feet, t from 0 to 3. In the limit the references are our own runs at 1e-12, and solve_ivp (Radau)
 has the regularised equations with Psi = 1 and a small eps, as `tests.core.systems.mechanics.plates` writes them in
-NumPy: that is what can be done without events. For eps = 1e-3 the reference is solve_ivp's Radau at 1e-12. All run in one
-process; processor times are the least of three.
+NumPy: that is what can be done without events. For eps = 1e-3 the reference is solve_ivp's Radau at 1e-12. All run in
+one process; processor times are the least of three.
 """
 
 from __future__ import annotations

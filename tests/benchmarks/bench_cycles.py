@@ -12,9 +12,9 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from codim2_core.bifurcations.plane.diagrams.equilibrium_branches import equilibrium_branches
 
 import codim2_core as c2
+from codim2_core.bifurcations.diagrams.equilibrium_branches import equilibrium_branches
 
 PERIODS = {3: 0.5044751410092433, 4: 0.6066957493683202}  # of Case III's cycle, by extrapolation at 22 digits
 CLEAR = 1e-4  # exponent from which a period is known better than its value is rounded

@@ -8,9 +8,9 @@ from __future__ import annotations
 import time
 
 import numpy as np
-from codim2_core.bifurcations.plane.atlases import faces, regions
 
 import codim2_core as c2
+from codim2_core.bifurcations.atlases import faces, regions
 
 ATLASES = {
     "case1-cm4": lambda: c2.atlas("case1-cm4", ranges=("f1", "f2")),

@@ -5,9 +5,9 @@ A chart that is upside down, or has its axes, colours, branches or columns swapp
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.diagrams.equilibrium_branches import equilibrium_branches
 
 import codim2_core as c2
+from codim2_core.bifurcations.diagrams.equilibrium_branches import equilibrium_branches
 
 from .asymmetric import PSI, at, equator, size, system
 from .drawn import SCRIPTS, colour, numbers, plots, table

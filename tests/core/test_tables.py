@@ -4,9 +4,9 @@ import re
 from xml.etree import ElementTree
 
 import pytest
-from codim2_core.results.result.tables import MAX_ROWS, html_table, point, table_number
 
 import codim2_core as c2
+from codim2_core.results.tables import MAX_ROWS, html_table, point, table_number
 
 FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))
 PSI = c2.psi.constant()

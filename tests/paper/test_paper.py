@@ -6,8 +6,8 @@ import re
 from pathlib import Path
 
 import pytest
-from codim2_core.results.result.paper import PRINTED, cite
 
+from codim2_core.results.paper import PRINTED, cite
 from tests.paper.numbering import numbers
 
 ROOT = Path(__file__).parents[2]

@@ -5,11 +5,11 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import power
 
 from codim2_core import ELinear, classify, psi
 from codim2_core.portrait.classification import NEARER
 from codim2_core.portrait.layer_problem.location import Existence, locate
+from codim2_core.results.words import power
 
 SIGNS = [*itertools.product((-1.0, 1.0), repeat=5), (1.0, 0.0, -1.0, 0.0, 1.0), (0.0,) * 5]
 UNIT = 2.0**-53

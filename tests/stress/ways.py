@@ -11,10 +11,10 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
-from codim2_core.bifurcations.plane.atlases.faces import inside_polygons
 
 import codim2_core as c2
 from codim2_core import psi
+from codim2_core.bifurcations.atlases.faces import inside_polygons
 from codim2_core.motion.compare_with_limit import agreement
 from tests.core.polylines import away
 

@@ -6,7 +6,8 @@ import re
 from pathlib import Path
 
 from codim2_app.picture.phrases import SENTENCES as APP
-from codim2_core.results.result.words import ROOMS
+
+from codim2_core.results.words import ROOMS
 
 ROOT = Path(__file__).parents[2]
 STATIC = ROOT / "app" / "codim2_app" / "static"

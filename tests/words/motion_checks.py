@@ -8,10 +8,10 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import written_label
 
 import codim2_core as c2
 from codim2_core import psi
+from codim2_core.results.words import written_label
 
 EPS = 1e-6
 CONSTANT = psi.constant()

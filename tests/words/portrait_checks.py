@@ -9,10 +9,10 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import count_word
 
 import codim2_core as c2
 from codim2_core import psi
+from codim2_core.results.words import count_word
 
 EPS = 1e-5
 NEAR = 0.05  # where motions towards Sigma start

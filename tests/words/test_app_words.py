@@ -13,11 +13,11 @@ from codim2_app.picture.frame import budget, work_queue
 from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.opening import link_of
 from codim2_app.view.refresh import Frames
-from codim2_core.bifurcations.plane.atlases import seed_net, tracing
-from codim2_core.bifurcations.plane.atlases.atlas import curves_over, with_regions
-from codim2_core.bifurcations.plane.atlases.result import SamplingReport
 
 from codim2_core import System, equator_equilibria, psi
+from codim2_core.bifurcations.atlases import seed_net, tracing
+from codim2_core.bifurcations.atlases.atlas import curves_over, with_regions
+from codim2_core.bifurcations.atlases.result import SamplingReport
 from codim2_core.scene import Scene
 
 CASE_3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "k1": 0.0}

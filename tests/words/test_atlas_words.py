@@ -3,9 +3,9 @@
 import math
 
 import numpy as np
-from codim2_core.results.result.words import recognise
 
 import codim2_core as c2
+from codim2_core.results.words import recognise
 
 from .read_back import number
 

@@ -4,12 +4,12 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.diagrams.equilibrium_branches import equilibrium_branches
-from codim2_core.bifurcations.plane.diagrams.result import SpecialValue
-from codim2_core.results.result.words import recognise
 
 import codim2_core as c2
 from codim2_core import ELinear, System, bifurcations, psi
+from codim2_core.bifurcations.diagrams.equilibrium_branches import equilibrium_branches
+from codim2_core.bifurcations.diagrams.result import SpecialValue
+from codim2_core.results.words import recognise
 
 from .read_back import number
 from .standing import At

@@ -3,12 +3,12 @@
 import dataclasses
 
 import pytest
-from codim2_core.results.result.words import ROOMS, recognise
 from hypothesis import given, settings
 
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
 from codim2_core.portrait.theorems.certificates import certificates
+from codim2_core.results.words import ROOMS, recognise
 from tests.core.strategies import regularisations, systems
 
 from .claim_case import HILL, ONE, Case

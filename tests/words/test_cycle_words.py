@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import ROOMS, recognise
 
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
+from codim2_core.results.words import ROOMS, recognise
 
 ONE = psi.constant()
 

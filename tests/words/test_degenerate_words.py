@@ -1,10 +1,10 @@
 """What is said of settings whose degeneracy is known in closed form."""
 
 import pytest
-from codim2_core.results.result.words import recognise
 
 import codim2_core as c2
 from codim2_core import ELinear, System, psi
+from codim2_core.results.words import recognise
 
 SETTINGS = [
     (ELinear(-1, 1, -1, (1, 0)), ["two have met"]),

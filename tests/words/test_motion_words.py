@@ -4,10 +4,10 @@ import math
 from pathlib import Path
 
 import pytest
-from codim2_core.results.result.words import ROOMS, recognise
 
 import codim2_core as c2
 from codim2_core import ELinear, System, examples, psi
+from codim2_core.results.words import ROOMS, recognise
 
 from .motion_checks import CONSTANT, MOTIONS, Told
 

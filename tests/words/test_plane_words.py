@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import ROOMS, recognise
 
 from codim2_core import ELinear, bifurcations, psi
+from codim2_core.results.words import ROOMS, recognise
 
 from .standing import At
 from .test_atlas_words import CHECKS as OF_ATLASES

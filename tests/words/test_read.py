@@ -11,19 +11,19 @@ from .test_registry import beside
 
 #: Texts in the app that are no notices: each is held elsewhere.
 ASIDE = {
-    "phrases.py": "the registry",
+    "picture/phrases.py": "the registry",
     "lessons": "the course, held in tests/app/lessons",
     "server/cli.py": "the command's own help",
     "server/commands": "the command's own help",
     "server/first_page.py": "a page of its own, held in tests/app/server",
     "server/kernel_cache.py": "the log",
-    "frame/workers.py": "the log; what is told is said by phrases",
-    "draw/layers.py": "tooltips of layers",
-    "state/controls.py": "tooltips of controls",
+    "picture/frame/workers.py": "the log; what is told is said by phrases",
+    "picture/draw/layers.py": "tooltips of layers",
+    "picture/state/controls.py": "tooltips of controls",
     "view/glossary.py": "the glossary, held in tests/browser/test_explorer.py",
     "panels": "tooltips of tabs",
-    "export": "legends of figures, held in tests/app/exports",
-    "docs": "pages of the site, held in tests/app/site/docs",
+    "exports": "legends of figures, held in tests/app/exports",
+    "site/docs": "pages of the site, held in tests/app/site/docs",
 }
 
 
@@ -48,8 +48,8 @@ def docs(tree):
 
 def test_no_notice_is_made_beside_the_registry():
     missed = []
-    for path in sorted((ROOT / "app").rglob("*.py")):
-        name = path.relative_to(ROOT / "app").as_posix()
+    for path in sorted((ROOT / "app" / "codim2_app").rglob("*.py")):
+        name = path.relative_to(ROOT / "app" / "codim2_app").as_posix()
         tips = docs(ast.parse(path.read_text(encoding="utf-8")))
         outside = [(line, text) for line, text in beside(path.read_text(encoding="utf-8")) if text not in tips]
         if any(name.startswith(one) for one in ASIDE if one != "panels"):
@@ -69,7 +69,11 @@ def test_no_sentence_is_made_in_a_script_beside_words_js():
 
 @pytest.mark.parametrize("key", phrases.SENTENCES)
 def test_every_notice_is_said_somewhere(key):
-    sources = (path.read_text(encoding="utf-8") for path in (ROOT / "app").rglob("*.py") if path.name != "phrases.py")
+    sources = (
+        path.read_text(encoding="utf-8")
+        for path in (ROOT / "app" / "codim2_app").rglob("*.py")
+        if path.name != "phrases.py"
+    )
     assert any(f'"{key}"' in source for source in sources)
 
 

@@ -7,7 +7,8 @@ import pytest
 from codim2_app.picture.draw.packing import unpack
 from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
-from codim2_core.results.result.words import printed_sentence
+
+from codim2_core.results.words import printed_sentence
 
 from .inventory import ROOT
 from .shown import RULES

@@ -4,7 +4,7 @@ import ast
 import re
 from pathlib import Path
 
-from codim2_core.results.result.words import ROOMS, SENTENCES, recognise, say
+from codim2_core.results.words import ROOMS, SENTENCES, recognise, say
 
 ROOT = Path(__file__).parents[2]
 #: What is no statement about a system: data with texts of its own, and what is said of a wrong input.
@@ -13,11 +13,11 @@ ASIDE = {
     "special_kinds.py": "rows that the registry reads",
     "jit": "what is logged of the compiler, and what is asked of it that it cannot do",
     "paper.py": "what the paper's labels are called",
-    "figures": "captions of the presets, data",
+    "presets": "captions of the presets, data",
     "examples": "what a system is, data",
     "reference": "what moves, and where it is from, data; its values are held in tests/core/motion/reference",
     "arguments.py": "what may be given",
-    "expressions": "how a text is to be written",
+    "formulas": "how a text is to be written",
     "conditions.py": "conditions of Ψ, held in tests/core/systems/psi",
     "hill.py": "conditions of Ψ, held in tests/core/systems/psi",
     "typed.py": "conditions of Ψ, held in tests/core/systems/psi",

@@ -3,7 +3,8 @@
 import re
 
 from codim2_app.picture import phrases
-from codim2_core.results.result.words import SENTENCES
+
+from codim2_core.results.words import SENTENCES
 
 from .inventory import browser
 from .shown import faults, shown

@@ -3,11 +3,11 @@
 import math
 
 import pytest
-from codim2_core.results.result.words import ROOMS, power, recognise, written_number
 from hypothesis import given, settings
 
 import codim2_core as c2
 from codim2_core import ELinear, psi
+from codim2_core.results.words import ROOMS, power, recognise, written_number
 from tests.core.strategies import regularisations, systems
 
 from .portrait_checks import CLASSES, ELSEWHERE, OUTCOMES, Portrait

@@ -6,9 +6,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from codim2_core.results.result.words import written_number
-
 from codim2_core import __version__
+from codim2_core.results.words import written_number
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System
 

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from codim2_core.results.result.words import written_label
+from codim2_core.results.words import written_label
 
 from ..picture.draw.layers import Part, layers_in_paint_order
 from ..picture.draw.vector import parts as vector

@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from codim2_core.results.result.words import written_label
 from numpy.typing import NDArray
 
 from codim2_core.motion.limit.predicted_delays import delays
@@ -17,6 +16,7 @@ from codim2_core.portrait.attracting_set import attracting_set
 from codim2_core.portrait.sliding.along_z import slow_portrait
 from codim2_core.portrait.sliding.slow_plane import slow_plane
 from codim2_core.portrait.sliding.slow_portrait_result import SlowPortrait
+from codim2_core.results.words import written_label
 from codim2_core.systems.psi.function import Psi
 
 from ..picture.frame.frame_context import FrameContext

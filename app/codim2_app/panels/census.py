@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from codim2_core.bifurcations.plane.census.census import census
-from codim2_core.bifurcations.plane.census.table import CensusRow
-
+from codim2_core.bifurcations.census.census import census
+from codim2_core.bifurcations.census.table import CensusRow
 from codim2_core.portrait.classify import portrait_name
 from codim2_core.portrait.layer_problem.problem import LayerProblem
 from codim2_core.systems.elinear import ELinear

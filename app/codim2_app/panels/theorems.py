@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from codim2_core.results.result.paper import cite
-
 from codim2_core.portrait.theorems.certificates import Certificate
+from codim2_core.results.paper import cite
 
 from ..picture.frame.frame_context import FrameContext
 from .panel import Panel

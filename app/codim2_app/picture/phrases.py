@@ -6,7 +6,7 @@ where the value is checked.
 
 from __future__ import annotations
 
-from codim2_core.results.result.words.sentence import Sentence
+from codim2_core.results.words.sentence import Sentence
 
 #: What the page asks; also the title of a file that is none of the paper's figures.
 PAGE_TITLE = "When friction stops pointing anywhere"

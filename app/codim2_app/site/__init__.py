@@ -1,1 +1,1 @@
-"""What is read or copied elsewhere: the documentation, the notebooks, the explorer as a folder of files."""
+"""The site: documentation, notebooks, and the explorer as a folder of files."""

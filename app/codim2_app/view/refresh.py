@@ -11,10 +11,10 @@ from concurrent.futures import Future
 from contextlib import suppress
 from typing import Any
 
-from codim2_core.results.result.words import printed_sentence
 from param.parameterized import batch_call_watchers
 
 from codim2_core.portrait.classification import Classification, PortraitName
+from codim2_core.results.words import printed_sentence
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.psi.function import Psi

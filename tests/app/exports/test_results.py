@@ -10,12 +10,12 @@ from codim2_app import svg
 from codim2_app.exports.small.chart import line_chart
 from codim2_app.exports.small.results import sketch
 from codim2_app.exports.small.sketch import Curves, LineChart, RegionChart
-from codim2_core.bifurcations.plane.diagrams.eigenvalue_path import linearisation_path
 from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import codim2_core as c2
-from codim2_core.bifurcations.plane.plane import saddle_node
+from codim2_core.bifurcations.diagrams.eigenvalue_path import linearisation_path
+from codim2_core.bifurcations import saddle_node
 from codim2_core.portrait.basins import Basins
 from codim2_core.results.result import drawing
 

@@ -8,11 +8,11 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.diagrams.eigenvalue_path import linearisation_path
-from codim2_core.results.result.tables import table_number
 
 import codim2_core as c2
 from codim2_core import bifurcations
+from codim2_core.bifurcations.diagrams.eigenvalue_path import linearisation_path
+from codim2_core.results.tables import table_number
 
 ONE = c2.psi.constant()
 FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))

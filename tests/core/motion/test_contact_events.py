@@ -4,13 +4,13 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import recognise
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import codim2_core as c2
 from codim2_core import psi
+from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import Mechanism
 
 G = 9.81

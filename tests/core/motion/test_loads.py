@@ -7,7 +7,6 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import recognise
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
@@ -22,6 +21,7 @@ from codim2_core import (
     simulate_nonsmooth,
 )
 from codim2_core.motion.result import SimulationStatus
+from codim2_core.results.words import recognise
 
 PSI = psi.constant()
 

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import recognise
 from scipy.integrate import quad
 
 import codim2_core as c2
+from codim2_core.results.words import recognise
 
 CONSTANT = c2.psi.constant()
 NODES = c2.System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))  # a saddle in the middle, between two nodes

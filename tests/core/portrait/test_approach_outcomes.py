@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import say
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
@@ -12,6 +11,7 @@ from scipy.integrate import solve_ivp
 from codim2_core import ELinear, System, critical_sets, equator_equilibria, presets, psi, trajectories
 from codim2_core.portrait.approach_outcomes import approach_outcomes
 from codim2_core.portrait.separatrices import separatrices
+from codim2_core.results.words import say
 from tests.core.strategies import systems
 
 

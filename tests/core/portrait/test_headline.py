@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import count_word, recognise, written_label
 
 import codim2_core as c2
 from codim2_core import psi
+from codim2_core.results.words import count_word, recognise, written_label
 
 FAMILIES = (psi.constant(), psi.rational(), psi.hill(3.0), psi.tanh(), psi.exponential())
 

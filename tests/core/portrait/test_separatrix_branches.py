@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import say
 
 import codim2_core as c2
 from codim2_core.portrait.orbits.result import Status
+from codim2_core.results.words import say
 
 PSI = c2.psi.constant()
 

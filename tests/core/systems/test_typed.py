@@ -211,7 +211,7 @@ def test_e_linear_systems_need_no_compiler():
     """Only systems typed as text, and trajectories, are run by compiled code: it takes seconds to load."""
     code = """if True:
         import sys, codim2_core as c2
-        from codim2_core.bifurcations.plane.diagrams.equilibrium_branches import equilibrium_branches
+        from codim2_core.bifurcations.diagrams.equilibrium_branches import equilibrium_branches
         system, psi = c2.ELinear(-1.0, 0.3, -1.5, (-0.1, 0.05)), c2.psi.tanh()
         c2.critical_sets(system, psi), c2.equator_equilibria(system), c2.equator_cycle(system)
         c2.limit_cycles(system, psi)

@@ -9,17 +9,17 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from codim2_core.bifurcations.plane.atlases.result import Atlas
-from codim2_core.bifurcations.plane.continuation.result import CycleBranches
-from codim2_core.bifurcations.plane.diagrams.eigenvalue_path import LinearisationPath
-from codim2_core.bifurcations.plane.diagrams.result import Branches, SpecialValue
-from codim2_core.bifurcations.plane.plane.curve import BifurcationCurve
-from codim2_core.bifurcations.plane.plane.regions import Regions
+from codim2_core.systems.mechanics.several.result import ContactMotion
 
+from codim2_core.bifurcations.atlases.result import Atlas
+from codim2_core.bifurcations.continuation.result import CycleBranches
+from codim2_core.bifurcations.diagrams.eigenvalue_path import LinearisationPath
+from codim2_core.bifurcations.diagrams.result import Branches, SpecialValue
+from codim2_core.bifurcations.plane.curve import BifurcationCurve
+from codim2_core.bifurcations.plane.regions import Regions
 from codim2_core.motion.periodic.response_result import ResponseCurve
 from codim2_core.motion.periodic.result import PeriodicMotion
 from codim2_core.motion.result import Simulation
-from codim2_core.motion.several.result import ContactMotion
 from codim2_core.numerics.dense import DenseMotion
 from codim2_core.portrait.basins import Basins
 from codim2_core.portrait.cycles.limit_cycles import LimitCycles

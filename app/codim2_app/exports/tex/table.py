@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from codim2_core.results.result.words import subscript
-
 from codim2_core.formulas.latex import LETTER_COMMANDS
+from codim2_core.results.words import subscript
 from codim2_core.scene import Scene
 
 from ..describe import facts

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from codim2_core.bifurcations.plane.atlases.connections.connection_curves import KINDS
-from codim2_core.bifurcations.plane.atlases.result import Atlas
-from codim2_core.bifurcations.plane.diagrams.class_line import ClassInterval
 from numpy.typing import NDArray
+
+from codim2_core.bifurcations.atlases.connections.connection_curves import KINDS
+from codim2_core.bifurcations.atlases.result import Atlas
+from codim2_core.bifurcations.diagrams.class_line import ClassInterval
 
 from ...picture.draw import plane_curves
 from ...picture.draw.glyphs import join

@@ -11,9 +11,10 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from codim2_core.bifurcations.plane.continuation.result import CycleBranches
-from codim2_core.bifurcations.plane.diagrams.bifurcation_diagram import Branches, branches
 from numpy.typing import NDArray
+
+from codim2_core.bifurcations.continuation.result import CycleBranches
+from codim2_core.bifurcations.diagrams.bifurcation_diagram import Branches, branches
 
 from ...picture.draw.thumbnails import MAX_KEPT as MAX_FRAMES
 from ...picture.draw.thumbnails import thumbnails

@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from codim2_core.bifurcations.plane.diagrams.eigenvalue_path import linearisation_path
 
+from codim2_core.bifurcations.diagrams.eigenvalue_path import linearisation_path
 from codim2_core.portrait.layer_problem.critical import critical_sets
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.frozen import FrozenSystem

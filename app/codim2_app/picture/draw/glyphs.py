@@ -13,10 +13,10 @@ from itertools import accumulate
 from typing import Any
 
 import numpy as np
-from codim2_core.results.result.words import subscript
 from numpy.typing import NDArray
 
 from codim2_core.portrait.layer_problem.eigendirections import Linearised
+from codim2_core.results.words import subscript
 from codim2_core.scene.launched_orbits import LaunchedOrbits
 
 Points = NDArray[np.float64]

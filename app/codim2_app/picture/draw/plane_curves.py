@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from codim2_core.bifurcations.plane.plane import BifurcationCurve, Region
+from codim2_core.bifurcations import BifurcationCurve, Region
 
 from .glyphs import join
 

@@ -6,8 +6,7 @@ from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from codim2_core.results.result.words import printed_sentence
-
+from codim2_core.results.words import printed_sentence
 from codim2_core.scene import Scene
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.typed import System

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from codim2_core.results.result.words import written_label
-
 from codim2_core.portrait.outcome import Outcome, Outcomes
+from codim2_core.results.words import written_label
 from codim2_core.scene import Scene
 
 from ..frame.budget import wild

@@ -5,9 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from codim2_core.results.result.words import printed_sentence
-
 from codim2_core.portrait.cycles.limit_cycles import proof_of
+from codim2_core.results.words import printed_sentence
 from codim2_core.scene import Scene
 
 

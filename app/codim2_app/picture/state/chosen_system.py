@@ -13,12 +13,11 @@ from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
-from codim2_core.results.result.paper import cite
-
 from codim2_core.formulas.expression import ExpressionError, parse
 from codim2_core.formulas.names import FAST_NAMES, TIME
 from codim2_core.formulas.reader import names_in
 from codim2_core.formulas.tape import CONSTANTS, FUNCTIONS
+from codim2_core.results.paper import cite
 from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.examples import catalogue
 from codim2_core.systems.examples.offered import keys_at_contacts

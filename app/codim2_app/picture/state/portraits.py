@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import KeysView, Sequence
 from typing import Any
 
-from codim2_core.results.result.paper import cite
-
+from codim2_core.results.paper import cite
 from codim2_core.systems.examples import catalogue
 from codim2_core.systems.presets.preset import Preset
 from codim2_core.systems.presets.presets import presets

@@ -8,10 +8,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from codim2_core.results.result.paper import cite
-from codim2_core.results.result.words import subscript
-
 import codim2_core as c2
+from codim2_core.results.paper import cite
+from codim2_core.results.words import subscript
 from codim2_core.systems.psi import FAMILIES
 
 from .downloads import add_view, chosen_view

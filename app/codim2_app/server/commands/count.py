@@ -10,9 +10,8 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
-from codim2_core.bifurcations.plane.census.draws import DRAWS
-
 import codim2_core as c2
+from codim2_core.bifurcations.census.draws import DRAWS
 
 from ...picture.frame.dask_executor import ClusterError, dask_executor
 from .answers import add_psi

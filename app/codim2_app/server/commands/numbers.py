@@ -6,7 +6,7 @@ import argparse
 import re
 from collections.abc import Sequence
 
-from codim2_core.results.result.words import written_number
+from codim2_core.results.words import written_number
 
 
 def number(text: str) -> float:

@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 
 import numpy as np
-from codim2_core.bifurcations.plane.diagrams.eigenvalue_path import LinearisationPath, linearisation_path
 
 import codim2_core as c2
+from codim2_core.bifurcations.diagrams.eigenvalue_path import LinearisationPath, linearisation_path
 from codim2_core.systems.presets.examples import Z_CRIT
 
 from ...exports.figure import Style, figure

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from html import escape
 from itertools import groupby
 
-from codim2_core.results.result.paper import cite
-
+from codim2_core.results.paper import cite
 from codim2_core.systems.presets.preset import Preset
 from codim2_core.systems.presets.presets import presets
 

@@ -9,8 +9,7 @@ from __future__ import annotations
 import re
 from html import escape
 
-from codim2_core.results.result.paper import PRINTED
-
+from codim2_core.results.paper import PRINTED
 from codim2_core.systems.presets.presets import presets
 
 _FIGURES = re.compile(r"^## (fig:\w+)$(.*?)^```figures\n(.*?)^```$", re.MULTILINE | re.DOTALL)

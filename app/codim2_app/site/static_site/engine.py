@@ -13,7 +13,7 @@ from functools import cache
 from typing import Any
 from urllib.parse import parse_qsl
 
-from codim2_core.results.result.words import printed_sentence
+from codim2_core.results.words import printed_sentence
 
 from ...picture.frame.background_results import serve_with
 from ...picture.frame.work_queue import WorkQueue

@@ -5,9 +5,9 @@ import re
 
 import pytest
 from codim2_app.site.docs.pages import TEXT_FOLDER
-from codim2_core.bifurcations.plane.census.table import interval
 
 import codim2_core as c2
+from codim2_core.bifurcations.census.table import interval
 
 
 def tables():

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import say
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq
@@ -12,6 +11,7 @@ from scipy.optimize import brentq
 import codim2_core as c2
 from codim2_core.portrait.layer_problem.equator import equator_cycle
 from codim2_core.portrait.layer_problem.lyapunov import first_lyapunov
+from codim2_core.results.words import say
 
 PSIS = (c2.psi.constant(), c2.psi.tanh(), c2.psi.hill(3), c2.psi.exponential(), c2.psi.custom("1/(1+s)**2"))
 TAKENS = c2.System(U=("s", "mu + k*s + c**2 + c*s"), parameters={"mu": 0.0, "k": 0.0})

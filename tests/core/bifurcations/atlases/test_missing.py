@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.atlases.faces import inside_polygons
-from codim2_core.bifurcations.plane.diagrams.classes import classes_over
 
 import codim2_core as c2
+from codim2_core.bifurcations.atlases.faces import inside_polygons
+from codim2_core.bifurcations.diagrams.classes import classes_over
 from codim2_core.numerics.curves.polyline import distance
 
 ONE = c2.psi.constant()

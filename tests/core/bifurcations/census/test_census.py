@@ -7,16 +7,16 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.census.census import CHUNK_SYSTEMS, FEW
-from codim2_core.bifurcations.plane.census.draws import normal, quadratic
-from codim2_core.bifurcations.plane.census.names import IMPOSSIBLE, PORTRAIT_NAMES, _filter
-from codim2_core.bifurcations.plane.census.table import interval
-from codim2_core.bifurcations.plane.census.tally import margin_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import dblquad
 
 import codim2_core as c2
+from codim2_core.bifurcations.census.census import CHUNK_SYSTEMS, FEW
+from codim2_core.bifurcations.census.draws import normal, quadratic
+from codim2_core.bifurcations.census.names import IMPOSSIBLE, PORTRAIT_NAMES, _filter
+from codim2_core.bifurcations.census.table import interval
+from codim2_core.bifurcations.census.tally import margin_of
 
 PSI = c2.psi.constant()
 

@@ -4,7 +4,8 @@ import math
 from types import SimpleNamespace
 
 import pytest
-from codim2_core.bifurcations.plane.continuation.branch_ends import limit_value, slow_down_at, slow_sequence
+
+from codim2_core.bifurcations.continuation.branch_ends import limit_value, slow_down_at, slow_sequence
 
 
 def turns(*periods):

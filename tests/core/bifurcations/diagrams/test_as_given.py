@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.diagrams.eigenvalue_path import linearisation_path
-from codim2_core.bifurcations.plane.diagrams.equilibrium_branches import equilibrium_branches
 from hypothesis import given
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, System, critical_sets, psi
+from codim2_core.bifurcations.diagrams.eigenvalue_path import linearisation_path
+from codim2_core.bifurcations.diagrams.equilibrium_branches import equilibrium_branches
 
 halves = st.integers(-9, 9).map(lambda k: 0.5 * k)
 

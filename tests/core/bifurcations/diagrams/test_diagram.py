@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.diagrams.equilibrium_branches import equilibrium_branches
-from codim2_core.bifurcations.plane.diagrams.result import Branches
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import codim2_core as c2
+from codim2_core.bifurcations.diagrams.equilibrium_branches import equilibrium_branches
+from codim2_core.bifurcations.diagrams.result import Branches
 from codim2_core.portrait.layer_problem import vary
 from tests.core.general_systems import NONUNIQUE
 

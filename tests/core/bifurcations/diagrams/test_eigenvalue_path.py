@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.diagrams.eigenvalue_path import linearisation_path
 from hypothesis import given
 from hypothesis import strategies as st
 
 import codim2_core as c2
+from codim2_core.bifurcations.diagrams.eigenvalue_path import linearisation_path
 
 BAD = c2.ELinear(172, 186, -200, f=(-86, -93))
 

@@ -4,9 +4,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.diagrams.equilibrium_branches import equilibrium_branches
 
 import codim2_core as c2
+from codim2_core.bifurcations.diagrams.equilibrium_branches import equilibrium_branches
 from codim2_core.portrait.layer_problem.vary import vary
 
 PARTS = np.array([1e-4, 1e-2, 0.2, 0.5, 0.8, 0.99, 0.9999])

@@ -1,8 +1,7 @@
 """Portraits on both sides of a setting."""
 
-from codim2_core.bifurcations.plane.diagrams.neighbouring_portraits import sides
-
 import codim2_core as c2
+from codim2_core.bifurcations.diagrams.neighbouring_portraits import sides
 from codim2_core.portrait.layer_problem.vary import names
 
 

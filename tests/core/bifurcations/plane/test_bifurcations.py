@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.families.disc import cusps, saddle_node_force
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from codim2_core import ELinear, bifurcations, classify, critical_sets, equator_equilibria, psi
+from codim2_core.bifurcations.families.disc import cusps, saddle_node_force
 from codim2_core.portrait.layer_problem.linearisation import determinant_sign
 from tests.core.strategies import coefficient
 

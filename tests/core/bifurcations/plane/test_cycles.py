@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.families.disc import corners as corner_angles
-from codim2_core.bifurcations.plane.families.disc import saddle_node_force
 from scipy.integrate import quad
 
 from codim2_core import ELinear, bifurcations, branches, equator_cycle, psi
+from codim2_core.bifurcations.families.disc import corners as corner_angles
+from codim2_core.bifurcations.families.disc import saddle_node_force
 from codim2_core.portrait.cycles.heteroclinic_arcs import heteroclinic_arcs
 from codim2_core.portrait.cycles.heteroclinic_cycle import loop_gap
 from codim2_core.portrait.cycles.limit_cycles import limit_cycles

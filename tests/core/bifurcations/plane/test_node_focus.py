@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from codim2_core import ELinear, presets
-from codim2_core.bifurcations.plane.plane import node_focus
+from codim2_core.bifurcations import node_focus
 from codim2_core.portrait.layer_problem.critical import critical_sets
 
 

@@ -3,10 +3,10 @@
 import math
 
 import pytest
-from codim2_core.results.result.words import recognise
 from scipy.integrate import solve_ivp
 
 from codim2_core import PeriodicStatus, System, periodic_motion, psi
+from codim2_core.results.words import recognise
 
 from .closed_forms import BELT, CIRCLE, StickSlip
 

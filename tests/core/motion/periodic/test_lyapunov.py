@@ -4,11 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import say
 from scipy.integrate import solve_ivp
 
 import codim2_core as c2
 from codim2_core.motion.reference.oscillators import round_multipliers
+from codim2_core.results.words import say
 
 PENDULUM = c2.System(U=("-0.1*x - sin(z1) + 2.5*sin(z2)", "-y"), W=("x", "1"))
 ONE = c2.psi.constant()

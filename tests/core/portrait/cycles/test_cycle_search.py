@@ -5,9 +5,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import recognise
 
 from codim2_core.portrait.cycles import cycle_search
+from codim2_core.results.words import recognise
 
 from .sections import Line
 

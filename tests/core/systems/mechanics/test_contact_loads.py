@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import recognise
 
 from codim2_core import psi
+from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import contacts
 
 from .plates import Blocks

@@ -6,10 +6,10 @@ import re
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import recognise
 
 import codim2_core as c2
 from codim2_core import examples
+from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import contact, fit
 
 

@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 import pytest
-from codim2_core.results.result.words import recognise
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import codim2_core as c2
 from codim2_core import ELinear, System, examples, psi
+from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import Mechanism, contact, contacts
 
 number = st.floats(-2.0, 2.0).map(lambda v: round(v, 3))

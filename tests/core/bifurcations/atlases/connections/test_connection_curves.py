@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.atlases.atlas import curves_over, with_connections
 
 import codim2_core as c2
+from codim2_core.bifurcations.atlases.atlas import curves_over, with_connections
 from tests.core.polylines import away
 
 # e' is a positive multiple of J grad H + m (H - k) grad H in the disc: the level H = k is made of orbits, and between

@@ -4,10 +4,10 @@ import math
 
 import numpy as np
 import pytest
-from codim2_core.bifurcations.plane.atlases.atlas import curves_over, with_folds_of_cycles
-from codim2_core.bifurcations.plane.atlases.cycles import cycle_curves, fold_seeds
 
 import codim2_core as c2
+from codim2_core.bifurcations.atlases.atlas import curves_over, with_folds_of_cycles
+from codim2_core.bifurcations.atlases.cycles import cycle_curves, fold_seeds
 
 RADIAL = c2.System(
     U=(
