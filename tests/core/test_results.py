@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from codim2_core.results.result.result import Result, Results
 
 import codim2_core as c2
+from codim2_core.results.result import Result, Results
 from tests.app.exports.test_shown import FOUR, ONE, RESULTS
 
 KEYS = [key for key in RESULTS if key not in ("psi", "preset", "scene")]

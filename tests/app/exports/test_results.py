@@ -14,10 +14,10 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import codim2_core as c2
-from codim2_core.bifurcations.diagrams.eigenvalue_path import linearisation_path
 from codim2_core.bifurcations import saddle_node
+from codim2_core.bifurcations.diagrams.eigenvalue_path import linearisation_path
 from codim2_core.portrait.basins import Basins
-from codim2_core.results.result import drawing
+from codim2_core.results import drawing
 
 SADDLE = c2.ELinear(1.0, 0.3, -1.2, (0.2, 0.45))
 CYCLE = c2.presets["case3-n3"]

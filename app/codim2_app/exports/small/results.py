@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from codim2_core.systems.mechanics.several.result import ContactMotion
 
 from codim2_core.bifurcations.atlases.result import Atlas
 from codim2_core.bifurcations.continuation.result import CycleBranches
@@ -29,6 +28,7 @@ from codim2_core.portrait.separatrix import Separatrices
 from codim2_core.portrait.sliding.slow_portrait_result import SlowPortrait
 from codim2_core.scene import Scene
 from codim2_core.scene.launched_orbits import LaunchedOrbits
+from codim2_core.systems.mechanics.several.result import ContactMotion
 from codim2_core.systems.presets.preset import Preset
 from codim2_core.systems.psi.function import Psi
 

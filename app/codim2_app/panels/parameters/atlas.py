@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from codim2_core import bifurcations
+from codim2_core.bifurcations import BifurcationCurve
 from codim2_core.bifurcations.atlases.atlas import Atlas, curves_over, with_bifurcations_of_cycles, with_regions
 from codim2_core.bifurcations.diagrams.class_line import ClassInterval, class_line
-from codim2_core.bifurcations import BifurcationCurve
 from codim2_core.systems.coefficients import Coefficients
 from codim2_core.systems.psi.function import Psi
 

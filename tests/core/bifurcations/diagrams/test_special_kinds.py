@@ -7,7 +7,7 @@ import pytest
 from codim2_app.panels.parameters.diagram import branch_columns
 
 import codim2_core as c2
-from codim2_core.results.result import special_kinds
+from codim2_core.results import special_kinds
 
 NEUTRAL_SADDLE = special_kinds.SpecialKind(
     "neutral saddle",

@@ -11,7 +11,7 @@ from codim2_core import examples
 from codim2_core.systems.presets.preset import Preset
 from codim2_core.systems.presets.presets import presets, register, unregister
 
-from ..additions import PRESET, added_example, added_family, added_preset
+from ...additions import PRESET, added_example, added_family, added_preset
 
 
 def test_an_added_example_in_the_public_api(tmp_path):

@@ -8,7 +8,7 @@ import pytest
 import codim2_core as c2
 from codim2_core.motion.periodic.settling import forcing_period, settled_motion
 
-from ..motion.periodic.closed_forms import Rotating
+from ...motion.periodic.closed_forms import Rotating
 
 EXAMPLE = c2.examples.catalogue["driven_mass"]
 PSI = c2.psi.constant()

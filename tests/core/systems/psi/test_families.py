@@ -13,7 +13,7 @@ from codim2_core.portrait.layer_problem.vary import limits, names, value_of, var
 from codim2_core.systems.psi import FAMILIES, Family, make, register, unregister
 from codim2_core.systems.psi.constructors import comparison_families
 
-from ..additions import added_family
+from ...additions import added_family
 
 CASE3 = c2.ELinear(172, 186, -200, f=(-86, -93))
 
