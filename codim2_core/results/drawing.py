@@ -43,7 +43,7 @@ def save(result: Any, path: str | Path) -> None:
     except TypeError:
         what = type(result).__name__
         raise ValueError(f"A {what} has no picture; draw its Scene, or write its table with to_csv.") from None
-    printing = import_module(f"{DRAWER}.export.printing")
+    printing = import_module(f"{DRAWER}.exports.printing")
     Path(path).write_bytes(picture.encode() if kind == ".svg" else getattr(printing, kind[1:])(picture))
 
 
