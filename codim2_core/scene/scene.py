@@ -8,7 +8,10 @@ and going back to a setting just seen is free.
 from __future__ import annotations
 
 import math
+from collections import Counter, OrderedDict, defaultdict
 from collections.abc import Callable, Hashable, Iterator, Mapping
+from dataclasses import dataclass, field
+from threading import Lock
 from types import MappingProxyType
 from typing import Any
 from weakref import ref
@@ -31,7 +34,40 @@ from ..systems.presets.named import named_setting
 from ..systems.psi import constructors
 from ..systems.psi.function import Psi
 from .layer_table import ELINEAR_ONLY, INPUTS, LAYER_OF_FUNCTION, layers
-from .memory import ABSENT, Memory
+
+ABSENT = object()  # in place of a result that is not kept
+KEPT_RESULTS = 8  # results kept for each layer: a few settings back and forth
+
+
+@dataclass
+class Memory:
+    """Results by layer and by the values that they were computed from."""
+
+    # of each layer the last `KEPT_RESULTS`
+    results: defaultdict[str, OrderedDict[Hashable, Any]] = field(default_factory=lambda: defaultdict(OrderedDict))
+    # how often each layer has been computed, for tests and benchmarks
+    runs: Counter[str] = field(default_factory=Counter)
+    # ``before(scene, layer)`` is called before a layer is computed; it may raise, or return what is called after
+    before: Callable[[Any, str], Callable[[], None] | None] | None = None
+    lock: Lock = field(default_factory=Lock)  # the jobs in the background read the same memory
+
+    def find(self, layer: str, key: Hashable) -> Any:
+        """Return what is kept for these values, or `ABSENT`."""
+        with self.lock:
+            kept = self.results[layer]
+            if key not in kept:
+                return ABSENT
+            kept.move_to_end(key)
+            return kept[key]
+
+    def keep(self, layer: str, key: Hashable, result: Any) -> None:
+        """Keep a result, and forget the oldest of more than `KEPT_RESULTS`."""
+        with self.lock:
+            kept = self.results[layer]
+            kept[key] = result
+            if len(kept) > KEPT_RESULTS:
+                kept.popitem(last=False)
+
 
 MOST_SEEDS = 20_000
 

@@ -11,9 +11,9 @@ from __future__ import annotations
 import json
 import logging
 import time
-from collections import Counter, deque
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections import Counter, OrderedDict, deque
+from collections.abc import Callable, Hashable, Mapping
+from typing import Any, Generic, TypeVar
 
 from tornado.ioloop import IOLoop
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
@@ -29,8 +29,43 @@ from ..view.opening import link_of, opening_messages
 from ..view.refresh import Frames
 from ..view.warmup import is_ready
 from .application import is_known, visitor_of
-from .kept import Kept
 from .session_queue import Rota
+
+Value = TypeVar("Value")
+
+
+class Kept(Generic[Value]):
+    """Values by their keys, as many as there is room for.
+
+    Parameters
+    ----------
+    most : int
+        Bytes of all values.
+    """
+
+    def __init__(self, most: int) -> None:
+        self.most, self.size = most, 0
+        self._values: OrderedDict[Hashable, tuple[Value, int]] = OrderedDict()
+
+    def __contains__(self, key: Hashable) -> bool:
+        return key in self._values
+
+    def get(self, key: Hashable) -> Value | None:
+        """Return a value, or None."""
+        if key not in self._values:
+            return None
+        self._values.move_to_end(key)
+        return self._values[key][0]
+
+    def keep(self, key: Hashable, value: Value, size: int) -> None:
+        """Keep a value of so many bytes, with its key."""
+        if key in self._values:
+            self.size -= self._values.pop(key)[1]
+        self._values[key] = value, size
+        self.size += size
+        while self.size > self.most:
+            self.size -= self._values.popitem(last=False)[1][1]
+
 
 #: Bytes of one message from a browser: a request is a few hundred.
 MOST_SENT = 200_000

@@ -16,8 +16,9 @@ from importlib.metadata import version
 from typing import Any
 
 from tornado.httpserver import HTTPServer
+from tornado.httputil import HTTPHeaders
 from tornado.ioloop import IOLoop, PeriodicCallback
-from tornado.web import HTTPError, RequestHandler
+from tornado.web import HTTPError, OutputTransform, RequestHandler
 
 from ..lessons.library import lessons
 from ..lessons.rooms.board import Board
@@ -29,12 +30,12 @@ from ..picture.frame.workers import Workers, processors
 from ..site.docs.docs_handlers import MAKER, Docs, ToDocs
 from ..view import warmup
 from ..view.compiling.steps import Told
+from ..view.first_markup import policy
 from ..view.lecture_page import SHEETS, lecture_html
 from ..view.markup import edition
 from .application import ExplorerApplication, known_names
 from .engine_files import EngineFiles, served_panels
 from .first_page import Page
-from .headers import embedders, transform
 from .kernel_cache import begin_early
 from .live import MOST_OF_ONE, MOST_SENT, LiveConnection, LivePages
 from .metrics import Metrics, MetricsPage
@@ -43,6 +44,47 @@ from .process.compile_throttle import stand_back
 from .process.listener import Listener
 from .process.ports import Crowds, bind, fork
 from .scripts import ROUTES
+
+
+# Security headers of every answer: which hosts a page may ask, who may embed it, and nothing about the server.
+#
+# A page runs two kinds of script: files of this server, and its own inline scripts, allowed one by one by their hashes.
+# Styles are inline: BokehJS writes a style sheet into each shadow root. Nothing is evaluated from text, and nobody else
+# gets a request.
+def embedders(sources: str) -> str:
+    """Return who may embed the pages: some sources, and always the server itself.
+
+    The second portrait is a frame of the same page, and opens it to nobody else.
+    """
+    others = [source for source in sources.split() if source.lower() not in ("'none'", "'self'")]
+    return " ".join(["'self'", *others])
+
+
+def transform(sources: str) -> type[OutputTransform]:
+    """Return what Tornado applies to every answer, before it is compressed."""
+    ancestors = embedders(sources)
+
+    class Headers(OutputTransform):
+        """Adds the headers."""
+
+        def transform_first_chunk(
+            self,
+            status_code: int,
+            headers: HTTPHeaders,
+            chunk: bytes,
+            finishing: bool,  # noqa: ARG002 (Tornado gives it)
+        ) -> tuple[int, HTTPHeaders, bytes]:
+            if "Server" in headers:
+                del headers["Server"]
+            headers["X-Content-Type-Options"] = "nosniff"
+            headers["Referrer-Policy"] = "no-referrer"
+            if "Content-Security-Policy" not in headers:
+                page = headers.get("Content-Type", "").startswith("text/html")
+                headers["Content-Security-Policy"] = policy(chunk if page else b"", ancestors)
+            return status_code, headers, chunk
+
+    return Headers
+
 
 #: What the workers find imported.
 PRELOAD = ("codim2_app.server.worker",)

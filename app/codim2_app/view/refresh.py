@@ -20,6 +20,7 @@ from codim2_core.systems.elinear import ELinear
 from codim2_core.systems.psi.function import Psi
 from codim2_core.systems.typed import System
 
+from ..lessons.library import lessons
 from ..panels import registry
 from ..panels.parameters.axes import opening_axes
 from ..picture.draw import glyphs
@@ -34,14 +35,39 @@ from ..picture.frame.process_load import load
 from ..picture.frame.scenes import complete_changes, cut_after, evolve_scene, locked_controls, make_scene
 from ..picture.frame.window import Window, inputs, resample_for_window
 from ..picture.frame.work_queue import FailedResult
+from ..picture.phrases import say
+from ..picture.slow_layers.typed_start import launch_of
 from ..picture.state.choices import SLIDER_AXES
-from ..picture.state.chosen_system import GIVEN, System_, describe, rest_sentence
+from ..picture.state.chosen_system import GIVEN, NORMAL, System_, describe, rest_sentence, texts_of
 from ..picture.state.cleaning import InputError, clean
 from ..picture.state.compatible_changes import compatible_changes, culprit
 from ..picture.state.controls import TYPED_IN, ExplorerState, first_values, preset_values
 from ..picture.state.drag_critical_set import GRAB, PUSH, push_for
 from ..picture.state.request_reading import read_request
-from .notices import left_out
+
+
+def left_out(scene: Scene, values: Mapping[str, Any], given: bool) -> list[str]:
+    """Say what was requested in vain: parameters and boxes that the system has not, a lesson, a motion's start."""
+    said = []
+    system = scene.system
+    if not isinstance(system, (ELinear, System)):
+        return said
+    own = () if values["system"] == NORMAL and not given else [*system.parameters]
+    boxes = [] if given else list(texts_of(values["system"], {}))
+    for key, asked, there in (("no such parameter", "parameters", own), ("no such box", "texts", boxes)):
+        unknown = [name[:20] for name in values[asked] if name not in there]
+        if unknown:
+            has = f"it has {', '.join(there)}" if there else "it has none"
+            said.append(say(key, names=", ".join(unknown[:3]), there=has))
+    if values["lesson"] and values["lesson"] not in lessons():
+        named, some = values["lesson"][:40], ", ".join(list(lessons())[:3])
+        said.append(say("no such lesson", name=named, some=some))
+    try:
+        launch_of(values, system)
+    except InputError as error:
+        said.append(str(error))
+    return said
+
 
 #: Controls that are axes of the picture's parameters.
 MOVED = frozenset(SLIDER_AXES)

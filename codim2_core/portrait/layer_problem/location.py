@@ -11,17 +11,32 @@ import math
 from dataclasses import dataclass, replace
 from enum import Enum
 from fractions import Fraction
+from typing import Any
 
+from ...numerics.double_double import add_pairs, negative, product, square
 from ...numerics.trigonometric import INPUT_ROUNDING
 from ...results.words import say
 from ...systems.coefficients import Affine
 from ...systems.frozen import FrozenSystem
-from .border import CANCELS, to_all_digits
 from .linearisation import (
     CANCELLATION,
     determinant_sign,
     scale_by_power_of_two,
 )
+
+CANCELS = 0.05  # of the terms of a difference: below it, it is computed in twice the precision
+
+
+def to_all_digits(m11: Any, m12: Any, m21: Any, m22: Any, f1: Any, f2: Any) -> tuple[Any, Any, Any, Any]:
+    """Return the gap ``det(A)^2 - |n|^2``, det A and n = adj(A) f, in twice the precision before they are rounded.
+
+    Shapes: m11, m12, m21, m22, f1, f2 (k,).
+    """
+    det = add_pairs(product(m11, m22), negative(product(m12, m21)))
+    n1 = add_pairs(product(m22, f1), negative(product(m12, f2)))
+    n2 = add_pairs(product(m11, f2), negative(product(m21, f1)))
+    gap = add_pairs(square(det), negative(add_pairs(square(n1), square(n2))))
+    return gap[0], det[0], n1[0], n2[0]
 
 
 class Existence(Enum):

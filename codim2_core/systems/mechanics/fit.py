@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -19,8 +21,122 @@ from ..elinear import ELinear
 from ..parameters import Parameters
 from ..reading import short_repr
 from ..typed import System
-from .measurement import read_measurement
-from .slip_phase import Slipping, TooLongError, integrate_slip
+
+STOPPED = 30.0  # log of how much slower than at the start it is when it stops
+MAX_TURNS = 1e4  # in turns of the time dt/r
+
+
+class TooLongError(Exception):
+    """A slip takes more evaluations than are allowed."""
+
+
+@dataclass(frozen=True, eq=False)
+class Slipping:
+    """A slip: log r, theta and time over tau, dt = r dtau."""
+
+    stop: float | None  # when it stops
+    direction: float  # its angle then, or at the last time
+    evaluations: int  # of U that it took
+    _tau: Array
+    _states: Array
+    _dense: Any
+
+    def at(self, times: Array) -> Array:
+        """Return (x, y) (..., 2); 0 once it has stopped."""
+        tau = np.interp(times, self._states[2], self._tau)
+        for _ in range(8):  # Newton: dt/dtau = r
+            log_r, _, t = self._dense(tau.ravel())[:3].reshape(3, *tau.shape)
+            tau = np.clip(tau - (t - times) * np.exp(-log_r), self._tau[0], self._tau[-1])
+        log_r, theta = self._dense(tau.ravel())[:2].reshape(2, *tau.shape)
+        r = np.exp(log_r) if self.stop is None else np.where(times < self.stop, np.exp(log_r), 0.0)
+        return np.stack([r * np.cos(theta), r * np.sin(theta)], axis=-1)
+
+
+def integrate_slip(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array, most: int) -> Slipping:
+    """Follow the slip from a start at the first time until it stops, or until the last time.
+
+    Raises TooLongError: It takes more than `most` evaluations.
+    """
+    from scipy.integrate import solve_ivp
+
+    x, y = (float(v) for v in np.asarray(start, float))
+    slow = np.atleast_1d(np.asarray(z, float))
+    still = system.at(tuple(slow)) if not len(slow) else None
+
+    count = 0
+
+    def rates(_tau: float, state: Array) -> Array:
+        nonlocal count
+        count += 1
+        if count > most:
+            raise TooLongError
+        log_r, theta = state[:2]
+        e = np.array([math.cos(theta), math.sin(theta)])
+        at = system.at(tuple(state[3:])) if still is None else still
+        U, r = at.U(e), math.exp(log_r)
+        found = np.empty_like(state)
+        found[0], found[1], found[2] = U @ e, e[0] * U[1] - e[1] * U[0], r
+        if len(slow):
+            found[3:] = r * np.asarray(at.W(e), float)
+        return found
+
+    first = math.log(math.hypot(x, y))
+    over: Any = lambda _tau, state: state[2] - times[-1]
+    slow_now: Any = lambda _tau, state: state[0] - first + STOPPED
+    over.terminal = slow_now.terminal = True
+    begin = np.array([first, math.atan2(y, x), times[0], *slow])
+    run = solve_ivp(rates, (0.0, MAX_TURNS), begin, "DOP853", events=(over, slow_now), rtol=1e-10, atol=1e-12,
+                    dense_output=True)  # fmt: skip
+    stopped = bool(len(run.t_events[1]))
+    return Slipping(float(run.y[2, -1]) if stopped else None, float(run.y[1, -1]), count, run.t, run.y, run.sol)
+
+
+MOST_LINES = 1_000_000
+
+
+def read_measurement(path: str | Path) -> tuple[Array, Array]:
+    """Read times (k,) and velocities (k, 2) from a file of three columns.
+
+    They are parted by commas, semicolons, tabs or blanks; between semicolons a comma is a decimal one. Empty lines,
+    lines that begin with # and a first line of names are passed over.
+
+    Raises ValueError: There is no such file, it is no text, it is too long, or a line is not of three numbers.
+    """
+    file = Path(path)
+    try:
+        with file.open(encoding="utf-8-sig") as lines:
+            rows = [_numbers(line) for _, line in zip(range(MOST_LINES + 1), lines, strict=False)]
+    except (OSError, UnicodeDecodeError, ValueError) as error:
+        why = "is no text in UTF-8" if isinstance(error, ValueError) else "cannot be opened"
+        raise ValueError(f"times is {short_repr(str(path))}, which {why}; give a CSV file, or an array.") from None
+    if len(rows) > MOST_LINES:
+        raise ValueError(f"times is {short_repr(str(path))}, of more than {MOST_LINES} lines; give fewer.")
+    first = next((i for i, row in enumerate(rows) if row is not None), 0)
+    if rows and rows[first] == []:
+        rows[first] = None
+    for i, row in enumerate(rows):
+        if row == []:
+            raise ValueError(
+                f"times is {short_repr(str(path))}, whose line {i + 1} is not of three numbers; give time, v_x and v_y."
+            )
+    found = np.array([row for row in rows if row is not None], float).reshape(-1, 3)
+    return found[:, 0], found[:, 1:]
+
+
+def _numbers(line: str) -> list[float] | None:
+    """Three numbers; none in a line that is passed over, and an empty list in any other."""
+    text = line.strip()
+    if not text or text.startswith("#"):
+        return None
+    if ";" in text:
+        text = text.replace(",", ".")
+    parts = [part.strip() for part in re.split(r"[;,\t]" if re.search(r"[;,\t]", text) else r"\s+", text)]
+    try:
+        found = [float(part) for part in parts]
+    except ValueError:
+        return []
+    return found if len(found) == 3 else []
+
 
 Interval = tuple[float, float]
 

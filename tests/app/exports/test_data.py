@@ -9,8 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from codim2_app import tables as data_frames
-from codim2_app.exports.data import csv_zip, json_text, npz
-from codim2_app.exports.snippet import snippet
+from codim2_app.exports.files import csv_zip, json_text, npz, snippet
 from codim2_app.exports.tables import tables
 from codim2_app.exports.view import View, view_of
 

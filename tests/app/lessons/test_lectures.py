@@ -7,8 +7,7 @@ from functools import partial
 import pytest
 from codim2_app.lessons.asking import goal_is_reached, judge, pose
 from codim2_app.lessons.lesson import LectureView, portrait_of
-from codim2_app.lessons.library import lectures
-from codim2_app.lessons.reading import LessonError, read_lesson
+from codim2_app.lessons.library import LessonError, lectures, read_lesson
 from codim2_app.picture.frame.scenes import make_scene
 from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.server import page

@@ -7,9 +7,8 @@ import re
 import pytest
 from codim2_app.lessons.asking import goal_is_reached, judge, pose, right_option, stands
 from codim2_app.lessons.facts import facts_of
-from codim2_app.lessons.library import built_in, from_folder
+from codim2_app.lessons.library import LessonError, built_in, from_folder, read_lesson
 from codim2_app.lessons.marks import MARK_TOLERANCE, MARKS, gap
-from codim2_app.lessons.reading import LessonError, read_lesson
 from codim2_app.picture.frame.scenes import make_scene
 from codim2_app.picture.state.controls import ExplorerState, preset_values
 

@@ -2,8 +2,7 @@
 
 import pytest
 from codim2_app.lessons import library
-from codim2_app.lessons.library import add_lessons, lessons
-from codim2_app.lessons.reading import read_lesson
+from codim2_app.lessons.library import add_lessons, lessons, read_lesson
 from codim2_app.panels.lessons import Quiz, opening_values, read_quiz
 from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames

@@ -12,8 +12,8 @@ from urllib.request import Request, urlopen
 import pytest
 from codim2_app.picture.draw.packing import unpack
 from codim2_app.server import scripts as scripts_module
-from codim2_app.server.headers import embedders
 from codim2_app.server.live import CLOSE_FULL
+from codim2_app.server.page import embedders
 from codim2_app.view.first_markup import policy
 from codim2_app.view.markup import digest
 from PIL import Image

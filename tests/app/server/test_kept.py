@@ -1,6 +1,6 @@
 """What is kept for all: as many bytes as there is room for."""
 
-from codim2_app.server.kept import Kept
+from codim2_app.server.live import Kept
 
 
 def test_what_was_asked_for_longest_ago_goes_first_and_bytes_are_bounded():

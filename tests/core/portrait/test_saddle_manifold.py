@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from codim2_core import critical_sets, presets, psi
-from codim2_core.portrait.saddle_manifold import ORDER, expansion
+from codim2_core.portrait.separatrix_branches import ORDER, expansion
 
 SADDLE = presets["case2-saddle"].system
 FAMILIES = [psi.constant(), psi.rational(), psi.exponential(), psi.tanh(), psi.hill(3)]

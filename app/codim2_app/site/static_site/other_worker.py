@@ -6,6 +6,8 @@ Until the other worker has come, and on a device without a processor for it, cal
 from __future__ import annotations
 
 import pickle
+import sys
+import time
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Executor, Future
 from functools import partial
@@ -14,7 +16,35 @@ from typing import Any
 
 from ...picture.frame.background_results import Scheduler
 from ...picture.phrases import say
-from .call_limit import call_within
+
+
+class _OutOfTime(BaseException):
+    """Passes those who handle errors."""
+
+
+def call_within(seconds: float, function: Callable[[], Any]) -> Any:
+    """Return what a function returns.
+
+    Raises
+    ------
+    TimeoutError
+        After so many seconds another function was called, or returned.
+    """
+    end = time.perf_counter() + seconds
+
+    def check(_frame: object, event: str, _argument: object) -> None:
+        if event in ("call", "return") and time.perf_counter() > end:
+            sys.setprofile(None)
+            raise _OutOfTime
+
+    sys.setprofile(check)
+    try:
+        return function()
+    except _OutOfTime:
+        raise TimeoutError from None
+    finally:
+        sys.setprofile(None)
+
 
 #: Seconds after which work is stopped: others wait for it.
 MAX_WORK_SECONDS = 10.0

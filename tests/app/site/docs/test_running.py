@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from codim2_app.lessons.reading import read_lesson
 from codim2_app.site.docs import drawn_figures, running
-from codim2_app.site.docs.drawing import SIDE, Drawing
+from codim2_app.site.docs.drawn_figures import SIDE, Drawing
 from codim2_app.site.docs.pages import TEXT_FOLDER
 
 import codim2_core as c2

@@ -13,9 +13,8 @@ from codim2_app.picture.frame import background_results
 from codim2_app.picture.phrases import say
 from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.site.static_site import other_worker
-from codim2_app.site.static_site.call_limit import call_within
 from codim2_app.site.static_site.engine import Engine
-from codim2_app.site.static_site.other_worker import OtherWorker, run_call
+from codim2_app.site.static_site.other_worker import OtherWorker, call_within, run_call
 from codim2_app.view.refresh import Frames
 
 from tests.work import talk as in_a_thread

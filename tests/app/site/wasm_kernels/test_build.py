@@ -5,9 +5,8 @@ import subprocess
 import sys
 
 import pytest
+from codim2_app.site.wasm_kernels.build import make_object, write_trampolines
 from codim2_app.site.wasm_kernels.extraction import Extract
-from codim2_app.site.wasm_kernels.retargeting import make_object
-from codim2_app.site.wasm_kernels.trampolines import write_trampolines
 
 ONE = """
 import pickle, sys
