@@ -4,7 +4,7 @@
 # A tag moves: --build-arg PYTHON=python:3.12-slim@sha256:… builds on the base that you have looked at.
 ARG PYTHON=python:3.12-slim
 FROM ${PYTHON} AS wheel
-COPY .github/hosting/build.txt /
+COPY app/locked/build.txt /
 RUN pip install --no-cache-dir --require-hashes -r /build.txt
 COPY pyproject.toml README.md LICENSE /source/
 COPY app /source/app
@@ -22,7 +22,7 @@ ENV NUMBA_CPU_NAME=${KERNELS_FOR} \
 
 RUN useradd --create-home --uid 10001 codim2
 WORKDIR /srv/codim2
-COPY .github/hosting/requirements.txt ./
+COPY app/locked/requirements.txt ./
 COPY --from=wheel /wheels /wheels
 # Tests, examples, stubs and source maps of the dependencies, a quarter of them all, are of no use here; nor is what
 # Panel brings for maps, VTK, Perspective, editors and Plotly, 52 MB that no page of the explorer asks for.

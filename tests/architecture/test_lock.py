@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-HOSTING = ROOT / ".github" / "hosting"
+LOCKED = ROOT / "app" / "locked"
 PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())
 LOCKS = {
     "requirements.txt": PYPROJECT["project"]["dependencies"],
@@ -35,7 +35,7 @@ def fits(version, requirement):
 
 @pytest.mark.parametrize("name", LOCKS)
 def test_what_is_required_is_pinned_within_its_bounds(name):
-    found = pinned((HOSTING / name).read_text())
+    found = pinned((LOCKED / name).read_text())
     for requirement in LOCKS[name]:
         package = re.match(r"[\w-]+", requirement)[0].lower().replace("_", "-")
         assert package in found, f"{requirement}: run .ci/lock"
@@ -44,7 +44,7 @@ def test_what_is_required_is_pinned_within_its_bounds(name):
 
 @pytest.mark.parametrize("name", LOCKS)
 def test_every_pin_has_hashes(name):
-    for entry in re.split(r"\n(?=[\w])", (HOSTING / name).read_text()):
+    for entry in re.split(r"\n(?=[\w])", (LOCKED / name).read_text()):
         if "==" in entry.splitlines()[0]:
             assert "--hash=sha256:" in entry, entry
 
