@@ -4,26 +4,16 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from pathlib import Path
 from string import Formatter
 
-from . import changes, claims, cycles, degenerate, equator, mechanics, motion, orbits, periodic, portrait, slow_flow
+from ..special_kinds import SPECIAL_KINDS
 from .number_text import power, written_label, written_number
-from .sentence import Sentence
+from .sentence import Sentence, read_tables
 
 #: The sentences of each room, by the room's name.
-ROOMS: dict[str, dict[str, Sentence]] = {
-    "portrait": portrait.SENTENCES,
-    "degenerate": degenerate.SENTENCES,
-    "equator": equator.SENTENCES,
-    "orbits": orbits.SENTENCES,
-    "motion": motion.SENTENCES,
-    "periodic": periodic.SENTENCES,
-    "slow flow": slow_flow.SENTENCES,
-    "cycles": cycles.SENTENCES,
-    "changes": changes.SENTENCES,
-    "claims": claims.SENTENCES,
-    "mechanics": mechanics.SENTENCES,
-}
+ROOMS: dict[str, dict[str, Sentence]] = read_tables(Path(__file__).with_name("words.toml"))
+ROOMS["changes"] = {one.kind: Sentence(one.says, one.when) for one in SPECIAL_KINDS} | ROOMS["changes"]
 
 SENTENCES: dict[str, Sentence] = {key: one for room in ROOMS.values() for key, one in room.items()}
 

@@ -41,7 +41,9 @@ def test_numba_keeps_the_packages_kernels_under_that_stamp():
     compiled: Any = integrate
     path = Path(compiled.py_func.__code__.co_filename)
     assert compiled._cache._cache_file._source_stamp == stamps.source_stamp(path)
-    assert stamps.CORE_FOLDER / "portrait" / "stepping" / "dop853.py" in stamps._read_module(path, stamps.CORE_FOLDER)[1]
+    assert (
+        stamps.CORE_FOLDER / "portrait" / "stepping" / "dop853.py" in stamps._read_module(path, stamps.CORE_FOLDER)[1]
+    )
 
 
 def test_that_kernels_are_compiled_is_said_once_and_only_then(tmp_path):
