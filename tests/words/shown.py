@@ -13,7 +13,7 @@ from codim2_app.panels import registry
 from codim2_app.picture.draw.layers import LAYERS
 from codim2_app.picture.state.controls import CONTROL_NAMES, ExplorerState
 from codim2_app.server.cli import parser
-from codim2_app.view.markup import GLOSSARY, MARKS, OPENING
+from codim2_app.view.glossary import GLOSSARY, MARKS, OPENING
 
 from codim2_core import presets, psi
 from codim2_core.systems.examples import catalogue

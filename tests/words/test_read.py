@@ -11,7 +11,7 @@ from .test_registry import beside
 
 #: Texts in the app that are no notices: each is held elsewhere.
 ASIDE = {
-    "picture/phrases.py": "the registry",
+    "picture/phrases.py": "the title of the page",
     "lessons": "the course, held in tests/app/lessons",
     "server/cli.py": "the command's own help",
     "server/commands": "the command's own help",

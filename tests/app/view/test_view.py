@@ -13,7 +13,8 @@ from codim2_app.picture.draw.glyphs import critical_columns, equator_columns
 from codim2_app.picture.draw.layers import LAYERS
 from codim2_app.picture.draw.theme import themes
 from codim2_app.picture.state.controls import ExplorerState
-from codim2_app.view.markup import GLOSSARY, PAPER, explorer_html, page_config
+from codim2_app.view.glossary import GLOSSARY, PAPER
+from codim2_app.view.markup import explorer_html, page_config
 from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.colors import to_hex
 from matplotlib.markers import MarkerStyle
