@@ -51,7 +51,7 @@ def test_that_kernels_are_compiled_is_said_once_and_only_then(tmp_path):
     script = (
         "import numpy as np\nfrom numba import njit\n"
         "from codim2_core.formulas.jit import policy; policy.choose_way(policy.COMPILE)\n"
-        "from codim2_core.numerics.fourier_zeros import _evaluate_series, _only_zero\n"
+        "from codim2_core.numerics.fourier_arcs import _evaluate_series, _only_zero\n"
         "njit(lambda x: x)(1.0)\n"
         "_evaluate_series(np.ones(2, complex), 0.5)\n"
         "_only_zero(np.ones(2, complex), 0.5, 0.6, True, 0.0)\n"
