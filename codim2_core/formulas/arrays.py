@@ -177,18 +177,18 @@ def path_program(rows: tuple[Expression, ...]) -> Program:
     return Program(op, left, right, number, template.roots)
 
 
-def polynomial_degree(rows: tuple[Expression, ...]) -> int | None:
-    """Total degree in c and s of formulas that are polynomials in them on Sigma, or None if one is not."""
-    degrees = [_degree(row) for row in rows]
+def polynomial_degree(rows: tuple[Expression, ...], names: tuple[str, ...] = FAST_NAMES[:2]) -> int | None:
+    """Total degree of formulas in some names, c and s on Sigma, in which they are polynomials; None if one is not."""
+    degrees = [_degree(row, names) for row in rows]
     return None if None in degrees else max(d for d in degrees if d is not None)
 
 
 @lru_cache(maxsize=256)
-def _degree(row: Expression) -> int | None:
+def _degree(row: Expression, names: tuple[str, ...]) -> int | None:
     found: list[int | None] = []
     for op, *args in row.tape:
         if op in ("num", "name"):
-            found.append(1 if op == "name" and args[0] in ("c", "s") else 0)
+            found.append(1 if op == "name" and args[0] in names else 0)
             continue
         of = [found[i] for i in args]
         first, last = of[0], of[-1]

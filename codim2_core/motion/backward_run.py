@@ -16,8 +16,9 @@ from ..numerics.dense import Dense
 from ..results.arrays import Array
 from ..results.words import say
 from ..systems.kinds import AnySystem
+from ..systems.psi.direction import smoothed_direction
 from ..systems.psi.function import Psi
-from .initial_value.slopes import slopes_of, smoothed_direction
+from .initial_value.slopes import slopes_of
 from .result import Simulation, SimulationStatus
 
 AGREE = 1e-2  # of its size: as far as two states may differ that are still the same

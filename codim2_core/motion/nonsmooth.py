@@ -8,8 +8,6 @@ from functools import partial
 
 import numpy as np
 
-from ..numerics.dense import dense, gather_steps
-from ..numerics.radau import BlowUpError, TooManyStepsError
 from ..results.arrays import Array
 from ..results.words import say
 from ..systems.kinds import AnySystem
@@ -18,7 +16,7 @@ from .backward_run import Past
 from .initial_value.events import Event, EventWatch, reverse_event
 from .initial_value.field import Field, backwards_system, field
 from .initial_value.line import invariant_line
-from .limit.hybrid_run import AtEventError, HybridRun, StopError
+from .limit.hybrid_run import HybridRun
 from .locations import OfState
 from .result import Phase, Simulation, SimulationStatus, simulation
 from .variation.nonsmooth import of_nonsmooth
@@ -53,29 +51,22 @@ class NonsmoothRun:
         t_start, t_end = self.span
         watch = EventWatch(self.events, self.span, first)
         course = HybridRun(
-            self.system, self.psi, self.formulas, None, watch, t_start, first, t_end, self.rtol, self.atol,
-            self.max_steps, self.max_step, self.stiction,
+            t_start, first, t_end, self.rtol, self.atol, self.max_steps, self.max_step,
+            self.system, self.psi, self.formulas, None, watch, self.stiction,
         )  # fmt: skip
         r = math.hypot(*first[:2].tolist())
         course.enter_branch(first[:2] / r if r > 0.0 else first[:2], first, t_start)
-        status, detail = SimulationStatus.T_END, ""
-        try:
-            course.run()
-        except AtEventError:
-            status, detail = SimulationStatus.EVENT, watch.reason
-        except StopError as stop:
-            status, detail = SimulationStatus.NOT_UNIQUE, str(stop)
-        except BlowUpError as error:
-            status, detail = SimulationStatus.BLOW_UP, str(error)
-        except TooManyStepsError as error:
-            status, detail = SimulationStatus.STEP_LIMIT, str(error)
-        if course.undecided:
-            detail = f"{detail} {say('not bounded', count=course.undecided)}".strip()
-        motion = dense(t_start, first, [gather_steps(course.taken, len(first))])
-        phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.parts])
+        motion, status, detail = course.outcome()
+        phases = partial(tuple, [part.placed(self.system, course.own, motion) for part in course.phases])
         variation = partial(of_nonsmooth, self.system, self.psi, motion, phases, course.line, course.jumps)
         return simulation(
-            motion, phases, variation, status, detail=detail, evaluations=course.evaluations, events=watch.times
+            motion,
+            phases,
+            variation,
+            SimulationStatus[status],
+            detail=detail,
+            evaluations=course.evaluations,
+            events=watch.times,
         )
 
     def _past(self, last: Array) -> Simulation:

@@ -23,12 +23,12 @@ from ..numerics.dense import StepArray, gather_steps
 from ..numerics.radau import Step, TooManyStepsError, truncate_step
 from ..numerics.root_between import root_between
 from ..results.arrays import Array
+from ..systems.psi.direction import smoothed_direction
 from ..systems.psi.function import Psi
 from .initial_value.field import Field
 from .initial_value.functions import functions_of
 from .initial_value.inspection import CONTACT, Inspection
 from .initial_value.line import InvariantLine
-from .initial_value.slopes import smoothed_direction
 from .initial_value.slow_manifold import solve_critical
 from .initial_value.slow_steps import critical_sets_near, steps_of_z
 from .limit.delay import Growth, NotAnalyticError

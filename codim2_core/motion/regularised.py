@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from dataclasses import field as made_with
 from functools import partial
 from itertools import pairwise
 
@@ -11,10 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..numerics.dense import Dense, StepArray, dense, gather_steps
-from ..numerics.radau import BlowUpError, Step, TooManyStepsError
+from ..numerics.hybrid import AtEventError, PhaseRun, StopError
+from ..numerics.radau import Step, TooManyStepsError
 from ..results.arrays import Array
 from ..results.words import say
 from ..systems.kinds import AnySystem
+from ..systems.psi.direction import smoothed_direction
 from ..systems.psi.function import Psi
 from .backward_run import Past
 from .initial_value.events import Event, EventWatch, reverse_event
@@ -24,7 +27,6 @@ from .initial_value.inspection import Inspection
 from .initial_value.kernels.motion import UNDEFINED
 from .initial_value.line import InvariantLine, invariant_line
 from .initial_value.motion_steps import MotionSteps, rate_at
-from .initial_value.slopes import smoothed_direction
 from .passage import Passage
 from .phases import phases_of
 from .result import Simulation, SimulationStatus, simulation
@@ -89,92 +91,19 @@ class RegularisedRun:
         return tuple(self.told(*past) for past in pasts)
 
     def one(self, first: Array) -> Simulation:
-        """Follow one motion step by step, from switch to switch of its formulas."""
-        watch, parts = EventWatch(self.events, self.span, first), list[StepArray]()
-        status: SimulationStatus = SimulationStatus.T_END
-        detail: str = ""
-        evaluations: int = 0
-        undecided: int = 0
-        jumps: dict[float, bool] = {}
-        t: float = self.span[0]
-        state: Array = first
-        most: int = self.max_steps
-        formulas: Field = self.formulas.on_branch(self.e(first), first.tolist())
-        line: InvariantLine | None = invariant_line(formulas, state)
-        turns: list[float] = []
-        carried: NDArray[np.complex128] | None = None
-        ended: StepArray | None = None
-        while t < self.span[1] and status is SimulationStatus.T_END:
-            rate = partial(rate_at, formulas, self.psi, self.eps, line)
-            inspection = Inspection(formulas, self.psi, self.eps, line, self.rtol, self.atol / self.rtol)
-            motion = MotionSteps(
-                functions_of(formulas, self.psi), rate, self.eps, line, (t, self.span[1]), state, self.rtol,
-                self.atol / self.rtol, most, longest=self.max_step, inspection=inspection,
-            )  # fmt: skip
-            passage = Passage(
-                formulas, self.psi, self.eps, line, self.span[1], self.rtol, self.atol / self.rtol, carried
-            )
-            began, passed, carried = len(parts), None, None
-            try:
-                for part in motion.chunks():
-                    passed = passage.pass_by(parts[began:], part, most)
-                    kept = (part,)
-                    if passed is not None:
-                        kept = (passed.before, passed.steps)
-                        carried = passed.logs
-                        if passed.turn is not None:
-                            turns.append(passed.turn)
-                    for steps in kept:
-                        ended = _cut_at_event(steps, watch, len(first))
-                        parts.append(steps if ended is None else ended)
-                        most -= len(steps.lengths)
-                        if ended is not None:
-                            status, detail = SimulationStatus.EVENT, watch.reason
-                            break
-                    if ended is None and passed is not None and passed.failed is not None:
-                        raise passed.failed
-                    if ended is not None or passed is not None:
-                        break
-            except TooManyStepsError as error:
-                passed, (status, detail) = None, self.end(motion.code, error, first)
-            evaluations, undecided = evaluations + motion.evaluations, undecided + inspection.undecided
-            t, state = float(motion.clock[0]), motion.y.copy()
-            if passed is not None:
-                t, state = passed.t_end, passed.steps.ends[-1].copy()
-                continue
-            if motion.leaves_line:
-                line = invariant_line(formulas, state, line)
-                continue
-            if motion.switch is None:
-                break
-            ahead = formulas.past_switch(motion.switch, self.e(state), state.tolist())
-            if ahead is None:
-                status, detail = SimulationStatus.NOT_UNIQUE, say("load switches back")
-                break
-            if formulas.branch.jumps[motion.switch]:
-                jumps[t] = formulas.jumps_by_time(motion.switch)
-            if not any(len(part.lengths) for part in parts[began:]):
-                carried = passage.carried  # it switches at once, and the distance is still that
-            formulas, line = ahead, invariant_line(ahead, state)
-        if undecided:
-            detail = f"{detail} {say('not bounded', count=undecided)}".strip()
+        """Follow one motion."""
+        run = _Run(
+            self.span[0], first, self.span[1], self.rtol, self.atol, self.max_steps, self.max_step,
+            self, EventWatch(self.events, self.span, first),
+        )  # fmt: skip
+        motion, status, detail = run.outcome()
         return self.told(
-            dense(self.span[0], first, parts), status, detail, evaluations, watch.times, jumps, tuple(turns)
+            motion, SimulationStatus[status], detail, run.evaluations, run.watch.times, run.jumps, tuple(run.turns)
         )
 
     def e(self, state: Array) -> list[float]:
         """Return e_Psi (2,) of a state."""
         return smoothed_direction(self.psi, self.eps, state[None, :2])[0][0].tolist()
-
-    def end(self, code: int, error: Exception | None, first: Array) -> tuple[SimulationStatus, str]:
-        """Return how a motion from a state has ended, and what there is to say of it."""
-        if code == UNDEFINED:
-            rate = rate_at(self.formulas, self.psi, self.eps, None, first).tolist()
-            raise ValueError(f"(U, W) is {rate} at state0 = {first.tolist()}; it must be finite there.")
-        if error is None:
-            return SimulationStatus.T_END, ""
-        status = SimulationStatus.BLOW_UP if isinstance(error, BlowUpError) else SimulationStatus.STEP_LIMIT
-        return status, str(error)
 
     def told(
         self,
@@ -192,6 +121,95 @@ class RegularisedRun:
         return simulation(
             motion, phases, variation, status, detail=detail, eps=self.eps, evaluations=evaluations, events=events
         )
+
+
+@dataclass
+class _Run(PhaseRun[Field]):
+    """One motion under way: a phase is a branch of the formulas, a line, or a passage close to an invariant point."""
+
+    asked: RegularisedRun
+    watch: EventWatch
+    line: InvariantLine | None = None
+    evaluations: int = 0
+    steps: list[StepArray] = made_with(default_factory=list)
+    jumps: dict[float, bool] = made_with(default_factory=dict)
+    turns: list[float] = made_with(default_factory=list)
+    carried: NDArray[np.complex128] | None = None  # the distance to an invariant point, as logarithms
+
+    @property
+    def left(self) -> int:
+        """Steps that may still be taken."""
+        return self.most
+
+    def parts(self) -> Sequence[StepArray]:
+        """Return the steps taken."""
+        return self.steps
+
+    def first(self) -> Field:
+        """Return the branch of the formulas at the start."""
+        formulas = self.asked.formulas.on_branch(self.asked.e(self.state), self.state.tolist())
+        self.line = invariant_line(formulas, self.state)
+        return formulas
+
+    def phase(self, decision: Field) -> Field | None:
+        """Follow a branch of the formulas, and return what is followed next."""
+        formulas, asked, floor = decision, self.asked, self.atol / self.rtol
+        functions, rate = functions_of(formulas, asked.psi), partial(rate_at, formulas, asked.psi, asked.eps, self.line)
+        inspection = Inspection(formulas, asked.psi, asked.eps, self.line, self.rtol, floor)
+        options = {"longest": self.max_step, "inspection": inspection}
+        span = (self.t, self.t_end)
+        motion = MotionSteps(
+            functions, rate, asked.eps, self.line, span, self.state, self.rtol, floor, self.most, **options
+        )
+        passage = Passage(formulas, asked.psi, asked.eps, self.line, self.t_end, self.rtol, floor, self.carried)
+        began, passed, self.carried = len(self.steps), None, None
+        try:
+            for part in motion.chunks():
+                passed = passage.pass_by(self.steps[began:], part, self.most)
+                if passed is None:
+                    self.take(part)
+                    continue
+                self.carried = passed.logs
+                self.turns += [] if passed.turn is None else [passed.turn]
+                self.take(passed.before)
+                self.take(passed.steps)
+                if passed.failed is not None:
+                    raise passed.failed
+                break
+        except TooManyStepsError:
+            if motion.code == UNDEFINED and not self.steps:
+                found, first = rate_at(formulas, asked.psi, asked.eps, None, self.state).tolist(), self.state.tolist()
+                raise ValueError(f"(U, W) is {found} at state0 = {first}; it must be finite there.") from None
+            raise
+        finally:
+            self.evaluations += motion.evaluations
+            self.undecided += inspection.undecided
+        self.t, self.state = float(motion.clock[0]), motion.y.copy()
+        if passed is not None:
+            self.t, self.state = passed.t_end, passed.steps.ends[-1].copy()
+            return formulas
+        if motion.leaves_line:
+            self.line = invariant_line(formulas, self.state, self.line)
+            return formulas
+        if motion.switch is None:
+            return None
+        ahead = formulas.past_switch(motion.switch, asked.e(self.state), self.state.tolist())
+        if ahead is None:
+            raise StopError(say("load switches back"))
+        if formulas.branch.jumps[motion.switch]:
+            self.jumps[self.t] = formulas.jumps_by_time(motion.switch)
+        if not any(len(part.lengths) for part in self.steps[began:]):
+            self.carried = passage.carried  # it switches at once, and the distance is still that
+        self.line = invariant_line(ahead, self.state)
+        return ahead
+
+    def take(self, part: StepArray) -> None:
+        """Take steps, up to a terminal event."""
+        ended = _cut_at_event(part, self.watch, len(self.state))
+        self.steps.append(part if ended is None else ended)
+        self.most -= len(part.lengths)
+        if ended is not None:
+            raise AtEventError(self.watch.reason)
 
 
 def _cut_at_event(part: StepArray, watch: EventWatch, n: int) -> StepArray | None:

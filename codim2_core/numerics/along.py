@@ -19,6 +19,7 @@ MAX_ZEROS = 4096  # of one formula along one step
 MAX_ZERO_PARTS = 100_000  # parts that are looked at for zeros, of one step
 MAX_DEFECT_DEPTH = 16
 MAX_DEFECT_PARTS = 160  # parts that are looked at, of one step
+SAMPLES = 128  # places of one that bounds do not decide
 ROOT_ITERATIONS = 100
 EXACT = 1e-15  # of a step
 
@@ -193,7 +194,16 @@ def _first_defect(op, left, right, number, roots, path, h, rates, changes, both,
         stack[open_parts, 0], stack[open_parts, 1] = low + half, half
         stack[open_parts + 1, 0], stack[open_parts + 1, 1] = low, half
         open_parts += 2
-    return UNDECIDED if undecided else NONE, 1.0, 1.0
+    if not undecided:
+        return NONE, 1.0, 1.0
+    for i in range(SAMPLES):  # what the parts that bounds do not decide have left no room for
+        _shift(path, (i + 0.5) / SAMPLES, moved)
+        _at_middle(op, left, right, number, roots, moved, seed, work, rows)
+        for r in range(len(roots)):
+            defect = abs(rows[r, 0] - moved[len(moved) - len(roots) + r, 1] / h)
+            if not _is_small(defect, h / SAMPLES, rates[r], changes[r], both[r] != 0.0) and math.isfinite(defect):
+                return DEFECT, i / SAMPLES, 1.0 / SAMPLES
+    return UNDECIDED, 1.0, 1.0
 
 
 @held_kernel

@@ -79,7 +79,13 @@ def truncate_step(step: Step, u: float) -> Step:
     return Step(step.start, u * step.h, step.first, step.at(u), step.polynomial * powers)
 
 
-class TooManyStepsError(Exception):
+class MotionEndError(Exception):
+    """A motion ends before its time; the message says why."""
+
+    status = "STEP_LIMIT"  # the name of how
+
+
+class TooManyStepsError(MotionEndError):
     """The step limit is reached."""
 
 
@@ -89,6 +95,8 @@ class StepsTooShortError(TooManyStepsError):
 
 class BlowUpError(TooManyStepsError):
     """The motion grows beyond all bounds; the message says near which time."""
+
+    status = "BLOW_UP"
 
 
 def too_short(state: Array, rate: Array, t: float, shortest: float = 0.0) -> TooManyStepsError:

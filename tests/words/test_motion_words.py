@@ -35,6 +35,7 @@ ELSEWHERE = {
                                   "cycle ends, not decided", "saddle reached"),
     "motion/test_loads.py": ("load jumps", "load switches back", "load sets in", "load switches on a cycle",
                              "not bounded", "variation at a jump"),
+    "mechanics/test_contacts.py": ("last time",),
     "motion/test_passage.py": ("starts on a repelling set",),
     "motion/test_variation.py": ("variation undefined", "variation on a cycle", "variation past an end",
                                  "variation ends at Sigma"),

@@ -1,7 +1,8 @@
 """Inspect the steps of a motion: none passes a switch of the formulas, and each solves its equations all along.
 
 An error estimate sees U at the stages of a step alone: a push between two of them, or a load that is switched on after
-the last, escapes it. Bounds of U along the dense output see all of it (`numerics.along`).
+the last, escapes it. Bounds of U along the dense output see all of it (`numerics.along`). Polynomials of low degree
+need none: they vary no faster than their variables, which the estimate sees.
 """
 
 from __future__ import annotations
@@ -11,24 +12,29 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...formulas.arrays import path_program
+from ...formulas.arrays import path_program, polynomial_degree
+from ...formulas.names import FAST_NAMES, SLOW_NAMES
 from ...numerics.along import first_defect, zeros_along
 from ...numerics.dense import StepArray
 from ...results.arrays import Array
+from ...systems.psi.direction import direction
 from ...systems.psi.function import Psi
 from .field import Field
 from .kernels.explicit import DENSE_DEGREE
 from .line import InvariantLine
-from .slopes import outside, smoothed_direction
 
 CHANGE_TOLERANCE, PER_RTOL = 1e-5, 30.0  # of the state: what a defect may change it by; of rtol, where that is larger
 RATE_TOLERANCE = 1e-3  # of D_e U: the defect of a slide that leaves its critical set where it is
 MARGIN_SHARE = 0.25  # of 1 - |e|, in the same unit
 ACROSS = 1e-9  # of U: a larger part across an invariant line is no rounding
+ROUNDED_RATE = 1e-12  # of D_e U: what bounds of U, which are taken to rounding, may part from a slip by
+STIFF_RADIUS = 0.1  # of D_e U times a step: where a slip is nearer to Sigma, e turns back within the step
 CONTACT = 20.0  # r in units of eps, up to which a regularised motion is held by friction
 SHORTENED, ULPS = 1e-11, 8.0  # of the time: a step before a switch that none can pass; how near that is
 LEAST_STEPS = 4.0  # of the shortest ones: as near is a switch that no step can pass
+PASSED_SHARE = 8.0  # of how near that is: how far past it the motion goes on
 RETRY_SHARE = 0.25  # of a part in which a step fails: the next one that is tried
+PLAIN_DEGREE = 4  # of polynomials that hide nothing between the stages of a step
 NODES = 0.5 - 0.5 * np.cos(math.pi * np.arange(DENSE_DEGREE + 1) / DENSE_DEGREE)
 TO_POWERS = np.linalg.inv(NODES[:, None] ** np.arange(DENSE_DEGREE + 1))
 
@@ -88,9 +94,11 @@ class Inspection:
             floor,
             slide or at is not None,
         )
-        self.tolerance = max(CHANGE_TOLERANCE, PER_RTOL * rtol)
+        self.rtol, self.tolerance = rtol, max(CHANGE_TOLERANCE, PER_RTOL * rtol)
         self.program = path_program(field.rows)
         self.guards = path_program(field.branch.guards) if field.branch.guards else None
+        degree = polynomial_degree(field.rows, (*FAST_NAMES, *SLOW_NAMES[: field.m]))
+        self.is_plain = degree is not None and degree <= PLAIN_DEGREE
         self.reads_e = any(name in row.names for row in field.rows[2:] for name in ("c", "s"))
         self.near = 0.0
         self.undecided = 0  # steps that could not be bounded, so that only samples speak for them
@@ -108,6 +116,9 @@ class Inspection:
             e = state[:2] if self.is_slide else self._directions(state[None, :, None])[0, :, 0]
             return self._unreachable_switch(0, np.concatenate([e, state]), t)
         first = np.concatenate([steps.first[None], steps.ends[:-1]])
+        broken = ~np.isfinite(steps.polynomials).all(axis=(1, 2))  # a stage beyond the step, of its dense output
+        if self.is_plain and self.guards is None and not broken.any():
+            return None
         states = np.concatenate([first[:, :, None], steps.polynomials], axis=2)
         if self.at is not None:
             states[:, :2, 0] = self.at
@@ -117,13 +128,14 @@ class Inspection:
             paths[:, 2:4] = 0.0
         ends = np.stack([first, steps.ends])
         told = np.zeros(4)
-        broken = ~np.isfinite(steps.polynomials).all(axis=(1, 2))  # a stage beyond the step, of its dense output
         whole = int(np.argmax(broken)) if broken.any() else len(paths)
-        k = first_defect(
-            *self.program.arrays, paths[:whole], steps.lengths[:whole],
-            *(one[:whole] for one in self._allowed(ends, paths[:, :2].sum(axis=2))), told,
-        )  # fmt: skip
-        self.undecided += int(told[3])
+        k = whole
+        if not self.is_plain:
+            k = first_defect(
+                *self.program.arrays, paths[:whole], steps.lengths[:whole],
+                *(one[:whole] for one in self._allowed(ends, paths[:, :2].sum(axis=2), steps.lengths)), told,
+            )  # fmt: skip
+            self.undecided += int(told[3])
         cut = Cut(whole, 0.0, float(RETRY_SHARE * steps.lengths[whole]), None) if whole < len(paths) else None
         if k < whole:
             leaves = self._leaves_line(paths[k], told[0] + 0.5 * told[1])
@@ -137,7 +149,8 @@ class Inspection:
         at = path @ u ** np.arange(path.shape[1])
         c, s, x, y, *z = at.tolist()
         U = np.array(self.field.value(c, s, x, y, *z)[:2])
-        return abs(float(self.line.n[0] * U[1] - self.line.n[1] * U[0])) > ACROSS * float(np.abs(U).max())
+        allowed = max(ACROSS * float(np.abs(U).max()), self._rounded_rate(at))
+        return abs(float(self.line.n[0] * U[1] - self.line.n[1] * U[0])) > allowed
 
     def _guard(self, g: int, at: Array) -> tuple[float, float]:
         """Return a guard and its rate at (c, s, x, y, z1, ...)."""
@@ -147,14 +160,22 @@ class Inspection:
         rate = sum(float(guard.derivative(name).evaluate(values)) * rates[name] for name in guard.names)
         return float(guard.evaluate(values)), rate
 
+    def _rounded_rate(self, at: Array) -> float:
+        """Return how large a rate of x and y may come of rounding at (c, s, x, y, z1, ...)."""
+        c, s, x, y, *z = at.tolist()
+        return ROUNDED_RATE * float(np.abs(self.field.jacobian(c, s, x, y, z)[:2, :2]).max())
+
     def _directions(self, states: Array) -> Array:
         """Return polynomials (k, 2, d) of e along steps, through its values at d places."""
         at = np.einsum("kid,jd->kji", states[:, :2], NODES[:, None] ** np.arange(states.shape[2])).reshape(-1, 2)
         n = None if self.line is None else self.line.n
-        e = outside(at, n)[0] if self.psi is None else smoothed_direction(self.psi, self.eps, at)[0]
-        return np.einsum("kji,dj->kid", e.reshape(-1, len(NODES), 2), TO_POWERS)
+        e = direction(self.psi, self.eps, at, n)[0]
+        e = e.reshape(-1, len(NODES), 2)
+        found = np.einsum("kji,dj->kid", e - e[:, :1], TO_POWERS)  # what is constant stays so, to the last digit
+        found[:, :, 0] = e[:, 0]
+        return found
 
-    def _allowed(self, ends: Array, e: Array) -> tuple[Array, Array, Array]:
+    def _allowed(self, ends: Array, e: Array, lengths: Array) -> tuple[Array, Array, Array]:
         """Return the defects that are allowed, as rates and changes (k, rows), and where both bounds count."""
         k, n = ends.shape[1:]
         changes = self.tolerance * (np.abs(ends).max(axis=0) + self.floor)
@@ -162,6 +183,10 @@ class Inspection:
         r = np.hypot(ends[..., 0], ends[..., 1])
         held = np.ones(k, bool) if self.is_slide else (r <= CONTACT * self.eps).all(axis=0) & (self.eps > 0.0)
         changes[:, :2] = self.tolerance * np.hypot(r, self.eps).max(axis=0)[:, None]
+        if self.eps == 0.0 and not self.is_slide:
+            rounded = self._rounded_rate(np.concatenate([e[0], ends[0, 0]]))
+            stiff = r.max(axis=0) < STIFF_RADIUS * lengths * rounded / ROUNDED_RATE
+            rates[:, :2] = np.where(stiff, max(1.0, PER_RTOL * self.rtol / ROUNDED_RATE), 1.0)[:, None] * rounded
         if held.any():
             z = ends[0, np.argmax(held), 2:]
             at = e[held]
@@ -183,7 +208,7 @@ class Inspection:
         for g in range(len(self.field.branch.guards)):
             value, rate = self._guard(g, at)
             if 0.0 <= value <= -rate * near:
-                passed = at[2:] + 2.0 * near * np.array(self.field.value(*at.tolist()))
+                passed = at[2:] + PASSED_SHARE * near * np.array(self.field.value(*at.tolist()))
                 return Cut(k, 1.0, 0.0, g, passed=passed)
         return None
 

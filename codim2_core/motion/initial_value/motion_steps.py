@@ -12,6 +12,7 @@ from ...numerics.dense import StepArray
 from ...numerics.radau import BlowUpError, StepsTooShortError, TooManyStepsError, tableau, too_short
 from ...results.arrays import Array
 from ...results.words import say
+from ...systems.psi.direction import direction
 from ...systems.psi.function import Psi
 from .field import Field
 from .functions import FieldFunctions
@@ -39,7 +40,6 @@ from .kernels.motion import (
 )
 from .kernels.slow import SLOW_EXTENT
 from .line import InvariantLine
-from .slopes import outside, smoothed_direction
 
 STEPS_PER_CALL, FIRST_STEPS = 256, 16  # steps that one call fills in, and that the first one does
 MAX_RETRIES = 20  # of one step, ever shorter, before it is kept for what it is
@@ -56,7 +56,7 @@ def numbers_of_tableau() -> Array:
 def rate_at(field: Field, psi: Psi | None, eps: float, line: InvariantLine | None, state: Array) -> Array:
     """Return the rate (2 + m,) at a state (2 + m,), in Python: kept in the invariant line, if there is one."""
     at = state[None, :2]
-    e = (outside(at) if eps == 0.0 or psi is None else smoothed_direction(psi, eps, at))[0][0]
+    e = direction(psi, eps, at)[0][0]
     rate = np.array(field.value(*e.tolist(), *state.tolist()))
     if line is not None:
         rate[:2] = line.n @ rate[:2] * line.n

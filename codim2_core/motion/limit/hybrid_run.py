@@ -12,7 +12,8 @@ import numpy as np
 
 from ...formulas.arrays import path_program
 from ...numerics.along import zeros_along
-from ...numerics.radau import Step, TooManyStepsError
+from ...numerics.hybrid import AtEventError, PhaseRun, StopError
+from ...numerics.radau import Step
 from ...portrait.cycles.limit_cycles import limit_cycles
 from ...portrait.layer_problem.equator import equator_equilibria
 from ...results.arrays import Array
@@ -43,36 +44,18 @@ CYCLE_POINTS = 16  # points of a cycle that has ended, from which orbits are fol
 PAST = 1e-6  # of the time ahead, or of the slide behind: how far past its end it is looked at what follows
 
 
-class StopError(Exception):
-    """The limit is not unique, or not known; the message says why."""
-
-
-class AtEventError(Exception):
-    """A terminal event."""
-
-
 @dataclass
-class HybridRun:
-    """A motion under way."""
+class HybridRun(PhaseRun[Decision]):
+    """A motion in the limit under way; the layer problem decides what follows."""
 
     system: AnySystem
     psi: Psi | None
     formulas: Field
     line: InvariantLine | None
     watch: EventWatch
-    t: float
-    state: Array
-    t_end: float
-    rtol: float
-    atol: float
-    most: int
-    max_step: float = math.inf
     stiction: float = 1.0
-    undecided: int = 0  # steps that could not be bounded
     jumps: dict[float, bool] = made_with(default_factory=dict)  # times of jumps, and whether time alone decides them
     evaluations: int = 0
-    taken: list[Step] = made_with(default_factory=list)
-    parts: list[PendingPhase] = made_with(default_factory=list)
     ascent: Ascent | None = None  # of the phase to come
     leaving: Array | None = None  # points of the disc by which the set is left that is slid on, where they are known
 
@@ -96,11 +79,6 @@ class HybridRun:
                 self.jumps[t] = self.formulas.jumps_by_time(switch)
             self.formulas, self.system, left = ahead, ahead.system, None
         self.line = invariant_line(self.formulas, state, left)
-
-    @property
-    def left(self) -> int:
-        """Steps and phases that may still be taken."""
-        return self.most - len(self.taken) - len(self.parts)
 
     def add(
         self,
@@ -126,28 +104,21 @@ class HybridRun:
             self.t, self.state = max(start, *(step.end for step in kept)), kept[-1].last
         delaying = replace(delaying, way=None) if stopped and delaying is not None else delaying
         phase = Phase(kind, start, self.t, reason, onto)
-        self.parts.append(PendingPhase(phase, times, self.ascent, e, p, delaying=delaying))
+        self.phases.append(PendingPhase(phase, times, self.ascent, e, p, delaying=delaying))
         self.ascent = None
         if stopped:
-            raise AtEventError
+            raise AtEventError(self.watch.reason)
 
-    def run(self) -> None:
-        """Follow the motion to the end of its time.
-
-        Raises AtEventError, StopError, BlowUpError, TooManyStepsError: It ends before; what has been followed is
-        kept.
-        """
-        on = not self.state[:2].any()
-        decision = self.first() if on else self.slip([], say("starts outside"))
-        while decision is not None and self.t < self.t_end:
-            if self.left <= 0:
-                raise TooManyStepsError
-            if decision.kind == "stop":
-                raise StopError(decision.reason)
-            decision = self.leave(decision) if decision.kind == "leave" else self.slide(decision)
+    def phase(self, decision: Decision) -> Decision | None:
+        """Follow what was decided, and decide what follows."""
+        if decision.kind == "stop":
+            raise StopError(decision.reason)
+        return self.leave(decision) if decision.kind == "leave" else self.slide(decision)
 
     def first(self) -> Decision | None:
-        """Decide what follows from a start on Sigma."""
+        """Decide what follows from a start, or slip where it is outside Sigma."""
+        if self.state[:2].any():
+            return self.slip([], say("starts outside"))
         if self.psi is not None and self.formulas.rests and not self.attracts_at_rest():
             return self.stay()
         if self.line is not None:
@@ -242,7 +213,7 @@ class HybridRun:
         """Name the crossing, where what follows an arrival is to leave."""
         if decision.kind == "leave":
             phase = Phase("cross", self.t, self.t, decision.reason)
-            self.parts.append(PendingPhase(phase, [self.t], self.ascent, theta=decision.theta))
+            self.phases.append(PendingPhase(phase, [self.t], self.ascent, theta=decision.theta))
             self.ascent = None
         return decision
 
@@ -252,7 +223,7 @@ class HybridRun:
         first = leave(self.formulas, decision.theta, self.t, self.state[2:], self.t_end, self.line)
         if isinstance(first, str):
             raise StopError(f"{decision.reason} {first}")
-        crossed = bool(self.parts) and self.parts[-1].phase.kind == "cross"
+        crossed = bool(self.phases) and self.phases[-1].phase.kind == "cross"
         reason = say("leaves", theta=decision.theta) if crossed else decision.reason
         return self.slip([first], reason)
 
@@ -379,7 +350,7 @@ class HybridRun:
 
     def ahead(self, e: Array, part: float, beyond: Array | None = None) -> Array:
         """Return z a small part of the time ahead, or of the slide that has ended, along the slow flow at e."""
-        z, slid = self.state[2:], self.t - self.parts[-1].phase.t_start
+        z, slid = self.state[2:], self.t - self.phases[-1].phase.t_start
         flow = np.array(self.formulas.value(float(e[0]), float(e[1]), 0.0, 0.0, *z.tolist())[2:])
         way = flow if beyond is None else np.linalg.norm(flow) * beyond
         return z + part * min(self.t_end - self.t, slid or math.inf) * way
@@ -436,7 +407,7 @@ class HybridRun:
         resting = how != "Hopf"
         if self.psi is None:
             return Decision("stop", say("Hopf depends", C=C, how=how))
-        before = self.parts[-1]
+        before = self.phases[-1]
         if resting and np.ptp(before.e, axis=0).max() > REST_CHANGE:
             return Decision("stop", f"{met} {say('exchange, moving', C=C)}")
         taken = self.taken[len(self.taken) + 1 - len(before.times) :]

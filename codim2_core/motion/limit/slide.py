@@ -21,6 +21,7 @@ from ..initial_value.events import DEGREES, monotone_fractions
 from ..initial_value.field import Field
 from ..initial_value.inspection import Inspection
 from ..initial_value.kernels.motion import FIRST_STEP_SHARE
+from ..initial_value.kernels.rate import ROUNDING
 from ..initial_value.line import InvariantLine
 from ..initial_value.motion_steps import MotionSteps
 from ..initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements, dissipation
@@ -29,6 +30,7 @@ from ..initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps, steps_of_
 
 MIN_STEP = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
 EQUATOR_GAP = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
+HELD_EXCESS = 64.0 * ROUNDING  # of a force at the bound of friction: as much more is rounding, and is held
 AT_FOLD = 1e-3  # |det D_e U|, in units of its entries squared, at which it is taken for a fold
 TINY = 1e-300
 SHORTEST_PART = 1e-13  # of a step: a set that is not followed so far has gone
@@ -241,8 +243,11 @@ def _gauges(
     manifold: SlowManifold, psi: Psi, on_cycle: bool, line: InvariantLine | None, reach: float
 ) -> dict[str, Callable[[Array, Array], float]]:
     """Return what turns negative, as functions of e and z, where the sliding ends, by the name of the end."""
+    (j11, j12), (j21, j22) = manifold.slopes(manifold.e, manifold.z)[:2, :2].tolist()
+    det, squares = j11 * j22 - j12 * j21, j11 * j11 + j12 * j12 + j21 * j21 + j22 * j22
+    bound = reach * (1.0 + HELD_EXCESS * min(squares / max(abs(det), TINY), 1.0 / HELD_EXCESS**0.5))
     found: dict[str, Callable[[Array, Array], float]] = {
-        "equator": lambda e, z: complement(e, reach),  # noqa: ARG005 (all gauges are called alike)
+        "equator": lambda e, z: complement(e, bound),  # noqa: ARG005 (all gauges are called alike)
     }
     if line is not None:
         n = line.n

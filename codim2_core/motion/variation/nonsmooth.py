@@ -22,9 +22,10 @@ from ...numerics.dense import Dense
 from ...results.arrays import Array
 from ...results.words import say
 from ...systems.kinds import AnySystem
+from ...systems.psi.direction import outside
 from ...systems.psi.function import Psi
 from ..initial_value.line import InvariantLine
-from ..initial_value.slopes import Slopes, outside, slopes_of
+from ..initial_value.slopes import Slopes, slopes_of
 from .chain import chain_propagators, past_jumps
 from .passage import shrinks_across
 from .propagators import Propagators, pad_jacobians, propagators, states_along
@@ -385,9 +386,9 @@ class _Course:
         state = self.motion.states[end]
         if state[:2].any():
             return self.slipping_rate(state)
-        phase = next((leg.slides[0] for leg in legs if leg.slides and leg.first < end <= leg.last), None)
-        missing = np.full(len(state), np.nan)
-        return missing if phase is None else self.sliding_rate(phase, float(self.motion.times[end]))
+        t = float(self.motion.times[end])
+        slides = [one for leg in legs if leg.first < end <= leg.last for one in leg.slides if one.t_start <= t]
+        return self.sliding_rate(slides[-1], t) if slides else np.full(len(state), np.nan)
 
 
 def _at_equator(phase: Phase) -> bool:

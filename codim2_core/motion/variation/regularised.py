@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 from ...numerics.dense import Dense
 from ...results.arrays import Array
 from ...systems.kinds import AnySystem
+from ...systems.psi.direction import smoothed_direction
 from ...systems.psi.function import Psi
-from ..initial_value.slopes import slopes_of, smoothed_direction
+from ..initial_value.slopes import slopes_of
 from .chain import chain_propagators, past_jumps
 from .propagators import pad_jacobians, propagators, states_along
 from .result import Variation

@@ -10,12 +10,14 @@ from __future__ import annotations
 import math
 
 from ....formulas.jit import held_kernel, kernel
+from .rate import ROUNDING
 from .slow import RATES, TABLE, write_at
 
 FAST_START, SLOW_START = 1e-9, 1e-5  # first part, of the time ahead or of the rates' own, covered by an expansion
 TILT = 1e-6  # largest angle that this expansion may cover
 MAX_NEWTON, MAX_CORRECTION = 6, 0.05  # steps to polish theta, and how far one may go
-NEUTRAL_RATE = 1e-7  # of the size of U's slopes: lambda_rho counts as zero
+NEUTRAL_RATE = 1e-7  # of the size of U's slopes: lambda_rho counts as zero, where it grows
+LEAST_EXCESS = 8.0 * ROUNDING  # of the friction along the way out: what a force exceeds it by is rounding
 NOTHING_LEAVES, REPELS_ANGULARLY = 0.0, -1.0
 
 
@@ -70,7 +72,11 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
         drift2 += S[TABLE + width + 4 + j] * S[RATES + 2 + j]
     for i in range(2 + m):
         linear[i] = square[i] = 0.0
-    if radial > NEUTRAL_RATE * size:
+    # On the equator and on the critical set U = 0: lambda_rho and Theta both vanish.
+    neutral_turning = 0.0 if in_line else -(c * drift2 - s * drift1) / angular
+    beta = c * drift1 + s * drift2 + (c * across1 + s * across2) * neutral_turning
+    excess = LEAST_EXCESS * (abs(c) * (abs(D11 * c) + abs(D12 * s)) + abs(s) * (abs(D21 * c) + abs(D22 * s)))
+    if radial > NEUTRAL_RATE * size or (radial > excess and not beta > 0.0):
         outward1 = drift1 + radial * (S[TABLE + 2] * c + S[TABLE + 3] * s)
         outward2 = drift2 + radial * (S[TABLE + width + 2] * c + S[TABLE + width + 3] * s)
         forced = 0.0 if in_line else c * outward2 - s * outward1
@@ -90,12 +96,12 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
         for j in range(m):
             linear[2 + j] = S[RATES + 2 + j] * h
         return h
-    # On the equator and on the critical set U = 0: lambda_rho and Theta both vanish.
-    turning = 0.0 if in_line else -(c * drift2 - s * drift1) / angular
-    beta = c * drift1 + s * drift2 + (c * across1 + s * across2) * turning
     if radial < -NEUTRAL_RATE * size or not beta > 0.0:
         return NOTHING_LEAVES
+    turning = neutral_turning
     h = SLOW_START * min(ahead, abs(angular if angular != 0.0 else size) / beta)
+    if radial + beta * h < excess:  # it can be held for longer
+        return NOTHING_LEAVES
     h = min(h, 1e-2 * math.sqrt(TILT) / abs(turning)) if turning != 0.0 else h
     for i in range(m):
         row, bend = TABLE + (2 + i) * width, 0.0
@@ -105,5 +111,6 @@ def leave(S, m, n1, n2, theta, ahead, linear, square):
         linear[2 + i], square[2 + i] = S[RATES + 2 + i] * h, 0.5 * h * h * bend
     if not in_line:
         c, s = math.cos(theta + turning * h), math.sin(theta + turning * h)
+    linear[0], linear[1] = max(radial, 0.0) * h * c, max(radial, 0.0) * h * s
     square[0], square[1] = 0.5 * beta * h * h * c, 0.5 * beta * h * h * s
     return h

@@ -13,11 +13,10 @@ from ....formulas.jit import fast_kernel, inlined_kernel, kernel, spliced_kernel
 from ....numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE, STEP_SAFETY
 from ....portrait.stepping import dop853, layout
 from ....results.rebind import rebind
-from .rate import RATE_PLACES, jacobian, rate_between
+from .rate import BLUR_MARGIN, RATE_PLACES, jacobian, rate_between
 
 MAX_COMPONENTS = 8  # components at most; a longer state is followed implicitly
 STIFF = 0.4  # h times a rate from which on a step may be short for stability alone, or for its loss of order
-BLUR_MARGIN = 8.0  # times the blur of the rate: a smaller error is rounding
 STEP_TOLERANCE_SHARE = 0.1  # of the tolerance, for one step: its estimate is sharper than that of Radau IIA
 
 _row_kernels = {

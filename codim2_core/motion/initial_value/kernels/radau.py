@@ -8,7 +8,7 @@ import numpy as np
 
 from ....formulas.jit import spliced_kernel
 from ....numerics.radau import FAILED_SHRINKAGE, MAX_GROWTH, MAX_SHRINKAGE, STAGES, STEP_SAFETY
-from .rate import inward_bound, jacobian, rate, sizes
+from .rate import inward_bound, jacobian, rate, sizes, without_blur
 from .stages import factor, guess, matrices, solve, solve_stages
 
 CONTACT = 20.0  # times eps: so near, what looks like a way inward may be the rounding of a slide, eps times 1/rtol
@@ -52,7 +52,7 @@ def linearise(motion, y, wanted, clock, work):
 
 
 @spliced_kernel
-def _error(motion, table, h, rates, work):
+def _error(motion, table, y, h, rates, work):
     """Write the estimated error in units of size, from a rate where the step begins; return its norm, 1 for rtol."""
     n, gamma, weights, rtol = motion.n, table.gamma, table.error, motion.rtol
     error, size, end_size, Z = work.error, work.size, work.end_size, work.Z
@@ -63,9 +63,11 @@ def _error(motion, table, h, rates, work):
         error[i] = total / size[i]
     solve(work.small, work.small_pivots, error, n)
     norm = 0.0
+    first, second = without_blur(motion, y, h, error[0], error[1], size[0])
     for i in range(n):
-        norm = max(norm, abs(error[i]) * size[i] / min(size[i], end_size[i]) / rtol)
-        norm = norm if error[i] == error[i] else math.inf
+        own = first if i == 0 else second if i == 1 else error[i]
+        norm = max(norm, abs(own) * size[i] / min(size[i], end_size[i]) / rtol)
+        norm = norm if own == own else math.inf
     return norm
 
 
@@ -76,13 +78,13 @@ def _error_norm(motion, table, y, h, refine, clock, work):
     for i in range(n):
         trial[i] = y[i] + work.Z[STAGES - 1, i]
     sizes(motion, trial, work.end_size)
-    norm = _error(motion, table, h, work.rate, work)
+    norm = _error(motion, table, y, h, work.rate, work)
     if norm > 1.0 and refine:
         for i in range(n):
             trial[i] = y[i] + work.size[i] * work.error[i]
         rate(motion, trial, work.S, work.rates[0])
         clock[3] += 1.0
-        norm = min(norm, _error(motion, table, h, work.rates[0], work))
+        norm = min(norm, _error(motion, table, y, h, work.rates[0], work))
     return norm
 
 

@@ -14,6 +14,7 @@ from ....formulas.names import MOST_SLOW_VARIABLES
 
 DIFFERENCE_STEP = 1e-5
 ROUNDING = 2.0**-52
+BLUR_MARGIN = 8.0  # times the blur of the rate: a smaller error is rounding
 MAX_INWARD_SHARE = 0.9  # of rho: how far towards Sigma one step may go
 
 # Where the right-hand side reads and writes: the gain's arguments, the field's, its value, its slopes. The same array
@@ -35,7 +36,7 @@ class MotionConstants(NamedTuple):
     floor: float
     line1: float  # the invariant line that is kept to, or 0
     line2: float
-    blur: float  # what the rounding of z, the time among them, makes of the rate of x and y
+    blur: float  # what the rounding of z, the time among them, and of e makes of the rate of x and y
 
 
 @spliced_kernel
@@ -123,14 +124,30 @@ def jacobian(motion, y, S, J):
             J[0, j], J[1, j] = along * motion.line1, along * motion.line2
 
 
+@inlined_kernel
+def without_blur(motion, y, h, v1, v2, size):
+    """Return a change (v1, v2) of (x, y), in units of size, less what the blur makes of a step along the way out."""
+    if motion.eps > 0.0 or not motion.blur > 0.0:
+        return v1, v2
+    n1, n2 = y[0] / size, y[1] / size
+    along, allowed = n1 * v1 + n2 * v2, BLUR_MARGIN * h * motion.blur / size
+    less = min(max(along, -allowed), allowed)
+    return v1 - less * n1, v2 - less * n2
+
+
 @kernel
 def blur_of_rate(motion, y, work):
-    """Return what the rounding of z makes of the rate of x and y at a state: it counts where both are small."""
+    """Return what rounding makes of the rate of x and y at a state: it counts where both are small.
+
+    That of z; and of e outside Sigma, where forces that friction holds almost cancel it.
+    """
     rate(motion, y, work.S, work.rate)
     jacobian(motion, y, work.S, work.J)
-    found = 0.0
+    found, S = 0.0, work.S
     for i in range(2):
-        total = 0.0
+        row, total = SLOPES + i * (motion.n + 2), 0.0
+        if motion.eps == 0.0:
+            total = abs(S[row] * S[ARGUMENTS]) + abs(S[row + 1] * S[ARGUMENTS + 1])
         for j in range(2, motion.n):
             total += abs(work.J[i, j] * y[j])
         found = max(found, total * ROUNDING)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ....formulas.jit import kernel, spliced_kernel
 from ....numerics.radau import ITERATIONS, STAGES, Tableau
-from .rate import rate
+from .rate import rate, without_blur
 
 MAX_EXTRAPOLATION = 4.0  # times the last step: how far its polynomial is continued
 
@@ -170,8 +170,11 @@ def solve_stages(motion, table, y, h, clock, work):
                 residual[a * n + i] = (h * total - Z[a, i]) / size[i]
         solve(big, pivots, residual, STAGES * n)
         change = 0.0
-        for a in range(STAGES * n):
-            change = max(change, abs(residual[a])) if residual[a] == residual[a] else math.inf
+        for a in range(STAGES):
+            first, second = without_blur(motion, y, h, residual[a * n], residual[a * n + 1], size[0])
+            for i in range(n):
+                own = first if i == 0 else second if i == 1 else residual[a * n + i]
+                change = max(change, abs(own)) if own == own else math.inf
         if not change < math.inf:
             return False
         for a in range(STAGES):

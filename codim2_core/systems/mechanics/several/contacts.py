@@ -36,8 +36,6 @@ from numpy.typing import ArrayLike
 
 from ....formulas.expression import Expression
 from ....formulas.names import SLOW_NAMES
-from ....numerics.dense import dense, gather_steps
-from ....numerics.radau import TooManyStepsError
 from ....results.arrays import Array, read_only
 from ....results.result import Result
 from ....results.words import say
@@ -50,12 +48,9 @@ from ..formula_reading import FormulaRow, Matrix
 from ..mechanism import Mechanism
 from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
-from .field import ContactField, Coulomb, Law, Regularised, contact_field, held_rank
-from .nonsmooth_run import NonsmoothRun
+from .field import ContactField, Law, contact_field, held_rank
 from .result import ContactDecision, ContactMotion, ContactPhase, ContactStatus, contact_names
-from .run import ContactRun, NoFrictionError, RegularisedRun
-
-STICKING_SLIPS = 10.0  # in eps: a contact that slips less sticks
+from .run import HELD_SLIPS, ContactRun, NonsmoothRun, RegularisedRun
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +123,7 @@ class Contacts(Result):
             raise ValueError(f"state: contact {int(np.argmin(here.r > 0.0)) + 1} has mu N = {here.r.min():.4g} there.")
         at_sets = np.hypot(*here.x.T) == 0.0
         e = np.zeros_like(here.x)
-        e[~at_sets] = Coulomb().e(here.x[~at_sets])
+        e[~at_sets] = Law().e(here.x[~at_sets])
         Q = here.Q - np.einsum("cin,ci->n", here.J[~at_sets], here.r[~at_sets, None] * e[~at_sets])
         found = decide_contacts(here.M, Q, here.J[at_sets], here.k[at_sets], here.r[at_sets])
         e[at_sets] = found.e
@@ -171,7 +166,7 @@ class Contacts(Result):
         ValueError
             The state, the span, a time or max_step is invalid.
         """
-        return self._follow(NonsmoothRun, Coulomb(), state0, t_span, rtol, atol, times, max_steps, max_step)
+        return self._follow(NonsmoothRun, Law(), state0, t_span, rtol, atol, times, max_steps, max_step)
 
     def simulate(
         self, psi: Psi, state0: ArrayLike, t_span: ArrayLike, *, eps: float, rtol: float = 1e-9, atol: float = 1e-11,
@@ -194,8 +189,9 @@ class Contacts(Result):
         """
         if not 1e-14 <= eps <= 1e6:
             raise ValueError(f"eps is {eps}; give a positive number, from 1e-14 to 1e6.")
-        law = Regularised(psi, float(eps))
-        return self._follow(RegularisedRun, law, state0, t_span, rtol, atol, times, max_steps, max_step)
+        return self._follow(
+            RegularisedRun, Law(psi, float(eps)), state0, t_span, rtol, atol, times, max_steps, max_step
+        )
 
     def _checked(self, state: ArrayLike) -> Array:
         given = np.array(state, float)
@@ -211,29 +207,21 @@ class Contacts(Result):
         when = checked_times(times, (t, t_end))
         if not (isinstance(max_step, int | float | np.number) and max_step > 0.0):
             raise ValueError(f"max_step is {max_step!r}; give a positive time, or leave it out.")
-        first, status, detail = self._checked(state0), ContactStatus.T_END, ""
-        run = kind(self._field, law, t, first, t_end, rtol, atol, max_steps, max_step)
-        try:
-            run.run()
-        except TooManyStepsError as error:
-            status, detail = ContactStatus.STEP_LIMIT, str(error)
-        except NoFrictionError as error:
-            status, detail = ContactStatus.NO_FRICTION, say("contact, mu N", which=int(error.args[0]))
-        motion = dense(t, first, [gather_steps(run.steps, len(first))])
-        starts = run.starts or self._regularised_starts(motion.times, motion.states, law.eps)
+        run = kind(t, self._checked(state0), t_end, rtol, atol, max_steps, max_step, self._field, law)
+        motion, name, detail = run.outcome()
+        status, starts = ContactStatus[name], run.phases
+        starts = starts or self._regularised_starts(motion.times, motion.states, law.eps)
         ends = [*(start for start, *_ in starts[1:]), float(motion.times[-1])]
         phases = tuple(
             ContactPhase(start, end, _kinds(np.array(sticks)), reason)
             for (start, sticks, reason), end in zip(starts, ends, strict=True)
         )
-        if run.undecided:
-            detail = f"{detail} {say('not bounded', count=run.undecided)}"
         reason = f"{status.value} {detail}".strip()
         return ContactMotion(motion, self.names, phases, status, reason, law.eps).sample(when)
 
     def _regularised_starts(self, times: Array, states: Array, eps: float) -> list[tuple[float, tuple[bool, ...], str]]:
         slips = self.slips(states)
-        sticks = np.hypot(slips[..., 0], slips[..., 1]) <= STICKING_SLIPS * eps
+        sticks = np.hypot(slips[..., 0], slips[..., 1]) <= HELD_SLIPS * eps
         found = [(float(times[0]), tuple(sticks[0].tolist()), say("contacts start"))]
         for t, now in zip(times[1:].tolist(), map(tuple, sticks[1:].tolist()), strict=True):
             if now != found[-1][1]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,13 +15,13 @@ from ....formulas.expression import Expression
 from ....formulas.names import FAST_NAMES, SLOW_NAMES
 from ....formulas.switches import Branch, Rows, branch_at, has_switches
 from ....results.arrays import Array
+from ...psi.direction import direction
 from ...psi.function import Psi
 from ..algebra import Algebra
 from ..formula_reading import FormulaRow, Matrix
 from .contact_parts import ContactParts
 from .decision import RANK_TOLERANCE, Flags
 
-SMALLEST_ZETA = 1e-9  # in the chart kappa_2: nearer, e_Psi is as linear as it is there
 STATE_NAMES = (*FAST_NAMES[2:], *SLOW_NAMES)
 DIFFERENCE = 1e-7  # step of a finite difference, in units of max(1, |Y|)
 
@@ -37,61 +38,24 @@ class Local(NamedTuple):
     rates: Array
 
 
-class Law(Protocol):
-    """Friction by the slip: e and its derivative; eps is 0 in the limit."""
+@dataclass(frozen=True)
+class Law:
+    """Friction by the slip of every contact: ``e_Psi``, Definition 2.4, in the limit, eps = 0, ``x/|x|``."""
 
-    eps: float
+    psi: Psi | None = None
+    eps: float = 0.0
 
     def e(self, x: Array) -> Array:
         """Return e (c, 2) of slips (c, 2)."""
-        ...
+        return direction(self.psi, self.eps, x)[0]
 
     def slope(self, x: Array, e: Array) -> Array:
-        """Return de/dx (c, 2, 2), e as it is known."""
-        ...
-
-
-class Coulomb:
-    """``e = x/|x|``."""
-
-    eps = 0.0
-
-    def e(self, x: Array) -> Array:
-        """Return the unit vectors; nan at 0."""
-        with np.errstate(invalid="ignore"):
-            return x / np.hypot(*x.T)[:, None]
-
-    def slope(self, x: Array, e: Array) -> Array:
-        """Return ``(1 - e n^T)/|x|``, n = x/|x|."""
+        """Return de/dx (c, 2, 2): in the limit, with e as it is known, ``(1 - e n^T)/|x|``, n = x/|x|."""
+        n, slope = direction(self.psi, self.eps, x)
+        if self.eps > 0.0:
+            return slope
         with np.errstate(all="ignore"):
-            n, size = self.e(x), np.hypot(*x.T)
-            return (np.eye(2) - e[:, :, None] * n[:, None, :]) / size[:, None, None]
-
-
-class Regularised:
-    """``e_Psi``, Definition 2.4, of every contact."""
-
-    def __init__(self, psi: Psi, eps: float) -> None:
-        self._psi, self.eps = psi, eps
-
-    def _polar(self, x: Array) -> tuple[Array, Array]:
-        zeta = np.hypot(*x.T) / self.eps
-        direction = x / (self.eps * np.where(zeta > 0.0, zeta, 1.0))[:, None]
-        return np.maximum(zeta, SMALLEST_ZETA), direction
-
-    def e(self, x: Array) -> Array:
-        """Return ``e_Psi``."""
-        zeta, direction = self._polar(x)
-        return self._psi.modulus(zeta)[:, None] * direction
-
-    def slope(self, x: Array, e: Array) -> Array:  # noqa: ARG002 (it is a function of x)
-        """Return its derivative: along e ``(Psi - zeta^2 Psi')/(zeta^2 + Psi)^(3/2)``, across ``|e_Psi|/zeta``."""
-        zeta, direction = self._polar(x)
-        value = self._psi(zeta**2)
-        size = np.sqrt(zeta**2 + value)
-        out = (value - zeta**2 * self._psi.derivative(zeta**2)) / size**3
-        along = direction[:, :, None] * direction[:, None, :]
-        return (out[:, None, None] * along + (np.eye(2) - along) / size[:, None, None]) / self.eps
+            return (np.eye(2) - e[:, :, None] * n[:, None, :]) / np.hypot(*x.T)[:, None, None]
 
 
 class ContactField:

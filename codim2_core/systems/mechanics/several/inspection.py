@@ -38,8 +38,8 @@ class Inspection:
         Whether bounds decided nothing along some of the step inspected last, so that samples alone speak for it.
     """
 
-    def __init__(self, field: ContactField, rtol: float) -> None:
-        self.field, self.was_undecided = field, False
+    def __init__(self, field: ContactField, rtol: float, atol: float) -> None:
+        self.field, self.was_undecided, self.atol = field, False, atol
         self.tolerance = max(CHANGE_TOLERANCE, PER_RTOL * rtol)
         nodes = np.array([0.0, *tableau().nodes])
         powers = np.arange(1, len(nodes) + 1)
@@ -103,5 +103,5 @@ class Inspection:
         allowed[:, Q] = [[friction * arms], [tolerance * mass * speed], [partly]]
         allowed[:, r] = [[friction], [tolerance * mass * speed / arms], [partly]]
         allowed[0, moves] = tolerance * np.maximum(sizes[moves], 1e-6 * speed)
-        allowed[1, moves], allowed[1, k] = tolerance * q, tolerance * speed * arms
+        allowed[1, moves], allowed[1, k] = np.maximum(tolerance * q, self.atol), tolerance * speed * arms
         return allowed

@@ -175,3 +175,12 @@ def test_what_sticks_all_the_time_is_one_of_a_family():
     assert found.status is PeriodicStatus.NOT_ISOLATED
     assert keys(found) == ["repeats", "start is lost", "periodic undecided", "not isolated"]
     assert found.multipliers.tolist() == [1.0, 1.0, 0.0, 0.0]
+
+
+@pytest.mark.parametrize("z", [0.0, 0.1, 0.15])
+def test_a_slide_of_several_phases_that_ends_the_period(z):
+    """A load that is switched off at 1.3 ends one slide and begins another: the block rests where it is held."""
+    system = System(U=("-c - 0.2*x + 1.616*(mod(t, 2*pi) < 1.3) - 5.966*z1", "-s"), W=("x",))
+    found = periodic_motion(system, (0.0, 0.0, z), 2.0 * math.pi, psi.constant(), None)
+    assert found.found
+    assert (1.616 - 1.0) / 5.966 - 1e-9 <= found.state0[2] <= 1.0 / 5.966 + 1e-9

@@ -97,3 +97,12 @@ def test_a_load_that_switches_back_at_once_is_named(eps):
     run = whole.simulate(psi.constant(), start, span, eps=eps) if eps else whole.simulate_nonsmooth(start, span)
     assert [key for key, _ in recognise(run.reason)] == ["step limit", "load switches back"]
     assert run.times[-1] == pytest.approx(0.4, abs=1e-4)
+
+
+@pytest.mark.parametrize("eps", [0.0, 1e-5, 1e-8])
+def test_a_pulse_is_not_lost_in_a_long_step_in_which_a_spring_hardly_moves(eps):
+    """Positions of 1e-15, whose bounds decide nothing, used up what a step is looked at for. z by steps of 5e-5."""
+    force, start, span = "2.138*exp(-((tm-5.243)/0.1075)^2) - 4*q", (0.0,) * 5, (0.0, 20.0)
+    whole = block(force, 0.5)
+    run = whole.simulate(psi.constant(), start, span, eps=eps) if eps else whole.simulate_nonsmooth(start, span)
+    assert run.states[-1, 2] == pytest.approx(0.0744434, abs=3e-6 + 8.0 * eps)

@@ -11,6 +11,7 @@ from scipy.integrate import solve_ivp
 
 import codim2_core as c2
 from codim2_core import psi
+from codim2_core.results.words import recognise
 from codim2_core.systems.mechanics import contact, contacts
 
 from .plates import INERTIA, MASS, MU, Driven, foot, plate, shaken_plate
@@ -154,12 +155,20 @@ def test_after_a_departure_the_regularised_motion_is_ahead_like_eps_to_four_fift
     system, start, r, alpha = two_blocks(), (0.0,) * 5, 3.0, 4.0 / 3.0 * math.sin(2.0 * math.pi / 3.0)
     inner = solve_ivp(lambda T, X: T + 0.5 / X**2, (-30.0, 30.0), [1.0 / math.sqrt(60.0)], "Radau", rtol=1e-10)
     ahead, t, errors = inner.y[0, -1] - 450.0, math.pi / 3.0 + 0.03, []
-    for eps in (1e-6, 1e-7, 1e-8):
-        own = system.simulate(psi.constant(), start, (0.0, t), eps=eps).states[-1, 0]
-        errors.append(own - system.simulate_nonsmooth(start, (0.0, t)).states[-1, 0])
+    limit = system.simulate_nonsmooth(start, (0.0, t), rtol=1e-11).states[-1, 0]
+    for eps in (1e-6, 1e-7, 1e-8):  # 1 % of the last is 7e-9
+        own = system.simulate(psi.constant(), start, (0.0, t), eps=eps, rtol=1e-11).states[-1, 0]
+        errors.append(own - limit)
         B = (eps**2 / (r**2 * alpha**3)) ** 0.2
         assert errors[-1] == pytest.approx(ahead * r * alpha * B**2, rel=0.01)
     assert np.diff(np.log10(errors)) == pytest.approx([-0.8, -0.8], abs=0.02)
+
+
+def test_a_motion_that_takes_too_many_steps_says_when_it_stopped():
+    run = two_blocks().simulate_nonsmooth((0.0,) * 5, (0.0, 3.0), max_steps=7)
+    assert run.status.name == "STEP_LIMIT"
+    said = dict(recognise(run.reason))
+    assert float(said["last time"]["t"]) == pytest.approx(run.times[-1], rel=1e-5)
 
 
 def test_the_regularised_motion_keeps_the_bound_of_the_theorem():
