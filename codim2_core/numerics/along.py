@@ -19,9 +19,10 @@ MAX_ZEROS = 4096  # of one formula along one step
 MAX_ZERO_PARTS = 100_000  # parts that are looked at for zeros, of one step
 MAX_DEFECT_DEPTH = 16
 MAX_DEFECT_PARTS = 160  # parts that are looked at, of one step
-SAMPLES = 128  # places of one that bounds do not decide
+UNDECIDED_SAMPLES = 128  # places of one that bounds do not decide
 ROOT_ITERATIONS = 100
 EXACT = 1e-15  # of a step
+ZERO_BOUND = 1e-290  # bounds of what is 0 all along, but for rounding outwards
 
 NONE, UNDECIDED, DEFECT = range(3)
 
@@ -114,7 +115,7 @@ def zeros_along(op, left, right, number, roots, path, r, only_first_fall, found)
         _shift(path, low + half, moved)
         _fill_box(moved, half, box)
         enclose_over(op, left, right, number, roots, box, bounds, out)
-        if out[r, 0] > 0.0 or (out[r, 0] == 0.0 and out[r, 1] == 0.0):
+        if out[r, 0] > 0.0 or max(-out[r, 0], out[r, 1]) <= ZERO_BOUND:
             continue
         if out[r, 1] < 0.0:
             if only_first_fall:
@@ -154,7 +155,7 @@ def _is_small(defect, time, allowed_rate, allowed_change, both):
 
 
 @kernel
-def _first_defect(op, left, right, number, roots, path, h, rates, changes, both, scratch, stack):
+def _first_defect(op, left, right, number, roots, own_rows, path, h, rates, changes, both, scratch, stack):
     """Look along one step; see `first_defect`."""
     moved, box, seed, bounds, work, out, rows = scratch
     d = path.shape[1]
@@ -171,7 +172,7 @@ def _first_defect(op, left, right, number, roots, path, h, rates, changes, both,
         enclose_over(op, left, right, number, roots, box, bounds, out)
         sure = True
         for r in range(len(roots)):
-            own = len(moved) - len(roots) + r
+            own = own_rows[r]
             defect = abs(rows[r, 0] - moved[own, 1] / h)
             if not _is_small(defect, width * h, rates[r], changes[r], both[r] != 0.0) and math.isfinite(defect):
                 return DEFECT, low, width
@@ -196,22 +197,25 @@ def _first_defect(op, left, right, number, roots, path, h, rates, changes, both,
         open_parts += 2
     if not undecided:
         return NONE, 1.0, 1.0
-    for i in range(SAMPLES):  # what the parts that bounds do not decide have left no room for
-        _shift(path, (i + 0.5) / SAMPLES, moved)
+    for i in range(UNDECIDED_SAMPLES):  # what the parts that bounds do not decide have left no room for
+        _shift(path, (i + 0.5) / UNDECIDED_SAMPLES, moved)
         _at_middle(op, left, right, number, roots, moved, seed, work, rows)
         for r in range(len(roots)):
-            defect = abs(rows[r, 0] - moved[len(moved) - len(roots) + r, 1] / h)
-            if not _is_small(defect, h / SAMPLES, rates[r], changes[r], both[r] != 0.0) and math.isfinite(defect):
-                return DEFECT, i / SAMPLES, 1.0 / SAMPLES
+            defect = abs(rows[r, 0] - moved[own_rows[r], 1] / h)
+            if not _is_small(defect, h / UNDECIDED_SAMPLES, rates[r], changes[r], both[r] != 0.0) and math.isfinite(
+                defect
+            ):
+                return DEFECT, i / UNDECIDED_SAMPLES, 1.0 / UNDECIDED_SAMPLES
     return UNDECIDED, 1.0, 1.0
 
 
 @held_kernel
-def first_defect(op, left, right, number, roots, paths, lengths, rates, changes, both, told):
+def first_defect(op, left, right, number, roots, own_rows, paths, lengths, rates, changes, both, told):
     """Find the first of some steps that does not solve its equations all along.
 
-    Steps before it: k if there is none. Shapes: paths (k, V, d), lengths (k,), rates, changes (k, rows), both (k,
-    rows).
+    Steps before it: k if there is none. Each row is the rate of one of the variables.
+
+    Shapes: own_rows (rows,), paths (k, V, d), lengths (k,), rates, changes, both (k, rows).
     """
     V, d = paths.shape[1], paths.shape[2]
     scratch = (
@@ -222,7 +226,19 @@ def first_defect(op, left, right, number, roots, paths, lengths, rates, changes,
     told[:] = 0.0
     for k in range(len(lengths)):
         code, low, width = _first_defect(
-            op, left, right, number, roots, paths[k], lengths[k], rates[k], changes[k], both[k], scratch, stack
+            op,
+            left,
+            right,
+            number,
+            roots,
+            own_rows,
+            paths[k],
+            lengths[k],
+            rates[k],
+            changes[k],
+            both[k],
+            scratch,
+            stack,
         )
         if code == DEFECT:
             told[0], told[1], told[2] = low, width, DEFECT

@@ -28,7 +28,7 @@ ON_PAGE = (
     "trajectories", "scene", "general", "motions", "cycles", "census", "frames", "load", "devices", "phones", "browser",
     "page", "fresh",
 )  # fmt: skip
-TABLES = (*ON_PAGE[1:], "budgets", "proofs", "faces", "contacts")
+TABLES = (*ON_PAGE[1:], "budgets", "rest", "proofs", "faces", "contacts")
 # Titles of the plots of the second picture, by their beginnings.
 OTHERS = ("limit directions: wrong", "period, n = 3", "separatrices")
 ALT = {

@@ -8,11 +8,14 @@ need none: they vary no faster than their variables, which the estimate sees.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ...formulas.arrays import path_program, polynomial_degree
+from ...formulas.expression import Expression
 from ...formulas.names import FAST_NAMES, SLOW_NAMES
 from ...numerics.along import first_defect, zeros_along
 from ...numerics.dense import StepArray
@@ -52,6 +55,14 @@ class Cut(NamedTuple):
     switch: int | None
     leaves_line: bool = False
     passed: Array | None = None
+
+
+@lru_cache(maxsize=64)
+def _hiding_rows(rows: tuple[Expression, ...], m: int) -> NDArray[np.intp]:
+    """Return the rows that are no polynomials of low degree."""
+    names = (*FAST_NAMES, *SLOW_NAMES[:m])
+    degrees = [polynomial_degree((row,), names) for row in rows]
+    return np.flatnonzero([degree is None or degree > PLAIN_DEGREE for degree in degrees])
 
 
 class Inspection:
@@ -95,10 +106,10 @@ class Inspection:
             slide or at is not None,
         )
         self.rtol, self.tolerance = rtol, max(CHANGE_TOLERANCE, PER_RTOL * rtol)
-        self.program = path_program(field.rows)
         self.guards = path_program(field.branch.guards) if field.branch.guards else None
-        degree = polynomial_degree(field.rows, (*FAST_NAMES, *SLOW_NAMES[: field.m]))
-        self.is_plain = degree is not None and degree <= PLAIN_DEGREE
+        self.hiding = _hiding_rows(field.rows, field.m)
+        self.is_plain = not len(self.hiding)
+        self.program = None if self.is_plain else path_program(tuple(field.rows[i] for i in self.hiding))
         self.reads_e = any(name in row.names for row in field.rows[2:] for name in ("c", "s"))
         self.near = 0.0
         self.undecided = 0  # steps that could not be bounded, so that only samples speak for them
@@ -130,10 +141,11 @@ class Inspection:
         told = np.zeros(4)
         whole = int(np.argmax(broken)) if broken.any() else len(paths)
         k = whole
-        if not self.is_plain:
+        if self.program is not None:
+            allowed = self._allowed(ends, paths[:, :2].sum(axis=2), steps.lengths)
             k = first_defect(
-                *self.program.arrays, paths[:whole], steps.lengths[:whole],
-                *(one[:whole] for one in self._allowed(ends, paths[:, :2].sum(axis=2), steps.lengths)), told,
+                *self.program.arrays, 2 + self.hiding, paths[:whole], steps.lengths[:whole],
+                *(one[:whole, self.hiding] for one in allowed), told,
             )  # fmt: skip
             self.undecided += int(told[3])
         cut = Cut(whole, 0.0, float(RETRY_SHARE * steps.lengths[whole]), None) if whole < len(paths) else None
@@ -167,11 +179,9 @@ class Inspection:
 
     def _directions(self, states: Array) -> Array:
         """Return polynomials (k, 2, d) of e along steps, through its values at d places."""
-        at = np.einsum("kid,jd->kji", states[:, :2], NODES[:, None] ** np.arange(states.shape[2])).reshape(-1, 2)
-        n = None if self.line is None else self.line.n
-        e = direction(self.psi, self.eps, at, n)[0]
-        e = e.reshape(-1, len(NODES), 2)
-        found = np.einsum("kji,dj->kid", e - e[:, :1], TO_POWERS)  # what is constant stays so, to the last digit
+        at = (states[:, :2] @ (NODES[:, None] ** np.arange(states.shape[2])).T).swapaxes(1, 2).reshape(-1, 2)
+        e = direction(self.psi, self.eps, at, None if self.line is None else self.line.n).reshape(-1, len(NODES), 2)
+        found = (e - e[:, :1]).swapaxes(1, 2) @ TO_POWERS.T  # what is constant stays so, to the last digit
         found[:, :, 0] = e[:, 0]
         return found
 

@@ -56,7 +56,7 @@ def numbers_of_tableau() -> Array:
 def rate_at(field: Field, psi: Psi | None, eps: float, line: InvariantLine | None, state: Array) -> Array:
     """Return the rate (2 + m,) at a state (2 + m,), in Python: kept in the invariant line, if there is one."""
     at = state[None, :2]
-    e = direction(psi, eps, at)[0][0]
+    e = direction(psi, eps, at)[0]
     rate = np.array(field.value(*e.tolist(), *state.tolist()))
     if line is not None:
         rate[:2] = line.n @ rate[:2] * line.n

@@ -8,9 +8,13 @@ from ...results.arrays import Array
 from .function import Psi
 
 
-def direction(psi: Psi | None, eps: float, xy: Array, along: Array | None = None) -> tuple[Array, Array]:
-    """Return e (k, 2) and its derivative (k, 2, 2) at (x, y), regularised or, for eps = 0, outside Sigma."""
-    return outside(xy, along) if psi is None or eps == 0.0 else smoothed_direction(psi, eps, xy)
+def direction(psi: Psi | None, eps: float, xy: Array, along: Array | None = None) -> Array:
+    """Return e (k, 2) at (x, y): regularised, or, for eps = 0, outside Sigma."""
+    if psi is None or eps == 0.0:
+        r = np.hypot(*xy.T)[:, None]
+        e = np.divide(xy, r, out=np.zeros_like(xy), where=r > 0.0)
+        return e if along is None else np.sign(e @ along)[:, None] * along
+    return xy / (eps * np.sqrt((zeta := np.hypot(*xy.T) / eps) ** 2 + psi(zeta**2)))[:, None]
 
 
 def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
@@ -18,10 +22,9 @@ def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
 
     Shapes: xy (k, 2), along (2,).
     """
-    r = np.hypot(*xy.T)[:, None]
-    e = np.divide(xy, r, out=np.zeros_like(xy), where=r > 0.0)
+    r, e = np.hypot(*xy.T)[:, None], direction(None, 0.0, xy, along)
     if along is not None:
-        return np.sign(e @ along)[:, None] * along, np.zeros((len(e), 2, 2))
+        return e, np.zeros((len(e), 2, 2))
     across = np.eye(2) - e[:, :, None] * e[:, None, :]
     return e, np.divide(across, r[:, :, None], out=np.zeros_like(across), where=r[:, :, None] > 0.0)
 

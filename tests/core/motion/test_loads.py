@@ -312,3 +312,12 @@ def test_a_load_that_jumps_to_exactly_what_friction_can_hold(eps):
     force = np.array([0.5, -0.2])
     expected = 5.0 * (1.0 - 0.5 / np.hypot(*force)) * force
     assert run.states[-1, :2] == pytest.approx(expected, abs=5e-5)
+
+
+def test_an_event_that_is_zero_while_nothing_moves_counts_where_it_changes():
+    """z = 0.025 t^2 is exactly 0 in the first step, and the bounds of sin(8 z) are 0 but for rounding."""
+    run = simulate_nonsmooth(
+        System(U=("-c + 1.5", "-s"), W=("0.1*x",)), (0.0, 0.0, 0.0), (0.0, 20.0), PSI, events="sin(8*z)"
+    )
+    zeros = np.sqrt(np.arange(1, 26) * np.pi / (8.0 * 0.025))
+    assert run.events[0] == pytest.approx(zeros[zeros < 20.0], abs=1e-6)

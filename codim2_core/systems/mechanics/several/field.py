@@ -15,7 +15,7 @@ from ....formulas.expression import Expression
 from ....formulas.names import FAST_NAMES, SLOW_NAMES
 from ....formulas.switches import Branch, Rows, branch_at, has_switches
 from ....results.arrays import Array
-from ...psi.direction import direction
+from ...psi.direction import direction, smoothed_direction
 from ...psi.function import Psi
 from ..algebra import Algebra
 from ..formula_reading import FormulaRow, Matrix
@@ -47,13 +47,13 @@ class Law:
 
     def e(self, x: Array) -> Array:
         """Return e (c, 2) of slips (c, 2)."""
-        return direction(self.psi, self.eps, x)[0]
+        return direction(self.psi, self.eps, x)
 
     def slope(self, x: Array, e: Array) -> Array:
         """Return de/dx (c, 2, 2): in the limit, with e as it is known, ``(1 - e n^T)/|x|``, n = x/|x|."""
-        n, slope = direction(self.psi, self.eps, x)
-        if self.eps > 0.0:
-            return slope
+        if self.psi is not None:
+            return smoothed_direction(self.psi, self.eps, x)[1]
+        n = self.e(x)
         with np.errstate(all="ignore"):
             return (np.eye(2) - e[:, :, None] * n[:, None, :]) / np.hypot(*x.T)[:, None, None]
 

@@ -58,11 +58,12 @@ class Inspection:
         if not moving.any():
             return None
         seen = self.field.values(np.vstack([step.first, stages]))
-        path = self._path(step, len(seen) + 1, int(moving.sum()))
-        path[2 + len(step.first) :, 1:] = step.h * (self._to_integral @ seen[:, moving]).T
+        own = 2 + len(step.first) + np.arange(int(moving.sum()))
+        path = self._path(step, len(seen) + 1, len(own))
+        path[own, 1:] = step.h * (self._to_integral @ seen[:, moving]).T
         allowed = self._allowed(step, np.abs(seen).max(axis=0), here, sticks, speed)[:, None, moving]
         told = np.zeros(4)
-        found = first_defect(*self.field.moving_program.arrays, path[None], np.array([step.h]), *allowed, told)
+        found = first_defect(*self.field.moving_program.arrays, own, path[None], np.array([step.h]), *allowed, told)
         self.was_undecided = bool(found and told[3])
         return None if found else step.h * float(told[0] if told[0] > 0.0 else RETRY_SHARE * told[1])
 
