@@ -24,8 +24,7 @@ from ..formulas.names import MOST_SLOW_VARIABLES
 from ..results.result import Listed
 from .bounds import MAX_NUMBER, MIN_NUMBER, at_place, slow_names, slow_values
 from .coefficients import Affine, Coefficients
-from .equations import Equations, equations_text, linear_rows, negative, with_left_sides
-from .equations_latex import equations_latex
+from .equations import Equations, equations_latex, equations_text, linear_rows, negative, with_left_sides
 from .exchange import Exchange
 from .parameters import Parameters
 

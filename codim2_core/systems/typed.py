@@ -16,8 +16,7 @@ from ..formulas.expression import Expression
 from ..formulas.names import SLOW_NAMES
 from ..results.result import Listed
 from .bounds import slow_values
-from .equations import Equations, equations_text, with_left_sides
-from .equations_latex import equations_latex
+from .equations import Equations, equations_latex, equations_text, with_left_sides
 from .exchange import Exchange
 from .parameters import Parameters
 from .reading import parameter

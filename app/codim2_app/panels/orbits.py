@@ -9,8 +9,7 @@ import numpy as np
 
 from codim2_core.motion.simulate import simulate
 from codim2_core.portrait.layer_problem.hemisphere import scaling_from_disc
-from codim2_core.portrait.orbits.angle_along import LEAST_RADIUS, angle_along
-from codim2_core.portrait.orbits.in_time import in_time
+from codim2_core.portrait.orbits.in_time import LEAST_RADIUS, angle_along, in_time
 from codim2_core.systems.kinds import FrozenSystem
 from codim2_core.systems.psi.function import Psi
 

@@ -27,8 +27,7 @@ from ..picture.state.chosen_system import System_, titles
 from ..picture.state.cleaning import InputError, clean
 from ..picture.state.controls import CONTROL_NAMES, ExplorerState
 from .cell import running_kernel
-from .explorer import ExplorerView
-from .own_parameters import with_parameters
+from .explorer import ExplorerView, with_parameters
 from .shared import SHARED_CONTROLS
 
 LAYOUT = frozenset({"sizing_mode", "width", "height", "margin", "styles", "stylesheets"})

@@ -6,7 +6,9 @@ G has come back to where it was: way in = way out (A. I. Neishtadt, Differential
 The slow motion itself may end the delay before. It is singular in complex time, at t* with ``det J = 0`` and where the
 formulas are, and what it leaves behind there, of size ``exp(-(G(Re t*) + V)/eps)`` where V is the real part of the
 integral of lambda from Re t* to t*, shows when ``G(t) = G(Re t*) + V``: the buffer point. A critical set that does not
-move leaves nothing behind.
+move leaves nothing behind. Functions are continued into the complex plane by AAA: Y. Nakatsukasa, O. Sete and
+L. N. Trefethen, SIAM J. Sci. Comput. 40, A1494 (2018), barycentric, its support points chosen one after the other
+where the error is largest.
 """
 
 from __future__ import annotations
@@ -22,12 +24,76 @@ from numpy.typing import ArrayLike
 from ...numerics.dense import Dense, dense, gather_steps
 from ...numerics.radau import Step, truncate_step
 from ...numerics.root_between import root_between
-from ...results.arrays import Array
+from ...results.arrays import Array, Complex
 from ...systems.psi.function import Psi
 from ..initial_value.field import Field
 from ..initial_value.slow_manifold import complement, solve_critical
-from .rational_approximation import Complex, RationalApproximation, approximate_rationally
 from .slide import Slide
+
+MAX_SUPPORT_POINTS = 40  # support points
+MAX_DOUBLET_RESIDUE = 1e3  # in tolerances of |f| times the interval: poles of less are made by rounding
+
+
+@dataclass(frozen=True, eq=False)
+class RationalApproximation:
+    """``sum w_j f_j/(t - t_j) / sum w_j/(t - t_j)``."""
+
+    points: Array  # (k,) t_j, f_j and w_j
+    values: Array
+    weights: Array
+    size: float  # largest |f|
+    tolerance: float  # of size: how far it is from f where f was given
+
+    def __call__(self, t: complex) -> complex:
+        """Return the value at one place, infinite at a pole."""
+        away = t - self.points
+        if (away == 0.0).any():
+            return complex(self.values[away == 0.0][0])
+        share = self.weights / away
+        whole = complex(share.sum())
+        return complex(share @ self.values) / whole if whole else complex(math.inf)
+
+    def zeros(self) -> Complex:
+        """Return where it vanishes."""
+        return self._roots(self.weights * self.values)
+
+    def poles(self) -> Complex:
+        """Return its poles, without those that rounding makes: pairs of a pole and a zero, of no residue."""
+        found = self._roots(self.weights)
+        away = found[:, None] - self.points
+        residues = (self.weights * self.values / away).sum(axis=1) / -(self.weights / away**2).sum(axis=1)
+        least = MAX_DOUBLET_RESIDUE * self.tolerance * self.size * float(np.ptp(self.points))
+        return found[np.abs(residues) > least]
+
+    def _roots(self, weights: Array) -> Complex:
+        """Zeros of ``sum weights_j/(t - t_j)``: finite eigenvalues of an arrowhead pencil."""
+        from scipy.linalg import eigvals  # imported late: it takes longer than all of this package
+
+        k = len(self.points)
+        arrow = np.diag(np.concatenate([[0.0], self.points]))
+        arrow[0, 1:], arrow[1:, 0] = weights, 1.0
+        found = np.asarray(eigvals(arrow, np.diag(np.concatenate([[0.0], np.ones(k)]))), complex)
+        return found[np.isfinite(found)]
+
+
+def approximate_rationally(t: Array, f: Array, tolerance: float) -> RationalApproximation | None:
+    """Approximate f, given at t (n,), to a tolerance of its size; None where that takes too many points."""
+    size = float(np.abs(f).max())
+    chosen: list[int] = []
+    approximation = np.full(len(f), f.mean())
+    for _ in range(min(MAX_SUPPORT_POINTS, len(t) // 2)):
+        chosen.append(int(np.argmax(np.abs(f - approximation))))
+        rest = np.ones(len(t), bool)
+        rest[chosen] = False
+        cauchy = 1.0 / (t[rest, None] - t[chosen])
+        loewner = (f[rest, None] - f[chosen]) * cauchy
+        weights = np.linalg.svd(loewner, full_matrices=False)[2][-1]
+        approximation = f.copy()
+        approximation[rest] = cauchy @ (weights * f[chosen]) / (cauchy @ weights)
+        if np.abs(f - approximation).max() <= tolerance * size:
+            return RationalApproximation(t[chosen], f[chosen], weights, size, tolerance)
+    return None
+
 
 #: Of the polynomials of tr J and det J along a part of a step; how often it is halved.
 TRACE_DEGREE, MAX_HALVINGS = 9, 12

@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from ...formulas.expression import Expression
+from ...formulas.tape import compact
 from ...portrait.approach_outcomes import outcome_towards
 from ...portrait.cycles.limit_cycles import limit_cycles
 from ...portrait.layer_problem.critical import CriticalSet, critical_sets
@@ -18,10 +20,29 @@ from ...portrait.layer_problem.problem import LayerProblem
 from ...portrait.outcome_verdicts import judge, omega_limits_of, orbits_to_end
 from ...results.arrays import Array
 from ...results.words import say
+from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem
 from ...systems.psi.constructors import comparison_families, constant
 from ...systems.psi.function import Psi
-from .poles import has_pole
+from ...systems.typed_at_z import Frozen
+
+_RADII, _ANGLES = np.linspace(0.0, 1.0, 17), np.linspace(0.0, 2.0 * np.pi, 257)
+_NET = {"c": np.outer(_RADII, np.cos(_ANGLES)), "s": np.outer(_RADII, np.sin(_ANGLES))}
+
+
+def has_pole(at: FrozenSystem) -> bool:
+    """Whether a divisor in U changes its sign on a net over the disc |e| <= 1, or vanishes at a place of the net."""
+    if not isinstance(at, Frozen):
+        return False
+    values = {**at.values, "x": 0.0, "y": 0.0, **_NET}
+    for row in at.typed.U:
+        for op, *args in row.tape:
+            if op == "/":
+                divisor = Expression(compact(list(row.tape), args[1])).evaluate(values)
+                if not (divisor.min() > 0.0 or divisor.max() < 0.0):
+                    return True
+    return False
+
 
 ORIGIN_TOLERANCE = 1e-12  # |p| of a critical set that x = y = 0 lies on
 ORBITS_AROUND = 8  # orbits from around such a set that does not attract

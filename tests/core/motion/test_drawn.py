@@ -5,7 +5,7 @@ import pytest
 
 import codim2_core as c2
 from codim2_core import psi
-from codim2_core.motion.picture_curve import CHORD_TOLERANCE
+from codim2_core.motion.result import CHORD_TOLERANCE
 
 TURNING = c2.System(U=("mu*c-s-beta*c*(c*c+s*s)", "c+mu*s-beta*s*(c*c+s*s)"), W=(), parameters={"mu": 0.3, "beta": 1.0})
 

@@ -10,8 +10,7 @@ from scipy.integrate import solve_ivp
 
 from codim2_core import ELinear, System, examples
 from codim2_core import psi as families
-from codim2_core.motion.picture_curve import MAX_POINTS, MIN_TIMES
-from codim2_core.motion.result import SimulationStatus
+from codim2_core.motion.result import MAX_POINTS, MIN_TIMES, SimulationStatus
 from codim2_core.motion.simulate import simulate
 from tests.core.strategies import coefficient, regularisations
 

@@ -8,7 +8,7 @@ from latex2mathml.converter import convert
 
 from codim2_core.formulas.latex import GREEK
 from codim2_core.systems.elinear import ELinear
-from codim2_core.systems.equations_latex import latex_sides
+from codim2_core.systems.equations import latex_sides
 from codim2_core.systems.typed import System
 
 _CELL = '<mtd style="text-align:{}">{}</mtd>'

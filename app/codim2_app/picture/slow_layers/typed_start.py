@@ -13,7 +13,7 @@ from codim2_core.motion.compare_with_limit import agreement
 from codim2_core.motion.result import Simulation
 from codim2_core.motion.rolling import rolling
 from codim2_core.motion.simulate import simulate, simulate_nonsmooth
-from codim2_core.portrait.orbits.angle_along import LEAST_RADIUS, angle_along
+from codim2_core.portrait.orbits.in_time import LEAST_RADIUS, angle_along
 from codim2_core.systems.examples import Ball, catalogue
 from codim2_core.systems.psi.function import Psi
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import codim2_core as c2
-from codim2_core.portrait.orbits.angle_along import angle_along
+from codim2_core.portrait.orbits.in_time import angle_along
 
 
 @given(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), st.integers(2, 60))
