@@ -35,7 +35,6 @@ SHARED = {
     "derivatives": "a family's derivatives of Psi",
     "gain": "a family's compiled gain: e_Psi = gain p",
     "result.py": "the public result of a room",
-    "SENTENCES": "a room's part of the registry of sentences",
     "register": "adds to a list that a program may extend: examples, presets, families, panels",
     "unregister": "takes off such a list",
     "RTOL": "relative tolerance of an integration, as SciPy has it",

@@ -8,7 +8,7 @@ import weakref
 
 import numba
 import pytest
-from codim2_app.picture.frame.budget import CompileClock, at_most
+from codim2_app.picture.frame.time_limit import CompileClock, at_most
 from numba.core.compiler_lock import global_compiler_lock
 
 

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from codim2_app.lessons.reading import read_lesson
+from codim2_app.lessons.library import read_lesson
 from codim2_app.site.docs import drawn_figures, running
 from codim2_app.site.docs.drawn_figures import SIDE, Drawing
 from codim2_app.site.docs.pages import TEXT_FOLDER
