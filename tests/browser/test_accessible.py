@@ -7,7 +7,7 @@ import pytest
 
 from .conftest import PHONE
 
-AXE = Path(__file__).parents[1] / "app" / "codim2_app" / "static" / "node_modules" / "axe-core" / "axe.min.js"
+AXE = Path(__file__).parents[1] / "app" / "static" / "node_modules" / "axe-core" / "axe.min.js"
 
 SERIOUS = """async (place, rules) => { const found = await axe.run(place, {resultTypes: ['violations'],
     ...(rules && {runOnly: {type: 'rule', values: rules}})})

@@ -21,7 +21,7 @@ from .test_pictures import same
 
 ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "build" / "pictures.html"
-SCRIPT = ROOT / "tests" / "app" / "codim2_app" / "static" / "played" / "drawing.js"
+SCRIPT = ROOT / "tests" / "app" / "static" / "played" / "drawing.js"
 STYLE = """body { font: 14px system-ui, sans-serif; margin: 1.5em } main { display: flex; flex-wrap: wrap; gap: 12px }
 figure { margin: 0; border: 1px solid var(--line); padding: 6px } figure.changed { outline: 3px solid var(--bad) }
 figure > svg { width: 260px; height: 260px; display: inline-block }
