@@ -30,7 +30,7 @@ def with_clock(U: Rows, W: Rows) -> tuple[Rows, Rows, str]:
     named = max((SLOW_NAMES.index(name) + 1 for row in (*U, *W) for name in row.names if name in SLOW_NAMES), default=0)
     others = len(W) or named
     if others >= MOST_SLOW_VARIABLES:
-        raise ValueError(f"t is one more slow variable; at most {MOST_SLOW_VARIABLES - 1} are allowed beside it.")
+        raise ValueError(f"t is one more slow variable; at most {MOST_SLOW_VARIABLES - 1} are allowed next to it.")
     if named > others:  # to be refused for that
         return U, W, ""
     clock = SLOW_NAMES[others]

@@ -78,7 +78,7 @@ def children(pid: int) -> list[int]:
 
 
 async def at_rest(pid: int, most: float = 30.0) -> None:
-    """Wait until a server has no work left, such as what it compiles or its panels compute beside the frames."""
+    """Wait until a server has no work left, such as what it compiles or its panels compute next to the frames."""
     for _ in range(int(2 * most)):
         before = sum(map(cpu, family(pid)))
         await asyncio.sleep(0.5)

@@ -202,9 +202,9 @@ def report(quick: bool = False) -> str:
     lines += ["", f"| `codim2 serve` | {' | '.join(titles)} |", "|---" * (1 + len(found)) + "|"]
     rows = {
         "listens": "listens, s", "ready": "/ready, s", "moves": "a slider moves the picture, s",
-        "thumbnails": "small portraits are drawn, s", "whole": "all beside it too, s",
+        "thumbnails": "small portraits are drawn, s", "whole": "all next to it too, s",
         "all": "all kernels are loaded, s",
-        "own": "the server's memory at most, MB", "others": "the largest process beside it, MB",
+        "own": "the server's memory at most, MB", "others": "the largest process next to it, MB",
         "together": "all together at most, MB",
     }  # fmt: skip
     for key, words in rows.items():

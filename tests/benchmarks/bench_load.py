@@ -118,7 +118,7 @@ def crowds(processes: int, chairs: tuple[int, ...], seconds: float) -> dict[int,
 
 
 def figures(quick: bool) -> str:
-    """Return what is to be reached beside what is, as Markdown."""
+    """Return what is to be reached next to what is, as Markdown."""
     lines = [
         "| 2 processes: visitors | they move at | frames: p95, own p95, ms (to reach) "
         "| openings: p95, own p95, ms (to reach) "
@@ -141,7 +141,7 @@ def figures(quick: bool) -> str:
         asyncio.run(at_rest(pid))
         lines += [
             "",
-            f"| 1 process: beside one who draws | own max, p99, p50 of {frames} frames, ms (max to reach) |",
+            f"| 1 process: next to one who draws | own max, p99, p50 of {frames} frames, ms (max to reach) |",
             "|---|---|",
         ]
         for what, wild in WILD.items():

@@ -1,7 +1,7 @@
 """Limit cycles and separatrices: error against time, ours beside SciPy with a Poincare section.
 
 Run ``python -m tests.benchmarks orbits [--quick]``. Periods are held against an extrapolation method (Gragg,
-Bulirsch, Stoer) at 22 digits; separatrices against DOP853 at 3e-14 from 1e-8 beside the saddle.
+Bulirsch, Stoer) at 22 digits; separatrices against DOP853 at 3e-14 from 1e-8 next to the saddle.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ def branches() -> tuple[Callable[[float, Array], Array], Array, list[tuple[Array
 
 
 def followed(offset: float, tolerance: float, dense: bool = False) -> list:
-    """Branches by SciPy's DOP853, from `offset` beside the saddle along its eigenvectors."""
+    """Branches by SciPy's DOP853, from `offset` next to the saddle along its eigenvectors."""
     right, C, found = branches()
     results = []
     for direction, sense in found:

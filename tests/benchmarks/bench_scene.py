@@ -1,6 +1,6 @@
-"""Cost of a cold default scene, layer by layer, beside its trajectories alone; and of importing the core.
+"""Cost of a cold default scene, layer by layer, next to its trajectories alone; and of importing the core.
 
-Times are of the processor: another program that runs beside it counts less.
+Times are of the processor: another program that runs next to it counts less.
 
 Run ``python -m tests.benchmarks scene [--quick]``.
 """

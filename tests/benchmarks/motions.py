@@ -1,7 +1,7 @@
 """The motions that are raced: a system, a start, a time, the same formulas as text; and where they end, to 1e-15.
 
 `data/motions.json` holds the ends: Radau IIA of order 13 (seven stages) in 64-bit mantissas, a method and a code that
-share nothing with what is raced, at two tolerances whose ends differ by the number stored beside them. Make it again by
+share nothing with what is raced, at two tolerances whose ends differ by the number stored with them. Make it again by
 ``python -m tests.benchmarks.motions``.
 """
 

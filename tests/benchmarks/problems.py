@@ -126,7 +126,7 @@ def near_equator() -> Problem:
 
 
 def near_saddle() -> Problem:
-    """Seeds beside the stable manifold of the saddle of Case II: they come near C, stay for long, and leave."""
+    """Seeds next to the stable manifold of the saddle of Case II: they come near C, stay for long, and leave."""
     preset = presets["case2-saddle"]
     C = critical_sets(preset.system, psi.rational())[0]
     values, vectors = np.linalg.eig(C.jacobian)

@@ -154,7 +154,7 @@ def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_shee
     height = page.find(".legend").bounding_box()["height"]
     sheet(page, "controls")
     assert (len(told("−3")), len(told("−4"))) == (1, 1)
-    assert "−3" not in page.find(".banner").text_content()  # it is read beside its control
+    assert "−3" not in page.find(".banner").text_content()  # it is read next to its control
     sheet(page, "inspector")
     assert "−3" in page.find(".banner").text_content()
     page.open("?v=1&panel=orbits").settle()

@@ -34,7 +34,7 @@ def address(tmp_path_factory):
 
 
 def worker_count(page):
-    """Count the workers of a page once that has come which computes beside the one that answers."""
+    """Count the workers of a page once that has come which computes next to the one that answers."""
     for _ in range(int(PATIENCE / 100)):
         if len(page.workers) > 1:
             break

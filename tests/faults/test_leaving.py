@@ -38,7 +38,7 @@ def state_of(pid):
 
 
 def workers(server):
-    """The processes that were forked to work beside the frames."""
+    """The processes that were forked to work next to the frames."""
     return [worker for helper in children(server) for worker in children(helper)]
 
 

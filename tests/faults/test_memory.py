@@ -71,7 +71,7 @@ def bounded(pids, beyond):
 
 
 async def told(port):
-    """Ask for a file; return what is said instead, once another page and this one have had frames beside it."""
+    """Ask for a file; return what is said instead, once another page and this one have had frames next to it."""
     wire, other = [await Wire.connect(port) for _ in range(2)]
     await wire.frame(1, a=-1.25)
     await wire.send({"take": {"kind": "json", "id": 1}})

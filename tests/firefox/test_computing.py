@@ -1,4 +1,4 @@
-"""A folder of files in Debian's Firefox: Python comes, a slider is dragged, and a panel is computed beside it."""
+"""A folder of files in Debian's Firefox: Python comes, a slider is dragged, and a panel is computed next to it."""
 
 import os
 

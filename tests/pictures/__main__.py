@@ -1,4 +1,4 @@
-"""All pictures on one page: ``python -m tests.pictures`` writes build/pictures.html, changed ones beside the kept.
+"""All pictures on one page: ``python -m tests.pictures`` writes build/pictures.html, changed ones next to the kept.
 
 ``--accept`` keeps them as they are now. Panels are drawn by Node, from the columns that are kept.
 """

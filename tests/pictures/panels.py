@@ -1,6 +1,6 @@
 """What the panels are sent: the columns of each, at settings without any symmetry, as JSON.
 
-`tests/app/static/played/drawing.js` draws them as the page does; what it draws is kept beside them.
+`tests/app/static/played/drawing.js` draws them as the page does; what it draws is kept next to them.
 """
 
 from __future__ import annotations

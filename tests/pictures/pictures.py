@@ -30,7 +30,7 @@ STRIP_SEEDS = 14
 
 
 def kept_file(name: str) -> Path:
-    """Return where a picture is kept: beside the tests, but for the strip, which the page has."""
+    """Return where a picture is kept: next to the tests, but for the strip, which the page has."""
     return STRIP if name == STRIP.name else Path(__file__).parent / "kept" / name
 
 

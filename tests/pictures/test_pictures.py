@@ -1,4 +1,4 @@
-"""Pictures are compared with those kept beside the tests, as text; changed ones are written to build/pictures."""
+"""Pictures are compared with those kept next to the tests, as text; changed ones are written to build/pictures."""
 
 import re
 from pathlib import Path

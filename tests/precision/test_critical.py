@@ -29,7 +29,7 @@ WORST = [
      psi.exponential()),
     ((0.9415030170221579, -0.5356671956853276, 1.7375718614553874, 0.08926792742148235, 1.0803922620819952),
      psi.hill(3)),
-    # b beside a and d is large: it once came into the trace by rounding
+    # b next to a and d is large: it once came into the trace by rounding
     ((-0.5315046742916478, 37309.05347174118, 3.6755106679512956e-07, 0.012462156179656817, 0.015707741585934982),
      psi.hill(16)),
     ((-1e-17, 1.0, -1e-17, 0.3, 0.2), psi.rational()),

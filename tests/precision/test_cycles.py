@@ -18,7 +18,7 @@ LEVELS = 11  # order 22
 
 
 def field(plane, family):
-    """x2' = U(e_Psi(x2)) of (x, y); with the integrals of e_Psi and of tr U D e_Psi beside them if there are five."""
+    """x2' = U(e_Psi(x2)) of (x, y); with the integrals of e_Psi and of tr U D e_Psi next to them if there are five."""
     a, b, d, f1, f2 = map(mp.mpf, plane)
     value, slope = regularisation(family)
 

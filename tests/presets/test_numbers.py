@@ -1,4 +1,4 @@
-"""The numbers of every preset are those of `numbers.txt`: figures of the paper that change are read beside it first.
+"""The numbers of every preset are those of `numbers.txt`: figures of the paper that change are read next to it first.
 
 A line a preset: its name, a, b, d, f1, f2, B, g, the example, z, the family of Psi and its parameter, what shows it.
 """

@@ -77,7 +77,7 @@ def test_seeds_from_the_centre_to_the_equator_and_outside(stratum):
 
 
 def test_seeds_at_equilibria_stay_or_leave_without_noise():
-    """Exactly on the critical set, on limit directions and just beside them."""
+    """Exactly on the critical set, on limit directions and just next to them."""
     for plane in PORTRAITS:
         at = ELinear(*plane[:3], plane[3:])
         scene = Scene(at, psi.rational())

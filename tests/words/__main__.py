@@ -1,6 +1,6 @@
 """``python -m tests.words`` shows the sentences that have changed since they were read; ``--accept`` keeps them.
 
-A check holds what a sentence says, as its reader understood it. So each is kept here as it was read beside its check:
+A check holds what a sentence says, as its reader understood it. So each is kept here as it was read next to its check:
 whoever changes one reads that check again.
 """
 

@@ -242,7 +242,7 @@ CLASSES = {
 
 
 def tends(portrait, Q, wanted):
-    """Whether directions beside a limit direction turn to it."""
+    """Whether directions next to a limit direction turn to it."""
     theta = float(portrait.equator.theta[portrait.index(Q)])
     turned = []
     for side in (1.0, -1.0):

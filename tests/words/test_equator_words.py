@@ -1,4 +1,4 @@
-"""What is said of the equator as a whole, held against Θ on a fine net, and against motions beside it."""
+"""What is said of the equator as a whole, held against Θ on a fine net, and against motions next to it."""
 
 import math
 

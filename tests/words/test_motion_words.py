@@ -67,7 +67,7 @@ CASES = {
     "moves in": (ELinear(-1, 0, -1, ("z", 0.0), g=(-1,)), CONSTANT, (0, 0, 1), 1),
     "off the equator": (ELinear(-1, 0.2, -1.2, ("z", 0.1), g=(1,)), CONSTANT, (0, 0, 0.5), 0.8),
     "stable middle": (ELinear(-1, 0, -2), CONSTANT, (0, 0), 1),
-    "beside the middle": (ELinear(-1, 0, -2, (0.3, 0.2)), CONSTANT, (0, 0), 1),
+    "next to the middle": (ELinear(-1, 0, -2, (0.3, 0.2)), CONSTANT, (0, 0), 1),
     "no psi": (ELinear(-1, 0, -2, (0.3, 0.2)), None, (0, 0), 1),
     "blows up": (System(U=("x**2", "-s")), CONSTANT, (1, 0.1), 5),
     "undefined": (System(U=("-c", "-s"), W=("1/sqrt(2 - z)",)), CONSTANT, (1, 0.1, 0), 50),
@@ -125,7 +125,7 @@ def test_every_sentence_of_a_motion_is_held():
 PERIODIC = {
     "free": ("repeats", "periodic stable", "periodic unstable", "start is lost", "no periodic motion", "no derivative",
              "motion ends early", "comes to rest"),
-    "forced": ("repeats sooner", "periodic undecided", "periodic beside a line", "not isolated"),
+    "forced": ("repeats sooner", "periodic undecided", "periodic next to a line", "not isolated"),
     "lyapunov": ("exponents",),
     "response": ("response", "response folds", "branches off", "doubles", "becomes a torus", "sticks change",
                  "passages change"),

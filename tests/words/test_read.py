@@ -1,4 +1,4 @@
-"""Each sentence is the one that was read beside its check; nothing that a visitor reads is outside the registries."""
+"""Each sentence is the one that was read next to its check; nothing that a visitor reads is outside the registries."""
 
 import ast
 import re

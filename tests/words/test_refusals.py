@@ -1,4 +1,4 @@
-"""Every value that is refused is refused in one sentence, beside its control, with numbers as they are read."""
+"""Every value that is refused is refused in one sentence, next to its control, with numbers as they are read."""
 
 import ast
 import re

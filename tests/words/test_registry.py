@@ -1,4 +1,4 @@
-"""The registry: no sentence twice, none beside it, and numbers and names in it are written in one way."""
+"""The registry: no sentence twice, none next to it, and numbers and names in it are written in one way."""
 
 import ast
 import re

@@ -22,7 +22,7 @@ def held(system, family, z=()):
     text = said.sentence
     if said.case or text.startswith(("CM", "NCM")):
         text = text.partition(". ")[2]
-    for degeneracy in said.degeneracies:  # what a degeneracy says is told beside it once more
+    for degeneracy in said.degeneracies:  # what a degeneracy says is told next to it once more
         text = text.replace(degeneracy.sentence.partition(" In double")[0], "")
     keys = []
     for key, fields in recognise(text):

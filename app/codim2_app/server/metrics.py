@@ -54,7 +54,7 @@ class Metrics:
             "codim2_pages": ("Pages that are open", len(places.open)),
             "codim2_places": ("Pages that may be open", places.most),
             "codim2_waiting": ("Pages that wait for a turn", places.rota.waiting),
-            "codim2_work": ("Works that wait or run beside the frames", self.turns.pending),
+            "codim2_work": ("Works that wait or run next to the frames", self.turns.pending),
             "codim2_load": ("Share of its time that the thread which answers works", load.share),
             "codim2_rooms": ("Rooms that are open", self.rooms.count()),
             "codim2_compiled": ("Steps of the warm-up that are done", done),

@@ -1,4 +1,4 @@
-// Parts of an explorer that act on all of it: panels, hands on the picture, dialogs, the second portrait beside it.
+// Parts of an explorer that act on all of it: panels, hands on the picture, dialogs, the second portrait next to it.
 
 import {Panels} from "./widgets/panels.js"
 import {slidersOf} from "./controls/controls.js"

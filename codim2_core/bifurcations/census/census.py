@@ -46,7 +46,7 @@ def census(
         with twelve standard normal coefficients. Or (generator, n) to n systems: coefficients (n, 5) a, b, d, f1, f2 of
         e-linear ones, which a filter names, or a sequence of systems, which `classify` names one by one (at
         z = 0, in some milliseconds each). It must give the same for the same generator; for processes it must be
-        picklable. It is first asked for one system, which is not counted and tells which of the two it gives.
+        picklable. It is first called for one system, which is not counted and shows which of the two it returns.
     psi : Psi, optional
         Read by systems that are not e-linear, and for outcomes; default Psi = 1.
     count : int

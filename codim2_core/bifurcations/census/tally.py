@@ -87,7 +87,7 @@ def tally(plan: CensusPlan, chunk: int, size: int) -> Tally:
     """Name the systems of one chunk."""
     drawn = plan.drawn(chunk, size)
     if len(drawn) != size:
-        raise ValueError(f"draw returned {len(drawn)} systems; it was asked for {size}.")
+        raise ValueError(f"draw returned {len(drawn)} systems; {size} are expected.")
     if isinstance(drawn, np.ndarray):
         return _with_outcomes(drawn, plan.psi, chunk) if plan.outcomes else _of_coefficients(drawn, chunk)
     whole = Tally({})

@@ -155,7 +155,7 @@ class BranchSearch:
         return CycleBranches(self.name, (self.low, self.high), branches, reason, tuple(dict.fromkeys(self.notes)))
 
     def _census(self) -> list[float]:
-        """Return the values at which cycles are looked for: evenly spaced, between special values, beside saddle-nodes.
+        """Return the values at which cycles are searched: evenly spaced, between special values, next to saddle-nodes.
 
         Loops through a saddle-node of the equator may leave a cycle on a narrow part of the span.
         """

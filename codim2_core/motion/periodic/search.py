@@ -313,7 +313,7 @@ def _verdict(values: NDArray[np.complex128], errors: Array, in_a_line: bool) -> 
         return "undecided", say("periodic undecided", where=where, error=error)
     size = float(sizes.max(initial=0.0))
     if in_a_line:
-        return "undecided", say("periodic beside a line", size=size)
+        return "undecided", say("periodic next to a line", size=size)
     return "stable", say("periodic stable", size=size)
 
 

@@ -1,8 +1,8 @@
 """Neighbours of a motion in an invariant line, where it comes to Sigma along a limit direction that repels angularly.
 
 It is on the stable manifold of a half-saddle, ``rho' = -r rho``, ``theta' = t theta`` with r, t > 0. One at
-a small angle d beside it turns away at ``rho ~ d^(r/t)``, goes along the equator to the next limit direction, on either
-side, and is late, and elsewhere in z, by as much: with r > t no derivative is left of that.
+a small angle d next to it turns away at ``rho ~ d^(r/t)``, goes along the equator to the next limit direction, on
+either side, and is late, and elsewhere in z, by as much: with r > t no derivative is left of that.
 
 The motion in the line *passes* if it leaves along the limit direction that is next on both sides, ``rho' = R rho``,
 ``theta' = -T theta``. Then what was d is ``d^(r T/(t R))`` once rho is what it was: with r T > t R it is forgotten

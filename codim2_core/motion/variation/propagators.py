@@ -1,7 +1,7 @@
 """Linear equations Y' = J(t) Y along the steps of a motion: all steps at once, by collocation, halved where it matters.
 
-A step of the motion is as long as the motion is smooth, and its variation may be less so: beside a straight slip others
-turn. So each part of a step is solved whole and in halves, and halved again where the two differ.
+A step of the motion is as long as the motion is smooth, and its variation may be less so: next to a straight slip
+others turn. So each part of a step is solved whole and in halves, and halved again where the two differ.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A page of one figure: its picture, and the link that an explorer beside it opens in its place."""
+"""A page of one figure: its picture, and the link that an explorer next to it opens in its place."""
 
 import re
 from html import unescape

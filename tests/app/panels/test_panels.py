@@ -1,4 +1,4 @@
-"""The panels beside the picture: what is sent while one is open, and nothing while it is closed."""
+"""The panels next to the picture: what is sent while one is open, and nothing while it is closed."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Results that are computed beside the frames: shared, replaced by newer wishes, and refused with a sentence."""
+"""Results that are computed next to the frames: shared, replaced by newer wishes, and refused with a sentence."""
 
 import threading
 from concurrent.futures import Future

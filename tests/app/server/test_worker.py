@@ -1,4 +1,4 @@
-"""What the processes beside the frames are forked from."""
+"""What the processes next to the frames are forked from."""
 
 import os
 import subprocess

@@ -197,7 +197,7 @@ test("what is under way is told, until nothing is", () => {
   assert.deepEqual([busy(one), settled(one)], ["", "true"])
 })
 
-test("each sentence stands beside its control, any other above the picture", () => {
+test("each sentence stands next to its control, any other above the picture", () => {
   const one = wired(), said = () => [one.find("[data-control=f1] .error").textContent, one.find(".banner").hidden ? "" : one.find(".banner").textContent]
   one.answer({errors: {f1: "Too much.", preset: "No such portrait.", other: "Odd."}, left_out: "Something is left out."})
   assert.deepEqual(said(), ["Too much.", "Something is left out. No such portrait. Odd."])

@@ -11,7 +11,7 @@ from codim2_app.view.answers import AnswerQueue
 
 
 class Frames:
-    """Frames whose picture is computed beside them, when they are asked for the first time."""
+    """Frames whose picture is computed next to them, when they are asked for the first time."""
 
     def __init__(self):
         self.pending, self.asked = Future(), []

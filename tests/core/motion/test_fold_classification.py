@@ -77,7 +77,7 @@ def test_what_a_fold_is_by_the_eigenvalues_of_its_slow_flow(a, b, word, decided)
 
 
 def to_saddle(c, beside):
-    """Follow a motion from beside the stable eigenvector of a folded saddle, z2 = -2 c/l."""
+    """Follow a motion from next to the stable eigenvector of a folded saddle, z2 = -2 c/l."""
     a, b = -0.5, -1.0
     stable = 0.5 * (b - math.sqrt(b * b - 8.0 * a))
     return simulate_nonsmooth(parabola(a, b), (0.0, 0.0, -c * c, -2.0 * c / stable - beside), (0.0, 1.0), PSI)

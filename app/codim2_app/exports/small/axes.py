@@ -1,4 +1,4 @@
-"""Small pictures of results in Matplotlib, to put beside one's own: the same as the notebook's, in the same colours."""
+"""Small pictures of results in Matplotlib, for one's own figures: the same as the notebook's, in the same colours."""
 
 from __future__ import annotations
 

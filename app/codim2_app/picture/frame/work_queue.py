@@ -232,7 +232,7 @@ def _outcome(done: Future[Any]) -> tuple[Any, bool]:
     if isinstance(error, BrokenExecutor | CancelledError):
         return FailedResult(say("lost")), True
     # of the host's executor: a panel says so, the picture stands, the log has the rest
-    logging.getLogger(__name__).error("work beside the frames failed", exc_info=error)
+    logging.getLogger(__name__).error("work next to the frames failed", exc_info=error)
     return FailedResult(FAULT), False
 
 

@@ -76,7 +76,7 @@ class ExplorerState(param.Parameterized):
     )
     preset = param.String("", label="Portrait", doc="A figure of the paper; the values start from it.")
     panel = param.Selector(
-        default="atlas", objects=list(PANEL_NAMES), label="Panel", doc="What is open beside the picture."
+        default="atlas", objects=list(PANEL_NAMES), label="Panel", doc="What is open next to the picture."
     )
     along = param.String("f1", label="Along", doc="Parameter of the bifurcation diagram.")
     zoom = param.Integer(0, bounds=(0, 6), label="Zoom", doc="The diagram shows a 4^zoom-th of the slider's range.")
@@ -106,7 +106,7 @@ class ExplorerState(param.Parameterized):
         "", label="Pinned", doc="The object whose card stays, such as 'Q2', 'C' or 'T@0.5,0.25'; or none."
     )
     orbit_eps = param.Selector(
-        default="hide", objects=["hide", "show"], label="ε > 0", doc="The motion for ε > 0 beside that orbit."
+        default="hide", objects=["hide", "show"], label="ε > 0", doc="The motion for ε > 0 next to that orbit."
     )
     lesson = param.String("", label="Lesson", doc="The lesson that is open.")
     quiz = param.String("", label="Question", doc="QUESTION.SEED or QUESTION.SEED.ANSWER of the lesson; a mark is X.Y.")

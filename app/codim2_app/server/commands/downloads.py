@@ -58,7 +58,7 @@ def chosen_view(chosen: argparse.Namespace) -> Any:
     where = [one.strip() for one in chosen.where.split(";") if one.strip()]
     pairs = [text.partition("=") for text in chosen.view]
     if odd := [name for name, equals, _ in pairs if not equals]:
-        raise ValueError(f"{odd[0]!r} given beside -U; give values of parameters, such as mu=0.5.")
+        raise ValueError(f"{odd[0]!r} given with -U; give values of parameters, such as mu=0.5.")
     parameters = {name.strip(): number(value) for name, _, value in pairs}
     z = [number(one) for one in chosen.z.split(",") if one]
     return typed_view(rates, slow, where, parameters, z, c2.psi.from_text(chosen.psi))

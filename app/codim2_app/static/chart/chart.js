@@ -18,7 +18,7 @@ import {labelBox, Space, TEXT, textSize} from "./space.js"
  * @typedef {{x: number, y: number, u: number, v: number, length: number, name?: string}} Arrow middle, direction in data, px
  * @typedef {{from: number, to: number, name: string, title?: string, word?: string}} Band
  * @typedef {{text: string, at?: number[], near?: number[], name?: string, within?: number[][], allowed?: (x: number, y: number) => boolean}} Label
- *   beside a point, or as near to a place as it is allowed by all of its corners, which `within` two spans they may be
+ *   next to a point, or as near to a place as it is allowed by all of its corners, which `within` two spans they may be
  * @typedef {{name: string, points?: number[][], loops?: number[][][], whole?: boolean, label?: string, title?: string}} Area by its border, or
  *   by several loops (even-odd), of which the whole chart may be one
  * @typedef {object} Plot

@@ -94,7 +94,7 @@ function nearby() {
 }
 
 /**
- * Where a name may stand beside its point: close beside it, then farther away.
+ * Where a name may stand next to its point: close next to it, then farther away.
  * @param {number[]} point px
  * @param {string} text
  */

@@ -1,4 +1,4 @@
-// What is wrong: each sentence stands beside its control; what has no place there, or none that is seen, above the picture.
+// What is wrong: each sentence stands next to its control; what has no place there, or none that is seen, above the picture.
 
 import {SAYS} from "../words.js"
 

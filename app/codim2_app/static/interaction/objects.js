@@ -170,7 +170,7 @@ export const styleOf = (value) => STYLE[value < 0 ? "stable" : value > 0 ? "unst
 /** @param {Named} one @param {Record<string, any>} header the eigenvectors of an object: [x, y, eigenvalue, where] each */
 export function eigenvectorsOf(one, header) { return header.eigen?.[one.kind]?.[one.i]?.directions ?? [] }
 
-/** The words beside the arrows: what each eigenvalue is of. @param {string} where @param {number} value */
+/** The words next to the arrows: what each eigenvalue is of. @param {string} where @param {number} value */
 export const eigenWords = (where, value) => `${WHERE[where] ? `${WHERE[where]}: ` : ""}${digits(value)}, ${value < 0 ? SAYS.comes : value > 0 ? SAYS.leaves : SAYS.neutral}`
 
 /**

@@ -18,7 +18,7 @@ export const busy = (root, event) => Boolean(/** @type {any} */ (event.composedP
 export class Beamer {
   /**
    * @param {any} root the explorer @param {{enlarge: (times: number) => void}} picture
-   * @param {number} on what a link asks for: 1 is the picture, 2 a panel beside it @param {(on: number) => void} told is
+   * @param {number} on what a link asks for: 1 is the picture, 2 a panel next to it @param {(on: number) => void} told is
    *   called when it begins, changes or ends
    */
   constructor(root, picture, on, told) {
@@ -60,7 +60,7 @@ export class Beamer {
     this.root.style.setProperty("--panel-zoom", String(Math.max(1, PANEL * window.innerHeight)))
   }
 
-  // A panel beside the picture, or none.
+  // A panel next to the picture, or none.
   panel() {
     this.kept = 3 - this.on
     this.show(this.kept)

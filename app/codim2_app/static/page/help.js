@@ -18,7 +18,7 @@ export const KEYS = [
   ["l", "lifts the picture onto the hemisphere, or lays it flat; drag, wheel or arrow keys turn it"],
   ["Space", "sends comets along the orbits"],
   ["b", "projector mode: full screen, large type; move the pointer to show the controls; Esc ends it"],
-  ["p", "shows a panel beside the picture on the beamer"],
+  ["p", "shows a panel next to the picture on the beamer"],
   ["k, then → and ←", "saves a view for the beamer, then goes from one saved view to the next; a clicker does the same"],
   ["two panes", "shows two portraits side by side; “linked sliders” lists those that move both"],
 ]

@@ -1,4 +1,4 @@
-// What is always in view beside the picture: the portrait's name and sentence, what is degenerate, the slow flow.
+// What is always in view next to the picture: the portrait's name and sentence, what is degenerate, the slow flow.
 
 import {setMarkup, say} from "../dom.js"
 import {escape, formula, slowWords} from "../words.js"

@@ -1,4 +1,4 @@
-// On a narrow or low screen the picture stays; controls and panels are sheets that are drawn up beside it, one at a time.
+// On a narrow or low screen the picture stays; controls and panels are sheets that are drawn up next to it, one at a time.
 
 export class Sheets {
   /** @param {any} root @param {() => void} moved what is seen is other than before */

@@ -9,7 +9,7 @@ import {SAYS, digits, escape, slowName} from "../words.js"
 
 const DRIFT_SECONDS = 10 // in which play would cross the whole range at the largest slow flow shown
 
-// The name of a delay, beside its middle.
+// The name of a delay, next to its middle.
 const middle = (x, y) => { const k = Math.floor(x.length / 2); return {text: "delay", at: [x[k], y[k]]} }
 
 const MARKUP = `<div class="along-body">

@@ -11,7 +11,7 @@ import {unit} from "./frames.js"
  * @property {Record<string, any>} header  the newest of each entry of the frames' headers
  * @property {Record<string, any>} blocks  the newest of each array of the frames
  * @property {Record<string, string>} theme  colours by name
- * @property {number} [times]  as large are letters beside the picture
+ * @property {number} [times]  as large are letters next to the picture
  * @property {boolean} [sense]  whether the equator tells which way it is run through
  * @property {{light: [number, number], middle: number, ring: [number, number], hatches: Record<string, string>, view: number}} measures
  */

@@ -259,7 +259,7 @@ function along({x, y, angle}, at) {
   return Math.atan2(py - v, u - px)
 }
 
-// Where a name stands beside its place, clear of marks and other names; a nullcline's is on it, or nowhere.
+// Where a name stands next to its place, clear of marks and other names; a nullcline's is on it, or nowhere.
 function named(item, at, space, {up, elevation, x: cx, y: cy, scale}) {
   const [x, y, depth, on] = at(item.x, item.y), [wide, high] = textSize(item.text, item.size), beside = item.away || item.dx
   const hidden = on ? depth > BEHIND : depth > 0 && Math.hypot((x - cx) / scale, (y - cy) / scale / Math.hypot(Math.sin(elevation), up * Math.cos(elevation))) < 1

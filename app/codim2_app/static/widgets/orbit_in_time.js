@@ -1,4 +1,4 @@
-// One orbit over its own time, beside the picture: a launched one, t/ε on the hemisphere and t outside, or the motion from
+// One orbit over its own time, next to the picture: a launched one, t/ε on the hemisphere and t outside, or the motion from
 // a typed start. ε → 0 is drawn in full, ε > 0 broken. A dot runs along both.
 
 import {Ball} from "./ball.js"

@@ -1,7 +1,7 @@
-// The panels beside the picture: a strip of tabs, one panel open at a time. What a closed one shows is not asked for.
+// The panels next to the picture: a strip of tabs, one panel open at a time. What a closed one shows is not asked for.
 
 /**
- * What a panel is given beside the empty element that it fills.
+ * What a panel is given next to the empty element that it fills.
  * @typedef {object} Tools
  * @property {Element} root the explorer
  * @property {any} settings what the server tells this panel's script

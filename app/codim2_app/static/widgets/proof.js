@@ -7,7 +7,7 @@ const AGAIN = 50 // ms until it is looked again whether the server has the value
 
 const mark = (words) => ` <b class="proved">✓ ${words}</b>`
 
-/** The mark beside the heading of a list. @param {boolean} whole whether it is proved that there is no other @param {number} count */
+/** The mark next to the heading of a list. @param {boolean} whole whether it is proved that there is no other @param {number} count */
 export const proofMark = (whole, count) => whole ? mark(count ? SAYS.proved : SAYS.provedNone) : ""
 
 const button = (act, words) => `<button type="button" data-act="${act}">${words}</button>`

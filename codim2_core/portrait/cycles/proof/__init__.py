@@ -38,7 +38,7 @@ orbits cross from P < 0 to P > 0. So W = {P = 0} is of smooth curves that no clo
   cycle (Poincare and Bendixson).
 - Beyond O_N there is one if the orbits that enter there (P > 0; in reversed time if P < 0) cannot tend to the equator,
   nor to a critical set. If all of these are of the core, that is so if ``sign(P) e.U < 0`` at all limit directions
-  where P has this sign: beside them q falls, and an orbit on the equator takes arbitrarily long past them. If there are
+  where P has this sign: near them q falls, and an orbit on the equator takes arbitrarily long past them. If there are
   no limit directions it is so by itself: along the equator
   ``(1 + n - mu) int e.U dt = int Phi / (k P) dt`` has the sign of -P. It is also so if all orbits cross a closed
   polygon to its left (if P < 0: to its right) that goes once round the core, not round any other critical set, and

@@ -144,7 +144,7 @@ def test_orbits_that_are_launched_are_timed_before_they_are_computed_here():
 
 
 def test_each_layer_of_an_e_linear_system_is_timed_without_those_that_it_asks_for(monkeypatch):
-    """What took long here is computed beside the next frame, and here again once it is quick: believed by halves."""
+    """What took long here is computed next to the next frame, and here again once it is quick: believed by halves."""
     clock = iter(range(1000))
     monkeypatch.setattr("codim2_app.picture.frame.budget.time.perf_counter", lambda: 0.01 * LAYER_BUDGET * next(clock))
     scene, budget = make_scene(preset_values("case1-cm4")), Budget()

@@ -1,4 +1,4 @@
-"""Processes beside the frames: what they compute, and that they stop."""
+"""Processes next to the frames: what they compute, and that they stop."""
 
 import gc
 import os

@@ -183,7 +183,7 @@ test("middles around a place: all that lie inside, the nearest first, from the n
   }
 })
 
-test("a name stands beside its point, not over it, at three distances in eight directions", () => {
+test("a name stands next to its point, not over it, at three distances in eight directions", () => {
   const text = "a name", [width, height] = textSize(text), middles = labelBox([100, 50], text)
   assert.deepEqual([width, height], [0.56 * TEXT * 6 + 2, TEXT])
   assert.deepEqual(textSize("abc", 20), [0.56 * 20 * 3 + 2, 20])

@@ -109,7 +109,7 @@ function stands(u, v, label = {}) {
   return it && one.numbers(it, "x", "y")
 }
 
-test("a name stands where it is wanted as long as it is a pixel within the frame, else beside that place", () => {
+test("a name stands where it is wanted as long as it is a pixel within the frame, else next to that place", () => {
   const [width, height] = textSize("a name"), [w, h] = [width / 2, height / 2]
   for (const [u, v, out] of /** @type {[number, number, number[]][]} */ ([
     [LEFT + 1 + w, 90, [-1, 0]], [RIGHT - 1 - w, 90, [1, 0]], [200, TOP + 1 + h, [0, -1]], [200, BOTTOM - 1 - h, [0, 1]],

@@ -46,7 +46,7 @@ test("a label stands where it is allowed, as near to its favourite place as it c
   assert.equal(full.place("full", full.around([20, 10])), null)
 })
 
-test("a name begins close beside its point and never over it", () => {
+test("a name begins close next to its point and never over it", () => {
   for (const [x, y] of labelBox([100, 50], "n = 3")) {
     const [width, height] = textSize("n = 3")
     assert.ok(Math.abs(x - 100) > width / 2 || Math.abs(y - 50) > height / 2)
@@ -82,7 +82,7 @@ test("a text takes the first place that is free, and no other text takes it then
   assert.ok(Math.hypot(u, v - 40) < 9, `${u}, ${v}`)
 })
 
-test("a name stands close beside its point, to the right and above first", () => {
+test("a name stands close next to its point, to the right and above first", () => {
   const middles = labelBox([10, 20], "a"), width = textSize("a")[0]
   assert.equal(middles.length, 24)
   const at = (i, place) => place.forEach((v, k) => assert.ok(Math.abs(middles[i][k] - v) < 1e-9, `${i}: ${middles[i]}`))

@@ -22,7 +22,7 @@ test("what is said of the whole page stays above what is wrong with a control, a
   assert.deepEqual(done, ["reload"])
 })
 
-test("what is said beside a control in a closed sheet is said above the picture too", () => {
+test("what is said next to a control in a closed sheet is said above the picture too", () => {
   const {document} = page('<div class="banner" hidden></div><div class="box"><p class="error"></p></div>')
   const bar = /** @type {any} */ (document.querySelector(".banner")), box = document.querySelector(".box"), error = box?.querySelector(".error"), said = []
   const sentences = new Sentences(bar, {a: {box, say: (sentence) => said.push(sentence)}}, () => ({}))

@@ -132,7 +132,7 @@ test("a click or tap on an object pins it, a drag from there launches, and a lau
   assert.deepEqual(one.log(), ["begin 0", "1.04,-0.5", "1.13,-0.5", "1.5,0", "end"])
   one.tell("pointerdown", 104, 50); one.tell("pointercancel", 104, 50)
   assert.deepEqual(one.log(), [])
-  one.tell("pointerdown", 115, 50); one.tell("pointerup", 115, 50) // beside it
+  one.tell("pointerdown", 115, 50); one.tell("pointerup", 115, 50) // next to it
   assert.deepEqual(one.log(), ["begin 1", "1.5,0;1.15,-0.5", "end"])
   const finger = played("", 300, [[100, 50]])
   assert.equal(finger.tell("pointerdown", 100, 50, {pointerType: "touch"}).prevented, false)

@@ -146,7 +146,7 @@ test("a card stands in a corner where neither its object is nor the other card",
   assert.deepEqual(corners(), ["bl", "tl"])
 })
 
-test("beside its words each eigenvector is drawn as in the picture: its colour, its stroke, its head", () => {
+test("next to its words each eigenvector is drawn as in the picture: its colour, its stroke, its head", () => {
   const one = wired({}, {...FIRST, eigen: {...EIGEN, critical: [{directions: [[1, 0, -1, "disc"], [0, 1, 2, "disc"], [0.6, 0.8, 0, "disc"]], turning: 0, every: false}]}})
   hover(one, C)
   const rows = [...one.root.querySelectorAll(".card:not(.pinned) li")].map((row) => {

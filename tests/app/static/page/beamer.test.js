@@ -85,7 +85,7 @@ test("controls come with the pointer, and fade three seconds after its last move
   assert.ok(!quiet.has("awake"))
 })
 
-test("a panel stands beside the picture by the key p or its button, and comes again with the next lecture", () => {
+test("a panel stands next to the picture by the key p or its button, and comes again with the next lecture", () => {
   const one = beamer({height: 1440})
   one.key("p")
   assert.ok(!one.has("paneled")) // for the beamer only

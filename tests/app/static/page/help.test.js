@@ -21,7 +21,7 @@ test("it opens on ? and on its button, but not while one types", () => {
   assert.ok(!dialog.open)
   key("?")
   assert.ok(dialog.open)
-  one.fire(dialog, "click") // beside the sheet
+  one.fire(dialog, "click") // next to the sheet
   assert.ok(!dialog.open)
   click(one, ".help")
   assert.ok(dialog.open)

@@ -45,7 +45,7 @@ test("views are kept, run through by keys and dropped", () => {
   assert.deepEqual(one.said(), [])
 })
 
-test("views that a link brings are kept beside one's own, each once; a link carries no more than 24", () => {
+test("views that a link brings are kept next to one's own, each once; a link carries no more than 24", () => {
   const view = (f1) => ({name: "CM4", set: {f1}, seen: null})
   const one = views(false, [view(1), view(2)], JSON.stringify([view(3), view(2)]))
   assert.deepEqual([one.texts(), JSON.parse(localStorage.getItem("codim2-views") ?? "").map(({set}) => set.f1)], [["+", "1", "2", "3"], [3, 2, 1]])

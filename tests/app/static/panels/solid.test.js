@@ -51,7 +51,7 @@ test("the panel solid: the hemisphere is the picture, lifted, with its axes and 
   assert.ok(words.P)
 })
 
-test("the panel solid: what the Filippov view shows is told under the pointer, and nothing beside it", () => {
+test("the panel solid: what the Filippov view shows is told under the pointer, and nothing next to it", () => {
   const curve = [[1, 0, 0.5], [0, 1, 0], [-1, 0, -0.5], [0, -1, 0], [1, 0, 0.5]]
   const data = {plane: [], cross: null, curve, candidates: [-0.25, 0.25], combined: [[], []], selected: [[0.125, "stable node"]], sentence: "All."}
   const one = solid({filippov: data}, {solid: "filippov"}), told = () => one.find(".solid-told")

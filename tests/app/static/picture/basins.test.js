@@ -21,7 +21,7 @@ test("basins as vectors lie where they are, y upwards", () => {
   paint(noting(drawn), [CELLS], PLACE, BOX, new Bitmaps())
   assert.deepEqual(filled(drawn), [
     ["a", 120, 220, 40, 40], // at the bottom on the right
-    ["a", 40, 180, 40, 40], // in the middle on the left, and beside it
+    ["a", 40, 180, 40, 40], // in the middle on the left, and next to it
     ["b", 80, 180, 80, 40], ["b", 40, 140, 40, 40],
   ])
 })

@@ -23,7 +23,7 @@ export function made(given = [], options = {}, more = {}) {
 
 export const PLOT = {title: "height", x: {span: [-1, 3], word: "x"}, y: {span: [10, 20]}}
 
-// The frame of that plot alone in a chart of 360 x 180 px: beside it GAP, the widest word of the axis, 4 px; a line of
+// The frame of that plot alone in a chart of 360 x 180 px: next to it GAP, the widest word of the axis, 4 px; a line of
 // 1.6 letters above, of 1.5 below, and 4 px.
 export const FRAME = {left: 8 + 0.56 * 11 * 2 + 2, right: 360 - 8 - 4, top: 1.6 * 11, bottom: 180 - 1.5 * 11 - 4}
 export const X = (u) => -1 + 4 * (u - FRAME.left) / (FRAME.right - FRAME.left) // values that are drawn there

@@ -1,4 +1,4 @@
-// What pictures hold, in numbers and words: it is kept beside the tests, one text for each picture that is drawn by Node.
+// What pictures hold, in numbers and words: it is kept next to the tests, one text for each picture that is drawn by Node.
 //
 // The columns that are drawn are kept too, and Node's arithmetic is the same on every processor: so the numbers are equal.
 

@@ -143,7 +143,7 @@ test("a lecturer opens a room, is told of the phones, and closes it", async () =
   assert.deepEqual([again.said(), Boolean(again.dialog.open)], [["changed"], false]) // the lecturer goes on where he was
 })
 
-test("a click beside the dialog closes it, one within does not; where phones cannot come, that is said", async () => {
+test("a click next to the dialog closes it, one within does not; where phones cannot come, that is said", async () => {
   for (const [hostname, local] of /** @type {[string, boolean][]} */ ([["h", false], ["localhost", true], ["127.0.0.1", true], ["[::1]", true], ["my.localhost", false]])) {
     const one = room("{}", hostname)
     one.room.begin("new")

@@ -44,7 +44,7 @@ def test_every_place_is_in_the_region_of_its_class(plane):
         for place, code, owner in zip(places, codes.tolist(), owned.T, strict=True)
         if classes.name(code) not in {found.regions[i].name for i in np.flatnonzero(owner)}
     ]
-    for place in wrong:  # only beside a curve, by the bend of its chords
+    for place in wrong:  # only next to a curve, by the bend of its chords
         assert min((np.abs(one.points - place) / widths).max(axis=1).min() for one in found.curves) < 0.02
     assert len(wrong) <= 0.003 * count
 

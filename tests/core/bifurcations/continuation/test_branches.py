@@ -247,7 +247,7 @@ def test_a_loop_through_the_equator_is_where_its_branches_meet_on_any_span(span)
 
 #: U with a parameter p, Psi, the span, and values of p at which cycles were missed.
 MISSED = {
-    "beside a saddle-node of the equator": (
+    "next to a saddle-node of the equator": (
         "p*c + 0.416*c - 1.717*s - 0.291*c*c + 0.343*c*s - 0.478*s*s - 0.696*c**3",
         "0.155*c + (0.592 + p/2)*s - 0.024*c*c - 0.302*c*s + 0.755*s*s - 0.408*s**3",
         psi.tanh(), (-1.5, 1.5), (-0.48122, -0.485),

@@ -1,4 +1,4 @@
-"""Diagrams of general systems through a value at which a formula is 0/0, and beside which it is rounding."""
+"""Diagrams of general systems through a value at which a formula is 0/0, and next to which it is rounding."""
 
 import math
 
@@ -13,7 +13,7 @@ PSI = c2.psi.constant()
 REMOVABLE = c2.System(U=("c*((k - 1)**2 + 1e-6)", "(exp(k*s) - exp(s))/(k - 1)"), parameters={"k": 0.5})
 
 
-@pytest.mark.parametrize("span", [(0.0, 2.0), (0.1, 2.0)], ids=["the pole is asked for", "beside it"])
+@pytest.mark.parametrize("span", [(0.0, 2.0), (0.1, 2.0)], ids=["the pole is asked for", "next to it"])
 def test_a_pole_that_is_none_is_passed_and_nothing_beside_it_is_special(span):
     """lambda_rho dips at k = 1 to 1e-6, so that what may hide is looked for there, where U has no value or is noise.
 

@@ -157,7 +157,7 @@ def test_on_the_curve_a_branch_of_cycles_turns_round(folds):
 
 
 def test_cusps_of_cycles_are_named_where_the_folds_turn_back():
-    """Inside the tongue beside a cusp there are three cycles, and one outside it."""
+    """Inside the tongue next to a cusp there are three cycles, and one outside it."""
     abd, p = (0.12726841122583082, -1.18719452785014, -0.5793015965026732), psi.hill(3)
     curve = bifurcations.cycle_folds(ELinear(*abd), p)
     cusps = [np.array(s.place) for s in curve.special if s.type == "cusp of cycles"]

@@ -81,7 +81,7 @@ class Rotating:
     """The motion r = Re(iw t) of CIRCLE on a circle, R complex.
 
     Friction is against the velocity iwR, of modulus a: ``(k - w^2) R + (d + mu/h) iwR = F``, where h = a in the limit
-    and sqrt(a^2 + eps^2) for Psi = 1. In the turning frame r = u e^(iwt) motions beside it obey a linear equation with
+    and sqrt(a^2 + eps^2) for Psi = 1. In the turning frame r = u e^(iwt) motions next to it obey a linear equation with
     constant coefficients: ``u'' + 2iw u' + (k - w^2) u + (d + mu D)(u' + iwu) = 0`` with ``D = (1 - v v'/h^2)/h``.
     """
 

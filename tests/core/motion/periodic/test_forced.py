@@ -105,14 +105,14 @@ def test_den_hartogs_motion_in_its_line_and_in_the_plane(mu, F, w):
 
 
 def test_friction_that_drives_across_leaves_it_undecided():
-    """Then a small angle beside the line grows faster than any multiple, and no derivative exists."""
+    """Then a small angle next to the line grows faster than any multiple, and no derivative exists."""
     exact, system = DenHartog(0.1, 1.0, 0.6), System(
         U=("-z1 - mu*c + F*cos(w*z2)", "mu*s"), W=("x", "1"), parameters={"mu": 0.1, "F": 1.0, "w": 0.6}
     )  # fmt: skip
     speed, q = exact.at_clock(0.0)
     found = periodic_motion(system, (speed + 0.01, 0.0, q, 0.0), math.tau / 0.6)
     close(found, exact.multipliers)
-    assert (found.stability, keys(found)) == ("undecided", ["repeats", "periodic beside a line"])
+    assert (found.stability, keys(found)) == ("undecided", ["repeats", "periodic next to a line"])
 
 
 def test_a_start_that_begins_with_no_speed_has_no_derivative():

@@ -10,7 +10,7 @@ from codim2_core.results.words import recognise
 
 from .closed_forms import BELT, CIRCLE, StickSlip
 
-RING = System(U=("-y + x*(1 - x**2 - y**2)", "x + y*(1 - x**2 - y**2)"))  # r = 1; beside it (r - 1)' = -2 (r - 1)
+RING = System(U=("-y + x*(1 - x**2 - y**2)", "x + y*(1 - x**2 - y**2)"))  # r = 1; next to it (r - 1)' = -2 (r - 1)
 
 
 def keys(found):

@@ -1,4 +1,4 @@
-"""Laws of friction beside each other: who sticks, who chatters, who slides."""
+"""Laws of friction next to each other: who sticks, who chatters, who slides."""
 
 import math
 

@@ -216,7 +216,7 @@ EXACT_FOLDS = [
 
 @pytest.mark.parametrize("U", EXACT_FOLDS, ids=str)
 def test_a_fold_whose_formula_is_zero_in_all_digits_over_an_interval_is_one_saddle_node(U):
-    """U is 0 in doubles beside its double zero, where Newton's method ends at once: no zero is proved there."""
+    """U is 0 in doubles next to its double zero, where Newton's method ends at once: no zero is proved there."""
     zeros = zeros_of(*U)
     assert zeros.degenerate.tolist() == [True]
     assert zeros.consistent

@@ -202,7 +202,7 @@ def test_sets_that_exchange_their_kinds_within_any_step(span, count):
 @pytest.mark.parametrize("offset", [0.0, 50.0])
 @pytest.mark.parametrize("sign", [1, -1])
 def test_what_is_there_only_at_an_end_of_the_span_is_no_interval(sign, offset):
-    """A set is born at the end: there it is degenerate, and for no z beside it does it exist."""
+    """A set is born at the end: there it is degenerate, and for no z next to it does it exist."""
     low, high = sorted((offset, offset - sign))
     system = c2.System(U=(f"c**2 - {sign}*(z - {offset})/2", "-s"), W=("1",))
     found = slow_portrait(system, c2.psi.constant(), "z1", (low, high), count=5)

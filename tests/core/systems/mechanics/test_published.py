@@ -10,7 +10,7 @@ from codim2_core.systems.mechanics import Mechanism
 
 
 def oscillator(force=("F*cos(om*t)", 0.0), surface=(0.0, 0.0), **parameters):
-    """A block of 1 kg on two springs of 1 N/m, whose friction is f, in newtons; in the plane, time beside it."""
+    """A block of 1 kg on two springs of 1 N/m, whose friction is f, in newtons; in the plane, time next to it."""
     return Mechanism(
         M=np.eye(2), J=np.eye(2), force=(f"{force[0]} - q1", f"{force[1]} - q2"), mu="f", normal=1,
         velocities=("v1", "v2"), slow=("q1", "q2", "t"), rates={"q1": "v1", "q2": "v2", "t": 1.0}, surface=surface,
