@@ -86,6 +86,9 @@ def test_the_printed_page_is_the_picture_its_sentences_values_and_a_code(open_pa
     assert explorer.find(".on-paper p").text_content().startswith("a = −2, b = 0.4, d = −1")
     for name in (".controls", ".sheets", ".gallery", ".tab-row", ".bokeh", ".tools"):
         assert not explorer.find(name).is_visible()
+    # a sentence too long for the screen is whole on paper, its last line too
+    mask = "(it) => { it.classList.add('longer'); return getComputedStyle(it).maskImage }"
+    assert explorer.find(".sentence").evaluate(mask) == "none"
     light = explorer.find(".on-paper canvas").evaluate("(it) => [...it.getContext('2d').getImageData(2, 2, 1, 1).data]")
     assert light == [255, 255, 255, 255]
     explorer.page.evaluate("window.dispatchEvent(new Event('afterprint'))")
