@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Protocol
@@ -127,15 +127,15 @@ def slow_sequence(turns: Sequence[ReturnMapPoint]) -> list[ReturnMapPoint]:
     return three
 
 
-def limit_value(slower: Sequence[ReturnMapPoint]) -> float | None:
-    """Extrapolate the values of three cycles whose periods grow, as v + C period^-r; None if they do not."""
+def limit_value(slower: Sequence[ReturnMapPoint], slowness: Callable[[float], float] = math.log) -> float | None:
+    """Extrapolate the values of three cycles whose periods grow, as v + C exp(-r slowness(period)); None if not."""
     if len(slower) < 3:
         return None
     last, middle, first = slower
     way = middle.value - last.value
     if not (ratio := (first.value - middle.value) / way if way else 0.0) > 0.0:
         return None
-    one, two = (math.log(last.period / turn.period) for turn in (first, middle))
+    one, two = (slowness(last.period) - slowness(turn.period) for turn in (first, middle))
 
     def miss(r: float) -> float:
         return 1.0 - math.exp(r * (two - one)) - ratio * (math.exp(r * (two - one)) - math.exp(-r * one))
@@ -189,7 +189,8 @@ def loop_end(
     near = sum(now < LOOP_DISTANCE and now < before for now, before in pairs)
     if near and near_limit:
         kind = "homoclinic" if near == 1 else "heteroclinic"
-        at = turn.value if settled else value
+        limit = limit_value(last.slower, lambda period: period / turn.period)  # a saddle's exponent tells the rate
+        at = turn.value if settled or limit is None else limit
         return _make_end(f"{kind} cycle", say(f"becomes {kind}", name=name, value=at), turn, at)
     return None
 

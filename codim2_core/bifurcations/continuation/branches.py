@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...portrait.cycles.limit_cycles import LimitCycle, closed_orbits, excluding_theorem
-from ...portrait.cycles.ray import best_crossing
+from ...portrait.cycles.ray import best_crossing, crossing_qualities
 from ...portrait.cycles.ray_section import HemispherePoint, TurnSection, room
 from ...portrait.layer_problem.problem import LayerProblem
 from ...portrait.layer_problem.vary import limits, vary
@@ -47,10 +47,9 @@ from .continuation_points import (
     points_at_value,
     reversed_trace,
 )
-from .corrector import BranchTracer, distance
+from .corrector import BranchTracer, ClosedTurn, distance
 from .homoclinic_detection import line_of, split_at_homoclinic
 from .known_cycles import KnownCycle, distance_along_ray, is_same_cycle
-from .lockstep_searches import run_turns
 from .predictor_corrector import BAND_HEIGHT, trace_branch
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .section_base import Problems, SectionBase, e_at
@@ -64,7 +63,8 @@ NARROWEST_PART, MOST_BETWEEN = 1e-3, 24  # of the span, between special values; 
 BESIDE_SADDLE_NODE = 1.5e-3  # of the span
 TOLD_DISTANCE = 3e-3  # in (chi, nu), in which lines tell the direction of a branch
 RAY_GAIN = 1.3  # times as well another ray is crossed that is worth taking
-MAX_RAYS = 12  # of one branch
+JUMP, SHORTER = 1e-7, 0.1  # in (chi, nu), from branch to branch; of that, the next step
+MAX_RAYS, FEW_POINTS = 12, 3  # of one branch; fewer points on a ray tell nothing
 BAND_SPREAD = 0.5  # by which ebar differs between the cycles of a band
 SAME_VALUE_SHARE = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
 LOW_SHARE, ROUNDING_OF_HEIGHT = 3.0, 1e-7  # times the height of the last cycle; ebar that p tells
@@ -131,6 +131,7 @@ class BranchSearch:
         self.hopf = [m for m in marked if m.kind == "Hopf"]
         self.used: set[int] = set()
         self.found: list[tuple[list[RayPiece], BranchEnd, BranchEnd]] = []
+        self.beyond: list[RayPiece] = []  # pieces after loops that were passed
         self.notes: list[str] = []
 
     def run(self) -> CycleBranches:
@@ -189,12 +190,12 @@ class BranchSearch:
         first = None
         for share in START_SHARES:
             guess = TurnGuess(math.log(share), self._nu(mark.value), (1.0, 0.0), backward=False)
-            first = first or run_turns(tracer.corrected(guess))
+            first = first or tracer.closed(guess)
         if first is None:
             self.notes.append(say("birth not caught", kind="Hopf", name=self.name, value=mark.value))
-        elif -1e-12 <= first[1] <= 1.0 + 1e-12:
-            start = hopf_end(self.name, mark.value, self.problem(mark.value), mark.place, first[0].exponent)
-            self._keep(self._followed(tracer, tracer.point(*first, (1.0, 0.0))), start)
+        elif -1e-12 <= first.nu <= 1.0 + 1e-12:
+            start = hopf_end(self.name, mark.value, self.problem(mark.value), mark.place, first.turn.exponent)
+            self._keep(self._followed(tracer, tracer.point(first, (1.0, 0.0))), start)
 
     def _from_equator(self, mark: MarkedValue) -> None:
         """Begin where the cycle is largest, all but the closed equator."""
@@ -206,12 +207,12 @@ class BranchSearch:
             xi = math.log(reach * (reach + other)) - 2.0 * math.log(START_HEIGHT)
             tracer = self._tracer(foot, foot, u)
             for guess in (TurnGuess(xi, self._nu(mark.value), (1.0, 0.0), backward) for backward in (False, True)):
-                first = run_turns(tracer.corrected(guess))
-                if first is None or not 0.0 <= first[1] <= 1.0:
+                first = tracer.closed(guess)
+                if first is None or not 0.0 <= first.nu <= 1.0:
                     continue
-                start = equator_end(self.name, first[0], self.marked, self.width, foot)
+                start = equator_end(self.name, first.turn, self.marked, self.width, foot)
                 if start is not None and start.point.value == mark.value:  # a cycle of another branch may be met
-                    self._keep(self._followed(tracer, tracer.point(*first, (-1.0, 0.0))), start)
+                    self._keep(self._followed(tracer, tracer.point(first, (-1.0, 0.0))), start)
                     return
         self.notes.append(say("birth not caught", kind="equator", name=self.name, value=mark.value))
 
@@ -226,7 +227,7 @@ class BranchSearch:
             self.notes.append(say("cycle not continued", name=self.name, value=value))
             return
         tracer, first = begun
-        point = tracer.point(*first, (1.0, 0.0))
+        point = tracer.point(first, (1.0, 0.0))
         onward = self._followed(tracer, point)
         if self._is_known(onward):  # which was not seen next to a fold
             return
@@ -235,8 +236,10 @@ class BranchSearch:
             end = BranchEnd(CyclePoint("closed", t.value, t.period, t.amplitude, say("branch closed")))
             self.found.append((onward, end, end))
             return
-        turned = tracer.point(*first, (-point.tangent[0], -point.tangent[1]))
+        turned = tracer.point(first, (-point.tangent[0], -point.tangent[1]))
         back = self._followed(tracer, turned)
+        if self._is_known(back):
+            return
         start = self._end(back)
         self._keep([*(_reverse_piece(piece) for piece in reversed(back)), *onward], start)
 
@@ -260,7 +263,7 @@ class BranchSearch:
         centre: SectionBase,
         backward: bool,
         along: tuple[float, float],
-    ) -> tuple[BranchTracer, tuple[ReturnMapPoint, float]] | None:
+    ) -> tuple[BranchTracer, ClosedTurn] | None:
         """Find a cycle, known as a line, on the ray that it crosses best."""
         crossed = [(*best_crossing(points, foot.place(value)), foot) for foot in feet]
         for quality, index, foot in sorted(crossed, key=lambda one: -one[0]):
@@ -272,25 +275,46 @@ class BranchSearch:
             tracer = self._tracer(foot, centre, away / r)
             reach, _ = room(place, away / r)
             guess = TurnGuess(math.log(r / max(reach - r, 1e-300)), self._nu(value), along, backward)
-            first = run_turns(tracer.corrected(guess))
+            first = tracer.closed(guess)
             if first is not None:
                 return tracer, first
         return None
 
     def _followed(self, tracer: BranchTracer, point: ContinuationPoint) -> list[RayPiece]:
-        """Follow a branch to its end, on as many rays as it takes."""
-        pieces: list[RayPiece] = []
-        for _ in range(MAX_RAYS):
-            trace = run_turns(trace_branch(tracer, point))
-            if pieces and len(trace.points) == 1:  # no further than the ray before
-                break
-            pieces.append(RayPiece(tracer, trace))
-            if trace.reason != "stuck" or len(trace.points) < 3 or self._at_loop(trace):
-                break
-            again = self._again(tracer, trace)
+        """Follow a branch from a point to its end, on as many rays as it takes."""
+        return self._onward(self._before_loop(RayPiece(tracer, trace_branch(tracer, point))))
+
+    def _before_loop(self, piece: RayPiece, step: float = 1.0) -> RayPiece:
+        """Return a piece up to the first loop that it has passed; what lies beyond is another branch, for later.
+
+        Where a step has led to another branch, and no loop is between them, shorter ones follow the first branch on.
+        """
+        cut = split_at_homoclinic(piece.tracer, piece.trace, self.problem)
+        if cut is None:
+            return piece
+        before, after = cut
+        self.beyond.append(RayPiece(piece.tracer, after))
+        last, step = before.points[-1], SHORTER * min(step, distance(before.points[-1], after.points[0]))
+        if step > JUMP:
+            onward = trace_branch(piece.tracer, last, step)
+            folds = tuple(len(before.points) - 1 + k for k in onward.folds)
+            joined = ContinuationPoints((*before.points, *onward.points[1:]), before.folds + folds, onward.reason)
+            return self._before_loop(RayPiece(piece.tracer, joined), step)
+        return RayPiece(piece.tracer, before)
+
+    def _onward(self, piece: RayPiece) -> list[RayPiece]:
+        """Follow a branch on from the end of a piece; return all pieces."""
+        pieces = [piece]
+        while len(pieces) < MAX_RAYS:
+            tracer, trace = pieces[-1].tracer, pieces[-1].trace
+            stuck = trace.reason == "stuck" and len(trace.points) >= FEW_POINTS and not self._at_loop(trace)
+            again = self._again(tracer, trace) if stuck else None
             if again is None:
                 break
-            tracer, point = again
+            further = self._before_loop(RayPiece(again[0], trace_branch(*again)))
+            if further.trace.reason == "stuck" and len(further.trace.points) < FEW_POINTS:
+                break  # no further than the ray before
+            pieces.append(further)
         return pieces
 
     def _at_loop(self, trace: ContinuationPoints) -> bool:
@@ -310,9 +334,7 @@ class BranchSearch:
         if line is None or earlier is None:
             return None
         family, value = tracer.family, last.turn.value
-        place = family.foot.place(value)
-        along = line[1] - line[-2]
-        here = abs(float(along[0] * family.u[1] - along[1] * family.u[0])) / max(math.hypot(*along), 1e-300)
+        here = float(crossing_qualities(line, family.foot.place(value))[0])
         feet = [family.foot, *self._feet(value, line)]
         if max(best_crossing(line, foot.place(value))[0] for foot in feet) < RAY_GAIN * here:
             return None
@@ -320,11 +342,12 @@ class BranchSearch:
         found = self._on(value, line, feet, family.centre, last.turn.exponent > 0.0, fixed)
         if found is None:
             return None
-        other, (turn, nu) = found
+        other, closed = found
+        turn = closed.turn
         place, u = other.family.foot.place(before.turn.value), other.family.u
         r = distance_along_ray(earlier, place.p, u, turn.chi * room(place, u)[0])
-        towards = (turn.chi - r / room(place, u)[0], nu - before.nu)
-        return other, other.point(turn, nu, towards)
+        towards = (turn.chi - r / room(place, u)[0], closed.nu - before.nu)
+        return other, other.point(closed, towards)
 
     def _band(self, pieces: list[RayPiece]) -> bool:
         """Whether closed orbits of all sizes were followed at one value, a band and no branch; then it is noted."""
@@ -344,20 +367,15 @@ class BranchSearch:
         return True
 
     def _keep(self, pieces: list[RayPiece], start: BranchEnd) -> None:
-        """Keep a branch, in two where it has passed a loop: on its two sides there are different cycles."""
-        if self._band(pieces):
-            return
-        for k, piece in enumerate(pieces):
-            cut = split_at_homoclinic(piece.tracer, piece.trace, self.problem)
-            if cut is None:
-                continue
-            before, after = (RayPiece(piece.tracer, trace) for trace in cut)
-            self.found.append(([*pieces[:k], before], start, self._end([before])))
-            if not self._is_known([after]):
-                back = self._end([_reverse_piece(after)])
-                self._keep([after, *pieces[k + 1 :]], back)
-            return
-        self.found.append((pieces, start, self._end(pieces)))
+        """Keep a branch, and those beyond the loops that were passed on the way."""
+        if not self._band(pieces):
+            self.found.append((pieces, start, self._end(pieces)))
+        while self.beyond:
+            piece = self._before_loop(self.beyond.pop())
+            if not self._is_known([piece]):
+                onward = self._onward(piece)
+                if not self._band(onward):
+                    self.found.append((onward, self._end([_reverse_piece(piece)]), self._end(onward)))
 
     def _end(self, pieces: list[RayPiece]) -> BranchEnd:
         """Name the end of a branch."""
@@ -414,8 +432,8 @@ class BranchSearch:
                 return True
             for piece in pieces:
                 for _, guess in points_at_value(piece.trace, nu):
-                    found = run_turns(piece.tracer.corrected(guess))
-                    if found is not None and is_same_cycle(found[0], cycle):
+                    found = piece.tracer.closed(guess)
+                    if found is not None and is_same_cycle(found.turn, cycle):
                         return True
         return False
 

@@ -8,50 +8,72 @@ sign.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from itertools import accumulate, pairwise
-from typing import Any
+from typing import NamedTuple
 
 from ...numerics.root_between import root_through
 from .continuation_points import ContinuationPoint, ReturnMapPoint, TurnGuess
-from .lockstep_searches import TurnRequest, TurnRoutine
 from .predictor import CurvePoint, interpolate, predict
+from .turns import VariedRay
 
 MAX_LOG_Y = 1.0  # in ln y
 MAX_ROUNDS = 7  # of Newton's method
 NEWTON_TOLERANCE, FOLD_TOLERANCE = 1e-9, 1e-11  # the last correction in chi, nu and, near C, a tenth of xi; at a fold
 NEUTRAL_EXPONENT = 2e-10  # exponent of a fold
-PREDICTION_POINTS = 2  # points that predictions use
 DIFFERENCE_STEP = 1e-5  # in xi rate and nu: for the derivatives of the exponent
 MAX_SHIFT_CHANGE = 1e-3  # of the shift, by that difference in nu at most
 
 
+class ClosedTurn(NamedTuple):
+    """A turn that closes, its nu, and the first correction of the guess that led to it."""
+
+    turn: ReturnMapPoint
+    nu: float
+    first: float
+
+
 class BranchTracer:
-    """Continuation in one family over a span of values.
+    """Continuation in one family over a span of values."""
 
-    Parameters
-    ----------
-    family : VariedRay
-        It follows the turns.
-    low, high : float
-    """
-
-    def __init__(self, family: Any, low: float, high: float) -> None:
+    def __init__(self, family: VariedRay, low: float, high: float) -> None:
         self.family, self.low, self.width = family, low, high - low
 
-    def question(self, guesses: Sequence[TurnGuess]) -> TurnRequest:
-        """Ask for one turn from each."""
-        values = [self.low + g.nu * self.width if -700.0 < g.xi < 690.0 else math.nan for g in guesses]
-        return TurnRequest(self.family, [g.xi for g in guesses], values, [g.backward for g in guesses])
+    def followed(self, guess: TurnGuess) -> ReturnMapPoint | None:
+        """Follow one turn from a guess."""
+        if not -700.0 < guess.xi < 690.0:
+            return None
+        course = self.family.course(guess.xi, self.low + guess.nu * self.width, guess.backward)
+        return None if course is None else course.turn
 
-    def corrected(self, guess: TurnGuess) -> TurnRoutine[tuple[ReturnMapPoint, float] | None]:
-        """Find the closed turn by one guess, and its nu."""
-        search = TurnSearch(self, guess)
-        while not search.over:
-            (turn,) = yield self.question([search.guess])
-            search.told(turn)
-        return search.found
+    def closed(self, guess: TurnGuess, carry: float = 0.0) -> ClosedTurn | None:
+        """Find the closed turn by one guess, by Newton's method.
+
+        A last correction is made without another turn if its product with the one before is at most `carry`.
+        """
+        before: ReturnMapPoint | None = None
+        first = last = math.inf
+        for _ in range(MAX_ROUNDS):
+            turn = self.followed(guess)
+            if turn is None or not turn.rate > 0.0:  # so near to an end of the section that chi no longer changes
+                return None
+            gx, gn = turn.by_xi, turn.by_value * self.width
+            det = gx * guess.along[1] - gn * guess.along[0]
+            if det == 0.0 or not math.isfinite(det):
+                return None
+            dx, dn = -turn.shift * guess.along[1] / det, turn.shift * guess.along[0] / det
+            size = max(abs(turn.rate * dx), abs(dn), 0.1 * abs(dx) if turn.chi < 0.1 else 0.0)
+            first = size if before is None else first
+            xi, nu = guess.xi + dx, guess.nu + dn
+            if before is not None and (size <= NEWTON_TOLERANCE or size * last <= carry):
+                return ClosedTurn(self.extrapolated(before, turn, xi, nu), nu, first)
+            if size <= NEWTON_TOLERANCE:
+                return ClosedTurn(replace(turn, xi=xi, value=self.low + nu * self.width), nu, first)
+            if size > 2.0 * last or abs(dx) * turn.rate > MAX_LOG_Y * turn.chi * (1.0 - turn.chi):
+                return None
+            last, before = size, turn
+            guess = TurnGuess(xi, nu, guess.along, self.backward(turn, guess.backward))
+        return None
 
     def extrapolated(self, one: ReturnMapPoint, two: ReturnMapPoint, xi: float, nu: float) -> ReturnMapPoint:
         """Carry what is measured on a turn linearly along the line of Newton's steps to their end."""
@@ -72,12 +94,13 @@ class BranchTracer:
         """In which direction of time errors fade; unchanged near a fold."""
         return turn.exponent > 0.0 if abs(turn.exponent) > 1.0 else before
 
-    def point(self, turn: ReturnMapPoint, nu: float, towards: tuple[float, float]) -> ContinuationPoint:
+    def point(self, closed: ClosedTurn, towards: tuple[float, float]) -> ContinuationPoint:
         """Give a closed turn the tangent that makes an acute angle with `towards` (chi, nu)."""
+        turn = closed.turn
         tc, tn = turn.by_value * self.width, -turn.by_xi / turn.rate
         length = math.hypot(tc, tn)
         sign = math.copysign(1.0 / length, tc * towards[0] + tn * towards[1])
-        return ContinuationPoint(turn, nu, (sign * tc, sign * tn))
+        return ContinuationPoint(turn, closed.nu, (sign * tc, sign * tn))
 
     def along(self, point: ContinuationPoint) -> CurvePoint:
         """Tangent of a point as the derivative of its place."""
@@ -91,7 +114,7 @@ class BranchTracer:
 
     def fold(
         self, xi: float, nu: float, near: ContinuationPoint, nearby: float = DIFFERENCE_STEP
-    ) -> TurnRoutine[ContinuationPoint | None]:
+    ) -> ContinuationPoint | None:
         """Find the point about (xi, nu) where the exponent is zero: Newton's method for a closed turn of exponent 0.
 
         Its derivatives are taken by differences of `nearby` in xi rate and nu.
@@ -101,7 +124,7 @@ class BranchTracer:
         for _ in range(MAX_ROUNDS):
             h = nearby / near.turn.rate
             places = ((xi, nu), (xi + h, nu), (xi, nu + k))
-            turn, *beside = yield self.question([TurnGuess(*place, (0.0, 0.0), backward=False) for place in places])
+            turn, *beside = (self.followed(TurnGuess(*place, (0.0, 0.0), backward=False)) for place in places)
             if turn is None or beside[0] is None or beside[1] is None:
                 return None
             gx, gn = turn.by_xi, turn.by_value * self.width
@@ -115,66 +138,10 @@ class BranchTracer:
                 return None
             xi, nu, last = xi + dx, nu + dn, size
             if size <= FOLD_TOLERANCE or (size <= NEWTON_TOLERANCE and abs(turn.exponent) < NEUTRAL_EXPONENT):
-                return self.point(replace(turn, xi=xi, value=self.low + nu * self.width), nu, near.tangent)
+                return self.point(
+                    ClosedTurn(replace(turn, xi=xi, value=self.low + nu * self.width), nu, size), near.tangent
+                )
         return None
-
-
-class TurnSearch:
-    """Newton's method for one closed turn: its guess after the turns that it was told of.
-
-    Parameters
-    ----------
-    tracer : BranchTracer
-    guess : TurnGuess
-    carry : float
-        Product of the last two corrections below which the last is made without another turn.
-
-    Attributes
-    ----------
-    guess : TurnGuess
-        Where the next turn is requested.
-    found : (Turn, nu), or None
-    over : bool
-    """
-
-    def __init__(self, tracer: BranchTracer, guess: TurnGuess, carry: float = 0.0) -> None:
-        self.tracer, self.guess, self.carry = tracer, guess, carry
-        self.found: tuple[ReturnMapPoint, float] | None = None
-        self.over, self.rounds = False, 0
-        self.first = self.last = math.inf
-        self.before: ReturnMapPoint | None = None
-
-    def told(self, turn: ReturnMapPoint | None) -> None:
-        """Take a step of Newton's method from the turn that was followed at the guess."""
-        self.over, self.rounds = True, self.rounds + 1
-        if turn is None or not turn.rate > 0.0:  # so near to an end of the section that chi no longer changes
-            return
-        guess, width = self.guess, self.tracer.width
-        gx, gn = turn.by_xi, turn.by_value * width
-        det = gx * guess.along[1] - gn * guess.along[0]
-        if det == 0.0 or not math.isfinite(det):
-            return
-        dx, dn = -turn.shift * guess.along[1] / det, turn.shift * guess.along[0] / det
-        size = max(abs(turn.rate * dx), abs(dn), 0.1 * abs(dx) if turn.chi < 0.1 else 0.0)
-        if self.rounds == 1:
-            self.first = size
-        xi, nu = guess.xi + dx, guess.nu + dn
-        if self.before is not None and (size <= NEWTON_TOLERANCE or size * self.last <= self.carry):
-            self.found = self.tracer.extrapolated(self.before, turn, xi, nu), nu
-        elif size <= NEWTON_TOLERANCE:
-            self.found = replace(turn, xi=xi, value=self.tracer.low + nu * width), nu
-        elif size <= 2.0 * self.last and abs(dx) * turn.rate <= MAX_LOG_Y * turn.chi * (1.0 - turn.chi):
-            self.last, self.before, self.over = size, turn, self.rounds == MAX_ROUNDS
-            self.guess = TurnGuess(xi, nu, guess.along, self.tracer.backward(turn, guess.backward))
-
-    def nearly(self, size: float) -> tuple[ReturnMapPoint, float] | None:
-        """Return the closed turn, or what it is by a last correction of at most this size."""
-        if self.over or self.before is None or self.last > size:
-            return self.found
-        turn, xi, nu = self.before, self.guess.xi, self.guess.nu
-        value = self.tracer.low + nu * self.tracer.width
-        chi = turn.chi + turn.rate * (xi - turn.xi)
-        return (replace(turn, xi=xi, value=value, chi=chi), nu) if 0.0 < chi < 1.0 else None
 
 
 def distance(one: ContinuationPoint, other: ContinuationPoint) -> float:
@@ -197,17 +164,16 @@ class ArclengthCurve:
         self.places = [CurvePoint(point.turn.xi, point.turn.chi, point.nu) for point in points]
         self.tangents = [tracer.along(point) for point in points]
 
-    def ahead(self, steps: list[float]) -> list[CurvePoint]:
-        """Predict points after the last one, so many steps from one another."""
-        return predict(self.lengths, self.places, self.tangents, self.points[-1].turn.rate, steps, PREDICTION_POINTS)
+    def ahead(self, step: float) -> CurvePoint | None:
+        """Predict the point a step after the last one; None beyond the section."""
+        return predict(self.lengths, self.places, self.tangents, self.points[-1].turn.rate, step)
 
     def between(self, length: float) -> tuple[CurvePoint, ContinuationPoint]:
         """Interpolate; also return the nearest point."""
         rows = sorted(range(len(self.points)), key=lambda i: abs(self.lengths[i] - length))
         lengths, near = [self.lengths[i] for i in rows], self.points[rows[0]]
         places, tangents = ([column[i] for i in rows] for column in (self.places, self.tangents))
-        found = interpolate(lengths, places, tangents, near.turn.rate, [length])
-        return (found[0] if found else places[0]), near
+        return interpolate(lengths, places, tangents, near.turn.rate, length) or places[0], near
 
     def neutral(self, k: int) -> float:
         """Find where the exponent is zero between the points k - 1 and k: by all of them, if it only rises or falls."""

@@ -14,7 +14,6 @@ from ...portrait.cycles.limit_cycles import surrounds
 from ...results.arrays import Array
 from .continuation_points import ContinuationPoint, ContinuationPoints, ReturnMapPoint, TurnGuess
 from .corrector import BranchTracer
-from .lockstep_searches import run_turns
 from .section_base import Problems
 
 MAX_HALVINGS = 40  # of the step that leads over a loop
@@ -71,5 +70,5 @@ def _middle_point(tracer: BranchTracer, here: ContinuationPoint, there: Continua
     guess = TurnGuess(
         0.5 * (here.turn.xi + there.turn.xi), 0.5 * (here.nu + there.nu), (dx, dn), here.turn.exponent > 0.0
     )
-    found = run_turns(tracer.corrected(guess))
-    return None if found is None else tracer.point(*found, here.tangent)
+    found = tracer.closed(guess)
+    return None if found is None else tracer.point(found, here.tangent)

@@ -22,34 +22,19 @@ class CurvePoint(NamedTuple):
 
 
 def predict(
-    lengths: Sequence[float],
-    places: Sequence[CurvePoint],
-    tangents: Sequence[CurvePoint],
-    rate: float,
-    steps: Sequence[float],
-    behind: int,
-) -> list[CurvePoint]:
-    """Predict points after the last one; fewer than requested where the section ends before."""
-    rows = [len(lengths) - 1]
-    for i in range(len(lengths) - 2, -1, -1):
-        if len(rows) == behind:
-            break
-        if lengths[rows[-1]] - lengths[i] > MIN_SPACING * steps[0]:
-            rows.append(i)
-    at = [lengths[i] for i in rows]
-    return interpolate(
-        at, [places[i] for i in rows], [tangents[i] for i in rows], rate, (lengths[-1] + np.cumsum(steps)).tolist()
-    )
+    lengths: Sequence[float], places: Sequence[CurvePoint], tangents: Sequence[CurvePoint], rate: float, step: float
+) -> CurvePoint | None:
+    """Predict the point a step after the last one, by it and one before; None where the section ends before."""
+    last = len(lengths) - 1
+    rows = [last, *(i for i in range(last - 1, -1, -1) if lengths[last] - lengths[i] > MIN_SPACING * step)][:2]
+    near, along = ([column[i] for i in rows] for column in (places, tangents))
+    return interpolate([lengths[i] for i in rows], near, along, rate, lengths[last] + step)
 
 
 def interpolate(
-    lengths: Sequence[float],
-    places: Sequence[CurvePoint],
-    tangents: Sequence[CurvePoint],
-    rate: float,
-    where: Sequence[float],
-) -> list[CurvePoint]:
-    """Find the curve through some points at other lengths; as far as the section goes."""
+    lengths: Sequence[float], places: Sequence[CurvePoint], tangents: Sequence[CurvePoint], rate: float, where: float
+) -> CurvePoint | None:
+    """Return the place at another length of the curve through some points; None beyond the section."""
     chi = places[0].chi
     # xi goes to infinity at C and at the equator: with chi there is what is left of it next to these two logarithms
     outer = 1.0 if chi < 0.5 else (1.0 / rate - 1.0 / chi) * (1.0 - chi)
@@ -59,20 +44,13 @@ def interpolate(
         by_rest = along.xi - (1.0 / place.chi + outer / (1.0 - place.chi)) * along.chi
         values.append((rest, place.chi, place.nu))
         slopes.append((by_rest, along.chi, along.nu))
-    at, wanted = np.array(lengths) - lengths[0], np.array(where) - lengths[0]
-    found = []
-    for rest, chi, nu in _hermite(at, np.array(values), np.array(slopes), wanted).tolist():
-        if not 0.0 < chi < 1.0:
-            break
-        found.append(CurvePoint(rest + math.log(chi) - outer * math.log(1.0 - chi), chi, nu))
-    return found
+    at = np.array(lengths) - lengths[0]
+    rest, chi, nu = _hermite(at, np.array(values), np.array(slopes), where - lengths[0]).tolist()
+    return CurvePoint(rest + math.log(chi) - outer * math.log(1.0 - chi), chi, nu) if 0.0 < chi < 1.0 else None
 
 
-def _hermite(at: Array, values: Array, slopes: Array, where: Array) -> Array:
-    """Evaluate the polynomial of degree 2 m - 1 with given values and slopes at m places, by Newton's differences.
-
-    Shapes: at (m,), values, slopes (m, q), where (k,).
-    """
+def _hermite(at: Array, values: Array, slopes: Array, where: float) -> Array:
+    """Evaluate the polynomials of degree 2 m - 1 with values and slopes (m, q) at m places, by Newton's differences."""
     x = np.repeat(at, 2)
     column = np.repeat(values, 2, axis=0)
     top = [column[0]]
@@ -86,7 +64,7 @@ def _hermite(at: Array, values: Array, slopes: Array, where: Array) -> Array:
         else:
             column = np.diff(column, axis=0) / width
         top.append(column[0])
-    found = np.broadcast_to(top[-1], (len(where), values.shape[1]))
+    found = top[-1]
     for coefficient, place in zip(top[-2::-1], x[-2::-1], strict=True):
-        found = coefficient + (where - place)[:, None] * found
+        found = coefficient + (where - place) * found
     return found

@@ -1,21 +1,15 @@
-"""The way along one branch of cycles: a window of points ahead, corrected side by side, that moves with the branch.
+"""The way along one branch of cycles: predict a step ahead, correct, and choose the next step by how well that went.
 
-In every round the points in the window take one step of Newton's method. Those in front that are found are kept; those
-that all but are found tell, with their tangents, where further ones are expected. Far points are only tried: one that
-does not turn out well is looked for again when the branch has come nearer. Only where the next point fails the steps
-become shorter. Near C and near the equator, where chi hardly changes with xi, a step is at most `MAX_LOG_Y` in xi.
+Near C and near the equator, where chi hardly changes with xi, a step is at most `MAX_LOG_Y` in xi.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import takewhile
 
 from .continuation_points import ContinuationPoint, ContinuationPoints, TurnGuess
-from .corrector import DIFFERENCE_STEP, MAX_LOG_Y, ArclengthCurve, BranchTracer, TurnSearch, distance
-from .lockstep_searches import TurnRoutine, side_by_side
+from .corrector import DIFFERENCE_STEP, MAX_LOG_Y, ArclengthCurve, BranchTracer, ClosedTurn, distance
 from .predictor import CurvePoint
 
 MAX_STEP = 0.03  # the longest step
@@ -24,11 +18,10 @@ MIN_STEP = 1e-7  # below this the branch is said to end
 PREDICTED_TOLERANCE = (
     1e-9  # product of the last two corrections, in steps, below which the last is made without another turn
 )
-#: Last correction, in steps: of a point that may be found, of one that tells where others are.
-MAX_LAST_CORRECTION, MAX_LEARNT_CORRECTION = 0.2, 0.05
 MIN_AMPLITUDE = 3e-3  # amplitude at which a branch has come to C
 #: Chi, ebar at which it has come to the equator: all of it, or a part.
 MAX_CHI, LOW_HEIGHT, MIN_HEIGHT = 0.999, 1e-3, 1e-7
+LARGE_EXPONENT = 10.0  # a cycle that comes to the closed equator has a smaller one: beyond it low cycles go on
 BAND_HEIGHT, BAND_EXPONENT = 0.05, 1e-8  # ebar and exponent at which cycle and closed equator are indistinguishable
 MIN_EXPONENT = 1e-6  # exponent of a cycle near the equator whose sign may be rounding's
 #: Change of nu about a fold near the equator, where exponents tend to 0, and elsewhere.
@@ -36,7 +29,7 @@ EQUATOR_FOLD_CHANGE, FOLD_CHANGE = 1e-9, 1e-12
 MAX_POINTS = 600  # points
 MAX_PREDICTION_ERROR = 0.3  # distance of a point from its prediction, in steps, beyond which a step is too long
 MIN_TANGENT_COSINE = 0.9  # cosine between successive tangents below which a step is too long
-MAX_BATCH, PREDICTOR_POINTS = 16, 12  # points tried at once; last points that predictions know of
+PREDICTOR_POINTS = 12  # last points that predictions know of
 #: Turn of the tangent, and first correction in steps, that the next step is to have.
 TARGET_TURN, TARGET_CORRECTION = 0.25, 0.15
 MAX_HALVINGS = 8  # of an interval in which a fold is not found at once
@@ -48,12 +41,14 @@ LEAST_EXPONENT_RATIO = (
 )
 
 
-def trace_branch(tracer: BranchTracer, start: ContinuationPoint) -> TurnRoutine[ContinuationPoints]:
+def trace_branch(
+    tracer: BranchTracer, start: ContinuationPoint, first_step: float = 0.25 * MAX_STEP
+) -> ContinuationPoints:
     """Follow a branch from a point along its tangent until it ends."""
-    path = _BranchPath(tracer, start)
+    path = _BranchPath(tracer, start, first_step)
     while path.open:
-        yield from path.go_on()
-    return (yield from path.finished())
+        path.go_on()
+    return path.finished()
 
 
 def _part(here: ContinuationPoint, there: ContinuationPoint, place: ContinuationPoint) -> float:
@@ -63,38 +58,15 @@ def _part(here: ContinuationPoint, there: ContinuationPoint, place: Continuation
     return ((place.turn.chi - here.turn.chi) * x + (place.nu - here.nu) * y) / square if square > 0.0 else -1.0
 
 
-@dataclass(frozen=True)
-class _PendingPoint:
-    """A point in the window: its search, its distance from the one before, and where it was expected.
-
-    `number` counts the points between it and the one from which it was predicted; `edge` says that it is looked for at
-    an end of the span.
-    """
-
-    search: TurnSearch
-    step: float
-    number: int
-    expected: CurvePoint
-    edge: bool
-
-    @property
-    def sure(self) -> bool:
-        """Whether what is known of it tells where others are."""
-        return self.search.nearly(MAX_LEARNT_CORRECTION * self.step) is not None
-
-
 class _BranchPath:
-    """The points of one branch so far, and the window ahead of them.
+    """The points of one branch so far; `reason` is why it has ended, None while it has not.
 
-    `near` holds the points of the window as far as they are known; `reason` is why the branch has ended, None while it
-    has not.
+    `failed` says that the last step did: the next one is no longer than that which succeeds.
     """
 
-    def __init__(self, tracer: BranchTracer, start: ContinuationPoint) -> None:
+    def __init__(self, tracer: BranchTracer, start: ContinuationPoint, first_step: float) -> None:
         self.tracer, self.points = tracer, [start]
-        self.window: list[_PendingPoint] = []
-        self.near: list[ContinuationPoint] = []
-        self.step, self.width = 0.25 * MAX_STEP, 2
+        self.step, self.failed = first_step, False
         self.backward = start.turn.exponent > 0.0
         self.reason = self._at_once(start)
 
@@ -103,24 +75,49 @@ class _BranchPath:
         """Whether the branch has not ended."""
         return self.reason is None and len(self.points) < MAX_POINTS
 
-    def go_on(self) -> TurnRoutine[None]:
-        """Let all that is in the window take one step of Newton's method, and keep what is found in front."""
-        if not (self.window and (self.window[-1].edge or not self.near)):
-            self._predict()
-        open_ = [sought.search for sought in self.window if not sought.search.over]
-        turns = yield self.tracer.question([search.guess for search in open_])
-        for search, turn in zip(open_, turns, strict=True):
-            search.told(turn)
-        self._settle()
+    def go_on(self) -> None:
+        """Take a step, or make it shorter."""
+        here = self.points[-1]
+        step = min(self.step, self._longest(here))
+        course = ArclengthCurve(self.tracer, self.points[-PREDICTOR_POINTS:])
+        place = course.ahead(step)
+        end = None if place is None else _end_beyond(place.nu, 0.0)
+        if place is not None and end is not None:
+            place = course.ahead(step * (end - here.nu) / (place.nu - here.nu))
+        there = None if place is None else self._corrected(place, step, end)
+        if there is None:
+            self.step, self.failed = SHRINKAGE * step, True
+            if self.step < min(MIN_STEP, 1e-3 * self._longest(here)):
+                self.reason = "stuck"
+            return
+        closed, point = there
+        self.step = step * min(_growth(here, point, closed.first / step), 1.0 if self.failed else GROWTH)
+        self.failed = False
+        self.points.append(point)
+        self.backward = self.tracer.backward(point.turn, self.backward)
+        self.reason = "span" if point.nu in (0.0, 1.0) else self._over(here, point)
 
-    def finished(self) -> TurnRoutine[ContinuationPoints]:
+    def _corrected(
+        self, place: CurvePoint, step: float, end: float | None
+    ) -> tuple[ClosedTurn, ContinuationPoint] | None:
+        """Find the point of the branch next to a predicted place, or at an end of the span; None if it is not there."""
+        here = self.points[-1]
+        nu, along = (place.nu, self.tracer.across(here)) if end is None else (end, (0.0, 1.0))
+        closed = self.tracer.closed(TurnGuess(place.xi, nu, along, self.backward), PREDICTED_TOLERANCE * step**2)
+        if closed is None:
+            return None
+        if end is None and (beyond := _end_beyond(closed.nu, EDGE_TOLERANCE)) is not None:
+            return self._corrected(place, step, beyond)
+        point = self.tracer.point(closed, here.tangent)
+        return (closed, point) if _fits(here, point, step, place, end) else None
+
+    def finished(self) -> ContinuationPoints:
         """Put in the folds, where the exponent changes its sign."""
-        yield from self._look_within()
-        yield from self._look_between()
+        self._look_within()
+        self._look_between()
         signs = [point.turn.exponent > 0.0 for point in self.points]
         turned = [i for i in range(1, len(signs)) if signs[i] != signs[i - 1]]
-        found = yield from side_by_side([self._fold(i) for i in turned])
-        folds = dict(zip(turned, found, strict=True))
+        folds = {i: self._fold(i) for i in turned}
         points: list[ContinuationPoint] = []
         rows: list[int] = []
         for i, point in enumerate(self.points):
@@ -131,7 +128,7 @@ class _BranchPath:
             points.append(point)
         return ContinuationPoints(tuple(points), tuple(rows), self.reason or "stuck")
 
-    def _look_within(self) -> TurnRoutine[None]:
+    def _look_within(self) -> None:
         """Put in points within a step by whose tangents and ends the value turns back twice."""
         tried, i = 0, 1
         while i < len(self.points):
@@ -140,21 +137,21 @@ class _BranchPath:
             if tried < MAX_HALVINGS and _turns_twice(one, two):
                 first = max(i - 2, 0)
                 lengths = ArclengthCurve(self.tracer, self.points[first : i + 2]).lengths
-                point = yield from self._placed(first, i + 2, 0.5 * (lengths[i - 1 - first] + lengths[i - first]))
+                point = self._placed(first, i + 2, 0.5 * (lengths[i - 1 - first] + lengths[i - first]))
             if point is None or not 0.0 < _part(one, two, point) < 1.0:
                 tried, i = 0, i + 1
                 continue
             self.points.insert(i, point)
             tried += 1
 
-    def _placed(self, first: int, end: int, length: float) -> TurnRoutine[ContinuationPoint | None]:
+    def _placed(self, first: int, end: int, length: float) -> ContinuationPoint | None:
         """Find the point of the branch at a length of the course of some of its points."""
         place, near = ArclengthCurve(self.tracer, self.points[first:end]).between(length)
         guess = TurnGuess(place.xi, place.nu, self.tracer.across(near), near.turn.exponent > 0.0)
-        closed = yield from self.tracer.corrected(guess)
-        return None if closed is None else self.tracer.point(*closed, near.tangent)
+        closed = self.tracer.closed(guess)
+        return None if closed is None else self.tracer.point(closed, near.tangent)
 
-    def _look_between(self) -> TurnRoutine[None]:
+    def _look_between(self) -> None:
         """Put in points where the exponent may change its sign twice within a step: where it is least in size."""
         tried, i = 0, 1
         while i < len(self.points) - 1:
@@ -166,7 +163,7 @@ class _BranchPath:
                 continue
             first = max(i - 2, 0)
             before = ArclengthCurve(self.tracer, self.points[first:i]).lengths[-1]
-            point = yield from self._placed(first, i + 3, before + length)
+            point = self._placed(first, i + 3, before + length)
             part = -1.0 if point is None else _part(around[0], around[2], point)
             if point is None or not 0.0 < part < 1.0:
                 tried, i = 0, i + 1
@@ -179,90 +176,16 @@ class _BranchPath:
             tried += 1
             i += int(after) if abs(point.turn.exponent) < abs(exponents[1]) else int(not after)
 
-    def _longest(self, point: ContinuationPoint, beyond: float) -> float:
-        """Return the longest step so far beyond a point."""
-        rise = abs(point.tangent[0])
-        chi = point.turn.chi + beyond * point.tangent[0]
-        if not 0.0 < chi < 1.0:
-            chi = point.turn.chi
+    @staticmethod
+    def _longest(point: ContinuationPoint) -> float:
+        """Return the longest step from a point."""
+        rise, chi = abs(point.tangent[0]), point.turn.chi
         return min(MAX_STEP, MAX_LOG_Y * chi * (1.0 - chi) / rise) if rise > 0.0 else MAX_STEP
-
-    def _predict(self) -> None:
-        """Expect points beyond those in the window, up to the end of the span."""
-        sure = list(takewhile(lambda sought: sought.sure, self.window))
-        points = [*self.points[-PREDICTOR_POINTS:], *self.near[: len(sure)]]
-        last, waiting = points[-1], [sought.step for sought in self.window[len(sure) :]]
-        steps, step = list(waiting), self.step
-        if self.window:
-            step = waiting[-1] if waiting else sure[-1].step * _growth(points[-2], last, sure[-1])
-        for _ in range(self.width):
-            steps.append(min(step, self._longest(last, sum(steps))))
-            step = GROWTH * steps[-1]
-        course, line, before = ArclengthCurve(self.tracer, points), self.tracer.across(last), last.nu
-        for number, place in enumerate(course.ahead(steps)):
-            nu = place.nu
-            edge = not 0.0 < nu < 1.0
-            if number >= len(waiting):
-                guess = TurnGuess(place.xi, nu, line, self.backward)
-                if edge:
-                    end = 0.0 if nu < 0.5 else 1.0
-                    place = course.ahead([*steps[:number], steps[number] * (end - before) / (nu - before)])[-1]
-                    guess = TurnGuess(place.xi, end, (0.0, 1.0), self.backward)
-                search = TurnSearch(self.tracer, guess, PREDICTED_TOLERANCE * steps[number] ** 2)
-                self.window.append(_PendingPoint(search, steps[number], number, place, edge))
-            if edge:
-                return
-            before = nu
-
-    def _settle(self) -> None:
-        """Take what is found in front, and leave in the window what may be found."""
-        self.near = self._nearby()
-        front = self.window[0] if self.window else None
-        begun = front is not None and front.number == 0 and front.search.rounds == 1 and not front.search.over
-        count = max(len(self.near), int(begun))
-        tried, good = (sum(sought.search.rounds == 1 for sought in some) for some in (self.window, self.window[:count]))
-        self.width = min(2 * tried, MAX_BATCH) if good == tried > 0 else good + 1
-        del self.window[count:]
-        if not count and (front is None or front.number == 0):
-            self.step = SHRINKAGE * (self.step if front is None else front.step)
-            if self.step < min(MIN_STEP, 1e-3 * self._longest(self.points[-1], 0.0)):
-                self.reason = "stuck"
-        while self.reason is None and self.window and self.window[0].search.found is not None:
-            self._take(self.window.pop(0), self.near.pop(0))
-
-    def _nearby(self) -> list[ContinuationPoint]:
-        """Return the points in front of the window that are found, or nearly, each a good step after the one before."""
-        found: list[ContinuationPoint] = []
-        for sought in self.window:
-            here, nearly = (
-                found[-1] if found else self.points[-1],
-                sought.search.nearly(MAX_LAST_CORRECTION * sought.step),
-            )
-            if nearly is None:
-                break
-            point = self.tracer.point(*nearly, here.tangent)
-            if not _fits(here, point, sought):
-                break
-            found.append(point)
-        return found
-
-    def _take(self, sought: _PendingPoint, point: ContinuationPoint) -> None:
-        """Add a point of the window to the branch."""
-        here = self.points[-1]
-        end = min(max(point.nu, 0.0), 1.0)
-        if abs(point.nu - end) > EDGE_TOLERANCE:  # corrected beyond the span, where it was not expected
-            guess = TurnGuess(point.turn.xi, end, (0.0, 1.0), self.backward)
-            search = TurnSearch(self.tracer, guess, PREDICTED_TOLERANCE * sought.step**2)
-            self.window, self.near = [_PendingPoint(search, sought.step, 0, sought.expected, True)], []
-            return
-        self.step = sought.step * _growth(here, point, sought)
-        self.points.append(point)
-        self.backward = self.tracer.backward(point.turn, self.backward)
-        self.reason = "span" if sought.edge else self._over(here, point)
 
     def _over(self, here: ContinuationPoint, there: ContinuationPoint) -> str | None:
         """Return the reason why the branch ends with the step between two points, or None."""
-        lowest = LOW_HEIGHT if there.turn.chi > MAX_CHI else MIN_HEIGHT
+        whole = there.turn.chi > MAX_CHI and abs(there.turn.exponent) < LARGE_EXPONENT
+        lowest = LOW_HEIGHT if whole else MIN_HEIGHT
         if there.turn.amplitude < MIN_AMPLITUDE and there.tangent[0] < 0.0:
             return "C"
         if there.turn.height < lowest and there.turn.height < here.turn.height:
@@ -280,7 +203,7 @@ class _BranchPath:
         beyond = point.nu <= 0.0 if point.tangent[1] < 0.0 else point.nu >= 1.0
         return "span" if beyond else None
 
-    def _fold(self, i: int) -> TurnRoutine[ContinuationPoint | None]:
+    def _fold(self, i: int) -> ContinuationPoint | None:
         """Find the point between the i-th one and the one before at which the exponent is zero.
 
         By bisection alone where the exponent has a kink, as that of a cycle does which grazes a circle where Psi has.
@@ -291,43 +214,46 @@ class _BranchPath:
             course = ArclengthCurve(self.tracer, around)
             place, near = course.between(course.neutral(k))
             nearby = DIFFERENCE_STEP * 0.2**halved  # where the exponent changes fast, smaller ones tell
-            found = yield from self.tracer.fold(place.xi, place.nu, near, nearby)
+            found = self.tracer.fold(place.xi, place.nu, near, nearby)
             if found is not None and -FOLD_SLACK < _part(here, there, found) < 1.0 + FOLD_SLACK:
                 return found
             if _may_be_rounding(here, there):
                 return None
             place, near = course.between(0.5 * (course.lengths[k - 1] + course.lengths[k]))
             guess = TurnGuess(place.xi, place.nu, self.tracer.across(near), near.turn.exponent > 0.0)
-            closed = yield from self.tracer.corrected(guess)
+            closed = self.tracer.closed(guess)
             if closed is None:
                 return None
-            middle = self.tracer.point(*closed, here.tangent)
+            middle = self.tracer.point(closed, here.tangent)
             same = (middle.turn.exponent > 0.0) == (here.turn.exponent > 0.0)
             around, k = [middle, there] if same else [here, middle], 1
         sides = [point.nu - middle.nu for point in self.points[i - 1 : i + 1]] if middle is not None else [0.0, 0.0]
         return middle if sides[0] * sides[1] > 0.0 and min(map(abs, sides)) > KINKED_FOLD_CHANGE else None
 
 
-def _fits(here: ContinuationPoint, there: ContinuationPoint, sought: _PendingPoint) -> bool:
-    """Whether a point is the one that was looked for, a step after another."""
-    (tc, tn), step, expected = here.tangent, sought.step, sought.expected
+def _end_beyond(nu: float, slack: float) -> float | None:
+    """Return the end of the span beyond which nu lies, if it does."""
+    return 0.0 if nu <= -slack else 1.0 if nu >= 1.0 + slack else None
+
+
+def _fits(
+    here: ContinuationPoint, there: ContinuationPoint, step: float, expected: CurvePoint, end: float | None
+) -> bool:
+    """Whether a point is the one that was expected, a step after another."""
+    (tc, tn), least = here.tangent, 0.0 if end is not None else MAX_PREDICTION_ERROR * step
     onward = tc * (there.turn.chi - here.turn.chi) + tn * (there.nu - here.nu)
-    least = 0.0 if sought.edge else MAX_PREDICTION_ERROR * step
     cosine = tc * there.tangent[0] + tn * there.tangent[1]
     missed = math.hypot(there.turn.chi - expected.chi, there.nu - expected.nu)
-    return (
-        missed < MAX_PREDICTION_ERROR * (sought.number + 1) * step
-        and least < onward < 3.0 * step
-        and cosine > MIN_TANGENT_COSINE
-    )
+    return missed < MAX_PREDICTION_ERROR * step and least < onward < 3.0 * step and cosine > MIN_TANGENT_COSINE
 
 
-def _growth(here: ContinuationPoint, there: ContinuationPoint, sought: _PendingPoint) -> float:
-    """By what the next step may be longer, judged by the turn of the tangent and the last prediction."""
+def _growth(here: ContinuationPoint, there: ContinuationPoint, correction: float) -> float:
+    """By what the next step may be longer: by the turn of the tangent, and the first correction in steps."""
     cosine = here.tangent[0] * there.tangent[0] + here.tangent[1] * there.tangent[1]
     turn = math.acos(min(cosine, 1.0))
-    off = sought.search.first / ((sought.number + 1) * sought.step)
-    return max(min(GROWTH, TARGET_TURN / max(turn, 1e-9), (TARGET_CORRECTION / max(off, 1e-9)) ** 0.25), SHRINKAGE)
+    return max(
+        min(GROWTH, TARGET_TURN / max(turn, 1e-9), (TARGET_CORRECTION / max(correction, 1e-9)) ** 0.25), SHRINKAGE
+    )
 
 
 def _may_be_rounding(*points: ContinuationPoint) -> bool:

@@ -23,7 +23,6 @@ from ...portrait.layer_problem.problem import LayerProblem
 from ...results.arrays import Array
 from ...systems.psi.function import Psi
 from .continuation_points import ReturnMapPoint
-from .lockstep_searches import TurnRequest
 from .section_base import SectionBase
 
 RTOL = 1e-12  # of one turn
@@ -180,16 +179,10 @@ class VariedRay:
             ends = self.problem(before), self.problem(after)
             ray, centre = Ray(self.problem(value), self.foot.place(value), self.u), self.centre.place(value)
             feet = self.foot.moved(value, (before, after))
-            return turn(ray, xi, value, [difference(ends, feet, after - before, self.u)], centre, backward)
+            with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+                return turn(ray, xi, value, [difference(ends, feet, after - before, self.u)], centre, backward)
         except ValueError:  # beyond the span, where the system ends
             return None
-
-    def answer(self, question: TurnRequest) -> list[ReturnMapPoint | None]:
-        """Follow the turns that are requested."""
-        asked = zip(question.xi, question.values, question.backward, strict=True)
-        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            found = [self.course(xi, value, backward) for xi, value, backward in asked]
-        return [None if one is None else one.turn for one in found]
 
 
 def difference(

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from ...portrait.layer_problem.linearisation import determinant_sign
-from ...results.arrays import Array
+from ...results.arrays import Array, read_only
 from ...systems.coefficients import Coefficients
 from ..families.disc import cusps, saddle_node_force
 
@@ -20,7 +20,7 @@ PlaneMatrix = tuple[float, float, float]
 
 def coefficients_of(matrix: PlaneMatrix, f: tuple[float, float] | Array = (0.0, 0.0)) -> Coefficients:
     """Return the system of a matrix and f, with numbers only."""
-    return Coefficients(*matrix, float(f[0]), float(f[1]), np.zeros((0, 2)), np.zeros(0))
+    return Coefficients(*matrix, float(f[0]), float(f[1]), read_only(np.zeros((0, 2))), read_only(np.zeros(0)))
 
 
 def border_places(entries: PlaneMatrix, angles: Callable[[Array], list[float]]) -> list[tuple[float, float]]:

@@ -10,6 +10,8 @@ from ...results.arrays import Array
 from ..layer_problem.problem import LayerProblem
 from .ray_section import HemispherePoint, TurnSection, room
 
+#: Ebar, and distance from the foot, below which a crossing is the worse the nearer it is to an end of the ray.
+FREE_HEIGHT, FREE_DISTANCE = 0.05, 1e-4
 CROSSING_SLACK = 0.05  # of a turn: what lies so shortly before a crossing is judged by its angle alone
 
 
@@ -34,7 +36,7 @@ def best_crossing(points: Array, foot: HemispherePoint) -> tuple[float, int]:
     """Find where a cycle crosses a ray from a point best: how well, and at which of its points.
 
     An orbit from there turns by 2 pi about the point just when it is back, and not sooner, if no earlier point of the
-    cycle is as far round. It crosses well if that is so by far, and if it crosses at a large angle.
+    cycle is as far round. It crosses well if that is so by far, if it crosses at a large angle, far from both ends.
 
     quality: Negative if the cycle does not go round the point once. Shapes: points (m, 2).
     """
@@ -62,4 +64,6 @@ def crossing_qualities(points: Array, foot: HemispherePoint) -> Array:
     highest = np.maximum.accumulate(twice)
     recent = max(1, int(CROSSING_SLACK * count))
     lead = angle - highest[count - recent : 2 * count - recent]
-    return np.where(angle >= highest[count:], np.minimum(sine, lead), -1.0)
+    height = np.sqrt(np.maximum(1.0 - (points[:-1] ** 2).sum(axis=1), 0.0))
+    free = np.minimum(np.minimum(height / FREE_HEIGHT, np.hypot(*away[:-1].T) / FREE_DISTANCE), 1.0)
+    return np.where(angle >= highest[count:], np.minimum(sine, lead) * free, -1.0)
