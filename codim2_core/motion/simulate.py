@@ -111,7 +111,7 @@ RTOL, RTOL_OF_LIMIT = 1e-8, 1e-10  # where none is given
 ATOL_SHARE = 1e-2  # of rtol: atol, where none is given
 
 
-Rows = Sequence[Sequence[float] | Array]  # of as many states
+StateRows = Sequence[Sequence[float] | Array]  # of as many states
 
 
 class Simulate(Protocol[P]):
@@ -119,7 +119,7 @@ class Simulate(Protocol[P]):
 
     @overload
     def __call__(  # pyright: ignore[reportOverlappingOverload] (rows differ from a row by their entries)
-        self, system: SystemLike, psi: PsiLike | None, state0: Rows, *args: P.args, **kwargs: P.kwargs
+        self, system: SystemLike, psi: PsiLike | None, state0: StateRows, *args: P.args, **kwargs: P.kwargs
     ) -> tuple[Simulation, ...]: ...
     @overload
     def __call__(
@@ -127,7 +127,7 @@ class Simulate(Protocol[P]):
     ) -> Simulation: ...
     @overload
     def __call__(  # pyright: ignore[reportOverlappingOverload]
-        self, system: SystemLike, state0: Rows, *args: P.args, **kwargs: P.kwargs
+        self, system: SystemLike, state0: StateRows, *args: P.args, **kwargs: P.kwargs
     ) -> tuple[Simulation, ...]: ...
     @overload
     def __call__(self, system: SystemLike, state0: ArrayLike, *args: P.args, **kwargs: P.kwargs) -> Simulation: ...
@@ -138,7 +138,7 @@ class SimulateNonsmooth(Protocol[P]):
 
     @overload
     def __call__(  # pyright: ignore[reportOverlappingOverload]
-        self, system: SystemLike, state0: Rows, t_span: ArrayLike, psi: PsiLike | None = ...,
+        self, system: SystemLike, state0: StateRows, t_span: ArrayLike, psi: PsiLike | None = ...,
         *args: P.args, **kwargs: P.kwargs,
     ) -> tuple[Simulation, ...]: ...  # fmt: skip
     @overload
@@ -195,7 +195,7 @@ def simulate(
     psi : Psi
         In the limit it may be left out, or None: the motion then stops where it would matter.
     state0 : (2 + m,), or (k, 2 + m)
-        (x, y, z1, ..., zm). Rows are as many motions. x = y = 0 is allowed: it is p = 0 of the hemisphere for every
+        (x, y, z1, ..., zm). StateRows are as many motions. x = y = 0 is allowed: it is p = 0 of the hemisphere for every
         eps, and the orbit of the layer problem through it decides. In the limit without psi, the motion slides if one
         critical set attracts, else it leaves along the one way out.
     t_span : (t_start, t_end)

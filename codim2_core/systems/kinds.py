@@ -17,49 +17,49 @@ SYSTEM_KINDS = (ELinear, System, Coefficients, Frozen)  # for `isinstance`, at t
 SystemLike = AnySystem | str  # the name is a preset's or an example's
 PsiLike = Psi | str  # as `psi.from_text` reads it
 
-S = TypeVar("S", contravariant=True)
+SomeSystem = TypeVar("SomeSystem", contravariant=True)
 P = ParamSpec("P")
 R = TypeVar("R", covariant=True)
 
 
-class OfSystem(Protocol[S, P, R]):
+class OfSystem(Protocol[SomeSystem, P, R]):
     """A public function of a system, or its name."""
 
-    def __call__(self, system: S | str, *args: P.args, **kwargs: P.kwargs) -> R: ...  # noqa: D102
+    def __call__(self, system: SomeSystem | str, *args: P.args, **kwargs: P.kwargs) -> R: ...  # noqa: D102
 
 
-class OfPortrait(Protocol[S, P, R]):
+class OfPortrait(Protocol[SomeSystem, P, R]):
     """A public function of a system and a Psi; a preset's name stands for both."""
 
     @overload
-    def __call__(self, system: S | str, psi: PsiLike, *args: P.args, **kwargs: P.kwargs) -> R: ...
+    def __call__(self, system: SomeSystem | str, psi: PsiLike, *args: P.args, **kwargs: P.kwargs) -> R: ...
     @overload
     def __call__(self, system: str, *args: P.args, **kwargs: P.kwargs) -> R: ...
 
 
-class OfMotion(Protocol[S, P, R]):
+class OfMotion(Protocol[SomeSystem, P, R]):
     """A public function of a system and a Psi that may be left out, in the limit."""
 
     @overload
-    def __call__(self, system: S | str, psi: PsiLike | None, *args: P.args, **kwargs: P.kwargs) -> R: ...
+    def __call__(self, system: SomeSystem | str, psi: PsiLike | None, *args: P.args, **kwargs: P.kwargs) -> R: ...
     @overload
-    def __call__(self, system: S | str, *args: P.args, **kwargs: P.kwargs) -> R: ...
+    def __call__(self, system: SomeSystem | str, *args: P.args, **kwargs: P.kwargs) -> R: ...
 
 
-class InPlane(Protocol[S, P, R]):
+class InPlane(Protocol[SomeSystem, P, R]):
     """A public function of a system or its a, b, d."""
 
     @overload
-    def __call__(self, system: S | str, *args: P.args, **kwargs: P.kwargs) -> R: ...
+    def __call__(self, system: SomeSystem | str, *args: P.args, **kwargs: P.kwargs) -> R: ...
     @overload
     def __call__(self, a: float, b: float, d: float, *args: P.args, **kwargs: P.kwargs) -> R: ...
 
 
-class InPlaneWithPsi(Protocol[S, P, R]):
+class InPlaneWithPsi(Protocol[SomeSystem, P, R]):
     """A public function of a system or its a, b, d, and of a Psi."""
 
     @overload
-    def __call__(self, system: S | str, psi: PsiLike, *args: P.args, **kwargs: P.kwargs) -> R: ...
+    def __call__(self, system: SomeSystem | str, psi: PsiLike, *args: P.args, **kwargs: P.kwargs) -> R: ...
     @overload
     def __call__(self, system: str, *args: P.args, **kwargs: P.kwargs) -> R: ...
     @overload
@@ -67,20 +67,20 @@ class InPlaneWithPsi(Protocol[S, P, R]):
 
 
 @overload
-def takes_names(function: Callable[Concatenate[S, Psi | None, P], R]) -> OfMotion[S, P, R]: ...
+def takes_names(function: Callable[Concatenate[SomeSystem, Psi | None, P], R]) -> OfMotion[SomeSystem, P, R]: ...
 @overload
-def takes_names(function: Callable[Concatenate[S, Psi, P], R]) -> OfPortrait[S, P, R]: ...
+def takes_names(function: Callable[Concatenate[SomeSystem, Psi, P], R]) -> OfPortrait[SomeSystem, P, R]: ...
 @overload
-def takes_names(function: Callable[Concatenate[S, P], R]) -> OfSystem[S, P, R]: ...
+def takes_names(function: Callable[Concatenate[SomeSystem, P], R]) -> OfSystem[SomeSystem, P, R]: ...
 def takes_names(function: Any) -> Any:
     """Say to type checkers that a function takes names, which `arguments.with_checks` reads."""
     return function
 
 
 @overload
-def takes_a_b_d(function: Callable[Concatenate[S, Psi, P], R]) -> InPlaneWithPsi[S, P, R]: ...
+def takes_a_b_d(function: Callable[Concatenate[SomeSystem, Psi, P], R]) -> InPlaneWithPsi[SomeSystem, P, R]: ...
 @overload
-def takes_a_b_d(function: Callable[Concatenate[S, P], R]) -> InPlane[S, P, R]: ...
+def takes_a_b_d(function: Callable[Concatenate[SomeSystem, P], R]) -> InPlane[SomeSystem, P, R]: ...
 def takes_a_b_d(function: Any) -> Any:
     """Say the same of a function that also takes a, b, d in the place of a system."""
     return function
