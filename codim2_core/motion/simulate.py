@@ -195,7 +195,7 @@ def simulate(
     psi : Psi
         In the limit it may be left out, or None: the motion then stops where it would matter.
     state0 : (2 + m,), or (k, 2 + m)
-        (x, y, z1, ..., zm). StateRows are as many motions. x = y = 0 is allowed: it is p = 0 of the hemisphere for every
+        (x, y, z1, ..., zm). Rows are as many motions. x = y = 0 is allowed: it is p = 0 of the hemisphere for every
         eps, and the orbit of the layer problem through it decides. In the limit without psi, the motion slides if one
         critical set attracts, else it leaves along the one way out.
     t_span : (t_start, t_end)

@@ -358,7 +358,7 @@ def with_checks(function: Callable[..., Any], module: str, named_setting: Settin
 
     accepted = [_accepted(parameter, named_setting is not None) for parameter in parameters.values()]
     door.__module__ = module  # where it is pickled by name
-    door.__signature__ = signature.replace(parameters=accepted)  # pyright: ignore[reportFunctionMemberAccess]
+    setattr(door, "__signature__", signature.replace(parameters=accepted))  # noqa: B010 (no type checker knows it)
     return door
 
 
