@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import inspect
 import re
-import reprlib
 from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
 from numbers import Real
@@ -24,6 +23,7 @@ from .elinear import ELinear
 from .kinds import SYSTEM_KINDS
 from .psi.constructors import from_text
 from .psi.function import Psi
+from .reading import short_repr
 
 MAX_NUMBER = 1e150  # of a number: its square is finite
 MOST_VALUES = 1_000_000  # in an array
@@ -43,16 +43,8 @@ PLANE_FUNCTIONS = frozenset({
 })  # fmt: skip
 POSITIVE = ("period", "eps", "rtol", "atol", "t_max", "pixel", "tolerance", "length", "capture", "view")
 
-_SHORT = reprlib.Repr()
-_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
-
 Check = Callable[[str, Any], Any]
 Setting = Callable[[str], Mapping[str, Any]]
-
-
-def short_repr(value: object) -> str:
-    """Return repr(value), of bounded length."""
-    return _SHORT.repr(value)
 
 
 def psi(name: str, value: Any) -> Psi:

@@ -190,17 +190,8 @@ class Contacts(Result):
         """
         if not 1e-14 <= eps <= 1e6:
             raise ValueError(f"eps is {eps}; give a positive number, from 1e-14 to 1e6.")
-        return self._follow(
-            RegularisedRun,
-            Law(read_psi("psi", psi), float(eps)),
-            state0,
-            t_span,
-            rtol,
-            atol,
-            times,
-            max_steps,
-            max_step,
-        )
+        law = Law(read_psi("psi", psi), float(eps))
+        return self._follow(RegularisedRun, law, state0, t_span, rtol, atol, times, max_steps, max_step)
 
     def _checked(self, state: ArrayLike) -> Array:
         given = np.array(state, float)
