@@ -26,21 +26,10 @@ if TYPE_CHECKING:  # for those who read types; `_HOMES` gives Python the same
     from .plane.regions import Region, regions
 
 __all__ = [
-    "BifurcationCurve",
-    "ParameterChange",
-    "Region",
-    "SpecialPoint",
-    "closed_equator",
-    "critical_boundary",
-    "cycle_folds",
-    "heteroclinic",
-    "hill_changes",
-    "hopf",
-    "node_focus",
-    "parameter_changes",
-    "regions",
+    "BifurcationCurve", "ParameterChange", "Region", "SpecialPoint", "closed_equator", "critical_boundary",
+    "cycle_folds", "heteroclinic", "hill_changes", "hopf", "node_focus", "parameter_changes", "regions",
     "saddle_node",
-]
+]  # fmt: skip
 
 _HOMES = {
     "plane.curve": "BifurcationCurve SpecialPoint",

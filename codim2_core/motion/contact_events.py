@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike
 
 from ..results.arrays import Array
 from ..results.words import say
+from ..systems.arguments import psi as read_psi
+from ..systems.kinds import PsiLike
 from ..systems.mechanics.mechanism import Mechanism
 from ..systems.psi.function import Psi
 from .argument_checks import checked_state
@@ -35,7 +37,7 @@ class _ForceNumber:
 
 
 def contact_events(
-    mechanism: Mechanism, state0: ArrayLike, psi: Psi | None = None, eps: float = 0.0
+    mechanism: Mechanism, state0: ArrayLike, psi: PsiLike | None = None, eps: float = 0.0
 ) -> tuple[Event, ...]:
     """Return the events that stop a motion where the normal force falls to 0, or Painlevé's paradox begins.
 
@@ -82,6 +84,7 @@ def contact_events(
     begins = mechanism.contact_force(checked_state(state0, len(mechanism.slow)))
     if begins.kind != "presses":
         raise ValueError(f"state0 is where the contact does not press; start where it does. {begins.sentence}")
-    opens = Event(_ForceNumber(mechanism, "approach", psi, eps), -1, True, say("contact opens"))
-    jams = Event(_ForceNumber(mechanism, "gain", psi, eps), -1, True, say("contact jams"))
+    law = None if psi is None else read_psi("psi", psi)
+    opens = Event(_ForceNumber(mechanism, "approach", law, eps), -1, True, say("contact opens"))
+    jams = Event(_ForceNumber(mechanism, "gain", law, eps), -1, True, say("contact jams"))
     return (opens, jams) if mechanism.has_constraint else (opens,)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TypedDict, Unpack, overload
+from typing import Concatenate, Protocol, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from ..results.arrays import Array
 from ..results.words import say
 from ..systems.arguments import checked_times
-from ..systems.kinds import AnySystem
+from ..systems.kinds import AnySystem, P, PsiLike, SystemLike
 from ..systems.psi.function import Psi
 from .argument_checks import MAX_STEPS, checked_eps, checked_span, checked_states, checked_tolerances, with_time
 from .backward_run import Past
@@ -111,32 +111,54 @@ RTOL, RTOL_OF_LIMIT = 1e-8, 1e-10  # where none is given
 ATOL_SHARE = 1e-2  # of rtol: atol, where none is given
 
 
-class Options(TypedDict, total=False):
-    """Options of a motion, by name."""
-
-    rtol: float | None
-    atol: float | None
-    events: Events
-    times: ArrayLike | None
-    stiction: float
-    max_steps: int
-    max_step: float
+StateRows = Sequence[Sequence[float] | Array]  # of as many states
 
 
-@overload
-def simulate(  # pyright: ignore[reportOverlappingOverload] (rows differ from a row by their entries)
-    system: AnySystem, psi: Psi | None, state0: Sequence[Sequence[float]], t_span: ArrayLike, *, eps: float,
-    **options: Unpack[Options],
-) -> tuple[Simulation, ...]: ...  # fmt: skip
+class Simulate(Protocol[P]):
+    """The type of `simulate`: it returns a motion, or as many as there are rows."""
+
+    @overload
+    def __call__(  # pyright: ignore[reportOverlappingOverload] (rows differ from a row by their entries)
+        self, system: SystemLike, psi: PsiLike | None, state0: StateRows, *args: P.args, **kwargs: P.kwargs
+    ) -> tuple[Simulation, ...]: ...
+    @overload
+    def __call__(
+        self, system: SystemLike, psi: PsiLike | None, state0: ArrayLike, *args: P.args, **kwargs: P.kwargs
+    ) -> Simulation: ...
+    @overload
+    def __call__(  # pyright: ignore[reportOverlappingOverload]
+        self, system: SystemLike, state0: StateRows, *args: P.args, **kwargs: P.kwargs
+    ) -> tuple[Simulation, ...]: ...
+    @overload
+    def __call__(self, system: SystemLike, state0: ArrayLike, *args: P.args, **kwargs: P.kwargs) -> Simulation: ...
 
 
-@overload
-def simulate(
-    system: AnySystem, psi: Psi | None, state0: ArrayLike, t_span: ArrayLike, *, eps: float,
-    **options: Unpack[Options],
-) -> Simulation: ...  # fmt: skip
+class SimulateNonsmooth(Protocol[P]):
+    """The type of `simulate_nonsmooth`."""
+
+    @overload
+    def __call__(  # pyright: ignore[reportOverlappingOverload]
+        self, system: SystemLike, state0: StateRows, t_span: ArrayLike, psi: PsiLike | None = ...,
+        *args: P.args, **kwargs: P.kwargs,
+    ) -> tuple[Simulation, ...]: ...  # fmt: skip
+    @overload
+    def __call__(
+        self, system: SystemLike, state0: ArrayLike, t_span: ArrayLike, psi: PsiLike | None = ...,
+        *args: P.args, **kwargs: P.kwargs,
+    ) -> Simulation: ...  # fmt: skip
 
 
+def _simulate(function: Callable[Concatenate[AnySystem, Psi | None, ArrayLike, P], object]) -> Simulate[P]:
+    return cast(Simulate[P], function)
+
+
+def _simulate_nonsmooth(
+    function: Callable[Concatenate[AnySystem, ArrayLike, ArrayLike, Psi | None, P], object],
+) -> SimulateNonsmooth[P]:
+    return cast(SimulateNonsmooth[P], function)
+
+
+@_simulate
 def simulate(
     system: AnySystem,
     psi: Psi | None,
@@ -254,19 +276,7 @@ def simulate(
     return runs[0] if np.ndim(state0) < 2 else runs
 
 
-@overload
-def simulate_nonsmooth(  # pyright: ignore[reportOverlappingOverload] (rows differ from a row by their entries)
-    system: AnySystem, state0: Sequence[Sequence[float]], t_span: ArrayLike, psi: Psi | None = ...,
-    **options: Unpack[Options],
-) -> tuple[Simulation, ...]: ...  # fmt: skip
-
-
-@overload
-def simulate_nonsmooth(
-    system: AnySystem, state0: ArrayLike, t_span: ArrayLike, psi: Psi | None = ..., **options: Unpack[Options]
-) -> Simulation: ...
-
-
+@_simulate_nonsmooth
 def simulate_nonsmooth(
     system: AnySystem,
     state0: ArrayLike,

@@ -24,14 +24,9 @@ from .line_pair import starts_of
 from .trigonometric_exact import INPUT_ROUNDING, solve_exactly
 
 __all__ = [
-    "GENERAL_PATTERNS",
-    "INPUT_ROUNDING",
-    "THETA_PATTERNS",
-    "TrigonometricZeros",
-    "radial_zeros",
-    "real_zeros",
+    "GENERAL_PATTERNS", "INPUT_ROUNDING", "THETA_PATTERNS", "TrigonometricZeros", "radial_zeros", "real_zeros",
     "tangential_zeros",
-]
+]  # fmt: skip
 
 _FILTER = 2.0**-49  # 16 half-ulps: covers the rounding of the discriminant and the inputs' own ROUNDING
 GENERAL_PATTERNS = ((2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (0, 0, 2, 0, 0), (0, 0, 0, 2, 0), (0, 0, 0, 0, 2))

@@ -17,8 +17,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..results.words import say, written_label
+from ..systems.arguments import regularisations
 from ..systems.frozen import FrozenSystem
-from ..systems.kinds import AnySystem
+from ..systems.kinds import AnySystem, PsiLike, takes_names
 from ..systems.psi.constructors import comparison_families
 from ..systems.psi.function import Psi
 from .layer_problem.critical import CriticalSet
@@ -65,12 +66,13 @@ def _arrival(equator: EquatorEquilibria, i: int) -> str:
     return "open set" if angular_sign(equator, i) < 0 else "single direction"
 
 
+@takes_names
 def approach_outcomes(
     system: AnySystem,
     psi: Psi,
     z: ArrayLike = (),
     *,
-    compare: Sequence[Psi] | None = None,
+    compare: Sequence[PsiLike] | None = None,
 ) -> Outcomes:
     """Say of every limit direction whether what arrives there slides, and on what, or crosses, and where to.
 
@@ -93,7 +95,8 @@ def approach_outcomes(
     >>> [(one.label, one.verdict) for one in approach_outcomes("case1-cm4")]
     [('Q2', 'slide'), ('Q4', 'slide'), ('Q1', 'slide'), ('Q3', 'slide')]
     """
-    return compared_outcomes(LayerProblem(system.at(z), psi), compare)
+    others = None if compare is None else regularisations("compare", compare)
+    return compared_outcomes(LayerProblem(system.at(z), psi), others)
 
 
 @found_once("outcomes")

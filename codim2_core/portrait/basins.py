@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..results.result import Pictured, column_rows
 from ..results.tables import html_table, point, table_number
-from ..systems.kinds import AnySystem
+from ..systems.kinds import AnySystem, takes_names
 from ..systems.psi.function import Psi
 from .cycles.limit_cycles import LimitCycles, cycles_of
 from .layer_problem.problem import LayerProblem
@@ -73,6 +73,7 @@ class Basins(Pictured):
         return html_table(("leads to", "share of the cells", "slow flow z′"), found)
 
 
+@takes_names
 def basins(
     system: AnySystem,
     psi: Psi,

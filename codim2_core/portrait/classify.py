@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 
 from ..results.words import say
 from ..systems.coefficients import Coefficients
-from ..systems.kinds import AnySystem
+from ..systems.kinds import AnySystem, takes_names
 from ..systems.psi.function import Psi
 from .classification import (
     NEUTRAL_CLOSED_EQUATOR,
@@ -178,6 +178,7 @@ def portrait(problem: LayerProblem) -> Classification:
     return Classification(case, name, prefix + said, degeneracies)
 
 
+@takes_names
 def classify(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Classification:
     """Case, portrait name, sentence and degeneracies of the system at z.
 

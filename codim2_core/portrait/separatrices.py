@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from ..numerics.curves.polyline import distance
 from ..results.arrays import Array
 from ..results.words import say
-from ..systems.kinds import AnySystem
+from ..systems.kinds import AnySystem, takes_names
 from ..systems.psi.function import Psi
 from .cycles.limit_cycles import LimitCycles, cycles_of
 from .layer_problem.equator import EquatorEquilibria
@@ -60,6 +60,7 @@ def name_connections(
     return out
 
 
+@takes_names
 def separatrices(
     system: AnySystem,
     psi: Psi,

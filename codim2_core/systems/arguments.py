@@ -7,7 +7,7 @@ one another without them. A function says itself what else it needs, such as how
 from __future__ import annotations
 
 import inspect
-import reprlib
+import re
 from collections.abc import Callable, Iterable, Mapping
 from functools import wraps
 from numbers import Real
@@ -23,6 +23,7 @@ from .elinear import ELinear
 from .kinds import SYSTEM_KINDS
 from .psi.constructors import from_text
 from .psi.function import Psi
+from .reading import short_repr
 
 MAX_NUMBER = 1e150  # of a number: its square is finite
 MOST_VALUES = 1_000_000  # in an array
@@ -42,16 +43,8 @@ PLANE_FUNCTIONS = frozenset({
 })  # fmt: skip
 POSITIVE = ("period", "eps", "rtol", "atol", "t_max", "pixel", "tolerance", "length", "capture", "view")
 
-_SHORT = reprlib.Repr()
-_SHORT.maxstring = _SHORT.maxother = _SHORT.maxlong = 60
-
 Check = Callable[[str, Any], Any]
 Setting = Callable[[str], Mapping[str, Any]]
-
-
-def short_repr(value: object) -> str:
-    """Return repr(value), of bounded length."""
-    return _SHORT.repr(value)
 
 
 def psi(name: str, value: Any) -> Psi:
@@ -184,14 +177,14 @@ def cycles(name: str, value: Any) -> Any:
     raise ValueError(f"{name} is {short_repr(value)}; give what limit_cycles returned, or leave it out.")
 
 
-def regularisations(name: str, value: Any) -> Any:
+def regularisations(name: str, value: Any) -> tuple[Psi, ...]:
     """Check several regularisation functions."""
     if isinstance(value, Iterable) and not isinstance(value, str):
         return tuple(psi(f"{name}[{i}]", one) for i, one in enumerate(value))
     raise ValueError(f"{name} is {short_repr(value)}; give several regularisation functions, such as (psi.tanh(),).")
 
 
-def friction_laws(name: str, value: Any) -> Any:
+def friction_laws(value: Any, name: str = "laws") -> dict[str, tuple[Psi, float]]:
     """Check laws of friction by name, each a Psi and its eps."""
     if not isinstance(value, Mapping) or not all(isinstance(one, tuple) and len(one) == 2 for one in value.values()):
         raise ValueError(f"{name} is {short_repr(value)}; give pairs by name, such as {{'sap': (psi.tanh(), 1e-3)}}.")
@@ -239,8 +232,6 @@ BY_NAME: Mapping[str, Check] = {
     "psi": psi,
     "coefficients": at_z,
     "cycles": cycles,
-    "compare": regularisations,
-    "laws": friction_laws,
     "progress": function,
     "executor": executor,
     "samples": text,
@@ -251,6 +242,8 @@ BY_NAME: Mapping[str, Check] = {
     "example": _as_given,
     "draw": _as_given,  # `census` says itself what it takes
     "box": _as_given,  # `basins` says itself what it takes
+    "compare": _as_given,  # `approach_outcomes`
+    "laws": _as_given,  # `compare_laws`
     "ranges": _as_given,  # and `atlas`
     "names": _as_given,  # `mechanics.fit` says itself what it takes
 }
@@ -259,7 +252,7 @@ BY_ANNOTATION: Mapping[str, Check] = {
     "float | Callable[[float], float]": number_or_function,
     "str | Path": file, "ArrayLike | str | Path": numbers_or_file, "tuple[float, float]": pair,
     "Mechanism": mechanism,
-    "ELinear | Coefficients": e_linear, "AnySystem": system, "ELinear | System": system, "Any": system,
+    "ELinear | Coefficients": e_linear, "AnySystem": system, "ELinear | System": system,
 }  # fmt: skip
 
 
@@ -287,15 +280,19 @@ def _system_of_numbers(given: tuple[Any, ...], named: dict[str, Any]) -> tuple[t
     return given, named
 
 
-def _with_psi(
-    order: tuple[str, ...], given: tuple[Any, ...], named: dict[str, Any]
-) -> tuple[tuple[Any, ...], dict[str, Any]]:
-    """Return the arguments of a motion with psi, which is None where it is left out of the second place."""
-    if 1 < len(given) <= len(order) and not (given[1] is None or isinstance(given[1], Psi | str)):
-        given, named = (), {**dict(zip(order, given, strict=False)), **named}
-    if len(given) < 2:
-        named.setdefault("psi", None)
-    return given, named
+def _without_psi(given: tuple[Any, ...], named: Mapping[str, Any], follower: str | None) -> bool:
+    """Whether what is in the second place is no Psi; `follower` is the next parameter, if it is text."""
+    if isinstance(given[1], str):
+        return follower is not None and follower not in named and not isinstance(next(iter(given[2:]), None), str)
+    return not (given[1] is None or callable(given[1]))
+
+
+def _accepted(parameter: inspect.Parameter, names: bool) -> inspect.Parameter:
+    """Return a parameter with what the door accepts for it, where names stand for systems."""
+    said = str(parameter.annotation)
+    if parameter.name == "system" and names:
+        said = said.replace("AnySystem", "SystemLike") if "AnySystem" in said else f"{said} | str"
+    return parameter.replace(annotation=re.sub(r"\bPsi\b", "PsiLike", said) if parameter.name == "psi" else said)
 
 
 def with_checks(function: Callable[..., Any], module: str, named_setting: Setting | None = None) -> Callable[..., Any]:
@@ -315,20 +312,26 @@ def with_checks(function: Callable[..., Any], module: str, named_setting: Settin
     may = [frozenset(parameters) - {name for name, *_ in in_order[:n]} for n in range(len(in_order) + 1)]
     must = [{name for name in names if defaults[name] is inspect.Parameter.empty} for names in may]
 
-    order = MOTIONS.get(function.__name__)
+    motion = function.__name__ in MOTIONS
+    second = [name for name, *_ in in_order[1:2]] == ["psi"]  # with a preset's name it may be left out, as in motions
+    order = MOTIONS.get(function.__name__, tuple(name for name, *_ in in_order if name != "psi"))
+    follower = next((name for name, check, _ in in_order[2:3] if check is text), None)
     takes_numbers = function.__name__ in PLANE_FUNCTIONS
     by_name = named_setting if next(iter(parameters), "") == "system" else None
 
     @wraps(function)
     def door(*given: Any, **named: Any) -> Any:
-        if order is not None:
-            given, named = _with_psi(order, given, named)
+        psi_may_be_left_out = second and 1 < len(given) <= len(order) and (motion or isinstance(given[0], str))
+        if psi_may_be_left_out and _without_psi(given, named, follower):
+            given, named = (), {**dict(zip(order, given, strict=False)), **named}
         if takes_numbers:
             given, named = _system_of_numbers(given, named)
         if by_name is not None and isinstance(asked := given[0] if given else named.get("system"), str):
             setting = {name: value for name, value in by_name(asked).items() if name in parameters}
             there = dict(zip((name for name, *_ in in_order), given, strict=False))
             given, named = (), {**setting, **there, **named, "system": setting["system"]}
+        if motion and len(given) < 2:
+            named.setdefault("psi", None)
         n, names = len(given), named.keys()
         if n >= len(may) or not must[n] <= names <= may[n]:
             try:
@@ -345,7 +348,9 @@ def with_checks(function: Callable[..., Any], module: str, named_setting: Settin
                 named[name] = checks[name](name, value)
         return function(*values, **named)
 
+    accepted = [_accepted(parameter, named_setting is not None) for parameter in parameters.values()]
     door.__module__ = module  # where it is pickled by name
+    setattr(door, "__signature__", signature.replace(parameters=accepted))  # noqa: B010 (no type checker knows it)
     return door
 
 

@@ -52,7 +52,7 @@ def test_type_checkers_find_every_name_where_python_does():
 
 @pytest.mark.parametrize("folder", ["app/codim2_app", "codim2_core"])
 def test_every_folder_of_modules_is_a_package(folder):
-    """Setuptools finds no other, so that a wheel would lack it."""
+    """What finds packages finds no other."""
     for path in (ROOT / folder).rglob("*.py"):
         assert (path.parent / "__init__.py").is_file(), path
 

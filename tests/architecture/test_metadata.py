@@ -8,7 +8,6 @@ import tomllib
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
-import pytest
 import yaml
 
 import codim2_core
@@ -90,11 +89,27 @@ def test_the_core_alone_asks_for_what_it_imports_and_else_is_the_same_project():
     assert set(asked) <= set(whole["dependencies"])
     assert extras["symbolic"] == whole["optional-dependencies"]["symbolic"]
     assert {one.split(">=")[0] for one in asked} == imported("codim2_core")
-    for name in ("dynamic", "requires-python", "license", "authors"):
+    for name in ("requires-python", "license", "authors"):
         assert project[name] == whole[name]
-    build, data = core["tool"]["hatch"]["build"], PROJECT["tool"]["setuptools"]["package-data"]["codim2_core"]
-    assert {*build["include"], *build["artifacts"]} == {"*.py", *data}
+    build, wheel = core["tool"]["hatch"]["build"], PROJECT["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert [f"codim2_core/{one}" for one in build["artifacts"]] == wheel["artifacts"]
+    alone = {one.removeprefix("codim2_core/") for one in wheel["exclude"]}
+    tracked = subprocess.run(
+        ["git", "ls-files", "."], capture_output=True, text=True, check=True, cwd=ROOT / "codim2_core"
+    )
+    assert {
+        one for one in tracked.stdout.split() if not any(Path(one).match(form) for form in build["include"])
+    } == alone
     assert (ROOT / "codim2_core" / "LICENSE").read_text() == (ROOT / "LICENSE").read_text()
+
+
+def test_the_conda_recipe_asks_for_the_same():
+    recipe, project = yaml.safe_load((ROOT / ".conda" / "recipe.yaml").read_text("utf-8")), PROJECT["project"]
+    asked = {one.replace(" ", "").replace("_", "-") for one in recipe["requirements"]["run"]}
+    assert asked == {*project["dependencies"], f"python{project['requires-python']}"}
+    assert {one.replace(" ", "") for one in recipe["requirements"]["host"]} >= {*PROJECT["build-system"]["requires"]}
+    assert recipe["context"]["version"] == codim2_core.__version__
+    assert recipe["about"]["summary"] == project["description"]
 
 
 def test_what_is_cited_is_this_program():
@@ -121,8 +136,8 @@ def test_what_a_language_model_is_pointed_to_is_there():
 
 
 def test_the_version_stands_in_one_place():
-    assert PROJECT["project"]["dynamic"] == ["version"]
-    assert PROJECT["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "codim2_core.__version__"}
+    assert "version" in PROJECT["project"]["dynamic"]
+    assert PROJECT["tool"]["hatch"]["version"] == {"path": "codim2_core/__init__.py"}
     assert re.fullmatch(r"\d+\.\d+\.\d+", codim2_core.__version__)
     import codim2_app
 
@@ -135,19 +150,11 @@ def test_dir_shows_the_public_names_and_nothing_else():
     assert sorted(dir(codim2_core)) == sorted(["__version__", *codim2_core.__all__])
 
 
-@pytest.mark.parametrize(("package", "folder"), [("codim2_core", "codim2_core"), ("codim2_app", "app/codim2_app")])
-def test_the_packages_say_that_they_are_typed(package, folder):
-    assert (ROOT / folder / "py.typed").is_file()
-    assert "py.typed" in PROJECT["tool"]["setuptools"]["package-data"][package]
-    tracked = subprocess.run(["git", "ls-files", folder], capture_output=True, text=True, check=True, cwd=ROOT).stdout
-    data = PROJECT["tool"]["setuptools"]["package-data"][package]
-    for line in tracked.splitlines():
-        name = Path(line).relative_to(folder)
-        if line in ("codim2_core/LICENSE", "codim2_core/README.md", "codim2_core/pyproject.toml"):
-            continue  # of the core alone
-        assert name.suffix == ".py" or any(name.match(one) and len(name.parts) == one.count("/") + 1 for one in data), (
-            f"{line} is tracked, but not in the wheel"
-        )
+def test_the_packages_say_that_they_are_typed():
+    assert all(
+        (ROOT / folder / "py.typed").is_file()
+        for folder in PROJECT["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
+    )
 
 
 def test_ci_and_pre_commit_run_the_same_linters():

@@ -62,8 +62,12 @@ def test_the_inner_loop_passes_with(which, tmp_path):
 def test_the_wheel_holds_what_is_tracked(tmp_path):
     pip(tmp_path / "env", "wheel", "--no-deps", "--wheel-dir", str(tmp_path), str(source(tmp_path / "source")))
     (wheel,) = tmp_path.glob("codim2-*.whl")
-    held = {name for name in zipfile.ZipFile(wheel).namelist() if ".dist-info/" not in name}
+    names = zipfile.ZipFile(wheel).namelist()
+    held = {name for name in names if ".dist-info/" not in name}
     assert held == {name.removeprefix("app/") for name in tracked("app/codim2_app", "codim2_core")} - ALONE_ONLY
+    (shown,) = (name for name in names if name.endswith(".dist-info/METADATA"))
+    links = re.findall(r"\]\((?!https?:)[^)]*", zipfile.ZipFile(wheel).read(shown).decode())
+    assert not links, "an index does not have the files of the repository"
 
 
 #: What makes a distribution of the core alone.

@@ -80,6 +80,14 @@ def is_marimo(comm: Any) -> bool:
     return type(comm).__module__.partition(".")[0] == "marimo"
 
 
+class Comms(dict[str, Any]):
+    """Comms of a view by model; marimo binds all `values` to the cell that it shows last: its own alone."""
+
+    def values(self) -> Any:
+        """Return the newest one."""
+        return list(super().values())[-1:]
+
+
 def _is_static(doc: Any, comm: Any) -> bool:
     """Whether nothing will answer: a file that is saved (with a comm of no kernel), or a widget."""
     return getattr(doc, "session_context", None) is None and (comm is None or type(comm) is Comm)
@@ -147,6 +155,7 @@ class ExplorerView(JSComponent, ControlTypes):
         drawn = {name: value for name, value in self.state.values().items() if name in SHARED_CONTROLS}
         linked = {name: value for name, value in given.items() if value is not values[name]}
         super().__init__(picture=picture, **opening, **layout, **{**drawn, **linked})
+        self._comms = Comms()
         self.state.param.watch(self._follow, list(CONTROL_NAMES))
         join(self, self.state)
         if self._own:
@@ -160,6 +169,10 @@ class ExplorerView(JSComponent, ControlTypes):
             return
         near = get_close_matches(name, [*SHARED_CONTROLS, *self._own], n=3)
         raise AttributeError(f"{name!r} is no parameter of this explorer; near it are: {', '.join(near) or 'none'}")
+
+    def __repr__(self, *_: Any) -> str:
+        """Return what is drawn, in a line."""
+        return f"<explorer of {self.scene!r:.200}>"
 
     @property
     def scene(self) -> Scene:

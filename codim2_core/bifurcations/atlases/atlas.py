@@ -15,7 +15,7 @@ from ...portrait.layer_problem.vary import names as names_of
 from ...results.arrays import Array, read_only
 from ...systems.affine import as_elinear, in_axes_of
 from ...systems.arguments import short_repr
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ..families.disc import disc_family, force_matrix
 from ..families.family import Ranges, SystemFamily
@@ -49,6 +49,7 @@ DEFAULT_HALF_RANGE = (
 )
 
 
+@takes_names
 def atlas(
     system: AnySystem,
     psi: Psi,

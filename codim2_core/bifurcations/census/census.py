@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...systems.psi import constructors
-from ...systems.psi.function import Psi
+from ...systems.arguments import psi as read_psi
+from ...systems.kinds import PsiLike
+from ...systems.psi.constructors import constant
 from .checkpoint import CountedChunks
 from .draws import DRAWS, Draw
 from .table import Census, make_census
@@ -25,7 +26,7 @@ MAX_SYSTEMS = 10**12
 
 def census(
     draw: Draw | str = "normal",
-    psi: Psi | None = None,
+    psi: PsiLike | None = None,
     count: int = 1_000_000,
     *,
     seed: int = 0,
@@ -84,10 +85,7 @@ def census(
         raise ValueError(f"count is {count!r}; give a whole number from 1 to 1e12.")
     if not isinstance(seed, (int, np.integer)) or seed < 0:
         raise ValueError(f"seed is {seed!r}; give a whole number, 0 or larger.")
-    psi = constructors.constant() if psi is None else psi
-    if not isinstance(psi, Psi):
-        raise ValueError(f"psi is {psi!r}; give a regularisation function such as psi.rational().")
-    plan = CensusPlan(draw, psi, int(seed), bool(outcomes))
+    plan = CensusPlan(draw, constant() if psi is None else read_psi("psi", psi), int(seed), bool(outcomes))
     chunk = _chunk_size(plan)
     kept = CountedChunks(plan, chunk, None if resume is None else Path(resume))
     last = -(-count // chunk)

@@ -6,7 +6,7 @@ from numpy.typing import ArrayLike
 
 from ...portrait.layer_problem.vary import check_name, usual_span
 from ...systems.affine import in_axes_of
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from .equilibrium_branches import equilibrium_branches
 from .result import Branches
@@ -14,6 +14,7 @@ from .result import Branches
 __all__ = ["Branches", "branches"]
 
 
+@takes_names
 def branches(
     system: AnySystem,
     psi: Psi,

@@ -14,6 +14,7 @@ from ...results.tables import table_number
 from ...results.words import say
 from ...systems.coefficients import Coefficients
 from ...systems.elinear import ELinear
+from ...systems.kinds import takes_names
 from ...systems.psi.constructors import hill, with_parameter
 from ...systems.psi.function import Psi
 from ..diagrams.equilibrium_branches import equilibrium_branches
@@ -48,6 +49,7 @@ class ParameterChange(Tabled):
         return self.type, table_number(self.n), self.before, self.after, self.sentence
 
 
+@takes_names
 def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> Results[ParameterChange]:
     """`parameter_changes` of the Hill family (4.28). The paper's Case III changes at n = 284/129 (Hopf).
 
@@ -70,6 +72,7 @@ def hill_changes(system: ELinear | Coefficients, z: ArrayLike = ()) -> Results[P
     return parameter_changes(system, hill(2.0), z)
 
 
+@takes_names
 def parameter_changes(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> Results[ParameterChange]:
     """Every value of the parameter of Psi at which the critical set changes its kind, in increasing order.
 

@@ -12,6 +12,7 @@ from ...results.arrays import Array
 from ...results.words import say
 from ...systems.coefficients import Coefficients
 from ...systems.elinear import ELinear
+from ...systems.kinds import takes_a_b_d
 from ...systems.psi.constructors import constant
 from ...systems.psi.function import Psi
 from ..atlases.atlas import Atlas
@@ -27,6 +28,7 @@ FOLD_POINTS = ("cusp of cycles", "touching", "resonant loop", "equator")
 LOST_FOLDS = (say("fold followed no further"), say("fold not caught"))
 
 
+@takes_a_b_d
 def saddle_node(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
     """Saddle-nodes of equator equilibria, where Theta has a double zero (Figure 20, (4.12)).
 
@@ -98,6 +100,7 @@ def _crossings(atlas: Atlas, entries: PlaneMatrix, *, on_ellipse: bool) -> list[
     return [place for place, size in zip(found, sizes, strict=True) if (abs(size - 1.0) < tolerance) == on_ellipse]
 
 
+@takes_a_b_d
 def critical_boundary(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
     """Ellipse |A^-1 f| = 1, on which the critical set reaches the equator (Figure 14, Figure 19).
 
@@ -148,6 +151,7 @@ def critical_boundary(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifu
     return BifurcationCurve("transcritical", name, label, lines, tuple(special), (), say("reaches the equator"))
 
 
+@takes_a_b_d
 def hopf(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
     """Hopf curve of the layer problem in (f1, f2): tr J = 0 with det J > 0; Case III only (Section 4.3.3).
 
@@ -200,6 +204,7 @@ def _may_turn(a: float, b: float, d: float) -> bool:
     return a * d < 0.0 and determinant_sign(a, b, d) > 0
 
 
+@takes_a_b_d
 def node_focus(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
     """Node-focus curve in (f1, f2): the discriminant tr(J)^2 - 4 det J = 0 with det J > 0 (Figure 17).
 
@@ -246,6 +251,7 @@ def node_focus(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> B
     )  # fmt: skip
 
 
+@takes_a_b_d
 def closed_equator(system: ELinear | Coefficients, z: ArrayLike = ()) -> BifurcationCurve:
     """Return the curve on which the closed equator changes stability and emits a limit cycle (Theorem 3.1(c)).
 
@@ -286,6 +292,7 @@ def closed_equator(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifurca
     return BifurcationCurve("equator", name, label, read_only_lines(lines), (), (), say(said))
 
 
+@takes_a_b_d
 def heteroclinic(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
     """Heteroclinic cycles through the equator: loops of two half-saddles, which bear limit cycles (Section 4.3.3).
 
@@ -335,6 +342,7 @@ def heteroclinic(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) ->
     )  # fmt: skip
 
 
+@takes_a_b_d
 def cycle_folds(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> BifurcationCurve:
     """Folds of limit cycles in (f1, f2): a stable and an unstable cycle meet and vanish (Section 4.3.3).
 

@@ -16,6 +16,7 @@ from ...results.result import Pictured, Results, Tabled
 from ...results.tables import point
 from ...systems.coefficients import Coefficients
 from ...systems.elinear import ELinear
+from ...systems.kinds import takes_a_b_d
 from ...systems.psi.constructors import constant
 from ..atlases.atlas import family_over
 from ..atlases.regions import faces_between
@@ -69,6 +70,7 @@ class Regions(Results[Region], Pictured):
     __slots__ = ()
 
 
+@takes_a_b_d
 def regions(system: ELinear | Coefficients, z: ArrayLike = ()) -> Regions:
     """All regions of the plane (f1, f2) between the saddle-node curve and the ellipse, each classified inside.
 

@@ -57,22 +57,7 @@ else:
     )
 
 __all__ = [
-    "SCRATCH_SIZE",
-    "ahead",
-    "bits_of_double",
-    "call_at",
-    "call_field",
-    "carray",
-    "compile_address",
-    "compile_with_gain",
-    "contracted_kernel",
-    "double_of_bits",
-    "fast_kernel",
-    "held_kernel",
-    "inlined_fast_kernel",
-    "inlined_kernel",
-    "kernel",
-    "pointer_to",
-    "scratch",
-    "spliced_kernel",
-]
+    "SCRATCH_SIZE", "ahead", "bits_of_double", "call_at", "call_field", "carray", "compile_address",
+    "compile_with_gain", "contracted_kernel", "double_of_bits", "fast_kernel", "held_kernel", "inlined_fast_kernel",
+    "inlined_kernel", "kernel", "pointer_to", "scratch", "spliced_kernel",
+]  # fmt: skip

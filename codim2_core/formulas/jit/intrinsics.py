@@ -12,17 +12,9 @@ from numba.np.numpy_support import carray
 from .interpreted import SCRATCH_SIZE
 
 __all__ = [
-    "POINTER",
-    "SCRATCH_SIZE",
-    "ahead",
-    "bits_of_double",
-    "call_at",
-    "call_field",
-    "carray",
-    "double_of_bits",
-    "pointer_to",
-    "scratch",
-]
+    "POINTER", "SCRATCH_SIZE", "ahead", "bits_of_double", "call_at", "call_field", "carray", "double_of_bits",
+    "pointer_to", "scratch",
+]  # fmt: skip
 
 POINTER = types.CPointer(types.float64)
 NOTHING = ir.IntType(8).as_pointer()  # what a C function of Numba that returns nothing returns

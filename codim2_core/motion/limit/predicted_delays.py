@@ -17,6 +17,7 @@ from ...results.result import Results
 from ...systems.arguments import pair, short_repr
 from ...systems.bounds import slow_axis, slow_values
 from ...systems.elinear import ELinear
+from ...systems.kinds import takes_names
 from ...systems.psi.function import Psi
 from ...systems.typed import System
 from ..delay import Delay, delay
@@ -33,6 +34,7 @@ MAX_SLIDE_STEPS = 4000  # steps of a slide
 MAX_TIME_FACTOR = 100.0  # times as long as the ranges would take at the first rate is a motion followed
 
 
+@takes_names
 def delays(
     system: ELinear | System,
     psi: Psi,

@@ -16,7 +16,7 @@ from ...results.arrays import Array, read_only
 from ...results.result import Result
 from ...results.tables import html_table, paragraphs, table_number
 from ...results.words import say
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ..argument_checks import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
 from ..initial_value.field import field as formulas_of
@@ -58,6 +58,7 @@ class LyapunovExponents(Result):
         return html_table(("exponent", "error"), list(rows)) + paragraphs([self.reason])
 
 
+@takes_names
 def lyapunov_exponents(
     system: AnySystem,
     psi: Psi | None,

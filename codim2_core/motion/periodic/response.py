@@ -21,7 +21,7 @@ from ...portrait.layer_problem.vary import check_name
 from ...results.arrays import Array, Complex
 from ...systems.arguments import number as positive_number
 from ...systems.arguments import short_repr
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.constructors import constant
 from ...systems.psi.function import Psi
 from ..argument_checks import MAX_STEPS
@@ -40,6 +40,7 @@ PLACE_SHARE = 1e-9  # of a step, to which special points are found
 CLOSED_DISTANCE = 0.5  # of the longest step: a curve that comes so near to its start, the same way, is closed
 
 
+@takes_names
 def response_curve(
     system: AnySystem,
     psi: Psi | None,

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ...results.arrays import Array
 from ...results.words import say
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ..argument_checks import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
 from ..initial_value.field import Field, field
@@ -40,6 +40,7 @@ SETTLED = 1e-4  # of the residual of a period: that of the next one, of a motion
 GENERIC = 0.381966  # of the way between two places: none lies where a square wave jumps
 
 
+@takes_names
 def periodic_motion(
     system: AnySystem,
     psi: Psi | None,

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 
 from ...results.result import Results, Tabled
 from ...results.tables import table_number
-from ...systems.kinds import AnySystem
-from ...systems.psi.function import Psi
+from ...systems.arguments import friction_laws
+from ...systems.kinds import AnySystem, PsiLike, takes_names
 from ..layer_problem.problem import LayerProblem
 from .limit_cycles import cycles_of
 
@@ -57,7 +57,8 @@ class LawVerdicts(Results[LawVerdict]):
     __slots__ = ()
 
 
-def compare_laws(system: AnySystem, laws: Mapping[str, tuple[Psi, float]], z: ArrayLike = ()) -> LawVerdicts:
+@takes_names
+def compare_laws(system: AnySystem, laws: Mapping[str, tuple[PsiLike, float]], z: ArrayLike = ()) -> LawVerdicts:
     """Compare what a mechanism does under several laws of friction: sticks, chatters or slides.
 
     Parameters
@@ -84,7 +85,9 @@ def compare_laws(system: AnySystem, laws: Mapping[str, tuple[Psi, float]], z: Ar
     sap: chatters, tr J = 28.00, creep 0.0e+00 m/s
     """
     at = system.at(z)
-    return LawVerdicts(_verdict_under(name, LayerProblem(at, law), eps) for name, (law, eps) in laws.items())
+    return LawVerdicts(
+        _verdict_under(name, LayerProblem(at, law), eps) for name, (law, eps) in friction_laws(laws).items()
+    )
 
 
 def _verdict_under(name: str, problem: LayerProblem, eps: float) -> LawVerdict:

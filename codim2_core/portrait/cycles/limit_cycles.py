@@ -21,7 +21,7 @@ from ...results.result import Pictured, Several, Tabled, result_rows
 from ...results.tables import paragraphs, point, table_number
 from ...results.words import say
 from ...systems.coefficients import Coefficients
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ..layer_problem.critical import CriticalSet, slow_flow_at
 from ..layer_problem.linearisation import matrix_determinant
@@ -156,6 +156,7 @@ def excluding_theorem(problem: LayerProblem) -> str | None:
     return None if form is None else reason_for_none(form, problem.critical, problem.location)
 
 
+@takes_names
 def limit_cycles(system: AnySystem, psi: Psi, z: ArrayLike = (), *, prove: bool = False) -> LimitCycles:
     """Find the limit cycles of the layer problem, (3.26), Section 4.3.3 (the closed equator is not one of them).
 

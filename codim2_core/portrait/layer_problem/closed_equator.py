@@ -14,7 +14,7 @@ from ...numerics.trigonometric_exact import to_integers
 from ...results.result import Result
 from ...results.tables import html_table, paragraphs, table_number
 from ...results.words import say
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from .equator_zeros import equator_as_orbit
 
 __all__ = ["NEUTRAL_EQUATOR", "EquatorCycle", "equator_cycle"]
@@ -63,6 +63,7 @@ class EquatorCycle(Result):
         return say("closed orbit", turn=turn, outside=outside, inside=inside)
 
 
+@takes_names
 def equator_cycle(system: AnySystem, z: ArrayLike = ()) -> EquatorCycle | None:
     """Find the closed orbit on the equator, or None if the equator has equilibria (Theorem 3.1(c)).
 

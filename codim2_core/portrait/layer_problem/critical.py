@@ -19,7 +19,7 @@ from ...results.tables import html_table, point, table_number
 from ...systems.bounds import at_place
 from ...systems.coefficients import Affine
 from ...systems.frozen import FrozenSystem
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from .disc_zeros import FLAT, disc_zeros
 from .linearisation import (
@@ -104,6 +104,7 @@ class CriticalSets(Results[CriticalSet]):
         return html_table(("critical set", *CriticalSet._head_), found) or "<p>no critical set</p>"
 
 
+@takes_names
 def critical_sets(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> CriticalSets:
     """All isolated critical sets at z, (3.22).
 

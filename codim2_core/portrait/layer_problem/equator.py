@@ -31,7 +31,7 @@ from ...results.tables import html_table, paragraphs, table_number
 from ...results.words import say
 from ...systems.coefficients import Affine
 from ...systems.frozen import FrozenSystem
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from .closed_equator import EquatorCycle, equator_cycle
 from .equator_zeros import equator_zeros
 from .location import Location, locate
@@ -210,6 +210,7 @@ def arcs_of(arcs: NDArray[np.float64]) -> list[str]:
     return [say("arc of directions", first=float(first), last=float(last)) for first, last in arcs]
 
 
+@takes_names
 def equator_equilibria(system: AnySystem, z: ArrayLike = ()) -> EquatorEquilibria:
     """Equilibria on the equator at z (4.9), with multiplicity; of an e-linear system at most 4.
 

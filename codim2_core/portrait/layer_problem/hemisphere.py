@@ -11,19 +11,14 @@ from numpy.typing import ArrayLike
 
 from ...results.arrays import Array
 from ...systems.arguments import checked_functions
+from ...systems.arguments import psi as read_psi
 from ...systems.frozen import FrozenSystem
-from ...systems.psi.function import Psi
+from ...systems.kinds import PsiLike
 
 __all__ = [
-    "disc_from_entry",
-    "disc_from_scaling",
-    "e_psi",
-    "entry_from_scaling",
-    "flow",
-    "height",
-    "outside_flow",
+    "disc_from_entry", "disc_from_scaling", "e_psi", "entry_from_scaling", "flow", "height", "outside_flow",
     "scaling_from_disc",
-]
+]  # fmt: skip
 
 
 def disc_from_scaling(x2: ArrayLike) -> Array:
@@ -119,7 +114,7 @@ def disc_from_entry(epsilon_1: ArrayLike, theta: ArrayLike) -> Array:
     return np.stack([xi * np.cos(theta), xi * np.sin(theta)], axis=-1)
 
 
-def e_psi(psi: Psi, p: ArrayLike) -> Array:
+def e_psi(psi: PsiLike, p: ArrayLike) -> Array:
     """``e_Psi`` at points of the closed disc, (2.19) with |(x, y, eps)| = 1. Shapes (..., 2).
 
     Examples
@@ -135,11 +130,11 @@ def e_psi(psi: Psi, p: ArrayLike) -> Array:
     h2 = np.maximum(1.0 - q, 0.0)
     with np.errstate(divide="ignore"):
         s = np.where(h2 > 0.0, q / np.where(h2 > 0.0, h2, 1.0), np.inf)
-    shape = np.where(h2 > 0.0, h2 * psi(np.where(np.isinf(s), 0.0, s)), 0.0)
+    shape = np.where(h2 > 0.0, h2 * read_psi("psi", psi)(np.where(np.isinf(s), 0.0, s)), 0.0)
     return p / np.sqrt(q + shape)[..., None]
 
 
-def flow(coefficients: FrozenSystem, psi: Psi, p: ArrayLike) -> Array:
+def flow(coefficients: FrozenSystem, psi: PsiLike, p: ArrayLike) -> Array:
     """``p' = U - p (p.U)``, U at e_Psi(p): the layer problem (3.26) on the disc, in the time T (dT = dt/rho).
 
     One smooth field on the closed disc: charts kappa_1 and kappa_2 together. Shapes (..., 2).

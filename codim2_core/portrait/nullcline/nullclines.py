@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from ...results.arrays import Array
 from ...results.result import Pictured, Results, Tabled
 from ...results.tables import point
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.constructors import constant
 from ...systems.psi.function import Psi
 from ..layer_problem.problem import LayerProblem, found_once
@@ -221,6 +221,7 @@ def outside_nullclines(problem: LayerProblem, view: float, seen: Seen | None = N
     return tuple(branches)
 
 
+@takes_names
 def nullclines(system: AnySystem, psi: Psi, z: ArrayLike = (), *, view: float = 2.0) -> Nullclines:
     """All nullclines in the picture, as separate branches.
 

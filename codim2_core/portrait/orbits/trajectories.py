@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from ...results.arrays import Array
 from ...systems.elinear import ELinear
 from ...systems.frozen import FrozenSystem
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from .departures import departures
 from .options import DEFAULT_MAX_STEPS, PIXEL, Stepping, stepping
@@ -59,6 +59,7 @@ def _kernels() -> SimpleNamespace:
     )
 
 
+@takes_names
 def trajectories(
     system: AnySystem,
     psi: Psi,

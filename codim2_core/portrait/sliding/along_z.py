@@ -19,7 +19,7 @@ from ...results.arrays import Array
 from ...results.words import say, subscript
 from ...systems.bounds import slow_axis, slow_values
 from ...systems.elinear import ELinear
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ...systems.typed import System
 from ..layer_problem.critical import CriticalSet, critical_sets
@@ -53,6 +53,7 @@ class _Line:
         return critical_sets(self.system, self.psi, tuple(z))
 
 
+@takes_names
 def slow_portrait(
     system: ELinear | System,
     psi: Psi,

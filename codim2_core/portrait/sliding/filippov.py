@@ -21,7 +21,7 @@ from ...results.result import Result, column_rows
 from ...results.tables import html_table, paragraphs, point
 from ...results.words import say
 from ...systems.frozen import FrozenSystem
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 
 SEARCH_DIRECTIONS = 512  # directions among which maxima are looked for, then refined
 FIRST_DIRECTIONS = 48  # directions of the first linear programme
@@ -72,6 +72,7 @@ class FilippovSliding(Result):
         return len(self.vertices)
 
 
+@takes_names
 def filippov_sliding(system: AnySystem, z: ArrayLike = ()) -> FilippovSliding:
     """All candidates of the Filippov convention for z' on Sigma, Figure 3.
 

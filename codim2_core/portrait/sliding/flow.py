@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...systems.frozen import FrozenSystem
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ..layer_problem.critical import CriticalSet
 from ..layer_problem.disc_zeros import disc_zeros
 from ..layer_problem.location import locate
 
 
+@takes_names
 def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | None:
     """Z' along the critical sets, (2.30): W at the zeros of U, whatever Psi is.
 

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from ...results.result import Results
 from ...results.words import say
 from ...systems.frozen import FrozenSystem
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ..cycles.limit_cycles import LimitCycle
 from ..layer_problem.location import Existence
@@ -34,6 +34,7 @@ __all__ = ["Certificate", "Verdict", "certificates"]
 MOST_CONDITION = 1e12
 
 
+@takes_names
 def certificates(
     system: AnySystem, psi: Psi, z: ArrayLike = (), cycles: Iterable[LimitCycle] | None = None
 ) -> Results[Certificate]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numpy.typing import ArrayLike
 
-from ...systems.kinds import AnySystem
+from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ..cycles.limit_cycles import certificate_of, excluding_theorem
 from ..cycles.proof.result import Proof
@@ -13,6 +13,7 @@ from ..layer_problem.problem import LayerProblem
 __all__ = ["prove_portrait"]
 
 
+@takes_names
 def prove_portrait(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Proof:
     """Prove a portrait: its limit directions, its critical sets, and that it has no other limit cycles than are found.
 

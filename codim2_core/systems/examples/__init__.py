@@ -25,25 +25,10 @@ from .towed_wheel import towed_wheel
 from .unit_vector_control import unit_vector_control
 
 __all__ = [
-    "GRAVITY",
-    "Ball",
-    "Example",
-    "attracting_repelling",
-    "ball_in_pool",
-    "ball_on_turntable",
-    "cart_on_two_wheels",
-    "catalogue",
-    "driven_mass",
-    "nonunique_sliding",
-    "plate_on_three_feet",
-    "register",
-    "spinning_annulus",
-    "spinning_disc",
-    "tilting_block",
-    "towed_wheel",
-    "unit_vector_control",
-    "unregister",
-]
+    "GRAVITY", "Ball", "Example", "attracting_repelling", "ball_in_pool", "ball_on_turntable", "cart_on_two_wheels",
+    "catalogue", "driven_mass", "nonunique_sliding", "plate_on_three_feet", "register", "spinning_annulus",
+    "spinning_disc", "tilting_block", "towed_wheel", "unit_vector_control", "unregister",
+]  # fmt: skip
 
 
 def __getattr__(name: str) -> Callable[..., ELinear | System]:

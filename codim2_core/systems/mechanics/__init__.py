@@ -13,20 +13,9 @@ from .several.contacts import Contacts, contacts
 from .several.result import ContactDecision, ContactMotion, ContactPhase, ContactStatus
 
 __all__ = [
-    "ContactDecision",
-    "ContactForce",
-    "ContactMotion",
-    "ContactPhase",
-    "ContactStatus",
-    "Contacts",
-    "Fit",
-    "Grip",
-    "Mechanism",
-    "contact",
-    "contacts",
-    "fit",
-    "stribeck",
-]
+    "ContactDecision", "ContactForce", "ContactMotion", "ContactPhase", "ContactStatus", "Contacts", "Fit", "Grip",
+    "Mechanism", "contact", "contacts", "fit", "stribeck",
+]  # fmt: skip
 
 globals().update(checked_functions(__name__, globals(), ["fit"]))
 

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 from ..elinear import ELinear
 from ..typed import System
+from .formula_reading import Given, GivenMatrix, GivenRow
 from .mechanism import Mechanism
 
 
 def contact(
-    M: Any, J: Any, force: Any, mu: Any, normal: Any, velocities: Any, slow: Any = (), rates: Any = (),
-    surface: Any = (0.0, 0.0), parameters: Any = (),
+    M: GivenMatrix, J: GivenMatrix, force: GivenRow, mu: Given | GivenMatrix, normal: Given | GivenRow,
+    velocities: Sequence[str], slow: Sequence[str] = (), rates: Mapping[str, Given] | tuple[()] = (),
+    surface: GivenRow = (0.0, 0.0), parameters: Mapping[str, float] | tuple[()] = (),
 ) -> ELinear | System:  # fmt: skip
     """Return the system of a mechanism with dry friction at one point of contact: that of a `Mechanism`.
 

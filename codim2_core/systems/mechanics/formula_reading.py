@@ -8,8 +8,12 @@ from typing import Any
 from ...formulas.expression import Expression, ExpressionError, parse
 from ...formulas.names import FAST_NAMES, SLOW_NAMES
 from ...formulas.reader import check_names
+from ...results.arrays import Array
 from ..reading import mapping, parameter, short_repr
 
+Given = float | str | Expression  # what a formula is read from
+GivenRow = Sequence[Given] | Array
+GivenMatrix = Sequence[GivenRow] | Array
 FormulaRow = tuple[Expression, ...]
 Matrix = tuple[FormulaRow, ...]
 

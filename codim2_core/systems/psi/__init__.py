@@ -9,25 +9,9 @@ from .families import FAMILIES, Family, Parameter, register, unregister
 from .function import Psi
 
 __all__ = [
-    "ENGINES",
-    "FAMILIES",
-    "Engine",
-    "Family",
-    "Parameter",
-    "Psi",
-    "constant",
-    "custom",
-    "engine",
-    "engine_eps",
-    "exponential",
-    "from_text",
-    "hill",
-    "make",
-    "rational",
-    "register",
-    "tanh",
-    "unregister",
-]
+    "ENGINES", "FAMILIES", "Engine", "Family", "Parameter", "Psi", "constant", "custom", "engine", "engine_eps",
+    "exponential", "from_text", "hill", "make", "rational", "register", "tanh", "unregister",
+]  # fmt: skip
 
 
 def __getattr__(name: str) -> Callable[..., Psi]:

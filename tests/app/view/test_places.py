@@ -55,6 +55,23 @@ def test_a_page_of_marimo_has_each_frame_as_a_parameter(config, monkeypatch):
     assert unpack(view.latest)[0]["set"] == {"f1": 0.5}
 
 
+def test_a_view_in_two_cells_of_marimo_lives_in_both():
+    """Showing one, marimo binds each comm that the view names among its `values` to the newest cell (marimo 0.25)."""
+    view, comms = explorer("case1-cm4"), []
+    for cell in ("first", "second"):
+        document, comm = Document(), MarimoComm()
+        root = view._render_model(document, comm)
+        view._comms[root.ref["id"]] = (comm, comm)
+        add_to_doc(root, document, True)
+        comms.append(comm)
+        for one, _ in view._comms.values():
+            one._ui_element_id = cell
+    assert [comm._ui_element_id for comm in comms] == ["first", "second"]
+    view._handle_msg({"id": 7, "set": {"f1": -0.25}})
+    for comm in comms:
+        assert bytes(view.latest) in [bytes(one) for _, buffers in comm.sent for one in buffers or ()]
+
+
 def test_nothing_is_sent_twice_elsewhere():
     view, document = explorer("case1-cm4"), Document()
     document.add_root(view.get_root(document))

@@ -26,7 +26,7 @@ for three feet of a rigid plate: v' is unique, the forces e that hold it are not
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -40,11 +40,12 @@ from ....results.arrays import Array, read_only
 from ....results.result import Result
 from ....results.words import say
 from ...arguments import checked_times
+from ...arguments import psi as read_psi
 from ...elinear import ELinear
-from ...psi.function import Psi
+from ...kinds import PsiLike
 from ...typed import System
 from .. import formula_reading
-from ..formula_reading import FormulaRow, Matrix
+from ..formula_reading import FormulaRow, Given, GivenMatrix, GivenRow, Matrix
 from ..mechanism import Mechanism
 from .contact_parts import ContactParts, mechanisms, read_contacts, refuse_fast_names
 from .decision import Flags, decide_contacts
@@ -169,8 +170,8 @@ class Contacts(Result):
         return self._follow(NonsmoothRun, Law(), state0, t_span, rtol, atol, times, max_steps, max_step)
 
     def simulate(
-        self, psi: Psi, state0: ArrayLike, t_span: ArrayLike, *, eps: float, rtol: float = 1e-9, atol: float = 1e-11,
-        times: ArrayLike | None = None, max_steps: int = 20_000, max_step: float = math.inf,
+        self, psi: PsiLike, state0: ArrayLike, t_span: ArrayLike, *, eps: float, rtol: float = 1e-9,
+        atol: float = 1e-11, times: ArrayLike | None = None, max_steps: int = 20_000, max_step: float = math.inf,
     ) -> ContactMotion:  # fmt: skip
         """Follow the motion of the regularised system, ``e_Psi`` with the same eps at every contact.
 
@@ -189,9 +190,8 @@ class Contacts(Result):
         """
         if not 1e-14 <= eps <= 1e6:
             raise ValueError(f"eps is {eps}; give a positive number, from 1e-14 to 1e6.")
-        return self._follow(
-            RegularisedRun, Law(psi, float(eps)), state0, t_span, rtol, atol, times, max_steps, max_step
-        )
+        law = Law(read_psi("psi", psi), float(eps))
+        return self._follow(RegularisedRun, law, state0, t_span, rtol, atol, times, max_steps, max_step)
 
     def _checked(self, state: ArrayLike) -> Array:
         given = np.array(state, float)
@@ -242,7 +242,10 @@ def _checked_span(t_span: ArrayLike) -> tuple[float, float]:
     return float(given[0]), float(given[1])
 
 
-def contacts(M: Any, contacts: Any, force: Any, velocities: Any, rates: Any = (), parameters: Any = ()) -> Contacts:
+def contacts(
+    M: GivenMatrix, contacts: Sequence[Sequence[Any]], force: GivenRow, velocities: Sequence[str],
+    rates: Mapping[str, Given] | tuple[()] = (), parameters: Mapping[str, float] | tuple[()] = (),
+) -> Contacts:  # fmt: skip
     """Return the mechanism with dry friction at several points of contact.
 
     Parameters
