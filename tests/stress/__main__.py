@@ -2,10 +2,6 @@
 
 Runs all tests that Hypothesis makes examples for, with the examples of one seed after the other, until the time is over
 or one fails. The seed is printed; what was found becomes an ``@example`` of its test.
-
-``--ways`` compares what can be had in two ways, of random systems: see `ways`. ``--contacts`` does so of random plates
-on several feet: see `contacts`. ``--loads`` compares motions under random loads that switch, pulse and ramp with brute
-force: see `loads`.
 """
 
 from __future__ import annotations
@@ -15,9 +11,6 @@ import itertools
 import subprocess
 import sys
 import time
-
-from . import contacts, loads
-from .ways import CHECKS, compare
 
 FOLDERS = ("tests/core", "tests/app", "tests/stress")
 
@@ -39,13 +32,7 @@ def main(words: list[str]) -> int:
     parser = argparse.ArgumentParser(prog="python -m tests.stress", description=__doc__.split("\n")[0])
     parser.add_argument("--seconds", type=float, default=600.0, help="as long as it may take (600)")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--ways", action="store_true", help="compare what can be had in two ways instead")
-    parser.add_argument("--contacts", action="store_true", help="compare motions of plates with another solver instead")
-    parser.add_argument("--loads", action="store_true", help="compare motions under loads with brute force instead")
     options = parser.parse_args(words)
-    if options.ways or options.contacts or options.loads:
-        checks = contacts.CHECKS if options.contacts else loads.CHECKS if options.loads else CHECKS
-        return compare(options.seconds, options.seed, checks)
     return properties(options.seconds, options.seed)
 
 

@@ -136,25 +136,6 @@ CHECKS = {
 }
 
 
-#: True of every system of a kind, of every Psi, or of a system of the literature: held in `tests.core` where these are.
-ELSEWHERE = {
-    "portrait/test_separatrices.py": ("case1(a)", "case2(a)", "one for each separatrix"),
-    "portrait/cycles/test_limit_cycles.py": ("mean over a cycle", "mean is that of C"),
-    "portrait/layer_problem/test_critical.py": ("slow flow of C", "independent of Ψ", "elsewhere in the chart"),
-    "portrait/sliding/test_affine.py": ("all combinations agree",),
-    "systems/test_contract.py": ("index", "none is missing", "stands still", "vanishes there"),
-    "portrait/layer_problem/test_hemisphere.py": ("geneps0(b)", "goes on up", "lem:ePsi(a)", "lem:ePsi(b)",
-                                                "one scale"),
-    "systems/psi/test_psi.py": ("lem:ePsi(c)", "lem:ePsi(d)", "lem:ePsi(e)", "through the square", "one place",
-                                "complement", "saddle stays"),
-    "motion/test_phases.py": ("geneps1: z", "geneps1: z, why", "slow manifold", "up to second order"),
-    "systems/test_elinear.py": ("rotation",),
-    "portrait/theorems/test_certificates.py": ("D1", "D2"),
-    "systems/examples/test_examples.py": ("ball", "ball, on the border", "ball sticks", "ball slips"),
-    "portrait/layer_problem/test_structure_typed.py": ("attracting and repelling", "within a third", "non-unique"),
-}  # fmt: skip
-
-
 def flattest(case):
     return min(
         float(np.abs(C.eigenvalues.real).min()) / float(np.abs(C.eigenvalues).max())
