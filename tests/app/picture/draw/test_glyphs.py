@@ -95,29 +95,3 @@ def test_marks_of_critical_sets(kind, mark):
     [C] = c2.critical_sets(c2.ELinear(-2, 0, -1), c2.psi.constant())
     told = glyphs.critical_columns([replace(C, kind=kind)])
     assert (told["shape"], told["filled"]) == ([mark[0]], [mark[1]])
-
-
-@pytest.mark.parametrize(
-    ("angles", "moved"),
-    [
-        ([1.0], [1.0]),
-        ([1.0, 2.0, 5.0], [1.0, 2.0, 5.0]),  # apart already
-        ([1.0, 1.1], [0.95, 1.15]),
-        ([0.05, 6.2], [0.083407, 6.166593]),  # neighbours across 0
-        ([1.0, 1.0, 1.0], [0.8, 1.0, 1.2]),
-        ([1.0, 1.0, 4.0, 4.1], [0.9, 1.1, 3.95, 4.15]),
-        ([], []),
-    ],
-)
-def test_labels_move_apart_by_as_little_on_either_side(angles, moved):
-    found = glyphs.spread(angles, 0.2)
-    assert found == pytest.approx(moved, abs=1e-5)
-    assert sum(found) == pytest.approx(sum(angles))
-
-
-def test_labels_for_which_there_is_no_room_stay_where_they_are():
-    """A wild formula has thousands of directions: moving their labels to and fro took a tenth of a second."""
-    angles = np.linspace(0.0, 6.2, 5000).tolist()
-    assert glyphs.spread(angles, 0.2) == angles
-    full = np.linspace(0.0, 2 * math.pi, 31, endpoint=False).tolist()
-    assert min(np.diff(glyphs.spread([full[1] - 1e-3, *full[1:]], 0.2))) > 0.199
