@@ -103,17 +103,6 @@ def test_what_is_cited_is_this_program():
     assert [one["family-names"] for one in paper["authors"]] == re.findall(r"(\w+), \w\.", page)
 
 
-def test_what_a_language_model_is_pointed_to_is_there():
-    text = (ROOT / ".github" / "llms.txt").read_text("utf-8")
-    assert re.match(r"# codim2\n\n> ", text)  # as llmstxt.org asks
-    links = re.findall(r"\]\(([^)]+)\)", text)
-    assert len(links) > 5
-    for link in links:
-        assert (ROOT / ".github" / link).is_file(), link
-    listed = text.split("codim2_core/__init__.py): ")[1].split("\n-")[0]
-    assert set(re.findall(r"\w+", listed)) <= set(codim2_core.__all__)
-
-
 def test_the_version_stands_in_one_place():
     assert PROJECT["project"]["dynamic"] == ["version"]
     assert PROJECT["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "codim2_core.__version__"}
