@@ -40,6 +40,7 @@ LOWEST_LOG, NEVER = -700.0, -1e15  # log w: smaller ones are shown as this; of a
 MOVES = 1e-11  # of the slopes of U: a smaller drift of U by the slow flow is rounding
 UNCHANGED = 1e-8  # w where the formulas switch, up to which the set is the same
 NEAR_SET = 0.05  # in e: what is further from a critical set does not follow it
+STILL = 1e-12  # of e: a set that moves by less does so by rounding
 DERIVATIVE_STEP = 1e-4  # of the time, for dM/dt
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
 GAUSS = (0.5 * (1.0 + _NODES)).tolist(), (0.5 * _WEIGHTS).tolist()
@@ -312,7 +313,7 @@ class Passage:
         self, parts: Sequence[StepArray], taken: Sequence[Step], places: Sequence[Array], turn: float
     ) -> float | None:
         """Return when the buffer point ends the delay of a set that moves; None where none does, or none is known."""
-        if self.line is not None or len(taken) < 2 or not np.ptp(places, axis=0).any():
+        if self.line is not None or len(taken) < 2 or np.ptp(places, axis=0).max() < STILL:
             return None
         before = [step for part in parts for step in part][-self.followed :]
         with suppress(NotAnalyticError, *LOST):

@@ -9,7 +9,7 @@ import json
 import os
 from pathlib import Path
 
-from ..app.static_site.in_pyodide import run_in_pyodide
+from ..app.site.static_site.in_pyodide import run_in_pyodide
 from . import slider_frames
 
 

@@ -1,6 +1,6 @@
 """One of each is added from a folder, by one registration or one row, and used in the live page.
 
-A panel, a system, a preset, a family of Psi, a layer and a lesson.
+A panel, a family of Psi and a layer.
 """
 
 import os
@@ -14,7 +14,6 @@ from tests.app.serving import serving
 
 ROOT = Path(__file__).parents[2]
 STATIC = ROOT / "app" / "codim2_app" / "static"
-PSI = c2.psi.constant()
 RECORDER = (Path(__file__).parent / "recorder.js").read_text()
 
 pytestmark = pytest.mark.slow  # a server of its own, with workers, for each of what programs add
@@ -118,24 +117,6 @@ def test_a_panel_from_a_folder_is_one_registration(page):
     assert not button.is_visible()
 
 
-def test_a_system_is_chosen_and_its_parameters_have_sliders(page):
-    page.open()
-    page.choose("[data-control=system] select", "film_on_disc")
-    assert page.find("#c2-parameter-mu").is_visible()
-    page.type("parameter-mu", "0.6")
-    [C] = c2.critical_sets(c2.System(U=("-0.6*c - 0.3*s", "-0.6*s + 0.3*c + z/4"), W=("c - z/2",)), PSI, (0.4,))
-    assert f"({C.e[0]:.3f}, {C.e[1]:.3f})".replace("-", "−") in page.find(".critical-table").text_content()
-
-
-def test_a_preset_is_in_the_list_and_shows_its_portrait(page):
-    page.open()
-    page.choose("select.preset", "added-cm0")
-    assert page.name() == "CM0"
-    assert page.find("select.preset option:checked").text_content() == "CM0, once more"
-    assert "All orbits reach C." in page.find(".preset-note").text_content()
-    assert page.find("select.psi").input_value() == "hill"
-
-
 def test_a_family_of_psi_is_chosen_and_moves_the_critical_set(page):
     page.open("?f2=0.3")
     page.choose("select.psi", "power")
@@ -166,11 +147,3 @@ def test_a_layer_is_seen_painted(page):
     page.layer("ray").uncheck()
     page.settle()
     assert not [it for it in page.find(".codim2").evaluate(RECORDER) if it.get("colour") == "#123456"]
-
-
-def test_a_lesson_of_a_folder_is_read(page):
-    page.open("?panel=lessons")
-    page.find(".lesson-list button").filter(has_text="A lesson of my own").click()
-    page.settle()
-    assert page.find(".lesson-text strong").text_content() == "C"
-    assert page.name() == "CM0"

@@ -8,7 +8,6 @@ import pytest
 import codim2_core as c2
 from codim2_core.results.tables import MAX_ROWS, html_table, point, table_number
 
-FOUR = c2.ELinear(-2, 0, -1, (-0.5, 0), B=((1, 0),), g=(0.25,))
 PSI = c2.psi.constant()
 
 
@@ -16,20 +15,6 @@ def cells(shown):
     """Texts of the cells of all tables, a row each; the HTML is well-formed."""
     root = ElementTree.fromstring(f"<div>{shown}</div>")
     return [["".join(cell.itertext()) for cell in row] for row in root.iter("tr")]
-
-
-def test_limit_directions_are_a_row_each():
-    found = c2.equator_equilibria(FOUR)
-    _, *rows = cells(found._repr_html_())
-    assert [row[0] for row in rows] == ["Q1", "Q2", "Q3", "Q4"]
-    assert [row[2] for row in rows] == [table_number(v) for v in found.lambda_rho]
-    assert rows[0][4] == found.kind(0)
-
-
-def test_a_critical_set_shows_where_it_is_and_its_slow_flow():
-    (C,) = c2.critical_sets(FOUR, PSI)
-    _, row = cells(C._repr_html_())
-    assert row == ["(−0.25, 0)", C.kind, table_number(C.trace), table_number(C.determinant), "(0)"]
 
 
 @pytest.mark.parametrize("key", ["case1-cm0", "case3-n3", "nonunique-sliding"])

@@ -50,7 +50,7 @@ def package():
     folder.chmod(0o755)
     ignored = shutil.ignore_patterns("__pycache__", "*.nbi", "*.nbc")
     shutil.copytree(ROOT / "codim2_core", folder / "codim2_core", ignore=ignored)
-    shutil.copytree(ROOT / "app", folder / "codim2_app", ignore=ignored)
+    shutil.copytree(ROOT / "app" / "codim2_app", folder / "codim2_app", ignore=ignored)
     yield folder
     shutil.rmtree(folder)
 

@@ -73,10 +73,6 @@ class Portrait:
         return int(Q[1:].translate(str.maketrans("₀₁₂₃₄₅₆₇₈₉", "0123456789"))) - 1
 
 
-def true(*_):
-    """A statement of a count or a name, held by `test_counts`."""
-
-
 def radial(portrait, sign):
     return int((np.sign(portrait.equator.lambda_rho) == sign).sum())
 
@@ -288,12 +284,6 @@ def says(verdict, why=""):
     return check
 
 
-#: Cycles about which orbits wind, and bands of them, are held where they are found.
-ELSEWHERE = {
-    **dict.fromkeys(("stable cycle", "stable cycles", "semistable cycle", "semistable cycles"),
-                    "tests/core/portrait/test_headline.py, tests/core/portrait/cycles/test_limit_cycles.py"),
-    "closed orbits around": "tests/words/test_cycle_words.py",
-}  # fmt: skip
 OUTCOMES = {
     "open set": lambda p, o: tends(p, o.label, 2),
     "one side": lambda p, o: tends(p, o.label, 1),

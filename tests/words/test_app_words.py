@@ -194,49 +194,6 @@ CHECKS = {
     "other Ψ": planes("constant"),
     "no such box": no_box,
 }
-#: Of processes and of what a kernel of Jupyter does, held in `tests` where those are run.
-ELSEWHERE = {
-    "app/picture/frame/test_budget.py": ("too wild", "fault"),
-    "app/panels/parameters/test_axes.py": (
-        "no slow variable",
-        "no parameter",
-        "n of another Ψ",
-        "axis given",
-    ),
-    "app/panels/parameters/test_response.py": ("no parameter of the motion", "no periodic motion to follow"),
-    "app/picture/state/test_compatible_changes.py": (
-        "request of a wrong kind",
-        "values of a wrong kind",
-        "too many values",
-        "values left out",
-    ),
-    "app/picture/state/test_links.py": (
-        "address changed",
-        "address too long",
-        "part of the picture",
-        "views of a link",
-    ),
-    "app/view/test_refresh.py": ("at rest", "at rest, stick", "at rest, slip"),
-    "app/view/test_refused.py": (
-        "address names",
-        "address of a later version",
-        "controls of a frame",
-        "no such parameter",
-        "no such lesson",
-    ),
-    "app/picture/state/test_chosen.py": ("name of a box", "name of the regularisation", "name of time"),
-    "app/panels/test_panels_of_motion.py": ("no time passes",),
-    "app/picture/frame/test_faults.py": ("no scipy",),
-    "app/picture/frame/test_turns.py": ("stopped", "lost"),
-    "app/picture/frame/test_workers.py": ("stopped after",),
-    "browser/test_connection.py": ("places taken", "no connection"),
-    "app/lessons/test_lessons.py": ("no such place", "mark away"),
-    "app/exports/test_film.py": ("nothing to play",),
-    "app/view/test_taking.py": ("film stopped", "proof stopped"),
-    "app/view/test_notebook.py": ("compiling",),
-    "app/lessons/rooms/test_rooms.py": ("no rooms", "all rooms taken", "no such room", "room full"),
-    "app/lessons/rooms/test_visitor.py": ("too many codes",),
-}
 
 
 @pytest.mark.parametrize("key", CHECKS)
@@ -245,7 +202,3 @@ def test_what_is_said_is_so(key, monkeypatch):
         CHECKS[key](key, monkeypatch)
     else:
         CHECKS[key](key)
-
-
-def test_every_sentence_of_the_explorer_is_held():
-    assert CHECKS.keys() | {key for keys in ELSEWHERE.values() for key in keys} == phrases.SENTENCES.keys()

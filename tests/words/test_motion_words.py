@@ -1,13 +1,12 @@
 """What is said of a motion, phase by phase, is what the other description of it does there."""
 
 import math
-from pathlib import Path
 
 import pytest
 
 import codim2_core as c2
 from codim2_core import ELinear, System, examples, psi
-from codim2_core.results.words import ROOMS, recognise
+from codim2_core.results.words import recognise
 
 from .motion_checks import CONSTANT, MOTIONS, Told
 
@@ -19,27 +18,6 @@ TWO_NODES = System(U=("-c*(c - 1/2)*(c + 1/2)", "-s"))
 SUBCRITICAL = System(U=("z*c - s + c*(c**2 + s**2)", "c + z*s + s*(c**2 + s**2)"), W=("1",))
 BUFFER = System(U=("z*(c - 0.3*z) - s/2 - c*(c**2 + s**2)", "(c - 0.3*z)/2 + z*s - s*(c**2 + s**2)"), W=("1",))
 CYCLE = System(U=("c - s - 2*c*(c**2 + s**2)", "c + s - 2*s*(c**2 + s**2)"))
-TESTS = Path(__file__).parents[1]
-#: Held in `tests.core` by tests of their own: pasts, delays, folded points, `agreement`, derivatives.
-ELSEWHERE = {
-    "motion/test_past.py": ("past on Sigma", "past ends", "has left Sigma", "past forgotten"),
-    "motion/test_nonsmooth.py": ("repels angularly", "nothing leaves"),
-    "motion/test_delay.py": ("delay, open", "Hopf, delayed", "Hopf, delayed until", "Hopf, delayed until the buffer"),
-    "motion/test_fold_classification.py": ("canard point", "folded node", "folded saddle", "folded, degenerate"),
-    "motion/test_contact_events.py": ("pole on the hemisphere",),
-    "motion/test_exchange.py": ("transcritical", "pitchfork", "exchange, moving", "passed"),
-    "motion/test_agreement.py": ("phases agree", "phases agree, less", "phases differ"),
-    "initial_value/test_events.py": ("at an event",),
-    "motion/test_stiction.py": ("static holds", "static gives way", "static unknown"),
-    "motion/test_slide_slip.py": ("cycle ends", "cycle ends at once", "cycle ends, not found",
-                                  "cycle ends, not decided", "saddle reached"),
-    "motion/test_loads.py": ("load jumps", "load switches back", "load sets in", "load switches on a cycle",
-                             "not bounded", "variation at a jump"),
-    "mechanics/test_contacts.py": ("last time",),
-    "motion/test_passage.py": ("starts on a repelling set",),
-    "motion/test_variation.py": ("variation undefined", "variation on a cycle", "variation past an end",
-                                 "variation ends at Sigma"),
-}  # fmt: skip
 CASES = {
     "focus": (ELinear(-1, 0.5, -1, (0.1, 0)), None, (1, 0.2), 3),
     "in a line": (ELinear(-1, 0, -1.5, (0.3, 0)), CONSTANT, (0.5, 0), 1),
@@ -81,7 +59,6 @@ CASES = {
     "kink": (System(U=("z*c - (1/2 + abs(z + 0.3))*s - z^2/4", "c/2 + z*s"), W=("1",)), CONSTANT, (0, 0, -1), 2),
     "crosses": (examples.attracting_repelling(), CONSTANT, (0.2, 0.25, 0.5), 2),
 }
-SEEN = set()
 
 
 def hold(system, family, start, run, asked):
@@ -91,7 +68,6 @@ def hold(system, family, start, run, asked):
         told.asked = asked
         for key, fields in recognise(text):
             if key in MOTIONS:
-                SEEN.add(key)
                 MOTIONS[key](told, fields)
 
 
@@ -116,24 +92,3 @@ def test_of_every_portrait(name):
     start = (0.05 * math.cos(angle), 0.05 * math.sin(angle), *(preset.z or (0.0,) * preset.system.m))
     run = c2.simulate_nonsmooth(preset.system, start, (0.0, 0.2), preset.psi)
     hold(preset.system, preset.psi, start, run, 0.2)
-
-
-def test_every_sentence_of_a_motion_is_held():
-    assert MOTIONS.keys() | {key for keys in ELSEWHERE.values() for key in keys} == ROOMS["motion"].keys()
-
-
-PERIODIC = {
-    "free": ("repeats", "periodic stable", "periodic unstable", "start is lost", "no periodic motion", "no derivative",
-             "motion ends early", "comes to rest"),
-    "forced": ("repeats sooner", "periodic undecided", "periodic next to a line", "not isolated"),
-    "lyapunov": ("exponents",),
-    "response": ("response", "response folds", "branches off", "doubles", "becomes a torus", "sticks change",
-                 "passages change"),
-}  # fmt: skip
-
-
-def test_every_sentence_of_a_periodic_motion_is_held():
-    assert {key for keys in PERIODIC.values() for key in keys} == ROOMS["periodic"].keys()
-    for file, keys in PERIODIC.items():
-        text = (TESTS / "core" / "motion" / "periodic" / f"test_{file}.py").read_text(encoding="utf-8")
-        assert [key for key in keys if f'"{key}"' not in text] == []

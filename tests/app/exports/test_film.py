@@ -11,7 +11,6 @@ from codim2_app.exports.figure import TITLE
 from codim2_app.exports.film import POSITIONS, STYLE, encode_film, film, picture
 from codim2_app.exports.live import Slider
 from codim2_app.exports.play import CHART, PLAY, SCALE, scenery
-from codim2_app.exports.small.chart import LEFT_MARGIN
 from codim2_app.exports.view import view_of
 from codim2_app.picture.state.animation_pacing import MIN_PACE
 from codim2_app.server.cli import main
@@ -83,14 +82,6 @@ def test_it_goes_slowly_where_something_happens_and_shows_it():
         Slider.from_text(VIEW, "f1=-2,6;x")
 
 
-@pytest.mark.parametrize("value", [-1.5, -0.5])
-def test_small_marks_keep_their_colours(value):
-    drawn = picture(VIEW, "f1=-2,2", value)
-    [shown] = frames(encode_film([drawn]))
-    apart = np.asarray(Image.open(io.BytesIO(drawn)).convert("RGB"), int) - np.asarray(shown.convert("RGB"), int)
-    assert np.abs(apart).max() <= 24  # 8 bits; the median cut gives 71
-
-
 def test_every_picture_is_told_and_the_present_value_is_among_them(monkeypatch):
     asked, told = [], []
     monkeypatch.setattr(films, "picture", lambda view, slider, value, style: asked.append(value) or solid("red")[0])
@@ -159,15 +150,6 @@ def test_a_film_of_play_has_its_dots_on_the_orbit_and_on_both_lines(number, fast
         [[x, y]] = still.place.points(point)
         assert np.hypot(u[inside].mean() - SCALE * x, v[inside].mean() - SCALE * (y + TITLE)) < 12
         assert abs(u[~inside].mean() - still.corner[0] - CHART * still.chart.place(now, 0.0)[0]) < 1
-
-
-def test_a_dot_beyond_the_picture_is_not_drawn_on_the_chart():
-    still = scenery(PLAYED.with_values({"orbit": 2}), STYLE)
-    assert np.hypot(*still.orbit.points[0]) > 1.75
-    apart = np.abs(np.asarray(Image.open(io.BytesIO(still.picture_at(0.0))), int) - np.asarray(still.drawn, int)).sum(
-        axis=2
-    )
-    assert np.nonzero(apart)[1].min() > still.corner[0] + CHART * LEFT_MARGIN / 2
 
 
 def test_a_film_of_play_runs_once_and_begins_anew(tmp_path):

@@ -7,7 +7,7 @@ import subprocess
 import pytest
 from codim2_app.exports.figure import Style, figure
 from codim2_app.exports.tex.picture import tikz
-from codim2_app.exports.tex.table import in_latex, latex, latex_number
+from codim2_app.exports.tex.table import latex, latex_number
 from codim2_app.exports.view import view_of
 from codim2_app.picture.draw.theme import HALF_VIEW
 
@@ -53,11 +53,6 @@ def test_its_numbers_are_those_of_the_core():
         assert f"$Q_{{{i + 1}}}$ & {latex_number(theta)} & {latex_number(scene['equator'].lambda_rho[i])} &" in text
     assert "a = 172" in text
     assert "There are no limit directions." in latex(view_of("case1-cm0"))
-
-
-def test_words_and_numbers_in_latex():
-    assert in_latex("Σ along Q₁: λ_ρ = −2 50%") == r"$\Sigma$ along Q$_1$: $\lambda$\_$\rho$ = $-$2 50\%"
-    assert list(map(latex_number, (-0.25, 1.5e-7, 1e-15))) == ["$-0.25$", r"$1.5 \cdot 10^{-7}$", "$0$"]
 
 
 @pytest.mark.skipif(not BOOKTABS, reason="no LaTeX with booktabs here")

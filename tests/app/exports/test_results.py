@@ -10,7 +10,6 @@ from codim2_app import svg
 from codim2_app.exports.small.chart import line_chart
 from codim2_app.exports.small.results import sketch
 from codim2_app.exports.small.sketch import Curves, LineChart, RegionChart
-from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import codim2_core as c2
@@ -50,11 +49,6 @@ def test_a_portrait_has_the_marks_and_labels_of_its_scene():
     marked = [tuple(map(float, at)) for at in re.findall(r"translate\(([\d.]+) ([\d.]+)\)", shown)]
     (C,) = scene["critical"]
     assert min(np.hypot(x - 500 - C.p[0] * 1000 / 3.5, y - 500 + C.p[1] * 1000 / 3.5) for x, y in marked) < 1
-
-
-def test_a_chart_names_as_many_lines_as_there_are_colours():
-    shown = svg(RESULTS["periodic motion"]())
-    assert re.findall(r">(x|y|z\d)</text>", shown) == ["x", "y", "z1", "z2", "z4"]
 
 
 def test_a_scene_plots_itself():
@@ -178,13 +172,6 @@ def test_matplotlib_draws_what_the_notebook_shows(name):
         (image,) = axes.images
         np.testing.assert_array_equal(image.get_array().data, shown.cells)
         assert [text.get_text() for text in axes.get_legend().texts] == list(shown.names)
-
-
-def test_without_axes_a_figure_is_made():
-    pyplot.switch_backend("agg")
-    axes = RESULTS["curve"]().plot()
-    assert len(axes.lines) == 4
-    pyplot.close(axes.figure)
 
 
 def test_without_matplotlib_it_is_said(monkeypatch):

@@ -4,6 +4,7 @@ import inspect
 import re
 import typing
 from base64 import b64encode
+from functools import cache
 from xml.etree import ElementTree
 
 import numpy as np
@@ -91,6 +92,12 @@ PICTURED = {
 GIVEN = {c2.ELinear, c2.System, c2.Coefficients, c2.Frozen, c2.Event, c2.SimulationStatus, c2.PeriodicStatus}
 
 
+@cache
+def result_of(key):
+    """Return a result, which nobody can change: made once for all that looks at it."""
+    return RESULTS[key]()
+
+
 def classes_of(annotation):
     """Classes of the core in an annotation, those of the elements of a tuple too."""
     found = {annotation} if inspect.isclass(annotation) else {typing.get_origin(annotation)}
@@ -129,7 +136,7 @@ def test_results_of_all_public_functions_are_tried():
 
 @pytest.mark.parametrize("name", RESULTS)
 def test_a_result_shows_itself_in_little(name):
-    result = RESULTS[name]()
+    result = result_of(name)
     shown = result._repr_html_()
     rows = cells(shown)
     assert len(shown) < 50_000
@@ -147,7 +154,7 @@ def test_a_result_shows_itself_in_little(name):
 
 @pytest.mark.parametrize("name", ["critical_sets", "nullclines", "bifurcations.regions", "bifurcations.hill_changes"])
 def test_nothing_found_shows_itself_too(name):
-    assert cells(type(RESULTS[name]())()._repr_html_()) == []
+    assert cells(type(result_of(name))()._repr_html_()) == []
 
 
 def test_numbers_are_those_of_the_result():
@@ -159,7 +166,7 @@ def test_numbers_are_those_of_the_result():
     counted = c2.census(count=5000)
     _, *rows = cells(counted._repr_html_())
     assert [(row[0], row[1]) for row in rows] == [(one.name, f"{one.count:,}") for one in counted.table]
-    moved = RESULTS["variation"]()
+    moved = result_of("variation")
     head, *rows = cells(moved._repr_html_())
     assert head[1:] == ["∂/∂x", "∂/∂y", "∂/∂z1", "∂/∂a"]
     assert rows == [
@@ -172,7 +179,7 @@ def test_numbers_are_those_of_the_result():
 
 
 def test_areas_of_an_atlas_lie_where_the_regions_lie():
-    found = RESULTS["atlas"]()
+    found = result_of("atlas")
     shown = found._repr_svg_()
     areas = re.findall(r'<path d="([^"]*)" fill="([^"]*)"', shown)
     assert len(areas) == len(found.regions)

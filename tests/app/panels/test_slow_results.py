@@ -1,6 +1,5 @@
 """Results that are computed next to the frames: shared, replaced by newer wishes, and refused with a sentence."""
 
-import threading
 from concurrent.futures import Future
 
 import pytest
@@ -13,8 +12,6 @@ from codim2_app.picture.frame.budget import Budget
 from codim2_app.picture.frame.work_queue import FailedResult
 from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
-
-from tests.work import wait_until
 
 
 class Later:
@@ -54,13 +51,6 @@ def test_a_fault_of_one_panel_is_logged_and_leaves_the_picture(caplog):
     executor.run()
     assert "fault of the program" in jobs.ask("map", key, lambda: None).sentence
     assert "IndexError" in caplog.text
-
-
-def test_jobs_run_beside_the_thread_that_answers():
-    jobs, key, names = Jobs(), object(), []
-    jobs.ask("map", key, lambda: names.append(threading.current_thread().name) or "done")
-    assert wait_until(lambda: jobs.ask("map", key, lambda: "done"))
-    assert names[0].startswith("codim2-panels")
 
 
 @pytest.fixture

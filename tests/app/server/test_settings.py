@@ -1,14 +1,12 @@
 """Every setting of the server is a flag, a variable and a default, in one table."""
 
 import argparse
-import json
 import logging
 import re
-import sys
 from pathlib import Path
 
 import pytest
-from codim2_app.server.process.logs import MAX_CHARACTERS, JsonLines, shorten
+from codim2_app.server.process.logs import MAX_CHARACTERS, shorten
 from codim2_app.server.settings import SETTINGS, add_settings, settings_table, unknown_settings
 
 
@@ -77,16 +75,6 @@ def test_the_table_and_the_help_have_them_all(capsys):
         assert f"--{setting.name}" in said
         assert f"[{setting.env}]" in " ".join(said.split())
         assert f"`{setting.env}`" in settings_table()
-
-
-def test_log_lines_are_json():
-    try:
-        raise ValueError("wrong")
-    except ValueError:
-        record = logging.LogRecord("codim2", logging.ERROR, __file__, 1, "what %s", ("happened",), sys.exc_info())
-    line = json.loads(JsonLines().format(record))
-    assert (line["level"], line["logger"], line["message"]) == ("error", "codim2", "what happened")
-    assert "ValueError: wrong" in line["error"]
 
 
 def test_the_hosting_page_has_the_table():

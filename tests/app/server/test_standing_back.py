@@ -71,22 +71,6 @@ def test_it_waits_for_no_longer_than_it_has_compiled(clock, answering):
     assert waited == pytest.approx([MAX_PAUSE_SECONDS, 0.004, MAX_PAUSE_SECONDS, 0.004], abs=2 * LOOK)
 
 
-def test_whoever_answers_and_compiles_itself_waits_for_nothing(clock, answering):
-    before = compile_throttle._Before()
-    with answering:
-        before.on_start(None)
-    assert clock.now == 100.0
-
-
-def test_two_answers_are_both_waited_for(answering):
-    told = lambda: ThreadPoolExecutor(1).submit(answering.elsewhere).result()
-    with answering:
-        with answering:
-            pass
-        assert told()
-    assert not told()
-
-
 class Told(event.Listener):
     """Notes the passes that begin."""
 

@@ -21,15 +21,6 @@ def test_a_value_is_watched_and_set_as_any_parameter():
     assert seen[1:] == [("a", -1.0), ("d", -0.5)]
 
 
-def test_every_value_of_the_state_is_there_and_none_is_sent_twice():
-    view = explorer("case1-cm0")
-    assert {name: getattr(view, name) for name in SHARED_CONTROLS} == {
-        name: view.state.values()[name] for name in SHARED_CONTROLS
-    }
-    sent = view.get_root(Document()).data.properties()
-    assert not set(SHARED_CONTROLS) & sent
-
-
 def test_what_is_refused_leaves_view_and_state_as_they_were():
     view = explorer(a=-1.5)
     with pytest.raises(ValueError, match="finite"):
@@ -70,13 +61,6 @@ def test_its_layout_is_that_of_a_component(layout):
     for name, value in layout.items():
         assert getattr(root, name) == value
     assert (root.sizing_mode == "stretch_width") is (not {"width", "sizing_mode"} & layout.keys())
-
-
-def test_its_style_sheets_come_after_its_own():
-    view = explorer(stylesheets=[":host { opacity: 0.5 }"])
-    assert view.get_root(Document()).stylesheets[-1] == ":host { opacity: 0.5 }"
-    view.stylesheets = [":host { opacity: 0.9 }"]
-    assert view.get_root(Document()).stylesheets[-1] == ":host { opacity: 0.9 }"
 
 
 def test_a_template_s_dark_theme_is_its_first(monkeypatch):

@@ -1,7 +1,5 @@
 """What is compiled beforehand: step by step, told, and by one process at a time."""
 
-import errno
-import os
 import subprocess
 import sys
 import threading
@@ -9,7 +7,7 @@ import threading
 import pytest
 from codim2_app.view import warmup
 from codim2_app.view.compiling import once, process, steps
-from codim2_app.view.compiling.once import alone, hold_name, lock_path
+from codim2_app.view.compiling.once import alone, lock_path
 from codim2_app.view.compiling.process import CompilerProcess
 
 import codim2_core as c2
@@ -45,38 +43,6 @@ def test_one_process_at_a_time_compiles(folder):
         raise ZeroDivisionError
     assert asked() == "free"
     assert lock_path().parent == folder
-
-
-def test_the_files_that_are_locked_go_with_the_folder_of_kernels(folder, monkeypatch):
-    """Else each folder that was ever named leaves three of them in the machine's temporary one."""
-    kernels = folder / "kernels"
-    monkeypatch.setattr(once.config, "CACHE_DIR", str(kernels))
-    with alone(), hold_name("one kernel"):
-        os.close(once.try_lock(exclusive=True))
-    assert {path.suffix for path in kernels.iterdir()} == {".lock", ".kernels", ".compiler"}
-    assert list(folder.iterdir()) == [kernels]
-    monkeypatch.setattr(once.config, "CACHE_DIR", "/proc/none")  # where nothing can be written
-    assert lock_path().parent == folder
-
-
-def test_a_file_system_without_locks_is_none_where_others_are_at_work(folder, monkeypatch):
-    def refused(*_):
-        raise OSError(errno.ENOLCK, "No locks available")
-
-    monkeypatch.setattr("fcntl.flock", refused)
-    assert once.try_lock(exclusive=True) is None
-    done = []
-    with alone():
-        done.append(1)
-    assert done == [1]
-
-
-def test_where_no_file_can_be_it_goes_on(folder, monkeypatch):
-    monkeypatch.setattr(once.tempfile, "tempdir", str(folder / "none"))
-    done = []
-    with alone(), hold_name("one kernel"):
-        done.append(1)
-    assert done == [1]
 
 
 def test_each_step_is_told_and_held_by_one_process(folder, monkeypatch):
@@ -157,21 +123,6 @@ def test_what_is_not_on_disk_is_loaded_once_another_process_has_compiled_it(begu
     assert set(ways) == {policy.LOAD}
     warmup._threads[c2.psi.constant()].join()
     assert not policy.is_left()
-
-
-def test_what_that_process_could_not_keep_is_compiled_here(begun):
-    ways = []
-
-    def step():
-        ways.append(policy.current_way())
-        if ways[-1] == policy.LOAD:
-            raise policy.NotCompiledError
-
-    warmup._compiler.ended = True
-    begun(step)
-    wait_until(lambda: warmup.done == (4, 4))
-    assert ways == 4 * [policy.LOAD, policy.COMPILE]
-    assert warmup.outcome == "ready"
 
 
 def test_who_waits_for_pictures_does_not_wait_for_what_cannot_be_compiled(begun):

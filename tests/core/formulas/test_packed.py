@@ -5,15 +5,13 @@ from functools import reduce
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
-from codim2_core import System, psi, trajectories
 from codim2_core.formulas import packed
 from codim2_core.formulas.arrays import path_program
 from codim2_core.formulas.expression import parse
 from codim2_core.formulas.functions import FUNCTIONS
 from codim2_core.formulas.jit import SCRATCH_SIZE, interpreted
-from codim2_core.formulas.packed import ROWS, SIZE, pack, result, run_packed
+from codim2_core.formulas.packed import ROWS, pack, result, run_packed
 from codim2_core.motion.initial_value import functions
 from codim2_core.motion.initial_value.kernels.rate import VALUE_FORMULAS
 
@@ -73,12 +71,6 @@ def test_they_have_the_values_of_the_formulas(evaluate):
         np.testing.assert_allclose(out, expected(some, at), rtol=1e-13, atol=1e-14)
 
 
-def test_a_row_is_used_again_once_its_value_is_needed_no_more():
-    long = parse("+".join(f"c**{k}*s" for k in range(2, 40)), NAMES)
-    assert pack(path_program((long,)), len(NAMES))[ROWS] < len(NAMES) + 6
-    assert pack(path_program((long,)), len(NAMES))[SIZE] > 300
-
-
 def joined(op, terms):
     both = parse(f"p {op} q", ("p", "q"))
     return reduce(lambda one, other: both.substitute("p", one).substitute("q", other), terms)
@@ -89,27 +81,6 @@ def keeping(count):
     sums = [parse(f"c + s*{k}/1000", ("c", "s")) for k in range(count)]
     factors = [parse("1 + p/1000", ("p",)).substitute("p", one) for one in reversed(sums)]
     return joined("+", [joined("+", sums), joined("*", factors)])
-
-
-def test_what_keeps_many_values_is_evaluated_at_fewer_places_at_once():
-    many = parse("-c + p/1000", ("c", "p")).substitute("p", keeping(200))
-    assert SCRATCH_SIZE // pack(path_program((many,)), 4)[ROWS] < 32
-    seeds, system = [(0.5, 0.2), (1.5, 0.1)], System(U=(many, "-s + 0.1*c"))
-    found = trajectories(system, psi.rational(), seeds, t_max=2.0)
-    for seed, end in zip(seeds, found.ends, strict=True):
-        x, y = seed
-        r = max(1.0, np.hypot(x, y))
-        first = (x / r, y / r, np.sqrt(max(1.0 - x * x - y * y, 0.0)) if r == 1.0 else r - 1.0)
-
-        def rate(t, state, sign=-1.0 if r == 1.0 else 1.0):
-            p, w = state[:2], state[2]
-            shape = w * w * psi.rational()(float(p @ p) / (w * w)) if sign < 0.0 else 0.0
-            c, s = p / np.sqrt(p @ p + shape)
-            U = np.array([many.evaluate({"c": c, "s": s}), -s + 0.1 * c])
-            return [*(U - p * (p @ U)), sign * w * (p @ U)]
-
-        own = solve_ivp(rate, (0.0, 2.0), first, rtol=1e-9, atol=1e-12).y[:, -1]
-        np.testing.assert_allclose(end, own, rtol=0.0, atol=1e-6)
 
 
 def test_more_values_than_there_is_room_for_are_refused(monkeypatch):

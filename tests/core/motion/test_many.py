@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import pytest
 
 from codim2_core import ELinear, Event, examples, psi, simulate_nonsmooth
@@ -13,21 +12,6 @@ from tests.core.ways import WAYS, follow
 
 SPAN = (0.0, 6.0)
 PUSHED = ELinear(-1.0, 0.3, -2.0, f=("1.3*sin(z1)", "0.4*cos(2*z1)"), B=((0.0, 0.0),), g=(1.0,))
-
-
-def test_the_steps_of_many_are_those_of_one():
-    rng = np.random.default_rng(3)
-    states = rng.normal(size=(40, 3)) * 0.5
-    states[7, :2] = 0.0  # on Sigma
-    found = simulate_nonsmooth(PUSHED, states, SPAN, psi.constant(), rtol=1e-6, atol=1e-6)
-    assert len(found) == len(states)
-    for state, run in zip(states, found, strict=True):
-        own = simulate_nonsmooth(PUSHED, state, SPAN, psi.constant(), rtol=1e-6, atol=1e-6)
-        np.testing.assert_array_equal(run.times, own.times)
-        np.testing.assert_array_equal(run.states, own.states)
-        assert run.phases == own.phases
-        assert run.evaluations == own.evaluations
-        assert run.reason == own.reason
 
 
 def test_few_rows_and_events_are_followed_one_by_one():

@@ -2,32 +2,11 @@
 
 import pytest
 
-from codim2_core import ELinear, System, approach_outcomes, classify, equator_equilibria, psi
+from codim2_core import ELinear, approach_outcomes, classify, equator_equilibria, psi
 
 
 def said(a, b, d, f1, f2, family=None):
     return classify(ELinear(a, b, d, (f1, f2)), family or psi.constant())
-
-
-@pytest.mark.parametrize(
-    ("plane", "names", "case"),
-    [
-        ((0, 1, -1, 0.1, 0.1), ["a = 0"], None),
-        ((-1, 1, 0, 0.1, 0.1), ["d = 0"], None),
-        ((-1, 1, -2, 0.1, 0.1), [], "I"),
-        ((0.5, 1, 0.5, 0.1, 0.1), [], "I"),
-        ((225, -180, 100, -171, 172), ["cusp"], "I"),
-        ((-1, 0, -1.5, -0.5, 0), ["pitchfork"], "I"),
-        ((0, 1.5, 1, 2**0.5, -(2**0.5)), ["a = 0", "quadruple zero"], None),
-        ((-1, 5, -1, 3, 4), ["saddle-node"], "I"),
-        ((0.5, 1.0, -0.5, 0.1, 0.1), ["neutral equator", "tr J = 0"], "III"),
-        ((0.6, 1.0, -0.5, 0.1, 0.1), [], "III"),
-    ],
-)
-def test_names(plane, names, case):
-    found = said(*plane)
-    assert [d.name for d in found.degeneracies] == names
-    assert found.case == case
 
 
 def test_a_triple_zero_is_a_pitchfork_only_where_the_system_is_symmetric():
@@ -58,15 +37,3 @@ def test_at_the_saddle_node_every_angle_arrives():
     (outcome,) = approach_outcomes(ELinear(-1, 1, -1, (1, 0)), psi.constant())
     assert outcome.arrives == "one side"
     assert "from every angle" in outcome.reason
-
-
-@pytest.mark.parametrize(("power", "name"), [(2, "saddle-node"), (4, "quadruple zero"), (5, "zero of multiplicity 5")])
-def test_a_zero_of_theta_is_named_by_its_multiplicity(power, name):
-    """U = -e + s^power times e turned: Theta = s^power."""
-    (found,) = classify(System(U=(f"-c - s*s**{power}", f"-s + c*s**{power}")), psi.constant()).degeneracies
-    assert found.name == name
-    assert 0.0 < found.within < 1e-9
-    assert power != 5 or "5 " in found.sentence
-    for change, named in ((0.5 * found.within, True), (100.0 * found.within, False), (1e-4, False)):
-        near = System(U=(f"-c - s*(s**{power} + {change!r})", f"-s + c*(s**{power} + {change!r})"))
-        assert (name in [d.name for d in classify(near, psi.constant()).degeneracies]) == named, change

@@ -1,7 +1,5 @@
 """The front end's modules as one: in order of dependency, each with names of its own."""
 
-import subprocess
-
 import pytest
 from codim2_app.picture.draw.bundle import bundle
 
@@ -22,18 +20,6 @@ def test_what_is_imported_stands_before_what_imports_it_and_stands_once(tmp_path
     joined = bundle(entry)
     assert [joined.count(part) for part in ("a = 1", "b = a + 1", "export default {a, b}")] == [1, 1, 1]
     assert joined.index("a = 1") < joined.index("b = a + 1") < joined.index("export default")
-
-
-def test_modules_keep_names_of_their_own(node, tmp_path):
-    entry = write(
-        tmp_path,
-        one="const secret = 1\nexport const a = secret\n",
-        two='import {a} from "./one.js"\nconst secret = 10\nexport function b() { return a + secret }\n',
-        all='import {b} from "./two.js"\nconst secret = 100\nconsole.log(b() + secret)\n',
-    )
-    (tmp_path / "joined.mjs").write_text(bundle(entry))
-    done = subprocess.run([node, str(tmp_path / "joined.mjs")], capture_output=True, text=True, check=True)
-    assert done.stdout == "111\n"
 
 
 @pytest.mark.parametrize(

@@ -12,13 +12,6 @@ from hypothesis import strategies as st
 import codim2_core as c2
 
 
-def test_join_never_mixes_pieces():
-    line = np.column_stack([np.linspace(0, 1, 11), np.zeros(11)])
-    offsets, points = glyphs.join([line, line[:3] + 5])
-    assert offsets.tolist() == [0, 11, 14]
-    assert points[11].tolist() == [5, 5]
-
-
 @given(st.lists(st.floats(0, 6.28), min_size=1, max_size=8).map(sorted))
 def test_labels_are_apart(angles):
     moved = glyphs.spread(angles)
@@ -69,18 +62,6 @@ def equator(theta, rho, ang, multiplicity=None, all_directions=False):
     return type("Equator", (), {**arrays, "all_directions": all_directions})()
 
 
-def test_equator_columns_say_what_the_numbers_are():
-    q = glyphs.equator_columns(equator([0.25, 1.0, 2.5, 4.0], [-1, 2, 0, -3], [0.5, -1, 2, 0.0], [1, 1, 1, 2]))
-    assert q["label"] == ["Q₁", "Q₂", "Q₃", "Q₄"]
-    assert q["filled"] == [1, 0, 0, 1]
-    assert q["shape"] == ["diamond", "circle", "diamond", "triangle"]
-    assert q["size"] == [18, 13, 18, 15]
-    assert q["colour"] == ["attr", "rep", "degenerate", "degenerate"]
-    assert (q["x"][1], q["y"][1]) == (math.cos(1.0), math.sin(1.0))
-    assert (q["label_x"][1], q["label_y"][1]) == pytest.approx((1.11 * math.cos(1.095), 1.11 * math.sin(1.095)))
-    assert (q["lambda_rho"], q["lambda_theta"], q["multiplicity"]) == ([-1, 2, 0, -3], [0.5, -1, 2, 0], [1, 1, 1, 2])
-
-
 def test_arrows_on_the_equator_leave_what_repels_and_reach_what_attracts():
     found = glyphs.equator_arrows(equator([0.5, 1.5, 1.6, 4.0], [1] * 4, [1.0, -2.0, 3.0, -1.0]))
     middles = [1.0, (1.6 + 4.0) / 2, (4.0 + 0.5) / 2 + math.pi]  # none where there is no room
@@ -102,23 +83,6 @@ def test_arrows_on_the_equator_leave_what_repels_and_reach_what_attracts():
     assert [x for x, *_ in turning] == pytest.approx([math.cos(t) for t in places])
 
 
-def test_critical_columns_say_what_the_core_does():
-    system = c2.ELinear(1.0, 0.3, -1.2, (0.2, 0.45), B=((1.0, 0.3),), g=(0.9,))
-    [C] = c2.critical_sets(system, c2.psi.rational(), (0.0,))
-    told = glyphs.critical_columns([C])
-    assert (told["label"], told["kind"], told["shape"], told["filled"]) == (["C"], ["saddle"], ["x"], [0])
-    assert told["e"] == [[float(v) for v in C.e]]
-    assert told["x2"] == [[float(v) for v in C.x2]]
-    assert told["e"] != told["x2"]
-    numbers = ("x", "y", "trace", "determinant", "discriminant")
-    assert [told[name] for name in numbers] == [[C.p[0]], [C.p[1]], [C.trace], [C.determinant], [C.discriminant]]
-    assert told["eigenvalues"] == [[[v.real, v.imag] for v in C.eigenvalues]]
-    assert told["slow_flow"] == [[float(v) for v in C.slow_flow]]
-    assert told["sense"] == ["⊙" if C.slow_flow[0] > 0 else "⊗"]
-    assert (told["size"], told["colour"]) == ([15], ["crit"])
-    assert glyphs.critical_columns([C, C])["label"] == ["C₁", "C₂"]
-
-
 @pytest.mark.parametrize(
     ("kind", "mark"),
     [
@@ -131,34 +95,3 @@ def test_marks_of_critical_sets(kind, mark):
     [C] = c2.critical_sets(c2.ELinear(-2, 0, -1), c2.psi.constant())
     told = glyphs.critical_columns([replace(C, kind=kind)])
     assert (told["shape"], told["filled"]) == ([mark[0]], [mark[1]])
-
-
-@pytest.mark.parametrize(
-    ("angles", "moved"),
-    [
-        ([1.0], [1.0]),
-        ([1.0, 2.0, 5.0], [1.0, 2.0, 5.0]),  # apart already
-        ([1.0, 1.1], [0.95, 1.15]),
-        ([0.05, 6.2], [0.083407, 6.166593]),  # neighbours across 0
-        ([1.0, 1.0, 1.0], [0.8, 1.0, 1.2]),
-        ([1.0, 1.0, 4.0, 4.1], [0.9, 1.1, 3.95, 4.15]),
-        ([], []),
-    ],
-)
-def test_labels_move_apart_by_as_little_on_either_side(angles, moved):
-    found = glyphs.spread(angles, 0.2)
-    assert found == pytest.approx(moved, abs=1e-5)
-    assert sum(found) == pytest.approx(sum(angles))
-
-
-def test_labels_for_which_there_is_no_room_stay_where_they_are():
-    """A wild formula has thousands of directions: moving their labels to and fro took a tenth of a second."""
-    angles = np.linspace(0.0, 6.2, 5000).tolist()
-    assert glyphs.spread(angles, 0.2) == angles
-    full = np.linspace(0.0, 2 * math.pi, 31, endpoint=False).tolist()
-    assert min(np.diff(glyphs.spread([full[1] - 1e-3, *full[1:]], 0.2))) > 0.199
-
-
-def test_no_pieces_are_no_points():
-    offsets, points = glyphs.join([])
-    assert (offsets.tolist(), points.shape) == ([0], (0, 2))

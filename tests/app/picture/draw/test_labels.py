@@ -1,50 +1,10 @@
 """Where labels stand: on nothing that is there, in the drawing, and as near to their marks as that allows."""
 
-import math
-
 import numpy as np
 import pytest
 from codim2_app.picture.draw.vector.labels import LABEL_OFFSETS, LabelBox, clear_of, width_of
 
 SIZE = 10.0
-
-
-def test_boxes_meet_where_they_have_points_in_common():
-    rng = np.random.default_rng(4)
-    seen = set()
-    for _ in range(400):
-        x, y, width, height = rng.integers(0, 6, (4, 2)).astype(float)
-        one, other = (LabelBox(x[i], y[i], width[i] + 1.0, height[i] + 1.0) for i in (0, 1))
-        middles = np.arange(0.5, 13.0)
-        across = [u for u in middles if all(box.x < u < box.x + box.width for box in (one, other))]
-        common = bool(across) and any(all(box.y < v < box.y + box.height for box in (one, other)) for v in middles)
-        assert one.meets(other) == other.meets(one) == common
-        seen.add(common)
-    assert len(seen) == 2
-
-
-def test_a_box_is_within_a_drawing_up_to_its_edges():
-    assert LabelBox(0.0, 0.0, 30.0, 20.0).fits(30.0, 20.0)
-    assert LabelBox(0.5, 0.5, 1.0, 1.0).fits(30.0, 20.0)
-    for x, y in ((-0.1, 0.0), (0.0, -0.1), (10.1, 0.0), (0.0, 10.1)):
-        assert not LabelBox(x, y, 20.0, 10.0).fits(30.0, 20.0)
-
-
-def test_widths_of_texts():
-    assert width_of("", SIZE) == 0.0
-    assert width_of("il", SIZE) < width_of("na", SIZE) < width_of("QC", SIZE) < width_of("mw", SIZE)
-    assert width_of("x\u0304", SIZE) == width_of("x", SIZE)  # a bar over the letter
-    assert width_of("Q₁", 2 * SIZE) == pytest.approx(2.0 * (width_of("Q", SIZE) + width_of("₁", SIZE)))
-    assert width_of("₁", SIZE) == width_of("'", SIZE) == width_of("f", SIZE)
-
-
-def test_places_that_are_tried_lie_on_rings_the_nearest_first():
-    away = np.hypot(*np.array(LABEL_OFFSETS).T)
-    assert LABEL_OFFSETS[0] == (0.0, 0.0)
-    assert len(LABEL_OFFSETS) == 1 + 7 * 12
-    np.testing.assert_allclose(away[1:], 0.7 * np.repeat(np.arange(1, 8), 12))
-    angle = np.arctan2(*np.array(LABEL_OFFSETS[1:13]).T[::-1]) % (2.0 * math.pi)
-    np.testing.assert_allclose(angle, np.arange(12) * math.pi / 6, rtol=0.0, atol=1e-12)
 
 
 @pytest.mark.parametrize("anchor", ["start", "middle"])

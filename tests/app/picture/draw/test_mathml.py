@@ -6,14 +6,14 @@ import re
 from xml.etree import ElementTree
 
 import pytest
-from codim2_app.picture.draw.mathml import equations_mathml, mathml, plain_symbol
+from codim2_app.picture.draw.mathml import equations_mathml, mathml
 from hypothesis import example, given
 from hypothesis import strategies as st
 
 import codim2_core as c2
 from codim2_core.formulas.expression import parse
 from codim2_core.formulas.functions import known
-from codim2_core.formulas.latex import latex_formula, latex_symbol
+from codim2_core.formulas.latex import latex_formula
 
 NAMES = ("c", "s", "mu", "z1", "K")
 VALUES = {"c": 0.4, "s": -0.7, "mu": 1.3, "z1": 0.6, "K": 2.1}
@@ -153,39 +153,3 @@ def test_a_matrix_is_written_as_given():
     rows = dict(system.equations)
     assert rows["x"].evaluate({"c": 0.6, "s": 0.8, "k": -3.0}) == pytest.approx(-1.8 + 1.6 + 0.5)
     assert rows["y"].evaluate({"c": 0.6, "s": 0.8, "z": 0.25}) == pytest.approx(-0.8 + 0.25)
-
-
-@pytest.mark.parametrize(("name", "shown"), [("mu1", "μ₁"), ("Omega", "Ω"), ("rate", "rate"), ("w12", "w₁₂")])
-def test_names_become_symbols(name, shown):
-    assert plain_symbol(name) == shown
-
-
-@pytest.mark.parametrize(
-    ("text", "drawn"),
-    [
-        ("c+s", "c + s"), ("c-s", "c - s"), ("c-(s+c)", r"c - \left(s + c\right)"), ("c/s", r"\frac{c}{s}"),
-        ("-c/s", r"-\frac{c}{s}"), ("c**2", "c^{2}"), ("exp(c)", "e^{c}"), ("sqrt(c)", r"\sqrt{c}"), ("2*c", r"2 \, c"),
-        ("c*2", r"c \cdot 2"), ("sin(c)", r"\operatorname{sin}\left(c\right)"), ("1e-20*c", r"1 \cdot 10^{-20} \, c"),
-    ],
-)  # fmt: skip
-def test_formulas_are_written_as_one_writes_them(text, drawn):
-    assert latex_formula(parse(text, ("c", "s"))) == drawn
-
-
-def test_names_have_indices_and_dots():
-    assert latex_symbol("z1") == "z_{1}"
-    assert latex_symbol("mu_k") == r"\mu_{k}"
-    assert latex_symbol("z", dot=True) == r"\dot{z}"
-    assert latex_symbol("z2", dot=True) == r"\dot{z}_{2}"
-    assert latex_symbol("Psi") == r"\Psi"
-    assert latex_symbol("rate") == r"\text{rate}"
-    assert plain_symbol("B_12") == "B₁₂"
-    assert plain_symbol("a_b_c") == "a_b_c"
-
-
-def test_a_system_is_a_table_with_its_definitions_after_it():
-    system = c2.System(U=("K*c", "s"), W=("z1-c",), definitions={"K": "1+c"})
-    rows = re.findall(r"<mtr>(.*?)</mtr>", html.unescape(equations_mathml(system)))
-    said = [re.sub(r"<[^>]*>", "", row) for row in rows]
-    assert said == ["x˙=Kc", "y˙=s", "z˙=z−c", "K=1+c"]
-    assert system._repr_latex_().count("&=") == 4

@@ -7,17 +7,13 @@ import holoviews as hv
 import numpy as np
 import pytest
 from codim2_app.picture.draw import layers
-from codim2_app.picture.draw.layers import Layer, Part
 from codim2_app.picture.draw.overlay import elements, holoviews
-from codim2_app.picture.draw.svg import SMALL_SIDE, content, draw, small
-from codim2_app.picture.draw.theme import HALF_VIEW, custom_properties, themes
-from codim2_app.picture.draw.vector.parts import VIEWBOX_SIDE, Placement
+from codim2_app.picture.draw.svg import SMALL_SIDE, draw, small
+from codim2_app.picture.draw.theme import HALF_VIEW, themes
+from codim2_app.picture.draw.vector.parts import VIEWBOX_SIDE
 from codim2_app.picture.state.controls import ExplorerState
-from codim2_app.view.markup import page_config, stylesheet
 from codim2_app.view.refresh import Frames
 
-from codim2_core import scene as core_scene
-from codim2_core.scene import scene as scene_module
 from tests.app.near import gaps
 
 NODE = {"a": -2.0, "b": 0.35, "d": -1.0, "f1": -0.4, "f2": 0.25, "psi": "rational"}
@@ -193,52 +189,3 @@ def test_holoviews_has_equal_axes_of_the_pictures_window_and_its_widths():
     sizes = [made[name].opts.get("style").kwargs["size"] for name in ("equator", "critical")]
     assert sizes == [11, 12]
     assert all("hover" in made[name].opts.get("plot").kwargs["tools"] for name in ("equator", "critical"))
-
-
-def test_labels_stand_farther_out_only_where_the_ring_is_shown():
-    frames = Frames(ExplorerState(**SADDLE, layers=["equator", "outcomes"]))
-    buffer = frames.answer({"all": True})
-
-    def radii(shown, beyond):
-        texts = attributes(content(buffer, shown, Placement(beyond=beyond)), "text")
-        return [math.hypot(float(one["x"]) - VIEWBOX_SIDE / 2, float(one["y"]) - VIEWBOX_SIDE / 2) for one in texts]
-
-    plain = radii(["equator"], 1.0)
-    assert len(plain) == len(frames.scene["equator"].theta)
-    assert radii(["equator"], 1.4) == plain
-    assert radii(["equator", "outcomes"], 1.0) == plain
-    farther = radii(["equator", "outcomes"], 1.4)
-    assert all(one > other + 5 for one, other in zip(farther, plain, strict=True))
-
-
-def test_a_new_layer_is_one_row(monkeypatch):
-    """And the scene's row, where the core does not have it yet: a spiral, drawn in the frame, the SVG and HoloViews."""
-    angle = np.linspace(0, 6, 40)
-    curve = type("Curve", (), {"points": np.column_stack([angle / 9 * np.cos(angle), angle / 9 * np.sin(angle)])})()
-    rows = {**core_scene.layers, "spiral": core_scene.Recipe(("plane",), lambda _scene: (curve,))}
-    monkeypatch.setattr(scene_module, "layers", rows)
-    part = Part("spiral", "spiral", 2.0, "spiral", arrows=True)
-    row = Layer("spiral", "A spiral", 65, (part,), {"spiral": ("#123456", "#abcdef")})
-    monkeypatch.setitem(layers.LAYERS, "spiral", row)
-    svg, scene = picture({"a": -2.0}, "spiral")
-    [stroke] = [one for one in attributes(svg) if one.get("stroke") == "var(--spiral)"]
-    [found] = pieces(stroke["d"], VIEWBOX_SIDE, HALF_VIEW)
-    assert np.abs(found - curve.points).max() < 2 * HALF_VIEW / VIEWBOX_SIDE
-    assert [one for one in attributes(svg) if one.get("fill") == "var(--spiral)"]
-    assert np.array_equal(elements(scene)["spiral"].split(datatype="array")[0], curve.points)
-    assert len(holoviews(scene)) == 12
-    told = page_config(ExplorerState())
-    assert next(one["parts"] for one in told["layers"] if one["name"] == "spiral")[0]["colour"] == "spiral"
-    assert told["themes"]["dark"]["spiral"] == "#abcdef"
-    assert "--spiral: #123456;" in stylesheet()
-    assert ".swatch-spiral { border-top: 2px solid var(--spiral) }" in stylesheet()
-
-
-def test_every_colour_that_is_named_is_there_in_both_themes():
-    light, dark = themes()["light"], themes()["dark"]
-    assert light.keys() == dark.keys()
-    named = set(re.findall(r"var\(--([\w-]+)\)", stylesheet()))
-    assert named <= light.keys() | set(re.findall(r"--([\w-]+):", stylesheet()))
-    assert {part.colour for layer in layers.LAYERS.values() for part in layer.parts} <= light.keys()
-    for name in ("page", "rho", "basin-1"):
-        assert f"--{name}: {light[name]};" in custom_properties()

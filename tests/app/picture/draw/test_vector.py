@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from codim2_app.picture.draw.theme import HALF_VIEW, RING
+from codim2_app.picture.draw.theme import RING
 from codim2_app.picture.draw.vector import parts as vector
 from codim2_app.picture.draw.vector.parts import VIEWBOX_SIDE, Placement
 
@@ -29,37 +29,6 @@ def test_hatches_lie_on_the_ring_as_far_apart_on_any_screen(hatch, strokes):
             else:
                 assert (math.hypot(x, y), math.hypot(u, v)) == pytest.approx((inner, outer))
                 assert other == pytest.approx(lean if i % strokes == 0 else -lean)  # at 45 degrees
-
-
-def test_no_label_stands_over_the_core_of_a_mark():
-    columns = {
-        "x": [0.5, 9.0], "y": [-0.25, 0.0], "shape": ["circle"] * 2, "size": [14, 14], "colour": ["attr"] * 2,
-        "filled": [1, 1],
-    }  # fmt: skip
-    for place in (Placement(), Placement(unit=3.0)):
-        taken = []
-        assert len(vector.marks(columns, place, taken)) == 1  # the other is not seen
-        [box] = taken
-        [(u, v)] = place.points([(0.5, -0.25)]).tolist()
-        assert (box.x + box.width / 2, box.y + box.height / 2) == pytest.approx((u, v))
-        assert box.width == box.height == pytest.approx(vector.CORE * 14 * place.unit)
-        assert 0.5 * 14 * place.unit < box.width < 14 * place.unit
-
-
-def test_zoomed_in_a_label_stands_as_near_to_its_mark():
-    columns = {"x": [0.6], "y": [0.8], "label": ["Q₁"], "label_x": [0.75], "label_y": [0.95]}
-    offsets = []
-    for seen in ((-HALF_VIEW, HALF_VIEW, -HALF_VIEW, HALF_VIEW), (0.1, 1.1, 0.3, 1.3), (-7.0, 7.0, -7.0, 7.0)):
-        place = Placement(seen)
-        [text] = vector.labels(columns, place, [], False)
-        [(u, v)] = place.points([(0.6, 0.8)]).tolist()
-        x, y = (float(re.search(rf' {name}="([^"]*)"', text)[1]) for name in "xy")
-        offsets.append((x - u, y - 0.34 * place.text - v))
-    scale = VIEWBOX_SIDE / (2 * HALF_VIEW)
-    assert offsets[0] == pytest.approx((0.15 * scale, -0.15 * scale), abs=0.6)
-    assert offsets[1] == pytest.approx(offsets[0], abs=1.1)
-    smaller = 0.15 * VIEWBOX_SIDE / 14  # with all else
-    assert offsets[2] == pytest.approx((smaller, -smaller), abs=1.1)
 
 
 @pytest.mark.parametrize("seen", [(-1.75, 1.75, -1.75, 1.75), (-0.5, 0.7, -0.3, 0.9)])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from codim2_app.lessons.library import read_lesson
 from codim2_app.site.docs import drawn_figures, running
-from codim2_app.site.docs.drawn_figures import SIDE, Drawing
+from codim2_app.site.docs.drawn_figures import SIDE
 from codim2_app.site.docs.pages import TEXT_FOLDER
 
 import codim2_core as c2
@@ -96,9 +96,3 @@ def test_the_arrows_of_figure_8_have_the_signs_of_the_core():
     found = c2.equator_equilibria(preset.system, preset.z)
     radial = [np.hypot(*(one - SIDE / 2).T) for one in path_points(svg, "#0072bd")]
     assert [bool(one[-1] < one[0]) for one in radial] == (found.lambda_rho < 0).tolist()
-
-
-def test_a_sketch_places_what_it_draws():
-    svg = Drawing(2.0).line([(-2, 0), (2, 0)]).dot((1, 1)).svg()
-    assert [points.tolist() for points in path_points(svg, "#1c2430")] == [[[0.0, 180.0], [360.0, 180.0]]]
-    assert 'cx="270.0" cy="90.0"' in svg

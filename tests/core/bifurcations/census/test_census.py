@@ -7,8 +7,6 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.integrate import dblquad
 
 import codim2_core as c2
@@ -16,7 +14,6 @@ from codim2_core.bifurcations.census.census import CHUNK_SYSTEMS, FEW
 from codim2_core.bifurcations.census.draws import normal, quadratic
 from codim2_core.bifurcations.census.names import IMPOSSIBLE, PORTRAIT_NAMES, _filter
 from codim2_core.bifurcations.census.table import interval
-from codim2_core.bifurcations.census.tally import margin_of
 
 PSI = c2.psi.constant()
 
@@ -70,13 +67,6 @@ def test_what_the_filter_decides_is_what_classify_says(kind):
             # what is named degenerate by its coefficients is never decided here (a neutral trace or equator is no name)
             known = {"tr J = 0", "neutral equator"}
             assert {item.name for item in found.degeneracies} <= known, row
-
-
-def test_almost_every_random_system_is_decided_by_the_filter():
-    codes, margins = filtered(np.random.default_rng(0).standard_normal((100_000, 5)))
-    assert np.count_nonzero(codes == 0) <= 10
-    assert (margins[codes > 0] > 0).all()
-    assert margins.max() <= 1.0
 
 
 def test_the_table_does_not_depend_on_the_executor():
@@ -235,18 +225,3 @@ def test_five_names_contradict_the_index_and_none_occurs():
     }
     assert c2.census(count=100_000, seed=8).contradictions == 0
     assert c2.census("quadratic", count=60, seed=8).contradictions == 0
-
-
-@settings(max_examples=20)
-@given(st.tuples(*[st.floats(-3, 3)] * 5))
-def test_margins_shrink_towards_borders(row):
-    a, b, d, f1, f2 = row
-    if max(map(abs, row)) < 1e-2:
-        return
-    system = c2.ELinear(a, b, d, (f1, f2))
-    margin = margin_of(c2.equator_equilibria(system), c2.critical_sets(system, PSI))
-    assert 0.0 <= margin <= 1.0
-    for scale in (1e-6, 1e3):  # a border does not move with the unit of time
-        faster = c2.ELinear(scale * a, scale * b, scale * d, (scale * f1, scale * f2))
-        other = margin_of(c2.equator_equilibria(faster), c2.critical_sets(faster, PSI))
-        assert other == pytest.approx(margin, rel=1e-6, abs=1e-9)

@@ -64,34 +64,11 @@ def test_an_empty_folder_that_cannot_be_written_is_told(prepared, tmp_path):
     assert "compiled anew at every start" in said
 
 
-def test_a_folder_that_can_be_written_is_numbas_own_affair(prepared, tmp_path):
-    said, folder = prepared(tmp_path / "warm")
-    assert (said, folder.parent) == ("", tmp_path / "warm")
-
-
-def test_without_the_folder_that_is_named_numba_goes_on_to_the_next(prepared, tmp_path):
-    (tmp_path / "warm").rmdir()
-    assert prepared(tmp_path / "home") == ("", tmp_path / "home" / os.path.basename(_beneath(tmp_path)))
-
-
 def test_where_nothing_can_be_written_what_lies_beside_the_modules_is_read(prepared, monkeypatch):
     monkeypatch.setattr(disk_cache.config, "CACHE_DIR", "")
     said, folder = prepared()
     assert folder == BESIDE
     assert "no folder for them can be written" in said
-
-
-def test_locators_that_a_host_names_are_left(prepared, monkeypatch, tmp_path):
-    monkeypatch.setattr(disk_cache.config, "CACHE_LOCATOR_CLASSES", "UserProvidedCacheLocator")
-    assert prepared(tmp_path / "warm")[0] == ""
-    assert disk_cache.config.CACHE_LOCATOR_CLASSES == "UserProvidedCacheLocator"
-
-
-def _beneath(folder):
-    """The folder below a cache in which Numba keeps the kernels of the package psi."""
-    return caching.UserProvidedCacheLocator(
-        codim2_core.systems.psi.make, codim2_core.systems.psi.make.__code__.co_filename
-    )._cache_path
 
 
 #: In a namespace of its own all that is mounted becomes read-only.

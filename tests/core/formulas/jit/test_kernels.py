@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from codim2_core.formulas.functions import known
-from codim2_core.formulas.jit import kernel, numba_kernels, stamps
+from codim2_core.formulas.jit import numba_kernels, stamps
 from codim2_core.portrait.stepping.lanes import integrate
 
 FILES = {
@@ -64,20 +64,6 @@ def test_that_kernels_are_compiled_is_said_once_and_only_then(tmp_path):
         for _ in range(2)
     ]  # fmt: skip
     assert told == [f"{numba_kernels.COMPILING}\n", ""]
-
-
-def test_a_kernel_that_closes_over_another_is_refused():
-    """Numba finds such a kernel again by what it closes over, and another kernel there is a new one in each process."""
-
-    @kernel
-    def square(x):
-        return x * x
-
-    with pytest.raises(TypeError, match="closes over a kernel"):
-
-        @kernel
-        def power(x):
-            return square(square(x))
 
 
 SCRIPT = """

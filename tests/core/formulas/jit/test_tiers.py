@@ -1,7 +1,6 @@
 """A kernel that is not at hand runs as Python until that has taken as long as compiling it would."""
 
 import math
-import threading
 
 import numpy as np
 import pytest
@@ -10,8 +9,6 @@ from numba.core.caching import NullCache
 import codim2_core as c2
 from codim2_core.formulas.jit import call_at, call_field, carray, interpreted, kernel, policy, right_hand_sides
 from codim2_core.formulas.jit.interpreted import THREE_POINTERS
-from codim2_core.motion.initial_value.kernels.stages import tableau_of
-from codim2_core.motion.initial_value.motion_steps import numbers_of_tableau
 from tests.core.formulas.jit.fresh import computed
 from tests.core.polylines import away
 
@@ -113,26 +110,6 @@ def test_a_long_call_is_given_up_and_its_arguments_are_put_back():
     assert tiers.seconds == spent  # Numba's dispatcher no longer asks
 
 
-@kernel
-def _halve(x):
-    return 0.5 * x
-
-
-@kernel
-def _shrink(x, least):
-    while x > least:
-        x = _halve(x) + 0.4999999 * x
-    return x
-
-
-@pytest.mark.usefixtures("rents")
-def test_a_call_that_calls_others_for_long_is_given_up():
-    tiers_of(_halve)
-    tiers_of(_shrink).cost = 1e-3
-    assert _shrink(1.0, 0.1) <= 0.1
-    assert _shrink.signatures
-
-
 @pytest.mark.usefixtures("rents")
 def test_what_is_no_arithmetic_of_pythons_runs_compiled_from_the_beginning():
     @kernel
@@ -189,24 +166,6 @@ except policy.NotCompiledError as error:
     assert compiled == []
 
 
-def test_threads_go_by_clocks_of_their_own():
-    due = []
-
-    def run():
-        interpreted.run(kernel(lambda x: x), (1.0,), 5.0, lambda: math.inf)
-        due.append(interpreted.clock.due)
-
-    interpreted.clock.due = 7.0
-    try:
-        thread = threading.Thread(target=run)
-        thread.start()
-        thread.join()
-        assert due == [math.inf]
-        assert interpreted.clock.due == 7.0
-    finally:
-        interpreted.clock.due = math.inf
-
-
 def _double(state, out, parameters):
     S, D, P = carray(state, (2,)), carray(out, (2,)), carray(parameters, (1,))
     for i in range(2):
@@ -244,12 +203,3 @@ def test_a_right_hand_side_keeps_its_address_when_it_is_compiled(monkeypatch):
     out, numbers = np.zeros(2), np.array([3.0])
     THREE_POINTERS(later.address)(S.ctypes.data, out.ctypes.data, numbers.ctypes.data)
     assert out.tolist() == [6.0, 9.0]
-
-
-def test_what_is_named_stays_named():
-    """A kernel's named tuple was a plain one as Python: another type to the kernel that is given it."""
-    numbers = numbers_of_tableau()
-    compiled, found = tableau_of(numbers), interpreted.run(tableau_of, (numbers,), math.inf, lambda: math.inf)
-    assert type(found) is type(compiled)
-    for one, other in zip(found, compiled, strict=True):
-        np.testing.assert_array_equal(one, other)

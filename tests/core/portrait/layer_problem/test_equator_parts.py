@@ -81,16 +81,3 @@ def test_a_closed_equator_by_its_mean(sign):
     narrow = equator_cycle(with_theta("1.0001 + c", "-1/2"))  # close to a saddle-node
     assert narrow.period == pytest.approx(TURN / math.sqrt(1.0001**2 - 1.0), rel=1e-10)
     assert narrow.exponent == pytest.approx(-0.5 * narrow.period, rel=1e-10)
-
-
-@pytest.mark.parametrize("slope", [1.0, 1e-3, 1e-5])
-@pytest.mark.parametrize("shift", [0.0, 1e-5, -1e-5])
-def test_where_both_vanish_a_flat_theta_blurs_lambda_rho(slope, shift):
-    """Theta = k (s - 3/5) and lambda_rho = s - 3/5 + shift, multiplied out, so that each term is rounded alone."""
-    k, f = repr(slope), repr(-0.6 + shift)
-    field = System(U=(f"s*c + ({f})*c - {k}*s*s + 3/5*{k}*s", f"s*s + ({f})*s + {k}*s*c - 3/5*{k}*c"))
-    found = equator_equilibria(field)
-    low = math.asin(0.6)
-    np.testing.assert_allclose(found.theta, [low, math.pi - low], rtol=0.0, atol=1e-9)
-    assert found.radially_degenerate.tolist() == [shift == 0.0] * 2
-    np.testing.assert_allclose(found.lambda_rho, shift, rtol=0.0, atol=1e-9)

@@ -1,17 +1,13 @@
 """An example is one file and one line, a preset one record: others are added and used through the public API."""
 
 import pytest
-from codim2_app.picture.state.chosen_system import describe, titles
-from codim2_app.picture.state.cleaning import clean
-from codim2_app.picture.state.controls import preset_values
-from codim2_app.picture.state.links import read_link
 
 import codim2_core as c2
 from codim2_core import examples
 from codim2_core.systems.presets.preset import Preset
 from codim2_core.systems.presets.presets import presets, register, unregister
 
-from ...additions import PRESET, added_example, added_family, added_preset
+from ...additions import added_example, added_preset
 
 
 def test_an_added_example_in_the_public_api(tmp_path):
@@ -30,30 +26,6 @@ def test_an_added_example_in_the_public_api(tmp_path):
     assert "film_on_disc" not in examples.catalogue
     with pytest.raises(AttributeError, match="no attribute 'film_on_disc'"):
         examples.film_on_disc  # noqa: B018
-
-
-def test_an_added_example_in_the_explorers_state(tmp_path):
-    with added_example(tmp_path) as example:
-        assert titles()["film_on_disc"] == "Film on a disc"
-        assert clean("system", "film_on_disc") == "film_on_disc"
-        link = read_link("system=film_on_disc")
-        assert not link.errors
-        state = link.state
-        assert (state.system, state.z, state.across, state.up) == ("film_on_disc", 0.4, "z", "own:mu")
-        assert describe("film_on_disc", example.make())
-
-
-def test_an_added_preset_and_family_in_the_explorers_state(tmp_path):
-    with added_family(tmp_path), added_preset(), added_preset(Preset(name="p", title="P", family="power", f1=0.5)):
-        assert list(c2.presets)[-2:] == ["added-cm0", "p"]
-        assert c2.presets["p"].group == "Your own"
-        assert c2.classify(PRESET.system, PRESET.psi).name == "CM0"
-        assert preset_values("added-cm0")["psi"] == "hill"
-        link = read_link("preset=p")
-        assert not link.errors
-        state = link.state
-        assert (state.psi, state.n, state.f1) == ("power", 2.0, 0.5)
-    assert "p" not in presets
 
 
 def test_what_cannot_be_registered(tmp_path):
