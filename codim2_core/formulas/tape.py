@@ -79,17 +79,7 @@ class NotFiniteError(ValueError):
 
 
 class Builder:
-    """Appends operations to a tape, folding constants; with `simplify` also 0 + u, 1 u, u^1 and the like.
-
-    Parameters
-    ----------
-    tape : tuple of nodes
-        What to start from.
-    simplify : bool
-        Typed text is kept as typed (``0*z1`` still names z1); derivatives are simplified.
-    limit : int
-        More nodes than this are refused with a ValueError.
-    """
+    """Appends operations to a tape, folding constants; with `simplify` also 0 + u, 1 u, u^1 and the like."""
 
     def __init__(self, tape: Tape = (), simplify: bool = False, limit: int = MOST_NODES) -> None:
         self.nodes: list[Node] = list(tape)

@@ -11,14 +11,6 @@ def rebind(function: Any, version: object = "", **names: Any) -> Any:
 
     No closure does that for what is compiled and kept on disk: Numba finds a kernel again by its file, its qualified
     name and what it closes over, and another kernel there is a new one in each process.
-
-    Parameters
-    ----------
-    function : function
-    version
-        Told apart from other versions by this: it is part of the qualified name.
-    **names
-        What is read under these names.
     """
     made = FunctionType(
         function.__code__, {**function.__globals__, **names}, function.__name__, None, function.__closure__

@@ -25,18 +25,7 @@ def point(values: Iterable[float]) -> str:
 
 
 def html_table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table, or nothing if it has no rows; of many rows the first are shown, and how many there are.
-
-    Parameters
-    ----------
-    head : sequence of str
-        The names of the columns.
-    rows : sequence of sequences of str
-
-    Returns
-    -------
-    str
-    """
+    """Return a table, or nothing if it has no rows; of many rows the first are shown, and how many there are."""
     if not rows:
         return ""
     left = f"<p>and {len(rows) - MAX_ROWS} more</p>" if len(rows) > MAX_ROWS else ""
@@ -64,13 +53,7 @@ def write_csv(path: str | Path, records: Iterable[Mapping[str, Any]]) -> None:
 
 
 def frame(records: Iterable[Mapping[str, Any]] | Mapping[str, Any]) -> Any:
-    """Return records of the same names, or columns by name, as a pandas DataFrame.
-
-    Raises
-    ------
-    ValueError
-        pandas is not installed.
-    """
+    """Return records of the same names, or columns by name, as a pandas DataFrame."""
     try:
         import pandas
     except ImportError:

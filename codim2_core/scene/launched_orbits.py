@@ -44,15 +44,7 @@ class LimitSet:
 
 @dataclass(frozen=True, eq=False)
 class LaunchedOrbits(Pictured):
-    """Orbits through given points of the picture.
-
-    Attributes
-    ----------
-    orbits : Orbits
-        Their lines; the time T of each is 0 at its seed.
-    goes, comes : tuple of LimitSet
-        Forward and backward in time.
-    """
+    """Orbits through given points of the picture."""
 
     orbits: Orbits
     goes: tuple[LimitSet, ...]

@@ -17,16 +17,7 @@ SAVING_SECONDS = 2.0  # seconds between two savings
 
 @dataclass
 class CountedChunks:
-    """Chunks counted so far: the first `upto` together, those that came before their turn apart.
-
-    Parameters
-    ----------
-    plan : Plan
-    chunk : int
-        Systems in a whole chunk. The last one, if it is smaller, is not saved: with a larger count it would be another.
-    path : Path or None
-        Where it is saved, at most every two seconds.
-    """
+    """Chunks counted so far: the first `upto` together, those that came before their turn apart."""
 
     plan: CensusPlan
     chunk: int

@@ -150,13 +150,7 @@ def distance(one: ContinuationPoint, other: ContinuationPoint) -> float:
 
 
 class ArclengthCurve:
-    """Some points of a branch as a curve by its length.
-
-    Attributes
-    ----------
-    lengths : list of float
-        Up to each of them.
-    """
+    """Some points of a branch as a curve by its length."""
 
     def __init__(self, tracer: BranchTracer, points: list[ContinuationPoint]) -> None:
         self.points = points

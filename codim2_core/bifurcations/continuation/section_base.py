@@ -28,16 +28,6 @@ class SectionBase:
 
     A critical set is followed from where it is known; where it ceases to be one, its last place goes on. So the foot
     depends on the parameter alone, without a jump.
-
-    Parameters
-    ----------
-    problem : callable
-        value -> LayerProblem.
-    value : float
-    e : ndarray (2,)
-        (c, s) there.
-    critical : bool
-        Whether it is a critical set; else x2 stays.
     """
 
     def __init__(self, problem: Problems, value: float, e: Array, critical: bool = True) -> None:

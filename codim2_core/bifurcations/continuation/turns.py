@@ -142,21 +142,7 @@ def _farthest(points: Array, centre: Array) -> float:
 
 
 class VariedRay:
-    """A ray from a foot in a fixed direction, at each value of the parameter.
-
-    Parameters
-    ----------
-    problem : callable
-        value -> LayerProblem.
-    scale : float
-        Size of changes of the value.
-    bounds : (float, float)
-        What the parameter may be.
-    foot, centre : SectionBase
-        From where the ray starts; from where amplitudes are measured.
-    u : ndarray (2,)
-        Its direction.
-    """
+    """A ray from a foot in a fixed direction, at each value of the parameter."""
 
     def __init__(
         self,

@@ -24,17 +24,7 @@ _SAME_VALUE_SHARE = 1e-9  # of the span: special values nearer to each other tha
 
 @dataclass(frozen=True)
 class ClassInterval(Tabled):
-    """A stretch of a parameter on which the portrait has one class.
-
-    Attributes
-    ----------
-    name : str
-        As `AtlasRegion.name`.
-    low, high : float
-    happening : tuple of str
-        Kinds of the special values where it ends above, as `branches` names them, or "undefined" where U has no
-        value on one side; empty at the end of the span.
-    """
+    """A stretch of a parameter on which the portrait has one class."""
 
     _head_ = ("portrait", "from", "to", "what happens there")
 

@@ -41,21 +41,7 @@ class PortraitClass(NamedTuple):
 
 
 class Classes:
-    """Classes of a system over some of its parameters, numbered as they are met.
-
-    Parameters
-    ----------
-    system : System or Frozen
-    psi : Psi
-    z : (m,) floats
-    names : sequence of str
-        Of `layer_problem.vary.names`.
-
-    Attributes
-    ----------
-    unproved : int
-        Points at which it is not proved that no limit direction and no critical set is missed.
-    """
+    """Classes of a system over some of its parameters, numbered as they are met."""
 
     def __init__(self, system: Any, psi: Psi, z: Any, names: Sequence[str]) -> None:
         self.unproved = 0

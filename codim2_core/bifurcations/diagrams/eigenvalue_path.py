@@ -20,22 +20,7 @@ __all__ = ["LinearisationPath", "linearisation_path"]
 
 @dataclass(frozen=True, eq=False)
 class LinearisationPath(Pictured):
-    """The critical set's linearisation (3.23) along one parameter.
-
-    Attributes
-    ----------
-    name : str
-        What varies.
-    values : ndarray (k,)
-    exists : ndarray of bool (k,)
-        There is an isolated critical set; where not, the arrays below are 0.
-    trace, determinant, discriminant : ndarray (k,)
-        Of J in (x2, y2) and the fast time tau.
-    eigenvalues : ndarray (k, 2), complex
-        By falling real part, conjugates with the positive imaginary part first.
-    kind : tuple of str (k,)
-        As `CriticalSet.kind`; "" where there is none.
-    """
+    """The critical set's linearisation (3.23) along one parameter."""
 
     name: str
     values: Array = field(repr=False)

@@ -29,19 +29,7 @@ _SMOOTH_OFFSETS = 2.0 ** np.arange(-32.0, -5.0)  # of the span: how far from a r
 
 
 class State:
-    """Equilibria at one value of a parameter.
-
-    Attributes
-    ----------
-    value : float
-    equator : EquatorEquilibria
-    critical : tuple of CriticalSet
-    exponent : float or None
-        Of a closed equator.
-    parts : tuple
-        What stays as it is between bifurcations: kinds of limit directions, kinds of critical sets, and the sign of
-        the exponent.
-    """
+    """Equilibria at one value of a parameter."""
 
     def __init__(self, problem: LayerProblem, value: float) -> None:
         self.value, self._problem = value, problem
@@ -77,13 +65,7 @@ class State:
 
 
 class States:
-    """States of a system along one of its parameters, each found once.
-
-    Parameters
-    ----------
-    system, psi, name, span, z
-        As of `equilibrium_branches`.
-    """
+    """States of a system along one of its parameters, each found once."""
 
     def __init__(self, system: Any, psi: Psi, name: str, span: tuple[float, float], z: ArrayLike) -> None:
         self._given, self.span = (system, psi, z, name), span

@@ -14,17 +14,6 @@ class Callback:
     """A Python function of numbers that is called by its `address`; it must outlive that.
 
     Kernels must not give up the interpreter while they call it (`held_kernel`): each call would wait for it.
-
-    Parameters
-    ----------
-    function : callable
-        Of `takes` numbers, to `gives` numbers.
-    takes, gives : int
-
-    Attributes
-    ----------
-    error : BaseException or None
-        What it has raised, to be raised where the kernel ends: until then there is NaN.
     """
 
     def __init__(self, function: Callable[..., Iterable[float]], takes: int, gives: int) -> None:

@@ -34,14 +34,7 @@ _made: WeakKeyDictionary[Any, FunctionType] = WeakKeyDictionary()
 
 
 class _Clock(threading.local):
-    """The time at which the kernel that this thread runs as Python is looked at.
-
-    Attributes
-    ----------
-    due : float
-    look : callable
-        Says until when it may go on, or raises.
-    """
+    """The time at which the kernel that this thread runs as Python is looked at."""
 
     due = math.inf
 

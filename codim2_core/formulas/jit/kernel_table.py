@@ -29,16 +29,7 @@ _place = ctypes.addressof(_slots)
 
 
 class Table:
-    """The kernels and right-hand sides that `codim2 kernels` has written.
-
-    Attributes
-    ----------
-    library : ctypes.CDLL
-    kernels : dict
-        The signatures of a kernel by module and name: the function that calls it, what it takes, what it returns.
-    addresses : dict
-        Right-hand sides by what they were compiled from.
-    """
+    """The kernels and right-hand sides that `codim2 kernels` has written."""
 
     def __init__(self, folder: Path) -> None:
         self.library = ctypes.CDLL(str(folder / "kernels.so"))
@@ -59,13 +50,7 @@ def table() -> Table:
 
 
 class TabledKernel:
-    """A kernel: called from Python it runs what was compiled beforehand.
-
-    Attributes
-    ----------
-    py_func : function
-        The same in Python.
-    """
+    """A kernel: called from Python it runs what was compiled beforehand."""
 
     def __init__(self, function: Callable[..., Any]) -> None:
         self.py_func = function

@@ -101,15 +101,7 @@ def checked_events(events: Any) -> tuple[Event, ...]:
 
 
 class EventWatch:
-    """Events under watch along a motion.
-
-    Parameters
-    ----------
-    events : sequence of Event
-    span : (t_start, t_end)
-    state : ndarray (2 + m,)
-        Where it starts; an event that is zero there does not count.
-    """
+    """Events under watch along a motion."""
 
     def __init__(self, events: Sequence[Event], span: tuple[float, float], state: Array) -> None:
         self.events, self.span, t = events, abs(span[1] - span[0]), span[0]

@@ -26,20 +26,7 @@ from .kernels.rate import SLOPE_FORMULAS, VALUE_FORMULAS
 
 
 class FieldFunctions:
-    """The functions of a field and a Psi: what has the addresses must outlive their use.
-
-    Parameters
-    ----------
-    value, slopes : object with an address
-    psi : Psi
-    formulas : tuple of ndarray
-        Packed, of the value and of the slopes; none where both are called back.
-
-    Attributes
-    ----------
-    addresses : ndarray of int64 (3,)
-        Of the value, the slopes and the gain.
-    """
+    """The functions of a field and a Psi: what has the addresses must outlive their use."""
 
     def __init__(self, value: Any, slopes: Any, psi: Psi, formulas: tuple[Array, ...] = ()) -> None:
         self.functions, self.psi, self.formulas = (value, slopes, one_gain(psi)), psi, formulas

@@ -66,24 +66,7 @@ def _hiding_rows(rows: tuple[Expression, ...], m: int) -> NDArray[np.intp]:
 
 
 class Inspection:
-    """The inspection of one motion.
-
-    Parameters
-    ----------
-    field : Field
-        On a branch, if its formulas have switches.
-    psi : Psi or None
-        None for a slide in the limit, whose steps are of (e, z), and for a slip in the limit.
-    eps : float
-        Of a regularised motion; 0 in the limit.
-    line : InvariantLine or None
-    rtol, floor : float
-        As in `MotionSteps`.
-    slide : bool
-        The steps are those of a slide in the limit, of (e, z).
-    at : ndarray (2,), optional
-        The e of a slide that does not move: its steps are of (0, 0, z).
-    """
+    """The inspection of one motion."""
 
     def __init__(
         self,

@@ -39,15 +39,7 @@ def solve_critical(
 
 
 class SlowManifold:
-    """A critical set as a function of z, continued from the last state that was accepted.
-
-    Parameters
-    ----------
-    field : Field
-    e : ndarray (2,)
-        On the set at z.
-    z : ndarray (m,)
-    """
+    """A critical set as a function of z, continued from the last state that was accepted."""
 
     def __init__(self, field: Field, e: Array, z: Array) -> None:
         self.field = field

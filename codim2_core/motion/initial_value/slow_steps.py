@@ -21,16 +21,7 @@ SLOW_STEPS_PER_CALL = 64  # steps that one call fills in
 
 
 class SlowSteps(MotionSteps):
-    """One slide under way.
-
-    Parameters
-    ----------
-    field : Field
-    e : ndarray (2,)
-        On the set at z.
-    line, span, z, rtol, floor, most, how
-        As in `MotionSteps`.
-    """
+    """One slide under way."""
 
     def __init__(
         self,

@@ -143,17 +143,7 @@ def cut_at_exit(
 
 
 class Growth:
-    """G along a motion on a critical set, from where it came to it.
-
-    Parameters
-    ----------
-    field : Field
-    psi : Psi
-    taken : sequence of Step
-        Of the whole state.
-    places : sequence of ndarray (2,)
-        e at the start and at the end of each step.
-    """
+    """G along a motion on a critical set, from where it came to it."""
 
     def __init__(self, field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array]) -> None:
         first = taken[0].first

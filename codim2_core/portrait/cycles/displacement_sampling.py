@@ -131,15 +131,7 @@ def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], 
 
 
 class Samples:
-    """Samples of one return map, in order along the section; some of them at the fine tolerance.
-
-    Parameters
-    ----------
-    section : TurnSection
-    xi : ndarray (n,)
-        Where to begin, in order.
-    backward : bool
-    """
+    """Samples of one return map, in order along the section; some of them at the fine tolerance."""
 
     def __init__(self, section: TurnSection, xi: Array, backward: bool = False) -> None:
         self.section, self.backward = section, backward

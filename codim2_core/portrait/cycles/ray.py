@@ -16,15 +16,7 @@ CROSSING_SLACK = 0.05  # of a turn: what lies so shortly before a crossing is ju
 
 
 class Ray(TurnSection):
-    """The ray from a point in a given direction, with the map of first turns on it.
-
-    Parameters
-    ----------
-    problem : LayerProblem
-    foot : HemispherePoint
-    u : ndarray (2,)
-        Direction, of length 1.
-    """
+    """The ray from a point in a given direction, with the map of first turns on it."""
 
     def __init__(self, problem: LayerProblem, foot: HemispherePoint, u: Array) -> None:
         self.problem, self.at, self.psi, self.critical, self.u = problem, problem.at, problem.psi, foot, u

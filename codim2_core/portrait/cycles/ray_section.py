@@ -55,14 +55,7 @@ class HemispherePoint:
 
 
 class TurnSection:
-    """A ray from a critical set to the equator, and the map of first turns on it.
-
-    Parameters
-    ----------
-    problem : LayerProblem
-    critical : CriticalSet
-        Where the ray starts; it keeps away from the other critical sets.
-    """
+    """A ray from a critical set to the equator, and the map of first turns on it."""
 
     def __init__(self, problem: LayerProblem, critical: CriticalSet) -> None:
         self.problem, self.at, self.psi, self.critical = problem, problem.at, problem.psi, critical

@@ -18,17 +18,7 @@ Result = TypeVar("Result")
 
 
 class CachedFunction(Generic[Result]):
-    """A function of a layer problem that each problem computes once: called again, it returns what was found.
-
-    Parameters
-    ----------
-    compute : callable
-        The function itself, LayerProblem to result.
-    layer : str
-        Name of the layer of a scene that holds it, "" if none does.
-    of_psi : bool
-        Whether Psi has a say in it.
-    """
+    """A function of a layer problem that each problem computes once: called again, it returns what was found."""
 
     def __init__(self, compute: Callable[[LayerProblem], Result], layer: str, of_psi: bool) -> None:
         self.compute, self.layer, self.of_psi = compute, layer, of_psi

@@ -14,13 +14,7 @@ DEFAULT_MAX_STEPS = 10_000
 
 @dataclass(frozen=True)
 class Stepping:
-    """Options of `trajectories` and `continuation`, which say what each means.
-
-    Raises
-    ------
-    ValueError
-        An option is invalid; the message says which, and what is allowed.
-    """
+    """Options of `trajectories` and `continuation`, which say what each means."""
 
     t_max: float = 8.0
     rtol: float = 1e-6

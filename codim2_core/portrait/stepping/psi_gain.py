@@ -184,15 +184,7 @@ def gain_parameter(psi: Psi) -> float:
 
 
 class GainVariants:
-    """The compiled variants of a function of all lanes.
-
-    Parameters
-    ----------
-    lanes : function
-        Calls ``gain(r2, w, parameter)`` in each lane.
-    typed : function, optional
-        The same for a typed Psi, whose formula it interprets in all lanes at once.
-    """
+    """The compiled variants of a function of all lanes."""
 
     def __init__(self, lanes: Callable[..., None], typed: Callable[..., None] | None = None) -> None:
         self._lanes, self._typed_lanes = lanes, typed

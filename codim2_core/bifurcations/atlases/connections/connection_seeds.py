@@ -210,19 +210,7 @@ def _nearest_vertex(line: Array, place: Array) -> Array:
 
 
 class ConnectionSearch:
-    """Changes of sign along lines.
-
-    Parameters
-    ----------
-    family : Family
-    known : callable
-        Whether a pair is known to be connected at a place.
-
-    Attributes
-    ----------
-    crowded : bool
-        Somewhere there were so many branches that none was followed.
-    """
+    """Changes of sign along lines."""
 
     def __init__(self, family: SystemFamily, known: Known) -> None:
         self.family, self.known, self.crowded = family, known, False

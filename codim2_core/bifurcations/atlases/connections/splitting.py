@@ -152,16 +152,7 @@ def roughly(section: Section, leaving: Array, entering: Array) -> float:
 
 
 class Splitting:
-    """The splitting of one pair over the plane.
-
-    Parameters
-    ----------
-    family : Family
-    place : ndarray (2,)
-        Of the unit square, where it is known.
-    pair : BranchPair
-        There.
-    """
+    """The splitting of one pair over the plane."""
 
     def __init__(self, family: SystemFamily, place: Array, pair: BranchPair) -> None:
         self.family = family

@@ -29,22 +29,7 @@ MAX_CACHE_DISTANCE = 0.01  # of the square: so far from where it is known the cr
 
 
 class EncirclingTurns:
-    """Turns about a critical set that is followed over the plane, or about a point that stays.
-
-    Parameters
-    ----------
-    family : Family
-    place : ndarray (2,)
-        Of the unit square, where it is known.
-    e : ndarray (2,)
-        (c, s) there.
-    u : ndarray (2,)
-        Direction of the ray.
-    critical : bool
-        Whether it is a critical set.
-    centre : EncirclingTurns or None
-        From whose point the size of a cycle is measured, if not from its own.
-    """
+    """Turns about a critical set that is followed over the plane, or about a point that stays."""
 
     def __init__(
         self,

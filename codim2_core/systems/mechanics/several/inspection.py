@@ -30,13 +30,7 @@ class Switch(NamedTuple):
 
 
 class Inspection:
-    """The inspection of the steps on one branch of the formulas.
-
-    Attributes
-    ----------
-    was_undecided : bool
-        Whether bounds decided nothing along some of the step inspected last, so that samples alone speak for it.
-    """
+    """The inspection of the steps on one branch of the formulas."""
 
     def __init__(self, field: ContactField, rtol: float, atol: float) -> None:
         self.field, self.was_undecided, self.atol = field, False, atol
