@@ -126,6 +126,7 @@ def test_the_version_stands_in_one_place():
 
     assert codim2_app.__version__ == codim2_core.__version__
     log = (ROOT / "app" / "codim2_app" / "site" / "docs" / "text" / "changelog.md").read_text("utf-8")
+    assert log == (ROOT / "CHANGELOG.md").read_text("utf-8")  # the documentation in a wheel has its own
     assert f"\n## {codim2_core.__version__}" in log
 
 
