@@ -7,7 +7,7 @@ proof (`numerics.fourier_zeros`), and polished on Theta itself with its exact de
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -28,6 +28,7 @@ KINK_DISTANCE = 1e-7  # so far from a kink the formula is taken to be smooth
 MOST_OF_A_TURN = 65_536  # for the integrals over a closed equator close to a saddle-node
 NEUTRAL_ROUNDING = 2.0**-49
 ZERO_COMPONENT = 1e-13  # of |U|: a component that is smaller all along a piece vanishes there
+POLE_DISTANCE, MAX_AT_ZERO = 1e-7, 1e-6  # to both sides of a change of sign; of |U|: what a component may be at a zero
 NO_ARCS = np.zeros((0, 2))
 MIN_SLOPE = 1e-9  # of |U|: a smaller slope at a sign change of a Theta that is not smooth counts as none
 
@@ -292,8 +293,14 @@ def _zeros_by_piece(key: Hashable, kind: str, size: float) -> tuple[Array, NDArr
     multiplicity = np.ones(len(theta), np.int64)
     multiplicity[len(theta) - sum(map(len, touches)) :] = 2
     order = np.argsort(theta)
-    order = order[~_lies_on_arcs(theta[order], arcs)]
+    order = order[~_lies_on_arcs(theta[order], arcs) & ~_are_poles(value, theta[order], size)]
     return theta[order], multiplicity[order], arcs
+
+
+def _are_poles(value: Callable[[Array], Array], theta: Array, size: float) -> NDArray[np.bool_]:
+    """Return at which angles a component changes its sign through infinity: it is larger there than on both sides."""
+    here, before, after = (np.abs(value(theta + h)) for h in (0.0, -POLE_DISTANCE, POLE_DISTANCE))
+    return ~(here <= np.maximum(np.minimum(before, after), MAX_AT_ZERO * size))
 
 
 def _lies_on_arcs(theta: Array, arcs: Array) -> NDArray[np.bool_]:

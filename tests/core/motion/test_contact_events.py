@@ -165,15 +165,24 @@ JAMMED = leaning_rod(0.031, 0.4646, 1.2537, 18.2639, 0.2959), (-4.8354, -8.495, 
 
 
 @pytest.mark.parametrize("watched", [False, True])
-def test_a_rod_that_arrives_where_it_can_jam_stops_and_the_jam_is_named(watched):
-    """With friction along 2.5 to 3.8 the normal force presses the bodies together: U has a pole on the hemisphere."""
+@pytest.mark.parametrize("rounding", range(-3, 4))
+def test_a_pole_that_no_orbit_meets_is_no_limit_direction(rounding, watched):
+    """Along 2.5 to 3.8 friction presses the bodies together: Theta changes its sign at poles, there and back.
+
+    Whether a pole was taken for a neutral direction, and the motion ended there, depended on rounding. By SciPy's Radau
+    the rod slides for eps > 0, with the same turn.
+    """
     mechanism, start = JAMMED
+    start = tuple(v * (1.0 + 1e-13 * rounding) for v in start)
     events = c2.contact_events(mechanism, start) if watched else ()
     run = c2.simulate_nonsmooth(mechanism.system, start, (0.0, 3.0), events=events)
-    assert run.status is c2.SimulationStatus.NOT_UNIQUE
-    assert [key for key, _ in recognise(run.reason)] == ["not unique", "pole on the hemisphere"]
-    assert [phase.kind for phase in run.phases] == ["slip"]
-    assert run.times[-1] == pytest.approx(0.82269, abs=1e-5)
+    assert run.status is c2.SimulationStatus.T_END
+    assert [phase.kind for phase in run.phases] == ["slip", "slide"]
+    assert run.phases[0].t_end == pytest.approx(0.82269, abs=1e-5)
+    slow = solve_ivp(
+        mechanism.system.rhs(c2.psi.tanh(), 1e-5), (0.0, 3.0), start, method="Radau", rtol=1e-8, atol=1e-10
+    ).y[2:, -1]  # fmt: skip
+    assert run.states[-1, 2:] == pytest.approx(slow, abs=1e-4)
 
 
 @pytest.mark.parametrize("seed", range(12))
