@@ -5,8 +5,8 @@ from __future__ import annotations
 import inspect
 from collections.abc import Iterable, Iterator
 from importlib import import_module
-from types import ModuleType
-from typing import Any, NamedTuple
+from types import ModuleType, UnionType
+from typing import Any, NamedTuple, get_args
 
 import codim2_core
 
@@ -15,7 +15,7 @@ TOPICS: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "systems": (
         "Systems",
         "What is studied: the paper's normal form, a system of your own formulas, the paper's figures.",
-        ("ELinear", "System Frozen", "Coefficients", "Psi", "presets Preset"),
+        ("ELinear", "System Frozen", "Coefficients", "Psi", "presets Preset", "SystemLike PsiLike"),
     ),
     "portraits": (
         "Portraits",
@@ -114,4 +114,6 @@ def first_line(value: Any) -> str:
 def _summary(value: Any) -> str:
     if isinstance(value, dict) or hasattr(value, "keys"):
         return "A mapping: " + ", ".join(f"``{key}``" for key in value)
+    if isinstance(value, UnionType):  # what a function may be given
+        return "One of " + ", ".join(f"``{one.__name__}``" for one in get_args(value)) + "."
     return f"``{type(value).__name__}``"
