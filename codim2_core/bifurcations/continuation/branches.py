@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 
@@ -44,12 +44,10 @@ from .continuation_points import (
     ContinuationPoints,
     ReturnMapPoint,
     TurnGuess,
-    points_at_value,
-    reversed_trace,
 )
 from .corrector import BranchTracer, ClosedTurn, distance
 from .homoclinic_detection import line_of, split_at_homoclinic
-from .known_cycles import KnownCycle, distance_along_ray, is_same_cycle
+from .known_cycles import KnownCycle, RayPiece, distance_along_ray, lies_beyond, passes, reverse_piece, some_cycles
 from .predictor_corrector import BAND_HEIGHT, trace_branch
 from .result import CycleBranch, CycleBranches, CyclePoint
 from .section_base import Problems, SectionBase, e_at
@@ -64,21 +62,13 @@ BESIDE_SADDLE_NODE = 1.5e-3  # of the span
 TOLD_DISTANCE = 3e-3  # in (chi, nu), in which lines tell the direction of a branch
 RAY_GAIN = 1.3  # times as well another ray is crossed that is worth taking
 JUMP, SHORTER = 1e-7, 0.1  # in (chi, nu), from branch to branch; of that, the next step
+OTHER_PERIOD_SHARE = 0.01  # of the period: cycles that are not one by far
 MAX_RAYS, FEW_POINTS = 12, 3  # of one branch; fewer points on a ray tell nothing
 BAND_SPREAD = 0.5  # by which ebar differs between the cycles of a band
 SAME_VALUE_SHARE = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
-LOW_SHARE, ROUNDING_OF_HEIGHT = 3.0, 1e-7  # times the height of the last cycle; ebar that p tells
 ROUNDING_HEIGHT = 1e-12  # ebar of a turn of which nothing but rounding is left
 #: Points before the last one: with those before it is compared, among these it is chosen.
 COMPARED_POINTS, CANDIDATE_POINTS = 3, 12
-
-
-@dataclass(frozen=True)
-class RayPiece:
-    """A part of a branch that was followed on one ray."""
-
-    tracer: BranchTracer
-    trace: ContinuationPoints
 
 
 def continue_cycles(
@@ -241,7 +231,7 @@ class BranchSearch:
         if self._is_known(back):
             return
         start = self._end(back)
-        self._keep([*(_reverse_piece(piece) for piece in reversed(back)), *onward], start)
+        self._keep([*(reverse_piece(piece) for piece in reversed(back)), *onward], start)
 
     def _feet(self, value: float, points: Array) -> list[SectionBase]:
         """Find points inside a cycle: critical sets that are no saddles, others, and its middle."""
@@ -311,7 +301,11 @@ class BranchSearch:
             again = self._again(tracer, trace) if stuck else None
             if again is None:
                 break
-            further = self._before_loop(RayPiece(again[0], trace_branch(*again)))
+            further = RayPiece(again[0], trace_branch(*again))
+            if self._retraces(further, pieces[-1]):  # near a loop rounding decides where a ray leads on
+                there, back = again[1], (-again[1].tangent[0], -again[1].tangent[1])
+                further = RayPiece(again[0], trace_branch(again[0], replace(there, tangent=back)))
+            further = self._before_loop(further)
             if further.trace.reason == "stuck" and len(further.trace.points) < FEW_POINTS:
                 break  # no further than the ray before
             pieces.append(further)
@@ -375,7 +369,7 @@ class BranchSearch:
             if not self._is_known([piece]):
                 onward = self._onward(piece)
                 if not self._band(onward):
-                    self.found.append((onward, self._end([_reverse_piece(piece)]), self._end(onward)))
+                    self.found.append((onward, self._end([reverse_piece(piece)]), self._end(onward)))
 
     def _end(self, pieces: list[RayPiece]) -> BranchEnd:
         """Name the end of a branch."""
@@ -428,28 +422,23 @@ class BranchSearch:
         nu = self._nu(value)
         for pieces, start, end in self.found:
             outer = (pieces[0].trace.points[0].turn, start), (pieces[-1].trace.points[-1].turn, end)
-            if any(_lies_beyond(cycle, value, *one) for one in outer):
+            if any(lies_beyond(cycle, value, *one) for one in outer):
                 return True
-            for piece in pieces:
-                for _, guess in points_at_value(piece.trace, nu):
-                    found = piece.tracer.closed(guess)
-                    if found is not None and is_same_cycle(found.turn, cycle):
-                        return True
+            if any(passes(piece, cycle, nu) for piece in pieces):
+                return True
         return False
 
     def _is_known(self, pieces: Sequence[RayPiece]) -> bool:
         """Whether a branch passes cycles of these pieces."""
-        for piece in pieces:
-            points = piece.trace.points
-            some = [points[k * (len(points) - 1) // 4].turn for k in (1, 2, 3)]
-            if any(self._passes(piece.tracer, turn) for turn in some):
-                return True
-        return False
+        return any(self._known(*some) for piece in pieces for some in some_cycles(piece))
 
-    def _passes(self, tracer: BranchTracer, turn: ReturnMapPoint) -> bool:
-        """Whether a branch passes the cycle of a turn."""
-        line = line_of(tracer, turn)
-        return line is not None and self._known(KnownCycle(line, turn.period), turn.value)
+    def _retraces(self, piece: RayPiece, before: RayPiece) -> bool:
+        """Whether a piece leads back over the cycles of the one before it, not counting those at its end."""
+        last = before.trace.points[-1].turn.period
+        return any(
+            abs(cycle.period - last) > OTHER_PERIOD_SHARE * last and passes(before, cycle, self._nu(value))
+            for cycle, value in some_cycles(piece)
+        )
 
     def _branch(self, pieces: list[RayPiece], start: BranchEnd, end: BranchEnd) -> CycleBranch:
         rows: list[PointRow] = [] if start.limit is None else [start.limit]
@@ -460,15 +449,3 @@ class BranchSearch:
         if end.limit is not None:
             rows.append(end.limit)
         return build_branch(self.name, rows, folds, start.point, end.point)
-
-
-def _lies_beyond(cycle: LimitCycle | KnownCycle, value: float, last: ReturnMapPoint, end: BranchEnd) -> bool:
-    """Whether a cycle lies between the last one of a branch and its limit on the equator, lower than is followed."""
-    if not (math.isinf(end.point.period) and min(last.value, end.point.value) <= value):
-        return False
-    height = math.sqrt(max(1.0 - float((cycle.points**2).sum(axis=1).max()), 0.0))
-    return value <= max(last.value, end.point.value) and height < LOW_SHARE * max(last.height, ROUNDING_OF_HEIGHT)
-
-
-def _reverse_piece(piece: RayPiece) -> RayPiece:
-    return RayPiece(piece.tracer, reversed_trace(piece.trace))

@@ -245,3 +245,30 @@ def test_a_branch_of_the_smallest_heights_alone_is_no_band(family):
     found = c2.branches(system, family, "p", (-1.5, 1.5))
     for value in (-1.2, -0.4, 0.1, 0.35):
         assert found.cycles.count(value) == len(c2.limit_cycles(system.evolve(p=value), family))
+
+
+def test_a_ray_taken_next_to_a_loop_leads_on():
+    """Rounding led a new ray back, over the branch to its Hopf point; `limit_cycles` sees where the branch ends."""
+    U = (
+        "p*c + 0.307 + 0.665*c - 0.726*s + 0.447*c*c - 0.33*c*s - 0.235*s*s - 0.565*c**3 + 0.8*s**3",
+        "p/2*s - 0.341 - 0.778*c + 0.482*s + 0.989*c*c - 0.645*c*s + 0.243*s*s + 0.555*c**3 - 0.213*s**3",
+    )
+    system = c2.System(U=U, parameters={"p": 0.0})
+    found = c2.branches(system, ONE, "p", (-1.5, 1.5)).cycles
+    kinds = [[one.kind for one in branch.special] for branch in found]
+    assert kinds == [["Hopf", LOOP_END], ["Hopf", "homoclinic cycle"]]
+    low, high = -0.41177, -0.41174
+    assert [len(c2.limit_cycles(system.evolve(p=v), ONE)) for v in (low, high)] == [0, 1]
+    assert low < found[1].end.value < high
+
+
+def test_a_branch_low_over_the_equator_is_one():
+    """Three pieces with gaps were told, on rays that its cycles cross lowest; by `limit_cycles` one cycle is there."""
+    U = (
+        "p*c + 0.162 - 0.614*s - 1.082*c*c - 0.091*c*s + 0.088*s*s + 0.137*c**3 - 0.311*c*c*s + 0.117*s**3"
+        " + 0.696*sin(3*s)",
+        "(-0.091 + 0.5*p)*s - 0.108 + 1.24*c - 0.006*s*s - 0.761*c**3 - 0.909*c*c*s",
+    )
+    found = c2.branches(c2.System(U=U, parameters={"p": 0.0}), c2.psi.tanh(), "p", (-1.5, 1.5)).cycles
+    assert len(found) == 3
+    assert [found.count(v) for v in (-0.8, -0.6, -0.4, 0.1, 0.206, 0.207, 0.2129)] == [1, 1, 1, 1, 1, 0, 2]
