@@ -54,7 +54,7 @@ PLACES = {
     "beamer": ("?v=1", [".beam"]),
     "orbits": ("?v=1&panel=orbits&orbits=0.4,0.3;1.5,0.6,-:slow&orbit=1&orbit_eps=show", []),
     "a ball": ("?v=1&panel=orbits&system=ball_in_pool&orbit_eps=show", []),
-    "a range": ("?v=1&system=own&panel=numbers", ["[data-control=parameter-k] label"]),
+    "a range": ("?v=1&system=own&panel=numbers", ["[data-control=parameter-mu] label"]),
     "a card": ("?v=1&pinned=C&panel=numbers", []),
     "help": ("?v=1", [".help"]),
     "share": ("?v=1", [".share"]),

@@ -19,20 +19,6 @@ MAX_SIZE = 1e3
 FREE_ROUNDS, MAX_CORRECTION_RATIO = 3, 0.4
 
 
-def finite_differences(function: Callable[[Array], float], step: float) -> Condition:
-    """Return a condition of one function, whose derivatives are central differences."""
-
-    def condition(v: Array) -> tuple[Array, Array]:
-        value = function(v)
-        if not math.isfinite(value):
-            return np.full(1, math.nan), np.full((1, len(v)), math.nan)
-        ways = step * np.eye(len(v))
-        slope = [(function(v + way) - function(v - way)) / (2.0 * step) for way in ways]
-        return np.array([value]), np.array([slope])
-
-    return condition
-
-
 def newton(
     condition: Condition, start: Array, reach: float = math.inf, close: float = NEWTON_TOLERANCE
 ) -> Array | None:

@@ -269,8 +269,3 @@ _compiled_one = GainVariants(_one_gain)
 def one_gain(psi: Psi) -> Any:
     """Return the compiled gain at one place: by its `address`, from (|p|^2, w)."""
     return _compiled_one.get(variant(psi, False))
-
-
-def has_one_gain(psi: Psi) -> bool:
-    """Whether `one_gain` answers without compiling, as `has_gains`."""
-    return variant(psi, False) in _compiled_one
