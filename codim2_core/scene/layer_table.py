@@ -4,13 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
-from ..bifurcations.plane.borders import coefficients_of, critical_lines, saddle_node_lines
-from ..bifurcations.plane.curve import BifurcationCurve, read_only_lines
-from ..bifurcations.plane.regions import Region, regions
 from ..portrait.approach_outcomes import outcomes_of
 from ..portrait.classify import portrait, portrait_name
 from ..portrait.cycles.limit_cycles import closed_orbits, cycles_of
@@ -22,7 +18,6 @@ from ..portrait.nullcline.view_refinement import Seen
 from ..portrait.separatrices import Separatrices, separatrices_of
 from ..portrait.sliding.flow import flow_on
 from ..portrait.theorems.certificates import Certificate, certificates_of
-from ..systems.bounds import MIN_NUMBER
 from .drawn_orbits import continuations, orbits, seeds_of
 from .launched_orbits import LaunchedOrbits, launched_orbits
 from .setting import SceneSetting
@@ -40,11 +35,9 @@ class Recipe:
 
 
 # The values that layers read, as keys: `plane` is (a, b, d, f1, f2) at z, or the formulas of U and the numbers that
-# they read, with where limit directions are counted from, and `matrix` is (a, b, d), so z itself reaches nothing but
-# what looks along z: `place`.
+# they read, with where limit directions are counted from: z itself reaches nothing but what looks along z, `place`.
 INPUTS: Mapping[str, Callable[[SceneSetting], Hashable]] = {
     "plane": lambda s: (s.coefficients.key, s.cut),
-    "matrix": lambda s: _matrix(s),
     "slow": lambda s: s.coefficients.slow_key,
     "place": lambda s: (s.system, s.z) if s.system.moves_with_z else None,
     "psi": lambda s: (s.psi.family, s.psi.parameter, s.psi.text),  # what makes two equal, as numbers and text
@@ -69,38 +62,6 @@ def seen_closely(setting: SceneSetting) -> Seen | None:
     left, right, bottom, top = setting.window
     pixel = max(right - left, top - bottom) / ACROSS
     return Seen(setting.window, pixel) if pixel < 2.0 * setting.view / ACROSS else None
-
-
-def _matrix(setting: SceneSetting) -> tuple[float, float, float] | None:
-    """Return a, b, d: zeros where they are so small against f that they alone are refused, None for a typed system."""
-    at = setting.coefficients
-    if at.typed is not None or at.as_given is None:
-        return None
-    a, b, d = at.as_given.plane[:3]
-    return (a, b, d) if max(abs(a), abs(b), abs(d)) >= MIN_NUMBER else (0.0, 0.0, 0.0)
-
-
-def _atlas_curves(setting: SceneSetting) -> tuple[BifurcationCurve, BifurcationCurve] | None:
-    """Return the saddle-node curve and the ellipse |A^-1 f| = 1 of the plane (f1, f2)."""
-    matrix = _matrix(setting)
-    if matrix is None:
-        return None
-    node, ellipse = (read_only_lines(of(matrix)) for of in (saddle_node_lines, critical_lines))
-    return (
-        BifurcationCurve("saddle-node", "saddle-node", "fig:SNBIF, eq:tangencies", node),
-        BifurcationCurve("transcritical", "transcritical", "fig:ellipse, fig:transcrit", ellipse),
-    )
-
-
-def _regions(setting: SceneSetting) -> tuple[Region, ...] | None:
-    matrix = _matrix(setting)
-    return None if matrix is None else regions_of(matrix)
-
-
-@lru_cache(maxsize=64)
-def regions_of(matrix: tuple[float, float, float]) -> tuple[Region, ...]:
-    """Return the regions of a plane: the same for all who open one address, of whose first picture they take half."""
-    return regions(coefficients_of(matrix))
 
 
 def _launched_layer(setting: SceneSetting) -> LaunchedOrbits:
@@ -151,8 +112,6 @@ layers: Mapping[str, Recipe] = MappingProxyType(
         "separatrices": Recipe(("plane", "psi", "tolerance", "pixel"), _separatrices),
         "outcomes": Recipe(("plane", "slow", "psi"), lambda s: outcomes_of.compute(s.problem)),
         "certificates": Recipe(("plane", "slow", "psi", "place"), _certificates),
-        "atlas_curves": Recipe(("matrix",), _atlas_curves),
-        "regions": Recipe(("matrix",), _regions),
     }
 )
 
@@ -163,4 +122,3 @@ LAYER_OF_FUNCTION: Mapping[str, str] = MappingProxyType(
         "classify": "classification", "limit_cycles": "cycles", "approach_outcomes": "outcomes",
     }
 )  # fmt: skip
-ELINEAR_ONLY = frozenset({"atlas_curves", "regions"})

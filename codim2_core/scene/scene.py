@@ -33,7 +33,7 @@ from ..systems.kinds import SYSTEM_KINDS, AnySystem
 from ..systems.presets.named import named_setting
 from ..systems.psi import constructors
 from ..systems.psi.function import Psi
-from .layer_table import ELINEAR_ONLY, INPUTS, LAYER_OF_FUNCTION, layers
+from .layer_table import INPUTS, LAYER_OF_FUNCTION, layers
 
 ABSENT = object()  # in place of a result that is not kept
 KEPT_RESULTS = 8  # results kept for each layer: a few settings back and forth
@@ -108,7 +108,6 @@ class Scene(Written, Mapping[str, Any]):
     Parameters
     ----------
     system : ELinear or System, or either frozen at a z; or the name of a preset or an example
-        Layers of the theory of e-linear systems (`ELINEAR_ONLY`) are None for another; `has` says so beforehand.
     psi : Psi, optional
         Default Psi = 1.
     z : (m,) floats
@@ -345,12 +344,8 @@ class Scene(Written, Mapping[str, Any]):
         for name, result in results.items():
             self._memory.keep(name, self.key(*layers[name].inputs), result)
 
-    def has(self, name: str) -> bool:
-        """Whether a layer exists for this system; one that does not is None."""
-        return name in layers and (name not in ELINEAR_ONLY or self.coefficients.typed is None)
-
     def key(self, *inputs: str) -> tuple[Hashable, ...]:
-        """Return the present values of some inputs of layers ("plane", "matrix", "slow", "psi", …), hashable."""
+        """Return the present values of some inputs of layers ("plane", "slow", "psi", …), hashable."""
         known = self._inputs
         for name in inputs:
             if name not in known:

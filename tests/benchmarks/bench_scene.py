@@ -18,7 +18,7 @@ from codim2_core.scene import layers
 from codim2_core.scene.layer_table import regions_of
 
 TRAJECTORIES = ("inside", "outside")
-ON_REQUEST = ("separatrices", "regions", "certificates", "outcomes")  # only when a person asks, or at rest
+ON_REQUEST = ("separatrices", "certificates", "outcomes")  # only when a person asks, or at rest
 LAYERS = tuple(layers)
 PICTURE = tuple(name for name in LAYERS if name not in ON_REQUEST)  # what a frame of the explorer computes
 

@@ -114,8 +114,7 @@ def _lines(shown: dict[str, Any]) -> str:
 
 def _of(key: str, block: str) -> bool:
     """Say whether an array is a panel's: those of the picture's layers are not."""
-    curves = ("saddle_node", "transcritical", "regions", "hopf", "node_focus", "map", "map_curves", "cycle_folds")
-    return key == "atlas" and block.partition(".")[0] in (*curves, "heteroclinic", "closed_equator")
+    return key == "atlas" and block.partition(".")[0] in ("map", "map_curves")
 
 
 def _plain(value: Any) -> Any:

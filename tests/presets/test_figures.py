@@ -127,7 +127,11 @@ def conics(figure):
 
 
 def ellipse_and_f(figure):
-    assert "regions" in figure.sent  # the panel Atlas is open: its curves are the ellipse and the saddle-nodes
+    assert figure.sent["atlas_of"] == [
+        "f1",
+        "f2",
+        True,
+    ]  # the panel Atlas is open: its curves are the ellipse and the saddle-nodes
     ellipse = np.concatenate(c2.bifurcations.critical_boundary(c2.ELinear(*figure.at.plane[:3])).branches)
     size = np.hypot(*np.linalg.solve(figure.at.A, ellipse.T))
     np.testing.assert_allclose(size, 1.0, rtol=0.0, atol=1e-9)

@@ -57,3 +57,9 @@ def critical_lines(entries: PlaneMatrix) -> list[Array]:
     line = -np.stack([np.cos(theta), np.sin(theta)], axis=-1) @ A.T
     line[-1] = line[0]
     return [line]
+
+
+def border_reach(entries: PlaneMatrix) -> float:
+    """Return the largest coordinate on both borders, or 1 where they are the point f = 0."""
+    lines = [*saddle_node_lines(entries), *critical_lines(entries)]
+    return max(float(np.abs(line).max()) for line in lines) or 1.0

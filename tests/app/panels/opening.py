@@ -7,8 +7,7 @@ from codim2_app.view.refresh import Frames
 from tests.work import wait_until
 
 CASE3 = {"a": 172.0, "b": 186.0, "d": -200.0, "f1": -86.0, "f2": -93.0, "psi": "hill", "n": 3.0}
-OF_PANELS = {"regions", "atlas_size", "curves_of_psi", "thumbnails", "outcomes", "planes", "diagram", "theorems",
-             "cycles_along", "map", "film"}  # fmt: skip
+OF_PANELS = {"map", "thumbnails", "outcomes", "planes", "diagram", "theorems", "cycles_along", "film"}
 
 
 def opened(panel, **values):

@@ -13,7 +13,7 @@ from .opening import CASE3, OF_PANELS, ask, opened, settled
 def test_only_the_open_panel_is_sent(panel):
     _, header = opened(panel)
     expected = {
-        "atlas": {"regions", "atlas_size", "curves_of_psi", "thumbnails"},
+        "atlas": {"map", "thumbnails"},
         "numbers": {"outcomes"},
         "diagram": {"diagram", "cycles_along", "film"},
     }.get(panel, {panel})
@@ -25,17 +25,17 @@ def test_a_closed_panel_costs_nothing():
     frames, _ = opened("planes")
     ask(frames, a=-1.3, f2=0.2)
     unpack(frames.answer({"rest": True}))
-    assert not {"certificates", "outcomes", "atlas_curves", "regions"} & frames.scene.runs.keys()
+    assert not {"certificates", "outcomes"} & frames.scene.runs.keys()
 
 
 def test_opening_a_panel_brings_what_it_shows_and_moving_keeps_it_right():
     frames, _ = opened("numbers")
-    assert "atlas_size" in ask(frames, panel="atlas")
+    assert "map" in ask(frames, panel="atlas")["late"]
     assert ask(frames, panel="numbers").keys().isdisjoint(OF_PANELS)
     ask(frames, a=-1.4)
     header = ask(frames, panel="atlas")
-    assert set(header["late"]) == {"regions", "curves of psi", "thumbnails"}
-    assert settled(frames, rest=True).keys() >= {"regions", "curves_of_psi", "thumbnails"}
+    assert header["late"] == ["map"]
+    assert settled(frames, rest=True).keys() >= {"map", "thumbnails"}
 
 
 def test_slow_results_wait_for_rest_and_come_once():

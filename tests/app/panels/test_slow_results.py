@@ -69,16 +69,15 @@ def at_rest(frames, executor=None, **request):
     return header, {name.split(".")[0] for name in blocks}
 
 
-def test_the_regions_of_a_typed_psi_come_however_late_they_are(typed):
+def test_the_map_of_a_typed_psi_comes_however_late_it_is(typed):
     frames, executor = typed
     first, _ = at_rest(frames, all=True, set={"panel": "atlas"})
-    assert "regions" not in first
+    assert "map" not in first
     assert first["late"]
-    sent = [at_rest(frames, executor) for _ in range(4)]
-    assert [sorted(header["regions"]["name"]) for header, _ in sent if "regions" in header] == [
-        ["CM2", "CM2", "CM4", "NCM2"]
-    ]
-    assert sum("regions" in blocks for _, blocks in sent) == 1
+    sent = [header["map"]["name"] for header, _ in [at_rest(frames, executor) for _ in range(5)] if "map" in header]
+    curves, regions = sent
+    assert curves == []
+    assert sorted(name.split(",")[0] for name in regions) == ["CM2", "CM2", "CM4", "NCM2"]
 
 
 def test_a_panel_that_cannot_be_drawn_yet_is_asked_again(typed, monkeypatch):

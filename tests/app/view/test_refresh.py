@@ -23,20 +23,18 @@ from .asking import ask
 HEAVY = {"cycles", "inside", "outside", "continuations", "rho_inside", "rho_outside", "theta_inside", "theta_outside",
          "lines_inside", "lines_outside"}  # fmt: skip
 
-CURVES = {"saddle_node", "transcritical"}
-
 
 def test_first_frame_holds_everything_within_the_budget():
     buffer = Frames(ExplorerState()).answer({"id": 7, "all": True})
     header, blocks = unpack(buffer)
     assert header["id"] == 7
-    assert {name.split(".")[0] for name in blocks} - {"hopf", "node_focus"} == HEAVY | CURVES | {"regions"}
+    assert {name.split(".")[0] for name in blocks} - {"map", "map_curves"} == HEAVY
     assert {"equator", "critical", "portrait"} <= header.keys()
     assert len(buffer) <= 60_000
 
 
 @pytest.mark.parametrize(("change", "sent"), [
-    ({"a": -1.7}, HEAVY | CURVES),
+    ({"a": -1.7}, HEAVY),
     ({"f1": -0.4}, HEAVY),
     ({"z": 1.0}, HEAVY),
     ({"psi": "rational"}, {name for name in HEAVY if name in ("continuations", "cycles") or name.endswith("inside")}),
@@ -56,7 +54,7 @@ def test_hidden_layers_are_neither_computed_nor_sent(frames):
     ask(frames, layers=[name for name in LAYERS if name in ("outside", "continuations", "equator")])
     runs = dict(frames.scene.runs)
     _, blocks = ask(frames, a=-1.1)
-    assert blocks == {"outside", "continuations"} | CURVES
+    assert blocks == {"outside", "continuations"}
     assert frames.scene.runs["inside"] == runs["inside"]
     assert frames.scene.runs["nullclines_inside"] == runs["nullclines_inside"]
     assert "separatrices" not in frames.scene.runs
@@ -75,7 +73,7 @@ def test_bad_value_leaves_the_last_good_picture(frames, bad):
     assert (list(header["errors"]), blocks) == (["a"], HEAVY)  # one does not stop the others
     assert (frames.values["a"], frames.values["f1"]) == (-2, 0.25)
     header, blocks = ask(frames, a=-1.5)
-    assert (header["errors"], blocks) == ({}, HEAVY | CURVES)
+    assert (header["errors"], blocks) == ({}, HEAVY)
 
 
 def test_state_follows_once_the_frame_is_on_its_way(frames):

@@ -44,15 +44,14 @@ HEMISPHERE = {"closed_orbits", "cycles", "separatrices", "critical", "nullclines
               "continuations", "name", "classification", "certificates", "outcomes", "launched",
               "eigendirections"}  # fmt: skip
 
-ATLAS = {"atlas_curves", "regions"}  # of the plane (f1, f2): neither f nor Psi is in them
 SLOW = {"critical", "name", "classification", "certificates", "slow_flow", "outcomes", "cycles"}
 
 CLOSELY = {"nullclines_inside", "nullclines_outside", "conics"}  # what stands still, as finely as it is seen
 
 REACHES = {
-    "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
-    "b": ({"b": 0.2}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
-    "d": ({"d": -0.8}, EQUATOR | HEMISPHERE | ATLAS | {"slow_flow"}),
+    "a": ({"a": -1.7}, EQUATOR | HEMISPHERE | {"slow_flow"}),
+    "b": ({"b": 0.2}, EQUATOR | HEMISPHERE | {"slow_flow"}),
+    "d": ({"d": -0.8}, EQUATOR | HEMISPHERE | {"slow_flow"}),
     "f1": ({"f1": -0.3}, EQUATOR | HEMISPHERE | {"slow_flow"}),
     "f2": ({"f2": 0.2}, EQUATOR | HEMISPHERE | {"slow_flow"}),
     "cut": ({"cut": 1.0}, EQUATOR | HEMISPHERE | {"slow_flow"}),  # moved with the plane only
@@ -87,12 +86,6 @@ def test_a_change_recomputes_what_it_reaches_and_nothing_else(change):
 def test_z_reaches_the_picture_once_a_coefficient_depends_on_it():
     computed, _ = ran(c2.Scene(typed(k1=1.0), z=0.5), z=0.6)
     assert computed == EQUATOR | HEMISPHERE | {"slow_flow"}
-
-
-def test_z_reaches_the_atlas_only_through_the_matrix():
-    system = c2.ELinear("-2 + 0.1*z", 0.3, -1.0, (-0.5, 0.1), B=[[1.0, -2.0]], g=[0.25])
-    computed, _ = ran(c2.Scene(system, z=0.5), z=0.6)
-    assert computed >= ATLAS
 
 
 def test_a_bad_change_leaves_the_scene_as_it_was():

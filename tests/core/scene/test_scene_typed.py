@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.scene import ELINEAR_ONLY, layers
+from codim2_core.scene import layers
 
 from .test_scene import ran
 
@@ -48,13 +48,10 @@ def test_a_change_recomputes_what_it_reaches_and_nothing_else(change):
     assert changed <= computed
 
 
-def test_layers_of_the_e_linear_theory_are_named():
-    here, there = scene(), c2.Scene(c2.ELinear(-2.0, 0.3, -1.0, (-0.5, 0.1)))
+def test_a_general_system_has_all_layers_but_the_location_in_closed_form():
+    here = scene()
     for name in layers:
-        assert there.has(name)
-        assert here.has(name) == (name not in ELINEAR_ONLY)
-        assert (here[name] is None) == (name in ELINEAR_ONLY | {"equator_cycle", "location"})
-    assert not here.has("sky")
+        assert (here[name] is None) == (name in {"equator_cycle", "location"})
 
 
 def test_a_lineage_may_pass_from_one_kind_of_system_to_the_other():
@@ -88,7 +85,7 @@ DEGENERATE = [
 def test_degenerate_systems_have_every_layer(U):
     shown = c2.Scene(c2.System(U=U), c2.psi.tanh(), count=12)
     for name in layers:
-        assert (shown[name] is None) == (name in ELINEAR_ONLY) or name in ("location", "equator_cycle", "slow_flow")
+        assert shown[name] is not None or name in ("location", "equator_cycle", "slow_flow")
     for orbits in (shown["inside"], shown["outside"]):
         assert np.isfinite(orbits.buffer).all()
     assert shown["classification"].sentence

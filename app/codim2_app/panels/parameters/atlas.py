@@ -1,39 +1,30 @@
 """The panel "Atlas": two parameters as a plane, cut into regions of one portrait each, with a small portrait of each.
 
-The plane (f1, f2) is known in closed form: its curves go with every frame. Any other pair of axes, and a part of that
-plane, by zoom or by the ranges of its sliders, is mapped once nothing moves by the core's `atlas`, the curves first,
-then the regions between them, each shown as it comes. A system with one parameter only has a strip along that.
+The core's `atlas` maps any pair of axes once nothing moves: the curves first, then the regions between them, each
+shown as it comes. The plane (f1, f2) is that of f(z), and as wide as its curves. A system with one parameter only has
+a strip along that.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
-from codim2_core import bifurcations
-from codim2_core.bifurcations import BifurcationCurve
 from codim2_core.bifurcations.atlases.atlas import Atlas, curves_over, with_bifurcations_of_cycles, with_regions
 from codim2_core.bifurcations.diagrams.class_line import ClassInterval, class_line
+from codim2_core.bifurcations.plane.borders import border_reach, coefficients_of
 from codim2_core.systems.coefficients import Coefficients
-from codim2_core.systems.psi.function import Psi
 
-from ...picture.draw import plane_curves
-from ...picture.draw.packing import Polylines
 from ...picture.draw.thumbnails import thumbnails
 from ...picture.frame.frame_context import FrameContext
-from ...picture.frame.process_load import load
 from ...picture.phrases import say
+from ...picture.state.slider_range import round_up, slider_range
 from ..panel import Panel
 from .atlas_columns import atlas_columns, short, strip_columns
 from .axes import Axis, available, missing_axes, spans_of, without_parameters
 
-#: Controls of the plane of f: a system that lacks one of them has none.
-MAP_PARAMETERS = ("a", "b", "d", "f1", "f2")
-#: Of the frames of a drag each so many-th brings the curves, which are a tenth of the work of a frame; where the
-#: process is busy for more than this share of its time, none before the drag rests.
-EACH_FRAME, MAX_SHARE = 3, 0.6
-#: Blocks of the curves in that plane, in the order of the layer "atlas_curves".
-CURVES = ("saddle_node", "transcritical")
+#: Controls of the plane of f(z).
+MATRIX, FORCE = ("a", "b", "d"), ("f1", "f2")
 #: A region of less area than the square of this, of the map's, gets no small portrait; nor a stretch shorter than this.
 THINNEST = 0.012
 
@@ -43,15 +34,11 @@ def add(draft: FrameContext) -> None:
     axes = draft.values["across"], draft.values["up"]
     there = available(draft)
     reason = missing_axes(draft, there, *axes)
-    closed_form = axes == ("f1", "f2") and set(MAP_PARAMETERS) <= there.keys()
-    plane = closed_form and draft.values["atlas_zoom"] == 0 and not {"f1", "f2"} & draft.values["ranges"].keys()
+    of_f = axes == FORCE and {*MATRIX, *FORCE} <= there.keys()
     shown = (next(iter(there)), "") if len(there) == 1 else axes
-    if draft.now.get("atlas of") != (shown, plane):
-        draft.now["atlas of"] = (shown, plane)
-        draft.header["atlas_of"] = [*shown, plane]
-    if plane:
-        _plane_of_f(draft)
-        return
+    if draft.now.get("atlas of") != (shown, of_f):
+        draft.now["atlas of"] = (shown, of_f)
+        draft.header["atlas_of"] = [*shown, of_f]
     if len(there) == 1:
         _strip(draft, *there.values())
         return
@@ -64,105 +51,30 @@ def add(draft: FrameContext) -> None:
             draft.now["map"] = reason
             draft.unable("map", reason)
         return
-    _map(draft, (there[axes[0]], there[axes[1]]))
+    chosen = there[axes[0]], there[axes[1]]
+    if of_f:
+        _plane_of_f(draft, chosen)
+    else:
+        _map(draft, chosen, without_parameters(draft.scene, *chosen))
 
 
-# The plane of f ----------------------------------------------------------------------------------------------------
-
-
-def _plane_of_f(draft: FrameContext) -> None:
-    scene, header = draft.scene, draft.header
-    matrix = scene.key("matrix")
-    moved = 0 if draft.rest or draft.now.get("atlas at") == matrix else draft.now.get("atlas moved", 0) + 1
-    draft.now["atlas moved"] = moved
-    busy = load.share > MAX_SHARE and "atlas_size" in draft.now
-    if moved % EACH_FRAME == min(moved, 1) and not (moved and busy):
-        draft.now["atlas at"] = matrix
-        curves = scene["atlas_curves"]
-        if draft.fresh("atlas_curves", curves):
-            header["atlas_size"] = draft.now["atlas_size"] = plane_curves.size_of(curves)
-            for name, curve in zip(CURVES, curves, strict=True):
-                draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, header["atlas_size"]))
-    size = draft.now["atlas_size"]
-    if draft.now.get("regions at") != matrix:
-        if draft.rest:
-            draft.now["regions at"] = matrix
-            header["regions"] = plane_curves.region_columns(scene["regions"], size)
-            draft.blocks["regions"] = Polylines(*plane_curves.region_lines(scene["regions"], size))
-        else:
-            draft.late("regions")
-    _curves_of_psi(draft, size)
-    _curves_of_cycles(draft, size)
-    if draft.ready:
-        _portraits_of_plane(draft)
-
-
-def _curves_of_psi(draft: FrameContext, size: float) -> None:
-    """Add the Hopf and node-focus curves: there are some in Case III only."""
-    scene = draft.scene
-    at = scene.coefficients
+def _plane_of_f(draft: FrameContext, axes: tuple[Axis, Axis]) -> None:
+    """Map the plane of f(z) of the matrix: moving z, or what f depends on, asks for no other map."""
+    at = draft.scene.coefficients
     assert isinstance(at, Coefficients)  # the system has a, b, d
-    psi = scene.psi
-    found = draft.slow("curves of psi", scene.key("matrix", "psi"), _hopf_and_node_focus, at, psi)
-    if found is None:
-        return
-    draft.header["curves_of_psi"] = {"size": size, "points": special_points(found)}
-    for name, curve in zip(("hopf", "node_focus"), found, strict=True):
-        draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
+    matrix, f = at.plane[:3], at.plane[3:]
+    reach = round_up(border_reach(matrix))
+    wide = []
+    for axis, value in zip(axes, f, strict=True):
+        low, high = (axis.low, axis.high) if axis.name in draft.values["ranges"] else (-reach, reach)
+        low, high, _ = slider_range(low, high, axis.value)  # f itself is in sight too
+        wide.append(replace(axis, low=low, high=high, value=value))
+    _map(draft, (wide[0], wide[1]), (coefficients_of(matrix), draft.scene.psi, ()))
 
 
-def _curves_of_cycles(draft: FrameContext, size: float) -> None:
-    """Add the curves on which limit cycles meet, or end at the equator: in Case III, where they are requested.
-
-    They take seconds to continue.
-    """
-    at, psi = draft.scene.coefficients, draft.scene.psi
-    assert isinstance(at, Coefficients)  # the system has a, b, d
-    a, b, d = at.plane[:3]
-    possible = a * d < 0.0 < a * d + b * b
-    if draft.fresh("cycles possible", possible):
-        draft.header["cycles_possible"] = possible
-    if not possible or draft.values["cycle_curves"] == "hide" or not draft.ready:
-        return
-    found = draft.slow("curves of cycles", draft.scene.key("matrix", "psi"), _cycle_curves, at, psi)
-    if found is None:
-        return
-    draft.header["curves_of_cycles"] = {"size": size, "points": special_points(found)}
-    for name, curve in zip(("cycle_folds", "heteroclinic", "closed_equator"), found, strict=True):
-        draft.blocks[name] = Polylines(*plane_curves.curve_lines(curve, size))
-
-
-def _hopf_and_node_focus(at: Coefficients, psi: Psi) -> tuple[BifurcationCurve, ...]:
-    return bifurcations.hopf(at, psi), bifurcations.node_focus(at, psi)
-
-
-def _cycle_curves(at: Coefficients, psi: Psi) -> tuple[BifurcationCurve, ...]:
-    return (
-        bifurcations.cycle_folds(at, psi),
-        bifurcations.heteroclinic(at, psi),
-        bifurcations.closed_equator(at),
-    )
-
-
-def special_points(curves: Sequence[BifurcationCurve]) -> list[list[Any]]:
-    """Return type, place and sentence of the points of codimension two on some curves."""
-    return [[point.type, *point.place, point.sentence] for curve in curves for point in curve.special]
-
-
-def _portraits_of_plane(draft: FrameContext) -> None:
-    scene = draft.scene
-    places = [(i, region.name, region.inside) for i, region in enumerate(scene["regions"])] if draft.rest else []
-    system, psi, z = scene.coefficients, scene.psi, ()
-    found = draft.slow("thumbnails", scene.key("matrix", "psi"), thumbnails, system, psi, z, ("f1", "f2"), places)
-    if found is not None:
-        draft.header["thumbnails"] = found
-
-
-# Any two parameters ------------------------------------------------------------------------------------------------
-
-
-def _map(draft: FrameContext, axes: tuple[Axis, Axis]) -> None:
-    system, psi, z = without_parameters(draft.scene, *axes)
+def _map(draft: FrameContext, axes: tuple[Axis, Axis], of: tuple[Any, ...]) -> None:
+    """Add the map over two axes of a system, Psi and z, and its small portraits."""
+    system, psi, z = of
     spans = spans_of(draft, "map", axes, draft.values["atlas_zoom"])
     names = axes[0].core, axes[1].core
     key = (system, psi, z, names, spans)

@@ -12,9 +12,9 @@ from codim2_core.bifurcations.atlases.connections.connection_curves import KINDS
 from codim2_core.bifurcations.atlases.result import Atlas
 from codim2_core.bifurcations.diagrams.class_line import ClassInterval
 
-from ...picture.draw import plane_curves
 from ...picture.draw.glyphs import join
 from ...picture.draw.packing import Polylines
+from ...picture.draw.thinning import thin
 from ...picture.phrases import say
 
 Spans = tuple[tuple[float, float], tuple[float, float]]
@@ -81,6 +81,6 @@ def _curve_columns(
     low, high = np.array(spans).T
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     return {
-        name: Polylines(*plane_curves.thin([(line - middle) / half for line in lines], 1.0))
+        name: Polylines(*thin([(line - middle) / half for line in lines]))
         for name, lines in (("map", loops), ("map_curves", curves))
     }

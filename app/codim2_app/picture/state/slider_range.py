@@ -10,7 +10,7 @@ from typing import Any
 def slider_range(low: float, high: float, value: float) -> tuple[float, float, float]:
     """Return (low, high, step) of a slider, widened to hold the value."""
     if value < low or value > high:
-        reach = _round_up(abs(value))
+        reach = round_up(abs(value))
         if low < 0 or value < 0:
             low, high = min(low, -reach), max(high, reach)
         else:
@@ -24,7 +24,7 @@ def edited_range(values: Mapping[str, Any], name: str, first: tuple[float, float
     return low, high
 
 
-def _round_up(size: float) -> float:
+def round_up(size: float) -> float:
     """Return a round number, at least 1.2 times the size; 0 for 0."""
     if size == 0.0:
         return 0.0

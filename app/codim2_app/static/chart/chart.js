@@ -19,8 +19,8 @@ import {labelBox, Space, TEXT, textSize} from "./space.js"
  * @typedef {{from: number, to: number, name: string, title?: string, word?: string}} Band
  * @typedef {{text: string, at?: number[], near?: number[], name?: string, within?: number[][], allowed?: (x: number, y: number) => boolean}} Label
  *   next to a point, or as near to a place as it is allowed by all of its corners, which `within` two spans they may be
- * @typedef {{name: string, points?: number[][], loops?: number[][][], whole?: boolean, label?: string, title?: string}} Area by its border, or
- *   by several loops (even-odd), of which the whole chart may be one
+ * @typedef {{name: string, points?: number[][], loops?: number[][][], label?: string, title?: string}} Area by its border, or
+ *   by several loops (even-odd)
  * @typedef {object} Plot
  * @property {string} [title]
  * @property {Axis} x
@@ -113,9 +113,8 @@ export class Chart {
       const [a, b] = [from, to].map((v) => Math.max(left, Math.min(right, x.at(v))))
       parts.push(`<rect class="band ${name}" x="${toCoordinate(a)}" y="${toCoordinate(top)}" width="${toCoordinate(Math.max(0, b - a))}" height="${toCoordinate(bottom - top)}">${title ? `<title>${escape(title)}</title>` : ""}</rect>`)
     }
-    for (const {name, points, loops = [points], whole, label, title} of plot.areas ?? []) {
-      const all = whole ? `M${toCoordinate(left)} ${toCoordinate(top)}H${toCoordinate(right)}V${toCoordinate(bottom)}H${toCoordinate(left)}Z` : ""
-      parts.push(`<path class="area ${name}"${label ? ` data-region="${escape(label)}"` : ""} fill-rule="evenodd" d="${all}${loops.map((loop) => `${polyline(loop.map(place))}Z`).join("")}">${title ? `<title>${escape(title)}</title>` : ""}</path>`)
+    for (const {name, points, loops = [points], label, title} of plot.areas ?? []) {
+      parts.push(`<path class="area ${name}"${label ? ` data-region="${escape(label)}"` : ""} fill-rule="evenodd" d="${loops.map((loop) => `${polyline(loop.map(place))}Z`).join("")}">${title ? `<title>${escape(title)}</title>` : ""}</path>`)
     }
     if (plot.zeros) {
       const [x0, y0] = [x.at(0), y.at(0)]

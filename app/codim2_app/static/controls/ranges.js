@@ -14,9 +14,3 @@ export function rangeFor([low, high], value) {
   if (low < 0 || value < 0) return [Math.min(low, -reach), Math.max(high, reach)]
   return value < low ? [0, high] : [low, reach]
 }
-
-// Half the width of the plane of f: some tenths more than what it must show, and a round number.
-export function reachFor(far) {
-  const power = 10 ** Math.floor(Math.log10(1.12 * far))
-  return Number((power * [1, 1.5, 2, 3, 4, 5, 6, 8, 10].find((k) => power * k >= 1.12 * far || k === 10)).toPrecision(2))
-}

@@ -29,7 +29,7 @@ export class Pad {
 
   at(point) { return this.chart.regions.findIndex((region) => holds(region, point)) }
 
-  // Draw a chart: `box`; `regions` (name, bounded, inside, loops), `curves` by name, `points` [type, x, y, sentence];
+  // Draw a chart: `box`; `regions` (name, inside, loops), `curves` by name, `points` [type, x, y, sentence];
   // `names` of the curves in words; `handle` and `here` (where the portrait is); `path` through the handle or null; `old`;
   // the axes' `words`; `flat` where there is one axis only.
   draw(chart) {
@@ -52,7 +52,7 @@ export class Pad {
     const isPoint = (line) => line.every((p) => p.every((value, i) => Math.abs(value - line[0][i]) < small[i]))
     this.plot.draw([{
       x: {span: across, word: words[0]}, y: {span: up, ...(flat ? {ticks: []} : {})}, title: escape(words[1] ?? ""), zeros: !flat,
-      areas: regions.map(({name, bounded, loops}) => ({name: `region ${colour(name)}`, label: name, title: name, loops, whole: !bounded})),
+      areas: regions.map(({name, loops}) => ({name: `region ${colour(name)}`, label: name, title: name, loops})),
       lines: lines.filter(({line}) => !isPoint(line)).map(({name, line}) => ({name, title: names[name], silent: true, x: line.map(([x]) => x), y: line.map(([, y]) => y)})),
       dots: lines.filter(({line}) => isPoint(line)).map(({name, line: [[x, y]]}) => ({name: `point ${name}`, title: names[name], x, y, r: 3})),
       marks: points.map(([type, x, y, sentence]) => ({kind: "codimension two", x, y, title: `${type}. ${sentence}`})),

@@ -1,12 +1,11 @@
-"""The plane of f in the frames: curves with each change of A, regions when nothing moves."""
+"""The panel "Atlas" in the frames: the plane of f(z), maps of typed equations, strips."""
 
 import time
 
 import numpy as np
 import pytest
-from codim2_app.panels.parameters import atlas, atlas_columns
+from codim2_app.panels.parameters import atlas_columns
 from codim2_app.picture.draw.packing import INT16_STEP, unpack
-from codim2_app.picture.frame.process_load import Load
 from codim2_app.picture.state.controls import ExplorerState
 from codim2_app.view.refresh import Frames
 
@@ -19,19 +18,19 @@ MATRICES = [(-2, 0, -1), (1, 0.3, -1), (172, 186, -200), (-1, 1, -1), (-0.3, 0, 
 DEGENERATE = [(0, 0, 0), (1, 0, 1), (1, 0, 0), (0, 0, -1), (1, 1, -1), (-1, 0, 1e-9), (0, 2, 0), (1e-300, 0, 0)]
 
 
-@pytest.fixture
-def frames(monkeypatch):
-    monkeypatch.setattr(atlas, "load", Load())  # measured by nobody, so that it has time
-    made = Frames(ExplorerState())
-    made.answer({"all": True})
-    return made
-
-
-def atlas_of(frames, rest=False, **values):
-    header, blocks = unpack(frames.answer({"id": 1, "set": values, "rest": rest}))
-    assert header["errors"] == {}
-    names = {name.split(".")[0] for name in blocks} & {"saddle_node", "transcritical", "regions"}
-    return header, blocks, names
+def settled_map(**values):
+    """The whole map of f of an opening with some values, and its blocks."""
+    frames = Frames(ExplorerState.from_values({"panel": "atlas", **values}))
+    request, found = {"all": True}, {}
+    while True:
+        header, blocks = unpack(frames.answer(request))
+        assert header["errors"] == {}
+        if "map" in header:
+            found = header["map"], blocks
+        if not set(header.get("late", [])) & {"map", "map regions"}:
+            return frames, *found
+        request = {"rest": True}
+        time.sleep(0.01)
 
 
 def lines(blocks, name, size):
@@ -39,107 +38,48 @@ def lines(blocks, name, size):
     return np.split(points, np.cumsum(blocks[f"{name}.n"], dtype=int)[:-1])
 
 
-def test_curves_go_with_the_matrix_and_regions_at_rest(frames):
-    header, _, names = atlas_of(frames, a=-1.7)
-    assert names == {"saddle_node", "transcritical"}
-    assert "regions" in header["late"]
-    assert frames.scene.runs["regions"] == 1  # of the first frame
-    header, _, names = atlas_of(frames, rest=True)
-    assert names == {"regions"}
-    assert "regions" not in header.get("late", [])
-    header, _, names = atlas_of(frames, rest=True)
-    assert names == set()
-    assert "regions" not in header.get("late", [])
+@pytest.mark.parametrize("change", [{"f1": 0.3}, {"f2": 0.3}, {"z": 0.5}, {"k1": 0.2}, {"B1": 2.0}])
+def test_what_moves_f_of_z_asks_for_no_other_map(change):
+    frames, *_ = settled_map()
+    header = unpack(frames.answer({"rest": True, "set": change}))[0]
+    assert "map" not in header
+    assert not {"map", "map regions"} & set(header.get("late", []))
 
 
-def test_of_a_drag_each_third_frame_brings_curves_and_the_one_at_rest_all(frames):
-    """They were a quarter of the work of each."""
-    drag = [atlas_of(frames, a=-1.7 - 0.01 * i) for i in range(8)]
-    assert [bool(names) for _, _, names in drag] == [True, False, False] * 2 + [True, False]
-    assert all("regions" in header["late"] for header, _, _ in drag)
-    header, _, names = atlas_of(frames, rest=True)
-    assert names == {"saddle_node", "transcritical", "regions"}
-    assert "regions" not in header.get("late", [])
-
-
-def test_of_a_drag_in_a_busy_process_only_the_frame_at_rest_brings_curves(frames):
-    atlas.load.share = 0.9
-    assert not any(atlas_of(frames, a=-1.7 - 0.01 * i)[2] for i in range(8))
-    assert atlas_of(frames, rest=True)[2] == {"saddle_node", "transcritical", "regions"}
-
-
-@pytest.mark.parametrize(
-    "change", [{"f1": 0.3}, {"f2": 0.3}, {"z": 0.5}, {"k1": 0.2}, {"psi": "rational"}, {"B1": 2.0}]
-)
-def test_what_is_no_matrix_sends_no_atlas(frames, change):
-    runs = dict(frames.scene.runs)
-    assert atlas_of(frames, rest=True, **change)[2] == set()
-    assert {name: frames.scene.runs[name] for name in ("atlas_curves", "regions")} == {
-        name: runs[name] for name in ("atlas_curves", "regions")
-    }
-
-
-def test_going_back_at_once_leaves_the_regions_that_the_browser_has(frames):
-    atlas_of(frames, a=-1.7)
-    atlas_of(frames, a=-2.0)
-    header, _, names = atlas_of(frames, rest=True)
-    assert names == {"saddle_node", "transcritical"}
-    assert "regions" not in header.get("late", [])
-
-
-def test_a_value_that_is_refused_does_not_keep_the_regions_back(frames):
-    atlas_of(frames, a=-1.7)
-    header, blocks = unpack(frames.answer({"id": 1, "set": {"psi": "custom", "psi_text": "1/(s"}, "rest": True}))
-    assert list(header["errors"]) == ["psi_text"]
-    assert "regions.xy" in blocks
-
-
-def test_a_locked_matrix_has_no_pad_and_no_atlas():
-    frames = Frames(ExplorerState(), c2.ELinear(-1, "0.1*z1", -2, (0.2, 0.3), B=((1, 0),), g=("z1",)))
-    _, _, names = atlas_of(frames, rest=True)
-    assert names == set()
-    assert "atlas_curves" not in frames.scene.runs
-    assert "regions" not in frames.scene.runs
+@pytest.mark.parametrize("values", [{"f1": 7.0}, {"k1": 2.0, "z": 3.0}])
+def test_the_plane_of_f_holds_f_and_f_of_z(values):
+    frames, columns, _ = settled_map(**values)
+    at = frames.scene.coefficients
+    for (low, high), f, fz in zip(columns["spans"], (frames.values["f1"], frames.values["f2"]), at.f, strict=True):
+        assert low < min(f, fz) <= max(f, fz) < high
 
 
 @pytest.mark.parametrize("matrix", MATRICES)
-def test_columns_are_the_regions_of_the_core(frames, matrix):
-    a, b, d = matrix
-    header, blocks = unpack(frames.answer({"all": True, "set": {"a": a, "b": b, "d": d}}))
-    columns, expected = header["regions"], bifurcations.regions(c2.ELinear(a, b, d))
-    assert columns["name"] == [region.name for region in expected]
-    assert columns["bounded"] == [region.bounded for region in expected]
-    assert columns["loops"] == [len(region.boundary) for region in expected]
-    np.testing.assert_allclose(np.array(columns["inside"]) * columns["size"], [r.inside for r in expected],
-                               atol=1e-4 * columns["size"])  # fmt: skip
-    sent = lines(blocks, "regions", columns["size"])
-    loops = [loop for region in expected for loop in region.boundary]
-    assert len(sent) == len(loops)
-    for few, many in zip(sent, loops, strict=True):
-        assert furthest(many, np.concatenate([few, few[:1]])) < 0.002 * columns["size"]  # 0.3 px of 350
-    mine = [
-        block for name, block in blocks.items() if name.split(".")[0] in ("regions", "saddle_node", "transcritical")
-    ]
-    size = sum(block.nbytes for block in mine)
-    assert size + len(str(columns)) < 6000
-
-
-@pytest.mark.parametrize("matrix", MATRICES)
-def test_curves_are_those_of_the_core(frames, matrix):
-    a, b, d = matrix
-    header, blocks, _ = atlas_of(frames, a=a + 0.0, b=b, d=d - 1e-3)
-    d = d - 1e-3
-    for name, curve in (("saddle_node", bifurcations.saddle_node(c2.ELinear(a, b, d))),
-                        ("transcritical", bifurcations.critical_boundary(c2.ELinear(a, b, d)))):  # fmt: skip
-        for few, many in zip(lines(blocks, name, header["atlas_size"]), curve.branches, strict=True):
-            assert furthest(many, few) < 0.002 * header["atlas_size"]
+def test_curves_and_regions_of_the_plane_are_those_of_the_core(matrix):
+    _, columns, blocks = settled_map(**dict(zip("abd", matrix, strict=True)))
+    (_, reach), _ = columns["spans"]
+    system = c2.ELinear(*matrix)
+    sent = [one for kind, one in zip(columns["curve"], lines(blocks, "map_curves", reach), strict=True)
+            if kind == "saddle-node"]  # fmt: skip
+    for curve in bifurcations.saddle_node(system).branches:
+        nearest = [min(furthest(curve[i : i + 1], line) for line in sent) for i in range(0, len(curve), 7)]
+        assert max(nearest) < 0.004 * reach
+    for name, place in zip(columns["name"], columns["inside"], strict=True):
+        assert name.split(",")[0] == c2.classify(c2.ELinear(*matrix, place), c2.psi.constant()).name
+    names = {region.name for region in bifurcations.regions(system)}
+    assert {name.split(",")[0] for name in columns["name"]} == names
 
 
 @pytest.mark.parametrize("matrix", DEGENERATE)
-def test_degenerate_matrices_are_drawn(frames, matrix):
-    header, _, names = atlas_of(frames, rest=True, **dict(zip("abd", matrix, strict=True)))
-    assert names == {"saddle_node", "transcritical", "regions"}
-    assert header["regions"]["name"]
+def test_degenerate_matrices_are_drawn(matrix):
+    _, columns, _ = settled_map(**dict(zip("abd", matrix, strict=True)))
+    assert columns["name"] or columns["note"]
+
+
+def test_a_locked_matrix_has_a_map_at_its_z():
+    frames = Frames(ExplorerState(), c2.ELinear(-1, "0.1*z1", -2, (0.2, 0.3), B=((1, 0),), g=("z1",)))
+    header = unpack(frames.answer({"all": True, "set": {"panel": "atlas"}}))[0]
+    assert header["atlas_of"][-1] is False
 
 
 def furthest(points, line):

@@ -11,17 +11,17 @@ const lines = (name, ...pieces) => ({
   [`${name}.xy`]: Int16Array.from(pieces.flat(2).map((v) => Math.round(v / STEP))),
 })
 const PLANE = {
-  atlas_of: ["f1", "f2", true], atlas_size: 2, cycles_possible: true,
-  regions: {name: ["CM4", "CM2 x"], inside: [[0.25, 0.1], [-0.8, 0.9]], bounded: [true, false], loops: [1, 1], size: 2},
-  curves_of_psi: {size: 2, points: [["cusp", 1.2, -0.4, "A cusp."]]},
-  curves_of_cycles: {size: 2, points: [["fold", -0.6, -1.4, "They meet."]]},
+  atlas_of: ["f1", "f2", true],
+  map: {
+    spans: [[-2, 2], [-2, 2]], name: ["CM4", "CM2 x"], inside: [[0.5, 0.2], [-1.6, 1.8]], loops: [1, 2],
+    curve: ["transcritical", "saddle-node", "saddle-node", "Hopf", "node-focus"], pieces: [1, 1, 1, 1, 1], points: [["cusp", 1.2, -0.4, "A cusp."]],
+  },
   thumbnails: [[1, "CM2 x", [-1.6, 1.8], "<svg></svg>"], [0, "CM4", [0.5, 0.2], "<svg></svg>"]],
 }
 const SQUARE = [[-0.25, -0.5], [0.75, -0.5], [0.75, 0.25], [-0.25, 0.25]]
 const BLOCKS = {
-  ...lines("transcritical", [[0.1, 0.2], [0.5, -0.3]]), ...lines("saddle_node", [[-0.4, 0.6], [-0.2, 0.9]], [[0.3, 0.3]]),
-  ...lines("regions", SQUARE, SQUARE), ...lines("hopf", [[0.1, -0.7], [0.2, -0.8]]), ...lines("node_focus", [[-0.6, -0.1], [-0.7, 0.1]]),
-  ...lines("cycle_folds", [[0.8, 0.1], [0.9, 0.3]]), ...lines("heteroclinic", [[0.8, -0.1], [0.9, -0.2]]), ...lines("closed_equator", [[-0.9, -0.9], [-0.8, -0.7]]),
+  ...lines("map", SQUARE, [[-1, -1], [1, -1], [1, 1], [-1, 1]], SQUARE),
+  ...lines("map_curves", [[0.1, 0.2], [0.5, -0.3]], [[-0.4, 0.6], [-0.2, 0.9]], [[0.3, 0.3]], [[0.1, -0.7], [0.2, -0.8]], [[-0.6, -0.1], [-0.7, 0.1]]),
 }
 const atlas = (more = {}) => opened("atlas", {across: "f1", up: "f2", f1: 0.6, f2: -0.3, k1: 0.5, k2: -0.25, z: 1.2, atlas_zoom: 0, cycle_curves: "hide", ...more})
 const twice = (points) => points.map((p) => p.map((v) => 2 * v))
@@ -38,7 +38,7 @@ test("the panel atlas: the plane of f, its curves, f where z is 0, and f(z) on t
   near(named(plot.dots, "point", "saddle_node").map((dot) => dot.at), [[0.6, 0.6]]) // a branch that is a point
   near(plot.marks.map((mark) => mark.at), [[1.2, -0.4]])
   assert.equal(plot.marks[0].title, "cusp. A cusp.")
-  near(plot.areas.map((area) => area.points), [twice(SQUARE), twice(SQUARE)])
+  near(plot.areas[0].points, twice(SQUARE))
   assert.deepEqual(plot.areas.map((area) => [area.region, area.name.split(" ")[1]]), [["CM4", "CM4"], ["CM2 x", "CM2"]])
   near(named(plot.moving, "handle").map((dot) => dot.at), [[0.6, -0.3]])
   near(named(plot.moving, "here").map((dot) => dot.at), [[0.6 + 0.5 * 1.2, -0.3 - 0.25 * 1.2]])
@@ -54,35 +54,6 @@ test("the panel atlas: the plane of f, its curves, f where z is 0, and f(z) on t
   assert.equal(named(plots(one.find(".pad"))[0].moving, "here").length, 0)
   one.set({k2: 0.25})
   near(plots(one.find(".pad"))[0].path.map(([x]) => x), [0.6, 0.6])
-})
-
-test("the panel atlas: the plane of f grows with a point that leaves it, and never jumps", () => {
-  const one = atlas({k1: 0, k2: 0, z: 0})
-  one.frame(PLANE, BLOCKS)
-  const scales = [2.6, 2.7, 2.8, 2.9, 3, 3.1, 3.5].map((f1) => { one.set({f1}); const [{x}] = plots(one.find(".pad")); return x.back(1) - x.back(0) })
-  assert.equal(scales[0], scales[1])
-  for (const [i, scale] of scales.entries()) if (i) assert.ok(scales[i - 1] / scale < 1.14, `${scales}`)
-})
-
-test("the panel atlas: curves of cycles are shown where they were asked for, those of another Ψ are not", () => {
-  const one = atlas({cycle_curves: "show"})
-  const shown = () => plots(one.find(".pad"))[0].lines.map(({name}) => name)
-  one.frame(PLANE, BLOCKS)
-  assert.deepEqual(shown(), ["transcritical", "saddle_node", "hopf", "node_focus", "cycle_folds", "heteroclinic", "closed_equator"])
-  assert.equal(one.find(".cycle-curves").hidden, false)
-  assert.equal(one.find(".cycle-curves input").checked, true)
-  near(plots(one.find(".pad"))[0].marks.map((mark) => mark.at), [[-0.6, -1.4], [1.2, -0.4]]) // in the order of x
-  one.frame({}, {}, ["curves of cycles"])
-  assert.deepEqual(shown(), ["transcritical", "saddle_node", "hopf", "node_focus"])
-  one.frame({}, {}, ["curves of psi"])
-  assert.deepEqual(shown(), ["transcritical", "saddle_node", "cycle_folds", "heteroclinic", "closed_equator"])
-  one.frame({cycles_possible: false})
-  assert.deepEqual(shown(), ["transcritical", "saddle_node", "hopf", "node_focus"])
-  assert.equal(one.find(".cycle-curves").hidden, true)
-  one.setters.cycle_curves("hide")
-  assert.equal(one.find(".cycle-curves input").checked, false)
-  one.setters.cycle_curves("show")
-  assert.equal(one.find(".cycle-curves input").checked, true)
 })
 
 test("the panel atlas: a hand moves f, a small portrait brings f(z) to its place", () => {
@@ -188,6 +159,11 @@ test("the panel atlas: folds of cycles and connections of what is followed are t
   assert.deepEqual([shown().lines.map(({name}) => name), shown().marks.length], [["hopf"], 1])
   one.set({cycle_curves: "show"})
   assert.deepEqual([shown().lines.map(({name}) => name), shown().marks.length], [["hopf", "cycle_folds", "homoclinic", "heteroclinic", "connection"], 3])
+  assert.equal(one.find(".cycle-curves input").checked, false)
+  for (const [value, checked] of [["show", true], ["hide", false]]) {
+    one.setters.cycle_curves(value)
+    assert.equal(one.find(".cycle-curves input").checked, checked)
+  }
   assert.deepEqual(one.texts(".pad-curves span"), ["Hopf", "fold of cycles", "homoclinic loop", "heteroclinic cycle", "saddle connection"])
   one.frame({unable: {map: "Choose two."}})
   assert.equal(one.find(".cycle-curves").hidden, true)

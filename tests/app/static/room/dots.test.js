@@ -6,8 +6,8 @@ import "../../../../app/codim2_app/static/panels/atlas.js"
 import {near, opened, plots} from "../played/reading.js"
 
 const FIRST = {a: -2, b: 0, d: -1, f1: 0, f2: 0, system: "normal", texts: {}, parameters: {}, z: 0, k1: 0, k2: 0, psi: "constant"}
-const REGIONS = {atlas_of: ["f1", "f2", true], atlas_size: 2, regions: {name: ["CM4"], inside: [[0, 0]], bounded: [false], loops: [0], size: 2}}
-const BLOCKS = Object.fromEntries(["transcritical", "saddle_node", "regions"].flatMap((name) => [[`${name}.n`, new Uint16Array()], [`${name}.xy`, new Int16Array()]]))
+const REGIONS = {atlas_of: ["f1", "f2", true], map: {spans: [[-3, 3], [-3, 3]], name: ["CM4"], inside: [[0, 0]], loops: [1], curve: [], pieces: []}}
+const BLOCKS = {"map.n": new Uint16Array([4]), "map.xy": new Int16Array([-1, -1, 1, -1, 1, 1, -1, 1].map((v) => v * 8192)), "map_curves.n": new Uint16Array(), "map_curves.xy": new Int16Array()}
 let last = 0
 const phone = (name, f1, f2, more = {}) => [++last, name, {f1, f2, ...more}, null]
 

@@ -59,8 +59,8 @@ test("questions of a lesson are told in their order", () => {
   assert.deepEqual(lessons([at(2, true), at(0, false), at(10, true), at(1, true), at(2, false)]), [["Ball", 5, [[0, 1, 0], [1, 1, 1], [2, 2, 1], [10, 1, 1]]]])
 })
 
-const REGIONS = {atlas_of: ["f1", "f2", true], atlas_size: 2, regions: {name: ["CM4"], inside: [[0, 0]], bounded: [false], loops: [0], size: 2}}
-const BLOCKS = Object.fromEntries(["transcritical", "saddle_node", "regions"].flatMap((name) => [[`${name}.n`, new Uint16Array()], [`${name}.xy`, new Int16Array()]]))
+const REGIONS = {atlas_of: ["f1", "f2", true], map: {spans: [[-3, 3], [-3, 3]], name: ["CM4"], inside: [[0, 0]], loops: [1], curve: [], pieces: []}}
+const BLOCKS = {"map.n": new Uint16Array([4]), "map.xy": new Int16Array([-1, -1, 1, -1, 1, 1, -1, 1].map((v) => v * 8192)), "map_curves.n": new Uint16Array(), "map_curves.xy": new Int16Array()}
 
 test("in the atlas: dots, those that meet as one with their number; a click opens the settings of the next of them", () => {
   let rows = /** @type {any} */ (null)
@@ -92,7 +92,7 @@ test("in the atlas: dots, those that meet as one with their number; a click open
   assert.deepEqual(one.said(), [["open", {...FIRST, f1: 1, a: 4, preset: ""}]])
   one.set({a: 4})
   assert.deepEqual(shown(), [["phone", "1"]])
-  one.frame({...REGIONS, atlas_size: 3}, BLOCKS) // the chart is drawn anew
+  one.frame({map: {...REGIONS.map, spans: [[-2, 2], [-2, 2]]}}, BLOCKS) // the chart is drawn anew
   assert.equal(shown().length, 1)
   rows = null
   one.set({})

@@ -8,7 +8,7 @@ import {named, near, plots} from "../played/reading.js"
 
 const SQUARE = (left, right) => [[left, -0.5], [right, -0.5], [right, 2.5], [left, 2.5]]
 const CHART = {
-  box: [[-2, 2], [-1, 3]], regions: [{name: "CM2; left", bounded: true, inside: [-1, 1], loops: [SQUARE(-1.8, 0)]}, {name: "1 node, 2 saddles", bounded: true, inside: [1, 1], loops: [SQUARE(0, 1.8)]}],
+  box: [[-2, 2], [-1, 3]], regions: [{name: "CM2; left", inside: [-1, 1], loops: [SQUARE(-1.8, 0)]}, {name: "1 node, 2 saddles", inside: [1, 1], loops: [SQUARE(0, 1.8)]}],
   curves: {hopf: [[[-1, 0], [1, 2]], [[0.5, 0.5], [0.509, 0.5], [0.5, 0.509]]], cusps: [[[0.5, 2.5], [0.511, 2.5]], [[0.5, 2], [0.5, 2.011]]]},
   points: [["cusp", -1, 2, "It turns."]], handle: [0.5, 1], here: [-1, 0.5], path: [[-2, 0], [2, 2]], words: ["a", "b<"], names: {hopf: "Hopf", cusps: "cusp"},
 }
@@ -53,12 +53,6 @@ test("regions have colours and short names; the one where the portrait is stands
   assert.deepEqual([words(".moving .tag"), one.svg.classList.contains("old")], [[], true])
   one.pad.draw(one.drawn)
   assert.equal(one.svg.classList.contains("old"), false)
-})
-
-test("a region without an end is all that its loops leave out", () => {
-  const one = made({regions: [{name: "rest", bounded: false, inside: [-1.9, -0.9], loops: [SQUARE(-1.8, 1.8)]}]})
-  assert.deepEqual([one.answer, one.pad.at([1.9, 0]), one.pad.at([0, 2.7])], [-1, 0, 0])
-  assert.match(one.svg.querySelector(".area").getAttribute("d"), /^M[\d. ]+H[\d.]+V[\d.]+H[\d.]+ZM/)
 })
 
 test("the place of the portrait is marked where it is not under the handle, and the path to it is drawn", () => {
