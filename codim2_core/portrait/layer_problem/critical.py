@@ -12,8 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...formulas.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, program
-from ...formulas.names import FAST_NAMES
-from ...formulas.switches import kinks
 from ...results.result import Results, Tabled
 from ...results.tables import html_table, point, table_number
 from ...systems.bounds import at_place
@@ -237,9 +235,6 @@ def _blur(at: FrozenSystem, e: tuple[float, float], psi: Psi, frame: Frame, shif
 
 def _sides_agree(at: FrozenSystem, psi: Psi, C: CriticalSet) -> bool:
     """Whether C attracts, repels or is a saddle by the linearisation on every side of a kink that it may lie on."""
-    system = at.typed
-    if system is None or not kinks(system.U, FAST_NAMES):
-        return True
     sides = at.DU(C.e + ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS)
     middle = at.DU(C.e)
     if abs(sides - middle).max() <= 1e-3 * abs(middle).max():
