@@ -99,7 +99,7 @@ class Field:
 
     @cached_property
     def is_affine(self) -> tuple[bool, ...]:
-        """Of each row, whether it is affine in e for what its formulas say."""
+        """Whether each row is affine in e for what its formulas say."""
         return tuple(not any({"c", "s"} & set(row.derivative(by).names) for by in ("c", "s")) for row in self.rows)
 
     def jacobian(self, c: float, s: float, x: float, y: float, z: Sequence[float]) -> Array:
