@@ -55,11 +55,6 @@ OUTER_ANGLES = ARRIVAL_ANGLES[
 ]  # where these two end apart, the others need not be followed to see that there is more than one end
 
 
-def _may_predict(problem: LayerProblem) -> bool:
-    """Whether samples of a return map may tell where orbits go: of an e-linear system in its own axes."""
-    return problem.at.normal_form is not None and problem.at.as_given is not None
-
-
 def omega_limits_of(problem: LayerProblem, lines: Trajectories) -> list[OmegaLimit]:
     """Return the omega limit sets of trajectories of a layer problem."""
     return omega_limits(
@@ -70,7 +65,7 @@ def omega_limits_of(problem: LayerProblem, lines: Trajectories) -> list[OmegaLim
         problem.critical,
         lambda: cycles_of(problem),
         rtol=RTOL,
-        predict=partial(predicted_limit_sets, problem) if _may_predict(problem) else None,
+        predict=partial(predicted_limit_sets, problem) if problem.at.as_given is not None else None,
     )
 
 
@@ -108,7 +103,7 @@ def _leaving_states(
 def _options(problem: LayerProblem, early: bool) -> Stepping:
     """Say how orbits are followed: as long as it takes, or `early` to where samples may tell where they will end."""
     limit = DEFAULT_MAX_STEPS
-    if early and _may_predict(problem):
+    if early and problem.at.as_given is not None:
         limit = (
             UNSTABLE_STEP_LIMIT
             if problem.critical and all(C.kind.startswith("unstable") for C in problem.critical)
@@ -133,7 +128,7 @@ def _orbits_to_end(problem: LayerProblem, states: Callable[[], Array], lines: Tr
     """Follow orbits until they have ended, or go round and round and samples tell where they will end."""
     if lines is None:
         (lines,) = begin_orbits([problem], [states()])
-    if not _may_predict(problem):
+    if problem.at.as_given is None:
         return lines
     cut = [
         i

@@ -258,7 +258,7 @@ def bent_branch(problem: LayerProblem, i: int, t_max: float, rtol: float, view: 
     at, psi, equator = problem.at, problem.psi, problem.equator
     angle, growth = float(equator.theta[i]), float(equator.lambda_rho[i])
     u, across = np.array([math.cos(angle), math.sin(angle)]), np.array([-math.sin(angle), math.cos(angle)])
-    change = float(across @ (at.U(u, NEAR_SIGMA * u) - at.U(u, -NEAR_SIGMA * u))) / (2.0 * NEAR_SIGMA)
+    change = float(across @ at.U_rho(u))
     lean = change / (growth - float(equator.lambda_theta[i]))  # of opposite signs at a half-saddle
     start = angle + NEAR_SIGMA * lean
     first = (1.0 + NEAR_SIGMA) * np.array([[math.cos(start), math.sin(start)]])

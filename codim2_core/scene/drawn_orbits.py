@@ -83,9 +83,8 @@ def orbit_starts(setting: SceneSetting, outside: bool) -> np.ndarray:
 def orbits(setting: SceneSetting, outside: bool) -> Orbits:
     """Whole orbits through the seeds, on the hemisphere or outside."""
     seeds, options = orbit_starts(setting, outside), _stepping_options(setting, outside)
-    # Outside, e is the direction itself: Psi has no say. E-linear systems have a field that is cheapest for Psi = 1.
-    cheapest = outside and setting.coefficients.typed is None
-    psi = constructors.constant() if cheapest else setting.psi
+    # Outside, e is the direction itself: Psi has no say, and Psi = 1 is cheapest.
+    psi = constructors.constant() if outside else setting.psi
     backward, forward = [
         trajectories(setting.coefficients, psi, seeds, backward=back, **options) for back in (True, False)
     ]

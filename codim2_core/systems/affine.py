@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 from ..formulas.expression import parse
-from ..formulas.names import FAST_NAMES
 from .coefficients import Coefficients
 from .elinear import ELinear
 
@@ -25,9 +24,7 @@ def as_elinear(system: Any) -> ELinear | Coefficients | None:
         return system
     if system.frozen:
         return system.normal_form
-    if typed.reads_position or any(
-        name in FAST_NAMES for row in typed.jacobian for entry in row for name in entry.names
-    ):
+    if not system.is_affine:
         return None
     zero = parse("0", ())
     f = tuple(u.substitute("c", zero).substitute("s", zero) for u in typed.U)

@@ -3,26 +3,37 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import lru_cache
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..formulas.expression import Expression, parse
+from ..formulas.polynomial import Terms
 from ..results.arrays import join_columns
 from ..results.equality import ByValue
 from ..results.result import Listed
+from .rows import affine_rows
 
 Affine = tuple[float, float, float, float, float, float]
 #: What the core alone asks of a system at one z, of either kind.
 INTERNAL_OF_FROZEN = frozenset(
     {
-        "affine", "as_given", "clock", "frozen", "key", "moves_with_z", "normal_form", "numbers", "reads_position",
-        "size", "slow_key", "speed", "turn", "typed", "value_of",
+        "U_rho", "affine", "as_given", "clock", "coefficients", "frozen", "is_affine", "key", "moves_with_z",
+        "normal_form", "of_critical_sets", "polynomials", "reads_position", "rows", "size", "slow_key", "speed", "turn",
+        "typed", "value_of",
     }
 )  # fmt: skip
+
+
+def affine_terms(affine: Affine) -> tuple[Terms, Terms]:
+    """Return U1 and U2 as polynomials in c and s."""
+    a, b, c, d, f, g = map(Fraction, affine)
+    return {(1, 0): a, (0, 1): b, (0, 0): f}, {(1, 0): c, (0, 1): d, (0, 0): g}
 
 
 @lru_cache(maxsize=16)
@@ -62,12 +73,18 @@ class Coefficients(Listed, ByValue):
     frozen: ClassVar[bool] = True
     clock: ClassVar[str] = ""
     moves_with_z: ClassVar[bool] = False
-    variable: ClassVar[tuple[str, ...]] = ("a", "b", "d", "f1", "f2")
+    coefficients: ClassVar[tuple[str, ...]] = ("a", "b", "d", "f1", "f2")
+    variable: ClassVar[tuple[str, ...]] = coefficients
 
     @property
     def typed(self) -> None:
         """None: numbers alone."""
         return None
+
+    @property
+    def is_affine(self) -> bool:
+        """True: U = A e + f."""
+        return True
 
     @property
     def reads_position(self) -> bool:
@@ -104,11 +121,6 @@ class Coefficients(Listed, ByValue):
         return self
 
     @property
-    def numbers(self) -> tuple[float, ...]:
-        """Return the numbers that the compiled field reads: `plane`."""
-        return self.plane
-
-    @property
     def normal_form(self) -> Coefficients:
         """Itself."""
         return self
@@ -122,6 +134,11 @@ class Coefficients(Listed, ByValue):
     def affine(self) -> Affine:
         """``(A11, A12, A21, A22, f1, f2)`` of ``U = A e + f`` with nothing rounded, before any rotation."""
         return (self.a, -self.b, self.b, self.d, self.f1, self.f2) if self.given is None else self.given
+
+    @property
+    def polynomials(self) -> tuple[Terms, Terms]:
+        """U1 and U2 as polynomials in c and s, in the axes of `affine`."""
+        return affine_terms(self.affine)
 
     @property
     def turn(self) -> float:
@@ -167,6 +184,19 @@ class Coefficients(Listed, ByValue):
         each = np.empty((*np.asarray(e).shape[:-1], 2, 2))
         each[...] = self.A
         return each
+
+    def U_rho(self, e: ArrayLike) -> NDArray[np.float64]:
+        """Zeros: U does not depend on the distance from Sigma."""
+        return np.zeros(np.shape(e))
+
+    def of_critical_sets(self, rows: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return of rows, one for each critical set, what is shown: the only one there can be."""
+        return rows[0]
+
+    def rows(self, kept: Sequence[str] = ()) -> list[Expression]:
+        """U and W as formulas, in which some of a, b, d, f1, f2 keep their names."""
+        *abd, f1, f2 = (parse(name, (name,)) if name in kept else getattr(self, name) for name in self.variable)
+        return affine_rows(abd, (f1, f2), self.B.tolist(), self.g.tolist())
 
     def W(self, e: ArrayLike, xy: ArrayLike | None = None) -> NDArray[np.float64]:  # noqa: ARG002
         """``W = B e + g`` for e of shape (..., 2); shape (..., m)."""

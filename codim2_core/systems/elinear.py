@@ -27,6 +27,7 @@ from .coefficients import Affine, Coefficients
 from .equations import Equations, equations_latex, equations_text, linear_rows, negative, with_left_sides
 from .exchange import Exchange
 from .parameters import Parameters
+from .rows import elinear_rows
 
 
 def in_normal_form(
@@ -147,10 +148,15 @@ class ELinear(Listed, Exchange):
     given_matrix: Any = None  # the raw entries ((a11, a12), (a21, a22)) when made by `from_matrix`
 
     _internal_: ClassVar[frozenset[str]] = frozenset(
-        {"clock", "expressions", "frozen", "meanings", "moves_with_z", "typed", "value_of", "varied"}
-    )
+        {
+            "clock", "coefficients", "expressions", "frozen", "is_affine", "meanings", "moves_with_z", "rows", "typed",
+            "value_of", "varied",
+        }
+    )  # fmt: skip
     frozen: ClassVar[bool] = False
     clock: ClassVar[str] = ""
+    is_affine: ClassVar[bool] = True
+    coefficients: ClassVar[tuple[str, ...]] = Coefficients.variable
     typed: ClassVar[None] = None
     meanings: ClassVar[Mapping[str, Expression]] = MappingProxyType({})
 
@@ -346,6 +352,10 @@ class ELinear(Listed, Exchange):
     def varied(self, name: str, value: float) -> ELinear:
         """Return the same system with one of `variable` changed."""
         return self.evolve(**{name: value})
+
+    def rows(self, kept: Sequence[str] = ()) -> list[Expression]:
+        """U and W as formulas, in which some of `variable` keep their names; ValueError if the axes turn with these."""
+        return elinear_rows(self, kept)
 
     def value_of(self, name: str) -> float:
         """Present value of one of `variable`."""

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from numpy.typing import ArrayLike
 
+from ..formulas.expression import Expression
+from ..formulas.polynomial import Terms
 from ..results.arrays import Array
 
 if TYPE_CHECKING:
@@ -16,7 +18,8 @@ if TYPE_CHECKING:
 class FrozenSystem(Protocol):
     """A system frozen at one z: numbers (`Coefficients`), or typed formulas with numbers (`Frozen`).
 
-    A quantity that has a closed form in e-linear systems asks for `as_given`; where that is None it is searched for.
+    Nothing outside this package asks for the kind of a system. A quantity that has a closed form where U is affine asks
+    for `as_given` or `affine`; where that is None it is searched for.
 
     Attributes
     ----------
@@ -31,9 +34,7 @@ class FrozenSystem(Protocol):
     m : int
         The number of slow variables.
     typed : System or None
-        The typed system that this was frozen from; None where U is known to be e-linear by numbers alone.
-    numbers : tuple of float
-        What its compiled field reads.
+        The typed system that this was frozen from, for what shows it as it was given.
     key : hashable
         What decides the portrait.
     slow_key : hashable
@@ -42,9 +43,13 @@ class FrozenSystem(Protocol):
         U in the normal form of the e-linear system (Lemma B.1), in axes of its own; None if U is not e-linear.
     as_given : Coefficients or None
         The normal form where it has the same axes.
+    is_affine : bool
+        Whether U is affine in (c, s), and free of x and y.
     affine : tuple of 6 floats or None
         ``(A11, A12, A21, A22, f1, f2)`` of ``U = A e + f`` with nothing rounded: what signs are decided by. None if U
         is not e-linear.
+    polynomials : tuple of two mappings, or None
+        U1 and U2 on Sigma as polynomials in c and s, in the axes of `affine`; None if they are none.
     turn : float
         Angle from the axes of `affine` to those of this system, by which a matrix was brought into the normal form.
     size : float
@@ -60,6 +65,9 @@ class FrozenSystem(Protocol):
     moves_with_z: ClassVar[bool]
     variable: ClassVar[tuple[str, ...]]
 
+    @property
+    def is_affine(self) -> bool: ...  # noqa: D102
+
     def value_of(self, name: str) -> float: ...  # noqa: D102
     @property
     def z(self) -> tuple[float, ...]: ...  # noqa: D102
@@ -67,8 +75,6 @@ class FrozenSystem(Protocol):
     def m(self) -> int: ...  # noqa: D102
     @property
     def typed(self) -> Any: ...  # noqa: D102
-    @property
-    def numbers(self) -> tuple[float, ...]: ...  # noqa: D102
     @property
     def key(self) -> Hashable: ...  # noqa: D102
     @property
@@ -79,6 +85,8 @@ class FrozenSystem(Protocol):
     def as_given(self) -> Coefficients | None: ...  # noqa: D102
     @property
     def affine(self) -> Affine | None: ...  # noqa: D102
+    @property
+    def polynomials(self) -> tuple[Terms, ...] | None: ...  # noqa: D102
     @property
     def turn(self) -> float: ...  # noqa: D102
     @property
@@ -102,4 +110,16 @@ class FrozenSystem(Protocol):
 
     def DU(self, e: ArrayLike) -> Array:
         """``D_(c,s) U`` on Sigma for e of shape (..., 2); shape (..., 2, 2)."""
+        ...
+
+    def U_rho(self, e: ArrayLike) -> Array:
+        """``dU(e, rho e, z)/drho`` at rho = 0 for e of shape (..., 2): zero unless U reads x or y."""
+        ...
+
+    def of_critical_sets(self, rows: Array) -> Array:
+        """Return of rows, one for each critical set, what is shown: the row itself where there cannot be two."""
+        ...
+
+    def rows(self, kept: Sequence[str] = ()) -> list[Expression]:
+        """U and W as formulas, in which some of the system's numbers keep their names."""
         ...

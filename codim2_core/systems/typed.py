@@ -68,12 +68,15 @@ class System(Listed, Formulas, Exchange):
 
     _internal_: ClassVar[frozenset[str]] = frozenset(
         {
+            "coefficients",
             "frozen",
+            "is_affine",
             "jacobian",
             "meanings",
             "moves_with_z",
             "numbers",
             "reads_position",
+            "rows",
             "typed",
             "value_of",
             "varied",
@@ -81,6 +84,7 @@ class System(Listed, Formulas, Exchange):
         }
     )
     frozen: ClassVar[bool] = False
+    coefficients: ClassVar[tuple[str, ...]] = ()
 
     def evolve(self, **changes: Any) -> System:
         """Return the same system with some parameters (by name), or U, W, parameters, definitions, changed."""

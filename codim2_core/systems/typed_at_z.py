@@ -14,11 +14,13 @@ from numpy.typing import ArrayLike
 from ..formulas.arrays import program
 from ..formulas.expression import Expression
 from ..formulas.names import FAST_NAMES, SLOW_NAMES, number_names
+from ..formulas.polynomial import Terms, polynomials
 from ..results.arrays import Array
 from ..results.result import Listed
 from .bounds import MAX_NUMBER, MIN_NUMBER, at_place
-from .coefficients import INTERNAL_OF_FROZEN, Affine, Coefficients
+from .coefficients import INTERNAL_OF_FROZEN, Affine, Coefficients, affine_terms
 from .elinear import ELinear
+from .rows import with_numbers
 from .typed_formulas import Formulas
 
 # Where U must be finite: rings of directions, the equator among them.
@@ -45,6 +47,7 @@ class Frozen(Listed):
     clock: ClassVar[str] = ""
     moves_with_z: ClassVar[bool] = False
     variable: ClassVar[tuple[str, ...]] = ()
+    coefficients: ClassVar[tuple[str, ...]] = ()
 
     @property
     def typed(self) -> Formulas:
@@ -55,6 +58,11 @@ class Frozen(Listed):
     def reads_position(self) -> bool:
         """Whether U depends on x or y: then the outside differs from the hemisphere's continuation."""
         return self.system.reads_position
+
+    @property
+    def is_affine(self) -> bool:
+        """Whether U is affine in (c, s), and free of x and y."""
+        return self.system.is_affine
 
     @property
     def m(self) -> int:
@@ -70,15 +78,10 @@ class Frozen(Listed):
         """Present value of a parameter or a slow variable."""
         return self.values[name]
 
-    @property
-    def numbers(self) -> tuple[float, ...]:
-        """Values of ``system.numbers``: the arguments of the compiled field."""
-        return tuple(self.values[name] for name in self.system.numbers)
-
     @cached_property
     def key(self) -> Hashable:
         """Return the key of the portrait: the formulas of U and the numbers that they read."""
-        return self.system.U, self.numbers
+        return self.system.U, tuple(self.values[name] for name in self.system.numbers)
 
     @cached_property
     def slow_key(self) -> Hashable:
@@ -106,6 +109,20 @@ class Frozen(Listed):
             return np.broadcast_to(self._matrix, (*e.shape[:-1], 2, 2))
         rows = np.asarray(program(self.key).evaluate(e.reshape(-1, 2)), np.float64)
         return rows[:, :, 1:].reshape((*e.shape[:-1], 2, 2))
+
+    def U_rho(self, e: ArrayLike) -> Array:
+        """``dU(e, rho e, z)/drho`` at rho = 0 for e of shape (..., 2)."""
+        e = np.asarray(e, float)
+        by_x, by_y = (self._vector([row.derivative(name) for row in self.system.U], e, None) for name in ("x", "y"))
+        return by_x * e[..., :1] + by_y * e[..., 1:]
+
+    def of_critical_sets(self, rows: Array) -> Array:
+        """Return of rows, one for each critical set, what is shown: all of them."""
+        return rows
+
+    def rows(self, kept: Sequence[str] = ()) -> list[Expression]:
+        """U and W at z as formulas, in which some of the parameters keep their names."""
+        return with_numbers(self.system.rows(kept), zip(SLOW_NAMES, self.z, strict=False))
 
     @property
     def normal_form(self) -> Coefficients | None:
@@ -140,10 +157,15 @@ class Frozen(Listed):
 
     @cached_property
     def _affine(self) -> Affine | None:
-        if self.reads_position or self._matrix is None:
+        if not self.is_affine or self._matrix is None:
             return None
         (a11, a12), (a21, a22) = self._matrix.tolist()
         return (a11, a12, a21, a22, *self.U((0.0, 0.0)).tolist())
+
+    @property
+    def polynomials(self) -> tuple[Terms, ...] | None:
+        """U1 and U2 on Sigma as polynomials in c and s; None if they are none, or of a degree beyond `MAX_DEGREE`."""
+        return polynomials(program(self.key)) if self.affine is None else affine_terms(self.affine)
 
     @property
     def turn(self) -> float:

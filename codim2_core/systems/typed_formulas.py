@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 from ..formulas.expression import Expression, parse
-from ..formulas.names import MOST_SLOW_VARIABLES, SLOW_NAMES, TIME, number_names
+from ..formulas.names import FAST_NAMES, MOST_SLOW_VARIABLES, SLOW_NAMES, TIME, number_names
 from .bounds import slow_names
 from .parameters import Parameters
 from .reading import continuous, mapping, parameter, parse_formula, short_repr, texts
 from .reading import definitions as read_definitions
+from .rows import constant, with_numbers
 
 MOST_NUMBERS = 32  # parameters and slow variables that one system may read
 MOST_NAMES = 64  # parameters and definitions of one system
@@ -116,6 +118,17 @@ class Formulas:
         """``D_(c,s) U`` as formulas, rows first; exact derivatives, not differences."""
         first, second = ((u.derivative("c"), u.derivative("s")) for u in self.U)
         return first, second
+
+    def rows(self, kept: Sequence[str] = ()) -> list[Expression]:
+        """U and W as formulas, in which some of the parameters keep their names."""
+        rows = [*self.U, *(self.W or [constant(0.0)] * self.m)]
+        return with_numbers(rows, [pair for pair in self.parameters.items() if pair[0] not in kept])
+
+    @cached_property
+    def is_affine(self) -> bool:
+        """Whether U is affine in (c, s) for all parameters and slow variables, and free of x and y."""
+        named = {name for row in self.jacobian for entry in row for name in entry.names}
+        return not self.reads_position and named.isdisjoint(FAST_NAMES)
 
     @cached_property
     def moves_with_z(self) -> bool:

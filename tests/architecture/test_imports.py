@@ -55,3 +55,28 @@ def test_every_folder_of_modules_is_a_package(folder):
     """What finds packages finds no other."""
     for path in (ROOT / folder).rglob("*.py"):
         assert (path.parent / "__init__.py").is_file(), path
+
+
+SYSTEMS = {"AnySystem", "Coefficients", "ELinear", "Formulas", "Frozen", "FrozenSystem", "System"}
+# The layers of the atlas ask, and go when that does.
+ASK_FOR_THE_KIND = {"scene/layer_table.py", "scene/scene.py"}
+
+
+def questions_of_kind(source):
+    """Lines that read `typed` of anything but the record of a Psi, or check for a class of systems."""
+    found = []
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Attribute) and node.attr == "typed" and ast.unparse(node.value)[-6:] != "record":
+            found.append(node.lineno)
+        if isinstance(node, ast.Call) and ast.unparse(node.func) == "isinstance":
+            named = {getattr(one, "id", getattr(one, "attr", "")) for one in ast.walk(node.args[1])}
+            found += [node.lineno] if named & SYSTEMS else []
+    return found
+
+
+def test_no_module_outside_systems_asks_for_the_kind_of_a_system():
+    core = ROOT / "codim2_core"
+    files = [path for path in core.rglob("*.py") if path.relative_to(core).parts[0] != "systems"]
+    found = {str(path.relative_to(core)): questions_of_kind(path.read_text()) for path in files}
+    asking = {name: lines for name, lines in found.items() if lines}
+    assert set(asking) == ASK_FOR_THE_KIND, asking

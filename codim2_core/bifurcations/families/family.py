@@ -16,7 +16,7 @@ import numpy as np
 from ...formulas.arrays import program
 from ...formulas.expression import Expression, parse
 from ...formulas.names import SLOW_NAMES
-from ...motion.initial_value.field import function_of, rows_of
+from ...motion.initial_value.field import function_of
 from ...portrait.layer_problem.vary import vary
 from ...results.arrays import Array
 from ...systems.psi.constructors import many, with_parameter
@@ -249,7 +249,7 @@ def _formula_rows(system: Any, names: Sequence[str]) -> list[Expression]:
     kept = [name for name in names if name in system.variable]
     given = getattr(system, "given_matrix", None)  # of e-linear systems only
     if given is None:
-        return rows_of(system, kept)[:2]
+        return system.rows(kept)[:2]
     own = [(name, value) for name, value in system.parameters.items() if name not in kept]
 
     def as_expression(value: Any, name: str = "") -> Expression:

@@ -15,18 +15,15 @@ from typing import Any
 
 import numpy as np
 
-from ...formulas.expression import Expression, parse
+from ...formulas.expression import Expression
 from ...formulas.functions import called
 from ...formulas.names import FAST_NAMES, SLOW_NAMES
 from ...formulas.source import program
 from ...formulas.switches import Branch, branch_at, has_switches
 from ...results.arrays import Array
-from ...systems.coefficients import Coefficients
-from ...systems.elinear import ELinear
 from ...systems.kinds import AnySystem
+from ...systems.rows import constant, fill_template
 from ...systems.typed import System
-from ...systems.typed_at_z import Frozen
-from ...systems.typed_formulas import Formulas
 
 ONE_SIDED_DISTANCE = 1e-9
 
@@ -90,7 +87,7 @@ class Field:
     @cached_property
     def rests(self) -> bool:
         """Whether U = 0 at x = y = 0 and e = 0 for every z, as its formulas say."""
-        rows, zero = list(self.rows[:2]), _constant(0.0)
+        rows, zero = list(self.rows[:2]), constant(0.0)
         for name in FAST_NAMES:
             rows = [row.substitute(name, zero) if name in row.names else row for row in rows]
         return all(row.constant == 0.0 for row in rows)
@@ -101,9 +98,9 @@ class Field:
         return System(U=self.rows[:2], W=self.rows[2:])
 
     @cached_property
-    def is_affine(self) -> bool:
-        """Whether U is affine in e for what its formulas say."""
-        return not any({"c", "s"} & set(row.derivative(name).names) for row in self.rows[:2] for name in ("c", "s"))
+    def is_affine(self) -> tuple[bool, ...]:
+        """Whether each row is affine in e for what its formulas say."""
+        return tuple(not any({"c", "s"} & set(row.derivative(by).names) for by in ("c", "s")) for row in self.rows)
 
     def jacobian(self, c: float, s: float, x: float, y: float, z: Sequence[float]) -> Array:
         """``D (U, W)`` by (c, s, x, y, z), of shape (2 + m, 4 + m).
@@ -119,27 +116,13 @@ class Field:
 
 
 @lru_cache(maxsize=32)
-def _of_hashable(system: ELinear | System | Frozen) -> Field:
-    return _make_field(rows_of(system), system.m)
-
-
-def _coefficients_rows(system: Coefficients, kept: Sequence[str] = ()) -> list[Expression]:
-    a, b, d, f1, f2 = (
-        parse(name, (name,)) if name in kept else value
-        for name, value in zip(Coefficients.variable, (system.a, system.b, system.d, system.f1, system.f2), strict=True)
-    )
-    return _affine_rows((a, b, d), (f1, f2), system.B.tolist(), system.g.tolist(), (1.0, 0.0))
-
-
 def field(system: AnySystem) -> Field:
     """U and W of any system as functions of numbers; made once for each system.
 
     Raises ValueError: An ELinear made `from_matrix` whose rotation into the normal form depends on z: its axes turn
     with z.
     """
-    if isinstance(system, Coefficients):
-        return _make_field(_coefficients_rows(system), len(system.g))
-    return _of_hashable(system)
+    return _make_field(system.rows(), system.m)
 
 
 def backwards(formulas: Field) -> Field:
@@ -154,107 +137,12 @@ def _branch_field(branch: Branch, whole: Field) -> Field:
 
 @lru_cache(maxsize=32)
 def _reverse_field(rows: tuple[Expression, ...], m: int) -> Field:
-    return _make_field([_fill_template("-r", r=row) for row in rows], m)
+    return _make_field([fill_template("-r", r=row) for row in rows], m)
 
 
 def backwards_system(system: AnySystem) -> System:
     """Return a system whose motions are those of another one, run backwards."""
     return backwards(field(system)).system
-
-
-def rows_of(system: AnySystem, kept: Sequence[str] = ()) -> list[Expression]:
-    """Return the formulas of U and W, in which some of the system's numbers keep their names.
-
-    Raises ValueError: As `field`; also where A is given as a matrix and a name is kept of which it is made.
-    """
-    if isinstance(system, Coefficients):
-        return _coefficients_rows(system, kept)
-    if isinstance(system, ELinear):
-        return _elinear_rows(system, kept)
-    rows = _system_rows(system.typed, kept)
-    for name, value in zip(SLOW_NAMES, getattr(system, "z", ()), strict=False):  # of one that is frozen
-        rows = [row.substitute(name, _constant(value)) for row in rows]
-    return rows
-
-
-def _constant(value: float) -> Expression:
-    return parse(repr(float(value)), ())
-
-
-def _system_rows(system: Formulas, kept: Sequence[str] = ()) -> list[Expression]:
-    rows = [*system.U, *(system.W or [_constant(0.0)] * system.m)]
-    return _with_parameters(rows, [pair for pair in system.parameters.items() if pair[0] not in kept])
-
-
-def _with_parameters(rows: Sequence[Expression], parameters: Sequence[tuple[str, float]]) -> list[Expression]:
-    values = [(name, _constant(value)) for name, value in parameters]
-    found = []
-    for row in rows:
-        for name, value in values:
-            row = row.substitute(name, value) if name in row.names else row
-        found.append(row)
-    return found
-
-
-def _elinear_rows(system: ELinear, kept: Sequence[str] = ()) -> list[Expression]:
-    values = [pair for pair in system.parameters.items() if pair[0] not in kept]
-
-    def as_expression(value: Any, name: str = "") -> Expression:
-        if name in kept:
-            return parse(name, (name,))
-        expression = value if isinstance(value, Expression) else _constant(value)
-        expression = _with_parameters([expression], values)[0]
-        return expression.substitute("z", parse("z1", SLOW_NAMES)) if "z" in expression.names else expression
-
-    f = [as_expression(value, name) for name, value in zip(("f1", "f2"), system.f, strict=True)]
-    B = [[as_expression(value) for value in row] for row in system.B or [(0.0, 0.0)] * system.m]
-    g = [as_expression(value) for value in system.g or [0.0] * system.m]
-    abd: list[Any] = [
-        as_expression(value, name) for name, value in zip("abd", (system.a, system.b, system.d), strict=True)
-    ]
-    axes = (1.0, 0.0)
-    if system.given_matrix is not None:
-        entries = [[as_expression(value).constant for value in row] for row in system.given_matrix]
-        if any(entry is None for row in entries for entry in row):
-            if any(name in kept for row in system.given_matrix for value in row for name in as_expression(value).names):
-                raise ValueError(
-                    "A is made of the parameters named, and its rotation into the normal form turns with them: "
-                    "give the system as System(U=..., W=...) in fixed axes."
-                )
-            raise ValueError(
-                "A depends on z, and its rotation into the normal form would turn the axes of (x, y) with it: "
-                "nothing to simulate in. Give the system as System(U=..., W=...) in fixed axes."
-            )
-        still = ELinear.from_matrix(np.array(entries, float)).at()
-        abd, axes = [still.a, still.b, still.d], (math.cos(still.rotation), math.sin(still.rotation))
-    return _affine_rows(abd, f, B, g, axes)
-
-
-def _affine_rows(
-    abd: Sequence[Any], f: Sequence[Any], B: Sequence[Any], g: Sequence[Any], axes: Any
-) -> list[Expression]:
-    """Rows of ``A e + R f`` and ``B R^T e + g``, R the rotation by the angle whose cosine and sine are `axes`."""
-    a, b, d = abd
-    k, n = axes
-    rows = [
-        _fill_template("a*c - b*s + (k*u - n*v)", a=a, b=b, k=k, n=n, u=f[0], v=f[1]),
-        _fill_template("b*c + d*s + (n*u + k*v)", b=b, d=d, k=k, n=n, u=f[0], v=f[1]),
-    ]
-    rows += [
-        _fill_template("(k*u - n*v)*c + (n*u + k*v)*s + w", k=k, n=n, u=row[0], v=row[1], w=last)
-        for row, last in zip(B, g, strict=True)
-    ]
-    return rows
-
-
-def _fill_template(template: str, **values: Any) -> Expression:
-    # Capitals: the values' own names c, s, z1 … must not be taken for placeholders.
-    for name in values:
-        template = template.replace(name, name.upper())
-    row = parse(template, (*FAST_NAMES, *(name.upper() for name in values)))
-    for name, value in values.items():
-        row = row.substitute(name.upper(), value if isinstance(value, Expression) else _constant(value))
-    return row
 
 
 def _make_field(rows: Sequence[Expression], m: int) -> Field:

@@ -11,7 +11,6 @@ from ...formulas.expression import Expression
 from ...formulas.names import FAST_NAMES, SLOW_NAMES
 from ...results.arrays import Array
 from ...systems.kinds import AnySystem
-from .field import rows_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,13 +52,13 @@ class Slopes:
 def slopes_of(system: AnySystem, kept: Sequence[str] = ()) -> Slopes:
     """Return the derivatives of any system's field.
 
-    Raises ValueError: A name is none of the system's; or as `rows_of`.
+    Raises ValueError: A name is none of the system's; or as `ELinear.rows`.
     """
     for name in kept:
         if name not in system.variable:
             own = ", ".join(system.variable) or "none"
             raise ValueError(f"{name!r} is no number of this system; it has {own}.")
-    rows = rows_of(system, kept)
+    rows = system.rows(kept)
     m = len(rows) - 2
     by = (*FAST_NAMES, *SLOW_NAMES[:m], *kept)
     derivatives = tuple(tuple(row.derivative(name) for name in by) for row in rows)

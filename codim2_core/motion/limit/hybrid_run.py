@@ -231,7 +231,7 @@ class HybridRun(PhaseRun[Decision]):
         """Slide, and decide what follows where that ends."""
         assert decision.e is not None
         on_cycle = decision.kind == "cycle"
-        if on_cycle and self.system.typed is not None:
+        if on_cycle and not all(self.formulas.is_affine):  # else Proposition 4.2 holds
             return self.slide_on_cycle(decision)
         lives = self.has_cycle if on_cycle else None
         part = self.slid(decision.e, lives=lives, line=self.line)

@@ -24,7 +24,6 @@ from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem
 from ...systems.psi.constructors import comparison_families, constant
 from ...systems.psi.function import Psi
-from ...systems.typed_at_z import Frozen
 
 _RADII, _ANGLES = np.linspace(0.0, 1.0, 17), np.linspace(0.0, 2.0 * np.pi, 257)
 _NET = {"c": np.outer(_RADII, np.cos(_ANGLES)), "s": np.outer(_RADII, np.sin(_ANGLES))}
@@ -32,10 +31,8 @@ _NET = {"c": np.outer(_RADII, np.cos(_ANGLES)), "s": np.outer(_RADII, np.sin(_AN
 
 def has_pole(at: FrozenSystem) -> bool:
     """Whether a divisor in U changes its sign on a net over the disc |e| <= 1, or vanishes at a place of the net."""
-    if not isinstance(at, Frozen):
-        return False
-    values = {**at.values, "x": 0.0, "y": 0.0, **_NET}
-    for row in at.typed.U:
+    values = {"x": 0.0, "y": 0.0, **_NET}
+    for row in at.rows()[:2]:
         for op, *args in row.tape:
             if op == "/":
                 divisor = Expression(compact(list(row.tape), args[1])).evaluate(values)

@@ -40,7 +40,7 @@ def checked_stiction(stiction: Any, formulas: Field) -> float:
         raise ValueError(
             f"stiction is {short_repr(stiction)}; give static over kinetic friction, a finite number from 1 on."
         )
-    if reach > 1.0 and not formulas.is_affine:
+    if reach > 1.0 and not all(formulas.is_affine[:2]):
         raise ValueError(
             f"stiction is {reach:g}, and U is not affine in e; leave stiction out, or give friction -N mu e with N and "
             "mu free of e."

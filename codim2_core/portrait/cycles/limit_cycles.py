@@ -14,8 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...formulas.arrays import polynomial_degree
-from ...formulas.polynomial import MAX_DEGREE
 from ...results.arrays import Array
 from ...results.result import Pictured, Several, Tabled, result_rows
 from ...results.tables import paragraphs, point, table_number
@@ -212,8 +210,7 @@ def provable(problem: LayerProblem) -> str:
         return "theorem"
     if not covers(problem.psi):
         return ""
-    degree = 1 if problem.at.affine is not None else polynomial_degree(problem.at.typed.U)
-    return "certificate" if degree is not None and degree <= MAX_DEGREE else ""
+    return "" if problem.at.polynomials is None else "certificate"
 
 
 @found_once("cycles")
@@ -221,8 +218,7 @@ def cycles_of(problem: LayerProblem) -> LimitCycles:
     """Find the limit cycles of a layer problem, with their slow flows."""
     found = closed_orbits(problem)
     W = partial(slow_flow_at, problem.at)
-    # the mean of W is W at the mean where W is affine
-    means = [W(c.mean_e) if problem.at.typed is None else c.share @ W(c.e) for c in found.orbits]
+    means = [c.share @ W(c.e) for c in found.orbits]
     for mean in means:
         mean.flags.writeable = False
     cycles = tuple(replace(cycle, slow_flow=mean) for cycle, mean in zip(found.cycles, means, strict=True))

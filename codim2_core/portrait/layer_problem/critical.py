@@ -12,8 +12,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...formulas.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, program
-from ...formulas.names import FAST_NAMES
-from ...formulas.switches import kinks
 from ...results.result import Results, Tabled
 from ...results.tables import html_table, point, table_number
 from ...systems.bounds import at_place
@@ -26,7 +24,6 @@ from .linearisation import (
     Frame,
     LinearisationParts,
     linearisation,
-    linearisation_of,
     matrix_determinant,
     spectrum,
 )
@@ -144,17 +141,11 @@ def sets_at(at: FrozenSystem, psi: Psi, location: Location | None) -> CriticalSe
 
 
 def _linear_set(at: FrozenSystem, psi: Psi, affine: Affine, location: Location, e: tuple[float, float]) -> CriticalSet:
-    form, sign = at.as_given, matrix_determinant(*affine[:4])[1]
-    if form is None or form.given is not None:  # by the matrix as given, whatever the rotation has rounded
-        shift = math.frexp(max(map(abs, affine[:4])))[1]
-        m11, m12, m21, m22 = (math.ldexp(v, -shift) for v in affine[:4])
-        given = rotate_location(location, -at.turn).e or e
-        parts = linearisation_of((m11, m12, m21, m22), psi, given, location.complement, sign)
-        return _critical_set(e, _turned_parts(parts, at.turn), shift, slow_flow_at(at, e))
+    sign, shift = matrix_determinant(*affine[:4])[1], math.frexp(max(map(abs, affine[:4])))[1]
     # Time in a unit that makes the largest coefficient about 1, so that no product under- or overflows.
-    shift = math.frexp(max(map(abs, form.plane[:3])))[1]
-    a, b, d = [math.ldexp(v, -shift) for v in form.plane[:3]]
-    parts = linearisation((a, b, d), psi, e, location.complement, sign)
+    m11, m12, m21, m22 = (math.ldexp(v, -shift) for v in affine[:4])
+    given = rotate_location(location, -at.turn).e or e
+    parts = _turned_parts(linearisation((m11, m12, m21, m22), psi, given, location.complement, sign), at.turn)
     return _critical_set(e, parts, shift, slow_flow_at(at, e))
 
 
@@ -215,7 +206,7 @@ def _set_of(at: FrozenSystem, psi: Psi, e: NDArray[np.float64], DU: NDArray[np.f
     m11, m12, m21, m22 = DU.ravel().tolist()
     shift = math.frexp(max(abs(m11), abs(m12), abs(m21), abs(m22), 1e-290))[1]
     M = (math.ldexp(m11, -shift), math.ldexp(m12, -shift), math.ldexp(m21, -shift), math.ldexp(m22, -shift))
-    parts = linearisation_of(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), index)
+    parts = linearisation(M, psi, (c, s), (1.0 - modulus) * (1.0 + modulus), index)
     return _critical_set((c, s), parts, shift, slow_flow_at(at, (c, s)), _blur(at, (c, s), psi, parts[3], shift))
 
 
@@ -237,9 +228,6 @@ def _blur(at: FrozenSystem, e: tuple[float, float], psi: Psi, frame: Frame, shif
 
 def _sides_agree(at: FrozenSystem, psi: Psi, C: CriticalSet) -> bool:
     """Whether C attracts, repels or is a saddle by the linearisation on every side of a kink that it may lie on."""
-    system = at.typed
-    if system is None or not kinks(system.U, FAST_NAMES):
-        return True
     sides = at.DU(C.e + ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS)
     middle = at.DU(C.e)
     if abs(sides - middle).max() <= 1e-3 * abs(middle).max():
@@ -248,7 +236,7 @@ def _sides_agree(at: FrozenSystem, psi: Psi, C: CriticalSet) -> bool:
     complement = (1.0 - math.hypot(c, s)) * (1.0 + math.hypot(c, s))
     for side in sides:
         index = int(np.sign(side[0, 0] * side[1, 1] - side[0, 1] * side[1, 0]))
-        kind = spectrum(linearisation_of(_matrix_entries(side), psi, (c, s), complement, index)[3])[3]
+        kind = spectrum(linearisation(_matrix_entries(side), psi, (c, s), complement, index)[3])[3]
         if kind.split()[0] != C.kind.split()[0]:
             return False
     return True

@@ -22,7 +22,6 @@ import numpy as np
 
 from ...numerics.trigonometric import INPUT_ROUNDING
 from ...results.arrays import Array, join_columns
-from ...systems.frozen import FrozenSystem
 from .critical import CriticalSet
 from .problem import LayerProblem
 
@@ -102,7 +101,7 @@ def of_limit_directions(problem: LayerProblem) -> tuple[Linearised, ...]:
     across = join_columns(-e[:, 1], e[:, 0])
     tilting = np.einsum("ki,kij,kj->k", across, at.DU(e), e)
     tilting[tilting != 0.0] *= psi.limit  # infinite of a Psi that grows for ever (R5)
-    lifting = (across * _along_rho(at, e)).sum(axis=-1)
+    lifting = (across * at.U_rho(e)).sum(axis=-1)
     rows = zip(e.tolist(), across.tolist(), on.lambda_rho.tolist(), on.lambda_theta.tolist(), tilting.tolist(),
                lifting.tolist(), strict=True)  # fmt: skip
     found = []
@@ -123,19 +122,6 @@ def _slope(forcing: float, gap: float, size: float) -> float | None:
     if forcing == 0.0:
         return 0.0
     return None if abs(gap) <= RESONANCE * size or not math.isfinite(forcing) else forcing / gap
-
-
-def _along_rho(at: FrozenSystem, e: Array) -> Array:
-    """Return dU/drho at rho = 0 along each direction e (k, 2): zero unless U reads x or y."""
-    if not at.reads_position:
-        return np.zeros_like(e)
-    numbers = dict(zip(at.typed.numbers, at.numbers, strict=True))
-    values = {**numbers, "c": e[:, 0], "s": e[:, 1], "x": 0.0, "y": 0.0}
-    rows = [
-        sum(np.asarray(row.derivative(name).evaluate(values), float) * e[:, j] for j, name in enumerate(("x", "y")))
-        for row in at.typed.U
-    ]
-    return np.stack(rows, axis=-1)
 
 
 def _unit(u: float, v: float) -> tuple[float, float]:

@@ -23,14 +23,6 @@ def scale_by_power_of_two(values: tuple[float, ...]) -> tuple[float, ...]:
     return tuple([math.ldexp(v, shift) for v in values])
 
 
-def exact_determinant(a: float, b: float, d: float) -> float:
-    """``det A = a d + b^2`` of the doubles as given, to full relative accuracy."""
-    det = a * d + b * b
-    if abs(det) < CANCELLATION * (abs(a * d) + b * b):
-        return float(Fraction(a) * Fraction(d) + Fraction(b) ** 2)
-    return det
-
-
 def determinant_sign(a: float, b: float, d: float) -> int:
     """Sign of ``det A = a d + b^2``, 0 when it vanishes within the rounding of a, b, d."""
     a, b, d = scale_by_power_of_two((a, b, d))
@@ -82,38 +74,12 @@ LinearisationParts = tuple[tuple[float, float], tuple[float, float], tuple[float
 
 
 def linearisation(
-    matrix: tuple[float, float, float], psi: Psi, e: tuple[float, float], complement: float, sign: int | None = None
-) -> tuple[tuple[float, float], tuple[float, float], tuple[float, float, float, float], Frame]:
-    """Place and Jacobian of the critical set with ``e_Psi = e``.
-
-    J: (3.23), ``A . D e_Psi``; D e_Psi has eigenvalue `radial` along e and `tangential` across it.
-    """
-    a, b, d = matrix
-    modulus = math.hypot(*e)
-    zeta = float(psi.radius(modulus, complement)) if modulus > 0.0 else 0.0
-    radial, tangential = psi.jacobian_factors(zeta)
-    c, s = (e[0] / modulus, e[1] / modulus) if modulus > 0.0 else (1.0, 0.0)
-    # radial - tangential, without the cancellation near the centre
-    spread = tangential * (complement * psi.steepness(zeta) - modulus * modulus)
-    D11, D12, D22 = tangential + spread * c * c, spread * c * s, tangential + spread * s * s
-    r = zeta / math.hypot(1.0, zeta)
-    jacobian = (a * D11 - b * D12, a * D12 - b * D22, b * D11 + d * D12, b * D12 + d * D22)
-    shear = (d - a) * c * s
-    frame = Frame(
-        radial * (a * c * c + d * s * s),
-        tangential * (a * s * s + d * c * c),
-        radial * tangential * (shear - b) * (shear + b),
-        radial * tangential * exact_determinant(a, b, d),
-        determinant_sign(a, b, d) if sign is None else sign,
-        radial * (abs(a) * c * c + abs(d) * s * s) + tangential * (abs(a) * s * s + abs(d) * c * c),
-    )
-    return (zeta * c, zeta * s), (r * c, r * s), tuple(map(float, jacobian)), frame  # type: ignore[return-value]
-
-
-def linearisation_of(
     M: tuple[float, float, float, float], psi: Psi, e: tuple[float, float], complement: float, sign: int
 ) -> LinearisationParts:
-    """Return the `linearisation` of ``J = M . D e_Psi``, M = D_e U (rows first), whose determinant has that sign."""
+    """Place and Jacobian of the critical set with ``e_Psi = e``, where M = D_e U (rows first) has that sign of det M.
+
+    J: (3.23), ``M . D e_Psi``; D e_Psi has eigenvalue `radial` along e and `tangential` across it.
+    """
     m11, m12, m21, m22 = M
     modulus = math.hypot(*e)
     zeta = float(psi.radius(modulus, complement)) if modulus > 0.0 else 0.0
@@ -122,7 +88,8 @@ def linearisation_of(
     # M in the axes along e and across it, where D e_Psi is diag(radial, tangential)
     n11, n12 = c * c * m11 + c * s * (m12 + m21) + s * s * m22, c * c * m12 + c * s * (m22 - m11) - s * s * m21
     n21, n22 = c * c * m21 + c * s * (m22 - m11) - s * s * m12, c * c * m22 - c * s * (m12 + m21) + s * s * m11
-    cc, ss, mixed = c * c, s * s, abs(c * s) * (abs(m12) + abs(m21))
+    cc, ss = c * c, s * s
+    mixed = 0.0 if m12 == -m21 else abs(c * s) * (abs(m12) + abs(m21))  # b, however large, stays out of the trace
     frame = Frame(
         radial * n11,
         tangential * n22,
@@ -131,7 +98,8 @@ def linearisation_of(
         sign,
         radial * (cc * abs(m11) + mixed + ss * abs(m22)) + tangential * (cc * abs(m22) + mixed + ss * abs(m11)),
     )
-    spread = radial - tangential
+    # radial - tangential, without the cancellation near the centre
+    spread = tangential * (complement * psi.steepness(zeta) - modulus * modulus)
     D11, D12, D22 = tangential + spread * c * c, spread * c * s, tangential + spread * s * s
     jacobian = (m11 * D11 + m12 * D12, m11 * D12 + m12 * D22, m21 * D11 + m22 * D12, m21 * D12 + m22 * D22)
     return (zeta * c, zeta * s), (zeta * c / math.hypot(1.0, zeta), zeta * s / math.hypot(1.0, zeta)), jacobian, frame

@@ -15,8 +15,6 @@ from ...systems.psi.function import Psi
 
 __all__ = ["check_name", "check_varying", "limits", "names", "usual_span", "value_of", "vary"]
 
-PLANE_COEFFICIENTS = ("a", "b", "d", "f1", "f2")
-
 
 def names(system: Any, psi: Psi, z: ArrayLike = ()) -> tuple[str, ...]:
     """Names of all that can be varied.
@@ -110,8 +108,8 @@ def usual_span(system: Any, psi: Psi, z: ArrayLike, name: str) -> tuple[float, f
     value, (low, high) = value_of(system, psi, z, name), limits(system, psi, name)
     if name not in system.variable and _of_psi(psi, name):
         return max(low, value / 3.0), min(high, 3.0 * value)
-    if name in PLANE_COEFFICIENTS and system.typed is None:
-        room = max(abs(system.value_of(one)) for one in PLANE_COEFFICIENTS if one in system.variable)
+    if name in system.coefficients:
+        room = max(abs(system.value_of(one)) for one in system.coefficients if one in system.variable)
     else:
         room = 0.5 * abs(value) if name in system.variable else max(abs(value), 1.0)
     return max(low, value - (room or 1.0)), min(high, value + (room or 1.0))

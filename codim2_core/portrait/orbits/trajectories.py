@@ -185,7 +185,7 @@ def _under_way(found: Trajectories) -> tuple[NDArray[np.int64], Array, Array, Ar
 def integrate_explicitly(at: FrozenSystem, psi: Psi, states: Array, signs: Array, options: Stepping) -> Trajectories:
     """Follow trajectories explicitly."""
     found = in_lanes(at, _kernels().problem(at, psi, options.backward), states, signs, [len(states)], options)[0]
-    _warm.add(psi.family if at.typed is None else GENERAL)
+    _warm.add(GENERAL if at.as_given is None else psi.family)
     return found
 
 
@@ -259,7 +259,7 @@ def is_warm(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
         return False  # or they run as Python
     if psi is None:
         return True
-    kind = psi.family if system is None or system.typed is None else GENERAL
+    kind = psi.family if system is None or system.is_affine else GENERAL
     return kind in _warm and kernels.is_compiled(psi)
 
 

@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike
 
 from ...results.arrays import Array, read_only
 from ...results.words import say
-from ...systems.coefficients import Coefficients
 from ...systems.kinds import AnySystem
 from ..layer_problem.location import Existence, locate
 
@@ -40,10 +39,10 @@ _SINGULAR = say("affine: none single")
 def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:
     """Return the plane F_C of the e-linear system at z and its meeting point with Sigma.
 
-    None for a system that is given by formulas: its W need not be linear in e. Shapes: z (m,).
+    None where U is not known to be e-linear, or W not to be affine in e. Shapes: z (m,).
     """
-    at = system.at(z)
-    if not isinstance(at, Coefficients):
+    at = system.at(z).as_given
+    if at is None or at.m != system.m:
         return None
     matrix, offset = read_only(np.concatenate([at.A, at.B])), read_only(np.concatenate([at.f, at.g]))
     location = locate(at)

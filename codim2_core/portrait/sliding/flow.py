@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...results.arrays import read_only
 from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem, takes_names
 from ..layer_problem.critical import CriticalSet
@@ -41,18 +42,10 @@ def sliding_flow(system: AnySystem, z: ArrayLike = ()) -> NDArray[np.float64] | 
     [-0.5]
     """
     at = system.at(z)
-    points = locate(at).e if at.affine is not None else disc_zeros(at.key).e
-    if points is None or not len(points):
-        return None
-    flow = at.W(np.asarray(points) if at.typed is None else np.atleast_2d(points))
-    flow.flags.writeable = False
-    return flow
+    points = disc_zeros(at.key).e if at.affine is None else [e] if (e := locate(at).e) else []
+    return at.of_critical_sets(read_only(np.stack([at.W(e) for e in points]))) if len(points) else None
 
 
 def flow_on(at: FrozenSystem, critical: Sequence[CriticalSet]) -> NDArray[np.float64] | None:
     """Return what `sliding_flow` does of a frozen system whose critical sets are known."""
-    if not critical:
-        return None
-    flow = critical[0].slow_flow if at.typed is None else np.stack([C.slow_flow for C in critical])
-    flow.flags.writeable = False
-    return flow
+    return at.of_critical_sets(read_only(np.stack([C.slow_flow for C in critical]))) if critical else None

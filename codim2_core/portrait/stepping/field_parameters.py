@@ -21,8 +21,8 @@ def field_numbers(at: FrozenSystem, parameter: float, backward: bool, gain: int 
     sign, unit = -1.0 if backward else 1.0, at.speed
     shared = np.zeros(SHARED_SIZE)
     shared[PSI:] = parameter, gain, formulas  # exact: addresses have fewer than 53 bits
-    if at.typed is None:
-        shared[:PSI] = [sign * (value / unit) for value in at.numbers]
-    else:
+    if at.as_given is None:
         shared[FACTOR] = sign / unit
+    else:
+        shared[:PSI] = [sign * (value / unit) for value in at.as_given.plane]
     return shared

@@ -85,7 +85,7 @@ class CompiledProblem:
 
 def problem(at: FrozenSystem, psi: Psi, backward: bool = False) -> CompiledProblem:
     """Prepare a right-hand side."""
-    if at.typed is None:
+    if at.as_given is not None:
         field = fields.field(psi)
         shared = field_numbers(at, gain_parameter(psi), backward)
         return CompiledProblem(field.address, shared, (field, psi), slice(0, 5), ALONE)
@@ -95,7 +95,7 @@ def problem(at: FrozenSystem, psi: Psi, backward: bool = False) -> CompiledProbl
 
 def problems(at: FrozenSystem, psis: Sequence[Psi], backward: bool = False) -> CompiledProblem:
     """Prepare a right-hand side whose lanes have a Psi of their own, of at most BLOCKS."""
-    formulas, smooth = (None, True) if at.typed is None else packed_formulas(at.key)
+    formulas, smooth = packed_formulas(at.key) if at.as_given is None else (None, True)
     mixed, each = gains_of_blocks(), [gains_of_block(psi, smooth) for psi in psis]
     own = np.array([(gain.address, gain_parameter(psi)) for gain, psi in zip(each, psis, strict=True)], float)
     if formulas is not None:

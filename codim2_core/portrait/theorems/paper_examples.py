@@ -51,7 +51,7 @@ def ball_in_pool(facts: Facts) -> Certificate:
 def _is(facts: Facts, example: System) -> bool:
     """Whether U and W at this z are those of an example at that z."""
     at = facts.problem.at
-    if at.typed is None or at.m != example.m or not at.z:
+    if at.m != example.m or not at.z:
         return False
     other = example.at(at.z)
     near = lambda u, v: bool(np.abs(u - v).max() <= 1e-12 * facts.size)

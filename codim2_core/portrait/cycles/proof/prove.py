@@ -5,16 +5,12 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from ....formulas.arrays import program
-from ....formulas.polynomial import Terms, polynomials
 from ....results.arrays import Array
 from ....results.words import say
-from ....systems.frozen import FrozenSystem
 from ....systems.psi.kernel import VECTOR
 from ...layer_problem.problem import LayerProblem
 from .certificate import write_certificate, write_head
@@ -34,7 +30,7 @@ NO_POINTS = np.zeros((0, 2))
 
 def prove_layer_problem(problem: LayerProblem, cycles: Sequence[FoundCycle]) -> Proof:
     """Look for a certificate of a portrait: of its limit directions, critical sets and just these limit cycles."""
-    nothing, given = tuple(False for _ in cycles), polynomials_of(problem.at)
+    nothing, given = tuple(False for _ in cycles), problem.at.polynomials
     if given is None:
         return Proof(False, nothing, say("proofs of polynomials only"))
     if not covers(problem.psi):
@@ -69,14 +65,6 @@ def _certificates(
             margin, function = best_function(system, degree, k, mu)
             if margin >= LEAST_MARGIN:
                 yield write_certificate(problem, system, function, k, mu, loop)
-
-
-def polynomials_of(at: FrozenSystem) -> tuple[Terms, ...] | None:
-    """Return U1 and U2 as polynomials in c and s; None if they are none."""
-    if at.affine is None:
-        return polynomials(program(at.key))
-    a, b, c, d, f, g = map(Fraction, at.affine)
-    return {(1, 0): a, (0, 1): b, (0, 0): f}, {(1, 0): c, (0, 1): d, (0, 0): g}
 
 
 def _loop(problem: LayerProblem, system: ScaledLayerProblem, cycles: Sequence[FoundCycle]) -> Array:
