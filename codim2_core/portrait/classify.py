@@ -9,7 +9,6 @@ from ..systems.coefficients import Coefficients
 from ..systems.kinds import AnySystem, takes_names
 from ..systems.psi.function import Psi
 from .classification import (
-    NEUTRAL_CLOSED_EQUATOR,
     Classification,
     Degeneracy,
     PortraitName,
@@ -17,7 +16,7 @@ from .classification import (
     directions,
     undecided_degeneracy,
 )
-from .classify_typed import general_consequence, general_name
+from .classify_typed import equator_degeneracies, general_consequence, general_name
 from .cycles.limit_cycles import closed_orbits
 from .layer_problem.critical import CriticalSet
 from .layer_problem.disc_zeros import disc_zeros
@@ -27,20 +26,8 @@ from .layer_problem.location import Existence, Location
 from .layer_problem.problem import LayerProblem, found_once
 from .omega_limits import radially_neutral_ones
 
-_MULTIPLE = {
-    2: undecided_degeneracy(
-        "saddle-node",
-        say("two have met"),
-    ),
-    3: undecided_degeneracy(
-        "pitchfork",
-        say("one splits, D2"),
-    ),
-    4: undecided_degeneracy("quadruple zero", say("four have met")),
-}
-_CUSP_DEGENERACY = undecided_degeneracy("cusp", say("cusp"))
-
-
+# What is said of an affine field in other words than of a general one.
+_DIRECTIONS_MEET = {0: say("nothing turns"), 3: say("one splits, D2"), 4: say("four have met")}
 _EXISTENCE_DEGENERACIES = {
     Existence.EQUATOR: "transcritical",
     Existence.SINGULAR_NONE: "det A = 0",
@@ -48,22 +35,6 @@ _EXISTENCE_DEGENERACIES = {
     Existence.SINGULAR_LINE: "line of equilibria",
     Existence.EVERYTHING: "everything stands still",
 }
-
-
-def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
-    found = []
-    if equator.all_directions:
-        found.append(
-            undecided_degeneracy(
-                "all directions",
-                say("nothing turns"),
-            )
-        )
-    multiple = sorted({int(k) for k in equator.multiplicity if k > 1})
-    found += [_CUSP_DEGENERACY if k == 3 and not equator.symmetric else _MULTIPLE[k] for k in multiple]
-    if cycle is not None and cycle.exponent == 0.0:
-        found.append(NEUTRAL_CLOSED_EQUATOR)
-    return found
 
 
 def _true_centre(coefficients: Coefficients) -> bool:
@@ -154,7 +125,9 @@ def portrait_name(problem: LayerProblem) -> PortraitName:
         return general_name(problem.at, equator, cycle, critical)
     coefficients, location = affine
     case, degeneracies = _case(coefficients)
-    degeneracies += _equator_degeneracies(equator, cycle) + _critical_degeneracies(location, critical, coefficients)
+    degeneracies += equator_degeneracies(equator, cycle, _DIRECTIONS_MEET) + _critical_degeneracies(
+        location, critical, coefficients
+    )
     count = "∞" if equator.all_directions else str(len(equator.theta))
     many = location.existence in (Existence.SINGULAR_LINE, Existence.EVERYTHING)  # equilibria that are not isolated
     return PortraitName(case, ("CM" if critical or many else "NCM") + count, tuple(degeneracies))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from ..numerics.fourier_zeros import ROUNDINGS, UNIT
 from ..results.words import count_word, say
 from ..systems.frozen import FrozenSystem
@@ -25,7 +28,8 @@ def general_name(
         arcs = "an arc" if len(equator.arcs) == 1 else f"{len(equator.arcs)} arcs"
         lines = f"{lines} and {arcs} of them" if len(equator) else f"{arcs} of limit directions"
     name = f"{_count(len(critical), 'critical set', found.proven)}, {lines}"
-    return PortraitName(None, name, (*_equator_degeneracies(equator, cycle), *_critical_degeneracies(critical, found)))
+    degenerate = equator_degeneracies(equator, cycle, {}, TYPED_ROUNDING, TERMS)
+    return PortraitName(None, name, (*degenerate, *_critical_degeneracies(critical, found)))
 
 
 def _count(k: int, noun: str, proven: bool) -> str:
@@ -65,31 +69,31 @@ def general_consequence(critical: tuple[CriticalSet, ...], found: DiscZeros, cyc
     return f"{sets} {say('several stable', count=count_word(stable + cycles))}"
 
 
-_MULTIPLE = {
-    2: ("saddle-node", say("two have met")),
-    3: ("pitchfork", say("one splits")),
-    4: ("quadruple zero", say("four directions have met")),
-}
-_CUSP_SENTENCE = ("cusp", say("cusp"))
+_MULTIPLE = {2: "saddle-node", 3: "pitchfork", 4: "quadruple zero"}
+_DIRECTIONS_MEET = {
+    0: say("no turning"), 2: say("two have met"), 3: say("one splits"), 4: say("four directions have met")
+}  # fmt: skip
 
 
-def _equator_degeneracies(equator: EquatorEquilibria, cycle: EquatorCycle | None) -> list[Degeneracy]:
-    degeneracies = []
-    if equator.all_directions:
-        text = say("no turning")
-        degeneracies.append(undecided_degeneracy("all directions", text, TYPED_ROUNDING, TERMS))
-    degeneracies += [
-        undecided_degeneracy("arc of directions", text, TYPED_ROUNDING, TERMS) for text in arcs_of(equator.arcs)
-    ]
+def equator_degeneracies(
+    equator: EquatorEquilibria, cycle: EquatorCycle | None, said: Mapping[int, str], *within: Any
+) -> list[Degeneracy]:
+    """Name what is degenerate on the equator, in the words that are `said` of a zero of Theta of some multiplicity.
+
+    0 stands for a Theta that vanishes; `within` is how far it is undecided, and of what (`undecided_degeneracy`).
+    """
+    said = _DIRECTIONS_MEET | dict(said)
+    named = [("all directions", said[0])] if equator.all_directions else []
+    named += [("arc of directions", text) for text in arcs_of(equator.arcs)]
     for m in sorted({int(m) for m in equator.multiplicity if m > 1}):
-        high = (f"zero of multiplicity {m}", say("many have met", count=m))
-        name, text = _CUSP_SENTENCE if m == 3 and not equator.symmetric else _MULTIPLE.get(m, high)
-        degeneracies.append(undecided_degeneracy(name, text, TYPED_ROUNDING, TERMS))
+        if m == 3 and not equator.symmetric:
+            named.append(("cusp", say("cusp")))
+        else:
+            named.append((_MULTIPLE.get(m, f"zero of multiplicity {m}"), said.get(m) or say("many have met", count=m)))
+    found = [undecided_degeneracy(name, text, *within) for name, text in named]
     if not equator.proven:
-        degeneracies.append(Degeneracy("limit directions uncertain", equator.certificate))
-    if cycle is not None and cycle.neutral:
-        degeneracies.append(NEUTRAL_CLOSED_EQUATOR)
-    return degeneracies
+        found.append(Degeneracy("limit directions uncertain", equator.certificate))
+    return found if cycle is None or not cycle.neutral else [*found, NEUTRAL_CLOSED_EQUATOR]
 
 
 def _critical_degeneracies(critical: tuple[CriticalSet, ...], found: DiscZeros) -> list[Degeneracy]:
