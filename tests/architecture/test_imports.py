@@ -58,8 +58,6 @@ def test_every_folder_of_modules_is_a_package(folder):
 
 
 SYSTEMS = {"AnySystem", "Coefficients", "ELinear", "Formulas", "Frozen", "FrozenSystem", "System"}
-# The layers of the atlas ask, and go when that does.
-ASK_FOR_THE_KIND = {"scene/layer_table.py", "scene/scene.py"}
 
 
 def questions_of_kind(source):
@@ -79,4 +77,4 @@ def test_no_module_outside_systems_asks_for_the_kind_of_a_system():
     files = [path for path in core.rglob("*.py") if path.relative_to(core).parts[0] != "systems"]
     found = {str(path.relative_to(core)): questions_of_kind(path.read_text()) for path in files}
     asking = {name: lines for name, lines in found.items() if lines}
-    assert set(asking) == ASK_FOR_THE_KIND, asking
+    assert asking == {}
