@@ -185,7 +185,7 @@ def hopf(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> Bifurca
     label = "sec:case3"
     if a == d == 0.0 and b != 0.0:
         return BifurcationCurve("hopf", "Hopf: everywhere", label, (), sentence=say("trace vanishes"))
-    if not _may_turn(a, b, d):
+    if not may_turn(a, b, d):
         return BifurcationCurve("hopf", "Hopf: none", label, (), sentence=say("no Hopf outside Case III"))
     atlas = plane_atlas((a, b, d), psi)
     lines, values = lines_of(atlas, "Hopf")
@@ -199,7 +199,7 @@ def hopf(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) -> Bifurca
     )  # fmt: skip
 
 
-def _may_turn(a: float, b: float, d: float) -> bool:
+def may_turn(a: float, b: float, d: float) -> bool:
     """Whether the matrix is of Case III: else there is no Hopf point and no limit cycle."""
     return a * d < 0.0 and determinant_sign(a, b, d) > 0
 
@@ -282,7 +282,7 @@ def closed_equator(system: ELinear | Coefficients, z: ArrayLike = ()) -> Bifurca
     """
     a, b, d = matrix(system, z)
     label = "thm:geneps0"
-    if not _may_turn(a, b, d):
+    if not may_turn(a, b, d):
         return BifurcationCurve("equator", "closed equator: none", label, (), sentence=say("no cycles at all"))
     lines = lines_of(plane_atlas((a, b, d), constant()), "neutral equator")[0]
     if a == -d:
@@ -327,7 +327,7 @@ def heteroclinic(system: ELinear | Coefficients, psi: Psi, z: ArrayLike = ()) ->
     """
     a, b, d = matrix(system, z)
     label = "sec:case3"
-    if not _may_turn(a, b, d):
+    if not may_turn(a, b, d):
         return BifurcationCurve("heteroclinic", "heteroclinic: none", label, (), sentence=say("no cycles at all"))
     atlas = connection_atlas((a, b, d), psi)
     lines, values = lines_of(atlas, "heteroclinic cycle")

@@ -13,6 +13,7 @@ from typing import Any
 from codim2_core.bifurcations.atlases.atlas import Atlas, curves_over, with_bifurcations_of_cycles, with_regions
 from codim2_core.bifurcations.diagrams.class_line import ClassInterval, class_line
 from codim2_core.bifurcations.plane.borders import border_reach, coefficients_of
+from codim2_core.bifurcations.plane.plane_curves import may_turn
 from codim2_core.systems.coefficients import Coefficients
 
 from ...picture.draw.thumbnails import thumbnails
@@ -55,7 +56,15 @@ def add(draft: FrameContext) -> None:
     if of_f:
         _plane_of_f(draft, chosen)
     else:
+        _offer_cycles(draft, True)
         _map(draft, chosen, without_parameters(draft.scene, *chosen))
+
+
+def _offer_cycles(draft: FrameContext, possible: bool) -> None:
+    """Say whether the map may have bifurcations of limit cycles, which are offered then."""
+    if draft.now.get("cycles possible") != possible:
+        draft.now["cycles possible"] = possible
+        draft.header["cycles_possible"] = possible
 
 
 def _plane_of_f(draft: FrameContext, axes: tuple[Axis, Axis]) -> None:
@@ -63,6 +72,7 @@ def _plane_of_f(draft: FrameContext, axes: tuple[Axis, Axis]) -> None:
     at = draft.scene.coefficients
     assert isinstance(at, Coefficients)  # the system has a, b, d
     matrix, f = at.plane[:3], at.plane[3:]
+    _offer_cycles(draft, may_turn(*matrix))
     reach = round_up(border_reach(matrix))
     wide = []
     for axis, value in zip(axes, f, strict=True):

@@ -84,6 +84,7 @@ class Atlas {
 
   apply({header, blocks}, late) {
     for (const list of this.lists) list.apply(header.axes)
+    if ("cycles_possible" in header) this.possible = header.cycles_possible
     if (header.atlas_of) this.of = String(header.atlas_of)
     if (header.map) {
       const {spans, name, inside, loops, curve, pieces, points} = header.map
@@ -112,7 +113,7 @@ class Atlas {
     const here = this.pad.draw({...chart, words, names, old: this.old})
     if (here !== this.here) { this.here = here; this.markTiles("here", here) }
     this.zoom.draw(values)
-    this.find(".cycle-curves").hidden = !this.map.followed || Boolean(this.why)
+    this.find(".cycle-curves").hidden = !this.possible || !this.map.followed || Boolean(this.why)
     this.find(".atlas-note").textContent = this.why || chart.note || ""
     this.find(".thumbnails").hidden = Boolean(this.why)
     this.find(".pad").toggleAttribute("hidden", Boolean(this.why)) // there is nothing to put a hand on

@@ -148,3 +148,11 @@ def test_one_parameter_has_a_strip_and_none_says_what_to_do(texts, axis):
     assert "plane" in header["map"]["note"]
     header = settled(frames, set={"texts": {"U1": "c^2 - 1/4", "U2": "-s", "W": "", "where": ""}})
     assert "parameter" in header["unable"]["map"]
+
+
+@pytest.mark.parametrize(
+    ("matrix", "possible"), [((-2, 0, -1), False), ((1, 0.3, -1), False), ((172, 186, -200), True)]
+)
+def test_bifurcations_of_cycles_are_offered_in_case_three_only(matrix, possible):
+    frames = Frames(ExplorerState.from_values({"panel": "atlas", **dict(zip("abd", matrix, strict=True))}))
+    assert unpack(frames.answer({"all": True}))[0]["cycles_possible"] is possible

@@ -154,7 +154,9 @@ test("the panel atlas: folds of cycles and connections of what is followed are t
   const curve = ["Hopf", "fold of cycles", "homoclinic loop", "heteroclinic cycle", "saddle connection"]
   const points = [["generalised Hopf", 1, 1.5, "Born."], ["undecided", 2, 1.5, "No further."], ["neutral loop", 2, 2, "Neutral."]]
   const drawn = [0, 0.2, 0.4, 0.6, 0.8].map((u) => [[u, 0.5], [u + 0.1, 0.25]])
-  one.frame({...FOLLOWED, map: {...FOLLOWED.map, curve, pieces: [1, 1, 1, 1, 1], points}}, {...lines("map"), ...lines("map_curves", ...drawn)})
+  one.frame({cycles_possible: false, ...FOLLOWED}, {...lines("map"), ...CURVES})
+  assert.equal(one.find(".cycle-curves").hidden, true)
+  one.frame({cycles_possible: true, ...FOLLOWED, map: {...FOLLOWED.map, curve, pieces: [1, 1, 1, 1, 1], points}}, {...lines("map"), ...lines("map_curves", ...drawn)})
   assert.equal(one.find(".cycle-curves").hidden, false)
   assert.deepEqual([shown().lines.map(({name}) => name), shown().marks.length], [["hopf"], 1])
   one.set({cycle_curves: "show"})
