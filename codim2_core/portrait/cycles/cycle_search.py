@@ -101,14 +101,22 @@ def _search_ray(section: TurnSection) -> tuple[list[FixedPoint], list[str]]:
             last = shift[:-1][np.isfinite(shift[:-1]) & (shift[1:] == np.inf)].tolist()
             notes += [say("near a loop", gap=y) for y in last if 0.0 < abs(y) < NEAR_LOOP]
         changes, touching, band = zeros(samples.q, shift, samples.noise)
+        places = [*changes, *touching]
+        rises = samples.rises(places)
+        plain = [place for place, seen in zip(places, rises, strict=True) if seen]
         if band:
             notes.append(PERIOD_ANNULUS_NOTE)
+        elif len(plain) < len(places):
+            notes.append(UNRESOLVED)
         if not backward:
             gap = near_fold(samples.q, shift, samples.noise)
-            if gap < NEAR_FOLD:
+            if gap < NEAR_FOLD and len(plain) == len(places):
                 notes.append(say("near a fold", gap=gap))
-            out += [FixedPoint(float(xi[i]), touching=True) for i in touching if samples.noise[i] < FOLD_NOISE]
+            folds = [i + 1 + int(np.argmin(np.abs(shift[i + 1 : j]))) for i, j in touching if (i, j) in plain]
+            out += [FixedPoint(float(xi[i]), touching=True) for i in folds if samples.noise[i] < FOLD_NOISE]
         for i, j in changes:
+            if (i, j) not in plain:
+                continue
             if shift[i] > 0.0 and np.isfinite(shift[[i, j]]).all():  # attracting
                 at = _interpolate_fixed_point(section, samples, i, j, backward)
                 found = _narrow_fixed_points(section, float(xi[i]), float(xi[j]), backward) if at is None else [at]

@@ -35,6 +35,9 @@ NEAR_FOLD = 1e-6  # displacement at an extremum: a pair of cycles there is not t
 NEAR_LOOP = 1e-3  # displacement of the last orbit that returns: a loop is near
 STRIDES = 1, 3, 8, 20  # of samples that are compared
 RISE = 10.0  # times its noise, by which a sample differs from another
+# Next to a loop errors grow along a turn: how far two tolerances are apart, within so many samples, is the noise there.
+# It is measured for displacements below the first number; more than so many times the noise is a displacement.
+MAY_BE_NOISE, NOISE_REACH, DIFFERS = 1e-6, 4, 4.0
 _INSIDE = np.linspace(0.0, 1.0, INTERVAL_PARTS + 1)
 
 
@@ -108,12 +111,12 @@ def _doubtful(values: Array, doubt: Array) -> NDArray[np.bool_]:
     return np.where(same, reached.any(axis=1), again.any(axis=1))
 
 
-def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], list[int], bool]:
+def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], list[tuple[int, int]], bool]:
     """Return where the displacement changes sign, and where it touches zero, within resolution.
 
-    changes: Samples of opposite sign, with none between that differs from zero; touching: Samples that do not differ
-    from zero, between two of the same sign: a fold; band: Whether a whole interval does not differ from zero: a band of
-    closed orbits. Shapes: q, shift, noise (n,).
+    changes: Samples of opposite sign, with none between that differs from zero; touching: Samples of the same sign
+    between which some are, and none differs from zero: a fold; band: Whether a whole interval does not differ from
+    zero: a band of closed orbits. Shapes: q, shift, noise (n,).
     """
     decided = np.flatnonzero(np.abs(shift) > noise)
     inward = shift[decided] < 0.0
@@ -126,7 +129,7 @@ def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], 
         elif (shift[i] < 0.0) != (shift[j] < 0.0):
             changes.append((i, j))
         elif j > i + 1 and np.isfinite(shift[i : j + 1]).all():
-            touching.append(i + 1 + int(np.argmin(np.abs(shift[i + 1 : j]))))
+            touching.append((i, j))
     return changes, touching, band
 
 
@@ -180,6 +183,21 @@ class Samples:
             rtol = FINE_RTOL if doubtful or small.any() else COARSE_RTOL
             self.refine((left[:, None] + (right - left)[:, None] * part).ravel(), stencil, rtol)
         return False
+
+    def rises(self, pairs: list[tuple[int, int]]) -> NDArray[np.bool_]:
+        """Whether both displacements of each pair of samples are above the noise measured around them."""
+        near = [np.arange(max(i - NOISE_REACH, 0), min(j + NOISE_REACH + 1, len(self.xi))) for i, j in pairs]
+        least = np.array([np.abs(self.shift[[i, j]]).min() for i, j in pairs])
+        small = np.flatnonzero(least < MAY_BE_NOISE)
+        if not len(small):
+            return np.ones(len(pairs), bool)
+        at = np.unique(np.concatenate([near[k] for k in small]))
+        apart = np.zeros(len(self.xi))
+        again = self.section.displacement(self.xi[at], DIFFERS * FINE_RTOL, self.backward, noise=0.0)
+        both = np.isfinite(again) & np.isfinite(self.shift[at])
+        apart[at[both]] = np.abs(again[both] - self.shift[at[both]])
+        noise = np.array([apart[places].max() for places in near])
+        return least > DIFFERS * noise
 
     def _narrow(self, i: int, steepest: float) -> bool:
         """Whether an interval is as narrow as makes sense: steep, a jump may still differ from a slope."""

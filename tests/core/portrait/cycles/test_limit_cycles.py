@@ -264,3 +264,17 @@ def test_nothing_is_in_doubt_in_the_case_of_the_paper():
     found = c2.limit_cycles(c2.ELinear(172, 186, -200, (-86, -93)), c2.psi.hill(3))
     assert len(found) == 1
     assert found.notes == ()
+
+
+@pytest.mark.parametrize(("U", "law"), [
+    (("-s", "c - c**3"), c2.psi.constant()),
+    (("-s + s**3", "c - c**3"), c2.psi.constant()),
+    (("s*(-1.46 - 0.404*c + 0.248*c*c + 2.068*s*s)", "0.4*c - 0.174*c*c - 0.202*s*s"), c2.psi.rational()),
+    (("s*(-0.428 - 1.375*c - 0.296*c*c + 0.639*s*s)", "0.4*c - 0.057 + 1.282*c*c - 0.651*c**3 - 0.6875*s*s"),
+     c2.psi.tanh()),
+])  # fmt: skip
+def test_closed_orbits_of_a_reversible_system_are_no_limit_cycles_however_near_a_loop_they_pass(U, law):
+    """With U1 odd in s and U2 even in it, (c, s, t) -> (c, -s, -t): what closes about a set on s = 0 fills a band."""
+    found = c2.limit_cycles(c2.System(U=U), law)
+    assert len(found) == 0
+    assert found.notes  # it is undecided
