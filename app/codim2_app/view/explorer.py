@@ -250,8 +250,8 @@ class ExplorerView(JSComponent, ControlTypes):
         Patient: waits for the compiler, so that nothing is.
         """
         scene, values = self.frames.scene, self.frames.values
-        ready = self._wait() if patient else is_ready(scene.psi, scene.system)
-        if not ready and scene.coefficients.typed is not None:
+        ready = self._wait() if patient else is_ready(scene.psi, scene.coefficients)
+        if not ready and scene.coefficients.as_given is None:
             return still(pack({}, {}), values["layers"]), COMPILING, False
         header, blocks, _ = make_frame(scene, values, {}, ready)
         sentence = header["portrait"]["sentence"]
@@ -260,7 +260,7 @@ class ExplorerView(JSComponent, ControlTypes):
     def _wait(self) -> bool:
         """Wait until the integrator is compiled for what is drawn."""
         scene = self.frames.scene
-        while not is_ready(scene.psi, scene.system):
+        while not is_ready(scene.psi, scene.coefficients):
             time.sleep(0.05)
         return True
 

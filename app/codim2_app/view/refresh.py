@@ -102,7 +102,7 @@ class Frames:
         self,
         state: ExplorerState,
         system: System_ | None = None,
-        ready: Callable[[Psi, Any, bool], bool] = lambda _psi, _system, _moving: True,
+        ready: Callable[[Psi, Any, bool], bool] = lambda _psi, _at, _moving: True,
         errors: Sequence[InputError] = (),
         budget: Budget | None = None,
     ) -> None:
@@ -257,8 +257,8 @@ class Frames:
     def _draw(self, changes: Mapping[str, Any], sent: Mapping[str, Any], rest: bool) -> tuple[dict[str, Any], Blocks]:
         values, changed, scene = self._reach(changes)
         scene = resample_for_window(scene, self.window, rest)
-        ready = self.ready(scene.psi, scene.system, self._moving)
-        drawable = ready or scene.coefficients.typed is None  # all of a general system needs the compiler
+        ready = self.ready(scene.psi, scene.coefficients, self._moving)
+        drawable = ready or scene.coefficients.as_given is not None  # all of a general system needs the compiler
         if "preset" in changes:  # a whole state: nothing was moved
             self._moved = FIRST_MOVED
         else:

@@ -13,7 +13,7 @@ from typing import Any
 
 from codim2_core.formulas.jit import policy
 from codim2_core.portrait.orbits.trajectories import is_warm
-from codim2_core.systems.kinds import AnySystem
+from codim2_core.systems.frozen import FrozenSystem
 from codim2_core.systems.psi import constant
 from codim2_core.systems.psi.function import Psi
 
@@ -151,19 +151,19 @@ def _start_thread(key: Hashable, target: Callable[..., None], *arguments: Any) -
     _threads[key].start()
 
 
-def is_ready(psi: Psi | None = None, system: AnySystem | None = None, moving: bool = False) -> bool:
+def is_ready(psi: Psi | None = None, at: FrozenSystem | None = None, moving: bool = False) -> bool:
     """Say whether all layers can be drawn without waiting for the compiler; if not, see that it is at work.
 
     As long as another process compiles them, kernels run as Python, which is fast enough where no control is moving. If
     compiling failed, all layers are asked for all the same, so that their error is seen.
     """
     psi = constant() if psi is None else psi
-    general = system is not None and system.typed is not None
+    general = at is not None and at.as_given is None
     if _cold.is_set():  # as Python
         return not moving or general
     if not outcome and constant() in _threads:
         return False
-    if is_warm(psi, system):
+    if is_warm(psi, at):
         return True
     with _lock:
         if general and GENERAL not in _threads:

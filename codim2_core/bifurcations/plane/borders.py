@@ -61,5 +61,9 @@ def critical_lines(entries: PlaneMatrix) -> list[Array]:
 
 def border_reach(entries: PlaneMatrix) -> float:
     """Return the largest coordinate on both borders, or 1 where they are the point f = 0."""
-    lines = [*saddle_node_lines(entries), *critical_lines(entries)]
-    return max(float(np.abs(line).max()) for line in lines) or 1.0
+    a, b, d = entries
+    step = abs(a - d)
+    # |f1| <= |b| sin(t) + |a - d| cos(t)^3 on the saddle-nodes, largest at t = 0, or where the slope first vanishes
+    t = 0.5 * math.asin(min(2.0 * abs(b) / (3.0 * step), 1.0)) if step else 0.5 * math.pi
+    on_fold = max(abs(b), abs(b) * math.sin(t) + step * math.cos(t) ** 3)
+    return max(math.hypot(a, b), math.hypot(b, d), on_fold) or 1.0

@@ -252,14 +252,14 @@ def warm(psi: Psi | None = None) -> None:
     trajectories(elinear, psi, checked_seeds(seeds))  # read-only arrays are another type to Numba
 
 
-def is_warm(psi: Psi | None = None, system: AnySystem | None = None) -> bool:
-    """Whether trajectories (with this Psi and a system of this kind) run at once, without compiling or loading."""
+def is_warm(psi: Psi | None = None, at: FrozenSystem | None = None) -> bool:
+    """Whether trajectories (with this Psi, of such a system) run at once, without compiling or loading."""
     kernels = _kernels()
     if CREEPING not in _warm or not all(getattr(one, "signatures", True) for one in (kernels.integrate, kernels.creep)):
         return False  # or they run as Python
     if psi is None:
         return True
-    kind = psi.family if system is None or system.is_affine else GENERAL
+    kind = GENERAL if at is not None and at.as_given is None else psi.family
     return kind in _warm and kernels.is_compiled(psi)
 
 

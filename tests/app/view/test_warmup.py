@@ -12,6 +12,7 @@ from codim2_app.view.compiling.process import CompilerProcess
 
 import codim2_core as c2
 from codim2_core.formulas.jit import policy
+from codim2_core.portrait.orbits import trajectories
 from tests.core.formulas.jit.fresh import computed
 from tests.work import wait_until
 
@@ -111,8 +112,8 @@ def test_what_is_not_on_disk_is_loaded_once_another_process_has_compiled_it(begu
     wait_until(lambda: len(ways) > 3)
     assert warmup._compiler.starts == 1
     assert policy.is_left()  # to it: kernels run as Python
-    assert warmup.is_ready(begin_with.psi, begin_with.system)
-    assert not warmup.is_ready(begin_with.psi, begin_with.system, moving=True)
+    assert warmup.is_ready(begin_with.psi, begin_with.coefficients)
+    assert not warmup.is_ready(begin_with.psi, begin_with.coefficients, moving=True)
     wait_until(lambda: warmup.outcome)
     assert warmup.outcome == "ready"  # the first scene is drawn, as Python
     assert warmup.done == (0, 4)
@@ -197,3 +198,10 @@ def test_the_process_that_compiles_ends_with_its_parent():
     child = subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE)
     child.stdin.close()
     assert child.wait() == 1
+
+
+@pytest.mark.parametrize(("U", "general"), [(("-c", "-s"), False), (("-c + 2*s", "s"), True), (("-c**3", "-s"), True)])
+def test_the_kernel_that_a_system_needs_is_the_one_that_is_asked_for(monkeypatch, U, general):
+    """An affine field in other axes than those of its normal form is stepped by its formulas."""
+    monkeypatch.setattr(trajectories, "_warm", {trajectories.CREEPING, "constant"})
+    assert trajectories.is_warm(c2.psi.constant(), c2.System(U=U).at(())) is not general

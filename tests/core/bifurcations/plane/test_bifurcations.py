@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from codim2_core import ELinear, bifurcations, classify, critical_sets, equator_equilibria, psi
 from codim2_core.bifurcations.families.disc import cusps, saddle_node_force
+from codim2_core.bifurcations.plane.borders import border_reach, critical_lines, saddle_node_lines
 from codim2_core.portrait.layer_problem.linearisation import determinant_sign
 from tests.core.strategies import coefficient
 
@@ -106,3 +107,10 @@ def test_ellipse_is_where_the_critical_set_leaves(abd):
     for f in branch[::90]:
         counts = [len(critical_sets(ELinear(*abd, tuple(f * r)), psi.constant())) for r in (1 - 1e-7, 1 + 1e-7)]
         assert counts == [1, 0]
+
+
+@given(matrices)
+def test_the_reach_of_the_borders_is_their_largest_coordinate(abd):
+    lines = [*saddle_node_lines(abd), *critical_lines(abd)]
+    largest = max(float(np.abs(line).max()) for line in lines) or 1.0
+    assert border_reach(abd) == pytest.approx(largest, rel=1e-4)  # of lines that turn by a degree a step
