@@ -93,8 +93,9 @@ def test_what_is_refused_may_become_right_by_another_control(frames):
 
 def test_a_refused_text_does_not_keep_the_picture_from_coming_once_all_is_compiled():
     ready = [False]
-    link = read_link('system=own&texts={"U1":"-c^3","W":"foo %2B"}')
-    frames = Frames(link.state, ready=lambda *_: ready[0], errors=link.errors)
+    link = read_link('system=own&texts={"W":"foo %2B"}')
+    general = ExplorerState.from_values({"system": "own", "texts": {"U1": "-c^3", "U2": "-s"}})  # needs the compiler
+    frames = Frames(general, ready=lambda *_: ready[0], errors=link.errors)
     header, _ = unpack(frames.answer({"all": True}))
     assert header["ready"] is False
     header, _ = unpack(frames.answer({"id": 1}))

@@ -203,5 +203,6 @@ def test_the_process_that_compiles_ends_with_its_parent():
 @pytest.mark.parametrize(("U", "general"), [(("-c", "-s"), False), (("-c + 2*s", "s"), True), (("-c**3", "-s"), True)])
 def test_the_kernel_that_a_system_needs_is_the_one_that_is_asked_for(monkeypatch, U, general):
     """An affine field in other axes than those of its normal form is stepped by its formulas."""
+    trajectories.warm(c2.psi.constant())
     monkeypatch.setattr(trajectories, "_warm", {trajectories.CREEPING, "constant"})
     assert trajectories.is_warm(c2.psi.constant(), c2.System(U=U).at(())) is not general
