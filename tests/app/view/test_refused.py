@@ -2,7 +2,7 @@
 
 import pytest
 from codim2_app.picture.draw.packing import unpack
-from codim2_app.picture.state.controls import preset_values
+from codim2_app.picture.state.controls import ExplorerState, preset_values
 from codim2_app.picture.state.links import read_link
 from codim2_app.view.refresh import Frames
 
