@@ -2,7 +2,7 @@
 
 import pytest
 from codim2_app.picture.draw.packing import unpack
-from codim2_app.picture.state.controls import ExplorerState, preset_values
+from codim2_app.picture.state.controls import preset_values
 from codim2_app.picture.state.links import read_link
 from codim2_app.view.refresh import Frames
 
@@ -93,14 +93,13 @@ def test_what_is_refused_may_become_right_by_another_control(frames):
 
 def test_a_refused_text_does_not_keep_the_picture_from_coming_once_all_is_compiled():
     ready = [False]
-    link = read_link('system=own&texts={"W":"foo %2B"}')
-    general = ExplorerState.from_values({"system": "own", "texts": {"U1": "-c^3", "U2": "-s"}})  # needs the compiler
-    frames = Frames(general, ready=lambda *_: ready[0], errors=link.errors)
+    link = read_link("system=spinning_disc&psi=custom&psi_text=1/(1%2B")  # a field that needs the compiler
+    frames = Frames(link.state, ready=lambda *_: ready[0], errors=link.errors)
     header, _ = unpack(frames.answer({"all": True}))
     assert header["ready"] is False
     header, _ = unpack(frames.answer({"id": 1}))
-    assert (header["ready"], list(header["errors"])) == (False, ["text:W"])
+    assert (header["ready"], list(header["errors"])) == (False, ["psi_text"])
     ready[0] = True
     header, _ = unpack(frames.answer({"id": 2}))
-    assert (header["ready"], list(header["errors"])) == (True, ["text:W"])
+    assert (header["ready"], list(header["errors"])) == (True, ["psi_text"])
     assert "portrait" in header
