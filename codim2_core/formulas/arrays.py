@@ -91,9 +91,9 @@ class Program:
         finite = np.isfinite(out)
         for i in np.flatnonzero(finite[:, :, 0].all(axis=1) & ~finite.all(axis=(1, 2))):
             around = np.empty((len(ONE_SIDED_DIRECTIONS), len(self.roots), 3))
-            beside = np.repeat(points[i : i + 1], len(ONE_SIDED_DIRECTIONS), axis=0)
-            beside[:, :2] += ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS
-            interpreter.batch(*self.arrays, beside, around)
+            around_point = np.repeat(points[i : i + 1], len(ONE_SIDED_DIRECTIONS), axis=0)
+            around_point[:, :2] += ONE_SIDED_DISTANCE * ONE_SIDED_DIRECTIONS
+            interpreter.batch(*self.arrays, around_point, around)
             mean = around.mean(axis=0)
             spread = np.abs(around - mean).max(axis=0)
             with np.errstate(invalid="ignore"):

@@ -39,8 +39,10 @@ def tableau() -> Tableau:
     """Coefficients, from the zeros of the Jacobi polynomial P_4^(1,0)."""
     k = np.arange(STAGES)
     # the zeros are the eigenvalues of the matrix of the polynomials' recurrence (Golub and Welsch 1969)
-    beside = np.diag(np.sqrt(k[1:-1] * (k[1:-1] + 1.0)) / (2.0 * k[1:-1] + 1.0), 1)
-    zeros = np.linalg.eigvalsh(np.diag(-1.0 / ((2.0 * k[:-1] + 1.0) * (2.0 * k[:-1] + 3.0))) + beside + beside.T)
+    off_diagonal = np.diag(np.sqrt(k[1:-1] * (k[1:-1] + 1.0)) / (2.0 * k[1:-1] + 1.0), 1)
+    zeros = np.linalg.eigvalsh(
+        np.diag(-1.0 / ((2.0 * k[:-1] + 1.0) * (2.0 * k[:-1] + 3.0))) + off_diagonal + off_diagonal.T
+    )
     nodes = np.append(0.5 * (zeros + 1.0), 1.0)
     powers = nodes[:, None] ** k
     A = np.asarray(np.linalg.solve(powers.T, (nodes[:, None] ** (k + 1) / (k + 1)).T).T, float)

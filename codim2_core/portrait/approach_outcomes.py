@@ -184,8 +184,8 @@ def _direction_outcome(
         return Outcome(theta, label, "nothing", "undecided", None, None, None, reason, why="neutral")
     if equator.lambda_rho[i] > 0.0:
         reason = say("repels" if angular_sign(equator, i) > 0 else "leads away", Q=written_label(label))
-        beside = equator.lambda_rho[[i - 1, (i + 1) % len(equator)]]
-        if angular_sign(equator, i) < 0 and (beside < 0.0).any():
+        neighbours = equator.lambda_rho[[i - 1, (i + 1) % len(equator)]]
+        if angular_sign(equator, i) < 0 and (neighbours < 0.0).any():
             reason = f"{reason} {say('turns away')}"
         return Outcome(theta, label, "nothing", "misses", None, None, None, reason)
     arrives = _arrival(equator, i)

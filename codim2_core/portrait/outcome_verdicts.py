@@ -247,8 +247,8 @@ def judge_arrivals(
         ] * len(which)
     wide, count = _wide(problem, which), len(angles)
     found = omega_limits_of(problem, from_equator(problem, which, wide, lines, angles))
-    mains, beside = found[: len(which)], found[len(which) :]
-    fans = {i: beside[k * count : (k + 1) * count] for k, i in enumerate(wide)}
+    mains, neighbours = found[: len(which)], found[len(which) :]
+    fans = {i: neighbours[k * count : (k + 1) * count] for k, i in enumerate(wide)}
     judged = []
     for i, main in zip(which, mains, strict=True):
         fan = fans.get(i, [])

@@ -1,4 +1,4 @@
-"""Case III: limit cycles, their branches and folds; error beside time.
+"""Case III: limit cycles, their branches and folds; error next to time.
 
 Run ``python -m tests.benchmarks cycles [--quick]``. Times are of the processor.
 """
@@ -37,7 +37,7 @@ def timed(call: Callable[[], Any], repeats: int) -> tuple[float, Any]:
 def branch_error(branches: Any, system: c2.ELinear, psi: c2.Psi) -> float:
     """Largest relative difference of periods along branches from those of `limit_cycles` there.
 
-    Beside folds and the closed equator, where exponents tend to 0, the rounding of the value alone moves a cycle.
+    Next to folds and the closed equator, where exponents tend to 0, the rounding of the value alone moves a cycle.
     """
     worst = 0.0
     for branch in branches:

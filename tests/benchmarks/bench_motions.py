@@ -1,4 +1,4 @@
-"""Motions against SciPy: error beside time, for eps > 0 and in the limit: ``python -m tests.benchmarks motions``.
+"""Motions against SciPy: error next to time, for eps > 0 and in the limit: ``python -m tests.benchmarks motions``.
 
 SciPy's right-hand sides are compiled by Numba. For eps > 0: the five motions of `motions` from 1e-1 to 1e-12, each
 method with two absolute tolerances, against the stored ends. In the limit SciPy is told what we have to find out: which

@@ -1,4 +1,4 @@
-"""Limit cycles and separatrices: error against time, ours beside SciPy with a Poincare section.
+"""Limit cycles and separatrices: error against time, ours next to SciPy with a Poincare section.
 
 Run ``python -m tests.benchmarks orbits [--quick]``. Periods are held against an extrapolation method (Gragg,
 Bulirsch, Stoer) at 22 digits; separatrices against DOP853 at 3e-14 from 1e-8 next to the saddle.

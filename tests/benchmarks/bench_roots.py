@@ -1,6 +1,6 @@
-"""Limit directions: error against time, ours beside numpy.roots and sampling with brentq.
+"""Limit directions: error against time, ours next to numpy.roots and sampling with brentq.
 
-Run ``python -m tests.benchmarks roots [--quick]``. What counts beside error and time is the number of roots:
+Run ``python -m tests.benchmarks roots [--quick]``. What counts next to error and time is the number of roots:
 near a saddle-node a method may miss a pair or invent one. Counts are exact (integer Sturm sequences), errors are
 against 50 digits, in radians.
 """

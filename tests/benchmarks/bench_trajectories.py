@@ -1,4 +1,4 @@
-"""64 trajectories: true error against run time, ours beside SciPy, Numba-LSODA, diffrax and heyoka.
+"""64 trajectories: true error against run time, ours next to SciPy, Numba-LSODA, diffrax and heyoka.
 
 Run ``python -m tests.benchmarks trajectories [--quick]``. All run on one thread, on the same
 formulas and seeds, in turns; the error is the largest over the 64 ends, against 30 digits or an exact solution

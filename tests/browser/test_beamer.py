@@ -47,7 +47,7 @@ def test_a_letter_that_is_typed_is_no_key(open_page):
     assert page.find(".codim2.beamer").count() == 0
 
 
-def test_a_panel_stands_beside_the_picture_and_kept_views_are_run_through(open_page):
+def test_a_panel_stands_next_to_the_picture_and_kept_views_are_run_through(open_page):
     page = open_page(viewport={"width": 1920, "height": 1080}).open("?v=1&beamer=2&panel=atlas")
     page.find(".panel-atlas .region").first.wait_for()
     picture, panel = (page.find(name).bounding_box() for name in (".picture", ".panel-atlas"))

@@ -189,7 +189,7 @@ def test_critical_sets_have_their_place_and_mark_and_sense(drawn):
     assert np.hypot(*(np.array(label["at"]) - C.p)) < 0.15
 
 
-def test_labels_stand_beside_their_marks(drawn):
+def test_labels_stand_next_to_their_marks(drawn):
     q = drawn.scene["equator"]
     labels = {item["text"]: np.array(item["at"]) for item in drawn.items if item["kind"] == "text"}
     for i, theta in enumerate(q.theta):

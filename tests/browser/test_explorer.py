@@ -95,7 +95,7 @@ def test_fast_drag_ends_on_the_last_value_and_queues_nothing(explorer):
     assert (fresh.name(), fresh.find(".critical-table").text_content()) == (name, numbers)
 
 
-def test_bad_input_is_told_beside_the_control_and_recovers(explorer):
+def test_bad_input_is_told_next_to_the_control_and_recovers(explorer):
     before = explorer.name(), explorer.picture()
     explorer.type("a", "nan")
     error = explorer.find("[data-control=a] .error")

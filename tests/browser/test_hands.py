@@ -114,7 +114,7 @@ def objects(explorer, kind):
     return list(zip(columns["x"], columns["y"], strict=True))
 
 
-def test_a_click_on_an_object_pins_it_and_one_beside_launches(open_page):
+def test_a_click_on_an_object_pins_it_and_one_elsewhere_launches(open_page):
     explorer = open_page().open("?b=0.3&panel=orbits&layers=inside,launched,equator,critical")
     page, pinned = explorer.page, explorer.find(".card.pinned")
     at = objects(explorer, "critical")[0]

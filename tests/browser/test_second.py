@@ -69,7 +69,7 @@ def test_its_own_values_are_set_below_it_are_in_the_link_and_are_undone(open_pag
     assert page.complaints == []
 
 
-def test_before_and_after_and_the_papers_beside_ones_own(open_page):
+def test_before_and_after_and_the_papers_next_to_ones_own(open_page):
     page = open_page(viewport=WIDE).open("?v=1&beside=psi%3Drational")
     page.choose(".second-what", "now").kept()
     page.type("f1", "-1.4")
@@ -93,7 +93,7 @@ def test_before_and_after_and_the_papers_beside_ones_own(open_page):
     assert page.complaints == []
 
 
-def test_a_mechanism_opens_with_the_hemispheres_of_two_contacts_beside_each_other(open_page):
+def test_a_mechanism_opens_with_the_hemispheres_of_two_contacts_next_to_each_other(open_page):
     page = open_page(viewport=WIDE).open()
     page.find(".system-box select").select_option("plate_at_foot_1")
     page.settle()

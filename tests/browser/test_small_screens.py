@@ -1,4 +1,4 @@
-"""Phones: the portrait stays beside sheets, one finger scrolls, two move the picture, sliders turn sideways only."""
+"""Phones: the portrait stays next to sheets, one finger scrolls, two move the picture, sliders turn sideways only."""
 
 import pytest
 

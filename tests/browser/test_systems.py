@@ -127,7 +127,7 @@ def ends(explorer, name):
     return float(slider.get_attribute("min")), float(slider.get_attribute("max"))
 
 
-def test_a_range_is_typed_beside_a_slider_is_in_the_link_and_is_undone(open_page):
+def test_a_range_is_typed_next_to_a_slider_is_in_the_link_and_is_undone(open_page):
     explorer = open_page().open()
     first = ends(explorer, "f1")
     explorer.type("f1", "0.25 in [0, 1]").kept()

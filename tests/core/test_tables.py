@@ -49,7 +49,7 @@ def test_separatrices_are_drawn_and_listed():
     assert all(note in none._repr_html_() for note in none.notes)
 
 
-def test_zero_has_no_sign_and_rounding_is_zero_beside_what_it_is_rounding_of():
+def test_zero_has_no_sign_and_rounding_is_zero_next_to_what_it_is_rounding_of():
     assert table_number(-0.0) == table_number(0.0) == "0"
     assert point((1.0, -1e-16)) == "(1, 0)"
     assert point((3e-17, -2e-17)) == "(3e−17, −2e−17)"

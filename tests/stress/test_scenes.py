@@ -1,4 +1,4 @@
-"""The whole scene, every layer of it, on and beside every stratum, for every kind of Psi, from every kind of seed."""
+"""The whole scene, every layer of it, on and next to every stratum, for every kind of Psi, from every kind of seed."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ EVERY = tuple(layers)
 
 @by_name
 @pytest.mark.parametrize("change", CHANGES)
-def test_every_layer_on_and_beside_a_stratum(stratum, change):
+def test_every_layer_on_and_next_to_a_stratum(stratum, change):
     paths = stratum.paths.split()
     k = STRATA.index(stratum) + round(-np.log10(abs(change) or 1e-3))
     check_scene(stratum.moved(paths[k % len(paths)], change), stratum.psi or FAMILIES[k % len(FAMILIES)], EVERY)

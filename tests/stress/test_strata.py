@@ -102,7 +102,7 @@ def test_directions_move_little_as_a_reaches_d():
 
 @pytest.mark.parametrize("step", STEPS[:15])
 def test_the_hopf_value_of_n_divides_stable_from_unstable(step):
-    """tr J = -71 + 32.25 n in Case III: its sign is right down to 3e-14 beside 284/129."""
+    """tr J = -71 + 32.25 n in Case III: its sign is right down to 3e-14 next to 284/129."""
     for side, name in ((-1.0, "stable"), (1.0, "unstable")):
         found = check_plane(CASE3, psi.hill(284.0 / 129.0 * (1.0 + side * step)))
         if step >= 3e-14:  # the trace is 0 within 16 roundings of its terms: 2e-14 of n

@@ -62,7 +62,7 @@ def slides(told, fields):
         assert max(told.distance(share) for share in np.linspace(0.5, 1.0, 9)) < 1e3
         return
     t = 0.5 * (told.phase.t_start + told.phase.t_end)
-    if told.other.times[-1] < t:  # it went around a cycle for too long: from beside C, for a while in the fast time
+    if told.other.times[-1] < t:  # it went around a cycle for too long: from near C, for a while in the fast time
         z = told.run.dense(t)[2:]
         (C,) = c2.critical_sets(told.system, told.psi, tuple(z))
         beside = c2.simulate(told.system, told.psi, (*(1.01 * EPS * C.x2), *z), (0.0, EPS), eps=EPS)
@@ -77,7 +77,7 @@ def slides(told, fields):
 def leaves(told, fields):
     """It goes away, in the direction that the sentence names."""
     theta = float(fields["theta"].replace("−", "-"))
-    if told.other.times[-1] < told.phase.t_end:  # it went around a cycle for too long: from beside, it turns there
+    if told.other.times[-1] < told.phase.t_end:  # it went around a cycle for too long: from nearby, it turns there
         z = told.run.dense(0.5 * (told.phase.t_start + told.phase.t_end))[2:]
         start = (50 * EPS * math.cos(theta + 0.3), 50 * EPS * math.sin(theta + 0.3), *z)
         x, y = c2.simulate(told.system, told.psi, start, (0.0, 0.1), eps=EPS).states[-1, :2]

@@ -94,7 +94,7 @@ def faults(sentence):
 
 
 @pytest.mark.parametrize(("asked", "control", "part"), REFUSED, ids=lambda value: str(value)[:40])
-def test_it_is_told_beside_its_control(asked, control, part):
+def test_it_is_told_next_to_its_control(asked, control, part):
     frames = Frames(ExplorerState.from_values(BARE))
     header, _ = unpack(frames.answer({"id": 1, "set": asked, "rest": True}))
     assert list(header["errors"]) == [control]

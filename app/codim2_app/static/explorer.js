@@ -1,4 +1,4 @@
-// The explorer: markup from the server, one Bokeh figure, frames asked for as fast as the line carries them.
+// The explorer: markup from the server, one Bokeh figure, frames requested as fast as the line carries them.
 
 import {Connection} from "./asking/connection.js"
 import {DeviceLine} from "./asking/device_line.js"
@@ -433,7 +433,7 @@ export async function openHere() {
 function tellAround(message) { if (window.parent !== window) window.parent.postMessage({codim2: message}, "*") }
 
 const OF_FIRST_SETTING = ".first, .first-words, .portrait-name, .portrait-case, .sentence" // what the page says of it
-const ITS_LOOK = ["embed", "beamer", "lift", "views", "room"] // in a link, beside values
+const ITS_LOOK = ["embed", "beamer", "lift", "views", "room"] // in a link, next to values
 
 // What an explorer can begin with while the worker loads: the first setting, as it was saved, or what was left in this tab.
 function savedFor(search) {

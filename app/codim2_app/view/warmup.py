@@ -155,7 +155,7 @@ def is_ready(psi: Psi | None = None, at: FrozenSystem | None = None, moving: boo
     """Say whether all layers can be drawn without waiting for the compiler; if not, see that it is at work.
 
     As long as another process compiles them, kernels run as Python, which is fast enough where no control is moving. If
-    compiling failed, all layers are asked for all the same, so that their error is seen.
+    compiling failed, all layers are requested all the same, so that their error is seen.
     """
     psi = constant() if psi is None else psi
     general = at is not None and at.as_given is None

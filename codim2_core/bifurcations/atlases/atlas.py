@@ -29,7 +29,7 @@ from .degenerate_lines import DegenerateLine, degenerate_lines
 from .disc_atlas import clip_curve, curves_with_images, family_around_disc, is_in_range, points_with_images
 from .regions import regions_of
 from .result import Atlas, AtlasCurve, AtlasPoint, AtlasRegion
-from .seed_net import NO_SEEDS, CurveSeeds, seeds_beside
+from .seed_net import NO_SEEDS, CurveSeeds, seeds_near
 from .tracing import TracedCurves
 from .undefined_regions import undefined_borders
 
@@ -165,7 +165,7 @@ def with_regions(system: Any, psi: Psi, found: Atlas, z: ArrayLike = ()) -> Atla
     """
     family = family_over(system, psi, z, *found.names, found.ranges)
     whole = _with_regions(family, found)
-    if whole.looked.unlike and (seeds := seeds_beside(disc_family(family) or family, whole.looked.unlike)) != NO_SEEDS:
+    if whole.looked.unlike and (seeds := seeds_near(disc_family(family) or family, whole.looked.unlike)) != NO_SEEDS:
         again = _with_regions(family, _curves_over(family, seeds))
         if len(again.looked.unlike) < len(whole.looked.unlike):
             whole = again

@@ -90,8 +90,8 @@ def _unlike(
         owner[inside_polygons(NET, face.rings)] = i
     return tuple(
         (float(x), float(y))
-        for (x, y), code, beside, i in zip(family.values(NET), codes, near, owner.tolist(), strict=True)
-        if not beside and i >= 0 and code != kinds[i]
+        for (x, y), code, is_near, i in zip(family.values(NET), codes, near, owner.tolist(), strict=True)
+        if not is_near and i >= 0 and code != kinds[i]
     )
 
 

@@ -269,7 +269,7 @@ class CurveSeeds(NamedTuple):
 NO_SEEDS = CurveSeeds((), ())
 
 
-def seeds_beside(family: SystemFamily, places: Sequence[tuple[float, float]]) -> CurveSeeds:
+def seeds_near(family: SystemFamily, places: Sequence[tuple[float, float]]) -> CurveSeeds:
     """Return seeds near places (values of the parameters) at which the portrait is not that of the region around.
 
     Along each axis the place nearest to one of them is looked for at which the class changes.

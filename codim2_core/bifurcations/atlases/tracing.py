@@ -70,7 +70,7 @@ class CurveKind:
     condition: Condition
     edges: Sequence[CurveEdge]
     true: Callable[[Array], bool] = lambda _: True  # whether a point at which the condition is met is one of the curve
-    beside: float = COVERED_CELLS  # cells on either side of such a curve within which no other one is looked for
+    covered: float = COVERED_CELLS  # cells on either side of such a curve within which no other one is looked for
 
 
 def saddle_nodes(family: SystemFamily, cells: Array, seeds: Sequence[Array] = ()) -> TracedCurves:
@@ -118,7 +118,7 @@ def folds(family: SystemFamily, cells: Array, seeds: Sequence[Array] = ()) -> Tr
 def hopfs(family: SystemFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> TracedCurves:
     """Curves on which tr J = 0, of saddles too."""
     sought = CurveKind("Hopf", conditions.hopf(family), _square_edges(4, MAX_RADIUS_SQUARED))
-    sure = [*(_seed_beside_corner(family, v, 0.0) for v in corners), *seeds]
+    sure = [*(_seed_near_corner(family, v, 0.0) for v in corners), *seeds]
     return _all_to_equator(family, _trace_curves((sought,), cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
 
 
@@ -141,11 +141,11 @@ def node_foci(
         )
         for sign in (1.0, -1.0)
     ]  # fmt: skip
-    sure = [*(_seed_beside_corner(family, v, sign) for v in corners for sign in (2.0, -2.0)), *seeds]
+    sure = [*(_seed_near_corner(family, v, sign) for v in corners for sign in (2.0, -2.0)), *seeds]
     return _all_to_equator(family, _trace_curves(both, cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
 
 
-def _seed_beside_corner(family: SystemFamily, corner: Array, level: float) -> Array | None:
+def _seed_near_corner(family: SystemFamily, corner: Array, level: float) -> Array | None:
     """Find the place (4,) with T = level sqrt(sigma det DU) a little within a corner."""
     theta, *place = corner.tolist()
     size = math.sqrt(1.0 - CORNER_INSET)
@@ -220,7 +220,7 @@ def _trace_curves(
         if curve is None or len(curve.points) < 2 or not all(one.true(v) for v in curve.points):
             return False
         found.append((one, TracedCurve(one.kind, one.condition, curve)))
-        left[_beside_curve(curve.points, cells, cell * one.beside, steps)] = False
+        left[_near_curve(curve.points, cells, cell * one.covered, steps)] = False
         return True
 
     for place in sure:
@@ -233,7 +233,7 @@ def _trace_curves(
     return TracedCurves([curve for _, curve in found], tuple(kinds))
 
 
-def _beside_curve(points: Array, cells: Array, reach: Array, steps: StepBounds) -> NDArray[np.bool_]:
+def _near_curve(points: Array, cells: Array, reach: Array, steps: StepBounds) -> NDArray[np.bool_]:
     """Return which cells (k, n) are as near to a curve as `reach` (n,), in each unknown."""
     along = np.diff(points, axis=0)
     parts = np.ceil(np.abs(along / reach).max(axis=1)).astype(int)

@@ -68,9 +68,9 @@ class CountedChunks:
             "whole": _tally_columns(self.whole),
             "ahead": {str(i): _tally_columns(t) for i, t in full.items()},
         }
-        beside = self.path.with_name(f"{self.path.name}.{os.getpid()}")
-        beside.write_text(json.dumps(record), encoding="utf-8")
-        beside.replace(self.path)
+        temporary = self.path.with_name(f"{self.path.name}.{os.getpid()}")
+        temporary.write_text(json.dumps(record), encoding="utf-8")
+        temporary.replace(self.path)
         self.saved = time.monotonic()
 
     def _mark(self) -> str:

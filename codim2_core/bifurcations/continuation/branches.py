@@ -153,13 +153,13 @@ class BranchSearch:
         even = np.linspace(self.low, self.high, CENSUS_VALUES).tolist()
         special = sorted({self.low, self.high, *(mark.value for mark in self.marked)})
         between = [0.5 * (one + two) for one, two in pairwise(special) if two - one > NARROWEST_PART * self.width]
-        beside = [
+        near_ends = [
             mark.value + side * BESIDE_SADDLE_NODE * self.width
             for mark in self.marked
             for side in (-1.0, 1.0)
             if mark.kind == "saddle-node"
         ]
-        values = (*even, *between[:MOST_BETWEEN], *(v for v in beside if self.low <= v <= self.high))
+        values = (*even, *between[:MOST_BETWEEN], *(v for v in near_ends if self.low <= v <= self.high))
         return [v for v in values if self.bounds[0] <= v <= self.bounds[1]]
 
     def _nu(self, value: float) -> float:

@@ -124,11 +124,11 @@ class BranchTracer:
         for _ in range(MAX_ROUNDS):
             h = nearby / near.turn.rate
             places = ((xi, nu), (xi + h, nu), (xi, nu + k))
-            turn, *beside = (self.followed(TurnGuess(*place, (0.0, 0.0), backward=False)) for place in places)
-            if turn is None or beside[0] is None or beside[1] is None:
+            turn, *shifted = (self.followed(TurnGuess(*place, (0.0, 0.0), backward=False)) for place in places)
+            if turn is None or shifted[0] is None or shifted[1] is None:
                 return None
             gx, gn = turn.by_xi, turn.by_value * self.width
-            ex, en = (beside[0].exponent - turn.exponent) / h, (beside[1].exponent - turn.exponent) / k
+            ex, en = (shifted[0].exponent - turn.exponent) / h, (shifted[1].exponent - turn.exponent) / k
             det = gx * en - gn * ex
             if det == 0.0 or not math.isfinite(det):
                 return None

@@ -92,10 +92,10 @@ def turn(
     steep = 1.0 / last + 1.0 / rest
     by_r = multiplier * cross_with_change(-2, begin, ray.u) / across
     by_values = []
-    for beside in differences:
-        melnikov = float(way.weight @ (growth * _cross(sign * F[:-2], _change(way.inner, beside) / ray.rate)))
-        came = multiplier * cross_with_change(-2, begin, beside.moved + chi * beside.widened * ray.u) + melnikov
-        by_values.append(steep * (came - cross_with_change(-1, end, beside.moved)) / across - beside.widened / rest)
+    for varied in differences:
+        melnikov = float(way.weight @ (growth * _cross(sign * F[:-2], _change(way.inner, varied) / ray.rate)))
+        came = multiplier * cross_with_change(-2, begin, varied.moved + chi * varied.widened * ray.u) + melnikov
+        by_values.append(steep * (came - cross_with_change(-1, end, varied.moved)) / across - varied.widened / rest)
     found = ReturnMapPoint(
         xi=xi, value=value, shift=math.log(last / rest) - xi,
         by_xi=steep * by_r * r * (1.0 - chi) - 1.0, by_value=by_values[0] if by_values else math.nan,
@@ -122,14 +122,14 @@ def _regularised_direction(psi: Psi, states: Array) -> tuple[Array, Array]:
     )
 
 
-def _change(states: Array, beside: FiniteDifference) -> Array:
+def _change(states: Array, varied: FiniteDifference) -> Array:
     """Differentiate U(e_Psi(x2)) (n, 2) by the parameter at fixed x2."""
     x2 = states[:, :2] / states[:, 2:]
     zeta = np.hypot(x2[:, 0], x2[:, 1])
     unit = x2 / np.maximum(zeta, 1e-300)[:, None]
-    ends = (beside.low, beside.high)
+    ends = (varied.low, varied.high)
     low, high = (one.at.U(unit * one.psi.modulus(zeta)[:, None]) for one in ends)
-    return (high - low) / beside.width
+    return (high - low) / varied.width
 
 
 def _farthest(points: Array, centre: Array) -> float:

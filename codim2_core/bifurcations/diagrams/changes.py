@@ -15,7 +15,7 @@ import numpy as np
 from ...numerics.root_between import root_between
 from .states import State, States
 
-__all__ = ["SIDE_STEP", "Change", "changes_between", "look_beside"]
+__all__ = ["SIDE_STEP", "Change", "changes_between", "look_near"]
 
 SIDE_STEP = 1e-7  # of the span: where the two sides of a special value are looked at,
 GAP_SHARE = 0.3  # or so much of the way to the next one,
@@ -33,7 +33,7 @@ class Change(NamedTuple):
     after: State
 
 
-def look_beside(states: States, values: Sequence[float]) -> None:
+def look_near(states: States, values: Sequence[float]) -> None:
     """Find the states on both sides of each of some values in order: nearer where another one is near.
 
     They are farther away where all is degenerate within rounding so near: what lies between is then left out.
@@ -73,7 +73,7 @@ def _bisected(states: States, left: State, right: State, deeper: int) -> Iterato
     if part is None or not deeper:
         return
     value = _narrow(states, left, right, part)
-    before, after = _state_beside(states, left, value), _state_beside(states, right, value)
+    before, after = _state_near(states, left, value), _state_near(states, right, value)
     yield from _bisected(states, left, before, deeper - 1)
     yield Change(value, before, after)
     yield from _bisected(states, after, right, deeper - 1)
@@ -99,7 +99,7 @@ def _narrow(states: States, left: State, right: State, part: int) -> float:
     return 0.5 * (low + high)
 
 
-def _state_beside(states: States, far: State, value: float) -> State:
+def _state_near(states: States, far: State, value: float) -> State:
     """Return the state next to a special value, towards `far`: nearer where that differs, as one more lies between."""
     side = math.copysign(1.0, far.value - value)
     near = far

@@ -18,7 +18,7 @@ from ..continuation.result import CycleBranches
 from ..families.family import SystemFamily
 from .branch_pieces import branches_of_pieces
 from .candidates import MAX_BLUR, Candidate, candidates, extrema_of_theta, least_speeds, merge
-from .changes import SIDE_STEP, Change, changes_between, look_beside
+from .changes import SIDE_STEP, Change, changes_between, look_near
 from .name_changes import name_changes
 from .result import Branches, SpecialValue
 from .single_values import single_values
@@ -91,18 +91,18 @@ def _find_changes(
         if not new:
             break
         if turn:
-            starts = _starts_beside(family, new)
+            starts = _starts_near(family, new)
         before = len(found)
         found = merge([*found, *candidates(family, new, starts, REACH)])
         values = _distinct(family, found)
-        look_beside(states, values)
+        look_near(states, values)
         if len(found) == before:
             break
     changes = [change for run in runs for change in changes_between(states, values, *run)]
     bisected = [c for c in changes if not _solved_near(family, found, c)]
     if bisected:
-        beside = [state for change in bisected for state in (change.before, change.after)]
-        found = merge([*found, *candidates(family, beside, _starts_beside(family, beside), NEAR_REACH)])
+        around_changes = [state for change in bisected for state in (change.before, change.after)]
+        found = merge([*found, *candidates(family, around_changes, _starts_near(family, around_changes), NEAR_REACH)])
         for i, change in enumerate(changes):
             if change in bisected and (near := _solved_near(family, found, change)):
                 solved = min(near, key=lambda one, change=change: abs(one.u - family.unit(change.value)))
@@ -110,7 +110,7 @@ def _find_changes(
     return found, changes
 
 
-def _starts_beside(family: SystemFamily, states: Sequence[State]) -> tuple[Array, Array]:
+def _starts_near(family: SystemFamily, states: Sequence[State]) -> tuple[Array, Array]:
     return extrema_of_theta(family, np.array([family.unit(state.value) for state in states])), np.zeros((3, 0))
 
 

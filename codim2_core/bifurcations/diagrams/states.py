@@ -108,8 +108,8 @@ class States:
             return False
         (low, high), ends = self.span, []
         for side in (-1.0, 1.0):
-            beside = (value + side * self.width * _SMOOTH_OFFSETS).tolist()
-            ends.append(next((v for v in beside if not low < v < high or self._is_clear(v)), None))
+            shifted = (value + side * self.width * _SMOOTH_OFFSETS).tolist()
+            ends.append(next((v for v in shifted if not low < v < high or self._is_clear(v)), None))
         if None in ends:
             return False
         self.leave_out(max(ends[0], low), min(ends[1], high))

@@ -69,7 +69,7 @@ class InvariantLine:
 def invariant_line(field: Field, state: Array, left: InvariantLine | None = None) -> InvariantLine | None:
     """Return the invariant line that a motion lies in; None if it lies in none.
 
-    z may lie in an invariant subspace: the line is asked for z in the span of z and W there.
+    z may lie in an invariant subspace: the line is evaluated for z in the span of z and W there.
 
     Shapes: state (2 + m,).
     """

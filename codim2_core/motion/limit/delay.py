@@ -210,8 +210,8 @@ class Growth:
             values = np.array([self.linear(a + (b - a) * u) for u in nodes.tolist()])
             size = np.maximum(size, np.abs(values).max(axis=0))
             polynomial = np.linalg.solve(powers, values[1:] - values[0]).T
-            beside = values[0] + polynomial @ (CHECK_SHARE ** np.arange(1, TRACE_DEGREE + 1))
-            off = np.abs(beside - self.linear(a + (b - a) * CHECK_SHARE))
+            checked = values[0] + polynomial @ (CHECK_SHARE ** np.arange(1, TRACE_DEGREE + 1))
+            off = np.abs(checked - self.linear(a + (b - a) * CHECK_SHARE))
             if more and (off > RESOLVED * size).any():
                 todo += [(0.5 * (a + b), b, more - 1), (a, 0.5 * (a + b), more - 1)]
                 continue

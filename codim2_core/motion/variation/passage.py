@@ -41,12 +41,12 @@ def shrinks_across(
     r, t = -float(equator.lambda_rho[i]), float(equator.lambda_theta[i])
     if gaps[i] > ANGLE_MARGIN or not (t > 0.0 and r > (1.0 + MARGIN) * t):
         return False
-    beside = {(i + 1) % len(gaps), (i - 1) % len(gaps)}
+    neighbours = {(i + 1) % len(gaps), (i - 1) % len(gaps)}
     if leaving is not None:
-        (k,) = beside if len(beside) == 1 else (i,)
+        (k,) = neighbours if len(neighbours) == 1 else (i,)
         R, T = float(equator.lambda_rho[k]), -float(equator.lambda_theta[k])
         same = abs(math.remainder(float(equator.theta[k]) - leaving, math.tau)) < ANGLE_MARGIN
         return same and R > 0.0 and T > 0.0 and r * T > (1.0 + MARGIN) * t * R
     compare = None if psi is None else ()
-    ways = [outcome_towards(problem, float(equator.theta[k]), compare) for k in beside]
+    ways = [outcome_towards(problem, float(equator.theta[k]), compare) for k in neighbours]
     return all(way.verdict == "slide" and not way.depends_on_psi for way in ways) and len({w.onto for w in ways}) == 1

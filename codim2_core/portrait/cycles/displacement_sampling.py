@@ -230,7 +230,7 @@ def near_fold(q: Array, shift: Array, noise: Array) -> float:
     flat = np.concatenate([[False], np.abs(shift) <= RISE * noise, [False]]).astype(np.int8)
     edges = np.flatnonzero(np.diff(flat))
     for low, high in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
-        beside = shift[[low - 1, high]] if low > 0 and high < len(shift) else np.zeros(1)
-        if np.isfinite(beside).all() and beside.min() * beside.max() > 0.0:
+        neighbours = shift[[low - 1, high]] if low > 0 and high < len(shift) else np.zeros(1)
+        if np.isfinite(neighbours).all() and neighbours.min() * neighbours.max() > 0.0:
             least = min(least, float(np.abs(shift[low:high]).max()))
     return least

@@ -280,7 +280,7 @@ def continuation(
     length: float = math.inf,
     step_limit: int = DEFAULT_MAX_STEPS,
     stiff: bool = False,
-    beside: Array | None = None,
+    more_starts: Array | None = None,
 ) -> Trajectories:
     """Continue trajectories that arrive at limit directions up the hemisphere, Figure 7, Theorem 3.1(b).
 
@@ -288,13 +288,13 @@ def continuation(
     -lambda_rho > 0 (backward: where lambda_rho > 0). The orbit that leaves along it is followed from Q itself, from
     a local expansion whose error is below the tolerance.
 
-    Each starts less than 1e-6 (in |p|) above the equator, at theta; after these come those from `beside`. Raises
+    Each starts less than 1e-6 (in |p|) above the equator, at theta; after these come those from `more_starts`. Raises
     ValueError: A direction is not a limit direction, or no trajectory of the nonsmooth system arrives along it.
     Shapes: theta (k,).
     """
     options = stepping(t_max, rtol, atol, backward, view, pixel, capture, samples, length, step_limit, stiff)
     at = system.at(z)
     states = departures(at, psi, theta, rtol, backward)
-    if beside is not None:
-        states = np.concatenate([states, _kernels().states_of(np.array(beside, order="C"))[0]])
+    if more_starts is not None:
+        states = np.concatenate([states, _kernels().states_of(np.array(more_starts, order="C"))[0]])
     return _integrate(at, psi, states, np.full(len(states), -1.0), options)

@@ -5,7 +5,7 @@ A Rosenbrock method takes steps of the slow one: stiffly accurate, L-stable, of 
 dense output, whose coefficients go where DOP853's do, so that lines are drawn in the same way.
 
 What is stepped is ``y' = F(P(y))`` with a projection P to the sphere (outside: of p to the circle), the same flow on it
-for any F, so that no formula is asked for a value off it: up the hemisphere along w, so that what is straight in the
+for any F, so that no formula is evaluated off it: up the hemisphere along w, so that what is straight in the
 disc stays straight, and near the equator towards the centre.
 
 E. Hairer, G. Wanner, "Solving Ordinary Differential Equations II", 2nd ed., sec. IV.7: the method RODAS.

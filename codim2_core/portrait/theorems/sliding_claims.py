@@ -95,10 +95,10 @@ def _slow_manifold(facts: Facts) -> Certificate:
         return not_applicable(theorem, statement, say("frozen"))
     numbers: list[tuple[str, float]] = []
     holds, skipped = True, []
-    beside = _finite_difference(facts)
+    neighbours = _finite_difference(facts)
     for label, C in zip(_labels(facts), facts.critical, strict=True):
         rate, size = float(np.abs(C.eigenvalues.real).min()), float(np.abs(C.eigenvalues).max())
-        moved = _set_derivative(beside, C)
+        moved = _set_derivative(neighbours, C)
         if C.kind in FOLDED or rate <= 1e-6 * size or moved is None:
             skipped.append(label)
             continue
@@ -124,12 +124,12 @@ def _slow_manifold(facts: Facts) -> Certificate:
     )  # fmt: skip
 
 
-Beside = list[tuple[float, list[tuple[CriticalSet, ...]]]]
+SideSets = list[tuple[float, list[tuple[CriticalSet, ...]]]]
 
 
-def _finite_difference(facts: Facts) -> Beside | None:
+def _finite_difference(facts: Facts) -> SideSets | None:
     """Critical sets at z +- h in each slow variable, and h; None at the edge of where the formulas are defined."""
-    found: Beside = []
+    found: SideSets = []
     for k, value in enumerate(facts.z):
         h = Z_STEP * (1.0 + abs(value))
         places = [(*facts.z[:k], value + side, *facts.z[k + 1 :]) for side in (h, -h)]
@@ -140,10 +140,10 @@ def _finite_difference(facts: Facts) -> Beside | None:
     return found
 
 
-def _set_derivative(beside: Beside | None, C: CriticalSet) -> Array | None:
+def _set_derivative(neighbours: SideSets | None, C: CriticalSet) -> Array | None:
     """Differentiate x2 of C by z, (2, m), from the critical sets on either side; None where they are not there."""
     columns = []
-    for h, sides in beside or []:
+    for h, sides in neighbours or []:
         near = [[D.x2 for D in found if D.kind == C.kind] for found in sides]
         if not all(near):
             return None

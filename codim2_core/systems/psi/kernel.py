@@ -87,7 +87,7 @@ class Each(Kernel):
     def __init__(self, kernels: tuple[Kernel, ...]) -> None:
         self.kernels = kernels
 
-    def root(self, lib: Any, zeta: Any) -> Any:  # noqa: ARG002 (each is asked for one float)
+    def root(self, lib: Any, zeta: Any) -> Any:  # noqa: ARG002 (each takes one float)
         """Return the same as `Kernel.root`, point by point."""
         return np.array([kernel.root(SCALAR, z) for kernel, z in zip(self.kernels, zeta.tolist(), strict=True)])
 

@@ -71,7 +71,7 @@ def test_a_mark_is_right_near_its_place_and_told_how_far_it_is():
     assert judge(question, none, (0.0, 0.0))["why"] == "There is none here."
 
 
-def test_a_mark_beside_the_equator_counts_by_its_angle():
+def test_a_mark_next_to_the_equator_counts_by_its_angle():
     shown = {"f1": -0.5, "a": -2.0, "b": 0.0, "d": -1.0, "f2": 0.0}
     scene = make_scene(values_of(COURSE["03-limit-directions"], shown))
     angle = 2 * math.pi / 3  # Q2: both eigenvalues are negative

@@ -20,7 +20,7 @@ def test_the_box_holds_what_is_seen_and_is_not_much_larger(size, middle):
     assert (right - left) / cells <= size / 89  # some seven pixels of a picture of 640
 
 
-def test_what_is_beside_the_disc_needs_no_box():
+def test_what_is_next_to_the_disc_needs_no_box():
     assert part_of((1.5, 1.8, 0.0, 0.3)) == part_of(None) == (DISC, CELLS_ACROSS)
 
 

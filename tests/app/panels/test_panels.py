@@ -62,7 +62,7 @@ def test_planes_over_n_pass_through_the_papers_points():
     assert "planes" in ask(frames, f1=-86.1)
 
 
-def test_planes_of_another_psi_have_the_families_beside_it():
+def test_planes_of_another_psi_have_the_families_next_to_it():
     _, header = opened("planes", psi="rational")
     found = header["planes"]
     assert found["text"] == ["Ψ = 1", "exp(−s)", "s/sinh²√s", "3/(3 + (4s)ⁿ), n = 2"]

@@ -1,4 +1,4 @@
-"""QR codes as the page draws them, beside those of another program."""
+"""QR codes as the page draws them, next to those of another program."""
 
 import json
 import subprocess

@@ -97,7 +97,7 @@ def test_matplotlib_draws_each_mark_and_curve_as_the_page_does():
     assert lines == {colour: pytest.approx(widths[colour]) for colour in lines}
 
 
-def test_marks_and_layers_are_explained_beside_the_picture():
+def test_marks_and_layers_are_explained_next_to_the_picture():
     markup = explorer_html(ExplorerState())
     hero = unescape(markup[markup.index('<main class="hero">') : markup.index("</main>")])
     for words in ("layer problem", "1 + ρ", "time", "filled", "hollow", "repels", "node", "saddle", "out of the page",

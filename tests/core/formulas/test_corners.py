@@ -114,7 +114,7 @@ ROUND = st.sampled_from([0.0, 1.0, -1.0, 0.5, 2.0, -0.0])
 @given(ROUGH, ROUND, ROUND)
 @settings(max_examples=20, deadline=None)
 def test_derivatives_at_corners_are_the_mean_of_the_sides_or_told_to_be_none(text, x, y):
-    """Held against differences in 60 digits; where the slopes beside do not settle, infinite or NaN is right too."""
+    """Held against differences in 60 digits; where the slopes nearby do not settle, infinite or NaN is right too."""
     expression = parse(text, NAMES)
     value = expression.evaluate({"x": x, "y": y})
     if not math.isfinite(value):

@@ -50,7 +50,7 @@ def test_at_a_canard_point_what_follows_is_left_to_terms_of_order_eps():
 
 
 @pytest.mark.parametrize("shift", [0.02, -0.02])
-def test_beside_a_canard_point_it_is_a_jump_point_or_a_rest(shift):
+def test_next_to_a_canard_point_it_is_a_jump_point_or_a_rest(shift):
     """With z' = -c + shift there is a rest at c = shift: before the fold it is come to, else the fold is left at."""
     system = System(U=("z + c^2", "-s"), W=(f"-c + {shift}",))
     run = simulate_nonsmooth(system, (0.0, 0.0, -0.25), (0.0, 2.0), PSI)

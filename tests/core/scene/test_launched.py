@@ -57,7 +57,7 @@ def test_where_an_orbit_goes_agrees_with_the_approach_outcomes(a, d, others, rad
 
 @pytest.mark.parametrize("beside", [1e-3, 1e-9, 1e-20, 1e-40, 3e-63, 1e-200, 0.0])
 @pytest.mark.parametrize("backward", [False, True])
-def test_beside_the_ray_of_a_saddle_it_takes_the_time_of_the_ray(beside, backward):
+def test_next_to_the_ray_of_a_saddle_it_takes_the_time_of_the_ray(beside, backward):
     """Q1 is a saddle with lambda_rho = -2.5: it is reached after rho/2.5, and Sigma is not left for long."""
     sign = -1.0 if backward else 1.0
     system = c2.ELinear(-2.0 * sign, 0.0, -1.0 * sign, (-0.5 * sign, 0.0))

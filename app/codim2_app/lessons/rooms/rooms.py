@@ -351,7 +351,7 @@ def _view_of(host: Host) -> Any:
     try:
         return _short_settings(host.view())
     except Exception:
-        logging.getLogger(__name__).exception("what the lecturer of a room shows cannot be told")
+        logging.getLogger(__name__).exception("what the lecturer of a room shows cannot be sent")
         return None
 
 

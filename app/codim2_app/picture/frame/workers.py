@@ -39,7 +39,7 @@ ENDED_FIRST = 500
 
 
 class Stopped(BrokenExecutor):
-    """A worker ended before its work was done, though nobody had asked for it."""
+    """A worker ended before its work was done, though nobody had requested it."""
 
 
 class Stoppable(Future[Any]):

@@ -1,7 +1,7 @@
 """The server's half of a page, in a worker of the visitor's browser: messages in, messages out.
 
 There is one thread and it belongs to an event loop. What a server computes in the background another worker computes,
-or this one between two messages, when the frame that asked for it has left (`other_worker`).
+or this one between two messages, when the frame that requested it has left (`other_worker`).
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 // The line of a page that its visitor's device can answer too. The server answers first. A worker is loaded behind the
-// page when that is at rest; once it is warm and quick, it answers frames, and the server is asked for what remains.
+// page when that is at rest; once it is warm and quick, it answers frames, and the server computes what remains.
 
 import {readFrame} from "../picture/frames.js"
 
@@ -8,7 +8,7 @@ const WARM_FRAMES = 3, MAX_WARM_FRAMES = 40 // that the worker draws for nobody:
 const WARM_PAUSE = 100 // ms between two of them
 const SLOWER = 3, QUICK = 60 // a worker is slow that takes so many times what the server takes, and more than these ms
 const TRIPS = 9, FEWEST_TRIPS = 5 // of the last frames in which something moved, whose median counts
-const PATIENCE = 300 // ms after which the server is asked for what the worker has not answered
+const PATIENCE = 300 // ms after which the server computes what the worker has not answered
 const RETRY = 30000 // ms after which the worker may answer again what it was slow with
 const NOTE_INTERVAL = 500 // ms between two notes to the server of what a page in a room shows: rooms look twice a second
 

@@ -8,7 +8,7 @@ const REMEMBERED = 5000 // ms for which the shortest round trip counts
 const BUSY = 0.6 // share of the server's time beyond which a second request out would only wait there
 const MOST = 12
 const LOST = 20000 // ms after which a reply is given up
-const REST = 150 // ms without a change until what is late is asked for, …
+const REST = 150 // ms without a change until what is late is requested, …
 const AGAIN = 50, SELDOM = 400 // … and again, each time twice as long after, until it is there
 
 // How many requests may be out. One frame in flight is one frame a round trip; over a long line the number grows until
@@ -76,7 +76,7 @@ export class Requests {
     this.number = Math.floor(Math.random() * 1e12) // another browser that shows this view gets the replies too
     this.scheduled = false
     this.again = this.resting = false
-    this.timer = null // until what is late is asked for
+    this.timer = null // until what is late is requested
     this.polls = 0
     this.held = false // the connection is lost: values are kept, nothing is asked
   }

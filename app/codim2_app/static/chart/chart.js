@@ -79,7 +79,7 @@ export class Chart {
     this.options.onRedraw?.()
   }
 
-  // Frames of the plots: room for the words of the axes beside and below them.
+  // Frames of the plots: room for the words of the axes, left of and below them.
   layOut() {
     const plots = this.plots
     const ofY = plots.map((plot) => plot.y.ticks ?? wordedTicks(plot.y.span, plot.y.most ?? 5))

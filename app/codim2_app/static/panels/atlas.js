@@ -14,7 +14,7 @@ const CURVE_NAMES = {
 const CURVE_OF = {
   transcritical: "transcritical", "saddle-node": "saddle_node", pitchfork: "pitchfork", Hopf: "hopf", "node-focus": "node_focus", "det A = 0": "determinant", cusp: "saddle_node", "exchange of limit directions": "saddle_node", "fold of critical sets": "fold", "det J = 0": "fold", "change of critical sets": "fold", "line of equilibria": "degenerate", "all directions": "degenerate", "pitchfork of critical sets": "fork_of_sets", "neutral equator": "closed_equator", "fold of cycles": "cycle_folds", "homoclinic loop": "homoclinic", "heteroclinic cycle": "heteroclinic", "saddle connection": "connection", degenerate: "degenerate",
 }
-// Shown where they are asked for: they take seconds.
+// Shown on request: they take seconds.
 const OF_CYCLES = ["cycle_folds", "homoclinic", "heteroclinic", "connection"], POINTS_OF_CYCLES = ["undecided", "neutral loop"]
 
 const MARKUP = `${axesMarkup({across: "across", up: "up"}, "atlas_zoom")}

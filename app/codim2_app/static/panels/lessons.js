@@ -194,7 +194,7 @@ class Lessons {
     if (verdict) verdict.textContent = sentence
   }
 
-  // --- progress: in this browser, and in a link that is asked for
+  // --- progress: in this browser, and in a link on request
   progress() { try { return JSON.parse(localStorage.getItem(STORE) ?? "{}") } catch { return {} } }
   keep(i, step) {
     this.store(withStep(this.progress(), this.lesson.key, i, step))

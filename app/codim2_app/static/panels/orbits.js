@@ -8,7 +8,7 @@ import {register} from "../widgets/panels.js"
 import {SAYS, escape, claimNumber, pair, plain, slowName} from "../words.js"
 
 const COLOURS = 6
-const SHORT = 0.999 // of the time asked for: what ends before says why
+const SHORT = 0.999 // of the chosen time: what ends before says why
 
 class Orbits {
   constructor(box, tools) {

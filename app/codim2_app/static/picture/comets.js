@@ -1,4 +1,4 @@
-// Comets that drift along the orbits, one on each, until they are sent away; they stay away while anything is asked for.
+// Comets that drift along the orbits, one on each, until they are sent away; they stay away while a request is out.
 
 import {unit} from "./frames.js"
 
@@ -43,7 +43,7 @@ export function tailOf({xs, ys, along, phase}, seconds) {
 }
 
 export class Comets {
-  /** @param {any} picture @param {() => boolean} busy whether something is asked for */
+  /** @param {any} picture @param {() => boolean} busy whether a request is out */
   constructor(picture, busy) {
     this.picture = picture
     this.busy = busy

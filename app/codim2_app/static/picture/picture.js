@@ -7,7 +7,7 @@ import {makeRenderer, repaint} from "./painter.js"
 const DRAWN = ["launched", "equator", "critical", "sense", "all_directions", "outcomes", "basins"] // entries of a frame's header
 const TOLD = ["eigen", "cycles", "separatrices"] // others that are shown of an object
 const ROOMY = 600 // px of a picture in which nullclines have their names at the usual distances
-const REST = 150 // ms after the view has moved until it is asked for
+const REST = 150 // ms after the view has moved until it is requested
 
 export class Picture {
   // `moved` is called when another part of the picture has come into view, and stays; `rest` hears of it until then.

@@ -6,7 +6,7 @@ import {isLocal, qrAddress} from "../page/qr_code.js"
 import {SAYS, escape} from "../words.js"
 
 const STORE = "codim2-room" // of this tab: a page that is loaded again is in its room again
-const AGAIN = 3000, TIMES = 5 // ms after which a room is asked for again whose server has just started, and how often
+const AGAIN = 3000, TIMES = 5 // ms after which a room is requested again whose server has just started, and how often
 
 const MARKUP = `
   <form method="dialog"><button class="close" title="Close" aria-label="Close">✕</button></form>
@@ -33,7 +33,7 @@ export class Room {
     this.code = this.inside = ""
     this.follows = false
     this.bare = [...new URLSearchParams(globalThis.location?.search).keys()].join() === "room" // and so it brings the view
-    this.again = 0 // times that a room is asked for still which is not there
+    this.again = 0 // times that a missing room is still requested
     this.bar.addEventListener("click", (event) => {
       const act = event.target.closest("button")?.dataset.room
       if (act === "show") this.show()

@@ -1,4 +1,4 @@
-// The panels next to the picture: a strip of tabs, one panel open at a time. What a closed one shows is not asked for.
+// The panels next to the picture: a strip of tabs, one panel open at a time. What a closed one shows is not requested.
 
 /**
  * What a panel is given next to the empty element that it fills.

@@ -1,7 +1,7 @@
 // A time that is played and scrubbed, and what a motion is then.
 
 export const PLAY_SECONDS = 9 // for the whole motion
-const LONGEST = 80 // ms that count as passed between two frames, at most: a page in the background stands still
+const LONGEST = 80 // ms that count as passed between two frames, at most: a page in the background rests
 
 /** What a button plays and pauses, once a frame of the screen. */
 export class Ticker {

@@ -23,7 +23,7 @@ from ...picture.frame.scenes import make_scene
 from ...picture.state.controls import first_values
 from .once import alone
 
-#: Is told what has been compiled, in how many seconds, and how many steps are done of how many.
+#: Receives what has been compiled, in how many seconds, and how many steps are done of how many.
 Told = Callable[[str, float, int, int], None]
 
 #: What general systems need kernels for, in several steps: none takes more memory than a server has to spare.

@@ -15,7 +15,7 @@ from .connection_seeds import (
     EQUILIBRIUM_KINDS,
     ConnectionSearch,
     ConnectionSeed,
-    lines_beside_takens,
+    lines_near_takens,
     rings_about_corners,
     straight,
 )
@@ -49,7 +49,7 @@ def connection_curves(
     corners = [family.units(np.array(point.place)) for point in points if point.kind == SADDLE_NODE_CORNER]
     borders = [family.units(one.points) for one in curves if one.kind in ("saddle-node", "transcritical")]
     some = [corner for corner in corners if not (family.symmetric and corner[1] < 0.5)]
-    lines = [*lines_beside_takens(family, takens, curves), *rings_about_corners(some, borders)]
+    lines = [*lines_near_takens(family, takens, curves), *rings_about_corners(some, borders)]
     for line in [*lines, *straight(family, curves)]:
         for seed in search.along(line):
             one = trace_connection(seed) if seed.settled and len(found) < MAX_CURVES else None
@@ -117,9 +117,9 @@ def _end_point(family: SystemFamily, place: Array, kind: str, curves: Sequence[A
         one.kind: float(np.hypot(*(family.units(one.points) - place).T).min())
         for one in curves if one.kind in EQUILIBRIUM_KINDS
     }  # fmt: skip
-    beside_ = min(gaps, key=lambda name: gaps[name], default="")
-    if beside_ and gaps[beside_] < CODIM_TWO_DISTANCE:
-        return _point(family, "undecided", place, say("connection ends beside", kind=kind, beside=beside_))
+    near = min(gaps, key=lambda name: gaps[name], default="")
+    if near and gaps[near] < CODIM_TWO_DISTANCE:
+        return _point(family, "undecided", place, say("connection ends near", kind=kind, near=near))
     return _point(family, "undecided", place, say("connection followed no further", kind=kind))
 
 

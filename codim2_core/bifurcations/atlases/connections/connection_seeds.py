@@ -180,7 +180,7 @@ def rings_about_corners(corners: Sequence[Array], curves: Sequence[Array]) -> li
     return found
 
 
-def lines_beside_takens(family: SystemFamily, takens: Sequence[Array], curves: Sequence[AtlasCurve]) -> list[Array]:
+def lines_near_takens(family: SystemFamily, takens: Sequence[Array], curves: Sequence[AtlasCurve]) -> list[Array]:
     """Short lines that leave folds of critical sets through the Hopf curve, next to Bogdanov-Takens points.
 
     In the normal form x' = y, y' = p + q x + x^2 - x y the fold is p = q^2/4, Hopf p = 0, and the loop

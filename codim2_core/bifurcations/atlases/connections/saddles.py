@@ -133,7 +133,7 @@ def _integrate_branches(
     starts = np.array([one.start for one in ours if one.critical is not None]).reshape(-1, 2)
     if not thetas:
         return trajectories(one.at, one.psi, starts, **options)
-    return continuation(one.at, one.psi, thetas, beside=starts if len(starts) else None, **options)
+    return continuation(one.at, one.psi, thetas, more_starts=starts if len(starts) else None, **options)
 
 
 def branches(problem: LayerProblem) -> list[Branch]:

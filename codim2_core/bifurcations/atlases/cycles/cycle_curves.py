@@ -12,7 +12,7 @@ from ....results.words import say
 from ...families.family import SystemFamily
 from ..disc_atlas import is_covered, length_of
 from ..result import AtlasCurve, AtlasPoint
-from .fold_seeds import FoldSeed, along_lines, seeds_beside_bautin
+from .fold_seeds import FoldSeed, along_lines, seeds_near_bautin
 from .fold_tracing import CENTRE, CORNER, FoldCurve, trace_fold
 
 KIND = "fold of cycles"
@@ -44,7 +44,7 @@ def cycle_curves(
     missed = []
     for place in known[GENERALISED_HOPF]:
         if not (family.symmetric and place[1] < 0.5) and not any(_comes_to(one, place) for one in found):
-            caught = (trace_fold(family, seed.start, corners) for seed in seeds_beside_bautin(family, place))
+            caught = (trace_fold(family, seed.start, corners) for seed in seeds_near_bautin(family, place))
             first = next((one for one in caught if one is not None), None)
             if first is None:
                 missed.append(place)

@@ -42,7 +42,7 @@ class FoldSeed:
     size: float
 
 
-def seeds_beside_bautin(family: SystemFamily, place: Array) -> list[FoldSeed]:
+def seeds_near_bautin(family: SystemFamily, place: Array) -> list[FoldSeed]:
     """Places where the fold may be caught that begins at a generalised Hopf point."""
     problem = LayerProblem(family.frozen(place), family.psi_at(place))
     neutral = [C for C in problem.critical if C.determinant > 0.0]

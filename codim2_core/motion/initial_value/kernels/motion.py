@@ -122,7 +122,7 @@ def _turned_explicit(motion, clock, control, bound, reach):
     if control[SIGN_COUNT] < SIGNS_BACK:
         return False
     control[IMPLICIT], control[SIGN_COUNT], control[REFINED] = 0.0, 0.0, 1.0
-    # What turns back soon is asked for more the next time.
+    # What turns back soon is asked more the next time.
     least = MIN_IMPLICIT_STEPS * price(motion.n)
     control[WORTH] = min(2.0 * control[WORTH], MAX_WORTH * least) if clock[0] < control[PAID_AT] else least
     control[NEXT] = min(control[NEXT], STABLE / reach) if reach > 0.0 else control[NEXT]

@@ -173,8 +173,8 @@ def best_function(system: ScaledLayerProblem, degree: int, k: float, mu: float) 
         ]
         dips = np.flatnonzero((reached <= np.min(around, axis=0)) & (reached < 2.0 * margin))
         dips = dips[np.argsort(reached.ravel()[dips])[:300]]
-        beside = (every.place[:, dips, None] + patch).reshape(2, -1)
-        near = ProbePoints(system, beside / np.maximum(1.0, CHART_SHRINKAGE * np.hypot(*beside)), k, mu)
+        patches = (every.place[:, dips, None] + patch).reshape(2, -1)
+        near = ProbePoints(system, patches / np.maximum(1.0, CHART_SHRINKAGE * np.hypot(*patches)), k, mu)
         lower = near.values(function).reshape(-1, 25)
         least = float(lower.min(initial=margin))
         if least > 0.3 * margin:

@@ -16,7 +16,7 @@ def test_a_label_stands_where_it_would_if_there_is_room(anchor):
     assert box.y + box.height / 2 == pytest.approx(40.0)
 
 
-def test_a_label_beside_its_mark_may_stand_on_the_other_side():
+def test_a_label_next_to_its_mark_may_stand_on_the_other_side():
     """To the right all is taken: it ends left of the mark, as far from it as it would begin right of it."""
     wide = width_of("C ⊙", SIZE)
     box = clear_of([LabelBox(45.0, 0.0, 55.0, 80.0)], "C ⊙", 60.0, 40.0, "start", SIZE, 100.0, 80.0)

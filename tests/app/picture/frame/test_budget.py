@@ -46,7 +46,7 @@ def header(frames, **request):
     return unpack(frames.answer(request))[0]
 
 
-def test_the_first_picture_of_a_formula_is_computed_beside_the_frames():
+def test_the_first_picture_of_a_formula_is_computed_next_to_the_frames():
     frames, executor = budgeted(typed(layers=["rho", "critical", "equator"]))
     first = header(frames, all=True)
     assert "picture" in first["late"]
@@ -119,7 +119,7 @@ def test_frames_of_e_linear_systems_are_computed_at_once(preset):
 SPIRAL = {"a": -0.0489, "b": -28.19, "d": -0.0108, "f1": -0.9785, "f2": 0.2402, "psi": "hill", "n": 8.0}
 
 
-def test_outcomes_of_a_slow_spiral_are_computed_beside_the_frames_until_they_are_known_to_be_quick():
+def test_outcomes_of_a_slow_spiral_are_computed_next_to_the_frames_until_they_are_known_to_be_quick():
     values = {**preset_values("case2-saddle"), "layers": ["equator", "outcomes"], "panel": "planes"}
     frames, executor = budgeted(values)
     assert "picture" in header(frames, all=True)["late"]

@@ -63,7 +63,7 @@ def test_only_a_given_system_locks_controls():
     assert not {"b", "d", "f2", "z"} & set(locked)
 
 
-def test_a_mechanism_with_several_contacts_opens_beside_another_of_its_contacts():
+def test_a_mechanism_with_several_contacts_opens_next_to_another_of_its_contacts():
     cart = {**values(), **complete_changes(values(), {"system": "cart_at_rear_wheel"})}
     assert cart["beside"] == "system=cart_at_front_wheel"
     assert complete_changes(cart, {"system": "plate_at_foot_2"})["beside"] == "system=plate_at_foot_1"

@@ -151,7 +151,7 @@ def test_a_line_gives_a_parameter_its_value_and_the_range_of_its_slider(choice, 
     assert dict(build(choice, texts, {"mu": 0.75}).parameters)["mu"] == 0.75  # its slider was moved
 
 
-def test_a_range_may_be_negative_and_stands_beside_definitions():
+def test_a_range_may_be_negative_and_stands_next_to_definitions():
     texts = {"U1": "-q(z)*c", "U2": "-s", "W": "0", "where": "w = −0.5 in [−2, 0]\nq(z) = 1 + w*z^2"}
     system = build(OWN_SYSTEM, texts, {})
     assert system.parameters == {"w": -0.5}

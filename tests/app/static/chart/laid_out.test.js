@@ -12,7 +12,7 @@ const exactly = (found, expected) => near(found, expected, 0.0051) // what is wr
 const BOX = ["x", "y", "width", "height"]
 const frames = (one) => one.all(".frame").map((it) => one.numbers(it, ...BOX))
 
-test("frames leave room for the words of the axes beside and below them, and for their titles", () => {
+test("frames leave room for the words of the axes, left of and below them, and for their titles", () => {
   const one = made([PLOT])
   exactly(frames(one), [[LEFT, TOP, RIGHT - LEFT, BOTTOM - TOP]])
   const three = made([
@@ -46,7 +46,7 @@ test("an axis has as many ticks as there is room for", () => {
   assert.deepEqual(values(made([{...PLOT, y: {span: [0, 4]}}]), ".tick-y"), [0, 1, 2, 3, 4])
 })
 
-test("ticks touch the frame from outside, with their words beside and below them", () => {
+test("ticks touch the frame from outside, with their words left of and below them", () => {
   const one = made([PLOT])
   const places = (selector) => one.all(selector).map((it) => one.numbers(it, "x", "y"))
   const ds = one.all(".tick").map((it) => it.getAttribute("d")), from = (d) => d.match(/M([\d.]+) ([\d.]+)/).slice(1).map(Number)

@@ -72,7 +72,7 @@ test("a link brings a pinned nullcline to its place, one without a place to its 
   assert.match(told("T")[0], /^T@-?[0-9.]+,-?[0-9.]+$/)
 })
 
-test("a click pins, the pin is in the link and is undone; a click beside launches", () => {
+test("a click pins, the pin is in the link and is undone; a click elsewhere launches", () => {
   const one = opened()
   press(one, C)
   assert.deepEqual([card(one), query(one).pinned, one.root.explorer.values.orbits], ["C", "C", ""])

@@ -32,7 +32,7 @@ def test_so_is_one_on_which_every_direction_is_a_limit_direction():
     assert c2.equator_equilibria(system.evolve(k=0.0)).all_directions
 
 
-def test_a_region_is_named_beside_the_line_of_its_symmetry():
+def test_a_region_is_named_next_to_the_line_of_its_symmetry():
     """On k = 0 foci are nodes, for no curve's sake: the discriminant is -k^2."""
     system = c2.System(U=("-mu*c*(1 + c^2/2) - k*s", "-mu*s*(1 + c^2/2) + k*c"), parameters={"mu": 0.5, "k": 0.3})
     found = c2.atlas(system, ONE, {"mu": (0.1, 1), "k": (-1, 1)})
@@ -95,7 +95,7 @@ def test_where_equations_have_no_value_is_a_region_of_its_own():
         c2.atlas(nowhere, ONE, {"mu": (-2, 2), "k": (-1, 1)})
 
 
-def test_a_curve_along_an_edge_is_found_from_the_portraits_beside_it():
+def test_a_curve_along_an_edge_is_found_from_the_portraits_next_to_it():
     """A saddle-node at p = -1.9931: two limit directions less than a cell of the net apart, in the first cell."""
     system = c2.System(
         U=("0.639*c*s+0.084*c*c-0.06*tanh(2*s)+p*c*s*s", "0.05*sin(2*c)+0.226*c**3-1.399*c*s*s+2.028*exp(c)+p*c**3"),

@@ -217,7 +217,7 @@ def test_branches_on_a_narrow_part_of_the_span_are_those_of_the_part(name, middl
 
 
 @pytest.mark.parametrize("span", [(-1.7, -0.3), (-1.05, -1.04), (-1.044955, -1.044945)])
-def test_two_folds_beside_each_other_are_both_told_however_long_the_steps(span):
+def test_two_folds_next_to_each_other_are_both_told_however_long_the_steps(span):
     """Between them there are three cycles; on the widest span they are 1.2e-6 of it apart."""
     system = ELinear(0.127, -1.187, -0.5793, (-1.045, 0.07895))
     (branch,) = continue_cycles(system, psi.hill(3.0), "f1", span)

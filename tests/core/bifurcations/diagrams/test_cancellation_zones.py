@@ -14,7 +14,7 @@ REMOVABLE = c2.System(U=("c*((k - 1)**2 + 1e-6)", "(exp(k*s) - exp(s))/(k - 1)")
 
 
 @pytest.mark.parametrize("span", [(0.0, 2.0), (0.1, 2.0)], ids=["the pole is asked for", "next to it"])
-def test_a_pole_that_is_none_is_passed_and_nothing_beside_it_is_special(span):
+def test_a_pole_that_is_none_is_passed_and_nothing_next_to_it_is_special(span):
     """lambda_rho dips at k = 1 to 1e-6, so that what may hide is looked for there, where U has no value or is noise.
 
     Theta vanishes at theta = 3 pi/2 always, and is a pitchfork there where U2 = s (k - 1)^2.

@@ -158,7 +158,7 @@ def test_two_folds_that_undo_each_other_within_a_step(width, middle):
     assert folds == pytest.approx([middle - width, middle + width], abs=1e-9)
 
 
-def test_two_folds_that_undo_each_other_beside_a_special_value():
+def test_two_folds_that_undo_each_other_next_to_a_special_value():
     """A critical set comes in over the equator at p = 0.69850; another pair is there from 0.69906 to 0.744 only."""
     system = typed((
         "-0.3168 + (-0.1579 + 0.27*p)*s + 1.9565*s**2 + (0.115 - 0.5393*p)*s**3 + (1.0919 - 0.3544*p)*c - 0.0204*c*s"

@@ -79,7 +79,7 @@ def test_closed_equator_has_exponent_zero():
 
 
 @pytest.mark.parametrize("abd", [(0.0466, 2.228, -0.8324), (-0.585, -2.4198, 2.807)])
-def test_a_curve_beside_the_border_of_closed_equators_is_found(abd):
+def test_a_curve_next_to_the_border_of_closed_equators_is_found(abd):
     """It lies between the rays on which changes of sign were looked for once."""
     curve = bifurcations.closed_equator(ELinear(*abd))
     assert len(curve) == 2

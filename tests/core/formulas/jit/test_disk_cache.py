@@ -64,7 +64,7 @@ def test_an_empty_folder_that_cannot_be_written_is_told(prepared, tmp_path):
     assert "compiled anew at every start" in said
 
 
-def test_where_nothing_can_be_written_what_lies_beside_the_modules_is_read(prepared, monkeypatch):
+def test_where_nothing_can_be_written_what_lies_next_to_the_modules_is_read(prepared, monkeypatch):
     monkeypatch.setattr(disk_cache.config, "CACHE_DIR", "")
     said, folder = prepared()
     assert folder == BESIDE

@@ -37,7 +37,7 @@ class DenHartog:
     P = F/(1 - w^2): q'(0) = q'(pi/w) = 0 and q(pi/w) = -q(0). So ``P w sin phi = -mu tan(pi/2w)``, and the amplitude is
     P cos phi. It turns if the force there is larger than mu: w^2 P cos phi > mu.
 
-    Beside it (q, q') turns by pi/w in half a period, and where q' = 0 the rate q'' jumps from a- to a+: the multipliers
+    Near it (q, q') turns by pi/w in half a period, and where q' = 0 the rate q'' jumps from a- to a+: the multipliers
     are those of ``(diag(1, a+/a-) R(pi/w))^2``, with a+- = +-mu - w^2 P cos phi.
     """
 

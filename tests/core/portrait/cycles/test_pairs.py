@@ -1,4 +1,4 @@
-"""Cycles close together: beside folds, in tongues beside cusps, near C; held against brute force."""
+"""Cycles close together: next to folds, in tongues next to cusps, near C; held against brute force."""
 
 import math
 from itertools import pairwise

@@ -29,7 +29,7 @@ def theta_form(at, x, y):
 @example(c2.ELinear(-1.0, 0.0, -1.0, (1.1, 0.0)))  # a = d: a straight line
 @example(c2.ELinear(-1.0, 0.3, -1.0 - 1e-9, (1.0, 0.4)))  # its centre is far away
 @example(c2.ELinear(0.0, 1.0, 6.1e-05, (0.0, 1.0)))  # its centre is 16 000 away, and the border is met exactly
-def test_every_drawn_point_is_on_the_conic_and_the_chords_stay_beside_it(system):
+def test_every_drawn_point_is_on_the_conic_and_the_chords_stay_next_to_it(system):
     found, at = conic(system), system.at()
     for piece in found.pieces:
         assert np.abs(piece).max() <= VIEW * (1.0 + 1e-12)

@@ -35,7 +35,7 @@ def test_states_stay_on_the_sphere_and_lines_in_the_picture(values, p, backward)
     assert result.evaluations < len(seeds) * 15 * 2000
 
 
-def test_each_trajectory_is_its_own_whatever_runs_beside_it():
+def test_each_trajectory_is_its_own_whatever_runs_next_to_it():
     seeds = np.concatenate([sunflower(70), ring(30, 1.4)])
     together = trajectories(CASE_I, psi.tanh(), seeds)
     for k in (0, 31, 32, 69, 70, 99):

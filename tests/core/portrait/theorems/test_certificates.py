@@ -128,7 +128,7 @@ def test_the_three_examples(regularisation, z):
         assert "sec:mateslidecross" not in found
 
 
-def test_what_is_beside_an_example_is_none():
+def test_what_is_next_to_an_example_is_none():
     beside = System(U=("2*c**2 - c - 1/2", "-s + 1e-6*c"), W=("-z",))
     assert "sec:mateslidecross" not in applies(beside, psi.tanh(), 0.5)
     assert "sec:ballpool" not in applies(ELinear(-1, 0, -1, (0.1, 0.0), B=[[-1, 0], [0, -1]]), psi.tanh())

@@ -36,7 +36,7 @@ def test_it_goes_round_with_the_amplitude_and_multipliers_of_the_closed_form(val
     np.testing.assert_allclose(by_size(found.multipliers), by_size(exact.multipliers), atol=1e-6)
 
 
-def test_it_opens_beside_its_motion_and_goes_round_twice_or_more():
+def test_it_opens_next_to_its_motion_and_goes_round_twice_or_more():
     mass, exact = EXAMPLE.make(), circle()
     np.testing.assert_allclose(EXAMPLE.launch, exact.start, atol=0.02)
     assert EXAMPLE.z == EXAMPLE.launch[2:]

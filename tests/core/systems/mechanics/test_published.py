@@ -54,7 +54,7 @@ def test_a_block_on_a_shaken_table_sticks_never_twice_a_turn_or_always(eta, stic
 
 
 def test_friction_of_a_belt_damps_what_moves_across_it():
-    """On a belt at the speed V friction is viscous across: y'' + f/V y' + y = 0 while y' is small beside V."""
+    """On a belt at the speed V friction is viscous across: y'' + f/V y' + y = 0 while y' is small next to V."""
     block = oscillator(force=(0.0, 0.0), surface=("V", 0.0), f=0.2, V=2.0)
     start = block.state(v1=0.0, v2=0.0, q1=0.2, q2=1e-4, t=0.0)
     run = c2.simulate_nonsmooth(block.system, start, (0.0, 12.0))
