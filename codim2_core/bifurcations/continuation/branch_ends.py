@@ -37,6 +37,8 @@ MAX_LIMIT_DISTANCE = 10.0  # times the way of the last cycles: how far from the 
 SINGULAR, SINGULAR_DISTANCE = ("det A = 0", "line of equilibria"), 0.02  # of the span: from the last cycle
 LEAST_LOOP_STEP, MAX_LOOP_STEP = 1e-11, 0.02  # of the span: steps in which a loop is looked for
 LOOP_STEP_GROWTH = 3.0
+SAME_VALUE_SHARE = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
+CANDIDATE_POINTS = 12  # the last cycles, of which one is compared
 BAND_EXPONENT = 1e-10  # of the smallest cycle followed: it is one of a band
 
 
@@ -114,6 +116,18 @@ def singular_end(
     value = min(near, key=lambda v: abs(v - turn.value))
     point = CyclePoint("det A = 0", value, math.inf, math.nan, say("meets a line", name=name, value=value))
     return BranchEnd(point, (value, math.inf, turn.amplitude, math.copysign(math.inf, turn.exponent), *turn.p))
+
+
+def at_one_value(turns: Sequence[ReturnMapPoint], width: float) -> bool:
+    """Whether cycles are at one value, within what continuation can tell."""
+    values = [turn.value for turn in turns]
+    return max(values) - min(values) < SAME_VALUE_SHARE * width
+
+
+def at_loop(turns: Sequence[ReturnMapPoint], width: float) -> bool:
+    """Whether the last cycles differ in their periods, but no longer in their values: another ray shows no more."""
+    slow, quick = (choose(turns[-CANDIDATE_POINTS:], key=lambda turn: turn.period) for choose in (max, min))
+    return slow.period > PERIOD_GROWTH * quick.period and at_one_value((slow, quick), width)
 
 
 def slow_sequence(turns: Sequence[ReturnMapPoint]) -> list[ReturnMapPoint]:

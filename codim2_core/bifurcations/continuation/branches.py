@@ -26,11 +26,15 @@ from ...systems.kinds import AnySystem
 from ...systems.psi.function import Psi
 from .branch_arrays import PointRow, build_branch, point_row
 from .branch_ends import (
+    CANDIDATE_POINTS,
     LOOP_THROUGH_EQUATOR,
     PERIOD_GROWTH,
+    SAME_VALUE_SHARE,
     BranchEnd,
     LastCycles,
     MarkedValue,
+    at_loop,
+    at_one_value,
     equator_end,
     hopf_end,
     loop_branch_end,
@@ -58,17 +62,15 @@ CACHE_SIZE = 1024  # problems that are kept
 CENSUS_VALUES = 9  # values at which all cycles are looked for
 NARROW_SHARE, MARGIN_SHARE = 0.25, 0.05  # of the span: a narrower part is searched alone; of the part, around it
 NARROWEST_PART, MOST_BETWEEN = 1e-3, 24  # of the span, between special values; of these parts
-BESIDE_SADDLE_NODE = 1.5e-3  # of the span
+NEAR_SADDLE_NODE = 1.5e-3  # of the span
 TOLD_DISTANCE = 3e-3  # in (chi, nu), in which lines tell the direction of a branch
 RAY_GAIN = 1.3  # times as well another ray is crossed that is worth taking
 JUMP, SHORTER = 1e-7, 0.1  # in (chi, nu), from branch to branch; of that, the next step
 OTHER_PERIOD_SHARE = 0.01  # of the period: cycles that are not one by far
 MAX_RAYS, FEW_POINTS = 12, 3  # of one branch; fewer points on a ray tell nothing
 BAND_SPREAD = 0.5  # by which ebar differs between the cycles of a band
-SAME_VALUE_SHARE = 1e-9  # of the span: within it are the values of cycles of different periods at a loop
 ROUNDING_HEIGHT = 1e-12  # ebar of a turn of which nothing but rounding is left
-#: Points before the last one: with those before it is compared, among these it is chosen.
-COMPARED_POINTS, CANDIDATE_POINTS = 3, 12
+COMPARED_POINTS = 3  # before the last cycle: with those before these it is compared
 
 
 def continue_cycles(
@@ -154,7 +156,7 @@ class BranchSearch:
         special = sorted({self.low, self.high, *(mark.value for mark in self.marked)})
         between = [0.5 * (one + two) for one, two in pairwise(special) if two - one > NARROWEST_PART * self.width]
         near_ends = [
-            mark.value + side * BESIDE_SADDLE_NODE * self.width
+            mark.value + side * NEAR_SADDLE_NODE * self.width
             for mark in self.marked
             for side in (-1.0, 1.0)
             if mark.kind == "saddle-node"
@@ -297,7 +299,9 @@ class BranchSearch:
         pieces = [piece]
         while len(pieces) < MAX_RAYS:
             tracer, trace = pieces[-1].tracer, pieces[-1].trace
-            stuck = trace.reason == "stuck" and len(trace.points) >= FEW_POINTS and not self._at_loop(trace)
+            stuck = (
+                trace.reason == "stuck" and len(trace.points) >= FEW_POINTS and not at_loop(_turns(trace), self.width)
+            )
             again = self._again(tracer, trace) if stuck else None
             if again is None:
                 break
@@ -310,14 +314,6 @@ class BranchSearch:
                 break  # no further than the ray before
             pieces.append(further)
         return pieces
-
-    def _at_loop(self, trace: ContinuationPoints) -> bool:
-        """Whether the last cycles differ in their periods, but no longer in their values: another ray shows no more."""
-        last = [point.turn for point in trace.points[-CANDIDATE_POINTS:]]
-        slow, quick = (choose(last, key=lambda turn: turn.period) for choose in (max, min))
-        return (
-            slow.period > PERIOD_GROWTH * quick.period and abs(slow.value - quick.value) < SAME_VALUE_SHARE * self.width
-        )
 
     def _again(self, tracer: BranchTracer, trace: ContinuationPoints) -> tuple[BranchTracer, ContinuationPoint] | None:
         """Find the last cycle on another ray that it crosses better; None if there is none."""
@@ -349,10 +345,7 @@ class BranchSearch:
         if not turns:
             return False
         first, heights = turns[0].value, [turn.height for turn in turns]
-        if (
-            any(abs(turn.value - first) > SAME_VALUE_SHARE * self.width for turn in turns)
-            or max(heights) - min(heights) < BAND_SPREAD
-        ):
+        if not at_one_value(turns, self.width) or max(heights) - min(heights) < BAND_SPREAD:
             return False
         near = [mark for mark in self.marked if abs(mark.value - first) <= SAME_VALUE_SHARE * self.width]
         self.used.update(map(id, near))
@@ -390,6 +383,8 @@ class BranchSearch:
             self.used.update(map(id, near))
         if found is None:
             found = self._loop(pieces[-1])
+        if found is None and len(pieces) > 1 and at_one_value(_turns(trace), self.width):
+            found = self._loop(pieces[-2])  # another ray has shown no more
         if found is None:
             text = say("followed no further", name=self.name, value=turn.value)
             self.notes.append(text)
@@ -449,3 +444,7 @@ class BranchSearch:
         if end.limit is not None:
             rows.append(end.limit)
         return build_branch(self.name, rows, folds, start.point, end.point)
+
+
+def _turns(trace: ContinuationPoints) -> list[ReturnMapPoint]:
+    return [point.turn for point in trace.points]
