@@ -35,9 +35,10 @@ NEAR_FOLD = 1e-6  # displacement at an extremum: a pair of cycles there is not t
 NEAR_LOOP = 1e-3  # displacement of the last orbit that returns: a loop is near
 STRIDES = 1, 3, 8, 20  # of samples that are compared
 RISE = 10.0  # times its noise, by which a sample differs from another
-# Next to a loop errors grow along a turn: how far two tolerances are apart, within so many samples, is the noise there.
-# It is measured for displacements below the first number; more than so many times the noise is a displacement.
-MAY_BE_NOISE, NOISE_REACH, DIFFERS = 1e-6, 4, 4.0
+# Next to a loop errors grow along a turn. The noise there is how far two tolerances are apart, at the samples within
+# reach. It is measured for displacements below the first number; beyond so many times the noise they differ from zero.
+MAY_BE_NOISE, NOISE_REACH, NOISE_MULTIPLE = 1e-6, 4, 4.0
+OTHER_RTOL = 4.0 * FINE_RTOL
 _INSIDE = np.linspace(0.0, 1.0, INTERVAL_PARTS + 1)
 
 
@@ -193,11 +194,11 @@ class Samples:
             return np.ones(len(pairs), bool)
         at = np.unique(np.concatenate([near[k] for k in small]))
         apart = np.zeros(len(self.xi))
-        again = self.section.displacement(self.xi[at], DIFFERS * FINE_RTOL, self.backward, noise=0.0)
+        again = self.section.displacement(self.xi[at], OTHER_RTOL, self.backward, noise=0.0)
         both = np.isfinite(again) & np.isfinite(self.shift[at])
         apart[at[both]] = np.abs(again[both] - self.shift[at[both]])
         noise = np.array([apart[places].max() for places in near])
-        return least > DIFFERS * noise
+        return least > NOISE_MULTIPLE * noise
 
     def _narrow(self, i: int, steepest: float) -> bool:
         """Whether an interval is as narrow as makes sense: steep, a jump may still differ from a slope."""
