@@ -11,6 +11,7 @@ import numpy as np
 from ...numerics.curves.arclength import zero_between
 from ...numerics.curves.newton import newton
 from ...results.arrays import Array
+from ...results.special_kinds import HOPF, NODE_FOCUS
 from ...results.words import say
 from ..families.conditions import EquatorEquations, InteriorEquations
 from ..families.disc import border_points
@@ -22,7 +23,7 @@ SAME_POINT_DISTANCE = 1e-6  # of the ranges: points of one kind nearer to each o
 MIN_END_DISTANCE = 1e-7  # and so far from an end of both curves they cross
 MAX_CORRECTION = 0.05  # that Newton's method may go from where two polylines cross
 ZERO_VALUE = 1e-9  # of a function along a curve, in units of the largest |U|: less is zero
-UNREPORTED_KINDS = ("node-focus", "det A = 0")  # kinds whose crossings are no news
+UNREPORTED_KINDS = (NODE_FOCUS.kind, "det A = 0")  # kinds whose crossings are no news
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +56,7 @@ def special_points_along(family: SystemFamily, curve: TracedCurve) -> list[Speci
         return _zeros(curve, lambda v: trace(family, v), _takens) + _cusps_of_sets(family, curve)
     if curve.kind == "pitchfork of critical sets":
         return _zeros(curve, lambda v: trace(family, v), _takens)
-    if curve.kind == "Hopf":
+    if curve.kind == HOPF.kind:
         ends = [
             _takens(curve.points[i]) for end, i in zip(curve.curve.ends, (0, -1), strict=True) if end == "det J = 0"
         ]

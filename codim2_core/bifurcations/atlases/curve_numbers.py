@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ...results.arrays import Array
+from ...results.special_kinds import HOPF, SPECIAL_KINDS
 from ...systems.psi.constructors import many
 from ..families import conditions
 from ..families.family import SystemFamily
@@ -48,9 +49,13 @@ def curve_numbers(family: SystemFamily, curve: TracedCurve) -> Array:
         return np.array([conditions.EquatorEquations(family, at).radial for at in v])
     if curve.kind == "transcritical":
         return np.array([conditions.EquatorEquations(family, at).slope for at in v])
-    if curve.kind in ("fold of critical sets", "pitchfork of critical sets", "node-focus"):
+    if curve.kind in (
+        "fold of critical sets",
+        "pitchfork of critical sets",
+        *(one.kind for one in SPECIAL_KINDS if one.level),
+    ):
         return np.array([math.copysign(1.0, trace(family, at)) for at in v])
-    if curve.kind == "Hopf":
+    if curve.kind == HOPF.kind:
         return lyapunov(family, v)
     return np.zeros(0)
 

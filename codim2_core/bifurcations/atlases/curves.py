@@ -11,6 +11,7 @@ import numpy as np
 from ...numerics.curves.arclength import TracedLine, point_across, zero_between
 from ...numerics.curves.polyline import distance, feet
 from ...results.arrays import Array
+from ...results.special_kinds import DETERMINANT, HOPF, SPECIAL_KINDS, SpecialKind
 from ..families import conditions, plane_conditions
 from ..families.family import SystemFamily
 from ..families.first_lyapunov import lyapunov
@@ -38,7 +39,7 @@ def curves_of(
 
     They are begun in cells of the net, and from the seeds; borders in `closed_form` are those of `families.disc`.
     """
-    folds, hopfs, foci = seed_net.interior_cells(family, lines)
+    cells = seed_net.interior_cells(family, lines)
     if closed_form:
         turning = seed_net.stability_steps(family)
         found, points = border_curves(family)
@@ -52,7 +53,7 @@ def curves_of(
     corners = codim_two_points.corners(points)
     if family.symmetric:
         corners = [v for v in corners if v[-1] >= 0.5]
-        hopfs, foci = (cells[cells[:, -1] >= 0.5 - seed_net.AFFINE_CELL[-1]] for cells in (hopfs, foci))
+        cells = {kind: of[of[:, -1] >= 0.5 - seed_net.AFFINE_CELL[-1]] for kind, of in cells.items()}
         turning = turning[turning[..., -1].max(axis=1) >= 0.5]
     if closed_form:
         more = TracedCurves([])
@@ -62,10 +63,12 @@ def curves_of(
         singular = plane_conditions.singular_matrix(family)
         more = tracing.in_the_plane("det A = 0", singular, seed_net.of_plane(singular))
     else:
-        more = tracing.folds(family, folds, seeds.within)
-    turning_points = tracing.hopfs(family, hopfs, corners, seeds.within)
-    real = [part for one in turning_points.curves for part in _with_positive_determinant(family, one)]
-    more += TracedCurves(real, turning_points.unfinished) + tracing.node_foci(family, foci, corners, seeds.within)
+        more = tracing.folds(family, cells[DETERMINANT.kind], seeds.within)
+    for kind in SPECIAL_KINDS:
+        if kind is not DETERMINANT:
+            of_kind = tracing.of_kind(family, kind, cells[kind.kind], corners, seeds.within)
+            real = [part for one in of_kind.curves for part in _where_it_holds(family, kind, one)]
+            more += TracedCurves(real, of_kind.unfinished)
     meetings = codim_two_points.crossings([one for one in found.curves if one.kind == "saddle-node"], not closed_form)
     ends = [v[1:] for v in corners] + [one.plane for one in meetings]
     neutral = plane_conditions.neutral_equator(family)
@@ -126,7 +129,7 @@ def _without_centres(
     """Leave out generalised Hopf points on a curve of centres: no fold of cycles begins there."""
     lines = [
         one.plane for one in curves
-        if one.kind == "Hopf" and np.nanmax(np.abs(lyapunov(family, one.points)), initial=0.0) < ZERO_VALUE
+        if one.kind == HOPF.kind and np.nanmax(np.abs(lyapunov(family, one.points)), initial=0.0) < ZERO_VALUE
     ]  # fmt: skip
     return [
         one for one in points
@@ -206,22 +209,24 @@ def _singular(family: SystemFamily, one: TracedCurve) -> bool:
     return all(abs(conditions.EquatorEquations(family, v).determinant) < SINGULAR_DETERMINANT for v in one.points)
 
 
-def _with_positive_determinant(family: SystemFamily, one: TracedCurve) -> list[TracedCurve]:
-    """Parts of a curve along which det J > 0, with the ends at which it is 0."""
+def _where_it_holds(family: SystemFamily, kind: SpecialKind, one: TracedCurve) -> list[TracedCurve]:
+    """Parts of a curve along which det J has the sign of its kind, with the ends at which it is 0."""
+    if kind.level:  # the square of tr J has it
+        return [one]
 
     def determinant(v: Array) -> float:
         return conditions.InteriorEquations(family, v).determinant
 
     points = one.points
     value = np.array([determinant(v) for v in points])
-    good = value > 0.0
+    good = kind.holds(value)
     if good.all():
         return [one]
-    if one.curve.closed and good[0]:  # begin where it is negative
+    if one.curve.closed and good[0]:  # begin where it has the other one
         first = int(np.argmin(good))
         points = np.concatenate([points[first:], points[1 : first + 1]])
         value = np.concatenate([value[first:], value[1 : first + 1]])
-        good = value > 0.0
+        good = kind.holds(value)
     found: list[TracedCurve] = []
     i = 0
     while i < len(points):
@@ -237,7 +242,7 @@ def _with_positive_determinant(family: SystemFamily, one: TracedCurve) -> list[T
         if j + 1 < len(points):
             part.append(zero_between(one.condition, determinant, points[j], points[j + 1]))
         ends = ("det J = 0" if i > 0 else one.curve.ends[0], "det J = 0" if j + 1 < len(points) else one.curve.ends[1])
-        if len(part) > 1 and value[i : j + 1].max() > LINE_DETERMINANT:
+        if len(part) > 1 and np.abs(value[i : j + 1]).max() > LINE_DETERMINANT:
             found.append(TracedCurve(one.kind, one.condition, TracedLine(np.array(part), False, ends)))
         i = j + 1
     return found

@@ -17,6 +17,7 @@ from ...numerics.curves.newton import Condition
 from ...numerics.root_between import root_between
 from ...portrait.layer_problem.critical import critical_sets
 from ...results.arrays import Array
+from ...results.special_kinds import DETERMINANT, SPECIAL_KINDS
 from ...systems.psi.constructors import many
 from ..diagrams.classes import classes_over
 from ..families.family import MAX_RADIUS_SQUARED, MIN_RADIUS_SQUARED, SystemFamily
@@ -111,10 +112,10 @@ def cell_within(family: SystemFamily) -> Array:
     return AFFINE_CELL if family.affine else CELL
 
 
-def interior_cells(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -> tuple[Array, Array, Array]:
-    """Cells in which U comes to zero, and with it det DU, T, or T^2 - 4 sigma det DU: centres (k, 4) of each."""
+def interior_cells(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -> dict[str, Array]:
+    """Cells in which U comes to zero, and with it the function of a row of `special_kinds`: centres (k, 4) by kind."""
     if family.affine:
-        return np.zeros((0, 4)), *_within_affine(family, lines)
+        return _within_affine(family, lines)
     place = (np.arange(INTERIOR_CELLS + 2) - NET_OFFSET) * CELL[0] - 1.0
     side = np.linspace(0.0, 1.0, INTERIOR_CELLS + 1)
     c, s = place[:, None, None, None], place[:, None, None]
@@ -122,40 +123,41 @@ def interior_cells(family: SystemFamily, lines: Sequence[DegenerateLine] = ()) -
     det, square = a * q - b * p, c * c + s * s
     bend = _bends(family, square[..., 0, 0], side)
     trace = a + q - bend * (c * c * a + c * s * (b + p) + s * s * q)
-    focus = trace * trace - 4.0 * (1.0 - bend * np.minimum(square, MAX_RADIUS_SQUARED)) * det
+    scaled = (1.0 - bend * np.minimum(square, MAX_RADIUS_SQUARED)) * det
     grids = place, place, side, side
-    found = [_cells((U, V, third), grids) for third in (det, trace, focus)]
     still = [line for line in lines if line.still]
-    found = [drop_touching(cells, still, 0.5 / INTERIOR_CELLS) for cells in found]
-    first, second, third = (cells[np.hypot(*cells[:, :2].T) < 1.0 + CELL[0]] for cells in found)
-    return first, second, third
+    found = {}
+    for kind in SPECIAL_KINDS:
+        third = det if kind is DETERMINANT else kind.function(trace, scaled)
+        cells = drop_touching(_cells((U, V, third), grids), still, 0.5 / INTERIOR_CELLS)
+        found[kind.kind] = cells[np.hypot(*cells[:, :2].T) < 1.0 + CELL[0]]
+    return found
 
 
-def _within_affine(family: SystemFamily, lines: Sequence[DegenerateLine]) -> tuple[Array, Array]:
-    """Cells of the plane alone, in which T and T^2 - 4 sigma det DU of the one critical set change their signs.
+def _within_affine(family: SystemFamily, lines: Sequence[DegenerateLine]) -> dict[str, Array]:
+    """Cells of the plane alone, in which the functions of rows of the one critical set change their signs.
 
     A cell through which that set goes far is halved.
     """
     side = (np.arange(AFFINE_CELLS) + 0.5) / AFFINE_CELLS
     cells = np.stack(np.meshgrid(side, side, indexing="ij"), axis=-1).reshape(-1, 2)
-    found: tuple[list[Array], list[Array]] = [np.zeros((0, 4))], [np.zeros((0, 4))]
+    found: dict[str, list[Array]] = {kind.kind: [np.zeros((0, 4))] for kind in SPECIAL_KINDS}
     for level in range(MAX_HALVINGS + 1):
         half = 0.5 / (AFFINE_CELLS << level)
         e, functions = _of_set(family, cells[:, None] + half * CELL_CORNERS)
         middle, spread = e.mean(axis=1), np.ptp(e, axis=1).max(axis=1)
         near = (np.hypot(*middle.T) < 1.0 + CELL[0] + spread) & ((level < MAX_HALVINGS) | (spread < 1.0))
         wide = near & (spread > CELL[0]) & (level < MAX_HALVINGS)
-        for values, kept in zip(functions, found, strict=True):
+        for kind, values in functions.items():
             mixed = near & ~wide & (values.min(axis=1) <= 0.0) & (values.max(axis=1) >= 0.0)
-            kept.append(np.concatenate([middle[mixed], cells[mixed]], axis=1))
+            found[kind].append(np.concatenate([middle[mixed], cells[mixed]], axis=1))
         cells = (cells[wide][:, None] + 0.5 * half * CELL_CORNERS).reshape(-1, 2)
     still = [line for line in lines if line.still]
-    first, second = (drop_touching(np.concatenate(kept), still, 0.5 / AFFINE_CELLS) for kept in found)
-    return first, second
+    return {kind: drop_touching(np.concatenate(kept), still, 0.5 / AFFINE_CELLS) for kind, kept in found.items()}
 
 
-def _of_set(family: SystemFamily, place: Array) -> tuple[Array, tuple[Array, Array]]:
-    """Find the critical set e (..., 2) of an affine U, T and T^2 - 4 sigma det DU at places (..., 2) of the square."""
+def _of_set(family: SystemFamily, place: Array) -> tuple[Array, dict[str, Array]]:
+    """Find the critical set e (..., 2) of an affine U, and the functions of rows, at places (..., 2) of the square."""
     zero = np.zeros(place.shape[:-1])
     (U, V), ((a, b), (p, q)) = _on_net(family, zero, zero, *np.moveaxis(place, -1, 0))
     det = a * q - b * p
@@ -165,7 +167,9 @@ def _of_set(family: SystemFamily, place: Array) -> tuple[Array, tuple[Array, Arr
     square = np.clip(c * c + s * s, MIN_RADIUS_SQUARED, MAX_RADIUS_SQUARED)
     bend = _bend_on_net(family, square, place)
     trace = a + q - bend * (c * c * a + c * s * (b + p) + s * s * q)
-    return np.stack([c, s], axis=-1), (trace, trace * trace - 4.0 * (1.0 - bend * square) * det)
+    scaled = (1.0 - bend * square) * det
+    functions = {kind.kind: kind.function(trace, scaled) for kind in SPECIAL_KINDS if kind is not DETERMINANT}
+    return np.stack([c, s], axis=-1), functions
 
 
 def _bend_on_net(family: SystemFamily, square: Array, place: Array) -> Array:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ...numerics.curves.arclength import CurveEdge, StepBounds, TracedLine, square_edges, tangent, trace_curve
 from ...numerics.curves.newton import Condition, newton
 from ...results.arrays import Array
+from ...results.special_kinds import SpecialKind
 from ..families import conditions
 from ..families.disc import borders
 from ..families.family import MAX_RADIUS_SQUARED, SystemFamily
@@ -27,7 +28,7 @@ COVERED_CELLS = 0.75  # cells on either side of a curve within which no other on
 COVERED_FORK_CELLS = 2.0  # and of a pitchfork: on its branches Theta and Theta' all but vanish
 FORK_RESIDUAL = 1e-9  # of Theta, or U, on a pitchfork
 CORNER_INSET = 1e-4  # 1 - |e|^2 where curves that end at a corner are looked for
-NEUTRAL_TRACE = 1e-9  # of tr J, where a node-focus curve ends
+NEUTRAL_TRACE = 1e-9  # of tr J, where a curve of another level ends
 MIN_SLOPE = 1e-9  # of such a function, of what is of size 1
 LAST_STEP = 0.1  # step to the equator
 
@@ -115,34 +116,28 @@ def folds(family: SystemFamily, cells: Array, seeds: Sequence[Array] = ()) -> Tr
     return _trace_curves((plain, forked), cells, seed_net.CELL, INTERIOR_STEPS, seeds)
 
 
-def hopfs(family: SystemFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()) -> TracedCurves:
-    """Curves on which tr J = 0, of saddles too."""
-    sought = CurveKind("Hopf", conditions.hopf(family), _square_edges(4, MAX_RADIUS_SQUARED))
-    sure = [*(_seed_near_corner(family, v, 0.0) for v in corners), *seeds]
-    return _all_to_equator(family, _trace_curves((sought,), cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
-
-
-def node_foci(
-    family: SystemFamily, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()
+def of_kind(
+    family: SystemFamily, kind: SpecialKind, cells: Array, corners: Sequence[Array], seeds: Sequence[Array] = ()
 ) -> TracedCurves:
-    """Curves on which tr(J)^2 = 4 det J; they end where both are zero."""
+    """Curves of a row of `special_kinds`, of any det J; one with tr J not 0 ends where tr J = 0."""
 
     def edge(v: Array, sign: float) -> tuple[float, Array]:
         ratio = family.ratio(float(v[:2] @ v[:2]), v[2:])
         at = conditions.InteriorEquations(family, v)
         return -sign * at.trace(ratio.bend), -sign * np.array(at.trace_slopes(*ratio))
 
-    condition = conditions.node_focus(family)
-    both = [
+    condition, edges = conditions.of_kind(family, kind), _square_edges(4, MAX_RADIUS_SQUARED)
+    signs = (1.0, -1.0) if kind.level else ()
+    sought = [
         CurveKind(
-            "node-focus", condition,
-            [*_square_edges(4, MAX_RADIUS_SQUARED), CurveEdge("tr J = 0", lambda v, sign=sign: edge(v, sign))],
+            kind.kind, condition, [*edges, CurveEdge("tr J = 0", lambda v, sign=sign: edge(v, sign))],
             lambda v, sign=sign: edge(v, sign)[0] < NEUTRAL_TRACE,
         )
-        for sign in (1.0, -1.0)
-    ]  # fmt: skip
-    sure = [*(_seed_near_corner(family, v, sign) for v in corners for sign in (2.0, -2.0)), *seeds]
-    return _all_to_equator(family, _trace_curves(both, cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
+        for sign in signs
+    ] or [CurveKind(kind.kind, condition, edges)]  # fmt: skip
+    levels = [sign * kind.level for sign in signs] or [0.0]
+    sure = [*(_seed_near_corner(family, v, level) for v in corners for level in levels), *seeds]
+    return _all_to_equator(family, _trace_curves(sought, cells, seed_net.cell_within(family), INTERIOR_STEPS, sure))
 
 
 def _seed_near_corner(family: SystemFamily, corner: Array, level: float) -> Array | None:

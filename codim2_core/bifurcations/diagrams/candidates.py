@@ -61,7 +61,7 @@ def candidates(family: SystemFamily, states: Sequence[State], starts: Iterable[A
         add("fold", special_points.folding(family), np.concatenate([sets, slow], axis=1))
     for kind in SPECIAL_KINDS:
         if kind is not DETERMINANT:
-            add(kind, special_points.kind_equations(family, kind), sets if kind.of == "critical set" else directions)
+            add(kind, special_points.kind_equations(family, kind), sets)
     return merge(found)
 
 

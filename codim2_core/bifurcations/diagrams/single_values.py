@@ -40,7 +40,7 @@ def single_values(
     known = [*out, *named]
     for one in found:
         if isinstance(one.what, SpecialKind) and not one.what.parts:
-            if one.regular and one.what.holds(*_linearisation(family, one)):
+            if one.regular and one.what.holds(special_points.set_numbers(family, one.y[:, None])[2][0]):
                 out.append(_special(family, one.what.kind, one.u, _portrait_place(family, states, one), one.what.says))
         elif not any(_same_point(family, other, one.u, _portrait_place(family, states, one)) for other in known):
             out += _touches(family, states, one)
@@ -54,11 +54,6 @@ def _special(family: SystemFamily, kind: str, u: float, place: tuple[float, floa
 def _same_point(family: SystemFamily, other: SpecialValue, u: float, place: tuple[float, float]) -> bool:
     near = abs(family.unit(other.value) - u) <= MAX_BLUR
     return near and (other.kind == "all directions" or math.dist(other.place, place) < SAME_PLACE)
-
-
-def _linearisation(family: SystemFamily, one: Candidate) -> Sequence[Array]:
-    numbers = special_points.set_numbers if len(one.y) == 3 else special_points.equator_numbers
-    return numbers(family, one.y[:, None])[1:3]
 
 
 def _portrait_place(family: SystemFamily, states: States, one: Candidate) -> tuple[float, float]:

@@ -8,8 +8,8 @@ Within, J has the determinant of DU times a positive factor, and tr J is a posit
 
     T = tr DU - (1 - sigma) n.DU n = tr DU - bend e.DU e,    sigma = 1 - bend |e|^2 (`Family.ratio`):
 
-tr J = 0 is T = 0, and tr(J)^2 = 4 det J is T^2 = 4 sigma det DU. U and its derivatives are plain numbers: arrays of
-two would take ten times as long.
+so for a row of `special_kinds` that is T = 0, or T^2 = level^2 sigma det DU. U and its derivatives are plain numbers:
+arrays of two would take ten times as long.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ import numpy as np
 
 from ...numerics.curves.newton import Condition
 from ...results.arrays import Array
+from ...results.special_kinds import SpecialKind
 from .family import SystemFamily
 
 DIFFERENCE_STEP = 1e-5  # for derivatives of Theta''
@@ -211,18 +212,16 @@ def pitchfork_of_sets(family: SystemFamily) -> Condition:
     return condition
 
 
-def hopf(family: SystemFamily) -> Condition:
-    """U = 0 and tr J = 0."""
+def of_kind(family: SystemFamily, kind: SpecialKind) -> Condition:
+    """U = 0, and tr J at the level of a row: T = 0, or T^2 = level^2 sigma det DU."""
+    if not kind.level:
 
-    def condition(v: Array) -> tuple[Array, Array]:
-        at, ratio = InteriorEquations(family, v), family.ratio(float(v[:2] @ v[:2]), v[2:])
-        return np.append(at.U, at.trace(ratio.bend)), np.vstack([at.U_slopes, at.trace_slopes(*ratio)])
+        def neutral(v: Array) -> tuple[Array, Array]:
+            at, ratio = InteriorEquations(family, v), family.ratio(float(v[:2] @ v[:2]), v[2:])
+            return np.append(at.U, at.trace(ratio.bend)), np.vstack([at.U_slopes, at.trace_slopes(*ratio)])
 
-    return condition
-
-
-def node_focus(family: SystemFamily) -> Condition:
-    """U = 0 and tr(J)^2 = 4 det J."""
+        return neutral
+    square_level = kind.level**2
 
     def condition(v: Array) -> tuple[Array, Array]:
         square = float(v[:2] @ v[:2])
@@ -231,9 +230,9 @@ def node_focus(family: SystemFamily) -> Condition:
         rise = -2.0 * (ratio.by_square * square + ratio.bend)
         sigma_slopes = [rise * float(v[0]), rise * float(v[1]), *(-r * square for r in ratio.by_parameters)]
         slopes = [
-            2.0 * trace * t - 4.0 * (sigma * d + det * g)
+            2.0 * trace * t - square_level * (sigma * d + det * g)
             for t, d, g in zip(at.trace_slopes(*ratio), at.determinant_slopes, sigma_slopes, strict=True)
         ]
-        return np.append(at.U, trace * trace - 4.0 * sigma * det), np.vstack([at.U_slopes, slopes])
+        return np.append(at.U, kind.function(trace, sigma * det)), np.vstack([at.U_slopes, slopes])
 
     return condition

@@ -59,16 +59,12 @@ def set_numbers(family: SystemFamily, y: Array) -> tuple[Array, Array, Array, tu
 def kind_equations(family: SystemFamily, kind: SpecialKind) -> Equations:
     """Return the equations of a row of `special_kinds`, each of the order of 1."""
 
-    def of_set(y: Array) -> Array:
+    def equations(y: Array) -> Array:
         U, trace, determinant, (one, other) = set_numbers(family, y)
         size = np.abs(kind.function(one, 0.0 * other)) + np.abs(kind.function(0.0 * one, other))
         return np.stack([*U, kind.function(trace, determinant) / size])
 
-    def of_direction(y: Array) -> Array:
-        theta, radial, slope = equator_numbers(family, y)
-        return np.stack([theta, kind.function(radial, slope)])
-
-    return of_set if kind.of == "critical set" else of_direction
+    return equations
 
 
 def meeting(family: SystemFamily) -> Equations:

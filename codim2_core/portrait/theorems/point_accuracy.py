@@ -2,7 +2,7 @@
 
 A special point solves a defining system F(y, v) = 0 (Kuznetsov 2004, Section 10.2), in units of the largest |U|: y is
 theta of a limit direction, and F = (Theta, Theta') where two meet, F = U(theta) where a critical set comes to the
-equator; or y is e of a critical set, and F = (U, g) with g one of det D_e U, tr J and the discriminant of J. Where the
+equator; or y is e of a critical set, and F = (U, g) with g the function of a row of `special_kinds`. Where the
 Jacobian of F is regular, v moves by at most the sum of the last row of its inverse for a unit change of F: so a
 residual bounds, to first order, how far v may be off.
 """
@@ -18,6 +18,7 @@ import numpy as np
 
 from ...results.arrays import Array
 from ...results.result import Tabled
+from ...results.special_kinds import DETERMINANT, HOPF, SPECIAL_KINDS, SpecialKind
 from ...results.tables import table_number
 from ...systems.frozen import FrozenSystem
 from ...systems.psi.function import Psi
@@ -90,17 +91,19 @@ def point_accuracy(
 
     at, psi = frozen(one.value)
     size, place = at.size or 1.0, np.array(one.place)
+    row = {"tr J = 0": HOPF, "fold of critical sets": DETERMINANT, **{row.kind: row for row in SPECIAL_KINDS}}.get(
+        one.kind
+    )
     if one.kind in (*MEETING, "transcritical", "touching the equator"):
         y = np.array([math.atan2(place[1], place[0])])
         series = lambda theta: _theta_derivatives(at, theta) / size
         F: Defining = lambda y, v: _on_equator(frozen(v)[0], float(y[0]), one.kind in MEETING) / size
         order = {"saddle-node": 2, "exchange of limit directions": 2, "pitchfork": 3, "cusp": 3}.get(one.kind, 1)
         coefficient = float(series(float(y[0]))[order]) / math.factorial(order)
-    elif one.kind in TESTS:
+    elif row is not None:
         y = e_psi(psi, place)
-        test = TESTS[one.kind]
-        F = lambda y, v: _at_set(*frozen(v), y, test, size)
-        coefficient = one.number if one.kind == "Hopf" else math.nan
+        F = lambda y, v: _at_set(*frozen(v), y, row, size)
+        coefficient = one.number if one.kind == HOPF.kind else math.nan
         if one.kind == "fold of critical sets":
             coefficient = _fold_coefficient(at, y) / size
     else:
@@ -139,34 +142,15 @@ def _on_equator(at: FrozenSystem, theta: float, meeting: bool) -> Array:
     return np.asarray(at.U(np.array([math.cos(theta), math.sin(theta)])))
 
 
-def _at_set(at: FrozenSystem, psi: Psi, e: Array, test: Callable[[Array, Array, float], float], size: float) -> Array:
-    """Return U and a test function of D_e U, e and 1 + Psi'(|x2|^2)."""
+def _at_set(at: FrozenSystem, psi: Psi, e: Array, row: SpecialKind, size: float) -> Array:
+    """Return U, and the function of a row for q J with a positive q, in units of a size."""
     modulus = math.hypot(*e)
-    zeta = float(psi.radius(modulus))
-    beta = 1.0 + float(psi.derivative(zeta**2))
-    return np.append(np.asarray(at.U(e)) / size, test(np.asarray(at.DU(e)) / size, e, beta))
-
-
-def _trace(D: Array, e: Array, beta: float) -> float:
-    return float(D[0, 0] + D[1, 1] - beta * e @ D @ e)  # of J, times q
-
-
-def _determinant(D: Array, *_: Any) -> float:
-    return float(D[0, 0] * D[1, 1] - D[0, 1] * D[1, 0])
-
-
-def _discriminant(D: Array, e: Array, beta: float) -> float:
-    return _trace(D, e, beta) ** 2 - 4.0 * _determinant(D) * (1.0 - beta * float(e @ e))
-
-
-#: The test function of a kind.
-TESTS = {
-    "Hopf": _trace,
-    "tr J = 0": _trace,
-    "node-focus": _discriminant,
-    "fold of critical sets": _determinant,
-    "det J = 0": _determinant,
-}
+    beta = 1.0 + float(psi.derivative(float(psi.radius(modulus)) ** 2))
+    (a, b), (c, d) = D = np.asarray(at.DU(e)) / size
+    determinant = float(a * d - b * c)
+    if row is not DETERMINANT:
+        determinant *= 1.0 - beta * modulus**2
+    return np.append(np.asarray(at.U(e)) / size, row.function(float(a + d - beta * e @ D @ e), determinant))
 
 
 def _fold_coefficient(at: FrozenSystem, e: Array) -> float:

@@ -3,7 +3,7 @@
 
 import {axesMarkup, AxisChoice, ZoomButtons} from "../widgets/axes.js"
 import {polygons} from "../picture/frames.js"
-import {colours, Pad} from "../widgets/pad.js"
+import {colours, nameOf, Pad} from "../widgets/pad.js"
 import {register} from "../widgets/panels.js"
 import {Dots} from "../room/dots.js"
 import {rangeFor} from "../controls/ranges.js"
@@ -91,7 +91,7 @@ class Atlas {
       const scaled = (block) => polygons(blocks[`${block}.n`], blocks[`${block}.xy`], 1)
         .map((line) => line.map((p) => p.map((u, i) => (spans[i][0] + spans[i][1]) / 2 + u * (spans[i][1] - spans[i][0]) / 2)))
       const all = scaled("map"), between = scaled("map_curves"), curves = {}
-      for (const [i, kind] of curve.entries()) (curves[CURVE_OF[kind] ?? "undefined"] ??= []).push(...between.splice(0, pieces[i]))
+      for (const [i, kind] of curve.entries()) (curves[CURVE_OF[kind] ?? kind.replace(/\W+/g, "_")] ??= []).push(...between.splice(0, pieces[i]))
       const regions = name.map((words, i) => ({name: words, inside: inside[i], loops: all.splice(0, loops[i])}))
       const still = Object.fromEntries(Object.entries(curves).filter(([kind]) => !OF_CYCLES.includes(kind)))
       this.map = {of: this.of, spans, regions, curves, still, followed: Boolean(points), points: points ?? [], stillPoints: (points ?? []).filter(([kind]) => !POINTS_OF_CYCLES.includes(kind)), note: header.map.note}
@@ -156,7 +156,7 @@ class Atlas {
     const found = [...new Set(regions.map((region) => region.name))].sort(), colour = colours(regions)
     this.find(".pad-names").innerHTML = found.map((name) => `<span><i class="${colour(name)}"></i>${name}</span>`).join("")
     this.find(".pad-curves").innerHTML = Object.entries(curves).filter(([, lines]) => seen(lines))
-      .map(([name]) => `<span><i class="${name}"></i>${words[name]}</span>`).join("")
+      .map(([name]) => `<span><i class="${name}"></i>${nameOf(words, name)}</span>`).join("")
   }
 
   showTiles(tiles) {

@@ -53,8 +53,8 @@ export class Pad {
     this.plot.draw([{
       x: {span: across, word: words[0]}, y: {span: up, ...(flat ? {ticks: []} : {})}, title: escape(words[1] ?? ""), zeros: !flat,
       areas: regions.map(({name, loops}) => ({name: `region ${colour(name)}`, label: name, title: name, loops})),
-      lines: lines.filter(({line}) => !isPoint(line)).map(({name, line}) => ({name, title: names[name], silent: true, x: line.map(([x]) => x), y: line.map(([, y]) => y)})),
-      dots: lines.filter(({line}) => isPoint(line)).map(({name, line: [[x, y]]}) => ({name: `point ${name}`, title: names[name], x, y, r: 3})),
+      lines: lines.filter(({line}) => !isPoint(line)).map(({name, line}) => ({name, title: nameOf(names, name), silent: true, x: line.map(([x]) => x), y: line.map(([, y]) => y)})),
+      dots: lines.filter(({line}) => isPoint(line)).map(({name, line: [[x, y]]}) => ({name: `point ${name}`, title: nameOf(names, name), x, y, r: 3})),
       marks: points.map(([type, x, y, sentence]) => ({kind: "codimension two", x, y, title: `${type}. ${sentence}`})),
       labels: regions.map((region) => ({text: short(region.name), name: "name", near: region.inside, within: extent(region), allowed: (x, y) => holds(region, [x, y])})),
     }])
@@ -71,6 +71,9 @@ export class Pad {
       path, region && !old ? {text: this.short(region.name).split(";")[0], at: here, name: "name tag"} : null)
   }
 }
+
+/** What a curve is called: a kind that the page does not know has its own name. @param {Record<string, string>} names @param {string} name */
+export function nameOf(names, name) { return names[name] ?? name.replaceAll("_", " ") }
 
 // The class of a region's colour: that of its portrait's name, up to the first space.
 export function regionClass(name) { return name.split(" ")[0].replace(/[^\w-]/g, "") }

@@ -87,7 +87,7 @@ test("the panel atlas: a hand moves f, a small portrait brings f(z) to its place
   }
 })
 
-const MAP = {atlas_of: ["a", "f2", false], map: {spans: [[-2, 6], [1, 3]], name: ["CM2", "CM0"], inside: [[0, 2.5], [5, 1.5]], loops: [1, 1], curve: ["Hopf", "odd"], pieces: [2, 1]}}
+const MAP = {atlas_of: ["a", "f2", false], map: {spans: [[-2, 6], [1, 3]], name: ["CM2", "CM0"], inside: [[0, 2.5], [5, 1.5]], loops: [1, 1], curve: ["Hopf", "odd kind"], pieces: [2, 1]}}
 const OF_MAP = {...lines("map", [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.75]], [[0.6, -0.9], [0.9, -0.9], [0.9, 0.9]]), ...lines("map_curves", [[0, 0.5], [0.5, 0.25]], [[-0.5, -0.25], [-0.25, -0.75]], [[0.75, 0.5], [0.75, -0.5]])}
 
 test("the panel atlas: a map of two other parameters lies in their spans", () => {
@@ -96,7 +96,8 @@ test("the panel atlas: a map of two other parameters lies in their spans", () =>
   const read = () => plots(one.find(".pad"))[0], plot = read()
   assert.deepEqual([plot.word, plot.title], ["a", "f₂"])
   near(named(plot.lines, "hopf").map((line) => line.points), [[[2, 2.5], [4, 2.25]], [[0, 1.75], [1, 1.25]]])
-  near(named(plot.lines, "undefined").map((line) => line.points), [[[5, 2.5], [5, 1.5]]])
+  near(named(plot.lines, "odd_kind").map((line) => line.points), [[[5, 2.5], [5, 1.5]]])
+  assert.match(one.find(".pad-curves").textContent, /odd kind/) // a kind that the page does not know has its own name
   near(plot.areas.map((area) => area.points), [[[0, 1.5], [4, 1.5], [4, 2.75]], [[4.4, 1.1], [5.6, 1.1], [5.6, 2.9]]])
   near(named(plot.moving, "handle").map((dot) => dot.at), [[3, 2.2]])
   assert.equal(named(plot.moving, "here").length, 0)
