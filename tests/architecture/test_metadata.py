@@ -97,15 +97,6 @@ def test_the_core_alone_asks_for_what_it_imports_and_else_is_the_same_project():
     assert (ROOT / "codim2_core" / "LICENSE").read_text() == (ROOT / "LICENSE").read_text()
 
 
-def test_the_conda_recipe_asks_for_the_same():
-    recipe, project = yaml.safe_load((ROOT / ".conda" / "recipe.yaml").read_text("utf-8")), PROJECT["project"]
-    asked = {one.replace(" ", "").replace("_", "-") for one in recipe["requirements"]["run"]}
-    assert asked == {*project["dependencies"], f"python{project['requires-python']}"}
-    assert {one.replace(" ", "") for one in recipe["requirements"]["host"]} >= {*PROJECT["build-system"]["requires"]}
-    assert recipe["context"]["version"] == codim2_core.__version__
-    assert recipe["about"]["summary"] == project["description"]
-
-
 def test_what_is_cited_is_this_program():
     cited = yaml.safe_load((ROOT / "CITATION.cff").read_text("utf-8"))
     page = (ROOT / "app" / "codim2_app" / "site" / "docs" / "text" / "citing.md").read_text("utf-8")
@@ -139,11 +130,3 @@ def test_the_packages_say_that_they_are_typed():
         (ROOT / folder / "py.typed").is_file()
         for folder in PROJECT["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
     )
-
-
-def test_ci_and_pre_commit_run_the_same_linters():
-    assert ".ci/lint" in (ROOT / ".ci" / "run").read_text()
-    assert "entry: .ci/lint" in (ROOT / ".pre-commit-config.yaml").read_text()
-    assert "run: .ci/run" in (ROOT / ".github" / "workflows" / "ci.yml").read_text()
-    for name in ("lint", "run"):
-        assert (ROOT / ".ci" / name).stat().st_mode & 0o111

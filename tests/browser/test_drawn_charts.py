@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.bifurcations.diagrams.equilibrium_branches import equilibrium_branches
 
 from .asymmetric import PSI, at, equator, size, system
 from .drawn import SCRIPTS, colour, numbers, plots, table
@@ -34,40 +33,6 @@ def test_planes(opened, setting):
     wanted = np.array([[v.real, v.imag] for C in sets for v in C.eigenvalues])
     order = lambda v: v[np.lexsort(v.round(3).T)]
     np.testing.assert_allclose(order(drawn), order(wanted), rtol=0.0, atol=max(values.near))
-
-
-def test_names_of_the_trace_plane_stand_in_their_regions(opened):
-    page = opened("planes")
-    (plane,) = plots(page, ".trace-plane")
-    names = [word for word in page.find(".trace-plane").evaluate(SCRIPTS["words"]) if word[1] == "region-name"]
-    assert len(names) >= 3
-    for text, _, x, y in names:
-        trace, determinant = plane.data([x, y - 4])[0]
-        focus = trace**2 < 4 * determinant
-        kind = f"{'stable' if trace < 0 else 'unstable'} {'focus' if focus else 'node'}"
-        assert text == ("saddle" if determinant < 0 else kind)
-
-
-def test_table_of_the_planes(opened, setting):
-    page = opened("planes")
-    psis = {"Ψ = 1": c2.psi.constant(), "exp(−s)": c2.psi.exponential()}
-    rows = {row[0]: row for row in table(page, ".plane-table")[1:]}
-    (plane,) = plots(page, ".trace-plane")
-    assert table(page, ".plane-table")[0] == ["", "tr J", "det J", ""]
-    found = 0
-    for words, psi in psis.items():
-        row = next((row for text, row in rows.items() if words.split(" = ")[-1] in text), None)
-        sets = c2.critical_sets(system(setting), psi, (0.0,))
-        if row is None or not sets:
-            continue
-        found += 1
-        wanted = [sets[0].trace, sets[0].determinant]
-        np.testing.assert_allclose(numbers(row[1]) + numbers(row[2]), wanted, rtol=1e-3, atol=6e-4)
-        assert row[3] == sets[0].kind
-        spots = np.array([place for place, _ in plane.dots("over-mark")])
-        away = np.abs(spots - [sets[0].trace, sets[0].determinant]) / plane.near
-        assert away.max(axis=1).min() < 2
-    assert found
 
 
 @pytest.mark.parametrize("along", ["f1", "d"])
@@ -111,18 +76,6 @@ def test_diagram(opened, setting, along):
     assert radii.x(numbers(line.split("V")[0])[0]) == pytest.approx(setting[along], abs=radii.near[0])
 
 
-def test_special_points_of_the_diagram(opened, setting):
-    page = opened("diagram", along="f1")
-    drawn = [mark for plot in plots(page, ".diagram") for mark in plot.marks()]
-    flat = c2.ELinear(setting["a"], setting["b"], setting["d"], (setting["f1"], setting["f2"]))
-    found = equilibrium_branches(flat, PSI, "f1", (-3.0, 3.0), ()).special
-    assert sum(len(mark["words"].splitlines()) for _, mark in drawn) == len(found) > 3
-    near = plots(page, ".diagram")[-1].near[0]
-    for one in found:
-        marks = [place for place, mark in drawn if f"{one.kind} at " in mark["words"]]
-        assert min(abs(place[0] - one.value) for place in marks) < 30 * near  # a group stands amid its members
-
-
 def test_along_z(opened, setting):
     page = opened("along")
     (plot,) = plots(page, "svg.along")
@@ -155,78 +108,6 @@ def test_along_z(opened, setting):
     for z, _ in rest:
         flows = [C.slow_flow[0] for C in at(setting, z=z)]
         assert min(map(abs, flows)) < 0.05
-
-
-def test_slow_flow_in_the_plane_of_two_slow_variables(open_page):
-    page = open_page(viewport={"width": 1440, "height": 900}).open("?system=ball_in_pool&panel=along")
-    page.settle()
-    (plot,) = plots(page, ".slow-plane")
-    arrows = plot.arrows()
-    assert len(arrows) > 20
-    ball = c2.examples.ball_in_pool()
-    for place, way in arrows[::5]:
-        (C, *_) = c2.critical_sets(ball, c2.psi.constant(), tuple(place))
-        flow = np.array(C.slow_flow[:2])
-        assert way @ flow / np.hypot(*flow) > 0.99
-
-
-@pytest.mark.slow
-def test_a_typed_start_over_time(opened, setting):
-    page = opened("orbits", launch="0.6, 0.8, 0.3", t_end=3.0, log_eps=-1.0, orbit_eps="show")
-    page.page.wait_for_selector(".phases li")
-    run = c2.simulate(system(setting), PSI, (0.6, 0.8, 0.3), (0.0, 3.0), eps=0.1)
-    limit = c2.simulate_nonsmooth(system(setting), (0.6, 0.8, 0.3), (0.0, 3.0), psi=PSI)
-    plane, _, radius, slow = plots(page, ".orbit-time .series")
-    assert (plane.title, radius.title, slow.title, slow.word) == ("x y", "r = |p|, outside 1 + ρ", "z", "t")
-    for plot, column, name, token in [(plane, 0, "s0", "rho"), (plane, 1, "s1", "theta"), (slow, 2, "s0", "rho")]:
-        found = plot.lines(name)
-        assert sorted("broken" in it["name"] for _, it in found) == [False, True]
-        for points, drawn in found:
-            motion = run if "broken" in drawn["name"] else limit
-            assert drawn["stroke"] == colour(page, token)
-            wanted = np.array([motion.dense(t)[column] for t in np.clip(points[:, 0], 0, motion.times[-1])])
-            np.testing.assert_allclose(points[:, 1], wanted, atol=6 * plot.near[1] + 0.01)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", [(0.45, -0.3), (-1.2, 0.7)])
-def test_an_orbit_over_time(opened, setting, seed):
-    x, y = seed
-    page = opened("orbits", orbits=f"{x},{y}", orbit_eps="show", log_eps=-2.5)
-    page.page.wait_for_selector(".phases li")
-    eps, r = 10.0**-2.5, np.hypot(x, y)
-    unit = eps if r < 1.0 else 1.0
-    state = unit * np.array(seed) * (1.0 / np.sqrt(1.0 - r * r) if r < 1.0 else (r - 1.0) / r)
-    plane, angle, radius, slow = plots(page, ".orbit-time .series")
-    assert (plane.title, slow.word) == (("x/ε y/ε", "t/ε") if r < 1.0 else ("x y", "t"))
-    (broken,) = [points for points, _ in slow.lines("broken")]
-    motion = c2.simulate(system(setting), PSI, (*state, 0.0), (0.0, unit * broken[-1, 0]), eps=eps)
-
-    def states(t):
-        return np.array([motion.dense(v)[:2] / unit for v in np.clip(unit * t, 0.0, motion.times[-1])])
-
-    for name, token, column in [("s0", "rho", 0), ("s1", "theta", 1)]:
-        for points, drawn in plane.lines(name):
-            assert drawn["stroke"] == colour(page, token)
-            if "broken" in drawn["name"]:
-                np.testing.assert_allclose(points[:, 1], states(points[:, 0])[:, column], atol=4 * plane.near[1] + 0.01)
-    # the orbit itself: x = r cos theta, y = r sin theta, with the radius of the third plot
-    full = {
-        name: next(points for points, it in plane.lines(name) if "broken" not in it["name"]) for name in ("s0", "s1")
-    }
-    theta = next(points for points, it in angle.lines("s2") if "broken" not in it["name"])
-    size = next(points for points, it in radius.lines("s3") if "broken" not in it["name"])
-    length = np.hypot(full["s0"][:, 1], full["s1"][:, 1])
-    p = length / np.hypot(1.0, length) if r < 1.0 else length
-    np.testing.assert_allclose(size[:, 1], p, atol=3 * radius.near[1] + 0.01)
-    far = length > 20 * plane.near[1]
-    turn = theta[:, 1] - np.arctan2(full["s1"][:, 1], full["s0"][:, 1])
-    assert np.abs(np.exp(1j * turn[far]) - 1.0).max() < 0.15
-    at = np.abs(full["s0"][:, 0]).argmin()
-    assert (full["s0"][at, 1], full["s1"][at, 1]) == pytest.approx(state / unit, abs=6 * plane.near[1])
-    page.find(".orbit-time .series").press("ArrowRight")
-    assert " = 0:" not in page.find(".orbit-now").text_content()
-    assert page.complaints == []
 
 
 def test_psi(opened):

@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 from codim2_app.picture.draw.theme import HALF_VIEW
 
-from .conftest import PHONE
-
 
 def place(explorer, x, y):
     """The point of the window over a point of the picture, which shows [-VIEW, VIEW] across its shorter side."""
@@ -100,14 +98,6 @@ def test_an_orbit_is_named_hidden_and_removed(open_page):
     assert explorer.find(".orbit-list li").count() == 0
 
 
-def test_orbits_stay_through_every_slider_move(open_page):
-    explorer = open_page().open("?panel=orbits&orbits=1.2,0.8")
-    before = explorer.find(".orbit-goes").text_content()
-    explorer.type("f1", "-1.5")
-    assert explorer.find(".orbit-list li").count() == 1
-    assert explorer.find(".orbit-goes").text_content() != before
-
-
 def objects(explorer, kind):
     """Where the objects of a kind are, in the picture."""
     columns = explorer.ask(f"picture.state.header.{kind}")
@@ -147,18 +137,6 @@ def test_a_click_on_an_object_pins_it_and_one_elsewhere_launches(open_page):
     assert not pinned.is_visible()
     assert "pinned" not in page.url
     assert explorer.complaints == []
-
-
-def test_a_tap_on_an_object_pins_it(open_page):
-    explorer = open_page(**PHONE).open("?b=0.3&panel=orbits")
-    explorer.page.touchscreen.tap(*place(explorer, *objects(explorer, "critical")[0]))
-    explorer.settle()
-    assert explorer.find(".card.pinned").text_content().startswith("×C stable node")
-    assert explorer.find(".orbit-list li").count() == 0
-    explorer.page.touchscreen.tap(*place(explorer, 1.1, 0.9))
-    explorer.settle()
-    assert explorer.find(".orbit-list li").count() == 1
-    assert explorer.find(".card.pinned").is_visible()
 
 
 def test_a_typed_start_is_in_the_link_undone_and_let_move_from_a_launched_orbit(open_page):

@@ -5,8 +5,6 @@ from urllib.parse import parse_qs, urlparse
 
 import pytest
 
-from .drawn import plots
-
 #: Elements of the inspector whose content is wider than they are; the strip of tabs may be drawn sideways on a phone.
 TOO_WIDE = """() => {
     const all = (root) => [...root.querySelectorAll('*')].flatMap((e) => e.shadowRoot ? [e, ...all(e.shadowRoot)] : [e])
@@ -44,13 +42,6 @@ def drag(explorer, selector, *places):
         yield point
     explorer.page.mouse.up()
     explorer.settle()
-
-
-def part_of(explorer, selector, x, y):
-    """Where values of the axes are in a chart, in parts of its width and height."""
-    box = explorer.find(selector).bounding_box()
-    across, up = plots(explorer, selector)[0].pixels(x, y)
-    return across / box["width"], up / box["height"]
 
 
 def test_a_tab_opens_its_panel_and_the_address_keeps_it(explorer):
@@ -116,15 +107,6 @@ def test_a_small_portrait_is_clicked(explorer):
     assert explorer.find(".thumbnails .here").text_content() == "NCM2"
 
 
-def test_pointing_at_a_region_marks_its_small_portrait(explorer):
-    explorer.find(".thumbnails button").first.wait_for()
-    box = explorer.find(".pad").bounding_box()
-    explorer.page.mouse.move(box["x"] + 0.05 * box["width"], box["y"] + 0.05 * box["height"])
-    assert explorer.find(".thumbnails .pointed").text_content() == "NCM2"
-    explorer.find(".thumbnails button").filter(has_text="CM4").hover()
-    assert explorer.find(".pad .region.pointed").get_attribute("data-region") == "CM4, stable node"
-
-
 def test_a_bar_of_the_census_opens_a_portrait_of_its_name(explorer):
     open_panel(explorer, "Census")
     bars = explorer.find(".census-list button")
@@ -136,37 +118,6 @@ def test_a_bar_of_the_census_opens_a_portrait_of_its_name(explorer):
     assert explorer.name() == "NCM4"
     assert explorer.find(".census-list .here .census-name").text_content() == "II NCM4"
     explorer.kept()
-
-
-@pytest.mark.slow
-def test_other_axes_of_the_atlas(explorer):
-    choose(explorer, "across", "a")
-    choose(explorer, "up", "d")
-    explorer.find(".pad .region").first.wait_for()
-    assert "det A = 0" in explorer.find(".pad-curves").text_content()
-    assert explorer.find(".pad .tag").text_content() == "CM4, stable node"
-    for _ in drag(explorer, ".pad", (0.25, 0.62), part_of(explorer, ".pad", -2.4, 2.4)):
-        explorer.page.locator(".portrait-case", has_text=re.compile("^Case II$")).wait_for()
-    assert value(explorer, "a") == pytest.approx(-2.4, abs=0.05)
-    assert value(explorer, "d") == pytest.approx(2.4, abs=0.05)
-    assert explorer.find(".pad .tag").text_content() == "CM4, saddle"
-    choose(explorer, "up", "a")
-    assert "two different" in explorer.find(".atlas-note").text_content()
-    choose(explorer, "across", "f1")
-    choose(explorer, "up", "f2")
-    assert explorer.find(".pad .region").count() > 1
-    assert "two different" not in explorer.find(".atlas-note").text_content()
-
-
-def test_the_atlas_is_narrowed_around_the_handle(explorer):
-    explorer.click(".panel-atlas .zoom .in")
-    assert explorer.find(".pad .tag").text_content() == "CM4, stable node"
-    box = explorer.find(".pad").bounding_box()
-    explorer.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"])
-    explorer.settle()
-    assert 0 < value(explorer, "f2") < 0.75
-    explorer.click(".panel-atlas .zoom .out")
-    assert explorer.find(".panel-atlas .zoom .out").is_disabled()
 
 
 def test_a_special_point_is_gone_to_exactly(open_page):
@@ -183,23 +134,6 @@ def test_a_special_point_is_gone_to_exactly(open_page):
     page.kept()
     assert float(parse_qs(urlparse(page.page.url).query)["n"][0]) == pytest.approx(4 / 3, abs=1e-9)
     assert page.complaints == []
-
-
-def test_the_diagram_sets_its_parameter(explorer):
-    open_panel(explorer, "Diagram")
-    explorer.choose(".panel-diagram select.along", "d")
-    for _ in drag(explorer, ".diagram", (0.3, 0.5), (0.8, 0.5)):
-        pass
-    assert value(explorer, "d") > 1.5
-    explorer.press(".diagram", "ArrowRight")
-    where = value(explorer, "d")
-    explorer.click(".panel-diagram .zoom .in")
-    low, high = (float(explorer.find(".diagram").get_attribute(f"aria-value{end}")) for end in ("min", "max"))
-    assert high - low == pytest.approx(2.0)
-    assert low < where < high
-    line = explorer.find(".diagram .value").get_attribute("d")
-    explorer.type("d", str(where + 0.1))
-    assert explorer.find(".diagram .value").get_attribute("d") != line
 
 
 def test_a_slider_leaves_a_trail_in_the_planes(open_page):

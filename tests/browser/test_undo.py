@@ -46,24 +46,6 @@ def test_back_and_forward_walk_the_same_steps_and_reload_keeps_them(open_page):
     assert value(explorer, "b") == 0
 
 
-def test_launched_orbits_and_typed_text_come_back(open_page):
-    explorer = open_page().open("?panel=orbits&system=own")
-    box = explorer.find("[data-box=U1] input, [data-box=U1] textarea, textarea, .boxes input").first
-    before = box.input_value()
-    box.fill("-2*c + 0.3")
-    explorer.kept()
-    picture = explorer.find(".bokeh").bounding_box()
-    explorer.page.mouse.click(picture["x"] + picture["width"] * 0.4, picture["y"] + picture["height"] * 0.4)
-    explorer.kept()
-    assert explorer.find(".orbit-list li").count() == 1
-    explorer.click(".undo").kept()
-    assert explorer.find(".orbit-list li").count() == 0
-    explorer.click(".undo").kept()
-    assert box.input_value() == before
-    explorer.click(".redo").kept()
-    assert box.input_value() == "-2*c + 0.3"
-
-
 def test_a_drag_of_the_critical_set_is_one_step(open_page):
     """The server finds f: what it answers belongs to the drag, and not to the step before."""
     explorer = open_page().open("")

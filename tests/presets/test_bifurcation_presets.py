@@ -10,19 +10,6 @@ from codim2_core.systems.presets.bifurcations import bifurcation_presets
 PRESETS = bifurcation_presets()
 
 
-@pytest.mark.parametrize("name", PRESETS)
-def test_portrait(name):
-    preset = PRESETS[name]
-    found = c2.classify(preset.system, preset.psi)
-    critical = c2.critical_sets(preset.system, preset.psi)
-    assert (found.case, found.name) == preset.portrait[:2]
-    assert (critical[0].kind if critical else None) == preset.portrait[2]
-    assert tuple(d.name for d in found.degeneracies) == ((preset.degeneracy,) if preset.degeneracy else ())
-    assert preset.title
-    assert preset.note
-    assert preset.label
-
-
 @pytest.mark.parametrize("kind", ["pitchfork", "saddle-node", "transcritical"])
 def test_a_walk_is_one_slider_across_the_curve(kind):
     before, at, after = (PRESETS[f"{kind}-{when}"] for when in ("before", "at", "after"))
