@@ -4,7 +4,6 @@ import pytest
 from codim2_app.picture.state.controls import NUMBERS
 from codim2_app.picture.state.portraits import portraits
 
-from codim2_core.systems.presets.presets import presets
 from tests.app.serving import serving
 
 ELSEWHERE = {"n", "z2", "z3", "z4", "log_eps", "t_end"}  # of Hill's Ψ, of other systems, of the panel "Motion"
@@ -65,18 +64,6 @@ def test_each_slider_redraws(walked, name):
     assert explorer.find(words).screenshot() != before
 
 
-@pytest.mark.parametrize("portrait", portraits(), ids=lambda item: item["key"])
-def test_each_preset_shows_its_portrait(walked, portrait):
-    explorer = walked
-    explorer.choose("select.preset", portrait["key"])
-    case, name, kind = presets[portrait["key"]].portrait
-    assert explorer.name() == name
-    assert explorer.find(".portrait-case").text_content() == (f"Case {case}" if case else "")
-    if kind:
-        assert kind in explorer.find(".critical-table").text_content()
-    assert portrait["label"].lower() in explorer.find(".preset-note").text_content().lower()
-
-
 def test_fast_drag_ends_on_the_last_value_and_queues_nothing(explorer):
     box = explorer.find("#c2-f1").bounding_box()
     y = box["y"] + box["height"] / 2
@@ -93,20 +80,3 @@ def test_fast_drag_ends_on_the_last_value_and_queues_nothing(explorer):
     name, numbers = explorer.name(), explorer.find(".critical-table").text_content()
     fresh = explorer.open(f"?f1={last}")
     assert (fresh.name(), fresh.find(".critical-table").text_content()) == (name, numbers)
-
-
-def region_under_the_handle(explorer):
-    """The portrait's name of the region drawn where the handle is, as the browser itself fills it."""
-    explorer.page.wait_for_selector(".pad:not(.old) .region")
-    return explorer.find(".pad").evaluate("""(pad) => {
-        const handle = pad.querySelector('.handle')
-        const at = new DOMPoint(handle.cx.baseVal.value, handle.cy.baseVal.value)
-        const around = [...pad.querySelectorAll('.region')].filter((region) => region.isPointInFill(at))
-        return around.map((region) => region.dataset.region.split(',')[0]) }""")
-
-
-def test_regions_follow_once_the_matrix_rests(explorer):
-    before = explorer.find(".pad .chart-plot").inner_html()
-    explorer.type("a", "-1.2").type("b", "0.4")
-    assert explorer.find(".pad .chart-plot").inner_html() != before
-    assert region_under_the_handle(explorer) == [explorer.name()]

@@ -6,11 +6,6 @@ import pytest
 
 from .conftest import PHONE
 
-
-def middle(box):
-    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
-
 CONTROLS = "button, input, select, textarea, summary, a[href], [role=tab]"
 IN_SIGHT = f"""() => [...document.querySelectorAll(".codim2 :is({CONTROLS})")].filter((one) => {{
   const {{top, bottom, left, width, height}} = one.getBoundingClientRect()
@@ -185,38 +180,6 @@ def test_a_push_that_cannot_be_held_breaks_loose(open_page):
         explorer.find(".headline").text_content()
         == "You push with 2.40. Friction can hold only 2.00 this way, so it slips."
     )
-
-
-def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
-    explorer = open_page(first_visit=True).open("?v=1")
-    invitation = explorer.find(".grab .invitation")
-    invitation.wait_for()  # the handle comes once the picture knows its own size
-    mouse, start = explorer.page.mouse, explorer.find(".grab").bounding_box()
-    x, y = middle(start)
-    unit = explorer.ask("picture.pixel(1, 0).x - picture.pixel(0, 0).x")
-    mouse.move(x, y)
-    mouse.down()
-    mouse.move(x + 0.5 * unit, y - 0.2 * unit, steps=4)
-    explorer.settle()
-    before = explorer.ask("picture.state.header.critical")
-    assert explorer.find("[data-control=f2] .number").input_value() != "0"
-    mouse.move(x + 1.5 * unit, y - 0.2 * unit, steps=4)
-    explorer.settle()
-    assert explorer.name().startswith("NCM")
-    assert explorer.find(".grab-words").is_visible()
-    assert "so it slips" in explorer.find(".headline").text_content()
-    mouse.up()
-    explorer.kept()
-    assert not explorer.find(".grab-words").is_visible()
-    assert not invitation.is_visible()
-    assert (before["x"][0], before["y"][0]) == pytest.approx((-0.2582 + 0.5, 0.2), abs=0.01)
-    explorer.find(".grab").press("Shift+ArrowLeft")  # and back, by keys
-    for _ in range(12):
-        explorer.press(".grab", "Shift+ArrowLeft")
-    assert explorer.name().startswith("CM")
-    explorer.open()
-    assert not invitation.is_visible()  # who has done it is not asked again
-    assert explorer.complaints == []
 
 
 def test_nothing_moves_while_a_slider_does(open_page):

@@ -96,96 +96,12 @@ def test_portrait_changes_while_the_atlas_is_dragged(explorer):
     assert next(wanted, None) is None
 
 
-def test_a_small_portrait_is_clicked(explorer):
-    tiles = explorer.find(".thumbnails button")
-    tiles.first.wait_for()
-    assert tiles.count() == 4
-    assert explorer.find(".thumbnails .here").text_content() == "CM4, stable node"
-    tiles.filter(has_text="NCM2").click()
-    explorer.settle()
-    assert explorer.name() == "NCM2"
-    assert explorer.find(".thumbnails .here").text_content() == "NCM2"
-
-
-def test_a_bar_of_the_census_opens_a_portrait_of_its_name(explorer):
-    open_panel(explorer, "Census")
-    bars = explorer.find(".census-list button")
-    explorer.find(".census-portrait svg").first.wait_for()
-    assert bars.count() == 13
-    assert explorer.find(".census-list .here .census-name").text_content() == "I CM4"
-    bars.filter(has_text="II NCM4").first.click()
-    explorer.settle()
-    assert explorer.name() == "NCM4"
-    assert explorer.find(".census-list .here .census-name").text_content() == "II NCM4"
-    explorer.kept()
-
-
-def test_a_special_point_is_gone_to_exactly(open_page):
-    page = open_page().open("?preset=case3-n3&panel=diagram&along=n")
-    page.find(".diagram .cycle").first.wait_for()
-    page.click(".frames button[title^=Hopf]").kept()
-    assert float(parse_qs(urlparse(page.page.url).query)["n"][0]) == pytest.approx(284 / 129, abs=1e-12)
-    assert "here" in page.find(".frames button[title^=Hopf]").get_attribute("class")
-    assert page.find(".happens").inner_text().startswith("At Hopf, n = 2.20155: ")
-    page.find(".panel-diagram .play").click()
-    page.find(".happens").filter(has_text="After Hopf").wait_for()
-    page.find(".panel-diagram .play").click()
-    page.find(".diagram .special").first.click()
-    page.kept()
-    assert float(parse_qs(urlparse(page.page.url).query)["n"][0]) == pytest.approx(4 / 3, abs=1e-9)
-    assert page.complaints == []
-
-
-def test_a_slider_leaves_a_trail_in_the_planes(open_page):
-    page = open_page().open("?preset=case3-n2&panel=planes")
-    assert page.find(".trace-plane .over").count() == 1
-    assert "n = 4" in page.find(".plane-table").text_content()
-    slider = page.find("#c2-n")
-    slider.focus()
-    for _ in range(5):
-        slider.press("PageUp")
-        page.settle()
-    assert page.find(".trace-plane .trail").count() >= 5
-    assert page.find(".eigen-plane .trail").count() == 2 * page.find(".trace-plane .trail").count()
-    assert "unstable" in page.find(".trace-plane").get_attribute("aria-label")
-    assert page.complaints == []
-
-
-def test_outcomes_are_told_by_ring_and_table(open_page):
-    page = open_page().open("?preset=case1-ncm4&panel=numbers")
-    assert not page.find(".outcome-key").is_visible()
-    before = page.picture()
-    page.layer("outcomes").check()
-    page.settle()
-    assert page.find(".outcome-key").is_visible()
-    assert page.picture() != before
-    rows = page.find(".outcome-table li")
-    assert rows.count() == 4
-    assert rows.filter(has_text="Q₃").locator(".outcome.cross").count() == 1
-    page.choose("select.preset", "case3-n3")
-    open_panel(page, "Numbers")
-    assert "slides around cycle 1" in page.find(".outcome-table").text_content()
-    assert page.complaints == []
-
-
 def test_the_words_of_the_ring_leave_a_phone_its_place(open_page):
     page = open_page(viewport={"width": 390, "height": 844}).open()
     before = page.find(".hero").bounding_box()["height"]
     page.layer("outcomes").check()
     page.settle()
     assert page.find(".hero").bounding_box()["height"] < before + 8
-
-
-def test_theorems_come_with_their_numbers_and_follow(explorer):
-    rows = explorer.find(".theorem-list li")
-    assert rows.count() == 0
-    open_panel(explorer, "Theorems")
-    claim = rows.filter(has_text="Theorem 4.3(c)")
-    assert "This portrait is CM4." in claim.text_content()
-    assert "limit directions" in claim.locator("table").text_content()
-    explorer.type("f1", "3")
-    assert "This portrait is NCM2." in rows.filter(has_text="Theorem 4.3(c)").text_content()
-    assert rows.filter(has_text="✗").count() == 0
 
 
 SPILLS = """() => {

@@ -67,31 +67,3 @@ def test_the_solid_view_turns_without_asking_the_server(explorer):
         explorer.find(".panel-solid").get_by_role("button", name=words).click()
         explorer.settle()
         assert explorer.find(".solid-note").text_content() != "…"
-
-
-def ends(explorer, name):
-    slider = explorer.find(f"[data-control={name}] input[type=range]")
-    return float(slider.get_attribute("min")), float(slider.get_attribute("max"))
-
-
-def test_a_range_is_typed_next_to_a_slider_is_in_the_link_and_is_undone(open_page):
-    explorer = open_page().open()
-    first = ends(explorer, "f1")
-    explorer.type("f1", "0.25 in [0, 1]").kept()
-    assert (ends(explorer, "f1"), value(explorer, "f1")) == ((0.0, 1.0), 0.25)
-    explorer.find("[data-control=a] label").click()
-    low = explorer.find("[data-control=a] .ends input").first
-    low.fill("-3")
-    low.press("Enter")
-    explorer.kept()
-    assert ends(explorer, "a") == (-3.0, 4.0)
-    assert explorer.find("[data-control=a] .ends").count() == 0
-    explorer.type("b", "3 in [0, 1]")
-    assert "0.3 in [0, 1]" in explorer.find("[data-control=b] .error").text_content()
-    again = open_page().open(explorer.page.evaluate("location.search"))
-    assert (ends(again, "a"), ends(again, "f1"), value(again, "f1")) == ((-3.0, 4.0), (0.0, 1.0), 0.25)
-    explorer.click(".undo").kept()
-    assert (ends(explorer, "a"), ends(explorer, "f1")) == ((-4.0, 4.0), (0.0, 1.0))
-    explorer.click(".undo").kept()
-    assert (ends(explorer, "f1"), value(explorer, "f1")) == (first, -0.5)
-    assert explorer.complaints == again.complaints == []

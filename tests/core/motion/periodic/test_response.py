@@ -176,15 +176,6 @@ def test_leines_cycle_along_the_speed_of_its_belt(eps, key, i):
         assert recognise(passes.sentence)[0][0] == "passages change"
 
 
-def test_it_is_a_table():
-    found = response_curve(CIRCLE.evolve(w=1.6), Rotating(0.3, 0.0, 0.5, 1.6).start, of_w, "w", (1.5, 1.7))
-    frame = found.to_frame()
-    assert list(frame)[:4] == ["w", "period", "stable", "amplitude_x"]
-    assert len(frame) == len(found)
-    assert "1.7" in found._repr_html_()
-    assert recognise(found._repr_html_().split("<p>")[1].split("</p>")[0])[0][0] == "response"
-
-
 def test_what_is_refused():
     start = Rotating(0.3, 0.0, 0.5, 2.0).start
     with pytest.raises(ValueError, match="two numbers about it"):
