@@ -49,6 +49,8 @@ SYSTEMS = {"AnySystem", "Coefficients", "ELinear", "Formulas", "Frozen", "Frozen
 def questions_of_kind(source):
     """Lines that read `typed` of anything but the record of a Psi, or check for a class of systems."""
     found = []
+    if ".typed" not in source and not any(name in source for name in SYSTEMS):
+        return found
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Attribute) and node.attr == "typed" and ast.unparse(node.value)[-6:] != "record":
             found.append(node.lineno)

@@ -1,6 +1,5 @@
 """What the metadata says is so: dependencies, version, types, linters."""
 
-import ast
 import re
 import subprocess
 import sys
@@ -22,15 +21,8 @@ COMMANDS = {
 }  # fmt: skip
 # Left out of the extras: the notebook tests are skipped where JupyterLab, which brings them, is missing; CI has it.
 OPTIONAL = {"jupyterlab", "jupyter-bokeh", "nbclient", "nbconvert", "nbformat"}
-
-
-def statements(block):
-    """All statements of a module, at any depth."""
-    for part in ("body", "orelse", "finalbody", "handlers", "cases"):
-        inner = getattr(block, part, None)
-        for node in inner if isinstance(inner, list) else ():  # the body of a lambda is no list
-            yield node
-            yield from statements(node)
+#: Lines that import, at any depth, with the package of what they import.
+IMPORT = re.compile(r"^ *(?:from (\w+)[\w.]* import\b|import (\w+)[\w.]*(?: as \w+)?$)", re.MULTILINE)
 
 
 def imported(folder):
@@ -39,14 +31,7 @@ def imported(folder):
     for path in (ROOT / folder).rglob("*.py"):
         if "node_modules" in path.parts:
             continue
-        for node in statements(ast.parse(path.read_text("utf-8"))):
-            if isinstance(node, ast.Import):
-                names = [alias.name for alias in node.names]
-            elif isinstance(node, ast.ImportFrom) and not node.level:
-                names = [node.module]
-            else:
-                continue
-            found |= {name.split(".")[0] for name in names}
+        found |= {first or second for first, second in IMPORT.findall(path.read_text("utf-8"))}
     given = packages_distributions()  # what is not installed bears the name of its module
     return {normal(given.get(name, [name])[0]) for name in found - OWN - set(sys.stdlib_module_names)}
 

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from codim2_core import (
@@ -108,17 +108,15 @@ def test_a_short_push(width):
         assert run.states[-1, 2] == pytest.approx(way, rel=1e-4, abs=10.0 * error * width)
 
 
+#: Where a slip of 100 ends that a gust meets from the side at 50: once by SciPy's DOP853, in steps of 0.01 at most.
+GUST = 94.0001736569642, 1.7537996811628562, 5820.000866559818, 17.631266458220612
+
+
 def test_a_gust_across_a_slip():
     system = System(U=("-0.1*c", "-0.1*s + 20*exp(-((t-50)/0.05)^2)"), W=("x", "y"))
 
-    def rate(t, state):
-        e = state[:2] / math.hypot(*state[:2])
-        return [-0.1 * e[0], -0.1 * e[1] + 20.0 * math.exp(-(((t - 50.0) / 0.05) ** 2)), *state[:2]]
-
-    exact = solve_ivp(rate, (0.0, 60.0), (100.0, 0.0, 0.0, 0.0), "DOP853", rtol=1e-12, atol=1e-12, max_step=0.01)
     for run, error in _both(system, (100.0, 0.0, 0.0, 0.0), (0.0, 60.0)):
-        assert run.states[-1, 1] == pytest.approx(1.753800, abs=1e-5)
-        np.testing.assert_allclose(run.states[-1, :4], exact.y[:, -1], atol=100.0 * error, rtol=1e-8)
+        np.testing.assert_allclose(run.states[-1, :4], GUST, atol=100.0 * error, rtol=1e-8)
 
 
 @pytest.mark.parametrize("search", [0.5, 5.0, 30.0])
