@@ -49,6 +49,21 @@ def test_the_portrait_stays_and_each_sheet_is_reached(phone):
         assert phone.find(".picture").bounding_box()["width"] > before
 
 
+#: Waits until nothing scrolls on after a swipe: for six frames of the screen.
+STILL = """new Promise((go) => {
+    const far = () => [...document.querySelectorAll("*")].reduce((sum, one) => sum + one.scrollTop, 0)
+    let last = far(), frames = 0
+    const look = () => {
+        const now = far()
+        frames = now === last ? frames + 1 : 0
+        last = now
+        if (frames < 6) requestAnimationFrame(look)
+        else go()
+    }
+    look()
+})"""
+
+
 def swipe(page, start, end, other=None):
     """One finger from start to end in ten steps; or two, the second one by `other`."""
     session = page.page.context.new_cdp_session(page.page)
@@ -65,6 +80,7 @@ def swipe(page, start, end, other=None):
         session.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": places(i / 10)})
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
     session.detach()
+    page.page.evaluate(STILL)
     page.painted().settle()
 
 
@@ -88,13 +104,29 @@ def test_a_swipe_over_the_atlas_sets_nothing_and_a_tap_or_a_hand_on_the_handle_d
     pad.scroll_into_view_if_needed()  # it has been swiped away
     box = pad.bounding_box()
     touched.page.touchscreen.tap(*spot(0.7, 0.4))
-    touched.settle()
+    touched.painted().settle()
     tapped = f()
     assert tapped != before
+    box = pad.bounding_box()
     handle = touched.find(".panel-atlas .handle").bounding_box()
     middle = handle["x"] + handle["width"] / 2, handle["y"] + handle["height"] / 2
     swipe(touched, middle, (middle[0] + 2, middle[1] + 60))
+    moved, now = touched.find(".panel-atlas .handle").bounding_box(), pad.bounding_box()
+    assert (moved["y"] - now["y"]) - (handle["y"] - box["y"]) == pytest.approx(60, abs=3)
     assert float(f()[1]) < float(tapped[1])
+
+
+def test_a_finger_moves_a_number_in_a_lesson_as_far_as_it_goes(open_page):
+    page = open_page(**PHONE).open("?lesson=07-psi-matters").settle()
+    place = page.find(".lesson-text [data-drag]").first
+    place.scroll_into_view_if_needed()
+    name, box = place.get_attribute("data-drag"), place.bounding_box()
+    slider = page.find(f"#c2-{name}")
+    low, high, start = (float(slider.evaluate(f"(it) => it.{one}")) for one in ("min", "max", "value"))
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    way = 80 if start < (low + high) / 2 else -80
+    swipe(page, (x, y), (x + way, y + 2))
+    assert float(place.locator("b").text_content()) == pytest.approx(start + way * (high - low) / 400, abs=0.02)
 
 
 def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_sheet(open_page):

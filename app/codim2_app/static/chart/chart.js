@@ -40,6 +40,7 @@ const GAP = 8 // px around the chart
 const REACH = 14 // px within which a curve is read off
 const GROUP = 16 // px within which marks are drawn as one
 const SLOP = 8 // px that a finger moves in a tap
+const FINGER = 24 // px around the handle that count as on it, for a finger
 
 export class Chart {
   /**
@@ -55,6 +56,7 @@ export class Chart {
     this.frames = []
     this.value = null
     this.placed = [] // the words, and where they are
+    this.handle = /** @type {number[] | undefined} */ (undefined) // where it is, in px
     svg.classList.add("chart")
     this.follow()
     new ResizeObserver(() => { if (Math.abs(svg.clientWidth - this.width) > 1) this.draw(this.plots) }).observe(svg)
@@ -206,6 +208,7 @@ export class Chart {
     if (!frame) return
     const place = (/** @type {number[]} */ [u, v]) => [frame.x.at(u), frame.y.at(v)]
     const covered = dots.map((dot) => [...place([dot.x, dot.y]), 2 * dot.r, 2 * dot.r])
+    this.handle = covered[dots.findIndex((dot) => dot.name === "handle")]
     const parts = dots.map((dot, i) => `<circle class="dot ${dot.name}" cx="${toCoordinate(covered[i][0])}" cy="${toCoordinate(covered[i][1])}" r="${dot.r}"/>`)
     if (path) parts.unshift(`<path class="path" d="${polyline(path.map(place))}"/>`)
     const inside = tag && frame.x.at(tag.at[0]) >= frame.left && frame.x.at(tag.at[0]) <= frame.right && frame.y.at(tag.at[1]) >= frame.top && frame.y.at(tag.at[1]) <= frame.bottom
@@ -241,24 +244,32 @@ export class Chart {
   follow() {
     const {svg} = this, {onMove, onKey, onMark, onEnd} = this.options
     const move = (event) => { const {x, y, index} = this.under(event); onMove?.(x, y, index) }
-    const begin = (event) => { svg.setPointerCapture(event.pointerId); this.dragging = true; move(event) }
+    const begin = (event) => { svg.setPointerCapture(event.pointerId); this.dragging = true }
+    const onHandle = (at) => {
+      if (!this.handle || at.target.closest("[data-apart]")) return false
+      const {px, py} = this.under(at)
+      return Math.hypot(px - this.handle[0], py - this.handle[1]) < FINGER
+    }
     let finger = null // where one has come down that may be about to scroll the page
     svg.addEventListener("pointerdown", (event) => {
       if (!this.frames.length || event.target.closest("[data-apart]")) return // what is laid over it has its own hands
       const mark = event.target.closest(".special")
       if (mark && onMark) { onMark(this.groups[mark.dataset.group]); return }
       if (!onMove) return
-      if (event.pointerType === "touch" && !event.target.closest(".handle")) finger = [event.clientX, event.clientY]
-      else begin(event)
+      if (event.pointerType !== "touch") { begin(event); move(event) }
+      else if (onHandle(event)) begin(event)
+      else finger = [event.clientX, event.clientY]
     })
+    // A finger on the handle does not move the page: browsers heed no touch-action of an element within an SVG.
+    svg.addEventListener("touchstart", (event) => { if (onHandle(event.changedTouches[0])) event.preventDefault() }, {passive: false})
     svg.addEventListener("pointermove", (event) => {
       if (!this.frames.length) return
-      if (finger && swept(finger, event) === "sideways") { finger = null; begin(event) }
+      if (finger && swept(finger, event) === "sideways") { finger = null; begin(event); move(event) }
       else if (this.dragging) move(event)
       else if (!finger) this.read(event)
     })
     svg.addEventListener("pointerleave", () => this.read(null))
-    svg.addEventListener("pointerup", (event) => { if (finger && swept(finger, event) === "") begin(event) }) // a tap
+    svg.addEventListener("pointerup", (event) => { if (finger && swept(finger, event) === "") { begin(event); move(event) } }) // a tap
     for (const end of ["pointerup", "pointercancel"]) {
       svg.addEventListener(end, () => { finger = null; if (this.dragging) { this.dragging = false; onEnd?.() } })
     }

@@ -58,7 +58,9 @@ test("a finger takes hold by a tap or sideways; along the page it scrolls that",
   assert.deepEqual([touch("pointerdown", 100, 50), touch("pointermove", 108, 58.5), touch("pointerup", 100, 58.5)], [[], [], []])
   assert.deepEqual([touch("pointerdown", 100, 50), touch("pointermove", 109, 41), touch("pointerup", 109, 41)], [[], [], []]) // as far up as across
   one.chart.over([{name: "handle", x: 1, y: 15, r: 8}])
-  assert.deepEqual([touch("pointerdown", 100, 50, {on: one.find(".moving .handle")}), touch("pointerup", 100, 50)], [[at(100)], ["end"]])
+  const [frame] = one.chart.frames, [u, v] = [frame.x.at(1), frame.y.at(15)], start = (clientX, clientY) => one.fire(one.svg, "touchstart", {changedTouches: [{clientX, clientY, target: one.svg}]}).defaultPrevented
+  assert.deepEqual([start(u, v + 23.9), start(u - 24.1, v)], [true, false]) // the page keeps still under a finger on the handle
+  assert.deepEqual([touch("pointerdown", u, v + 23.9), touch("pointermove", 100, 150), touch("pointerup", 100, 150)], [[], [at(100)], ["end"]])
 })
 
 test("a curve is read off within 14 px, where it is within the plot", () => {

@@ -192,7 +192,8 @@ test("the panel atlas: a finger that scrolls the page sets nothing, one that goe
   one.fire(pad, "pointerdown", at(0.4, -0.6))
   one.fire(pad, "pointerup", at(0.4, -0.6))
   near(moved().flat(), [0.4, -0.6])
-  one.fire(pad.querySelector(".handle"), "pointerdown", at(0.2, 0.1))
+  one.fire(pad, "pointerdown", at(0.6, -0.3))
+  one.fire(pad, "pointermove", at(0.2, 0.1))
   near(moved().flat(), [0.2, 0.1])
 })
 
