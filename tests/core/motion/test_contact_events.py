@@ -93,8 +93,8 @@ JAMMED = leaning_rod(0.031, 0.4646, 1.2537, 18.2639, 0.2959), (-4.8354, -8.495, 
 def test_a_pole_that_no_orbit_meets_is_no_limit_direction(rounding, watched):
     """Along 2.5 to 3.8 friction presses the bodies together: Theta changes its sign at poles, there and back.
 
-    Whether a pole was taken for a neutral direction, and the motion ended there, depended on rounding. By SciPy's Radau
-    the rod slides for eps > 0, with the same turn.
+    Whether a pole was taken for a neutral direction, and the motion ended there, depended on rounding. By SciPy's
+    Radau, run once, the rod slides for eps = 1e-5, with the same turn.
     """
     mechanism, start = JAMMED
     start = tuple(v * (1.0 + 1e-13 * rounding) for v in start)
@@ -103,10 +103,7 @@ def test_a_pole_that_no_orbit_meets_is_no_limit_direction(rounding, watched):
     assert run.status is c2.SimulationStatus.T_END
     assert [phase.kind for phase in run.phases] == ["slip", "slide"]
     assert run.phases[0].t_end == pytest.approx(0.82269, abs=1e-5)
-    slow = solve_ivp(
-        mechanism.system.rhs(c2.psi.tanh(), 1e-5), (0.0, 3.0), start, method="Radau", rtol=1e-8, atol=1e-10
-    ).y[2:, -1]  # fmt: skip
-    assert run.states[-1, 2:] == pytest.approx(slow, abs=1e-4)
+    assert run.states[-1, 2:] == pytest.approx([-1.0799016, 0.5480462], abs=1e-4)
 
 
 @pytest.mark.parametrize("seed", range(12))
