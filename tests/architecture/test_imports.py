@@ -12,13 +12,6 @@ import codim2_core
 ROOT = Path(__file__).parents[2]
 
 
-def test_contracts_are_kept():
-    """In a process of its own: it turns the loggers off that there are, and with them those that other tests read."""
-    code = "from importlinter.cli import lint_imports; raise SystemExit(lint_imports(no_cache=True))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=ROOT)
-    assert done.returncode == 0, done.stdout
-
-
 def imported_by(module):
     code = f"import sys, {module}; print(' '.join(sorted(sys.modules)))"
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, cwd=ROOT.parent)
@@ -50,19 +43,14 @@ def test_type_checkers_find_every_name_where_python_does():
         _ = codim2_core.scene_table
 
 
-@pytest.mark.parametrize("folder", ["app/codim2_app", "codim2_core"])
-def test_every_folder_of_modules_is_a_package(folder):
-    """What finds packages finds no other."""
-    for path in (ROOT / folder).rglob("*.py"):
-        assert (path.parent / "__init__.py").is_file(), path
-
-
 SYSTEMS = {"AnySystem", "Coefficients", "ELinear", "Formulas", "Frozen", "FrozenSystem", "System"}
 
 
 def questions_of_kind(source):
     """Lines that read `typed` of anything but the record of a Psi, or check for a class of systems."""
     found = []
+    if ".typed" not in source and not any(name in source for name in SYSTEMS):
+        return found
     for node in ast.walk(ast.parse(source)):
         if isinstance(node, ast.Attribute) and node.attr == "typed" and ast.unparse(node.value)[-6:] != "record":
             found.append(node.lineno)

@@ -6,8 +6,6 @@ import pytest
 
 from tests.work import PATIENCE as SECONDS
 
-from .asymmetric import SETTINGS
-
 #: Milliseconds that a test waits for anything. No test is about the time that a thing takes; workers give way to all
 #: else on a machine that is busy with tests, and end by themselves, which the page then says.
 PATIENCE = 1000 * SECONDS
@@ -235,23 +233,3 @@ def explorer(open_page):
     page = open_page().open()
     yield page
     assert page.complaints == []
-
-
-@pytest.fixture(params=SETTINGS)
-def setting(request):
-    """Values of the controls without any symmetry."""
-    return SETTINGS[request.param]
-
-
-@pytest.fixture
-def opened(open_page, setting):
-    """Open a panel at that setting."""
-
-    def make(panel, **more):
-        query = "&".join(
-            f"{name}={value}" for name, value in {**setting, "psi": "rational", "panel": panel, **more}.items()
-        )
-        page = open_page(viewport={"width": 1440, "height": 900}).open(f"?{query}")
-        return page.painted().settle()
-
-    return make

@@ -189,14 +189,6 @@ def test_critical_sets_have_their_place_and_mark_and_sense(drawn):
     assert np.hypot(*(np.array(label["at"]) - C.p)) < 0.15
 
 
-def test_labels_stand_next_to_their_marks(drawn):
-    q = drawn.scene["equator"]
-    labels = {item["text"]: np.array(item["at"]) for item in drawn.items if item["kind"] == "text"}
-    for i, theta in enumerate(q.theta):
-        at = labels["Q" + "₁₂₃₄"[i]]
-        assert np.hypot(*(at - [math.cos(theta), math.sin(theta)])) < 0.3
-
-
 def test_the_ring_of_outcomes_lies_where_the_trajectories_arrive(drawn):
     rings = [
         (item["colour"], item["path"][0]["arc"])

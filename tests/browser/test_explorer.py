@@ -4,7 +4,6 @@ import pytest
 from codim2_app.picture.state.controls import NUMBERS
 from codim2_app.picture.state.portraits import portraits
 
-from codim2_core.systems.presets.presets import presets
 from tests.app.serving import serving
 
 ELSEWHERE = {"n", "z2", "z3", "z4", "log_eps", "t_end"}  # of Hill's Ψ, of other systems, of the panel "Motion"
@@ -65,18 +64,6 @@ def test_each_slider_redraws(walked, name):
     assert explorer.find(words).screenshot() != before
 
 
-@pytest.mark.parametrize("portrait", portraits(), ids=lambda item: item["key"])
-def test_each_preset_shows_its_portrait(walked, portrait):
-    explorer = walked
-    explorer.choose("select.preset", portrait["key"])
-    case, name, kind = presets[portrait["key"]].portrait
-    assert explorer.name() == name
-    assert explorer.find(".portrait-case").text_content() == (f"Case {case}" if case else "")
-    if kind:
-        assert kind in explorer.find(".critical-table").text_content()
-    assert portrait["label"].lower() in explorer.find(".preset-note").text_content().lower()
-
-
 def test_fast_drag_ends_on_the_last_value_and_queues_nothing(explorer):
     box = explorer.find("#c2-f1").bounding_box()
     y = box["y"] + box["height"] / 2
@@ -93,56 +80,3 @@ def test_fast_drag_ends_on_the_last_value_and_queues_nothing(explorer):
     name, numbers = explorer.name(), explorer.find(".critical-table").text_content()
     fresh = explorer.open(f"?f1={last}")
     assert (fresh.name(), fresh.find(".critical-table").text_content()) == (name, numbers)
-
-
-def test_bad_input_is_told_next_to_the_control_and_recovers(explorer):
-    before = explorer.name(), explorer.picture()
-    explorer.type("a", "nan")
-    error = explorer.find("[data-control=a] .error")
-    assert "finite" in error.text_content() or "number" in error.text_content()
-    assert error.is_visible()
-    assert explorer.name() == before[0]
-    explorer.type("d", "-1.2")
-    assert error.is_visible()
-    explorer.type("a", "-1")
-    assert not error.is_visible()
-    assert explorer.find("[data-control=a] .number").input_value() == "-1"
-
-
-def test_handle_of_f_moves_by_mouse_and_keyboard(explorer):
-    pad = explorer.find(".pad").bounding_box()
-    explorer.page.mouse.click(pad["x"] + 0.5 * pad["width"], pad["y"] + 0.25 * pad["height"])
-    explorer.settle()
-    assert float(explorer.find("[data-control=f2] .number").input_value()) > 1
-    f1 = explorer.find("[data-control=f1] .number").input_value()
-    explorer.press(".pad", "ArrowRight")
-    assert float(explorer.find("[data-control=f1] .number").input_value()) > float(f1)
-
-
-def region_under_the_handle(explorer):
-    """The portrait's name of the region drawn where the handle is, as the browser itself fills it."""
-    explorer.page.wait_for_selector(".pad:not(.old) .region")
-    return explorer.find(".pad").evaluate("""(pad) => {
-        const handle = pad.querySelector('.handle')
-        const at = new DOMPoint(handle.cx.baseVal.value, handle.cy.baseVal.value)
-        const around = [...pad.querySelectorAll('.region')].filter((region) => region.isPointInFill(at))
-        return around.map((region) => region.dataset.region.split(',')[0]) }""")
-
-
-@pytest.mark.parametrize("preset", ["case1-cm4", "case1-cm0", "case1-ncm4", "case2-saddle", "case1-ncm2"])
-def test_region_under_the_handle_is_the_portrait(walked, preset):
-    explorer = walked
-    explorer.find(".reset").click()  # to the panel that has the regions
-    explorer.settle().find("select.preset").select_option(preset)
-    explorer.settle()
-    assert region_under_the_handle(explorer) == [explorer.name()]
-    assert explorer.name() in explorer.find(".pad-names").text_content()
-    assert explorer.find(".pad .tag").text_content().split(",")[0] == explorer.name()
-    assert explorer.find(".pad .region.here").get_attribute("data-region").split(",")[0] == explorer.name()
-
-
-def test_regions_follow_once_the_matrix_rests(explorer):
-    before = explorer.find(".pad .chart-plot").inner_html()
-    explorer.type("a", "-1.2").type("b", "0.4")
-    assert explorer.find(".pad .chart-plot").inner_html() != before
-    assert region_under_the_handle(explorer) == [explorer.name()]

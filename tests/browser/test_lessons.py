@@ -3,8 +3,6 @@
 import json
 from itertools import pairwise
 
-import pytest
-
 from .conftest import PHONE
 
 
@@ -42,29 +40,6 @@ def test_a_lesson_from_the_list_to_its_goal(open_page):
     explorer.click("[data-open='']")
     assert explorer.find("[data-open='03-limit-directions'] .lesson-done").text_content() == "1/2"
     assert explorer.complaints == []
-
-
-def test_a_number_in_the_text_is_dragged_and_moves_the_slider(open_page):
-    explorer = open_page().open("?panel=lessons&lesson=01-friction&preset=case1-cm0")
-    number = explorer.find("[data-drag=f1]").first
-    number.scroll_into_view_if_needed()
-    box = number.bounding_box()
-    explorer.drag((box["x"] + 5, box["y"] + 5), (box["x"] + 85, box["y"] + 5))
-    assert float(explorer.find("[data-control=f1] .number").input_value()) == pytest.approx(1.2, abs=0.02)
-    assert explorer.find("[data-fact=limit_directions]").first.text_content() == "2"
-    number.focus()
-    explorer.page.keyboard.press("ArrowLeft")
-    explorer.settle()
-    assert float(explorer.find("[data-control=f1] .number").input_value()) < 1.2
-    assert explorer.complaints == []
-
-
-def test_a_question_is_in_the_link(open_page):
-    explorer = open_page().open("?panel=lessons&lesson=03-limit-directions&preset=case1-cm4&quiz=0.17")
-    shown = explorer.find("[data-control=a] .number").input_value()
-    again = open_page().open("?panel=lessons&lesson=03-limit-directions&preset=case1-cm4&quiz=0.17")
-    assert again.find("[data-control=a] .number").input_value() == shown
-    assert not again.find(".options").first.is_hidden()
 
 
 def test_on_a_phone_a_question_its_sliders_the_picture_and_the_answers_are_in_one_view(open_page):

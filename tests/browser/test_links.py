@@ -17,14 +17,7 @@ WALK = ["ball-dynamic", "conics-4", "case3-n3", "attracting-repelling", "blowup"
     ("values", "box", "kept", "says"),
     [
         ({"system": "own", "texts": json.dumps({"U1": "-2*c +"})}, "textarea[data-box=U1]", "-2*c +", "column 7"),
-        (
-            {"system": "own", "texts": json.dumps({"U2": "1/c"})}, "textarea[data-box=U2]", "1/c",
-            "U2 is ∞ at e = (0, 0)",
-        ),
-        ({"psi": "custom", "psi_text": "1/s"}, "#c2-psi-text", "1/s", "s = 0"),
         ({"psi": "hill", "n": "-3"}, "[data-control=n] .number", "-3", "n is −3"),
-        ({"z": "1e300"}, "[data-control=z] .number", "1e+300", "1 · 10³⁰⁰"),
-        ({"a": "two"}, "[data-control=a] .number", "two", "number"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_drawn_stays_in_its_box_with_a_sentence(open_page, values, box, kept, says):
@@ -44,7 +37,7 @@ def test_what_cannot_be_drawn_stays_in_its_box_with_a_sentence(open_page, values
     assert page.complaints == []
 
 
-@pytest.mark.parametrize("query", ["?panel=none", "?preset=none", "?layers=none", "?launch=none", "?none=1"])
+@pytest.mark.parametrize("query", ["?panel=none", "?none=1"])
 def test_what_belongs_to_no_box_is_told_above_the_picture(open_page, query):
     page = open_page().open(query)
     assert page.name() == "CM4"

@@ -236,18 +236,6 @@ def test_when_the_kernel_has_ended_the_picture_is_seen_until_the_cell_is_run(not
     assert not notebook.find(STILL).is_visible()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("notebook", ["default"], indirect=True)
-def test_a_server_without_panel_gets_the_libraries_from_the_kernel(notebook):
-    notebook.page.route("**/panel-preview/static/**", lambda route: route.fulfill(status=404))
-    notebook.show(0, 0)
-    slider, frame = notebook.find("#c2-a"), notebook.frame()
-    slider.focus()
-    slider.press("ArrowRight")
-    notebook.settle()
-    assert notebook.frame() > frame
-
-
 OWN = """import codim2_core as c2, codim2_app
 own = c2.System(U=("-mu*c + pull", "-s + z/4"), W=("c - 1/4",), parameters={"mu": 0.5, "pull": 0.3})
 view = codim2_app.explorer(own, c2.psi.tanh(), z=0)

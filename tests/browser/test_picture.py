@@ -29,22 +29,6 @@ def test_the_exported_png_holds_the_picture(explorer):
     assert colours > 500
 
 
-def test_a_mark_tells_its_numbers(explorer):
-    explorer.type("f2", "0.3")
-    explorer.settle()
-    x, y = explorer.ask("""(() => {
-        const c = picture.list.find((item) => item.kind === "mark" && item.layer === "critical")
-        const box = view.canvas_view.primary.canvas.getBoundingClientRect()
-        return [box.x + view.frame.x_scale.compute(c.x), box.y + view.frame.y_scale.compute(c.y)] })()""")
-    explorer.page.mouse.move(x, y, steps=3)
-    tip = explorer.find(".card:not(.pinned)")
-    tip.wait_for()
-    words = tip.text_content()
-    assert "C stable node" in words
-    assert "(c, s)(−0.250, 0.300)" in words  # -A^-1 f; then x2 = e / sqrt(1 - |e|^2) with Psi = 1
-    assert "(x₂, y₂)(−0.272, 0.326)" in words
-
-
 def test_a_motion_lies_above_the_picture_and_leaves_it_alone(explorer):
     explorer.open("?k1=0&k2=0&panel=orbits&orbit_eps=show")  # the portrait does not depend on z, which moves
     assert [item["kind"] for item in explorer.ask("picture.above.list")] == [*["path"] * 4, "mark", "label"]

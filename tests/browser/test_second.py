@@ -69,30 +69,6 @@ def test_its_own_values_are_set_below_it_are_in_the_link_and_are_undone(open_pag
     assert page.complaints == []
 
 
-def test_before_and_after_and_the_papers_next_to_ones_own(open_page):
-    page = open_page(viewport=WIDE).open("?v=1&beside=psi%3Drational")
-    page.choose(".second-what", "now").kept()
-    page.type("f1", "-1.4")
-    until(second(page), "values.f1 === -0.5 && values.psi === 'constant'")
-    second(page).wait_for_selector(".portrait-name:text-is('CM4')")
-    assert page.name() == "CM2"
-    assert page.find(".first-words").text_content().startswith("CM2 · Case I ")
-    page.choose(".second-what", "case3-n3").kept()
-    until(second(page), "values.a === 172 && values.n === 3")
-    page.find(".second-bar summary").click()
-    page.find(".second-bar").get_by_label("f₁", exact=True).check()
-    page.kept()
-    until(second(page), "values.a === 172 && values.f1 === -1.4")
-    assert "f1" not in own(page)
-    page.type("f1", "-2")
-    until(second(page), "values.f1 === -2")
-    page.choose("select.preset", "case1-cm0").kept()
-    until(second(page), "values.a === 172")  # another portrait in the first leaves the second alone
-    page.click(".reset").kept()
-    assert own(page) == {}
-    assert page.complaints == []
-
-
 def test_a_mechanism_opens_with_the_hemispheres_of_two_contacts_next_to_each_other(open_page):
     page = open_page(viewport=WIDE).open()
     page.find(".system-box select").select_option("plate_at_foot_1")

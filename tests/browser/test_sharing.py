@@ -94,20 +94,3 @@ def test_the_printed_page_is_the_picture_its_sentences_values_and_a_code(open_pa
     explorer.page.evaluate("window.dispatchEvent(new Event('afterprint'))")
     explorer.page.emulate_media(media="screen")
     assert explorer.find(".codim2").evaluate("(it) => it.classList.contains('dark')") == ("color_scheme" in options)
-
-
-def test_a_challenge_goes_with_a_link_and_the_page_says_when_it_is_met(open_page):
-    lecturer = open_page().open("?v=1")
-    lecturer.find(".share").click()
-    lecturer.find(".sharing .goal").select_option(label="the portrait is CM2")
-    lecturer.until("root.querySelector('.sharing .address').value.includes('goal')")
-    link = lecturer.find(".sharing .address").input_value()
-    student = open_page().open("?" + link.partition("?")[2])
-    bar = student.find(".goal-bar")
-    assert "Not yet: portrait is CM4." in bar.text_content()
-    student.type("f1", "-1.5")
-    assert "Done with one slider" in bar.text_content()
-    bar.locator("[data-act=again]").click()
-    student.settle()
-    assert "Not yet" in bar.text_content()
-    assert lecturer.complaints == student.complaints == []

@@ -8,7 +8,6 @@ import zipfile
 from pathlib import Path
 
 import numpy as np
-import pytest
 from codim2_app.exports.figure import Style, figure
 from codim2_app.exports.view import view_of
 from codim2_app.picture.draw.theme import themes
@@ -94,24 +93,4 @@ def test_a_live_file_of_the_page_moves_what_was_chosen(open_page):
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 390
         assert box["height"] >= 32
-    assert page.complaints == []
-
-
-@pytest.mark.slow
-def test_a_film_tells_how_far_it_is_and_can_be_stopped(open_page):
-    page = opened(open_page().open("?preset=case1-cm4"))
-    page.find(".take .first-slider").select_option("f1")
-    name, data = fetched(page, "gif")
-    film = Image.open(io.BytesIO(data))
-    assert name == "codim2-case1-cm4-f1.gif"
-    assert film.n_frames == 80
-    page.find(".take .first-slider").select_option("f2")
-    stop = page.find(".take .stop-making")
-    assert not stop.is_visible()
-    page.find(".take [data-kind=gif]").click()
-    page.find(".take .making").filter(has_text=re.compile(r"^Drawing the film: \d+ of 41")).wait_for()
-    stop.click()
-    page.find(".take .making").filter(has_text="stopped").wait_for()
-    assert not stop.is_visible()
-    assert fetched(page, "tex")[0] == "codim2-case1-cm4.tex"  # and then the next file comes
     assert page.complaints == []

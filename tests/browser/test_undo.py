@@ -46,43 +46,6 @@ def test_back_and_forward_walk_the_same_steps_and_reload_keeps_them(open_page):
     assert value(explorer, "b") == 0
 
 
-def test_launched_orbits_and_typed_text_come_back(open_page):
-    explorer = open_page().open("?panel=orbits&system=own")
-    box = explorer.find("[data-box=U1] input, [data-box=U1] textarea, textarea, .boxes input").first
-    before = box.input_value()
-    box.fill("-2*c + 0.3")
-    explorer.kept()
-    picture = explorer.find(".bokeh").bounding_box()
-    explorer.page.mouse.click(picture["x"] + picture["width"] * 0.4, picture["y"] + picture["height"] * 0.4)
-    explorer.kept()
-    assert explorer.find(".orbit-list li").count() == 1
-    explorer.click(".undo").kept()
-    assert explorer.find(".orbit-list li").count() == 0
-    explorer.click(".undo").kept()
-    assert box.input_value() == before
-    explorer.click(".redo").kept()
-    assert box.input_value() == "-2*c + 0.3"
-
-
-def test_a_drag_of_the_critical_set_is_one_step(open_page):
-    """The server finds f: what it answers belongs to the drag, and not to the step before."""
-    explorer = open_page().open("")
-    mouse, box = explorer.page.mouse, explorer.find(".grab").bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    mouse.move(x, y)
-    mouse.down()
-    for k in range(1, 11):
-        mouse.move(x + 8 * k, y + 5 * k)
-    mouse.up()
-    explorer.kept()
-    number = explorer.find("[data-control=f1] .number")
-    assert float(number.input_value()) > 0.0
-    explorer.click(".undo").kept()
-    assert number.input_value() == "-0.5"
-    explorer.click(".redo").kept()
-    assert float(number.input_value()) > 0.0
-
-
 def test_what_is_typed_and_left_by_a_press_is_a_step_of_its_own(explorer):
     explorer.type("f1", "-0.9").kept()
     for entered in (True, False):  # with Enter, or left by the press that takes C

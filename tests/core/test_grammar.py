@@ -161,3 +161,9 @@ def test_the_tab_key_lists_what_is_for_users(make):
     found = make()
     assert all(hasattr(found, name) and name not in dir(found) for name in found._internal_)
     assert all(hasattr(found, name) for name in dir(found) if name not in UNREADABLE)
+
+
+@pytest.mark.parametrize("name", ["psi", "examples", "mechanics", "bifurcations", "reference", "hemisphere"])
+def test_the_tab_key_lists_public_names_only(name):
+    module = getattr(c2, name)
+    assert dir(module) == sorted(module.__all__)

@@ -19,6 +19,7 @@ from codim2_core.portrait.basins import Basins
 from codim2_core.results import drawing
 
 SADDLE = c2.ELinear(1.0, 0.3, -1.2, (0.2, 0.45))
+NODE = c2.ELinear(-2, 0, -1, f=(-0.5, 0))
 CYCLE = c2.presets["case3-n3"]
 PUSHED = c2.System(U=("-z1 - 0.3*c + 0.5*cos(2*z3)", "-z2 - 0.3*s + 0.5*sin(2*z3) + z4/1000"), W=("x", "y", "1", "-z4"))
 RESULTS = {
@@ -178,3 +179,37 @@ def test_without_matplotlib_it_is_said(monkeypatch):
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(ValueError, match="pip install matplotlib"):
         RESULTS["curve"]().plot()
+
+
+SAVED = {name: PLOTTED[name] for name in ("trajectories", "separatrices", "nullclines", "basins", "branches", "atlas")}
+SAVED |= {name: RESULTS[name] for name in ("scene", "simulation")}
+
+
+@pytest.mark.parametrize("name", SAVED)
+def test_a_picture_is_written_as_svg_png_and_pdf(name, tmp_path):
+    pytest.importorskip("typst")
+    result = SAVED[name]()
+    for kind, first in (("svg", b"<svg"), ("png", b"\x89PNG"), ("pdf", b"%PDF")):
+        result.save(tmp_path / f"it.{kind}")
+        assert (tmp_path / f"it.{kind}").read_bytes().startswith(first)
+    with pytest.raises(ValueError, match=r"\.svg, \.png or \.pdf"):
+        result.save(tmp_path / "it.jpg")
+
+
+def test_a_result_without_a_picture_says_what_to_do(tmp_path):
+    with pytest.raises(ValueError, match="draw its Scene"):
+        c2.classify(SADDLE, c2.psi.constant()).save(tmp_path / "it.svg")
+
+
+def test_matplotlib_draws_a_portrait_with_names_and_branches_with_special_points():
+    one, other, plane = Figure().subplots(1, 3)
+    scene = c2.Scene(NODE)
+    assert scene.plot(one) is one
+    assert {"Q1", "Q2", "Q3", "Q4", "C1"} <= {text.get_text() for text in one.texts}
+    assert "Orbits inside" in {text.get_text() for text in one.get_legend().texts}
+    c2.branches(NODE, c2.psi.constant(), "f1", (-3.0, 3.0)).plot(other)
+    assert {"C, stable node", "transcritical", "pitchfork"} <= {text.get_text() for text in other.get_legend().texts}
+    c2.atlas(NODE, c2.psi.constant(), ("f1", "f2")).plot(plane)
+    names = [text.get_text() for text in plane.get_legend().texts]
+    assert len(names) == len(set(names)) >= 3
+    assert np.allclose(np.hypot(*scene.to_frame()[["p_1", "p_2"]].iloc[:4].to_numpy().T), 1.0)

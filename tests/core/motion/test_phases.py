@@ -63,13 +63,6 @@ def test_random_systems_have_the_phases_of_the_limit(block):
     assert circling <= 1
 
 
-@pytest.mark.parametrize(("a", "b"), [(-0.2, 1.0), (-0.05, 2.0), (-0.5, -3.0)])
-def test_a_spiral_arrives_once(a, b):
-    run = simulate(ELinear(a, b, a), families.constant(), (0.3, 0.0), (0.0, 0.3 / abs(a) + 1.0), eps=1e-4)
-    assert named(run) == [("slip", None), ("slide", "C")]
-    assert run.phases[1].t_start == pytest.approx(0.3 / abs(a), rel=0.05)
-
-
 def test_a_cycle_that_is_followed_is_named():
     system, psi = ELinear(172.0, 186.0, -200.0, (-86.0, -93.0)), families.hill(3)
     (cycle,) = limit_cycles(system, psi)

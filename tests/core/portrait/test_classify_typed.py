@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import given, settings
 
 import codim2_core as c2
 from codim2_core import classify, psi
@@ -11,7 +11,7 @@ from codim2_core.portrait.layer_problem.problem import LayerProblem
 from codim2_core.results.words import recognise
 from codim2_core.systems.typed import System
 from tests.core.general_systems import ATTRACTING, NONUNIQUE, polynomials
-from tests.core.strategies import regularisations, systems
+from tests.core.strategies import regularisations
 
 RATIONAL = psi.rational()
 
@@ -30,19 +30,6 @@ def test_names_of_the_examples():
     assert classify(NONUNIQUE, RATIONAL, 0.4).name == "3 critical sets, 8 limit directions"
     assert "stable in two ways" in classify(NONUNIQUE, RATIONAL, 0.4).sentence
     assert classify(NONUNIQUE, RATIONAL, 1.0).name == "3 critical sets, 4 limit directions"
-
-
-@given(systems, regularisations)
-@settings(max_examples=20)
-def test_affine_systems_have_the_name_of_the_normal_form(system, regularisation):
-    at = system.at()
-    a, b, d, f1, f2 = at.plane
-    # turned by a right angle: (c, s) -> (s, -c) and the rows likewise
-    typed = System(U=(f"({d!r})*c - ({b!r})*s + ({f2!r})", f"({b!r})*c + ({a!r})*s - ({f1!r})"))
-    expected = classify(at, regularisation)
-    assume(not expected.degeneracies)
-    found = classify(typed, regularisation)
-    assert (found.case, found.name, found.sentence) == (expected.case, expected.name, expected.sentence)
 
 
 @given(polynomials, regularisations)

@@ -41,26 +41,6 @@ def pieces(path, side, view):
 
 
 @SETTINGS
-@pytest.mark.parametrize(
-    ("layer", "colour", "of"),
-    [
-        ("continuations", "continuation", lambda s: s["continuations"].points),
-        ("theta", "theta", lambda s: [b.points for b in s["nullclines_inside"] if b.kind == "theta"]),
-        ("lines", "lines-in", lambda s: [b.points for b in s["nullclines_inside"] if b.kind in ("U1", "U2")]),
-        ("lines", "lines-out", lambda s: [b.points for b in s["nullclines_outside"] if b.kind in ("U1", "U2")]),
-    ],
-)
-def test_svg_curves_are_those_of_the_core(setting, layer, colour, of):
-    svg, scene = picture(setting, layer)
-    expected = [np.asarray(piece) for piece in of(scene) if len(piece) > 1]
-    strokes = [one for one in attributes(svg) if one.get("stroke") == f"var(--{colour})"]
-    found = pieces(strokes[0]["d"], VIEWBOX_SIDE, HALF_VIEW)
-    assert [len(piece) for piece in found] == [len(piece) for piece in expected]
-    for one, other in zip(found, expected, strict=True):
-        assert np.abs(one - other).max() < 2 * HALF_VIEW / VIEWBOX_SIDE
-
-
-@SETTINGS
 @pytest.mark.parametrize(("layer", "colour"), [("outside", "outside"), ("inside", "orbit")])
 def test_svg_orbits_are_parts_of_the_cores(setting, layer, colour):
     svg, scene = picture(setting, layer)
@@ -68,33 +48,6 @@ def test_svg_orbits_are_parts_of_the_cores(setting, layer, colour):
     found = pieces(stroke["d"], VIEWBOX_SIDE, HALF_VIEW)
     assert len(found) > 10
     assert gaps(np.concatenate(found), scene[layer].points).max() < 2 * HALF_VIEW / VIEWBOX_SIDE
-
-
-def test_svg_separatrices_differ_by_dashes():
-    svg, scene = picture(SADDLE, "separatrices")
-    strokes = [one for one in attributes(svg) if one.get("stroke") == "var(--separatrix)"]
-    for direction, stroke in zip(("stable", "unstable"), strokes, strict=True):
-        assert ("stroke-dasharray" in stroke) == (direction == "stable")
-        expected = [b.points for b in scene["separatrices"] if b.inside and b.direction == direction]
-        found = pieces(stroke["d"], VIEWBOX_SIDE, HALF_VIEW)
-        apart = [np.abs(one - other).max() for one, other in zip(found, expected, strict=True)]
-        assert max(apart) < 2 * HALF_VIEW / VIEWBOX_SIDE
-
-
-@SETTINGS
-def test_svg_arrowheads_point_with_time(setting):
-    svg, scene = picture(setting, "inside")
-    [heads] = [one for one in attributes(svg) if one.get("fill") == "var(--orbit)"]
-    begins = np.concatenate([piece[:-1] for piece in scene["inside"].points])
-    steps = np.concatenate([np.diff(piece, axis=0) for piece in scene["inside"].points])
-    triangles = pieces(heads["d"].replace("Z", ""), VIEWBOX_SIDE, HALF_VIEW)
-    assert len(triangles) > 20
-    for triangle in triangles:
-        way = triangle[0] - triangle[1:].mean(axis=0)
-        offset = triangle.mean(axis=0) - begins
-        along = np.clip((offset * steps).sum(axis=1) / np.maximum((steps**2).sum(axis=1), 1e-300), 0, 1)
-        nearest = steps[np.argmin(np.hypot(*(offset - along[:, None] * steps).T))]
-        assert way @ nearest > 0
 
 
 @SETTINGS

@@ -72,18 +72,7 @@ def test_an_example_takes_its_parameters_by_name():
         (OWN_SYSTEM, {"U2": "c.real"}, "U2", 2),
         (OWN_SYSTEM, {"W": "-z\nz2*("}, "W", 5),
         (OWN_SYSTEM, {"where": "chi(z) = 1/(2 - 2)"}, "where", 2),
-        (OWN_SYSTEM, {"where": "chi"}, "where", None),
-        (OWN_SYSTEM, {"where": "c = 3"}, "where", None),
-        (OWN_SYSTEM, {"W": "1\n1\n1\n1\n1"}, "W", None),
-        (OWN_SYSTEM, {"U1": "+".join(f"n{i}x" for i in range(14))}, "U1", None),
         (OWN_SYSTEM, {"U1": "(" * 5000}, "U1", 1000),
-        (OWN_SYSTEM, {"W": "z3"}, "W", None),
-        (OWN_SYSTEM, {"U1": "x/sqrt(x^2 + y^2)"}, "U1", None),
-        (OWN_SYSTEM, {"U2": "-s - sign(c)"}, "U2", None),
-        (OWN_SYSTEM, {"where": "k = 3 in [0, 1]"}, "where", None),
-        (OWN_SYSTEM, {"where": "k = 0 in [0, 0]"}, "where", None),
-        (OWN_SYSTEM, {"where": "nu = 0.5 in [0, 1]"}, "where", None),
-        (TYPED, {"where": "chi(z) = 2"}, "where", None),
         (TYPED, {"f1": "z**"}, "f1", 4),
         (TYPED, {"d": "__import__('os')"}, "d", 12),
     ],
@@ -98,11 +87,8 @@ def test_text_that_cannot_be_used_names_its_box_and_column(choice, texts, box, c
 @pytest.mark.parametrize(
     ("choice", "box", "text", "said"),
     [
-        (OWN_SYSTEM, "U1", "U1", "is the name of a box"), (OWN_SYSTEM, "U2", "-s + U1*c", "is the name of a box"),
-        (OWN_SYSTEM, "W", "W", "is the name of a box"), (TYPED, "d", "-1 - a", "is the name of a box"),
-        (OWN_SYSTEM, "U1", "-c + Psi", "no regularisation"), (OWN_SYSTEM, "U1", "-c*psi(s)", "no regularisation"),
-        (OWN_SYSTEM, "W", "eps*c", "no regularisation"), (TYPED, "d", "-1 - t", "is the time"),
-        (OWN_SYSTEM, "U2", "-T*s", "is the time"),
+        (OWN_SYSTEM, "U2", "-s + U1*c", "is the name of a box"), (TYPED, "d", "-1 - a", "is the name of a box"),
+        (OWN_SYSTEM, "U1", "-c*psi(s)", "no regularisation"), (TYPED, "d", "-1 - t", "is the time"),
     ],
 )  # fmt: skip
 def test_a_name_with_another_meaning_gets_no_slider(choice, box, text, said):
@@ -110,11 +96,6 @@ def test_a_name_with_another_meaning_gets_no_slider(choice, box, text, said):
         build(choice, {box: text}, {})
     assert caught.value.box == box
     assert text[caught.value.column - 1].lower() in "uwapet"
-
-
-def test_a_definition_may_have_such_a_name():
-    system = build(OWN_SYSTEM, {"U1": "-c*t(z)", "U2": "-s", "W": "1", "where": "t(z) = 1 + z^2"}, {})
-    assert system.parameters == {}
 
 
 def test_time_in_equations_of_ones_own_is_a_slow_variable_of_that_name():

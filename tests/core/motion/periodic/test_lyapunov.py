@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 import codim2_core as c2
 from codim2_core.motion.reference.oscillators import round_multipliers
@@ -33,28 +32,6 @@ def test_of_a_mass_that_friction_brakes_they_are_the_logarithms_of_its_multiplie
     assert found.values == pytest.approx(wanted, abs=2e-3)
     assert found.values.sum() == pytest.approx(sum(wanted), abs=1e-6)
     assert np.hypot(*found.section[-1, 2:4]) == pytest.approx(radius, abs=1e-6)
-
-
-def test_over_some_periods_they_are_those_of_another_integrator():
-    """The same QR decompositions with SciPy's variational equation, along the same chaotic motion."""
-
-    def rates(t, q):
-        x, z, V = q[0], q[1], q[2:].reshape(2, 2)
-        J = np.array([[-0.1, -math.cos(z)], [1.0, 0.0]])
-        return [-0.1 * x - math.sin(z) + 2.5 * math.sin(t), x, *(J @ V).ravel()]
-
-    basis, state, growth = np.eye(2), [0.5, 1.0], []
-    for i in range(16):
-        span = (2.0 * math.pi * i, 2.0 * math.pi * (i + 1))
-        end = solve_ivp(rates, span, [*state, *np.eye(2).ravel()], method="DOP853", rtol=1e-12, atol=1e-12).y[:, -1]
-        state = end[:2]
-        basis, stretched = np.linalg.qr(end[2:].reshape(2, 2) @ basis)
-        growth.append(np.log(np.abs(np.diag(stretched))))
-    start, length = (0.5, 0.3, 1.0, 0.0), 2.0 * math.pi
-    found = c2.lyapunov_exponents(PENDULUM, start, length, ONE, 0.1, count=16, transient=0, rtol=1e-11)
-    wanted = np.mean(growth, axis=0) / length
-    assert found.values == pytest.approx([*wanted, -1.0], abs=1e-6)
-    assert found.section[-1, [0, 2]] == pytest.approx(state, abs=1e-4)
 
 
 def test_a_driven_pendulum_is_as_chaotic_as_is_published():

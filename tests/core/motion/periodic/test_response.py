@@ -158,7 +158,7 @@ def test_real_pairs_are_no_torus_and_a_branch_is_no_fold():
     assert recognise(through.sentence)[0][0] == "branches off"
 
 
-@pytest.mark.parametrize(("eps", "key", "i"), [(0.0, "leine-block", 2), (1e-2, "leine-block-regularised", 1)])
+@pytest.mark.parametrize(("eps", "key", "i"), [(1e-2, "leine-block-regularised", 1), (0.0, "leine-block", 2)])
 def test_leines_cycle_along_the_speed_of_its_belt(eps, key, i):
     """Without a clock: the period is an unknown. What sticks forgets everything."""
     block = System(U=("-z1 - c/(1 + 3*abs(x))", "-s"), W=("x + v",), parameters={"v": 0.2})
@@ -174,15 +174,6 @@ def test_leines_cycle_along_the_speed_of_its_belt(eps, key, i):
         assert not found.multipliers.any()
         (passes,) = found.special
         assert recognise(passes.sentence)[0][0] == "passages change"
-
-
-def test_it_is_a_table():
-    found = response_curve(CIRCLE.evolve(w=1.6), Rotating(0.3, 0.0, 0.5, 1.6).start, of_w, "w", (1.5, 1.7))
-    frame = found.to_frame()
-    assert list(frame)[:4] == ["w", "period", "stable", "amplitude_x"]
-    assert len(frame) == len(found)
-    assert "1.7" in found._repr_html_()
-    assert recognise(found._repr_html_().split("<p>")[1].split("</p>")[0])[0][0] == "response"
 
 
 def test_what_is_refused():

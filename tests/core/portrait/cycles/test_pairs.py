@@ -34,7 +34,7 @@ def test_pairs_and_triples_that_were_missed(abd, f, n, count):
     assert "not proved" in cycles.reason
 
 
-# f on both sides of a fold of `MISSED`, to 20 bisections: no cycle before it and two behind, by `tests.stress.oracle`
+# f on both sides of a fold of `MISSED`, to 20 bisections: no cycle before it and two behind, by brute force
 FOLDS = {
     0: ((-0.08858267324404355, 0.2685996936607017), (-0.08858267441090892, 0.2685996971988618)),
     2: ((0.22092215551003694, 0.28531134749358356), (0.22092217605344272, 0.2853113740244979)),
@@ -52,7 +52,7 @@ def test_both_sides_of_a_fold(which, distance):
     assert len(found(abd, tuple(inside), n)) == 2
 
 
-# (a, b, d), f, n and how many cycles `tests.stress.oracle` finds: its long search is `tests/stress/test_cycle_pairs.py`
+# (a, b, d), f, n and how many cycles brute force found: sign changes of the return map of a plain integrator
 COUNTED = [
     ((1.906, -4.057, -2.251), (2.966, -1.255), 2, 0), ((1.982, 2.386, -2.713), (2.55, 2.98), 1, 0),
     ((0.707, -1.76, -0.725), (-0.078, 0.455), 6, 2), ((1.8, -3.195, -1.828), (0.678, -0.103), 4, 2),

@@ -27,24 +27,6 @@ def exact_eigenvalues(q, theta):
         return a * c**2 + d * s**2 + f1 * c + f2 * s, (d - a) * (c**2 - s**2) - f2 * s - f1 * c
 
 
-def quadrature(q):
-    """The integrals of 1/|Theta| and lambda_rho/|Theta|, by the trapezoidal rule in 30 digits."""
-    with mp.workdps(30):
-        a, b, d, f1, f2 = map(mp.mpf, q)
-        last, n = None, 128
-        while n < 5000:
-            period = exponent = mp.mpf(0)
-            for k in range(n):
-                c, s = mp.cos_sin(2 * mp.pi * k / n)
-                w = 2 * mp.pi / n / abs((d - a) * s * c + f2 * c - f1 * s + b)
-                period += w
-                exponent += w * (a * c * c + d * s * s + f1 * c + f2 * s)
-            if last is not None and abs(period - last) < mp.mpf(10) ** -20 * period:
-                break
-            last, n = period, 2 * n
-        return float(period), float(exponent)
-
-
 @settings(max_examples=20, deadline=None)
 @given(st.tuples(*[plain] * 5))
 def test_eigenvalues(q):
@@ -82,20 +64,6 @@ def test_critical_set_at_the_equator():
         found = equator_equilibria(system(1, 0, 2, -1 - side, 0))
         assert not found.radially_degenerate.any()
         assert np.sign(found.lambda_rho[0]) == -np.sign(side)
-
-
-@settings(max_examples=20, deadline=None)
-@given(st.tuples(*[plain] * 5))
-def test_cycle_against_quadrature(q):
-    cycle = equator_cycle(system(*q))
-    found = equator_equilibria(system(*q))
-    assert (cycle is None) == (len(found) > 0 or found.all_directions)
-    if cycle is None or found.distance < 1e-4:
-        return
-    period, exponent = quadrature(q)
-    assert cycle.direction == (1 if q[1] > 0 else -1)
-    assert cycle.period == pytest.approx(period, rel=1e-11)
-    assert cycle.exponent == pytest.approx(exponent, abs=1e-11 * period * sum(map(abs, q)))
 
 
 @pytest.mark.parametrize("power", [1, 4, 5, 9, 14])

@@ -47,17 +47,6 @@ def test_it_opens_next_to_its_motion_and_goes_round_twice_or_more():
     assert state == pytest.approx(exact.start, abs=1e-6)
 
 
-def test_over_the_range_of_its_frequency_its_response_is_the_closed_form():
-    span = EXAMPLE.ranges["omega"]
-    curve = c2.response_curve(EXAMPLE.make(), EXAMPLE.launch, lambda w: math.tau / w, "omega", span)
-    assert (min(curve.values), max(curve.values)) == span
-    assert all(curve.stable)
-    for value, state, row in zip(curve.values, curve.state0, curve.multipliers, strict=True):
-        exact = circle(omega=value)
-        assert math.hypot(*state[2:4]) == pytest.approx(abs(exact.R), rel=1e-8)
-        np.testing.assert_allclose(by_size(row), by_size(exact.multipliers), atol=1e-6)
-
-
 def test_where_the_force_is_within_friction_it_stays():
     held = c2.simulate_nonsmooth(EXAMPLE.make(F=0.4), (0.0,) * 5, (0.0, 10.0), PSI)
     assert [phase.kind for phase in held.phases] == ["slide"]

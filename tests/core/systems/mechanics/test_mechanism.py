@@ -174,39 +174,6 @@ def test_a_cone_and_not_a_pyramid():
     assert pyramid.grip().sticks
 
 
-def billiard(spin):
-    """A billiard ball, mu 0.2, struck at 2 m/s with some spin (w1, w2) about the horizontal axes."""
-    ball = Mechanism(
-        M=(("m", 0, 0, 0), (0, "m", 0, 0), (0, 0, "2/5*m*r**2", 0), (0, 0, 0, "2/5*m*r**2")),
-        J=((1, 0, 0, "-r"), (0, 1, "r", 0)), force=(0, 0, 0, 0), mu=0.2, normal="m*g",
-        velocities=("v1", "v2", "w1", "w2"), slow=("v1", "v2", "r1", "r2"), rates={"r1": "v1", "r2": "v2"},
-        parameters={"m": 0.17, "r": 0.0286, "g": 9.81},
-    )  # fmt: skip
-    start = ball.state(v1=2.0, v2=0.0, w1=spin[0], w2=spin[1], r1=0.0, r2=0.0)
-    return ball, c2.simulate_nonsmooth(ball.system, start, (0.0, 2.0))
-
-
-@settings(max_examples=12)
-@given(st.tuples(number, number))
-def test_a_billiard_ball_struck_off_centre_runs_on_a_parabola(spin):
-    """While it slips, its slip keeps its direction: so does friction, and the path is a parabola, then a line."""
-    spin = (spin[0] * 20.0, spin[1] * 20.0)
-    ball, run = billiard(spin)
-    slip = np.array([2.0 - 0.0286 * spin[1], 0.0286 * spin[0]])
-    size = float(np.hypot(*slip))
-    if size < 1e-3:
-        return
-    end, pull = 2.0 * size / (7.0 * 0.2 * 9.81), -0.2 * 9.81 * slip / size
-    assert run.phases[0].t_end == pytest.approx(end, rel=1e-7)
-    for t in (0.3 * end, 0.9 * end, 1.5):
-        now = ball.named(run.dense(t))
-        slipping = min(t, end)
-        v = np.array([2.0, 0.0]) + pull * slipping
-        place = np.array([2.0, 0.0]) * slipping + pull * slipping**2 / 2.0 + v * (t - slipping)
-        assert [now["v1"], now["v2"]] == pytest.approx(v, abs=1e-7)
-        assert [now["r1"], now["r2"]] == pytest.approx(place, abs=1e-7)
-
-
 def test_friction_may_change_the_normal_force():
     """A contact whose slip turns with the motion that a constraint forbids: N = 1/(1 - h mu c)."""
     rod = Mechanism(

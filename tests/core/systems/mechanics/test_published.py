@@ -64,13 +64,3 @@ def test_friction_of_a_belt_damps_what_moves_across_it():
     named = block.named(np.array([run.dense(t) for t in times]))
     assert named["q2"] == pytest.approx(expected, abs=1e-9)
     assert named["q1"] == pytest.approx(0.2, abs=1e-8)
-
-
-def test_on_a_belt_it_sticks_until_its_spring_pulls_with_f():
-    """Along the belt: it is carried to q = f/k, and from there swings by V/omega: it touches the belt's speed again."""
-    block = oscillator(force=(0.0, 0.0), surface=("V", 0.0), f=0.5, V=0.2)
-    run = c2.simulate_nonsmooth(block.system, block.state(v1=0.2, v2=0.0, q1=0.0, q2=0.0, t=0.0), (0.0, 4.0))
-    assert run.phases[0].kind == "slide"
-    assert run.phases[0].t_end == pytest.approx(2.5, abs=1e-6)
-    now = block.named(run.dense(4.0))
-    assert now["q1"] == pytest.approx(0.5 + 0.2 * math.sin(1.5), abs=1e-5)

@@ -75,31 +75,6 @@ def test_an_added_family_varies_by_its_parameter(family):
     assert [change.n for change in found if change.type == "Hopf"] == [pytest.approx(3.0, rel=1e-6)]
 
 
-def test_an_added_family_in_all_of_the_public_api(family):
-    psi = c2.psi.power(3.0)
-    typed = c2.psi.custom("(1+s/3)**(-3)")
-    assert c2.classify(CASE3, psi).name == c2.classify(CASE3, typed).name == "CM4"
-    ((C,), (D,)) = c2.critical_sets(CASE3, psi), c2.critical_sets(CASE3, typed)
-    np.testing.assert_allclose(C.p, D.p, rtol=1e-10)
-    np.testing.assert_allclose(C.trace, D.trace, rtol=1e-8)
-    seeds = [(0.1, 0.2), (0.0, -0.6), (1.4, 0.2), (0.7, 0.7)]
-    for run, other in zip(
-        c2.trajectories(CASE3, psi, seeds, t_max=0.2).points,
-        c2.trajectories(CASE3, typed, seeds, t_max=0.2).points,
-        strict=True,
-    ):
-        np.testing.assert_allclose(run[-1], other[-1], atol=1e-6)
-    (C,) = c2.critical_sets(at_hopf(psi), psi)
-    assert abs(C.trace) < 1e-8 * CASE3.a
-    cycles, others = c2.limit_cycles(CASE3, c2.psi.power(4.0)), c2.limit_cycles(CASE3, c2.psi.custom("(1+s/4)**(-4)"))
-    assert [cycle.stable for cycle in cycles] == [cycle.stable for cycle in others]
-    np.testing.assert_allclose([c.period for c in cycles], [c.period for c in others], rtol=1e-6)
-    outcomes = c2.approach_outcomes(CASE3, psi)
-    assert any(words == c2.psi.power(2.0).words for one in outcomes for words, _, _ in one.families)
-    claims = c2.certificates(c2.ELinear(-2, 0, -1, (0.5, 0), [[1, 0]]), psi)
-    assert any(c2.psi.power(2.0).words in name for one in claims for name, _ in one.numbers)
-
-
 def test_what_cannot_be_registered():
     with pytest.raises(ValueError, match="family is of type str"):
         register("power")
