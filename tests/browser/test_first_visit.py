@@ -6,6 +6,28 @@ import pytest
 
 from .conftest import PHONE
 
+
+def middle(box):
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_it_says_what_it_is_about_with_the_sliders_in_sight(open_page):
+    explorer = open_page(viewport={"width": 1440, "height": 900}).open()
+    assert explorer.find("h1").is_visible()
+    assert "(x, y)′ = A e + f + z k" in explorer.find(".top math:visible").get_attribute("aria-label")
+    for name in ("a", "b", "d", "f1", "f2", "z", "psi"):
+        box = explorer.find(f"[data-control={name}]").bounding_box()
+        assert box["y"] + box["height"] < 900
+    picture = explorer.find(".picture").bounding_box()
+    assert picture["width"] > 0.46 * 1440
+    assert explorer.page.evaluate("document.documentElement.scrollHeight") <= 900
+    chips = [box.bounding_box() for box in explorer.find(".legend > .layer, .more > summary").all()]
+    assert max(box["y"] for box in chips) - min(box["y"] for box in chips) < 8  # one row
+    explorer.page.set_viewport_size({"width": 1024, "height": 768})
+    assert explorer.find(".gallery").evaluate("(it) => it.scrollWidth <= it.clientWidth")
+    assert explorer.complaints == []
+
+
 CONTROLS = "button, input, select, textarea, summary, a[href], [role=tab]"
 IN_SIGHT = f"""() => [...document.querySelectorAll(".codim2 :is({CONTROLS})")].filter((one) => {{
   const {{top, bottom, left, width, height}} = one.getBoundingClientRect()
@@ -103,11 +125,36 @@ def test_a_phone_has_the_opening_and_the_puck_below_the_picture(open_page):
 #: a, b, d, f1, f2, z, k1.
 RANDOM = [
     (-2, 0, -1, -0.5, 0, 0, 0),
+    (-2, 0.7, -0.4, 1.1, -0.6, 0.5, 1),
     (-1, -1.5, -1, 2.4, 0.3, 0, 0),
+    (-0.3, 0, -3, 0.1, 0.2, -1, 0.5),
     (1, 1.6, -2, -0.5, 0, 0, 0),
     (1, 0.5, 2, 0.3, 0.1, 0, 0),
+    (-1, 0.1, 2, 0.2, 0.2, 0, 0),
     (-3, 2, -3, 3.4, -0.2, 1, -2),
+    (-1, 0, -1, 0, 0, 0, 0),
 ]
+
+
+def test_the_puck_never_contradicts_the_headline(open_page):
+    explorer = open_page().open("?v=1")
+    for setting in RANDOM:
+        names = ("a", "b", "d", "f1", "f2", "z", "k1")
+        query = "&".join(f"{name}={value}" for name, value in zip(names, setting, strict=True))
+        explorer.open(f"?v=1&{query}").painted()
+        puck, told = explorer.find(".state").text_content(), explorer.find(".headline strong").text_content()
+        share = explorer.ask("Math.hypot(...(picture.state.header.critical.e[0] ?? [9]))")
+        arrows = explorer.find(".puck .arrow").evaluate_all("(all) => all.map((one) => one.classList[1])")
+        assert told in puck
+        assert ("active contact" in puck) == (setting[0] > 0 or setting[2] > 0)
+        if told == "sticks" and "active" not in puck:
+            assert share < 1
+            assert puck == f"sticks, {round(100 * share)} % of friction in use"
+            assert "slip" not in arrows
+        if told == "slips":
+            assert "slip" in arrows
+            assert "in use" not in puck
+    assert explorer.complaints == []
 
 
 def test_the_push_and_c_are_linked_both_ways_and_a_launched_orbit_is_slipped_along(open_page):
@@ -149,7 +196,7 @@ def test_the_headline_and_a_puck_that_moves_agree_in_words(open_page):
         await root.explorer.bench.run(place, {frame})
         window.requestAnimationFrame = own
         return [...said] }"""
-    for setting, place in zip(RANDOM, [(1.3, 0.9), (-1.2, 1.1), (0.4, -1.5)] * 2, strict=False):
+    for setting, place in zip(RANDOM, [(1.3, 0.9), (-1.2, 1.1), (0.4, -1.5)] * 3, strict=True):
         names = ("a", "b", "d", "f1", "f2", "z", "k1")
         query = "&".join(f"{name}={value}" for name, value in zip(names, setting, strict=True))
         explorer.open(f"?v=1&{query}")
@@ -165,6 +212,13 @@ def test_the_headline_and_a_puck_that_moves_agree_in_words(open_page):
                 assert (puck == "still slipping") == ("once slip stops" in headline), one
 
 
+@pytest.mark.parametrize(("size", "longer"), [((1440, 900), False), ((1920, 1080), False), ((1024, 768), True)])
+def test_a_long_sentence_is_seen_whole_or_fades_where_it_goes_on(open_page, size, longer):
+    page = open_page(viewport=dict(zip(("width", "height"), size, strict=True))).open("?preset=case3-cycle")
+    cut = page.find(".sentence").evaluate("(it) => it.scrollHeight > it.clientHeight + 2")
+    assert (cut, "longer" in page.find(".sentence").get_attribute("class")) == (longer, longer)
+
+
 def test_a_push_that_cannot_be_held_breaks_loose(open_page):
     explorer = open_page().open("?v=1")
     explorer.find(".bench input").evaluate(
@@ -178,6 +232,38 @@ def test_a_push_that_cannot_be_held_breaks_loose(open_page):
     )
 
 
+def test_c_is_dragged_out_of_the_sphere_and_f_follows(open_page):
+    explorer = open_page(first_visit=True).open("?v=1")
+    invitation = explorer.find(".grab .invitation")
+    invitation.wait_for()  # the handle comes once the picture knows its own size
+    mouse, start = explorer.page.mouse, explorer.find(".grab").bounding_box()
+    x, y = middle(start)
+    unit = explorer.ask("picture.pixel(1, 0).x - picture.pixel(0, 0).x")
+    mouse.move(x, y)
+    mouse.down()
+    mouse.move(x + 0.5 * unit, y - 0.2 * unit, steps=4)
+    explorer.settle()
+    before = explorer.ask("picture.state.header.critical")
+    assert explorer.find("[data-control=f2] .number").input_value() != "0"
+    mouse.move(x + 1.5 * unit, y - 0.2 * unit, steps=4)
+    explorer.settle()
+    assert explorer.name().startswith("NCM")
+    assert explorer.find(".grab-words").is_visible()
+    assert "so it slips" in explorer.find(".headline").text_content()
+    mouse.up()
+    explorer.kept()
+    assert not explorer.find(".grab-words").is_visible()
+    assert not invitation.is_visible()
+    assert (before["x"][0], before["y"][0]) == pytest.approx((-0.2582 + 0.5, 0.2), abs=0.01)
+    explorer.find(".grab").press("Shift+ArrowLeft")  # and back, by keys
+    for _ in range(12):
+        explorer.press(".grab", "Shift+ArrowLeft")
+    assert explorer.name().startswith("CM")
+    explorer.open()
+    assert not invitation.is_visible()  # who has done it is not asked again
+    assert explorer.complaints == []
+
+
 def test_nothing_moves_while_a_slider_does(open_page):
     explorer = open_page(viewport={"width": 1440, "height": 900}).open()
     places = [".tabs", ".picture", ".gallery", ".panel-atlas"]
@@ -186,7 +272,7 @@ def test_nothing_moves_while_a_slider_does(open_page):
         return [(box["x"], box["y"]) for box in (explorer.find(name).bounding_box() for name in places)]
 
     before = tops()
-    for name, values in {"a": (-4, 0, 3), "f1": (-2, 1, 3), "b": (0.2, 3)}.items():
+    for name, values in {"a": (-4, -1, 0, 1, 3), "f1": (-2, 0, 1, 3), "b": (0.2, 1, 3)}.items():
         for value in values:
             explorer.type(name, str(value))
             assert tops() == before, (name, value)
@@ -236,3 +322,16 @@ def test_the_sheet_of_keys_and_marks_is_there_on_demand(open_page, options):
     explorer.find(".help").click()
     assert sheet.is_visible()
     assert explorer.complaints == []
+
+
+def test_the_invitation_to_drag_c_comes_once_for_six_seconds_and_in_no_question(open_page):
+    explorer = open_page(first_visit=True).open("?panel=lessons&lesson=04-sliding&quiz=0.3")
+    invitation = explorer.find(".grab .invitation")
+    assert not invitation.is_visible()
+    explorer.page.evaluate("localStorage.removeItem('codim2-welcome')")
+    explorer.open("?v=1")
+    invitation.wait_for()
+    explorer.until("root.querySelector('.grab').classList.contains('known')")
+    assert not invitation.is_visible()
+    explorer.open("?v=1")
+    assert not invitation.is_visible()

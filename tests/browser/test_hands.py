@@ -1,7 +1,12 @@
 """Hands on the picture: a click, a drag, a tap; what is launched stays, is in the link, and is told in words."""
 
+import math
+
+import numpy as np
 import pytest
 from codim2_app.picture.draw.theme import HALF_VIEW
+
+from .conftest import PHONE
 
 
 def place(explorer, x, y):
@@ -30,6 +35,77 @@ def test_a_click_launches_the_orbit_through_that_point(open_page):
     again = open_page().open("?panel=orbits&orbits=" + starts(explorer).replace(";", "%3B"))
     assert again.find(".orbit-goes").all_text_contents() == explorer.find(".orbit-goes").all_text_contents()
     assert explorer.complaints == []
+
+
+def test_a_limit_direction_is_turned_by_hand_and_by_keys(open_page):
+    """f changes by as little as it can: across that direction."""
+    explorer = open_page().open("?f1=-0.5&a=-2&d=-1&b=0")
+    page = explorer.page
+
+    def drawn():
+        found = explorer.ask("picture.state.header.equator")
+        return np.column_stack([found["x"], found["y"]])
+
+    start, goal = drawn()[1], np.array([math.cos(1.7), math.sin(1.7)])
+    page.mouse.move(*place(explorer, *start))
+    explorer.find(".card").filter(has_text="f follows").wait_for()
+    page.mouse.down()
+    for share in (0.3, 0.7, 1.0):
+        page.mouse.move(*place(explorer, *(1.1 * (start + share * (goal - start)))))
+        explorer.painted()
+    page.mouse.up()
+    explorer.settle()
+    assert min(np.linalg.norm(drawn() - goal, axis=1)) < 0.02
+    explorer.kept()
+    f = np.array([float(explorer.find(f"[data-control={name}] .number").input_value()) for name in ("f1", "f2")])
+    assert (f - (-0.5, 0.0)) @ goal == pytest.approx(0.0, abs=0.02)
+    assert starts(explorer) is None
+    explorer.press(".objects [data-object=Q2]", "Shift+ArrowRight")
+    assert min(np.linalg.norm(drawn() - (math.cos(1.6), math.sin(1.6)), axis=1)) < 0.02
+    assert explorer.complaints == []
+
+
+def test_a_drag_takes_the_orbit_along_and_its_start_can_be_moved_later(open_page):
+    explorer = open_page().open("?panel=orbits&preset=case1-ncm2")
+    page = explorer.page
+    page.mouse.move(*place(explorer, -0.4, 0.3))
+    page.mouse.down()
+    first = explorer.frame()
+    for step in range(1, 9):
+        page.mouse.move(*place(explorer, -0.4 + 0.1 * step, 0.3))
+        explorer.painted()
+    page.mouse.up()
+    explorer.settle()
+    assert explorer.frame() >= first + 3  # it followed
+    assert explorer.find(".orbit-list li").count() == 1
+    assert explorer.find(".orbit-goes").text_content() == "Comes down to Q₁ and leaves Σ along θ = 0."
+    explorer.drag(place(explorer, 0.4, 0.3), place(explorer, 1.3, 0.5))
+    assert explorer.find(".orbit-list li").count() == 1
+    assert explorer.find(".orbit-goes").text_content() == "Leaves the picture."
+
+
+def test_an_orbit_is_named_hidden_and_removed(open_page):
+    explorer = open_page().open("?panel=orbits&orbits=-0.4,0.3%3B0.2,-0.5")
+    explorer.find(".orbit-name").first.fill("mine")
+    explorer.find(".orbit-name").first.press("Enter")
+    explorer.find(".orbit-list .hide").nth(1).click()
+    explorer.settle()
+    assert explorer.find(".orbit-goes").all_text_contents()[1] == "hidden"
+    explorer.kept()
+    assert starts(explorer) == "-0.4,0.3:mine;0.2,-0.5,-"
+    explorer.find(".orbit-list .remove").first.click()
+    explorer.settle()
+    assert explorer.find(".orbit-list li").count() == 1
+    explorer.click(".clear")
+    assert explorer.find(".orbit-list li").count() == 0
+
+
+def test_orbits_stay_through_every_slider_move(open_page):
+    explorer = open_page().open("?panel=orbits&orbits=1.2,0.8")
+    before = explorer.find(".orbit-goes").text_content()
+    explorer.type("f1", "-1.5")
+    assert explorer.find(".orbit-list li").count() == 1
+    assert explorer.find(".orbit-goes").text_content() != before
 
 
 def objects(explorer, kind):
@@ -71,6 +147,18 @@ def test_a_click_on_an_object_pins_it_and_one_elsewhere_launches(open_page):
     assert not pinned.is_visible()
     assert "pinned" not in page.url
     assert explorer.complaints == []
+
+
+def test_a_tap_on_an_object_pins_it(open_page):
+    explorer = open_page(**PHONE).open("?b=0.3&panel=orbits")
+    explorer.page.touchscreen.tap(*place(explorer, *objects(explorer, "critical")[0]))
+    explorer.settle()
+    assert explorer.find(".card.pinned").text_content().startswith("×C stable node")
+    assert explorer.find(".orbit-list li").count() == 0
+    explorer.page.touchscreen.tap(*place(explorer, 1.1, 0.9))
+    explorer.settle()
+    assert explorer.find(".orbit-list li").count() == 1
+    assert explorer.find(".card.pinned").is_visible()
 
 
 def test_a_typed_start_is_in_the_link_undone_and_let_move_from_a_launched_orbit(open_page):

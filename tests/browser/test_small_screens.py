@@ -49,6 +49,16 @@ def test_the_portrait_stays_and_each_sheet_is_reached(phone):
         assert phone.find(".picture").bounding_box()["width"] > before
 
 
+@pytest.mark.slow
+def test_every_panel_is_wide_enough_for_its_chart(phone):
+    for tab in phone.find(".tabs [role=tab]").all():
+        tab.tap()
+        phone.settle()
+        panel = phone.find("[role=tabpanel]:visible")
+        assert panel.evaluate("(it) => it.scrollWidth <= it.clientWidth + 1"), tab.text_content()
+        assert phone.find(".codim2").evaluate(SMALL) == [], tab.text_content()
+
+
 #: Waits until nothing scrolls on after a swipe: for six frames of the screen.
 STILL = """new Promise((go) => {
     const far = () => [...document.querySelectorAll("*")].reduce((sum, one) => sum + one.scrollTop, 0)
@@ -84,12 +94,35 @@ def swipe(page, start, end, other=None):
     page.painted().settle()
 
 
+RANGES = """() => { const plot = Bokeh.documents.flatMap((it) => it.all_models ? [...it.all_models] : [])
+    .find((it) => it.type === 'Plot' || it.type === 'Figure')
+    return [plot.x_range.start, plot.x_range.end, plot.y_range.start, plot.y_range.end] }"""
+
+
 @pytest.fixture
 def touched(open_page):
     page = open_page(**PHONE).open()
     page.until("root.querySelector('.first') === null")  # Bokeh has painted, and scrolls
     yield page
     assert page.complaints == []
+
+
+def test_a_slider_turns_sideways_only(touched):
+    sheet(touched, "controls")
+    slider = touched.find("#c2-b")
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    x, y = box["x"] + 0.8 * box["width"], box["y"] + box["height"] / 2
+    before = slider.input_value()
+    swipe(touched, (x, y), (x + 4, y - 120))
+    assert slider.input_value() == before
+    assert touched.find("[data-control=b] .number").input_value() == before
+    slider.scroll_into_view_if_needed()  # waits until the swipe no longer scrolls
+    box = slider.bounding_box()
+    middle, y = box["x"] + 0.5 * box["width"], box["y"] + box["height"] / 2
+    swipe(touched, (middle, y), (middle + 0.3 * box["width"], y + 3))
+    assert float(slider.input_value()) > 1
+    assert touched.find("[data-control=b] .number").input_value() == slider.input_value()
 
 
 def test_a_swipe_over_the_atlas_sets_nothing_and_a_tap_or_a_hand_on_the_handle_does(touched):
@@ -127,6 +160,19 @@ def test_a_finger_moves_a_number_in_a_lesson_as_far_as_it_goes(open_page):
     way = 80 if start < (low + high) / 2 else -80
     swipe(page, (x, y), (x + way, y + 2))
     assert float(place.locator("b").text_content()) == pytest.approx(start + way * (high - low) / 400, abs=0.02)
+
+
+def test_one_finger_leaves_the_picture_where_it_is_and_two_move_it(touched):
+    before = touched.page.evaluate(RANGES)
+    box = touched.find(".bokeh").bounding_box()
+    spot = lambda u, v: (box["x"] + u * box["width"], box["y"] + v * box["height"])
+    swipe(touched, spot(0.5, 0.7), spot(0.55, 0.3))
+    assert touched.page.evaluate(RANGES) == before
+    swipe(touched, spot(0.4, 0.5), spot(0.2, 0.5), other=(spot(0.6, 0.5), spot(0.8, 0.5)))
+    left, right, low, high = touched.page.evaluate(RANGES)
+    assert right - left == pytest.approx((before[1] - before[0]) / 3, rel=0.1)
+    assert high - low == pytest.approx((before[3] - before[2]) / 3, rel=0.1)
+    assert left + right == pytest.approx(before[0] + before[1], abs=0.1)
 
 
 def test_what_a_link_asked_in_vain_is_read_where_its_control_is_in_a_closed_sheet(open_page):
