@@ -60,7 +60,16 @@ def prepare() -> str:
         except OSError as error:
             _say_once(UNCACHED.format(why=error.strerror))
 
+    load = caching.IndexDataCacheFile._load_index  # noqa: SLF001 (it has no public name)
+
+    def loaded_if_possible(self: Any) -> dict[Any, Any]:
+        try:
+            return load(self)
+        except (ImportError, AttributeError):  # of an older version of this package, where a type had another home
+            return {}
+
     caching.FunctionCache.save_overload = saved_if_possible
+    caching.IndexDataCacheFile._load_index = loaded_if_possible  # noqa: SLF001
     if config.CACHE_LOCATOR_CLASSES:
         return ""  # the host has named its own
     locators = _locators()

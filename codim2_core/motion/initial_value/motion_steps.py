@@ -48,7 +48,7 @@ LEAST_CUT = 1e-12  # of a step: a shorter part of it is not kept
 
 @lru_cache(maxsize=1)
 def numbers_of_tableau() -> Array:
-    """Return the numbers of Radau IIA as `kernels.stages.tableau_of` reads them."""
+    """Return the numbers of Radau IIA as `kernels.radau.tableau_of` reads them."""
     table = tableau()
     return np.concatenate([[table.gamma], table.nodes, table.A.ravel(), table.error, table.fit.ravel()])
 

@@ -1,6 +1,11 @@
 """Sliding in the limit eps -> 0: the slow flow on a critical set that is followed in z, and where that ends.
 
 On ``U((c, s), 0, 0, z) = 0``, ``z' = W((c, s), 0, 0, z)``, (4.17). The set is continued as a `SlowManifold`.
+
+Sliding on a limit cycle of the layer problem: z' is the mean of W over the cycle.
+
+In the e-linear system that is the slow flow on the critical set inside (Proposition 4.2), see `slide`. Here it is
+read off the cycle itself, found anew at every z that the method asks for.
 """
 
 from __future__ import annotations
@@ -15,7 +20,9 @@ import numpy as np
 
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, truncate_step
 from ...numerics.root_between import root_between
+from ...portrait.cycles.limit_cycles import LimitCycle, limit_cycles
 from ...results.arrays import Array
+from ...systems.kinds import AnySystem
 from ...systems.psi.function import Psi
 from ..initial_value.events import DEGREES, monotone_fractions
 from ..initial_value.field import Field
@@ -24,9 +31,16 @@ from ..initial_value.kernels.motion import FIRST_STEP_SHARE
 from ..initial_value.kernels.rate import ROUNDING
 from ..initial_value.line import InvariantLine
 from ..initial_value.motion_steps import MotionSteps
-from ..initial_value.safe_steps import FOLD_MARGIN, SAFE_NODES, StepRequirements, dissipation
 from ..initial_value.slow_manifold import SlowManifold, complement, determinant, trace
-from ..initial_value.slow_steps import SLOW_STEPS_PER_CALL, SlowSteps, steps_of_z
+from ..initial_value.slow_steps import (
+    FOLD_MARGIN,
+    SAFE_NODES,
+    SLOW_STEPS_PER_CALL,
+    SlowSteps,
+    StepRequirements,
+    dissipation,
+    steps_of_z,
+)
 
 MIN_STEP = 1e-14  # of the time in which z changes by its own size: steps that short mean that the set ends here
 EQUATOR_GAP = 1e-5  # 1 - |e|^2 at which an end is taken for the equator
@@ -313,3 +327,80 @@ def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:
         middle = 0.5 * (low + high)
         low, high = (middle, high) if alive(step.at(middle)[2:]) else (low, middle)
     return low
+
+
+CYCLE_RTOL, CYCLE_ATOL = 1e-6, 1e-8  # no better than the cycles themselves are known
+CYCLE_DIFFERENCE_STEP = 1e-4
+#: Of the time in which z changes by its own size: the first step; steps so short that the cycle ends.
+FIRST_CYCLE_STEP, MIN_CYCLE_STEP = 0.05, 1e-6
+OTHER_CYCLE_DISTANCE = 0.2  # in the disc: a cycle whose middle has moved further is another
+
+
+def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> Slide:
+    """Follow the averaged slow flow of a general system.
+
+    Shapes: z (m,).
+    """
+    means: list[tuple[Array, Array]] = []
+    m, first = len(z), limit_cycles(system, psi, tuple(z.tolist()))[index]
+    middle = _centroid(first)
+
+    def near(at: Array) -> LimitCycle | None:
+        """Return the stable cycle at another z that is nearest to the last one, if it may be the same."""
+        stable = [cycle for cycle in limit_cycles(system, psi, tuple(at.tolist())) if cycle.stable]
+        cycle = min(stable, key=lambda cycle: math.dist(_centroid(cycle), middle), default=None)
+        return None if cycle is None or math.dist(_centroid(cycle), middle) > OTHER_CYCLE_DISTANCE else cycle
+
+    def rate(at: Array) -> Array:
+        cycle = near(at) if np.isfinite(at).all() else None
+        return np.full(m, math.nan) if cycle is None else np.array(cycle.slow_flow)
+
+    def note(at: Array) -> None:
+        nonlocal middle
+        cycle = near(at)
+        if cycle is not None:
+            middle = _centroid(cycle)
+            means.append(_means(system, psi, at, cycle))
+
+    def slopes(at: Array) -> Array:
+        note(at)  # once where a step begins
+        here, columns = rate(at), []
+        for i, h in enumerate(CYCLE_DIFFERENCE_STEP * (1.0 + np.abs(at))):
+            columns.append((rate(at + h * (np.arange(m) == i)) - here) / h)
+        return np.nan_to_num(np.stack(columns, axis=-1))
+
+    floor = CYCLE_ATOL / CYCLE_RTOL
+    pace = min(t_end - t, own_time(z, np.array(first.slow_flow), floor))
+    motion = steps_of_z(
+        rate, slopes, (t, t_end), z, CYCLE_RTOL, floor, most,
+        h=FIRST_CYCLE_STEP * pace, least=MIN_CYCLE_STEP * pace, implicit=True,
+    )  # fmt: skip
+    taken, end = list[Step](), "time"
+    try:
+        for part in motion.chunks(most):
+            taken += part
+        note(motion.y[2:])
+    except TooManyStepsError:
+        end = "cycle"
+    e, p = ([own[k] for own in means] for k in range(2))
+    return Slide(taken, end, e[-1] if e else np.array(middle), e, motion.evaluations, p=p)
+
+
+def _centroid(cycle: LimitCycle) -> tuple[float, float]:
+    x, y = cycle.points.mean(axis=0).tolist()
+    return x, y
+
+
+def _means(system: AnySystem, psi: Psi, z: Array, cycle: LimitCycle) -> tuple[Array, Array]:
+    """Means of e and of p over a cycle in the time of kappa_2, by the trapezoidal rule over its points."""
+    p = cycle.points
+    r2 = (p * p).sum(axis=1)
+    height = np.sqrt(np.maximum(1.0 - r2, 1e-300))
+    x2 = p / height[:, None]
+    zeta = np.hypot(*x2.T)
+    e = x2 * (psi.modulus(zeta) / np.maximum(zeta, 1e-300))[:, None]
+    speed = np.hypot(*system.at(tuple(z.tolist())).U(e).T)
+    distance = np.hypot(*(np.roll(x2, -1, axis=0) - x2).T)
+    time = distance / np.maximum(speed + np.roll(speed, -1), 1e-300)  # in a unit of its own, as weights are its parts
+    weight = 0.5 * (time + np.roll(time, 1)) / time.sum()
+    return weight @ e, weight @ p

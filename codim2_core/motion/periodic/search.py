@@ -13,7 +13,7 @@ from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
 from ..argument_checks import MAX_STEPS, checked_eps, checked_state, checked_tolerances, with_time
 from ..initial_value.field import Field, field
-from ..limit.stiction import checked_stiction
+from ..limit.sigma_decision import checked_stiction
 from ..result import Simulation
 from .multipliers import matching_distances, multipliers
 from .result import PeriodicMotion, PeriodicStatus

@@ -24,11 +24,17 @@ from ...results.words import say
 from ...systems.kinds import AnySystem
 from ...systems.psi.direction import outside
 from ...systems.psi.function import Psi
+from ..initial_value.field import Slopes, slopes_of
 from ..initial_value.line import InvariantLine
-from ..initial_value.slopes import Slopes, slopes_of
-from .chain import chain_propagators, past_jumps
-from .passage import shrinks_across
-from .propagators import Propagators, pad_jacobians, propagators, states_along
+from .propagators import (
+    Propagators,
+    chain_propagators,
+    pad_jacobians,
+    past_jumps,
+    propagators,
+    shrinks_across,
+    states_along,
+)
 from .result import Variation
 
 StepIndices = NDArray[np.intp]

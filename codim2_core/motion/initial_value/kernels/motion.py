@@ -12,8 +12,8 @@ import math
 from ....formulas.jit import held_kernel, kernel, spliced_kernel
 from ....numerics.radau import CAREFUL, FAILED_SHRINKAGE, GROWTH_AFTER_FAILURE, MAX_GROWTH, STAGES
 from . import explicit, radau
+from .radau import tableau_of, work_on
 from .rate import MotionConstants, blur_of_rate, inward_bound, rate, sizes
-from .stages import tableau_of, work_on
 
 FINISHED, LIMIT, SHORT, CHUNK_FULL, BLOWN_UP, UNDEFINED, AT_SIGMA, SWITCHED = range(8)
 FIRST_STEP_SHARE = 1e-2  # of rho/|U|: the first step tried
