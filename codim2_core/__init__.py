@@ -41,11 +41,9 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .portrait.orbits.trajectories import Trajectories, trajectories
     from .portrait.separatrices import Separatrices, Separatrix, separatrices
     from .portrait.sliding.along_z import slow_portrait
-    from .portrait.sliding.filippov import FilippovSliding, filippov_sliding
-    from .portrait.sliding.flow import sliding_flow
+    from .portrait.sliding.filippov import FilippovSliding, filippov_sliding, sliding_flow
     from .portrait.sliding.slow_portrait_result import SlowPortrait
-    from .portrait.theorems.certificates import certificates
-    from .portrait.theorems.portrait_proof import prove_portrait
+    from .portrait.theorems.certificates import certificates, prove_portrait
     from .scene import Scene
     from .systems import examples, mechanics, psi
     from .systems.coefficients import Coefficients
@@ -111,11 +109,9 @@ _HOMES = {
     "portrait.orbits.trajectories": "Trajectories trajectories",
     "portrait.separatrices": "Separatrices Separatrix separatrices",
     "portrait.sliding.along_z": "slow_portrait",
-    "portrait.sliding.filippov": "FilippovSliding filippov_sliding",
-    "portrait.sliding.flow": "sliding_flow",
+    "portrait.sliding.filippov": "FilippovSliding filippov_sliding sliding_flow",
     "portrait.sliding.slow_portrait_result": "SlowPortrait",
-    "portrait.theorems.certificates": "certificates",
-    "portrait.theorems.portrait_proof": "prove_portrait",
+    "portrait.theorems.certificates": "certificates prove_portrait",
     "scene": "Scene",
     "systems.coefficients": "Coefficients",
     "systems.elinear": "ELinear",
@@ -137,7 +133,7 @@ if not TYPE_CHECKING:
         if name in _MODULES:
             found = import_module(f".{_MODULES[name]}", __name__)
         elif name in _HOME:
-            from .systems.public import find_public
+            from .systems.presets.presets import find_public
 
             found = find_public(__name__, _HOME[name], name)
         else:

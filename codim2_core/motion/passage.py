@@ -21,10 +21,9 @@ from numpy.typing import NDArray
 
 from ..numerics.dense import StepArray, gather_steps
 from ..numerics.radau import Step, TooManyStepsError, truncate_step
-from ..numerics.root_between import root_between
+from ..numerics.sign_changes import root_between
 from ..results.arrays import Array
-from ..systems.psi.direction import smoothed_direction
-from ..systems.psi.function import Psi
+from ..systems.psi.function import Psi, smoothed_direction
 from .initial_value.field import Field
 from .initial_value.functions import functions_of
 from .initial_value.inspection import CONTACT, Inspection

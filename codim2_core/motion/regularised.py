@@ -26,8 +26,7 @@ from ..numerics.radau import Step, TooManyStepsError
 from ..results.arrays import Array
 from ..results.words import say
 from ..systems.kinds import AnySystem
-from ..systems.psi.direction import smoothed_direction
-from ..systems.psi.function import Psi
+from ..systems.psi.function import Psi, smoothed_direction
 from .initial_value.events import Event, EventWatch, reverse_event
 from .initial_value.field import Field, backwards, field, slopes_of
 from .initial_value.functions import functions_of

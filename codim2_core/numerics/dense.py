@@ -12,8 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..results.arrays import Array, read_only
-from ..results.equality import ByValue
-from ..results.result import Pictured, column_rows
+from ..results.result import ByValue, Pictured, column_rows
 from ..results.tables import frame
 from .radau import STAGES, Step
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..numerics.curves.polyline import distance
+from ..numerics.curves.arclength import distance
 from ..results.arrays import Array
 from ..results.words import say
 from ..systems.frozen import FrozenSystem

@@ -12,6 +12,8 @@ import numpy as np
 
 from ..results.arrays import Array
 from ..results.words import say, written_label, written_number
+from ..systems.frozen import FrozenSystem
+from ..systems.psi.function import Psi
 from .cycles.limit_cycles import cycles_of, reason_for_none
 from .cycles.predicted_limit_sets import predicted_limit_sets
 from .layer_problem.problem import LayerProblem
@@ -27,10 +29,58 @@ from .omega_limits import (
     radially_neutral,
     radially_neutral_ones,
 )
-from .orbits.batch_by_psi import batch_by_psi, states_at
 from .orbits.departures import departures_under
-from .orbits.options import DEFAULT_MAX_STEPS, Stepping, stepping
 from .orbits.result import Status, Trajectories
+from .orbits.seeds import DEFAULT_MAX_STEPS, Stepping, stepping
+from .orbits.trajectories import in_lanes, integrate_explicitly
+
+
+def batch_by_psi(
+    at: FrozenSystem, psis: Sequence[Psi], states: Sequence[Array], options: Stepping
+) -> list[Trajectories]:
+    """Follow states of the hemisphere under several Psi side by side, explicitly.
+
+    One alone, and typed ones, of which the field is compiled for the picture, are followed by themselves.
+
+    Those of each Psi. Shapes: states (k, 3).
+    """
+    every = range(len(psis))
+    some = [i for i in every if not psis[i].record.typed]
+    if len(some) < 2:
+        some = []
+    found = {
+        i: integrate_explicitly(at, psis[i], states[i], _is_inside_disc(states[i]), options)
+        for i in every
+        if i not in some
+    }
+    if some:
+        lines = _blocks(at, [psis[i] for i in some], [states[i] for i in some], options)
+        found.update(zip(some, lines, strict=True))
+    return [found[i] for i in every]
+
+
+def states_at(points: Array) -> Array:
+    """States (k, 3) of points (k, 2) of the hemisphere."""
+    from .stepping.layout import states_of
+
+    return states_of(np.array(points, order="C"))[0]
+
+
+def _is_inside_disc(states: Array) -> Array:
+    return np.full(len(states), -1.0)
+
+
+def _blocks(at: FrozenSystem, psis: Sequence[Psi], states: Sequence[Array], options: Stepping) -> list[Trajectories]:
+    from .stepping.layout import BLOCKS
+    from .stepping.right_hand_side import problems
+
+    found: list[Trajectories] = []
+    for first in range(0, len(psis), BLOCKS):
+        some = slice(first, first + BLOCKS)
+        every = np.concatenate(states[some])
+        until = list(itertools.accumulate(map(len, states[some])))
+        found += in_lanes(at, problems(at, psis[some], options.backward), every, _is_inside_disc(every), until, options)
+    return found
 
 
 class OutcomeVerdict(NamedTuple):

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Protocol
 
 from numpy.typing import ArrayLike
 
+from ..formulas.arrays import Terms
 from ..formulas.expression import Expression
-from ..formulas.polynomial import Terms
 from ..results.arrays import Array
 
 if TYPE_CHECKING:

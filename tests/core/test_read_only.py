@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import codim2_core as c2
-from codim2_core.portrait.sliding.slow_plane import directions_along, slow_plane
+from codim2_core.portrait.sliding.along_z import directions_along, slow_plane
 
 ONE = c2.psi.constant()
 THREE = c2.ELinear(172.0, 186.0, -200.0, (-86.0, -93.0)), c2.psi.hill(3)  # one limit cycle

@@ -13,8 +13,8 @@ from codim2_app.view.refresh import Frames
 
 import codim2_core as c2
 from codim2_core.portrait.layer_problem.problem import LayerProblem
-from codim2_core.portrait.nullcline.direction_hyperbola import conics_of
-from codim2_core.portrait.sliding.affine import affine_plane
+from codim2_core.portrait.nullcline.conics import conics_of
+from codim2_core.portrait.sliding.filippov import affine_plane
 from tests.app.panels.opening import settled
 
 DIGITS = 3e-4  # of what is packed as whole numbers of the view

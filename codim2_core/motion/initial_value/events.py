@@ -19,7 +19,7 @@ from ...formulas.expression import Expression, parse
 from ...formulas.names import FAST_NAMES, SLOW_NAMES, TIME
 from ...numerics.along import MAX_ZEROS, zeros_along
 from ...numerics.radau import Step, truncate_step
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from ...results.arrays import Array
 
 DEGREES = (8, 16, 32, 64)  # of the polynomials tried for an event along a step

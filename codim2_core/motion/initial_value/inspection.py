@@ -20,8 +20,7 @@ from ...formulas.names import FAST_NAMES, SLOW_NAMES
 from ...numerics.along import first_defect, zeros_along
 from ...numerics.dense import StepArray
 from ...results.arrays import Array
-from ...systems.psi.direction import direction
-from ...systems.psi.function import Psi
+from ...systems.psi.function import Psi, direction
 from .field import Field
 from .kernels.explicit import DENSE_DEGREE
 from .line import InvariantLine

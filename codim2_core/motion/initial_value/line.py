@@ -14,7 +14,7 @@ from functools import cache
 
 import numpy as np
 
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from ...results.arrays import Array
 from .field import Field
 

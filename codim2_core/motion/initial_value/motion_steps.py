@@ -12,8 +12,7 @@ from ...numerics.dense import StepArray
 from ...numerics.radau import BlowUpError, StepsTooShortError, TooManyStepsError, tableau, too_short
 from ...results.arrays import Array
 from ...results.words import say
-from ...systems.psi.direction import direction
-from ...systems.psi.function import Psi
+from ...systems.psi.function import Psi, direction
 from .field import Field
 from .functions import FieldFunctions
 from .inspection import Inspection

@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 
 from ...numerics.dense import Dense, dense, gather_steps
 from ...numerics.radau import Step, truncate_step
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from ...results.arrays import Array, Complex
 from ...results.words import say
 from ...systems.psi.function import Psi

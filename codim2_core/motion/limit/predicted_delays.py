@@ -15,10 +15,10 @@ from ...portrait.layer_problem.critical import CriticalSet, critical_sets
 from ...results.arrays import Array
 from ...results.result import Results
 from ...systems.arguments import pair, short_repr
-from ...systems.bounds import slow_axis, slow_values
 from ...systems.elinear import ELinear
 from ...systems.kinds import takes_names
 from ...systems.psi.function import Psi
+from ...systems.reading import slow_axis, slow_values
 from ...systems.typed import System
 from ..delay import Delay, delay
 from ..initial_value.field import Field, field

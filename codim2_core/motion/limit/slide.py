@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...numerics.radau import STAGES, Step, StepsTooShortError, TooManyStepsError, truncate_step
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from ...portrait.cycles.limit_cycles import LimitCycle, limit_cycles
 from ...results.arrays import Array
 from ...systems.kinds import AnySystem

@@ -20,7 +20,7 @@ from ...systems.psi.constructors import constant
 from ..initial_value.field import Field
 from ..initial_value.functions import functions_of
 from ..initial_value.inspection import Inspection
-from ..initial_value.kernels import departure_step
+from ..initial_value.kernels import slow
 from ..initial_value.kernels.motion import AT_SIGMA
 from ..initial_value.kernels.slow import SET_PLACE, SLOPES, SLOW_EXTENT, VALUE
 from ..initial_value.line import InvariantLine
@@ -47,9 +47,9 @@ def leave(
     functions.enter(S)
     S[VALUE : SLOPES + 1], S[SET_PLACE + 4 : SET_PLACE + 4 + m] = functions.addresses[:2].view(float), z
     n1, n2 = (0.0, 0.0) if line is None else line.vector
-    h = float(departure_step.leave(S, m, n1, n2, theta, t_end - t, linear, square))
+    h = float(slow.leave(S, m, n1, n2, theta, t_end - t, linear, square))
     if not h > 0.0:
-        key = "repels angularly" if h == departure_step.REPELS_ANGULARLY else "nothing leaves"
+        key = "repels angularly" if h == slow.REPELS_ANGULARLY else "nothing leaves"
         return say(key, theta=theta)
     first = np.concatenate([np.zeros(2), z])
     return Step(t, h, first, first + linear + square, polynomial_of(linear, square))

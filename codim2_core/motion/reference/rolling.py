@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from ...numerics.root_between import root_between
+from ...numerics.sign_changes import root_between
 from ...portrait.layer_problem.equator import equator_equilibria
 from ...systems.examples.ball_in_pool import ball_in_pool
 from ...systems.examples.ball_on_turntable import ball_on_turntable

@@ -22,8 +22,7 @@ from ...numerics.dense import Dense
 from ...results.arrays import Array
 from ...results.words import say
 from ...systems.kinds import AnySystem
-from ...systems.psi.direction import outside
-from ...systems.psi.function import Psi
+from ...systems.psi.function import Psi, outside
 from ..initial_value.field import Slopes, slopes_of
 from ..initial_value.line import InvariantLine
 from .propagators import (

@@ -34,8 +34,7 @@ from ...results.arrays import Array
 from ...results.words import say
 from ...systems.kinds import AnySystem
 from ...systems.psi.constructors import constant
-from ...systems.psi.direction import smoothed_direction
-from ...systems.psi.function import Psi
+from ...systems.psi.function import Psi, smoothed_direction
 from ..initial_value.field import Slopes, slopes_of
 from .result import Variation
 

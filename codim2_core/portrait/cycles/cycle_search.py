@@ -16,8 +16,8 @@ import math
 
 import numpy as np
 
-from ...numerics.curves.polyline import distance
-from ...numerics.root_between import root_through
+from ...numerics.curves.arclength import distance
+from ...numerics.sign_changes import root_through
 from ...results.words import say
 from ..layer_problem.problem import LayerProblem
 from .displacement_sampling import NEAR_FOLD, NEAR_LOOP, UNRESOLVED, Samples, near_fold, zeros

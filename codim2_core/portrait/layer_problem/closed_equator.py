@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...numerics.line_pair import line_pair
-from ...numerics.trigonometric import tangential_zeros
+from ...numerics.trigonometric import line_pair, tangential_zeros
 from ...numerics.trigonometric_exact import to_integers
 from ...results.result import Result
 from ...results.tables import html_table, paragraphs, table_number

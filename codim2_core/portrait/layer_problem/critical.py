@@ -14,11 +14,11 @@ from numpy.typing import ArrayLike, NDArray
 from ...formulas.arrays import ONE_SIDED_DIRECTIONS, ONE_SIDED_DISTANCE, program
 from ...results.result import Results, Tabled
 from ...results.tables import html_table, point, table_number
-from ...systems.bounds import at_place
 from ...systems.coefficients import Affine
 from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
+from ...systems.reading import at_place
 from .disc_zeros import FLAT, disc_zeros
 from .linearisation import (
     Frame,

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ...systems.bounds import MAX_NUMBER
 from ...systems.psi.constructors import with_parameter
 from ...systems.psi.function import Psi
+from ...systems.reading import MAX_NUMBER
 
 __all__ = ["check_name", "check_varying", "limits", "names", "usual_span", "value_of", "vary"]
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ...results.arrays import Array
-from ...results.equality import ByValue
+from ...results.result import ByValue
 from ...systems.kinds import AnySystem, FrozenSystem
 from ...systems.psi.function import Psi
 from ..layer_problem.hemisphere import disc_from_scaling, e_psi, outside_flow, scaling_from_disc

@@ -30,8 +30,7 @@ from .layout import (
     STEP_ROW,
     WORKSPACE,
 )
-from .polyline import CURSOR, append_step
-from .polyline_buffers import BEGUN, begin_lines, end_line, in_order, keep_line, length_of, longer
+from .polyline import BEGUN, CURSOR, append_step, begin_lines, end_line, in_order, keep_line, length_of, longer
 
 # Outcomes; `orbits.trajectories.Status` lists their sentences in this order.
 T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, SPIRALLED, STAYS_ON_EQUATOR, STEP_LIMIT, LENGTH = range(8)

@@ -29,15 +29,15 @@ from ...formulas.jit import (
     scratch,
 )
 from ...formulas.packed import BOUND, ROWS, at_address, result, row, run_packed
+from ...systems.psi.families.record import UNDERFLOW_BOUND
 from ...systems.psi.function import Psi
-from ...systems.psi.kernel import UNDERFLOW_BOUND
-from .field_parameters import PSI
 from .layout import (
     BLOCK,
     BLOCKS,
     GAINS,
     LANES,
     PARAMETERS,
+    PSI,
     PSIS,
     ROW_WIDTH,
     SIDE_SIGN,

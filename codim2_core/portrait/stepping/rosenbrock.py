@@ -41,8 +41,7 @@ from .layout import (
     TRIAL,
     WORKSPACE,
 )
-from .polyline import CURSOR, X, Y, append_step, start
-from .polyline_buffers import end_line, keep_line, length_of, longer
+from .polyline import CURSOR, X, Y, append_step, end_line, keep_line, length_of, longer, start
 
 # As in `lanes`
 T_MAX, EQUILIBRIUM, LEFT_VIEW, AT_LIMIT_DIRECTION, STEP_LIMIT, LENGTH, RUNNING = 0, 1, 2, 3, 6, 7, -1

@@ -18,18 +18,17 @@ from ...results.words import say
 from ...systems.frozen import FrozenSystem
 from ...systems.kinds import AnySystem, takes_names
 from ...systems.psi.function import Psi
-from ..cycles.limit_cycles import LimitCycle
+from ..cycles.limit_cycles import LimitCycle, certificate_of, excluding_theorem
+from ..cycles.proof.result import Proof
 from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
-from ..sliding.flow import sliding_flow
-from .cases import case1, case2
-from .degenerate import NOT_LINEAR, equal_diagonal, normal_form, symmetric
+from ..sliding.filippov import sliding_flow
+from .cases import NOT_LINEAR, case1, case2, equal_diagonal, normal_form, symmetric
 from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Array, Certificate, Facts, Verdict, not_applicable, verdict_of
 from .paper_examples import attracting_and_repelling, ball_in_pool, nonunique
-from .psi_claims import psi_claims
-from .sliding_claims import sliding_claims
+from .sliding_claims import psi_claims, sliding_claims
 
-__all__ = ["Certificate", "Verdict", "certificates"]
+__all__ = ["Certificate", "Verdict", "certificates", "prove_portrait"]
 
 MOST_CONDITION = 1e12
 
@@ -328,3 +327,36 @@ def _limit_cycles(facts: Facts, cycles: Iterable[LimitCycle] | None) -> Certific
         return not_applicable(theorem, statement, say("no slow variable, no mean"))
     sentence = say("mean is that of C")
     return Certificate(theorem, statement, verdict_of(holds), tuple(numbers), sentence)
+
+
+@takes_names
+def prove_portrait(system: AnySystem, psi: Psi, z: ArrayLike = ()) -> Proof:
+    """Prove a portrait: its limit directions, its critical sets, and that it has no other limit cycles than are found.
+
+    By a certificate that a program of its own checks, `Proof.checker`, where U is a polynomial in c and s, of degree up
+    to 16, and Psi constant, rational, exponential, tanh, or of the Hill family with n >= 1. Where none is found, but a
+    theorem excludes limit cycles, their count is proved, and nothing else. How: `codim2_core.portrait.cycles.proof`.
+
+    Parameters
+    ----------
+    system : ELinear or System, or either frozen at a z
+    psi : Psi
+    z : (m,) floats
+
+    Returns
+    -------
+    Proof
+        Where something is degenerate, as two limit directions that have just met, it is not proved.
+
+    Examples
+    --------
+    Two stable nodes and the saddle between them, eight limit directions, and no limit cycle:
+
+    >>> from codim2_core import prove_portrait
+    >>> found = prove_portrait("nonunique-sliding")
+    >>> found.critical_sets, len(found.limit_directions), found.portrait
+    (('stable node', 'saddle', 'stable node'), 8, True)
+    """
+    problem = LayerProblem(system.at(z), psi)
+    found, theorem = certificate_of(problem), excluding_theorem(problem)
+    return found if found or theorem is None else Proof(True, (), theorem)

@@ -16,10 +16,9 @@ from ...results.arrays import Array
 from ...results.result import Result
 from ...results.tables import html_table, paragraphs, table_number
 from ...results.words import say
-from ..bounds import slow_values
+from ..coefficients import Parameters
 from ..elinear import ELinear
-from ..parameters import Parameters
-from ..reading import short_repr
+from ..reading import short_repr, slow_values
 from ..typed import System
 
 STOPPED = 30.0  # log of how much slower than at the start it is when it stops

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from ...formulas.expression import parse
 from .families import FAMILIES, Family, family_of_name
 from .families.custom import FAMILY as TYPED
+from .families.record import Each
 from .function import Psi
-from .kernel import Each
 from .typed import custom_kernel
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ...formulas.expression import Expression
 from ...results.arrays import Array
-from .kernel import SCALAR, UNDERFLOW_BOUND, VECTOR, Kernel
+from .families.record import SCALAR, UNDERFLOW_BOUND, VECTOR, Kernel
 
 # Where Psi is probed: s = 0 and a dense grid, about 100 points a decade.
 PROBES: Array = np.concatenate([[0.0], np.geomspace(1e-16, 1e16, 3201)])

@@ -24,7 +24,7 @@ from codim2_core.portrait.basins import Basins
 from codim2_core.portrait.cycles.limit_cycles import LimitCycles
 from codim2_core.portrait.nullcline.nullclines import Nullclines
 from codim2_core.portrait.orbits.trajectories import Trajectories
-from codim2_core.portrait.separatrix import Separatrices
+from codim2_core.portrait.separatrix_branches import Separatrices
 from codim2_core.portrait.sliding.slow_portrait_result import SlowPortrait
 from codim2_core.scene import Scene
 from codim2_core.scene.launched_orbits import LaunchedOrbits

@@ -13,9 +13,9 @@ from numpy.polynomial.polynomial import polyval2d
 from numpy.typing import NDArray
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
-from ....formulas.polynomial import Terms
+from ....formulas.arrays import Terms
 from ....results.arrays import Array
-from ....systems.psi.kernel import VECTOR
+from ....systems.psi.families.record import VECTOR
 from ...layer_problem.problem import LayerProblem
 from .result import FoundCycle
 

@@ -16,10 +16,9 @@ from ....numerics.hybrid import PhaseRun
 from ....numerics.radau import STEP_SAFETY, MotionEndError, Step, tableau, truncate_step
 from ....results.arrays import Array
 from ....results.words import say
-from .collocation import Collocated, collocate
+from .collocation import Collocated, Inspection, Switch, collocate
 from .decision import AT_BOUND, Decided, Flags, decide_contacts
 from .field import ContactField, Law, Local, held_rank, held_rates, project_velocities
-from .inspection import Inspection, Switch
 from .result import contact_names
 
 FIRST_SHARE = 1e-3  # first step after an event, as a share of the span
