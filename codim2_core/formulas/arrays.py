@@ -73,10 +73,7 @@ class Program:
         return bool((np.isin(self.op, _ENTIRE) | divides | whole).all())
 
     def evaluate(self, points: Array) -> Array:
-        """Rows and their exact partial derivatives by c and s.
-
-        Value, derivative by c, derivative by s. Shapes: points (k, 2 to 4).
-        """
+        """Return the rows and their partial derivatives by c and by s, at points (k, 2 to 4)."""
         out = np.empty((len(points), len(self.roots), 3))
         from . import interpreter  # on first use: it loads the compiler
 

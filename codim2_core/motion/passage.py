@@ -172,10 +172,7 @@ class Passage:
         return found
 
     def _logs(self, parts: Sequence[StepArray], state: Array) -> NDArray[np.complex128]:
-        """Return log w (2,) along both modes at the end of some steps, with its phase as the imaginary part.
-
-        From there back to where w was `CLOSE`, or the motion or its branch begins, the rates are integrated.
-        """
+        """Return log w (2,) along both modes at the end of some steps, with its phase as the imaginary part."""
         grown, self.followed = np.zeros(2, complex), 0
         self.e = smoothed_direction(self.psi, self.eps, state[None, :2])[0][0]
         here = self.near(state[2:])
@@ -203,10 +200,7 @@ class Passage:
         return np.array([cmath.log(a) if a else complex(NEVER) for a in own.tolist()]) + grown / self.eps
 
     def near(self, z: Array, order: int = 2) -> _Near:
-        """Return the flow near the slow manifold, to O(eps^(order + 1)), at z.
-
-        Raises SetLostError.
-        """
+        """Return the flow near the slow manifold, to O(eps^(order + 1)), at z; raises SetLostError."""
         if self.line is not None and self.formulas.rests:
             return self._at_rest(self.line, z)
         M, J, moves = self._manifold(z, order)

@@ -345,10 +345,7 @@ def _write_function(k, exponent, u, w):
 
 @kernel
 def enclose(op, left, right, number, roots, c_lo, c_hi, s_lo, s_hi, work, out):
-    """Enclose the rows and their derivatives by c and s over a box, on Sigma.
-
-    work : (n, 6), scratch; out : (rows, 6), lower and upper bound of the value, of d/dc and of d/ds.
-    """
+    """Write bounds of the rows and their derivatives by c and s over a box, out (rows, 6); work is (n, 6)."""
     box = np.zeros((4, 6))
     box[0, 0], box[0, 1], box[0, 2], box[0, 3] = c_lo, c_hi, 1.0, 1.0
     box[1, 0], box[1, 1], box[1, 4], box[1, 5] = s_lo, s_hi, 1.0, 1.0

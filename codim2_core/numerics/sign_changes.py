@@ -67,12 +67,7 @@ def sign_changes(values: Array) -> NDArray[np.intp]:
 
 
 def refine_roots(function: Function, low: Array, high: Array) -> tuple[Array, NDArray[np.bool_]]:
-    """One sign change in each interval, to the last digits.
-
-    Each interval is sampled evenly and, more and more densely, around the zero of the chord.
-
-    pole: The function grows towards the sign change: no zero, but a pole. Shapes: low, high (k,).
-    """
+    """One sign change in each interval, to the last digits."""
     place, pole = 0.5 * (low + high), np.zeros(len(low), bool)
     first = np.zeros(len(low))
     todo = np.arange(len(low))

@@ -138,10 +138,7 @@ class TrigonometricZeros(NamedTuple):
 
 
 def real_zeros(m0: float, c1: float, s1: float, c2: float, s2: float) -> TrigonometricZeros:
-    """Real zeros of m0 + c1 cos + s1 sin + c2 cos 2 theta + s2 sin 2 theta, with multiplicity.
-
-    Directions in radians. Raises ValueError: If a coefficient is not finite.
-    """
+    """Real zeros of m0 + c1 cos + s1 sin + c2 cos 2 theta + s2 sin 2 theta, with multiplicity, in radians."""
     inputs = _check_finite((m0, c1, s1, c2, s2), ("m0", "c1", "s1", "c2", "s2"))
     scale, (m0, c1, s1, c2, s2) = _scale_by_power_of_two(inputs)
     fast = _fast(m0, c1, s1, c2, s2, abs(m0), abs(c2), abs(s2))
@@ -149,10 +146,7 @@ def real_zeros(m0: float, c1: float, s1: float, c2: float, s2: float) -> Trigono
 
 
 def tangential_zeros(a: float, b: float, d: float, f1: float, f2: float) -> TrigonometricZeros:
-    """Zeros of Theta = (d - a) sin cos + f2 cos - f1 sin + b: the equator's equilibria (4.9).
-
-    Directions in radians; `slope` is lambda_theta. Raises ValueError: If a coefficient is not finite.
-    """
+    """Zeros of Theta = (d - a) sin cos + f2 cos - f1 sin + b, equilibria (4.9); `slope` is lambda_theta."""
     inputs = _check_finite((b, f2, f1, a, d), ("b", "f2", "f1", "a", "d"))
     if a == d:
         scale, (b, f2, f1) = _scale_by_power_of_two(inputs[:3])
@@ -164,10 +158,7 @@ def tangential_zeros(a: float, b: float, d: float, f1: float, f2: float) -> Trig
 
 
 def radial_zeros(a: float, d: float, f1: float, f2: float) -> TrigonometricZeros:
-    """Zeros of lambda_rho = a cos^2 + d sin^2 + f1 cos + f2 sin: where the radial speed changes sign.
-
-    Directions in radians. Raises ValueError: If a coefficient is not finite.
-    """
+    """Zeros of lambda_rho = a cos^2 + d sin^2 + f1 cos + f2 sin, where the radial speed changes sign, in radians."""
     inputs = _check_finite((f1, f2, a, d), ("f1", "f2", "a", "d"))
     if a == d:
         scale, (f1, f2, a) = _scale_by_power_of_two(inputs[:3])

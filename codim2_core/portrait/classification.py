@@ -184,10 +184,7 @@ class Attracting:
 def attracting_set(
     critical: Sequence[CriticalSet], cycles: Callable[[], Iterable[LimitCycle]], last: ArrayLike | None = None
 ) -> Attracting | None:
-    """Return the attracting set that sliding is on, or goes on with when z drifts.
-
-    None where no critical set and no limit cycle is stable: sliding ends there. Shapes: last (2,).
-    """
+    """Return the attracting set that sliding is on, or goes on with from the last e (2,); None where none is stable."""
     stable = [(i, C) for i, C in enumerate(critical) if C.kind.startswith("stable")]
     if stable:
         i, C = stable[0]

@@ -95,10 +95,7 @@ _DIRECTIONS_MEET = {
 def equator_degeneracies(
     equator: EquatorEquilibria, cycle: EquatorCycle | None, said: Mapping[int, str], *within: Any
 ) -> list[Degeneracy]:
-    """Name what is degenerate on the equator, in the words that are `said` of a zero of Theta of some multiplicity.
-
-    0 stands for a Theta that vanishes; `within` is how far it is undecided, and of what (`undecided_degeneracy`).
-    """
+    """Name what is degenerate on the equator, in the words that are `said` of a zero of Theta of some multiplicity."""
     said = _DIRECTIONS_MEET | dict(said)
     named = [("all directions", said[0])] if equator.all_directions else []
     named += [("arc of directions", text) for text in arcs_of(equator.arcs)]
@@ -231,10 +228,7 @@ def _consequence(
 
 
 def _affine_normal_form(problem: LayerProblem) -> tuple[Coefficients, Location] | None:
-    """Return the normal form that names a portrait, with where its critical set is; None where none does.
-
-    That is a system not affine in (c, s), or one where the rotation's rounding blurs whether there is a critical set.
-    """
+    """Return the normal form that names a portrait, with where its critical set is; None where none does."""
     coefficients, location = problem.at.normal_form, problem.location
     if coefficients is None or location is None or (location.e is None) == bool(problem.critical):
         return None

@@ -38,12 +38,7 @@ from .orbits.trajectories import in_lanes, integrate_explicitly
 def batch_by_psi(
     at: FrozenSystem, psis: Sequence[Psi], states: Sequence[Array], options: Stepping
 ) -> list[Trajectories]:
-    """Follow states of the hemisphere under several Psi side by side, explicitly.
-
-    One alone, and typed ones, of which the field is compiled for the picture, are followed by themselves.
-
-    Those of each Psi. Shapes: states (k, 3).
-    """
+    """Follow states (k, 3) of the hemisphere under several Psi side by side, explicitly; typed ones by themselves."""
     every = range(len(psis))
     some = [i for i in every if not psis[i].record.typed]
     if len(some) < 2:
@@ -131,10 +126,7 @@ def from_equator(
     lines: Trajectories | None = None,
     angles: Array = ARRIVAL_ANGLES,
 ) -> Trajectories:
-    """Follow the orbits that leave some limit directions (from 0) up the hemisphere, and those around the wide ones.
-
-    `lines` are the early parts of them, if they have been followed.
-    """
+    """Follow orbits that leave some limit directions (from 0), and those around wide ones; `lines`: early parts."""
     return _orbits_to_end(problem, lambda: _leaving_states([problem], which, wide, [angles])[0], lines)
 
 
@@ -267,10 +259,7 @@ def _points_around(problem: LayerProblem, wide: Sequence[int], angles: Array = A
 
 
 def begin_arrival_orbits(problems: Sequence[LayerProblem], which: Sequence[int]) -> list[Trajectories | None]:
-    """Integrate the early part of the orbits of `judge_arrivals`, under several Psi side by side; None without any.
-
-    Of all but the first, which are only compared with it, families are followed at their `OUTER_ANGLES` angles.
-    """
+    """Integrate the early part of the orbits of `judge_arrivals` under several Psi side by side; None without any."""
     if not which:
         return [None] * len(problems)
     follow = [not _all_end_on_C(problem) for problem in problems]
@@ -283,11 +272,7 @@ def begin_arrival_orbits(problems: Sequence[LayerProblem], which: Sequence[int])
 def judge_arrivals(
     problem: LayerProblem, which: Sequence[int], lines: Trajectories | None = None, angles: Array = ARRIVAL_ANGLES
 ) -> list[OutcomeVerdict]:
-    """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side.
-
-    `lines` are those of `begin_arrival_orbits`, if they have been integrated. With `OUTER_ANGLES` for angles the
-    verdicts are the same, but what they say of a whole family is not told of all of it.
-    """
+    """Judge what arrives at some limit directions (from 0), where lambda_rho < 0: all orbits side by side."""
     if not which:
         return []
     if lines is None and _all_end_on_C(problem):

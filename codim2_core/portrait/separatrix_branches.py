@@ -142,10 +142,7 @@ def _projected_velocity(at: FrozenSystem, psi: Psi, critical: CriticalSet, x2: A
 def expansion(
     at: FrozenSystem, psi: Psi, critical: CriticalSet, eigenvalue: float, reach: float
 ) -> tuple[Array, float]:
-    """Coefficients (ORDER + 1, 2) of W in powers of sigma, and its defect, for |sigma| <= reach.
-
-    defect: Largest ``|F(W) - lambda sigma W'|/|lambda|`` at sigma = +-reach: of order reach^(ORDER + 1).
-    """
+    """Coefficients (ORDER + 1, 2) of W in powers of sigma, and its relative defect at |sigma| = reach."""
     J = critical.jacobian
     # The longer row of J - lambda has the eigenvector across it.
     rows = J - eigenvalue * np.eye(2)
@@ -255,11 +252,7 @@ def branches_inside(problem: LayerProblem, t_max: float, rtol: float, pixel: flo
 def _tails(
     at: FrozenSystem, psi: Psi, lines: Trajectories, ends: list[Array | None], rtol: float, pixel: float, backward: bool
 ) -> list[list[Array]]:
-    """Points from where each line was left to the point where it ends; none where it ends at no point.
-
-    Lines that their time cut off, or that were captured at a distance, are followed to where they stop, in ever longer
-    times, and end where they come nearest to the point.
-    """
+    """Points from where each line was left to the point where it ends; none where it ends at no point."""
     tails: list[list[Array]] = [[] for _ in ends]
     left = np.array([points[-1] if len(points) else [math.nan, math.nan] for points in lines.points])
     away = [math.inf if end is None else math.dist(end, p) for end, p in zip(ends, left, strict=True)]

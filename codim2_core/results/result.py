@@ -15,10 +15,7 @@ from .tables import frame, html_table, write_csv
 
 
 class ByValue:
-    """A frozen dataclass that is made with ``eq=False``, since its fields hold arrays.
-
-    Two are equal if they are of one kind and their fields are: arrays by all their numbers, NaN as itself.
-    """
+    """A frozen dataclass made with ``eq=False``, as its fields hold arrays: equal by all numbers, NaN as itself."""
 
     __slots__ = ()
 

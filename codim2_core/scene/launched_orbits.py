@@ -198,10 +198,7 @@ NO_ORBITS = LaunchedOrbits(Orbits(concatenate([]), concatenate([])), (), ())
 def launched_orbits(
     problem: LayerProblem, seeds: Array, *, view: float = 2.0, pixel: float = 1.0 / 180.0
 ) -> LaunchedOrbits:
-    """Follow orbits through points of the picture, and say where they go and where they come from.
-
-    Shapes: seeds (k, 2).
-    """
+    """Follow orbits through seeds (k, 2) of the picture, and say where they go and where they come from."""
     if not len(seeds):
         return NO_ORBITS
     at, psi = problem.at, problem.psi

@@ -42,11 +42,7 @@ _T = parse(TIME, (TIME,))
 
 
 def with_clock(U: Rows, W: Rows) -> tuple[Rows, Rows, str]:
-    """Return U and W with one more slow variable for t, the last, whose rate is 1, and its name.
-
-    Time is a slow variable like any other for all that is known of them: a portrait is that of an instant, sliding
-    follows it, a periodic motion is forced by it.
-    """
+    """Return U and W with one more slow variable for t, the last, whose rate is 1, and its name."""
     named = max((SLOW_NAMES.index(name) + 1 for row in (*U, *W) for name in row.names if name in SLOW_NAMES), default=0)
     others = len(W) or named
     if others >= MOST_SLOW_VARIABLES:

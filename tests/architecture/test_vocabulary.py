@@ -40,7 +40,6 @@ SHARED = {
     "RTOL": "relative tolerance of an integration, as SciPy has it",
     "ATOL": "absolute tolerance of an integration, as SciPy has it",
     "DIFFERENCE_STEP": "step of a finite difference",
-    "FIRST_STEP_SHARE": "first step, as a share of a scale",
     "MIN_STEP": "shortest step along a curve or in time",
     "MAX_NEWTON": "bound on iterations of Newton's method",
     "NEWTON_TOLERANCE": "last correction of Newton's method",

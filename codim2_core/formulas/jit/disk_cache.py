@@ -79,20 +79,14 @@ class AsItIs(caching.InTreeCacheLocator):
 
 
 def _locators() -> list[type[Any]]:
-    """Return Numba's locators, in the order in which it asks them, with those that only read.
-
-    A folder that the host has warmed comes before a home that can be written, where nothing is.
-    """
+    """Return Numba's locators in its order, with those that only read: a warmed folder comes before a home."""
     first, *others = caching.CacheImpl._locator_classes  # noqa: SLF001 (Numba hands out no other way to them)
     return [first, AsGiven, *others, AsItIs]
 
 
 @cache
 def prepare() -> str:
-    """Let kernels be loaded whatever can be written; return a sentence if nothing can be kept, else "".
-
-    Called before the first kernel is declared.
-    """
+    """Let kernels be loaded, before the first is declared, whatever can be written; say if nothing can be kept."""
     save = caching.FunctionCache.save_overload
 
     def saved_if_possible(self: Any, sig: Any, data: Any) -> None:

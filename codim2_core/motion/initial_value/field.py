@@ -117,11 +117,7 @@ class Field:
 
 @lru_cache(maxsize=32)
 def field(system: AnySystem) -> Field:
-    """U and W of any system as functions of numbers; made once for each system.
-
-    Raises ValueError: An ELinear made `from_matrix` whose rotation into the normal form depends on z: its axes turn
-    with z.
-    """
+    """U and W of any system as functions of numbers, made once; ValueError where the normal form's axes turn with z."""
     return _make_field(system.rows(), system.m)
 
 
@@ -208,10 +204,7 @@ class Slopes:
 
 
 def slopes_of(system: AnySystem, kept: Sequence[str] = ()) -> Slopes:
-    """Return the derivatives of any system's field.
-
-    Raises ValueError: A name is none of the system's; or as `ELinear.rows`.
-    """
+    """Return the derivatives of any system's field; ValueError where a name is none of the system's."""
     for name in kept:
         if name not in system.variable:
             own = ", ".join(system.variable) or "none"

@@ -63,10 +63,7 @@ def rate_at(field: Field, psi: Psi | None, eps: float, line: InvariantLine | Non
 
 
 def failure(code: int, t: float, state: Array, rate: Callable[[Array], Array], least: float = 0.0) -> Exception | None:
-    """Say why a motion has ended before its time; None where it has not.
-
-    Shapes: state (n,).
-    """
+    """Say why a motion has ended at a state (n,) before its time; None where it has not."""
     if code == LIMIT:
         return TooManyStepsError()
     if code == BLOWN_UP:
@@ -140,11 +137,7 @@ class MotionSteps:
         return int(self._evaluated + self.clock[3])
 
     def chunks(self, size: int = STEPS_PER_CALL) -> Iterator[StepArray]:
-        """Step to the end, so many steps at a time.
-
-        Raises BlowUpError: The state grows beyond all bounds in no time. Raises TooManyStepsError,
-        StepsTooShortError.
-        """
+        """Step to the end, so many steps at a time; raises BlowUpError, TooManyStepsError and StepsTooShortError."""
         n, most = len(self.y), size
         if self.inspection is not None:  # what follows a cut, or a switch, is lost
             size = min(size, 4 * FIRST_STEPS if self.inspection.guards is None else FIRST_STEPS)

@@ -129,10 +129,7 @@ class DelayedExitPoint:
 def cut_at_exit(
     field: Field, psi: Psi, taken: Sequence[Step], places: Sequence[Array], part: Slide
 ) -> tuple[Slide, DelayedExitPoint | None]:
-    """Cut a slide on an unstable critical set where the motion leaves it.
-
-    Raises NotAnalyticError. Shapes: places (2,).
-    """
+    """Cut a slide on an unstable critical set where the motion leaves it; raises NotAnalyticError."""
     if not part.taken:
         return part, None
     growth = Growth(field, psi, [*taken, *part.taken], [*places, *part.places[1:]])
@@ -160,12 +157,7 @@ class Growth:
         self.at = np.concatenate([[0.0], np.cumsum(self._integrals(self.cuts[:-1], self.cuts[1:]))])
 
     def way_out(self, unstable: float, rise: float = 0.0) -> DelayedExitPoint | None:
-        """Return when the motion leaves the set, which lost its stability at a time; None if not while it is followed.
-
-        `rise` is added to G where a buffer point ends the delay.
-
-        Raises NotAnalyticError.
-        """
+        """Return when the motion leaves the set, `rise` added to G at a buffer point, or None; NotAnalyticError."""
         end = self._reaches(0.0, unstable)
         found = [] if end is None else [DelayedExitPoint(end, None)]
         if np.ptp(self.e, axis=0).max() > REST_CHANGE:
@@ -317,10 +309,7 @@ class DelayedExit:
 def cut_at_delayed_exit(
     field: Field, psi: Psi, before: tuple[Sequence[Step], Sequence[Array]], part: Slide, C: str | None, how: str
 ) -> DelayedExit:
-    """Cut a slide past the bifurcation where the motion leaves the set.
-
-    Raises NotAnalyticError.
-    """
+    """Cut a slide past the bifurcation where the motion leaves the set; raises NotAnalyticError."""
     taken, places = before
     part, way = cut_at_exit(field, psi, taken, places, part)
     key = "Hopf, delayed"
@@ -336,12 +325,7 @@ def exit_circle(psi: Psi, e: Array) -> Array:
 
 
 def departure_point(field: Field, psi: Psi, e: Array, z: Sequence[Array], arrival: Array) -> Array | None:
-    """Return the point (1, 2) of the disc to which a motion leaves a set at rest: on the side on which it came.
-
-    A motion keeps the sign of its distance along the leading eigenvalue while that is real.
-
-    None where no side is known: it began on the set, or an eigenvalue turns. Shapes: e (2,), z (m,), arrival (k, 2).
-    """
+    """Return the point (1, 2) to which a motion leaves a set at rest, on the side on which it came; None if unknown."""
     C, first, left = in_disc(psi, e), None, np.zeros(2)
     for at in z:
         values, vectors = np.linalg.eig(jacobian(field, psi, e, at).T)

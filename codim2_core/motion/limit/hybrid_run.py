@@ -70,10 +70,7 @@ class HybridRun(PhaseRun[Decision]):
         return constructors.constant() if self.psi is None else self.psi
 
     def enter_branch(self, e: Array, state: Array, t: float, switch: int | None = None) -> None:
-        """Go on with the branch of the formulas ahead of a state, at e, or, where no switch is given, in another line.
-
-        Raises StopError: The branch ahead leads back at once.
-        """
+        """Enter the branch of the formulas ahead, without a switch another line; StopError if it leads back."""
         left = self.line
         if self.formulas.switches or switch is not None:
             at = e.tolist(), state.tolist()

@@ -95,10 +95,7 @@ def _name_poles(decide: Callable[..., Decision]) -> Callable[..., Decision]:
 
 @_name_poles
 def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -> Decision:
-    """Decide what becomes of a trajectory that arrives at Sigma at angle theta.
-
-    Shapes: z (m,).
-    """
+    """Decide what becomes of a trajectory that arrives at Sigma, at z (m,), at angle theta."""
     own = LayerProblem(system.at(tuple(z.tolist())), constant() if psi is None else psi)
     outcome = outcome_towards(own, theta, None if psi is None else ())
     if psi is None and outcome.depends_on_psi:
@@ -110,10 +107,7 @@ def decide_arrival(system: AnySystem, psi: Psi | None, z: Array, theta: float) -
 
 @_name_poles
 def decide_from_hemisphere(system: AnySystem, psi: Psi, z: Array, points: Array) -> Decision:
-    """Decide what becomes of orbits of the layer problem at z that are now at points of the hemisphere.
-
-    Shapes: points (k, 2).
-    """
+    """Decide what becomes of orbits of the layer problem at z (m,) from points (k, 2) of the hemisphere."""
     hemisphere = LayerProblem(system.at(tuple(z.tolist())), psi)
     found = omega_limits_of(hemisphere, orbits_to_end(hemisphere, points))
     verdict, onto, leaving, _, reason, _ = judge(hemisphere, found, "Orbits go on from there")
@@ -269,10 +263,7 @@ def _rest(formulas: Field, line: InvariantLine | None, z: Array) -> tuple[Array,
 
 
 def hold(formulas: Field, line: InvariantLine | None, z: Array, reach: float) -> Decision | None:
-    """Decide whether static friction holds a state on Sigma; None where it does not.
-
-    Shapes: z (m,).
-    """
+    """Decide whether static friction holds a state on Sigma at z (m,); None where it does not."""
     found = None if reach == 1.0 else _rest(formulas, line, z)
     if found is None or not math.hypot(*found[0].tolist()) < reach:
         return None
@@ -283,10 +274,7 @@ def hold(formulas: Field, line: InvariantLine | None, z: Array, reach: float) ->
 
 
 def let_go(system: AnySystem, line: InvariantLine | None, e: Array, z: Array, reach: float) -> Decision:
-    """Decide in which direction a contact slips that static friction holds no longer.
-
-    Shapes: e (2,).
-    """
+    """Decide in which direction a contact slips that static friction holds no longer at e (2,)."""
     if line is None:
         equator = equator_equilibria(system, tuple(z.tolist()))
         theta = float(equator.theta[int(np.argmax(equator.lambda_rho))])

@@ -96,10 +96,7 @@ def slide(
     reach: float = 1.0,
     max_step: float = math.inf,
 ) -> Slide:
-    """Follow the slow flow until the critical set reaches the equator, folds, or changes stability.
-
-    Shapes: e (2,), z (m,).
-    """
+    """Follow the slow flow from e (2,), z (m,), until the critical set reaches the equator, folds or turns unstable."""
     if not len(z):
         return Slide([Step(t, t_end - t, np.zeros(2), np.zeros(2), np.zeros((2, STAGES)))], "time", e, [e, e])
     manifold = SlowManifold(field, e, z)
@@ -219,10 +216,7 @@ def _end_fractions(
 
 
 def _lost(manifold: SlowManifold, step: Step, before: Array, after: Array) -> tuple[float, SlowManifold] | None:
-    """Return up to which fraction of a step the set is there that it begins on, and that; None if to its end.
-
-    At the end there may be another: it is the same where each leads to the other by its slope, or all parts do so.
-    """
+    """Return up to which fraction of a step the set is there that it begins on, and that; None if to its end."""
     last, first = (SlowManifold(manifold.field, e, at[2:]) for e, at in ((after, step.last), (before, step.first)))
     u, there = _track_slow_manifold(first, step, 1.0, SHORTEST_PART, last)
     return None if there is last else (u, there)
@@ -231,10 +225,7 @@ def _lost(manifold: SlowManifold, step: Step, before: Array, after: Array) -> tu
 def _track_slow_manifold(
     here: SlowManifold, step: Step, to: float, least: float, last: SlowManifold | None = None
 ) -> tuple[float, SlowManifold]:
-    """Follow a set to a fraction of a step, in parts not below the least one, or as far as it is there.
-
-    A long step may move it farther than one search looks. The last set is searched for unless it is given.
-    """
+    """Follow a set to a fraction of a step, in parts not below the least one, or as far as it is there."""
     u, part = 0.0, to
     while part > least:
         at = min(u + part, to)
@@ -337,10 +328,7 @@ OTHER_CYCLE_DISTANCE = 0.2  # in the disc: a cycle whose middle has moved furthe
 
 
 def slide_on_cycle(system: AnySystem, psi: Psi, index: int, t: float, z: Array, t_end: float, most: int) -> Slide:
-    """Follow the averaged slow flow of a general system.
-
-    Shapes: z (m,).
-    """
+    """Follow the averaged slow flow of a general system from z (m,)."""
     means: list[tuple[Array, Array]] = []
     m, first = len(z), limit_cycles(system, psi, tuple(z.tolist()))[index]
     middle = _centroid(first)

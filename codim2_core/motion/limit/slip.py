@@ -38,10 +38,7 @@ def polynomial_of(*terms: Array) -> Array:
 def leave(
     field: Field, theta: float, t: float, z: Array, t_end: float, line: InvariantLine | None = None
 ) -> Step | str:
-    """Leave Sigma along a limit direction with lambda_rho > 0, or one whose lambda_rho just turns positive.
-
-    The first, short step; or why there is none, as a sentence. Shapes: z (m,).
-    """
+    """Return the first, short step away from Sigma along a limit direction, or why there is none, as a sentence."""
     functions, m = functions_of(field, constant()), len(z)
     S, linear, square = np.zeros(SLOW_EXTENT), np.zeros(2 + m), np.zeros(2 + m)
     functions.enter(S)
@@ -84,10 +81,7 @@ def slip(
     largest: float,
     max_step: float,
 ) -> Slip:
-    """Follow the nonsmooth system until it arrives at Sigma, or to the end of the time span.
-
-    Shapes: state (2 + m,).
-    """
+    """Follow the nonsmooth system from a state (2 + m,) until it arrives at Sigma, or to the end of the time span."""
     rate, functions = partial(rate_at, field, None, 0.0, line), functions_of(field, constant())
     farthest = max(largest, math.hypot(state[0], state[1]))
     rtol, floor = OF_SLIPS * rtol, atol / rtol

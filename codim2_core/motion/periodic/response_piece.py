@@ -24,10 +24,7 @@ NEWTON_ROUNDS = 3  # of the place of an extreme within a step: its error is the 
 
 
 def swing(run: Simulation) -> Array:
-    """Return half of the difference of the extremes of x, y, z1, ..., zm over a motion, (2 + m,).
-
-    The extreme among samples is refined by Newton's method for the derivative of the step's polynomial.
-    """
+    """Return half of the difference of the extremes of x, y, z1, ..., zm over a motion, (2 + m,)."""
     motion = run.motion
     u = np.arange(1, SAMPLES + 1) / SAMPLES
     d = motion.polynomials.shape[2]

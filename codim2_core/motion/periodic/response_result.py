@@ -69,10 +69,7 @@ KINDS_OF_CHANGE: Mapping[str, Callable[[Complex], float]] = {
 def change_point(
     along: str, kind: str, row: ResponseRow, before: ResponseRow, after: ResponseRow, turns: bool = False
 ) -> ResponsePoint | None:
-    """Return the point at a zero of a test function between two motions; None where it is none of that kind.
-
-    The parameter `turns` between the two or it does not.
-    """
+    """Return the point at a zero of a test function between two motions, if it is one; `turns`: the parameter does."""
     told = {"name": along, "value": row.value}
     if kind == "fold":
         kind, sentence = (

@@ -49,10 +49,7 @@ def forcing_period(system: AnySystem) -> float | None:
 def settled_motion(
     system: AnySystem, start: tuple[float, ...], psi: Psi, eps: float, t_end: float, rtol: float = 1e-8
 ) -> tuple[Array, float] | None:
-    """Follow a motion until it repeats itself nearly: a state, and a period; None where it is not seen to.
-
-    Shapes: start (2 + m,).
-    """
+    """Follow a motion until it nearly repeats itself: a state (2 + m,) and a period; None where it does not."""
 
     def follow(span: float) -> Simulation:
         return simulate(system, psi, start, (0.0, span), eps=eps, rtol=rtol)

@@ -360,20 +360,14 @@ class _Course:
         return found
 
     def departure(self, leg: _Leg) -> Array:
-        """Matrix from a change of the state where it leaves Sigma to that of z where and when it leaves.
-
-        That of when follows from that of (x, y).
-        """
+        """Matrix from a change of the state where it leaves Sigma to that of z where and when it leaves."""
         start = np.eye(self.size)
         start[:2, :2] = 0.0
         start[2 : 2 + self.slopes.m] += np.outer(self.initial_rate(leg)[2:], self.later(leg))
         return start
 
     def later(self, leg: _Leg) -> Array:
-        """Return the change of the time of leaving by a change of the state; where a slide ended, (x, y) has none.
-
-        Undefined where it begins with no speed.
-        """
+        """Return the change of the time of leaving by a change of the state; where a slide ended, (x, y) has none."""
         found, onward = np.zeros(self.size), self.initial_rate(leg)[:2]
         if not leg.left:
             found[:2] = -onward / (onward @ onward) if onward.any() else math.nan

@@ -183,10 +183,7 @@ def chain_propagators(
     reason: str = "",
     within: Array | None = None,
 ) -> Variation:
-    """Make the result of the steps' propagators, up to the first that is undefined.
-
-    Shapes: times (k + 1,), fine, coarse (k, N, N), rate (n,), within (n, k).
-    """
+    """Make the result of the steps' propagators (k, N, N) at times (k + 1,), up to the first that is undefined."""
     undefined = np.flatnonzero(~np.isfinite(fine).all(axis=(1, 2)))
     if len(undefined):
         first = int(undefined[0])
@@ -232,10 +229,7 @@ ANGLE_MARGIN = 1e-6  # rad
 def shrinks_across(
     system: AnySystem, psi: Psi | None, z: tuple[float, ...], arriving: float, leaving: float | None
 ) -> bool:
-    """Whether of a small angle next to a motion nothing is left, to first order, once it has been on Sigma.
-
-    Shapes: z (m,).
-    """
+    """Whether nothing is left, to first order, of a small angle next to a motion once it has been on Sigma."""
     problem = LayerProblem(system.at(z), constant() if psi is None else psi)
     equator = problem.equator
     if not len(equator) or len(equator.arcs) or (equator.multiplicity != 1).any():

@@ -27,10 +27,7 @@ FREE_ROUNDS, MAX_CORRECTION_RATIO = 3, 0.4
 def newton(
     condition: Condition, start: Array, reach: float = math.inf, close: float = NEWTON_TOLERANCE
 ) -> Array | None:
-    """Find a common zero of at most n functions of n numbers, by least changes; None if there is none within reach.
-
-    Shapes: start (n,).
-    """
+    """Find a common zero near a start (n,) of at most n functions, by least changes; None if none is within reach."""
     v, size = start, math.inf
     for rounds in range(MAX_ROUNDS):
         value, slope = condition(v)
@@ -55,10 +52,7 @@ def newton(
 
 
 def feet(points: Array, line: Array) -> tuple[Array, Array, Array]:
-    """Find the nearest place to points (..., n) on each piece of a polyline (m, n).
-
-    parts: Of the piece: 0 at its start, 1 at its end; gaps: Distances.
-    """
+    """Find the nearest place to points (..., n) on each piece of a polyline (m, n): its part, place, distance."""
     start, along = line[:-1], np.diff(line, axis=0)
     away = points[..., None, :] - start
     parts = np.clip((away * along).sum(axis=-1) / np.maximum((along**2).sum(axis=1), 1e-300), 0.0, 1.0)
@@ -143,10 +137,7 @@ def tangent(condition: Condition, at: Array) -> Array | None:
 def zero_between(
     condition: Condition, test: Callable[[Array], float], one: Array, other: Array, part: float = PLACE_TOLERANCE
 ) -> Array:
-    """Find the point of a curve between two neighbours at which a function changes its sign.
-
-    Shapes: one, other (n,).
-    """
+    """Find the point of a curve between neighbours (n,) at which a function changes its sign."""
     chord = other - one
     normal = chord / max(math.sqrt(chord @ chord), 1e-300)
     found = [one]
@@ -162,10 +153,7 @@ def zero_between(
 
 
 def trace_curve(condition: Condition, start: Array, edges: Sequence[CurveEdge], steps: StepBounds) -> TracedLine | None:
-    """Follow a curve both ways from a point on it; None where that is no regular point.
-
-    Shapes: start (n,).
-    """
+    """Follow a curve both ways from a point (n,) on it; None where that is no regular point."""
     along = tangent(condition, start)
     if along is None:
         return None

@@ -21,10 +21,7 @@ ON_C = -1
 
 
 def predicted_limit_sets(problem: LayerProblem, states: Array) -> list[int | None]:
-    """Say to which cycle (from 0, innermost first) orbits go, or `ON_C`; None where the cycles do not decide it.
-
-    Shapes: states (n, 3).
-    """
+    """Return to which cycle, from 0 inside, orbits of states (n, 3) go, or `ON_C`; None where it is not decided."""
     told, question = _predictions(problem), states.tobytes()
     if question not in told:
         told[question] = _predict(problem, np.ascontiguousarray(states))

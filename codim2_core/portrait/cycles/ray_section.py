@@ -90,10 +90,7 @@ class EquatorPull:
     everywhere: bool  # each direction is an equilibrium, or an arc of them
 
     def may_return(self, states: Array, field: Callable[[Array], Array], backward: bool) -> NDArray[np.bool_]:
-        """Say which orbits do not, or may not, come down to the equator for good.
-
-        Shapes: states (n, 3).
-        """
+        """Say which orbits of states (n, 3) do not, or may not, come down to the equator for good."""
         draws, sign = self.draws[backward], -1.0 if backward else 1.0
         if self.everywhere or not draws.any():
             return np.full(len(states), not self.everywhere)
@@ -136,10 +133,7 @@ def best_crossing(points: Array, foot: HemispherePoint) -> tuple[float, int]:
 
 
 def crossing_qualities(points: Array, foot: HemispherePoint) -> Array:
-    """Return how well a cycle crosses the ray from a point through each of its own points, see `best_crossing`.
-
-    Shapes: points (m, 2), result (m - 1,).
-    """
+    """Return how well (m - 1,) a cycle (m, 2) crosses the ray from a point through each of its points."""
     away = points - foot.p
     angle = np.unwrap(np.arctan2(away[:, 1], away[:, 0]))
     turned = angle[-1] - angle[0]

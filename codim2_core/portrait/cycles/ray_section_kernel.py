@@ -147,10 +147,7 @@ def _swept_angle(S, centre, k):
 # their own, results were the same and took 7 % longer (median of paired runs, process time).
 @fast_kernel
 def first_turns(states, shared, field, centre, goal, sense, floor, sunk, t_max, rtol, limit, record):
-    """Follow each state until it has gone round a point by an angle.
-
-    steps: Where a step of state 0 starts, and its length. Shapes: states (n, 3), centre (2,), goal (n,).
-    """
+    """Follow states (n, 3) until each has gone round a centre by its goal (n,); `steps` are those of state 0."""
     n = states.shape[0]
     ends, times, codes = states.copy(), np.zeros(n), np.full(n, NO_RETURN_YET)
     log, logged = np.empty((record, 5)), 0

@@ -204,10 +204,7 @@ def _integrals(K: float, total: complex, product: complex) -> tuple[float, float
 def _polish_circle_zero(
     coefficients: tuple[float, float, float, float, float], start: complex
 ) -> tuple[complex, float]:
-    """Newton's method in 256-bit fixed point for a zero inside the circle; also 1 - |z|^2, to all digits.
-
-    Close to a saddle-node it and its mirror image outside nearly meet, and doubles cannot tell them apart.
-    """
+    """Newton's method in 256-bit fixed point for a zero inside the circle; also 1 - |z|^2, to all digits."""
     bits = 256
     (m, c1, s1, half_a, half_d), _ = to_integers(coefficients)
     s2 = half_d - half_a

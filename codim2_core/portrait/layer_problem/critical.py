@@ -150,10 +150,7 @@ def _linear_set(at: FrozenSystem, psi: Psi, affine: Affine, location: Location, 
 
 
 def slow_flow_at(at: FrozenSystem, e: ArrayLike) -> NDArray[np.float64]:
-    """Return W at points of the disc, of shape (..., m).
-
-    Raises ValueError: W is not finite there: what slides has no velocity.
-    """
+    """Return W at points of the disc, (..., m); ValueError where it is not finite: what slides has no velocity."""
     flow = np.asarray(at.W(e), np.float64)
     finite = np.isfinite(flow)
     if finite.all():

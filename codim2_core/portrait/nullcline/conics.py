@@ -137,10 +137,7 @@ def conic(kind: Kind, U: Affine, ends: list[float]) -> list[ConicCurve]:
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """The conic m = -L/Q over a span of directions; `cut`: it ends on the unit circle, exactly.
-
-    A rounding of |e| from 1 to 1 - 1e-15 is 3 pixels of |p| where Psi falls off fast.
-    """
+    """The conic m = -L/Q over a span of directions; `cut` where it ends exactly on the unit circle."""
 
     span: tuple[float, float]
     Q: tuple[float, float, float]
@@ -204,10 +201,7 @@ class Conics:
 
 
 def conics_of(problem: LayerProblem, view: float = 2.0, pixel: float | None = None) -> Conics:
-    """Return the conic (d - a) x y + f2 x - f1 y + b = 0 of the normal form, and the limit directions on it.
-
-    A system in other axes has the conic of its normal form, turned back (Lemma B.1).
-    """
+    """Return the conic (d - a) x y + f2 x - f1 y + b = 0 of the normal form, and the limit directions on it."""
     form, theta = problem.at.normal_form, problem.equator.theta
     meeting = _read_only(np.stack([np.cos(theta), np.sin(theta)], axis=-1))
     if form is None:

@@ -93,10 +93,7 @@ def on_component(at: FrozenSystem, kind: Kind, inside: bool) -> Callable[[Array]
 
 
 def refine_curve(curve: ConicCurve, place: Callable[[Array], Array], t: Array, points: Array, seen: Seen) -> Array:
-    """Return picture points along a curve of which t and points are a coarse sample, closer where they are seen.
-
-    At most `MAX_BRANCH_POINTS`. Both ends stay. Shapes: t (n,), points (n, 2).
-    """
+    """Return picture points along a curve of t (n,) and points (n, 2), closer where they are seen; both ends stay."""
     ends = points[0], points[-1]
     points = place(curve(t))
     points[0], points[-1] = ends
@@ -163,11 +160,7 @@ def _onto_disc(psi: Psi, e: Array) -> Array:
 
 
 def picture_points(curve: ConicCurve, psi: Psi, seen: Seen | None = None, exactly: Exactly | None = None) -> Array:
-    """Picture points along a curve of the e-disc, spread so that no segment sags by more than SAG.
-
-    At most POINTS, or for a traced curve so many for each half turn, and for a conic between its tips; closer where
-    the curve is `seen`. `exactly` brings points of a traced curve onto what it was traced for.
-    """
+    """Picture points along a curve of the e-disc, spread so that no segment sags by more than SAG."""
     if isinstance(curve, Straight) and (psi.record.identity or curve.is_diameter):
         return _onto_disc(psi, np.array([curve.start, curve.end]))  # Psi moves points along their radius
     if isinstance(curve, Traced) and curve.straight:
@@ -296,10 +289,7 @@ def _make_branch(kind: Kind, inside: bool, points: Array) -> NullclineBranch:
 
 
 def outside_nullclines(problem: LayerProblem, view: float, seen: Seen | None = None) -> tuple[NullclineBranch, ...]:
-    """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued.
-
-    Where U is not affine in (c, s), U1 = 0 and U2 = 0 are rays too, and none is straight if U reads x or y.
-    """
+    """Nullclines outside, to the corners of a view of that half-width: rays, and the straight lines continued."""
     reach = math.sqrt(2.0) * view
     coefficients, affine = problem.at, find_affine_field(problem)
     if affine is None:

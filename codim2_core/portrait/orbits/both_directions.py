@@ -33,14 +33,7 @@ def is_stiff(equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ())
 
 
 def drawn_duration(at: FrozenSystem, equator: EquatorEquilibria, critical: tuple[CriticalSet, ...] = ()) -> float:
-    """Longest time T of each half of a drawn trajectory.
-
-    A trajectory ends at a node or focus in about ten times the reciprocal of its slowest rate, which may be any
-    number of times the unit 1/max |U|: in Case III (Section 4.3.3) 60 times. Time in which there is nothing to see
-    costs nothing: halves end when they arrive.
-
-    Between `MIN_DURATION` and `MAX_DURATION` over the size of U; rates that would take longer are not waited for.
-    """
+    """Longest time T of each half of a drawn trajectory."""
     size = at.size or 1.0
     rates = np.minimum(abs(equator.lambda_rho), abs(equator.lambda_theta)).tolist()
     for C in critical:

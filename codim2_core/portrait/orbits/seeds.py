@@ -122,10 +122,7 @@ def window_seeds(count: int, window: tuple[float, float, float, float]) -> NDArr
 
 
 def checked_seeds(seeds: ArrayLike) -> NDArray[np.float64]:
-    """Check seeds: a (k, 2) array of finite picture points; a read-only copy.
-
-    Raises ValueError: Wrong shape, or a seed that is not finite.
-    """
+    """Check seeds, a (k, 2) array of finite picture points, and return a read-only copy."""
     try:
         points = np.array(seeds, float)
     except (TypeError, ValueError) as error:

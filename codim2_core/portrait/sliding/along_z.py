@@ -141,10 +141,7 @@ def _slow_kinds(sets: Sequence[CriticalSet]) -> tuple[str, ...]:
 
 
 def _exchanges(line: _Line, net: Array) -> list[float]:
-    """Values of z at which a saddle and another critical set are nearest, so where they pass through each other.
-
-    Nothing else shows it: there are as many of each kind on both sides.
-    """
+    """Values of z at which a saddle and another critical set are nearest, so where they pass through each other."""
 
     def distance(z: float) -> float:
         sets = line(z)
@@ -332,11 +329,7 @@ def slow_plane(
     rest: ArrayLike = (),
     count: int = 15,
 ) -> SlowPlane:
-    """Slow flow, (2.29), over a net in the plane of the first two slow variables.
-
-    Raises ValueError: The system has fewer than two slow variables, or `rest` has not m - 2 values. Shapes: rest (m -
-    2,).
-    """
+    """Slow flow, (2.29), over a net in the plane of the first two slow variables, the others at `rest` (m - 2,)."""
     if system.m < 2:
         raise ValueError(f"the system has m = {system.m} slow variable(s); a plane needs two or more.")
     others = slow_values(rest, system.m - 2)
@@ -363,10 +356,7 @@ class DirectionsAlong:
 def directions_along(
     system: AnySystem, span: tuple[float, float], z: ArrayLike = (), axis: int = 0, count: int = 121
 ) -> DirectionsAlong:
-    """Limit directions (zeros of Theta on the equator) at even values of one slow variable.
-
-    Shapes: z (m,).
-    """
+    """Limit directions (zeros of Theta on the equator) at even values of one slow variable, about z (m,)."""
     others = slow_values(z if np.size(z) else (0.0,) * system.m, system.m)
     columns: list[tuple[float, float, float, float]] = []
     for value in np.linspace(*span, count).tolist():

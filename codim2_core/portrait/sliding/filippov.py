@@ -371,10 +371,7 @@ _SINGULAR = say("affine: none single")
 
 
 def affine_plane(system: AnySystem, z: ArrayLike = ()) -> AffinePlane | None:
-    """Return the plane F_C of the e-linear system at z and its meeting point with Sigma.
-
-    None where U is not known to be e-linear, or W not to be affine in e. Shapes: z (m,).
-    """
+    """Return the plane F_C of the e-linear system at z (m,) and where it meets Sigma; None if it is not affine."""
     at = system.at(z).as_given
     if at is None or at.m != system.m:
         return None

@@ -194,10 +194,7 @@ def _accept_steps(S, times, accepted):
 # were the same and took 6 to 11 % longer (medians of paired runs, process time).
 @fast_kernel
 def integrate(states, signs, shared, field, own, until, t_max, rtol, atol, limit, capture, view, distance, longest):
-    """Integrate every row of `states`; scaled so that |U| is about 1.
-
-    Shapes: states (n, 3), signs (n,), own (m, 2), until (m,).
-    """
+    """Integrate every row of `states` (n, 3), with signs (n,), own (m, 2), until (m,); |U| is about 1."""
     n = states.shape[0]
     draw = distance > 0.0
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)

@@ -85,10 +85,7 @@ def _defect(x, y):
 
 @kernel
 def states_of(points):
-    """States (k, 3), signs (k,) of picture points (k, 2): p, and ebar (sign -1) or rho (+1); the largest coordinate.
-
-    That is nan where any is not finite.
-    """
+    """States (k, 3), signs (k,) of picture points (k, 2), and the largest coordinate, nan if one is not finite."""
     n = points.shape[0]
     largest = 0.0
     states, signs = np.empty((n, 3)), np.empty(n)

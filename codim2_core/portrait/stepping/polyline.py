@@ -118,10 +118,7 @@ def start(S, P, lane, cursor):
 
 @fast_kernel
 def append_step(S, P, lane, cursor, lines, count, t0, h, stop, distance):
-    """Add the points of one step, from time t0 to `stop` <= t0 + h, to a lane's line.
-
-    Returns the new count; -1 - count when the line is full: make room and call again.
-    """
+    """Add the points of one step, from t0 to `stop`, to a lane's line: the new count, or -1 - count when it is full."""
     x0, y0, ux, uy = cursor[X, lane], cursor[Y, lane], cursor[VX, lane], cursor[VY, lane]
     last, spacing = cursor[TIME, lane], cursor[POINT_SPACING, lane]
     aim, allowed = AIM * distance, ALLOWED * distance

@@ -222,11 +222,6 @@ def gains(psi: Psi, smooth: bool) -> Any:
     return _compiled.get(variant(psi, smooth))
 
 
-def has_gains(psi: Psi) -> bool:
-    """Whether `psi_gain` answers without compiling (a built-in family may still be loaded from the disk cache)."""
-    return variant(psi, False) in _compiled
-
-
 def _gains_of_block(state, out, parameters):
     S, D, P = carray(state, (ROW_WIDTH,)), carray(out, (ROW_WIDTH,)), carray(parameters, (PARAMETERS,))
     for lane in range(BLOCK):

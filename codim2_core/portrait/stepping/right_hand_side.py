@@ -83,10 +83,7 @@ def is_compiled(psi: Psi) -> bool:
 
 
 def field_of_psi(psi: Psi) -> Any:
-    """Return the compiled field for Psi, (3.26) and (2.12) in one chart.
-
-    Its `address` enters the integrator; keep the object alive while that address is in use.
-    """
+    """Return the compiled field for Psi, (3.26) and (2.12) in one chart; keep it while its `address` is in use."""
     return _compiled.get(variant(psi, True))
 
 
@@ -127,10 +124,7 @@ def general_field() -> Any:
 
 @lru_cache(maxsize=64)
 def packed_formulas(key: Hashable) -> tuple[Array, bool]:
-    """Return the formulas of `Frozen.key` packed, and whether U is smooth beyond |e| = 1 too.
-
-    The address of the array enters the parameters; it must outlive that.
-    """
+    """Return the formulas of `Frozen.key` packed, to be kept while in use, and whether U is smooth beyond |e| = 1."""
     program = arrays.program(key)
     return pack(program, len(FAST_NAMES)), program.is_entire
 

@@ -235,13 +235,7 @@ def _begin_lanes(S, P, states, signs, t_max, field, base, many, cursor, lines, t
 # (median of paired runs, process time).
 @fast_kernel
 def creep(states, signs, t_max, longest, shared, field, rtol, atol, limit, capture, view, distance):
-    """Follow every row of `states` implicitly.
-
-    Arguments and results are those of `lanes.integrate`, but for
-
-    t_max, longest : (n,)
-        Time and length of line that are left, of each.
-    """
+    """Follow every row of `states` implicitly, as `lanes.integrate`; t_max and longest (n,): what is left."""
     n = states.shape[0]
     S, P, scratch = np.zeros(WORKSPACE), np.zeros(PARAMETERS), np.empty(MIRROR)
     for m in range(SIDE_SIGN):

@@ -10,7 +10,7 @@ from ...results.words import say
 from ...systems.examples.attracting_repelling import attracting_repelling
 from ...systems.examples.nonunique_sliding import nonunique_sliding
 from ...systems.typed import System
-from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Certificate, Facts, not_applicable, verdict_of
+from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Certificate, Claim, Facts
 
 _DISC_NET = np.concatenate(
     [r * np.stack([np.cos(RAY_ANGLES), np.sin(RAY_ANGLES)], axis=-1) for r in (0.0, 0.4, 0.8, 1.0)]
@@ -19,8 +19,7 @@ _DISC_NET = np.concatenate(
 
 def ball_in_pool(facts: Facts) -> Certificate:
     """Evaluate Section 5.1: a = d < 0, b = 0, f = g and B = 2/7 A."""
-    theorem = "sec:ballpool"
-    statement = say("ball")
+    claim = Claim("sec:ballpool", say("ball"))
     at, form = facts.problem.at, facts.form
     own = form is not None and at.m == 2 and form.a == form.d < 0.0 == form.b
     if own:
@@ -30,11 +29,11 @@ def ball_in_pool(facts: Facts) -> Certificate:
         own = bool(np.abs(at.W(_DISC_NET) - (2.0 / 7.0 * form.a * _DISC_NET + f)).max() <= 1e-12 * facts.size)
         own = own and bool(np.abs(f - g).max() <= 1e-12 * facts.size)
     if not own or form is None:
-        return not_applicable(theorem, statement, say("not the ball"))
+        return claim.not_applicable(say("not the ball"))
     f = at.U(np.zeros(2))
     ratio = float(np.hypot(*f)) / abs(form.a)
     if abs(ratio - 1.0) <= 1e-12:
-        return not_applicable(theorem, statement, say("ball, on the border"))
+        return claim.not_applicable(say("ball, on the border"))
     sticks = bool(facts.critical) and facts.critical[0].kind == "stable node"
     gap = float(np.abs(facts.critical[0].slow_flow - 5.0 / 7.0 * f).max()) if facts.critical else 0.0
     count = len(facts.equator)
@@ -45,7 +44,7 @@ def ball_in_pool(facts: Facts) -> Certificate:
     )
     words = say("ball sticks") if sticks else say("ball slips")
     numbers = (("|f|/|a|", ratio), ("limit directions", float(count)), ("|z′ − 5f/7|", gap))
-    return Certificate(theorem, statement, verdict_of(holds), numbers, words)
+    return claim.decided(holds, numbers, words)
 
 
 def _is(facts: Facts, example: System) -> bool:
@@ -60,10 +59,9 @@ def _is(facts: Facts, example: System) -> bool:
 
 def attracting_and_repelling(facts: Facts) -> Certificate:
     """Evaluate Section 5.2."""
-    theorem = "sec:mateslidecross"
-    statement = say("attracting and repelling")
+    claim = Claim("sec:mateslidecross", say("attracting and repelling"))
     if not _is(facts, attracting_repelling()):
-        return not_applicable(theorem, statement, say("not attracting and repelling"))
+        return claim.not_applicable(say("not attracting and repelling"))
     equator = facts.equator
     worst = float(np.abs(equator.theta - np.arange(6) * math.pi / 3.0).max()) if len(equator) == 6 else math.pi
     signs = len(equator) == 6 and bool(
@@ -79,15 +77,14 @@ def attracting_and_repelling(facts: Facts) -> Certificate:
     numbers = (("limit directions", float(len(equator))), ("largest |θ_i − (i − 1)π/3|", worst))
     numbers += (("critical sets", float(len(kinds))), ("largest |c − (1 ± √5)/4|", float(gap)))
     words = say("within a third")
-    return Certificate(theorem, statement, verdict_of(holds), numbers, words)
+    return claim.decided(holds, numbers, words)
 
 
 def nonunique(facts: Facts) -> Certificate:
     """Evaluate Section 5.3 (8 limit directions only while chi(z)^2 < 2, see the errata)."""
-    theorem = "sec:nonunique"
-    statement = say("non-unique")
+    claim = Claim("sec:nonunique", say("non-unique"))
     if not _is(facts, nonunique_sliding()):
-        return not_applicable(theorem, statement, say("not non-unique"))
+        return claim.not_applicable(say("not non-unique"))
     z = float(facts.problem.at.z[0])
     chi = (1.0 + 2.0 * z * z) / (1.0 + z * z)
     kinds = [C.kind for C in facts.critical]
@@ -101,4 +98,4 @@ def nonunique(facts: Facts) -> Certificate:
     numbers = (("χ(z)", chi), ("critical sets", float(len(kinds))), ("limit directions", float(len(facts.equator))))
     numbers += (("largest difference of slow flows from ±χ + 1/4, 1/4", gap),)
     words = say("two slow flows", first=expected[0], third=expected[2])
-    return Certificate(theorem, statement, verdict_of(holds), numbers, words)
+    return claim.decided(holds, numbers, words)

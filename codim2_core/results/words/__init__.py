@@ -72,10 +72,7 @@ _MINUS = re.compile(r"(?<![\w.)\]}/-])-(?=\.?\d|inf\b)")
 
 
 def printed_sentence(sentence: str) -> str:
-    """Return a sentence that was made for Python with its numbers as they are read: minus signs, raised powers, ∞.
-
-    What is quoted stays as it was typed, and names are those that are typed.
-    """
+    """Return a sentence that was made for Python with its numbers as they are read: minus signs, raised powers, ∞."""
     parts = _QUOTED.split(sentence)
     for i in range(0, len(parts), 2):
         text = _MINUS.sub("−", parts[i])

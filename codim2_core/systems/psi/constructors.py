@@ -196,10 +196,7 @@ def _member(record: Family, parameter: Any) -> Psi:
 
 
 def with_parameter(psi: Psi, value: Any) -> Psi:
-    """Return the member of the same family with another parameter.
-
-    Raises ValueError: The family has none, or the value is not allowed.
-    """
+    """Return the member of the same family with another parameter."""
     if psi.record.parameter is None:
         raise ValueError(f"Psi = {psi.text} has no parameter; choose a family that has one, such as psi.hill(2).")
     return _member(psi.record, value)

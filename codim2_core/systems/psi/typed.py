@@ -152,10 +152,7 @@ class Custom(Kernel):
 
 @lru_cache(maxsize=64)
 def custom_kernel(expression: Expression) -> Custom:
-    """Kernel of a typed Psi.
-
-    Raises ValueError: The Psi is unusable: not finite or negative somewhere, or |e_Psi| does not rise from 0 to 1.
-    """
+    """Kernel of a typed Psi."""
     values = expression.evaluate({"s": PROBES})
     kernel = Custom(expression, _find_saturation(expression, values))
     values = np.where(kernel.saturation > PROBES, values, 0.0)

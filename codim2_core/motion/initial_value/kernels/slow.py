@@ -197,10 +197,7 @@ def _polish_theta(S, m, theta):
 
 @held_kernel
 def leave(S, m, n1, n2, theta, ahead, linear, square):
-    """Write the first, short step away from Sigma; return its length, or why there is none.
-
-    Shapes: linear, square (2 + m,).
-    """
+    """Write the first step away from Sigma, linear and square (2 + m,); return its length, or why there is none."""
     width, in_line = 4 + m, n1 != 0.0 or n2 != 0.0
     if not in_line:
         theta = _polish_theta(S, m, theta)

@@ -154,11 +154,7 @@ class Inspection:
         return path
 
     def _allowed(self, step: Step, sizes: Array, here: Local, sticks: Flags, speed: float) -> Array:
-        """Return the defects that are allowed of each row, as rates and as changes, and where both bounds count.
-
-        A force, and mu N, may change a momentum by a share of the largest there is. While contacts stick it may be off
-        by a share of the friction: where nothing else can move that is enough. All others may be off by a share.
-        """
+        """Return the defects that are allowed of each row, as rates and as changes, and where both bounds count."""
         n, tolerance = self.field.n, self.tolerance
         speed = max(speed, float(np.abs(step.last[:n]).max()))
         arms, mass = float(np.abs(here.J).max()), float(np.abs(here.M).max())

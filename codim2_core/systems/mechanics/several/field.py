@@ -158,19 +158,7 @@ class Law:
 
 
 class ContactField:
-    """The equations of motion, by states Y: velocities, then positions.
-
-    Parameters
-    ----------
-    n, count : int
-        Velocities and contacts.
-    rows : tuple of Expression
-        In the names x, y, z1, ... for the state: M, Q, J, w, mu N, how positions move, and ``k = J' v - w'``.
-    branch : Branch
-        Its guards are positive as long as the rows hold.
-    whole : ContactField or None
-        The field that this is a branch of.
-    """
+    """The equations of motion, by states Y: velocities, then positions; on a branch of the formulas of `whole`."""
 
     def __init__(
         self, n: int, count: int, rows: Rows, branch: Branch | None = None, whole: ContactField | None = None
