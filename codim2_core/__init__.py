@@ -22,8 +22,7 @@ if TYPE_CHECKING:  # for those who read types; `_MODULES` and `_HOMES` tell Pyth
     from .motion.limit.predicted_delays import delays
     from .motion.periodic.lyapunov import LyapunovExponents, lyapunov_exponents
     from .motion.periodic.response import response_curve
-    from .motion.periodic.response_result import ResponseCurve
-    from .motion.periodic.result import PeriodicMotion, PeriodicStatus
+    from .motion.periodic.result import PeriodicMotion, PeriodicStatus, ResponseCurve
     from .motion.periodic.search import periodic_motion
     from .motion.result import Phase, Simulation, SimulationStatus
     from .motion.simulate import simulate, simulate_nonsmooth
@@ -91,8 +90,7 @@ _HOMES = {
     "motion.limit.predicted_delays": "delays",
     "motion.periodic.lyapunov": "LyapunovExponents lyapunov_exponents",
     "motion.periodic.response": "response_curve",
-    "motion.periodic.response_result": "ResponseCurve",
-    "motion.periodic.result": "PeriodicMotion PeriodicStatus",
+    "motion.periodic.result": "PeriodicMotion PeriodicStatus ResponseCurve",
     "motion.periodic.search": "periodic_motion",
     "motion.result": "Phase Simulation SimulationStatus",
     "motion.simulate": "simulate simulate_nonsmooth",

@@ -27,7 +27,10 @@ from typing import NamedTuple
 
 from .trigonometric_exact import INPUT_ROUNDING, solve_exactly
 
-__all__ = ["line_pair", "starts_of"]
+__all__ = [
+    "GENERAL_PATTERNS", "INPUT_ROUNDING", "THETA_PATTERNS", "TrigonometricZeros", "line_pair", "radial_zeros",
+    "real_zeros", "starts_of", "tangential_zeros",
+]  # fmt: skip
 
 
 def starts_of(
@@ -109,11 +112,6 @@ def _pencil_root(b: float, c: float, d: float) -> float:
             y -= (((y + b) * y + c) * y + d) / slope
     return max(0.0, min(1.0, y))
 
-
-__all__ = [
-    "GENERAL_PATTERNS", "INPUT_ROUNDING", "THETA_PATTERNS", "TrigonometricZeros", "radial_zeros", "real_zeros",
-    "tangential_zeros",
-]  # fmt: skip
 
 _FILTER = 2.0**-49  # 16 half-ulps: covers the rounding of the discriminant and the inputs' own ROUNDING
 GENERAL_PATTERNS = ((2, 0, 0, 0, 0), (0, 2, 0, 0, 0), (0, 0, 2, 0, 0), (0, 0, 0, 2, 0), (0, 0, 0, 0, 2))

@@ -15,7 +15,6 @@ from ..results.words import say, written_label, written_number
 from ..systems.frozen import FrozenSystem
 from ..systems.psi.function import Psi
 from .cycles.limit_cycles import cycles_of, reason_for_none
-from .cycles.predicted_limit_sets import predicted_limit_sets
 from .layer_problem.problem import LayerProblem
 from .omega_limits import (
     CAPTURE,
@@ -26,6 +25,7 @@ from .omega_limits import (
     drawn_time,
     nears_end,
     omega_limits,
+    predicted_limit_sets,
     radially_neutral,
     radially_neutral_ones,
 )

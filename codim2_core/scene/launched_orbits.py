@@ -10,7 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from ..portrait.approach_outcomes import outcomes_of
+from ..portrait.approach_outcomes import Outcome, outcomes_of
 from ..portrait.cycles.limit_cycles import cycles_of
 from ..portrait.layer_problem.critical import CriticalSet
 from ..portrait.layer_problem.hemisphere import outside_flow
@@ -29,7 +29,6 @@ from ..portrait.orbits.both_directions import Orbits, drawn_duration, is_stiff
 from ..portrait.orbits.result import Status, Trajectories
 from ..portrait.orbits.seeds import ring, structured_seeds, window_seeds
 from ..portrait.orbits.trajectories import concatenate, continuation, trajectories
-from ..portrait.outcome import Outcome
 from ..results.arrays import Array
 from ..results.result import Pictured
 from ..results.tables import html_table, point

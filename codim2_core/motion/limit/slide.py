@@ -144,7 +144,7 @@ def slide(
             if not is_safe and gauges["fold"](after, step.last[2:]) < FOLD_MARGIN:
                 found.append((1.0, "fold"))  # where the slow flow vanishes at the fold, it never gets past it
             if not alive(step.last[2:]):
-                found.append((_last_alive(alive, step), "cycle"))
+                found.append((last_fraction(alive, step, 20), "cycle"))
             if found:
                 u, name = min(found)
                 taken.append(truncate_step(step, u))
@@ -312,11 +312,12 @@ def _first_negative(
     return 0.0 if start <= 0.0 and end < 0.0 else None  # began on the border itself, and stays outside
 
 
-def _last_alive(alive: Callable[[Array], bool], step: Step) -> float:
+def last_fraction(holds: Callable[[Array], bool], step: Step, halvings: int) -> float:
+    """Return the last fraction of a step, to so many halvings, at which something holds of z."""
     low, high = 0.0, 1.0
-    for _ in range(20):
+    for _ in range(halvings):
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if alive(step.at(middle)[2:]) else (low, middle)
+        low, high = (middle, high) if holds(step.at(middle)[2:]) else (low, middle)
     return low
 
 

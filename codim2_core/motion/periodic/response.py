@@ -27,7 +27,7 @@ from ...systems.psi.function import Psi
 from ..argument_checks import MAX_STEPS
 from ..result import Simulation
 from .response_piece import MotionFamily, Piece, at_value, jump_corner, measure_piece, response_row
-from .response_result import KINDS_OF_CHANGE, ResponseCurve, ResponsePoint, ResponseRow, change_point
+from .result import KINDS_OF_CHANGE, ResponseCurve, ResponsePoint, ResponseRow, change_point
 from .search import periodic_motion, shooting
 
 __all__ = ["response_curve"]

@@ -16,7 +16,7 @@ from ...systems.psi.constructors import constant
 from ..initial_value.field import field
 from ..result import Simulation
 from .multipliers import multipliers, rate_at
-from .response_result import ResponseRow
+from .result import ResponseRow
 from .shooting import LostError, Shooting, Shot
 
 SAMPLES = 8  # places within a step, between which extremes are looked for

@@ -23,9 +23,18 @@ from ..cycles.proof.result import Proof
 from ..layer_problem.location import Existence
 from ..layer_problem.problem import LayerProblem
 from ..sliding.filippov import sliding_flow
-from .cases import NOT_LINEAR, case1, case2, equal_diagonal, normal_form, symmetric
+from .cases import (
+    NOT_LINEAR,
+    attracting_and_repelling,
+    ball_in_pool,
+    case1,
+    case2,
+    equal_diagonal,
+    nonunique,
+    normal_form,
+    symmetric,
+)
 from .facts import RAY_ANGLES, RELATIVE_TOLERANCE, Array, Certificate, Claim, Facts, Verdict
-from .paper_examples import attracting_and_repelling, ball_in_pool, nonunique
 from .sliding_claims import psi_claims, sliding_claims
 
 __all__ = ["Certificate", "Verdict", "certificates", "prove_portrait"]

@@ -16,8 +16,7 @@ from codim2_core.bifurcations.diagrams.eigenvalue_path import LinearisationPath
 from codim2_core.bifurcations.diagrams.result import Branches, SpecialValue
 from codim2_core.bifurcations.plane.curve import BifurcationCurve
 from codim2_core.bifurcations.plane.regions import Regions
-from codim2_core.motion.periodic.response_result import ResponseCurve
-from codim2_core.motion.periodic.result import PeriodicMotion
+from codim2_core.motion.periodic.result import PeriodicMotion, ResponseCurve
 from codim2_core.motion.result import Simulation
 from codim2_core.numerics.dense import DenseMotion
 from codim2_core.portrait.basins import Basins
