@@ -58,10 +58,7 @@ LOST = (SetLostError, np.linalg.LinAlgError)
 
 @dataclass(frozen=True)
 class _Near:
-    """The flow near a slow manifold at a z: M (2,), the eigenvalues (2,) of J, its eigenvectors in columns, z'.
-
-    `moves`: whether the critical set does, along the slow flow.
-    """
+    """The flow near a slow manifold at a z: M (2,), eigenvalues and vectors of J, z', whether the set moves."""
 
     M: Array
     rates: NDArray[np.complex128]

@@ -53,10 +53,7 @@ def starts_of(
 
 
 def line_pair(m: float, c1: float, s1: float, c2: float, s2: float) -> tuple[float, float, float, float, float, float]:
-    """Write t as (h cos(theta - nu1) + g1) (h cos(theta - nu2) + g2), always possible with real numbers.
-
-    `miss` bounds what of the first harmonic the product leaves over.
-    """
+    """Write t as (h cos(theta - nu1) + g1) (h cos(theta - nu2) + g2); `miss` bounds what that leaves over."""
     r = math.hypot(c2, s2)
     psi = 0.5 * math.atan2(s2, c2)
     cp, sp = math.cos(psi), math.sin(psi)

@@ -74,50 +74,25 @@ def failure(code: int, t: float, state: Array, rate: Callable[[Array], Array], l
 
 
 class MotionSteps:
-    """One motion under way.
-
-    Parameters
-    ----------
-    functions : FieldFunctions
-    rate : callable
-        The rate of a state in Python: it says why the motion ends.
-    eps : float
-        0 outside Sigma: it then stops where it is as close to Sigma as `kernels.motion.arrived` says.
-    line : InvariantLine or None
-        The invariant line it stays in.
-    span : (t_start, t_end)
-    first : ndarray (n,)
-    rtol, floor : float
-        Errors of x and y are measured by rho, those of z by |z| + floor; times rtol they may be made in a step.
-    most : int
-        Steps tried before `TooManyStepsError`.
-    farthest : float
-        The largest rho so far, of a motion outside Sigma.
-    h, least, longest : float
-        The first step, 0 if it is not known; a shorter one than `least` ends the motion, none is longer than `longest`.
-    implicit : bool
-        Every step is: the slopes are then requested once where it begins, and where each step ends.
-    inspection : Inspection, optional
-        Of its steps: the motion stops where the formulas switch.
-    """
+    """One motion under way, which stops where the formulas switch, if its steps are inspected."""
 
     def __init__(
         self,
         functions: FieldFunctions,
-        rate: Callable[[Array], Array],
-        eps: float,
+        rate: Callable[[Array], Array],  # of a state, in Python: it says why the motion ends
+        eps: float,  # 0 outside Sigma: it then stops as near to Sigma as `kernels.motion.arrived` says
         line: InvariantLine | None,
         span: tuple[float, float],
         first: Array,
         rtol: float,
-        floor: float,
-        most: int,
+        floor: float,  # errors of x and y are measured by rho, those of z by |z| + floor
+        most: int,  # steps tried before `TooManyStepsError`
         *,
-        farthest: float = 0.0,
-        h: float = 0.0,
-        least: float = 0.0,
+        farthest: float = 0.0,  # the largest rho so far, of a motion outside Sigma
+        h: float = 0.0,  # the first step, 0 if it is not known
+        least: float = 0.0,  # a shorter step ends the motion
         longest: float = math.inf,
-        implicit: bool = False,
+        implicit: bool = False,  # every step is; the slopes are requested where it begins, and where each step ends
         inspection: Inspection | None = None,
     ) -> None:
         self.inspection, self.switch, self._evaluated = inspection, None, 0.0

@@ -36,11 +36,7 @@ COEFFICIENTS = np.array([chebyshev_coefficients(row) for row in np.eye(SAFE_DEGR
 
 
 def _stays_positive(values: Array) -> NDArray[np.bool_]:
-    """Whether a gauge with these values (k, 5) is positive all along each of k steps.
-
-    The polynomial is at least its mean less all its other coefficients; what it leaves out is less than a few times its
-    last two, as the gauge is smooth along a step that has been accepted.
-    """
+    """Whether a gauge (k, 5) is positive along each step: its polynomial's mean exceeds the rest, and the remainder."""
     of = values @ COEFFICIENTS
     sizes = np.abs(of[:, 1:])
     return of[:, 0] > sizes.sum(axis=1) + LEFT_OUT * sizes[:, -2:].sum(axis=1)  # not for NaN

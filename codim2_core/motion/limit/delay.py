@@ -267,10 +267,7 @@ def _singularities(trace: RationalApproximation, det: RationalApproximation) -> 
 
 
 def _height(trace: RationalApproximation, det: RationalApproximation, time: complex) -> float | None:
-    """V up to a singular time, along the eigenvalue that falls on the way, or leads; None if it is no end for that.
-
-    At a zero of det J it is none if the other eigenvalue vanishes.
-    """
+    """V up to a singular time, along the eigenvalue that falls on the way, or leads; None if it is no end for that."""
     parts = ((np.arange(QUADRATURE_PANELS)[:, None] + GAUSS_POINTS) / QUADRATURE_PANELS).ravel()
     values, half = [], 0j
     for t in (time.real + 1j * time.imag * parts).tolist():

@@ -160,11 +160,7 @@ class Shot:
         return float(np.abs(self.miss / sizes).max())
 
     def slopes(self, free: NDArray[np.bool_], sizes: Array) -> tuple[Array, Array, Array]:
-        """Return the derivatives of what is missed of `free`, in units of their sizes.
-
-        by_starts: By the starts, in those units; segments: By all of a segment's start, and by `names`, in their own
-        units.
-        """
+        """Return the derivatives of what is missed of `free`: by the starts, by the period, and of segments by all."""
         k, n, q = len(self.ends), len(self.state), int(free.sum())
         steps, count = self.variation.propagators, self.variation.propagators.shape[1]
         segments = np.array([

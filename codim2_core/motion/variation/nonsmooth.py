@@ -201,12 +201,7 @@ class _Course:
         return Propagators(fine, coarse), ""
 
     def arrival_step(self, leg: _Leg) -> int:
-        """Step of a leg to Sigma at whose beginning its arrival is known best: straight on from there.
-
-        Both the rest of the way and how far the direction still turns should be small; where all directions are alike
-        nothing damps the rounding of (x, y), and close to Sigma it is the direction. Where it has just left Sigma both
-        are small too: it is looked for from where it is furthest away.
-        """
+        """Step of a leg to Sigma at whose beginning its arrival, straight on from there, is known best."""
         e, _ = outside(self.motion.states[leg.first : leg.last, :2])
         rho = np.hypot(*self.motion.states[leg.first : leg.last, :2].T)
         turns = np.append(np.abs(np.diff(e, axis=0)).max(axis=1), 0.0)

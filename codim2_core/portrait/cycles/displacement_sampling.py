@@ -106,12 +106,7 @@ def _doubtful(values: Array, doubt: Array) -> NDArray[np.bool_]:
 
 
 def zeros(q: Array, shift: Array, noise: Array) -> tuple[list[tuple[int, int]], list[tuple[int, int]], bool]:
-    """Return where the displacement changes sign, and where it touches zero, within resolution.
-
-    changes: Samples of opposite sign, with none between that differs from zero; touching: Samples of the same sign
-    between which some are, and none differs from zero: a fold; band: Whether a whole interval does not differ from
-    zero: a band of closed orbits. Shapes: q, shift, noise (n,).
-    """
+    """Return where the displacement changes sign, where it touches zero, and whether a band of it is zero."""
     decided = np.flatnonzero(np.abs(shift) > noise)
     inward = shift[decided] < 0.0
     changes, touching, band = [], [], False

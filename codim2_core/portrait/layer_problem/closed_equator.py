@@ -170,10 +170,7 @@ def _fourier_of_reciprocal(b: float, f2: float, f1: float, a: float, d: float, d
 
 
 def _factor(b: float, f2: float, f1: float, s2: float, amplitude: float) -> tuple[float, complex, complex]:
-    """Refine K, z1 + z2 and z1 z2: where z1 and z2 nearly coincide these keep the digits that each of them loses.
-
-    |Theta| = K |1 - conj(z1 + z2) e + conj(z1 z2) e^2|^2 fixes them harmonic by harmonic: one equation for K.
-    """
+    """Refine K, z1 + z2 and z1 z2, harmonic by harmonic: they keep the digits that nearly equal z1 and z2 lose."""
     sign = math.copysign(1.0, b)
     first, second = sign * complex(f2, -f1), sign * complex(0.0, s2)
 

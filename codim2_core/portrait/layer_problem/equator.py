@@ -370,13 +370,7 @@ def _radial_of_matrix(affine: Affine, harmonics: tuple[float, ...], theta: float
 
 
 def cut_that_keeps_names(before: EquatorEquilibria, after: EquatorEquilibria, cut: float = 0.0) -> float:
-    """Return the angle from which limit directions are counted after a change, so that each keeps its name.
-
-    As many directions as before are matched with those, in order around, by the least sum of squared angles. Where
-    some have met or appeared, the first one is that nearest to the first one before.
-
-    0 where that names them so, else `cut` where that does, else the middle of a gap.
-    """
+    """Return the angle from which limit directions are counted after a change, so that each keeps its name."""
     if not len(before) or not len(after):
         return cut
     theta = np.sort(after.theta)

@@ -132,10 +132,7 @@ def stationary(op, left, right, number, roots, kind, outside, X, Y, reach):
 
 @kernel
 def _newton_along_gradient(op, left, right, number, roots, kind, outside, X, Y, reach, floor, seed, work, rows):
-    """Newton's method along the gradient; (ok, X, Y, gradient), not ok farther than `reach` away.
-
-    floor : size of the gradient below which a point is taken as a crossing of branches and left where it is.
-    """
+    """Newton's method along the gradient, within `reach`; a point of a gradient below `floor` stays where it is."""
     X0, Y0 = X, Y
     gx, gy = 0.0, 0.0
     for _ in range(10):

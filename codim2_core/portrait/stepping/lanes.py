@@ -140,11 +140,7 @@ def _try(S, who, times, steps, tried, t_max):
 
 @fast_kernel
 def _event(S, P, field, k, flag, times, tried, t_max, capture, view, near, turn, scratch):
-    """Whether an accepted step ends its trajectory: the outcome or RUNNING, the time, and the fraction of the step.
-
-    turn : (2,)
-        What `winding` found for the equator, and 1; zeros before it is asked.
-    """
+    """Whether an accepted step ends its trajectory: the outcome or RUNNING, the time, and the fraction of the step."""
     if flag & LEAVING != 0:
         fraction = left_view(S, k, view)
         return LEFT_VIEW, times[k] + fraction * tried[k], fraction

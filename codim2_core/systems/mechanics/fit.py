@@ -52,10 +52,7 @@ class Slipping:
 
 
 def integrate_slip(system: ELinear | System, start: ArrayLike, z: ArrayLike, times: Array, most: int) -> Slipping:
-    """Follow the slip from a start at the first time until it stops, or until the last time.
-
-    Raises TooLongError: It takes more than `most` evaluations.
-    """
+    """Follow the slip from the first time until it stops, or to the last; TooLongError beyond `most` evaluations."""
     from scipy.integrate import solve_ivp
 
     x, y = (float(v) for v in np.asarray(start, float))

@@ -194,10 +194,7 @@ def unregister(name: str) -> None:
 
 
 def named_setting(name: str) -> dict[str, Any]:
-    """Return what a name stands for: ``{"system": ..., "psi": ..., "z": ...}`` of a preset, "system" of an example.
-
-    Raises ValueError: There is neither; the message has the names that are like it.
-    """
+    """Return system, Psi and z of a preset, or the system of an example, by name; ValueError with the names like it."""
     if name in presets:
         found = presets[name]
         return {"system": found.system, "psi": found.psi, "z": found.z}

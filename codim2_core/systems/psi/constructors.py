@@ -203,10 +203,7 @@ def with_parameter(psi: Psi, value: Any) -> Psi:
 
 
 def many(psi: Psi, values: NDArray[np.float64]) -> Psi:
-    """Members of the family of psi, one for each value: a Psi that works on arrays of that length only.
-
-    Shapes: values (k,).
-    """
+    """Members of the family of psi, one for each of the values (k,): a Psi that works on arrays of that length only."""
     record = psi.record
     if record.batched and record.kernel is not None:
         kernel = record.kernel(values)

@@ -331,10 +331,7 @@ def direction(psi: Psi | None, eps: float, xy: Array, along: Array | None = None
 
 
 def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
-    """Return e = (x, y)/|(x, y)| (k, 2) of the nonsmooth system and its derivative (k, 2, 2); 0 on Sigma itself.
-
-    Shapes: xy (k, 2), along (2,).
-    """
+    """Return e = (x, y)/|(x, y)| (k, 2) of the nonsmooth system and its derivative (k, 2, 2); 0 on Sigma itself."""
     r, e = np.hypot(*xy.T)[:, None], direction(None, 0.0, xy, along)
     if along is not None:
         return e, np.zeros((len(e), 2, 2))
@@ -343,10 +340,7 @@ def outside(xy: Array, along: Array | None = None) -> tuple[Array, Array]:
 
 
 def smoothed_direction(psi: Psi, eps: float, xy: Array) -> tuple[Array, Array]:
-    """Return e_Psi (k, 2), (2.19), and its derivative (k, 2, 2), Remark 3.2.
-
-    Shapes: xy (k, 2).
-    """
+    """Return e_Psi (k, 2), (2.19), at xy (k, 2), and its derivative (k, 2, 2), Remark 3.2."""
     r = np.hypot(*xy.T)
     radial, tangential = (factor / eps for factor in psi.jacobian_factors(r / eps))
     n = np.divide(xy, r[:, None], out=np.zeros_like(xy), where=r[:, None] > 0.0)

@@ -192,13 +192,7 @@ CONTACT = 20.0  # times eps: so near, what looks like a way inward may be the ro
 
 @spliced_kernel
 def _longest_step(motion, y, work, h):
-    """Longest step: 0.9 of the way to Sigma, and one time of growth, which a longer step would damp; and the reach.
-
-    In contact with Sigma there is no way left to jump over.
-
-    The reach is that of Gershgorin's circles, in units of size: h times it is about how stiff a step is. The
-    eigenvalues are requested only if a step h could be too long for them.
-    """
+    """Longest step: 0.9 of the way to Sigma, out of contact, and one time of growth; and the reach (Gershgorin)."""
     n, J, size = motion.n, work.J, work.size
     away = y[0] * y[0] + y[1] * y[1] > (CONTACT * motion.eps) ** 2
     bound = inward_bound(motion, y, work.rate) if away else math.inf
